@@ -1,0 +1,2 @@
+//! The antinode command.
+fn main() {}

@@ -1,0 +1,182 @@
+//! Which columns of a text recording hold the time and the two signals.
+
+use std::str::FromStr;
+
+use super::error::{InputError, Role};
+
+/// The columns to read, chosen by the user: `c,d` or `time,c,d`, each a name from the header or a
+/// number from 1.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Columns {
+    time: Option<String>,
+    signals: [String; 2],
+}
+
+/// Why a choice of columns cannot be understood.
+#[derive(Debug, thiserror::Error)]
+#[error("columns `{0}`: give two (S_C, S_D) or three (time, S_C, S_D) names or numbers, separated by commas")]
+pub struct ColumnsError(String);
+
+impl FromStr for Columns {
+    type Err = ColumnsError;
+
+    fn from_str(text: &str) -> Result<Self, ColumnsError> {
+        let names: Vec<String> = text.split(',').map(|name| name.trim().to_owned()).collect();
+        let (time, signals) = match names.as_slice() {
+            _ if names.iter().any(String::is_empty) => return Err(ColumnsError(text.to_owned())),
+            [c, d] => (None, [c.clone(), d.clone()]),
+            [time, c, d] => (Some(time.clone()), [c.clone(), d.clone()]),
+            _ => return Err(ColumnsError(text.to_owned())),
+        };
+        Ok(Self { time, signals })
+    }
+}
+
+/// The positions from 0 of the time, S_C and S_D.
+pub(super) type Places = [Option<usize>; 3];
+
+/// The first line of a text recording.
+pub(super) struct FirstLine<'a> {
+    pub file: &'a str,
+    pub line: u64,
+    /// The names, if the line is a header.
+    pub names: Option<&'a [String]>,
+    pub width: usize,
+}
+
+impl FirstLine<'_> {
+    /// The places of the `chosen` columns, or else of those that names or number suggest.
+    pub fn places(&self, chosen: Option<&Columns>) -> Result<Places, InputError> {
+        let places = match chosen {
+            Some(columns) => self.chosen(columns)?,
+            None => self.suggested()?,
+        };
+        if let (Some(time), Some(names)) = (places[0], self.names) {
+            let name = &names[time];
+            if matches!(unit(name).as_str(), "ms" | "us" | "µs" | "μs" | "ns" | "min" | "h") {
+                let name = name.clone();
+                return Err(InputError::TimeUnit { file: self.file.to_owned(), line: self.line, name });
+            }
+        }
+        Ok(places)
+    }
+
+    fn chosen(&self, columns: &Columns) -> Result<Places, InputError> {
+        let [c, d] = &columns.signals;
+        let time = columns.time.as_ref().map(|time| self.find(time)).transpose()?;
+        Ok([time, Some(self.find(c)?), Some(self.find(d)?)])
+    }
+
+    fn find(&self, wanted: &str) -> Result<usize, InputError> {
+        let by_name = self.names.and_then(|names| names.iter().position(|name| name == wanted));
+        let number = || wanted.parse::<usize>().ok()?.checked_sub(1).filter(|&place| place < self.width);
+        by_name.or_else(number).ok_or_else(|| {
+            let numbers = format!("the numbers 1 to {}", self.width);
+            let known = self.names.map_or(numbers, |names| format!("`{}`", names.join("`, `")));
+            InputError::ColumnUnknown {
+                file: self.file.to_owned(),
+                line: self.line,
+                wanted: wanted.to_owned(),
+                known,
+            }
+        })
+    }
+
+    fn suggested(&self) -> Result<Places, InputError> {
+        let role = |place: usize| self.names.and_then(|names| role(&names[place]));
+        let place = |wanted: Role| (0..self.width).find(|&place| role(place) == Some(wanted));
+        let [time, c, d] = Role::ALL.map(place);
+        // Names in another order than usual must not swap the signals.
+        if c.is_some() && d.is_some() {
+            let unnamed = (0..self.width).find(|&place| role(place).is_none());
+            let index = |place: &usize| self.names.is_some_and(|names| is_index(&names[*place]));
+            let other = unnamed.filter(|place| self.width == 3 && !index(place));
+            return Ok([time.or(other), c, d]);
+        }
+        let time = time.or((self.width == 3).then_some(0));
+        let mut signals = (0..self.width).filter(|&place| Some(place) != time);
+        match (signals.next(), signals.next(), signals.next()) {
+            (Some(c), Some(d), None) => Ok([time, Some(c), Some(d)]),
+            _ => Err(InputError::ColumnCount {
+                file: self.file.to_owned(),
+                line: self.line,
+                found: self.width,
+            }),
+        }
+    }
+}
+
+/// What a name says its column holds.
+fn role(name: &str) -> Option<Role> {
+    let bare = name.split(['[', '(', '/']).next().unwrap_or_default();
+    let bare: String = bare.to_lowercase().chars().filter(|letter| letter.is_alphanumeric()).collect();
+    match bare.as_str() {
+        "t" | "time" | "times" | "ts" | "s" | "sec" | "seconds" | "timestamp" | "timems" | "timeus" => {
+            Some(Role::Time)
+        }
+        "c" | "sc" | "left" => Some(Role::ALL[1]),
+        "d" | "sd" | "right" => Some(Role::ALL[2]),
+        _ => None,
+    }
+}
+
+/// Whether a name is that of a mere count of lines.
+fn is_index(name: &str) -> bool {
+    let names = ["", "n", "i", "k", "no", "index", "sample", "samples"];
+    names.contains(&name.to_lowercase().as_str())
+}
+
+/// The unit at the end of a name: `time [ms]`, `time (ms)`, `time/ms`, `time_ms`.
+fn unit(name: &str) -> String {
+    let end = name.trim_end_matches([']', ')', ' ']);
+    let unit = end.rsplit(['[', '(', '/', '_', ' ']).next().unwrap_or_default();
+    unit.trim().to_lowercase()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn places(header: &str, chosen: Option<&str>) -> Result<Places, String> {
+        let names: Vec<String> = header.split(',').map(|name| name.trim().to_owned()).collect();
+        let line = FirstLine { file: "a.csv", line: 1, names: Some(&names), width: names.len() };
+        let chosen = chosen.map(|text| text.parse().map_err(|fault: ColumnsError| fault.to_string()));
+        line.places(chosen.transpose()?.as_ref()).map_err(|fault| fault.to_string())
+    }
+
+    #[test]
+    fn names_decide_and_else_the_order() {
+        let usual = Ok([Some(0), Some(1), Some(2)]);
+        assert_eq!(places("time,c,d", None), usual);
+        assert_eq!(places("zeit,x,y", None), usual);
+        assert_eq!(places("zeit,c,d", None), usual);
+        assert_eq!(places("Time [s], S_C (V), S_D (V)", None), usual);
+        assert_eq!(places("x,y", None), Ok([None, Some(0), Some(1)]));
+        assert_eq!(places("d,c", None), Ok([None, Some(1), Some(0)]));
+        assert_eq!(places("right,left,t", None), Ok([Some(2), Some(1), Some(0)]));
+        assert_eq!(places("x,time,y", None), Ok([Some(1), Some(0), Some(2)]));
+        assert_eq!(places("index,c,d", None), Ok([None, Some(1), Some(2)]));
+        assert_eq!(places("t,heat,c,d", None), Ok([Some(0), Some(2), Some(3)]));
+    }
+
+    #[test]
+    fn a_choice_is_by_name_or_number() {
+        assert_eq!(places("a,b,c,d", Some("d,2")), Ok([None, Some(3), Some(1)]));
+        assert_eq!(places("a,b,c,d", Some("1, b, d")), Ok([Some(0), Some(1), Some(3)]));
+    }
+
+    #[test]
+    fn errors_name_the_columns() {
+        let fault = |header, chosen| places(header, chosen).unwrap_err();
+        assert!(fault("a", None).starts_with("a.csv:1: found 1 column, but two"));
+        assert!(fault("time,x", None).starts_with("a.csv:1: found 2 columns, but two"));
+        assert!(fault("a,b,x,y", None).starts_with("a.csv:1: found 4 columns, but two"));
+        assert!(fault("a,b", Some("a,e")).starts_with("a.csv:1: there is no column `e`; choose among `a`, `b`"));
+        assert!(fault("a,b", Some("0,1")).starts_with("a.csv:1: there is no column `0`"));
+        assert!(fault("a,b", Some("a")).starts_with("columns `a`: give two"));
+        assert!(fault("a,b", Some("a,,b")).starts_with("columns `a,,b`: give two"));
+        for header in ["time_ms,c,d", "t [us],c,d", "Time (ms),x,y", "t/ns,c,d"] {
+            assert!(fault(header, None).contains("is not in seconds"), "{header}");
+        }
+    }
+}

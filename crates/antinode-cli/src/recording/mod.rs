@@ -1,0 +1,215 @@
+//! Recordings of the two pick-off signals: read block by block from WAV, text, NPY and raw samples,
+//! and written as WAV, text and NPY.
+
+mod columns;
+mod delimited;
+mod error;
+mod npy;
+mod raw;
+mod sample;
+mod text;
+mod time;
+mod wav;
+mod write;
+
+use std::fs::{self, File};
+use std::io::{self, Cursor, IsTerminal, Read};
+use std::path::Path;
+
+pub use columns::Columns;
+pub use error::{COLUMNS_OPTION, Channel, InputError, OutputError, RAW_OPTION, Role};
+pub use raw::RawFormat;
+pub use write::{RecordingWriter, WavSample};
+
+/// The capacity given to a buffer that has none: small enough to stay in the cache.
+pub const BLOCK_PAIRS: usize = 1 << 14;
+
+/// Enough of the first bytes to know what a file is.
+const HEAD_BYTES: usize = 12;
+
+/// What the content does not tell about itself.
+#[derive(Debug, Clone, Default)]
+pub struct OpenOptions {
+    /// The format of raw samples; needed for those on standard input.
+    pub raw: Option<RawFormat>,
+    /// The columns of a text recording; by default, they are told from the header or their number.
+    pub columns: Option<Columns>,
+}
+
+/// A recording of S_C and S_D, read once from its beginning to its end in constant memory.
+pub struct Recording {
+    name: String,
+    bytes_total: Option<u64>,
+    opened: Opened,
+    /// Met while there were still good pairs to deliver.
+    fault: Option<InputError>,
+    ended: bool,
+}
+
+/// Where the bytes come from.
+type Stream = Box<dyn Read + Send>;
+
+/// A format's way to deliver pairs.
+trait Source: Send {
+    /// Appends pairs until there are `capacity`; none at the end. Good pairs come before an error.
+    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), InputError>;
+
+    /// The bytes read so far, the header included.
+    fn bytes_read(&self) -> u64;
+}
+
+/// A source, and what its header tells.
+struct Opened {
+    source: Box<dyn Source>,
+    sample_rate: Option<f64>,
+    pairs: Option<u64>,
+    full_scale: Option<f32>,
+}
+
+impl Recording {
+    /// Opens a file by its content or else its extension, or standard input if `path` is `-`.
+    pub fn open(path: &Path, options: &OpenOptions) -> Result<Self, InputError> {
+        if path == Path::new("-") {
+            return Self::standard_input(options);
+        }
+        let name = path.display().to_string();
+        let io = |fault| InputError::io(&name, fault);
+        let metadata = fs::metadata(path).map_err(io)?;
+        if metadata.is_dir() {
+            return Err(InputError::Directory { file: name });
+        }
+        let length = metadata.is_file().then_some(metadata.len());
+        let mut file = File::open(path).map_err(io)?;
+        let again = if length.is_some() { Some(file.try_clone().map_err(io)?) } else { None };
+        let head = head(&mut file).map_err(io)?;
+        let extension = path.extension().map(|text| text.to_string_lossy().to_lowercase());
+        let extension = extension.unwrap_or_default();
+        let stream = Box::new(Cursor::new(head.clone()).chain(file));
+        let opened = match (Content::of(&head), extension.as_str()) {
+            (Content::Nothing, _) => return Err(InputError::Empty { file: name }),
+            (Content::Wav, _) => wav::open(&name, stream, length)?,
+            (Content::Npy, _) => npy::open(&name, stream, again, length)?,
+            (_, "wav" | "wave") => return Err(InputError::NotOfKind { file: name, kind: "a WAV file" }),
+            (_, "npy") => return Err(InputError::NotOfKind { file: name, kind: "an NPY file" }),
+            (Content::Utf16, "csv" | "tsv" | "txt") => return Err(InputError::Utf16 { file: name }),
+            (_, "csv" | "tsv" | "txt") => delimited::open(&name, stream, options.columns.as_ref())?,
+            _ => match options.raw {
+                Some(format) => raw::open(&name, stream, format, length),
+                None => return Err(InputError::Unknown { file: name }),
+            },
+        };
+        Ok(Self::new(name, opened, length))
+    }
+
+    fn standard_input(options: &OpenOptions) -> Result<Self, InputError> {
+        let name = "standard input".to_owned();
+        let mut stdin = io::stdin();
+        if options.raw.is_none() && stdin.is_terminal() {
+            return Err(InputError::RawFormatNeeded { file: name });
+        }
+        let head = head(&mut stdin).map_err(|fault| InputError::io(&name, fault))?;
+        let opened = Self::stream(&name, head, Box::new(stdin), options)?;
+        Ok(Self::new(name, opened, None))
+    }
+
+    /// A stream that begins with `head`: a WAV or NPY file as it is, anything else as raw samples.
+    fn stream(name: &str, head: Vec<u8>, rest: Stream, options: &OpenOptions) -> Result<Opened, InputError> {
+        let file = name.to_owned();
+        let content = Content::of(&head);
+        let stream = Box::new(Cursor::new(head).chain(rest));
+        match (content, options.raw) {
+            (Content::Nothing, _) => Err(InputError::Empty { file }),
+            (Content::Wav, _) => wav::open(name, stream, None),
+            (Content::Npy, _) => npy::open(name, stream, None, None),
+            (_, Some(format)) => Ok(raw::open(name, stream, format, None)),
+            (_, None) => Err(InputError::RawFormatNeeded { file }),
+        }
+    }
+
+    fn new(name: String, opened: Opened, bytes_total: Option<u64>) -> Self {
+        Self { name, bytes_total, opened, fault: None, ended: false }
+    }
+
+    /// The path, or "standard input".
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The sample rate in Hz from a WAV header or a time column.
+    pub fn sample_rate(&self) -> Option<f64> {
+        self.opened.sample_rate
+    }
+
+    /// The number of pairs, where the format tells it: those that are there, if the header promises more.
+    pub fn pairs(&self) -> Option<u64> {
+        self.opened.pairs
+    }
+
+    /// The size of a file.
+    pub fn bytes_total(&self) -> Option<u64> {
+        self.bytes_total
+    }
+
+    /// The bytes read so far.
+    pub fn bytes_read(&self) -> u64 {
+        self.opened.source.bytes_read()
+    }
+
+    /// The magnitude from which an integer sample is at its rail, 32767/32768 for 16 bits; none for floats.
+    pub fn full_scale(&self) -> Option<f32> {
+        self.opened.full_scale
+    }
+
+    /// Clears `buffer` and fills it to its capacity with the next pairs [S_C, S_D]; `Ok(0)` at the end.
+    ///
+    /// A pipe of raw samples gives what is there instead of waiting for more. All good pairs before a
+    /// fault are delivered first; the next call gives the error, and those after it `Ok(0)`.
+    pub fn read(&mut self, buffer: &mut Vec<[f32; 2]>) -> Result<usize, InputError> {
+        buffer.clear();
+        if buffer.capacity() == 0 {
+            buffer.reserve_exact(BLOCK_PAIRS);
+        }
+        if self.fault.is_none() && !self.ended {
+            let capacity = buffer.capacity();
+            self.fault = self.opened.source.fill(buffer, capacity).err();
+        }
+        if buffer.is_empty() {
+            self.ended = true;
+            return self.fault.take().map_or(Ok(0), Err);
+        }
+        Ok(buffer.len())
+    }
+}
+
+/// What the first bytes tell.
+enum Content {
+    Nothing,
+    Wav,
+    Npy,
+    Utf16,
+    Other,
+}
+
+impl Content {
+    fn of(head: &[u8]) -> Self {
+        match head {
+            [] => Self::Nothing,
+            // Any twelve bytes of a raw stream could be a chunk's name, but hardly this pair.
+            [b'R', b'I', b'F', b'F' | b'X', .., b'W', b'A', b'V', b'E'] => Self::Wav,
+            [b'R' | b'B', b'F' | b'W', b'6', b'4', .., b'W', b'A', b'V', b'E'] => Self::Wav,
+            [0x93, b'N', b'U', b'M', b'P', b'Y', ..] => Self::Npy,
+            [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Self::Utf16,
+            _ => Self::Other,
+        }
+    }
+}
+
+/// The first bytes, fewer than [`HEAD_BYTES`] only if there are no more.
+fn head(stream: &mut impl Read) -> io::Result<Vec<u8>> {
+    let mut head = Vec::with_capacity(HEAD_BYTES);
+    stream.take(HEAD_BYTES as u64).read_to_end(&mut head)?;
+    Ok(head)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,193 @@
+//! NPY files, as `numpy.save` writes them: (N, 2) or (2, N) numbers.
+
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom};
+
+use npyz::{DType, Endianness, NpyHeader, Order, TypeChar};
+
+use super::error::InputError;
+use super::raw::{Interleaved, bad_sample};
+use super::sample::{Kind, SampleCode};
+use super::{Opened, Source, Stream};
+
+/// No header of a plain array is as long; `numpy` itself refuses longer ones.
+const MAX_HEADER: usize = 10_000;
+
+/// No header of a plain array nests deeper; one that does would exhaust the stack of its parser.
+const MAX_DEPTH: usize = 8;
+
+/// Pairs read at a time where the signals lie apart.
+const PLANE_PAIRS: usize = 1 << 14;
+
+/// Opens an NPY file; `again` is the same file, if it is one that can be sought in.
+pub(super) fn open(
+    file: &str,
+    mut stream: Stream,
+    again: Option<File>,
+    length: Option<u64>,
+) -> Result<Opened, InputError> {
+    let text = header_text(file, &mut stream)?;
+    let damaged = InputError::NpyHeader { file: file.to_owned(), fault: "it cannot be understood" };
+    let Ok(header) = NpyHeader::from_reader(text.as_slice()) else { return Err(damaged) };
+    let code = code(file, &header.dtype())?;
+    let (pairs, interleaved) = match (header.shape(), header.order()) {
+        (&[pairs, 2], order) => (pairs, order == Order::C),
+        (&[2, pairs], order) => (pairs, order == Order::Fortran),
+        (shape, _) => return Err(InputError::NpyShape { file: file.to_owned(), shape: shown(shape) }),
+    };
+    if pairs == 0 {
+        return Err(InputError::NoPairs { file: file.to_owned() });
+    }
+    let start = text.len() as u64;
+    let Some(bytes) = pairs.checked_mul(code.pair_bytes() as u64) else { return Err(damaged) };
+    let available = length.map_or(bytes, |length| bytes.min(length.saturating_sub(start)));
+    let (source, there): (Box<dyn Source>, u64) = if interleaved {
+        let source = Interleaved::new(file, stream, code, start).live(length.is_none());
+        (Box::new(source.promise(bytes)), available / code.pair_bytes() as u64)
+    } else {
+        let again = again.ok_or_else(|| InputError::NpyPipe { file: file.to_owned() })?;
+        let there = available.saturating_sub(bytes / 2) / code.sample_bytes() as u64;
+        let planes = Planes {
+            file: file.to_owned(),
+            stream: again,
+            code,
+            starts: [start, start + bytes / 2],
+            promised: pairs,
+            there,
+            read: 0,
+            chunks: [Vec::new(), Vec::new(), Vec::new()],
+        };
+        (Box::new(planes), there)
+    };
+    Ok(Opened { source, sample_rate: None, pairs: Some(there), full_scale: code.full_scale() })
+}
+
+/// The header, once it is known to be harmless to its parser.
+fn header_text(file: &str, stream: &mut Stream) -> Result<Vec<u8>, InputError> {
+    let fault = |fault| InputError::NpyHeader { file: file.to_owned(), fault };
+    let mut text = Vec::new();
+    let mut read = |text: &mut Vec<u8>, count: usize| {
+        let end = text.len() + count;
+        stream.take(count as u64).read_to_end(text).map_err(|fault| InputError::io(file, fault))?;
+        if text.len() < end { Err(fault("the file ends inside it")) } else { Ok(()) }
+    };
+    read(&mut text, 10)?;
+    let size = match text[6] {
+        1 => usize::from(u16::from_le_bytes([text[8], text[9]])),
+        _ => {
+            read(&mut text, 2)?;
+            u32::from_le_bytes([text[8], text[9], text[10], text[11]]) as usize
+        }
+    };
+    if size > MAX_HEADER {
+        return Err(fault("it is too long for an array of numbers"));
+    }
+    let start = text.len();
+    read(&mut text, size)?;
+    let (mut depth, mut deepest) = (0usize, 0);
+    for byte in &text[start..] {
+        match byte {
+            b'(' | b'[' | b'{' => depth += 1,
+            b')' | b']' | b'}' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        deepest = deepest.max(depth);
+    }
+    // The parser multiplies the sizes in the shape without looking for an overflow.
+    let numbers = text[start..].split(|byte| !byte.is_ascii_digit());
+    let product = numbers.filter(|digits| !digits.is_empty()).try_fold(1u64, |product, digits| {
+        let number: u64 = str::from_utf8(digits).ok()?.parse().ok()?;
+        product.checked_mul(number.max(1))
+    });
+    if deepest > MAX_DEPTH || product.is_none() {
+        return Err(fault("it cannot be that of an array of numbers"));
+    }
+    Ok(text)
+}
+
+fn code(file: &str, dtype: &DType) -> Result<SampleCode, InputError> {
+    let refused = || InputError::NpyType { file: file.to_owned(), dtype: dtype.descr() };
+    let DType::Plain(plain) = dtype else { return Err(refused()) };
+    let kind = match (plain.type_char(), plain.size_field()) {
+        (TypeChar::Int, 2) => Kind::I16,
+        (TypeChar::Int, 4) => Kind::I32,
+        (TypeChar::Float, 4) => Kind::F32,
+        (TypeChar::Float, 8) => Kind::F64,
+        _ => return Err(refused()),
+    };
+    Ok(SampleCode::new(kind).big_endian(plain.endianness() == Endianness::Big))
+}
+
+/// A shape as `numpy` shows it.
+fn shown(shape: &[u64]) -> String {
+    match shape {
+        [one] => format!("({one},)"),
+        _ => format!("({})", shape.iter().map(u64::to_string).collect::<Vec<_>>().join(", ")),
+    }
+}
+
+/// Reads all of S_C and all of S_D side by side.
+struct Planes {
+    file: String,
+    stream: File,
+    code: SampleCode,
+    /// Where the signals begin.
+    starts: [u64; 2],
+    promised: u64,
+    /// The pairs both of whose samples are there.
+    there: u64,
+    read: u64,
+    /// S_C, S_D, and both interleaved.
+    chunks: [Vec<u8>; 3],
+}
+
+impl Planes {
+    fn read(&mut self, pairs: usize) -> io::Result<()> {
+        let size = self.code.sample_bytes();
+        for (start, chunk) in self.starts.iter().zip(&mut self.chunks) {
+            chunk.resize(pairs * size, 0);
+            self.stream.seek(SeekFrom::Start(start + self.read * size as u64))?;
+            self.stream.read_exact(chunk)?;
+        }
+        let [c, d, both] = &mut self.chunks;
+        both.clear();
+        match size {
+            2 => interleave::<2>(c, d, both),
+            4 => interleave::<4>(c, d, both),
+            _ => interleave::<8>(c, d, both),
+        }
+        Ok(())
+    }
+}
+
+fn interleave<const N: usize>(c: &[u8], d: &[u8], both: &mut Vec<u8>) {
+    for (c, d) in c.as_chunks::<N>().0.iter().zip(d.as_chunks::<N>().0) {
+        both.extend_from_slice(c);
+        both.extend_from_slice(d);
+    }
+}
+
+impl Source for Planes {
+    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), InputError> {
+        while pairs.len() < capacity {
+            let left = usize::try_from(self.there - self.read).unwrap_or(usize::MAX);
+            let count = left.min(capacity - pairs.len()).min(PLANE_PAIRS);
+            if count == 0 {
+                let (file, promised, found) = (self.file.clone(), self.promised, self.there);
+                return if found < promised { Err(InputError::Truncated { file, promised, found }) } else { Ok(()) };
+            }
+            self.read(count).map_err(|fault| InputError::io(&self.file, fault))?;
+            let decoded = self.code.decode(&self.chunks[2], pairs);
+            decoded.map_err(|bad| bad_sample(&self.file, self.code, self.read, bad))?;
+            self.read += count as u64;
+        }
+        Ok(())
+    }
+
+    fn bytes_read(&self) -> u64 {
+        self.starts[0] + self.read * self.code.pair_bytes() as u64
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,172 @@
+//! Lines of text and the numbers in them.
+
+use std::io::{self, BufRead, Read};
+use std::str::FromStr;
+
+use super::Stream;
+use super::error::InputError;
+
+/// No line of a few numbers is as long; a file without ends of line must not fill the memory.
+pub(super) const MAX_LINE: usize = 1 << 16;
+
+/// Text as the CSV reader is to see it: lines end in `\n` alone, the last one too, and none is endless.
+pub(super) struct Text {
+    stream: Stream,
+    /// The bytes of the line begun.
+    line: usize,
+    last: u8,
+}
+
+impl Text {
+    pub fn new(stream: Stream) -> Self {
+        Self { stream, line: 0, last: b'\n' }
+    }
+}
+
+impl Read for Text {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let count = self.stream.read(bytes)?;
+        let bytes = match count {
+            0 if self.last == b'\n' => return Ok(0),
+            0 => match bytes.first_mut() {
+                Some(end) => {
+                    *end = b'\n';
+                    std::slice::from_mut(end)
+                }
+                None => return Ok(0),
+            },
+            _ => &mut bytes[..count],
+        };
+        for byte in bytes.iter_mut() {
+            *byte = if *byte == b'\r' { b' ' } else { *byte };
+        }
+        self.line = match bytes.iter().rposition(|&byte| byte == b'\n') {
+            Some(end) => bytes.len() - end - 1,
+            None => self.line + bytes.len(),
+        };
+        self.last = bytes.last().copied().unwrap_or(self.last);
+        if self.line > MAX_LINE {
+            return Err(io::ErrorKind::InvalidData.into());
+        }
+        Ok(bytes.len())
+    }
+}
+
+/// The first line that is neither blank nor a comment, its number, and the bytes before it.
+pub(super) fn first_line(file: &str, stream: &mut impl BufRead) -> Result<(Vec<u8>, u64, u64), InputError> {
+    let (mut line, mut number, mut before) = (Vec::new(), 0, 0);
+    loop {
+        before += line.len() as u64;
+        number += 1;
+        line.clear();
+        let read = stream.by_ref().take(MAX_LINE as u64).read_until(b'\n', &mut line);
+        let file = || file.to_owned();
+        match read.map_err(|fault| InputError::io(&file(), fault))? {
+            0 => return Err(InputError::NoPairs { file: file() }),
+            MAX_LINE => return Err(InputError::LineTooLong { file: file(), line: number, limit: MAX_LINE }),
+            _ => {}
+        }
+        if let (1, Some(rest)) = (number, line.strip_prefix(b"\xef\xbb\xbf")) {
+            line = rest.to_vec();
+            before += 3;
+        }
+        if !is_skipped(&line) {
+            return Ok((line, number, before));
+        }
+    }
+}
+
+/// Whether a line is blank or a comment.
+pub(super) fn is_skipped(line: &[u8]) -> bool {
+    matches!(line.trim_ascii_start(), [] | [b'#', ..])
+}
+
+/// What separates the fields: the first of `;`, tab and `,` that is there, or else blanks.
+pub(super) fn separator(line: &[u8]) -> u8 {
+    [b';', b'\t', b','].into_iter().find(|mark| line.contains(mark)).unwrap_or(b' ')
+}
+
+/// The fields of a line; of those between blanks, only those that are not empty.
+pub(super) fn fields(line: &[u8], separator: u8) -> impl Iterator<Item = &[u8]> {
+    let line = line.trim_ascii_end();
+    // One mark at the end of a line ends its last field; it does not begin another.
+    let line = line.strip_suffix(&[separator]).unwrap_or(line);
+    let fields = line.split(move |&byte| byte == separator).map(bare);
+    fields.filter(move |field| separator != b' ' || !field.is_empty())
+}
+
+/// A field without the blanks and quotes around it.
+pub(super) fn bare(field: &[u8]) -> &[u8] {
+    let field = field.trim_ascii();
+    match field {
+        [b'"', inner @ .., b'"'] => inner.trim_ascii(),
+        _ => field,
+    }
+}
+
+/// A type of number in a field.
+pub(super) trait Number: FromStr {
+    fn is_finite(&self) -> bool;
+}
+
+impl Number for f32 {
+    fn is_finite(&self) -> bool {
+        f32::is_finite(*self)
+    }
+}
+
+impl Number for f64 {
+    fn is_finite(&self) -> bool {
+        f64::is_finite(*self)
+    }
+}
+
+/// The finite number a field holds; its decimal mark may be a comma where that separates no fields.
+pub(super) fn number<T: Number>(field: &[u8], separator: u8) -> Option<T> {
+    let text = str::from_utf8(field).ok()?;
+    let number = match text.parse::<T>() {
+        Err(_) if separator != b',' && !text.contains('.') => text.replacen(',', ".", 1).parse::<T>(),
+        number => number,
+    };
+    number.ok().filter(T::is_finite)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_separator_is_told_from_the_line() {
+        assert_eq!(separator(b"1,5;2,5"), b';');
+        assert_eq!(separator(b"1,5\t2,5"), b'\t');
+        assert_eq!(separator(b"1.5, 2.5"), b',');
+        assert_eq!(separator(b"1.5  2.5"), b' ');
+    }
+
+    #[test]
+    fn fields_lose_blanks_and_quotes() {
+        let split = |line, mark| fields(line, mark).map(|field| str::from_utf8(field).unwrap()).collect::<Vec<_>>();
+        assert_eq!(split(b" 1.5, \"2.5\" ,\r\n", b','), ["1.5", "2.5"]);
+        assert_eq!(split(b"  1.5   2.5 \n", b' '), ["1.5", "2.5"]);
+        assert_eq!(split(b"1,,2", b','), ["1", "", "2"]);
+    }
+
+    #[test]
+    fn numbers_are_finite_and_may_have_a_decimal_comma() {
+        assert_eq!(number::<f32>(b"-1.5e-3", b','), Some(-1.5e-3));
+        assert_eq!(number::<f64>(b"1,5", b';'), Some(1.5));
+        for (text, mark) in [("1,5", b','), ("1,234.5", b';'), ("1,234,5", b';'), ("nan", b','), ("-inf", b',')] {
+            assert_eq!(number::<f32>(text.as_bytes(), mark), None, "{text}");
+        }
+        assert_eq!(number::<f32>(b"1e39", b','), None);
+        assert_eq!(number::<f32>(b"", b';'), None);
+        assert_eq!(number::<f32>(b"\xff", b';'), None);
+    }
+
+    #[test]
+    fn lines_end_the_same_way() {
+        let mut text = String::new();
+        Text::new(Box::new(&b"1,2\r\n3,4"[..])).read_to_string(&mut text).unwrap();
+        assert_eq!(text, "1,2 \n3,4\n");
+    }
+}

@@ -1,0 +1,198 @@
+//! WAV files: RIFF and RF64, plain and extensible, finished or written into a pipe.
+
+use std::io::{self, Read};
+
+use super::error::InputError;
+use super::raw::Interleaved;
+use super::sample::{Kind, SampleCode};
+use super::{Opened, Stream};
+
+/// The end of every `KSDATAFORMAT_SUBTYPE`, whose beginning is a format tag.
+const SUBTYPE_TAIL: [u8; 14] = *b"\x00\x00\x00\x00\x10\x00\x80\x00\x00\xaa\x00\x38\x9b\x71";
+
+/// The length SoX writes when it cannot go back to write the true one, cut down to whole pairs.
+const SOX_UNKNOWN: u64 = 0x7fff_f000;
+
+/// The length arecord writes when it cannot go back.
+const ARECORD_UNKNOWN: u64 = 0x8000_0000;
+
+/// The length of a chunk that is in the `ds64` chunk, or unknown.
+const UNKNOWN: u64 = 0xffff_ffff;
+
+/// Opens a WAV file; `length` is that of the file, if it has one.
+pub(super) fn open(file: &str, stream: Stream, length: Option<u64>) -> Result<Opened, InputError> {
+    let mut header = Reader { file, stream, position: 0 };
+    let (format, data) = header.read()?;
+    let start = header.position;
+    let pair_bytes = format.code.pair_bytes() as u64;
+    let available = length.map(|length| length.saturating_sub(start));
+    let promised = data.promised(pair_bytes, length);
+    let bytes = match (promised, available) {
+        (Some(promised), Some(available)) => Some(promised.min(available)),
+        (promised, available) => promised.or(available),
+    };
+    let source = Interleaved::new(file, header.stream, format.code, start).live(length.is_none());
+    let source = match promised {
+        Some(promised) => source.promise(promised),
+        None => source,
+    };
+    Ok(Opened {
+        source: Box::new(source),
+        sample_rate: (format.rate > 0).then_some(f64::from(format.rate)),
+        pairs: bytes.map(|bytes| bytes / pair_bytes),
+        full_scale: format.code.full_scale(),
+    })
+}
+
+/// What the `fmt ` chunk tells.
+struct Format {
+    code: SampleCode,
+    rate: u32,
+}
+
+/// What the header tells about the size of the data.
+struct Data {
+    riff_bytes: u64,
+    data_bytes: u64,
+}
+
+impl Data {
+    /// The bytes of data there should be; none if they go on to the end of the file.
+    fn promised(&self, pair_bytes: u64, length: Option<u64>) -> Option<u64> {
+        let sox = SOX_UNKNOWN - pair_bytes + 1..=SOX_UNKNOWN;
+        let unknown = match self.data_bytes {
+            // A finished file of nothing tells its own size; an unfinished one does not.
+            0 => length.is_none_or(|length| self.riff_bytes.saturating_add(8) != length),
+            ARECORD_UNKNOWN | u64::MAX => true,
+            bytes => sox.contains(&bytes) || (UNKNOWN - pair_bytes..=UNKNOWN).contains(&bytes),
+        };
+        (!unknown).then_some(self.data_bytes)
+    }
+}
+
+/// Reads a header and counts its bytes.
+struct Reader<'a> {
+    file: &'a str,
+    stream: Stream,
+    position: u64,
+}
+
+impl Reader<'_> {
+    fn read(&mut self) -> Result<(Format, Data), InputError> {
+        let [riff, size, wave] = self.words()?;
+        if wave != *b"WAVE" || riff == *b"RIFX" {
+            return Err(self.fault("it is big-endian (RIFX)"));
+        }
+        let mut riff_bytes = u64::from(u32::from_le_bytes(size));
+        let mut long_data = None;
+        let mut format = None;
+        loop {
+            let [name, size] = self.words()?;
+            let size = u64::from(u32::from_le_bytes(size));
+            match &name {
+                b"fmt " => format = Some(self.format(size)?),
+                b"ds64" => {
+                    let chunk = self.chunk(size, 16)?;
+                    let (sizes, _) = chunk.as_chunks::<8>();
+                    riff_bytes = u64::from_le_bytes(sizes[0]);
+                    // 0 in a file that was never finished, as in the chunk of the data itself.
+                    long_data = Some(u64::from_le_bytes(sizes[1]));
+                }
+                b"data" => {
+                    let Some(format) = format else {
+                        return Err(self.fault("the data come before their format"));
+                    };
+                    let data_bytes = if size == UNKNOWN { long_data.unwrap_or(size) } else { size };
+                    return Ok((format, Data { riff_bytes, data_bytes }));
+                }
+                _ => {
+                    self.chunk(size, 0)?;
+                }
+            }
+        }
+    }
+
+    fn fault(&self, fault: impl Into<String>) -> InputError {
+        InputError::WavHeader { file: self.file.to_owned(), fault: fault.into() }
+    }
+
+    fn bytes(&mut self, bytes: &mut [u8]) -> Result<(), InputError> {
+        self.position += bytes.len() as u64;
+        self.stream.read_exact(bytes).map_err(|fault| match fault.kind() {
+            io::ErrorKind::UnexpectedEof => self.fault("the file ends before the data begin"),
+            _ => InputError::io(self.file, fault),
+        })
+    }
+
+    fn words<const N: usize>(&mut self) -> Result<[[u8; 4]; N], InputError> {
+        let mut words = [[0; 4]; N];
+        self.bytes(words.as_flattened_mut())?;
+        Ok(words)
+    }
+
+    /// The first `wanted` bytes of a chunk of `size` bytes; the others and the padding are left behind.
+    fn chunk(&mut self, size: u64, wanted: usize) -> Result<Vec<u8>, InputError> {
+        if size < wanted as u64 {
+            return Err(self.fault("a chunk is too short"));
+        }
+        let mut chunk = vec![0; wanted];
+        self.bytes(&mut chunk)?;
+        let rest = size.next_multiple_of(2) - wanted as u64;
+        let skipped = io::copy(&mut self.stream.by_ref().take(rest), &mut io::sink());
+        self.position += skipped.map_err(|fault| InputError::io(self.file, fault))?;
+        Ok(chunk)
+    }
+
+    fn format(&mut self, size: u64) -> Result<Format, InputError> {
+        let chunk = self.chunk(size, if size < 40 { 16 } else { 40 })?;
+        let word = |at: usize| u16::from_le_bytes([chunk[at], chunk[at + 1]]);
+        let (channels, frame, bits) = (word(2), u32::from(word(12)), u32::from(word(14)));
+        let file = || self.file.to_owned();
+        if channels != 2 {
+            return Err(InputError::Channels { file: file(), found: channels });
+        }
+        let (mut tag, mut valid) = (word(0), bits);
+        if tag == 0xfffe {
+            if chunk.len() < 40 || chunk[26..40] != SUBTYPE_TAIL {
+                return Err(self.fault("its extensible format is of no known kind"));
+            }
+            tag = word(24);
+            // Some writers leave the valid bits out.
+            valid = if word(18) == 0 { bits } else { u32::from(word(18)) };
+        }
+        let kind = match (tag, bits) {
+            (1, 1..=8) => Kind::U8,
+            (1, 9..=16) => Kind::I16,
+            (1, 17..=24) => Kind::I24,
+            (1, 25..=32) => Kind::I32,
+            (3, 32) => Kind::F32,
+            (3, 64) => Kind::F64,
+            _ => return Err(InputError::WavEncoding { file: file(), encoding: encoding(tag, bits) }),
+        };
+        let code = SampleCode::new(kind);
+        let stored = 8 * code.sample_bytes() as u32;
+        let whole = tag == 3 || kind == Kind::U8;
+        if frame != stored / 4 || valid > stored || valid < 2 || whole && valid != stored {
+            let fault = format!("{valid} valid of {bits} bits do not fit pairs of {frame} bytes");
+            return Err(self.fault(fault));
+        }
+        let rate = u32::from_le_bytes([chunk[4], chunk[5], chunk[6], chunk[7]]);
+        Ok(Format { code: code.valid_bits(valid), rate })
+    }
+}
+
+/// The name of an encoding that is not read.
+fn encoding(tag: u16, bits: u32) -> String {
+    match tag {
+        1 => format!("{bits}-bit integers"),
+        2 | 0x11 => "compressed (ADPCM)".to_owned(),
+        3 => format!("{bits}-bit floats"),
+        6 => "compressed (A-law)".to_owned(),
+        7 => "compressed (µ-law)".to_owned(),
+        0x55 => "compressed (MP3)".to_owned(),
+        _ => format!("of an unknown encoding (tag {tag:#06x})"),
+    }
+}
+
+#[cfg(test)]
+mod tests;

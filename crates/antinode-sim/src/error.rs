@@ -1,0 +1,83 @@
+//! What can be wrong with the description of a gyro.
+
+use std::fmt;
+
+/// Why a [`Gyro`](crate::Gyro) cannot be made: what was wrong, and (in the message) what would be right.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// A number outside its range.
+    OutOfRange {
+        /// The field, as it is spelt in [`Wave`](crate::Wave) or [`Flaws`](crate::Flaws), or `sample_rate`.
+        what: &'static str,
+        /// The value given.
+        value: f64,
+        /// The values that would be right.
+        need: &'static str,
+    },
+    /// The quadrature wave is larger than the main wave, so it would be the main wave itself.
+    QuadratureAboveMain {
+        /// `main_amplitude` as given, input units.
+        main: f64,
+        /// `quadrature_amplitude` as given, input units.
+        quadrature: f64,
+    },
+    /// A time span that does not end after it begins, or whose ends are not finite.
+    EmptySpan {
+        /// The list it stands in: `dropouts` or `clip_spans`.
+        what: &'static str,
+        /// Its beginning as given, s.
+        from: f64,
+        /// Its end as given, s.
+        to: f64,
+    },
+    /// Two time spans of one list share a sample of one channel.
+    Overlap {
+        /// The list: `dropouts` or `clip_spans`.
+        what: &'static str,
+        /// The index, in true time, of the first sample they share.
+        index: u64,
+    },
+    /// A loss that reaches beyond sample 2^53, where an index is no longer an exact `f64`.
+    EndlessLoss {
+        /// The index of the first sample lost.
+        at: u64,
+        /// The number of samples lost.
+        count: u64,
+    },
+    /// ADC codes were asked of a gyro that has no ADC.
+    NoBits,
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::OutOfRange { what, value, need } => {
+                write!(f, "{what} is {value}: it must be {need}")
+            }
+            Error::QuadratureAboveMain { main, quadrature } => write!(
+                f,
+                "quadrature_amplitude is {quadrature} with main_amplitude {main}: it must not exceed it in size \
+                 (exchange the two and turn the angle by 45 degrees)"
+            ),
+            Error::EmptySpan { what, from, to } => write!(
+                f,
+                "one of {what} goes from {from} s to {to} s: it must end after it begins, and both ends must be finite"
+            ),
+            Error::Overlap { what, index } => write!(
+                f,
+                "two of {what} share sample {index} of a channel: they must not overlap"
+            ),
+            Error::EndlessLoss { at, count } => write!(
+                f,
+                "{count} samples are lost from sample {at} on: a loss must end before sample 2^53"
+            ),
+            Error::NoBits => write!(
+                f,
+                "there are no ADC codes without an ADC: set bits and full_scale"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Error {}

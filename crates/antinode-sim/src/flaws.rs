@@ -1,0 +1,308 @@
+//! The flaws of the electronics, as they are asked for.
+
+use crate::error::Error;
+use crate::timed::{ClipSpan, Dropout, Loss};
+use serde::{Deserialize, Serialize};
+
+/// Everything between the resonator and the record. The default is none of it.
+///
+/// The flaws act in this order, each on what the one before it gives:
+///
+/// 1. the sampling instants move (`jitter`, both channels alike);
+/// 2. the pick-offs see the wave there (`skew`, `pick_off_error`);
+/// 3. they bend it (`cubic`);
+/// 4. gain and offset (`gain_ratio`, `offset_c`, `offset_d`);
+/// 5. noise is added (`noise`);
+/// 6. a channel drops out (`dropouts`);
+/// 7. the signal is clipped (`clip`, `clip_spans`);
+/// 8. the ADC quantises, and saturates (`bits`, `full_scale`);
+/// 9. samples are lost (`lost`).
+///
+/// In the formulas below, to first order in the flaw, theta is the angle, E = a_A^2 + a_B^2, D = a_A^2 - a_B^2 and
+/// Q = 2 a_A a_B; they say what an exact identification of (1)-(3) finds too much of.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Flaws {
+    /// Rms of the noise of (2), (3): white, Gaussian, independent in the two channels. Input units, 0 or more.
+    pub noise: f64,
+    /// Offset of channel C, input units.
+    pub offset_c: f64,
+    /// Offset of channel D, input units.
+    pub offset_d: f64,
+    /// Gain of channel D over that of channel C, above 0; 1 = equal. C's gain is 1.
+    ///
+    /// For 1 + g: a_A + g a_A (1 - cos 4 theta) / 2, theta + g (E/D) sin 4 theta / 4.
+    pub gain_ratio: f64,
+    /// Channel D is sampled this much later than channel C, s, signed.
+    ///
+    /// For psi = omega `skew`: a_B - psi a_A sin 4 theta / 2, theta + psi (Q/D) cos 4 theta / 4.
+    pub skew: f64,
+    /// Pick-off D stands at 45 degrees + this angle on the resonator's rim, rad, in the sense of theta.
+    ///
+    /// An angle on the rim counts twice in the pattern, so with eps for this angle channel D gets
+    /// S_D cos 2 eps - S_C sin 2 eps in place of S_D of (3), which is A sin(2 theta - 2 eps) + B cos(2 theta - 2 eps).
+    /// To first order: a_A - eps a_A sin 4 theta, theta - (eps / 2) (1 + (E/D) cos 4 theta).
+    pub pick_off_error: f64,
+    /// Cubic distortion c of both pick-offs: S becomes S + c S^3 / a^2, a being the wave's main amplitude at t = 0. No unit.
+    pub cubic: f64,
+    /// Both channels are limited to plus or minus this, input units, above 0; `None` = unlimited.
+    ///
+    /// For one channel alone with amplitude a above the limit c, r = c/a: the amplitude of its fundamental changes by the factor
+    /// (2/pi) (asin r + r sqrt(1 - r^2)).
+    pub clip: Option<f64>,
+    /// Clipping between two moments only. They must not overlap; the lower of this and `clip` counts.
+    pub clip_spans: Vec<ClipSpan>,
+    /// Resolution of the ADC, 2 to 32 bits: codes from -2^(bits-1) to 2^(bits-1) - 1. `None` = no ADC.
+    pub bits: Option<u32>,
+    /// Full scale of the ADC, input units, above 0 if `bits` is set (unused otherwise): one code is
+    /// `full_scale` / 2^(bits-1), see [`Flaws::lsb`].
+    pub full_scale: f64,
+    /// Rms of the white Gaussian jitter of the sampling instants, common to both channels, s, 0 or more.
+    pub jitter: f64,
+    /// Samples that never reach the record, in both channels. Losses may overlap.
+    pub lost: Vec<Loss>,
+    /// Times without a signal. Those of one channel must not overlap.
+    pub dropouts: Vec<Dropout>,
+}
+
+impl Default for Flaws {
+    /// No flaws.
+    fn default() -> Self {
+        Flaws {
+            noise: 0.0,
+            offset_c: 0.0,
+            offset_d: 0.0,
+            gain_ratio: 1.0,
+            skew: 0.0,
+            pick_off_error: 0.0,
+            cubic: 0.0,
+            clip: None,
+            clip_spans: Vec::new(),
+            bits: None,
+            full_scale: 0.0,
+            jitter: 0.0,
+            lost: Vec::new(),
+            dropouts: Vec::new(),
+        }
+    }
+}
+
+impl Flaws {
+    /// The value of one ADC code, input units: `full_scale` / 2^(`bits` - 1). `None` without an ADC.
+    pub fn lsb(&self) -> Option<f64> {
+        self.bits
+            .map(|bits| self.full_scale / libm::exp2(f64::from(bits) - 1.0))
+    }
+
+    /// Ranges of the single numbers (lists are checked where they are put in order).
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        for (what, value) in [
+            ("offset_c", self.offset_c),
+            ("offset_d", self.offset_d),
+            ("skew", self.skew),
+            ("pick_off_error", self.pick_off_error),
+            ("cubic", self.cubic),
+        ] {
+            require(what, value, value.is_finite(), "finite")?;
+        }
+        for (what, value) in [("noise", self.noise), ("jitter", self.jitter)] {
+            require(
+                what,
+                value,
+                value >= 0.0 && value.is_finite(),
+                "finite and 0 or more",
+            )?;
+        }
+        let positive = |what, value: f64| {
+            require(
+                what,
+                value,
+                value > 0.0 && value.is_finite(),
+                "finite and above 0",
+            )
+        };
+        positive("gain_ratio", self.gain_ratio)?;
+        if let Some(clip) = self.clip {
+            positive("clip", clip)?;
+        }
+        for span in &self.clip_spans {
+            positive("level of clip_spans", span.level)?;
+        }
+        if let Some(bits) = self.bits {
+            require("bits", f64::from(bits), (2..=32).contains(&bits), "2 to 32")?;
+            positive("full_scale", self.full_scale)?;
+        }
+        Ok(())
+    }
+}
+
+fn require(what: &'static str, value: f64, holds: bool, need: &'static str) -> Result<(), Error> {
+    if holds {
+        Ok(())
+    } else {
+        Err(Error::OutOfRange { what, value, need })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::timed::{Channel, DropoutKind};
+
+    #[test]
+    fn every_number_has_its_range() {
+        let none = Flaws::default;
+        assert_eq!(none().check(), Ok(()));
+        for (flaws, field) in [
+            (
+                Flaws {
+                    noise: -1e-9,
+                    ..none()
+                },
+                "noise",
+            ),
+            (
+                Flaws {
+                    jitter: f64::NAN,
+                    ..none()
+                },
+                "jitter",
+            ),
+            (
+                Flaws {
+                    offset_c: f64::INFINITY,
+                    ..none()
+                },
+                "offset_c",
+            ),
+            (
+                Flaws {
+                    offset_d: f64::NAN,
+                    ..none()
+                },
+                "offset_d",
+            ),
+            (
+                Flaws {
+                    skew: f64::NAN,
+                    ..none()
+                },
+                "skew",
+            ),
+            (
+                Flaws {
+                    pick_off_error: f64::NAN,
+                    ..none()
+                },
+                "pick_off_error",
+            ),
+            (
+                Flaws {
+                    cubic: f64::NAN,
+                    ..none()
+                },
+                "cubic",
+            ),
+            (
+                Flaws {
+                    gain_ratio: 0.0,
+                    ..none()
+                },
+                "gain_ratio",
+            ),
+            (
+                Flaws {
+                    clip: Some(0.0),
+                    ..none()
+                },
+                "clip",
+            ),
+            (
+                Flaws {
+                    clip_spans: vec![ClipSpan {
+                        from: 0.0,
+                        to: 1.0,
+                        level: -1.0,
+                    }],
+                    ..none()
+                },
+                "level of clip_spans",
+            ),
+            (
+                Flaws {
+                    bits: Some(16),
+                    ..none()
+                },
+                "full_scale",
+            ),
+            (
+                Flaws {
+                    bits: Some(33),
+                    full_scale: 1.0,
+                    ..none()
+                },
+                "bits",
+            ),
+            (
+                Flaws {
+                    bits: Some(1),
+                    full_scale: 1.0,
+                    ..none()
+                },
+                "bits",
+            ),
+        ] {
+            match flaws.check() {
+                Err(Error::OutOfRange { what, .. }) => assert_eq!(what, field),
+                other => panic!("{field}: {other:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn the_step_of_the_adc() {
+        assert_eq!(
+            Flaws {
+                bits: Some(16),
+                full_scale: 2.0,
+                ..Flaws::default()
+            }
+            .lsb(),
+            Some(2.0 / 32768.0)
+        );
+        assert_eq!(Flaws::default().lsb(), None);
+    }
+
+    #[test]
+    fn json_keeps_everything_and_fills_in_the_rest() {
+        let flaws = Flaws {
+            noise: 0.1,
+            clip: Some(1.5),
+            bits: Some(24),
+            full_scale: 2.5,
+            lost: vec![Loss { at: 3, count: 4 }],
+            dropouts: vec![Dropout {
+                from: 0.1,
+                to: 0.2,
+                kind: DropoutKind::NoiseOnly,
+                channel: Some(Channel::D),
+            }],
+            clip_spans: vec![ClipSpan {
+                from: 0.3,
+                to: 0.4,
+                level: 1.0,
+            }],
+            ..Flaws::default()
+        };
+        let json = serde_json::to_string(&flaws).unwrap();
+        assert_eq!(serde_json::from_str::<Flaws>(&json).unwrap(), flaws);
+        assert_eq!(
+            serde_json::from_str::<Flaws>("{}").unwrap(),
+            Flaws::default()
+        );
+        assert!(serde_json::from_str::<Flaws>(r#"{"noize": 1}"#).is_err());
+        let wave = crate::random_wave(3, 5332.1, 0.5);
+        let json = serde_json::to_string(&wave).unwrap();
+        assert_eq!(serde_json::from_str::<crate::Wave>(&json).unwrap(), wave);
+    }
+}

@@ -1,0 +1,216 @@
+//! The stream of samples.
+
+use crate::adc::Adc;
+use crate::dropouts::{Fill, fills};
+use crate::error::Error;
+use crate::flaws::Flaws;
+use crate::front::{Front, Input};
+use crate::spans::{Span, Spans, check_apart};
+use crate::time::Instant;
+use crate::timed::Channel;
+use crate::wave::{Truth, Wave};
+
+/// The last index that is an exact `f64`.
+const LAST: u64 = 1 << 53;
+
+/// One sample of both channels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    /// S_C of (2), input units.
+    pub c: f64,
+    /// S_D of (3), input units.
+    pub d: f64,
+}
+
+/// A synthetic gyro: an endless iterator of its samples.
+///
+/// Sample `k` of true time is at `k` / sample rate s. It is a function of the arguments of [`Gyro::new`] and `k` alone:
+/// [`Iterator::nth`] and [`Iterator::skip`] jump at no cost, and lost samples change none of the others.
+#[derive(Debug, Clone)]
+pub struct Gyro {
+    wave: Wave,
+    sample_rate: f64,
+    front: Front,
+    dropouts_c: Spans<Fill>,
+    dropouts_d: Spans<Fill>,
+    clip: f64,
+    clip_spans: Spans<f64>,
+    adc: Option<Adc>,
+    lost: Spans<()>,
+    next: u64,
+}
+
+impl Gyro {
+    /// A gyro with this wave and these flaws, sampled at `sample_rate` Hz (above 0).
+    ///
+    /// `seed` chooses the noise and the jitter, which do not depend on each other or on any other flaw.
+    pub fn new(wave: Wave, flaws: Flaws, sample_rate: f64, seed: u64) -> Result<Gyro, Error> {
+        if !(sample_rate > 0.0 && sample_rate.is_finite()) {
+            return Err(Error::OutOfRange {
+                what: "sample_rate",
+                value: sample_rate,
+                need: "finite and above 0",
+            });
+        }
+        wave.check()?;
+        flaws.check()?;
+        let mut front = Front::new(wave, &flaws, sample_rate, seed);
+        let dropouts_c = fills(&flaws, Channel::C, sample_rate, &mut front)?;
+        let dropouts_d = fills(&flaws, Channel::D, sample_rate, &mut front)?;
+        let clips: Result<Vec<_>, _> = flaws
+            .clip_spans
+            .iter()
+            .map(|clip| Span::of_times(clip.from, clip.to, sample_rate, clip.level, "clip_spans"))
+            .collect();
+        let clip_spans = Spans::new(clips?);
+        check_apart(clip_spans.all(), "clip_spans")?;
+        let lost: Result<Vec<_>, _> = flaws
+            .lost
+            .iter()
+            .map(|loss| match loss.at.checked_add(loss.count) {
+                Some(end) if end <= LAST => Ok(Span {
+                    first: loss.at,
+                    end,
+                    what: (),
+                }),
+                _ => Err(Error::EndlessLoss {
+                    at: loss.at,
+                    count: loss.count,
+                }),
+            })
+            .collect();
+        let mut gyro = Gyro {
+            wave,
+            sample_rate,
+            front,
+            dropouts_c,
+            dropouts_d,
+            clip: flaws.clip.unwrap_or(f64::INFINITY),
+            clip_spans,
+            adc: Adc::new(&flaws),
+            lost: Spans::new(lost?),
+            next: 0,
+        };
+        gyro.pass_lost();
+        Ok(gyro)
+    }
+
+    /// The index, in true time, of the next sample that comes out (lost samples count, but never come out).
+    pub fn index(&self) -> u64 {
+        self.next
+    }
+
+    /// The wave at sample `index` of true time, whether lost or not.
+    pub fn truth_at(&self, index: u64) -> Truth {
+        self.wave
+            .at_instant(Instant::of_sample(index, self.sample_rate))
+    }
+
+    /// The ADC's codes (C, D) from the next sample on, in place of their values. An error without `bits`.
+    pub fn codes(self) -> Result<Codes, Error> {
+        let adc = self.adc.ok_or(Error::NoBits)?;
+        Ok(Codes { gyro: self, adc })
+    }
+
+    /// Moves `next` past the losses it stands in.
+    fn pass_lost(&mut self) {
+        while let Some(span) = self.lost.at(self.next) {
+            self.next = span.end;
+        }
+    }
+
+    /// The next sample before the ADC.
+    fn analogue(&mut self) -> Pair {
+        let index = self.next;
+        let Input { signal, floor } = self.front.at(index);
+        let c = self
+            .dropouts_c
+            .at(index)
+            .map_or(signal.c, |span| span.what.value(floor.c));
+        let d = self
+            .dropouts_d
+            .at(index)
+            .map_or(signal.d, |span| span.what.value(floor.d));
+        let level = self
+            .clip_spans
+            .at(index)
+            .map_or(self.clip, |span| span.what.min(self.clip));
+        self.next = self.next.saturating_add(1);
+        self.pass_lost();
+        Pair {
+            c: c.max(-level).min(level),
+            d: d.max(-level).min(level),
+        }
+    }
+
+    /// Moves on by `count` samples that would have come out.
+    fn pass(&mut self, mut count: u64) {
+        while let Some(loss) = self.lost.from(self.next)
+            && loss.first - self.next <= count
+        {
+            count -= loss.first - self.next;
+            self.next = loss.end;
+            self.pass_lost();
+        }
+        self.next = self.next.saturating_add(count);
+    }
+}
+
+impl Iterator for Gyro {
+    type Item = Pair;
+
+    fn next(&mut self) -> Option<Pair> {
+        let pair = self.analogue();
+        Some(match &self.adc {
+            Some(adc) => Pair {
+                c: adc.value(pair.c),
+                d: adc.value(pair.d),
+            },
+            None => pair,
+        })
+    }
+
+    fn nth(&mut self, n: usize) -> Option<Pair> {
+        self.pass(n as u64);
+        self.next()
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (usize::MAX, None)
+    }
+}
+
+/// The ADC codes of a gyro, an endless iterator of (C, D): see [`Gyro::codes`].
+#[derive(Debug, Clone)]
+pub struct Codes {
+    gyro: Gyro,
+    adc: Adc,
+}
+
+impl Codes {
+    /// The index, in true time, of the next sample that comes out.
+    pub fn index(&self) -> u64 {
+        self.gyro.index()
+    }
+}
+
+impl Iterator for Codes {
+    type Item = (i32, i32);
+
+    fn next(&mut self) -> Option<(i32, i32)> {
+        let pair = self.gyro.analogue();
+        Some((self.adc.code(pair.c), self.adc.code(pair.d)))
+    }
+
+    fn nth(&mut self, n: usize) -> Option<(i32, i32)> {
+        self.gyro.pass(n as u64);
+        self.next()
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (usize::MAX, None)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,277 @@
+//! The true wave and its motion.
+
+use crate::error::Error;
+use crate::time::Instant;
+use libm::{exp, sincos};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{FRAC_PI_6, PI, TAU};
+
+/// The true wave; everything stands at t = 0, the time of the first sample.
+///
+/// (theta, alpha) and (theta + pi/2, alpha + pi) are the same motion: an angle found from the signals is known modulo pi/2.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Wave {
+    /// a_A of (1): amplitude of the main wave at t = 0, input units, above 0.
+    pub main_amplitude: f64,
+    /// a_B of (1): amplitude of the quadrature wave at t = 0, input units, signed, |a_B| <= a_A.
+    pub quadrature_amplitude: f64,
+    /// theta of (2), (3): pattern angle at t = 0, rad, any.
+    pub angle: f64,
+    /// alpha of (1), rad, any: tau(t) = 2 pi (f t + `frequency_rate` t^2 / 2) - alpha.
+    pub phase: f64,
+    /// f = omega / 2 pi of (1) at t = 0, Hz, above 0. Above half the sample rate the samples show its alias.
+    pub frequency: f64,
+    /// Drift of the frequency, Hz/s, any.
+    pub frequency_rate: f64,
+    /// Precession of the pattern, rad/s, any: theta(t) = theta + `angle_rate` t.
+    pub angle_rate: f64,
+    /// Decay, 1/s, any: both amplitudes go as exp(-`decay_rate` t). Quality factor Q means pi f / Q.
+    pub decay_rate: f64,
+}
+
+impl Default for Wave {
+    /// The paper's example: a_A = 2, a_B = 0.1, theta = 30 degrees, alpha = pi/6, f = 5332 Hz, constant.
+    fn default() -> Self {
+        Wave {
+            main_amplitude: 2.0,
+            quadrature_amplitude: 0.1,
+            angle: FRAC_PI_6,
+            phase: FRAC_PI_6,
+            frequency: 5332.0,
+            frequency_rate: 0.0,
+            angle_rate: 0.0,
+            decay_rate: 0.0,
+        }
+    }
+}
+
+/// The wave as it stands at one moment: what an identification over a short window about that moment should find.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Truth {
+    /// The moment, s from the first sample.
+    pub time: f64,
+    /// a_A of (1) at that moment, input units.
+    pub main_amplitude: f64,
+    /// a_B of (1) at that moment, input units, signed.
+    pub quadrature_amplitude: f64,
+    /// theta of (2), (3) at that moment, rad, continuous from [`Wave::angle`] (not reduced).
+    pub angle: f64,
+    /// alpha about that moment, rad, in (-pi, pi]: tau(`time` + dt) = 2 pi `frequency` dt - `phase`.
+    pub phase: f64,
+    /// f at that moment, Hz.
+    pub frequency: f64,
+    /// Precession, rad/s.
+    pub angle_rate: f64,
+    /// Decay, 1/s.
+    pub decay_rate: f64,
+}
+
+impl Wave {
+    /// The wave at `t` s.
+    ///
+    /// The phase is right to about 1e-15 rad for the `t` given, however late. But sample `k` is seldom at an exact `f64` of
+    /// time: for it, use [`Gyro::truth_at`](crate::Gyro::truth_at).
+    pub fn at(&self, t: f64) -> Truth {
+        self.at_instant(Instant::of(t))
+    }
+
+    pub(crate) fn at_instant(&self, instant: Instant) -> Truth {
+        let time = instant.seconds();
+        let decay = exp(-self.decay_rate * time);
+        let turns = instant.turns(self.frequency, self.frequency_rate);
+        Truth {
+            time,
+            main_amplitude: self.main_amplitude * decay,
+            quadrature_amplitude: self.quadrature_amplitude * decay,
+            angle: self.angle + self.angle_rate * time,
+            phase: reduced(self.phase - TAU * turns),
+            frequency: self.frequency + self.frequency_rate * time,
+            angle_rate: self.angle_rate,
+            decay_rate: self.decay_rate,
+        }
+    }
+
+    /// The pick-off signals (S_C, S_D) of (1)-(3) at `t` s, without noise, input units.
+    pub fn pick_offs(&self, t: f64) -> (f64, f64) {
+        self.pick_offs_at(Instant::of(t))
+    }
+
+    pub(crate) fn pick_offs_at(&self, instant: Instant) -> (f64, f64) {
+        let truth = self.at_instant(instant);
+        let (sin_tau, cos_tau) = sincos(-truth.phase);
+        let (sin, cos) = sincos(2.0 * truth.angle);
+        let a = truth.main_amplitude * cos_tau;
+        let b = truth.quadrature_amplitude * sin_tau;
+        (a * cos - b * sin, a * sin + b * cos)
+    }
+
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        for (what, value) in [
+            ("main_amplitude", self.main_amplitude),
+            ("frequency", self.frequency),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Error::OutOfRange {
+                    what,
+                    value,
+                    need: "finite and above 0",
+                });
+            }
+        }
+        for (what, value) in [
+            ("quadrature_amplitude", self.quadrature_amplitude),
+            ("angle", self.angle),
+            ("phase", self.phase),
+            ("frequency_rate", self.frequency_rate),
+            ("angle_rate", self.angle_rate),
+            ("decay_rate", self.decay_rate),
+        ] {
+            if !value.is_finite() {
+                return Err(Error::OutOfRange {
+                    what,
+                    value,
+                    need: "finite",
+                });
+            }
+        }
+        if self.quadrature_amplitude.abs() > self.main_amplitude {
+            return Err(Error::QuadratureAboveMain {
+                main: self.main_amplitude,
+                quadrature: self.quadrature_amplitude,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// `phase` less whole turns, in (-pi, pi].
+fn reduced(phase: f64) -> f64 {
+    let rest = libm::remainder(phase, TAU);
+    if rest <= -PI { PI } else { rest }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn the_papers_wave_at_zero() {
+        // tau = -30 deg, 2 theta = 60 deg: A = 2 cos 30 = sqrt 3, B = -0.1 sin 30 = -0.05
+        let (c, d) = Wave::default().pick_offs(0.0);
+        let root = 3f64.sqrt();
+        assert!((c - (root / 2.0 + 0.05 * root / 2.0)).abs() < 1e-15, "{c}");
+        assert!((d - (root * root / 2.0 - 0.05 / 2.0)).abs() < 1e-15, "{d}");
+    }
+
+    #[test]
+    fn truth_describes_the_wave_about_its_moment() {
+        let wave = Wave {
+            frequency_rate: 0.3,
+            angle_rate: 0.7,
+            decay_rate: 0.05,
+            ..Wave::default()
+        };
+        for t0 in [0.0, 0.01, 3.3, 1000.1] {
+            let truth = wave.at(t0);
+            assert!(truth.phase > -PI && truth.phase <= PI);
+            let moved = Wave {
+                main_amplitude: truth.main_amplitude,
+                quadrature_amplitude: truth.quadrature_amplitude,
+                angle: truth.angle,
+                phase: truth.phase,
+                frequency: truth.frequency,
+                ..wave
+            };
+            for dt in [0.0, 1e-5, 0.01] {
+                let (c, d) = wave.pick_offs_at(Instant::of(t0).later(dt));
+                let (c0, d0) = moved.pick_offs(dt);
+                // 1e-16 of 1.5e5 turns of drift at 1000 s
+                assert!(
+                    (c - c0).abs() < 1e-9 && (d - d0).abs() < 1e-9,
+                    "{t0} {dt}: {c} {c0} {d} {d0}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn rates_act_as_documented() {
+        let wave = Wave {
+            frequency_rate: 0.5,
+            angle_rate: 0.25,
+            decay_rate: 0.125,
+            ..Wave::default()
+        };
+        let truth = wave.at(2.0);
+        assert!((truth.frequency - 5333.0).abs() < 1e-12);
+        assert!((truth.angle - (FRAC_PI_6 + 0.5)).abs() < 1e-15);
+        assert!((truth.main_amplitude - 2.0 * exp(-0.25)).abs() < 1e-15);
+        assert!((truth.quadrature_amplitude - 0.1 * exp(-0.25)).abs() < 1e-15);
+        // 5332 * 2 + 0.5 * 4 / 2 = 10665 whole turns: the phase is back
+        assert!((truth.phase - FRAC_PI_6).abs() < 1e-14);
+        // a quarter turn later alpha has fallen by pi/2
+        let quarter = Wave::default().at(0.25 / 5332.0);
+        assert!((quarter.phase - (FRAC_PI_6 - FRAC_PI_2)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_phase_is_half_open() {
+        assert_eq!(reduced(-PI), PI);
+        assert_eq!(reduced(PI), PI);
+        assert!((reduced(7.0) - (7.0 - TAU)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn theta_is_modulo_a_right_angle() {
+        let wave = Wave::default();
+        let same = Wave {
+            angle: wave.angle + FRAC_PI_2,
+            phase: wave.phase + PI,
+            ..wave
+        };
+        let ((c, d), (c2, d2)) = (wave.pick_offs(1e-4), same.pick_offs(1e-4));
+        assert!((c - c2).abs() < 1e-14 && (d - d2).abs() < 1e-14);
+    }
+
+    #[test]
+    fn what_is_no_wave_is_refused() {
+        let check = |wave: Wave| wave.check();
+        assert!(
+            check(Wave {
+                main_amplitude: 0.0,
+                ..Wave::default()
+            })
+            .is_err()
+        );
+        assert!(
+            check(Wave {
+                frequency: f64::NAN,
+                ..Wave::default()
+            })
+            .is_err()
+        );
+        assert!(
+            check(Wave {
+                angle_rate: f64::INFINITY,
+                ..Wave::default()
+            })
+            .is_err()
+        );
+        assert!(
+            check(Wave {
+                quadrature_amplitude: -2.1,
+                ..Wave::default()
+            })
+            .is_err()
+        );
+        assert!(
+            check(Wave {
+                quadrature_amplitude: -2.0,
+                ..Wave::default()
+            })
+            .is_ok()
+        );
+    }
+}

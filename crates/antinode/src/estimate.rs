@@ -1,0 +1,137 @@
+//! What a window says of the wave.
+
+use core::fmt;
+
+/// What is wrong or noteworthy about a window. A clean window has none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+pub struct Flags(u16);
+
+impl Flags {
+    /// Samples at the converter's rail, or the third harmonic that a limiter leaves: amplitudes are wrong.
+    pub const CLIPPED: Self = Self(1);
+    /// No significant wave: nothing in the row is meant.
+    pub const LOST: Self = Self(1 << 1);
+    /// The phase is not continuous with the window before: samples are missing between or within them.
+    pub const PHASE_JUMP: Self = Self(1 << 2);
+    /// Amplitude, angle or offset stepped between the window before and this one.
+    pub const STEP: Self = Self(1 << 3);
+    /// |a_A| ≈ |a_B|: the pattern is circular and the angle has no meaning.
+    pub const CIRCULAR: Self = Self(1 << 4);
+    /// The samples are not one wave with steady rates plus noise: a step, a dropout, a second tone within the window.
+    pub const MISFIT: Self = Self(1 << 5);
+    /// One pick-off gave one and the same value for the whole window.
+    pub const DEAD_CHANNEL: Self = Self(1 << 6);
+    /// First window after the wave was lost: the angle is known modulo π/2 only.
+    pub const REACQUIRED: Self = Self(1 << 7);
+    /// A sample that is not a number.
+    pub const NOT_FINITE: Self = Self(1 << 8);
+
+    const NAMES: [&'static str; 9] = [
+        "clipped",
+        "lost",
+        "phase_jump",
+        "step",
+        "circular",
+        "misfit",
+        "dead_channel",
+        "reacquired",
+        "not_finite",
+    ];
+
+    /// No flag.
+    pub const fn empty() -> Self {
+        Self(0)
+    }
+
+    /// True when no flag stands.
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// True when every flag of `other` stands.
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// True when any flag of `other` stands.
+    pub const fn intersects(self, other: Self) -> bool {
+        self.0 & other.0 != 0
+    }
+
+    /// Both sets together.
+    pub const fn with(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// This set, with `other` added when `condition` holds.
+    pub(crate) fn with_if(self, condition: bool, other: Self) -> Self {
+        if condition { self.with(other) } else { self }
+    }
+
+    /// Bit 0 is the first constant above, and so on.
+    pub const fn bits(self) -> u16 {
+        self.0
+    }
+}
+
+impl fmt::Display for Flags {
+    /// The names joined by `+`; nothing when clean.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut join = "";
+        for (bit, name) in Self::NAMES.iter().enumerate() {
+            if self.0 >> bit & 1 == 1 {
+                f.write_str(join)?;
+                f.write_str(name)?;
+                join = "+";
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The wave over one window, at the window's middle. Amplitudes, offsets and residual are in input units.
+///
+/// Each `_std` is one standard deviation, from the window's own residual and the information in its samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Index in the stream of the window's first sample pair.
+    pub start: u64,
+    /// Sample pairs in the window.
+    pub samples: u32,
+    /// Time of the window's middle, s from the stream's first sample.
+    pub time: f64,
+    /// a_A, amplitude of the main standing wave, > 0.
+    pub main_amplitude: f32,
+    /// a_B, amplitude of the quadrature wave, signed, |a_B| ≤ a_A.
+    pub quadrature_amplitude: f32,
+    /// θ_A, pattern angle in rad, continuous from window to window from the chosen start.
+    pub angle: f64,
+    /// α in rad, (−π, π]: the main wave is a_A cos(2πf·(t − `time`) − α).
+    pub phase: f32,
+    /// f, resonant frequency in Hz.
+    pub frequency: f64,
+    /// θ̇, precession of the pattern in rad/s, from this window alone.
+    pub angle_rate: f32,
+    /// −ȧ_A/a_A in 1/s: positive while the wave decays.
+    pub decay_rate: f32,
+    /// Offset of S_C and of S_D.
+    pub offsets: [f32; 2],
+    /// Standard deviation of a_A.
+    pub main_amplitude_std: f32,
+    /// Standard deviation of a_B.
+    pub quadrature_amplitude_std: f32,
+    /// Standard deviation of θ_A, rad.
+    pub angle_std: f32,
+    /// Standard deviation of α, rad.
+    pub phase_std: f32,
+    /// Standard deviation of f, Hz.
+    pub frequency_std: f32,
+    /// Standard deviation of θ̇, rad/s.
+    pub angle_rate_std: f32,
+    /// Standard deviation of the decay rate, 1/s.
+    pub decay_rate_std: f32,
+    /// Rms of what the wave does not explain, a sample and channel, seen about the wave's frequency: the noise when it is white.
+    pub residual_rms: f32,
+    /// What is wrong; empty when clean.
+    pub flags: Flags,
+}

@@ -1,0 +1,133 @@
+//! What the user chooses, checked once.
+
+use core::fmt;
+
+use crate::block::Layout;
+use crate::calibration::Calibration;
+use crate::phase::PhaseStep;
+
+/// Settings of an identification. Start from [`Settings::new`] and change what differs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Sample rate in Hz, > 0.
+    pub sample_rate: f64,
+    /// Length of a window in periods, 2 to what the ring of blocks holds (about one block a period; see [`Settings::layout`]).
+    pub periods: u16,
+    /// Blocks from the start of one window to the start of the next; `None`: windows follow each other without gap or overlap.
+    pub hop: Option<u16>,
+    /// The pattern angle nearest to which the first window's angle is chosen, rad; π/4 puts it in 0…π/2.
+    pub start_angle: f32,
+    /// |sample| at and beyond which the converter is at its rail, input units; `None` where there is no rail.
+    pub full_scale: Option<f32>,
+    /// How the pick-offs differ from ideal ones.
+    pub calibration: Calibration,
+}
+
+/// Settings that cannot work.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum SettingsError {
+    /// The sample rate is not a positive number.
+    SampleRate(f64),
+    /// Fewer than 2 periods a window.
+    PeriodsTooFew(u16),
+    /// More periods a window than the ring of blocks holds.
+    PeriodsTooMany {
+        /// The periods asked for.
+        periods: u16,
+        /// The most that the ring holds.
+        most: u16,
+    },
+    /// A hop of no blocks.
+    Hop,
+    /// The start angle is not a number within ±10⁴ rad.
+    StartAngle(f32),
+    /// Full scale is not a positive number.
+    FullScale(f32),
+    /// The gain ratio is outside 0.1 to 10.
+    GainRatio(f32),
+    /// The skew is not a number within ±1 ms.
+    Skew(f32),
+    /// The pick-off angle is outside ±0.3 rad.
+    PickOffAngle(f32),
+}
+
+impl fmt::Display for SettingsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::SampleRate(rate) => write!(f, "sample rate {rate} Hz: it must be a positive number"),
+            Self::PeriodsTooFew(n) => write!(f, "{n} periods a window: it takes at least 2"),
+            Self::PeriodsTooMany { periods, most } => {
+                write!(f, "{periods} periods a window: the ring of blocks holds at most {most}")
+            }
+            Self::Hop => write!(f, "a hop of 0 blocks: windows must move on by at least 1 block"),
+            Self::StartAngle(angle) => write!(f, "start angle {angle} rad: it must lie within ±10000"),
+            Self::FullScale(value) => write!(f, "full scale {value}: it must be a positive number"),
+            Self::GainRatio(ratio) => write!(f, "gain ratio {ratio}: it must lie within 0.1 to 10"),
+            Self::Skew(skew) => write!(f, "skew {skew} s: it must lie within ±0.001 s"),
+            Self::PickOffAngle(angle) => {
+                write!(f, "pick-off angle error {angle} rad: it must lie within ±0.3")
+            }
+        }
+    }
+}
+
+impl core::error::Error for SettingsError {}
+
+/// Blocks that a window is cut into at least: regression over K blocks keeps all but 1/K² of what its samples know of frequency.
+const BLOCKS_A_WINDOW: f32 = 10.0;
+
+impl Settings {
+    /// Windows of 10 periods that follow each other, ideal pick-offs, no rail.
+    pub const fn new(sample_rate: f64) -> Self {
+        Self {
+            sample_rate,
+            periods: 10,
+            hop: None,
+            start_angle: core::f32::consts::FRAC_PI_4,
+            full_scale: None,
+            calibration: Calibration::IDEAL,
+        }
+    }
+
+    /// Checks every value for a ring of `blocks`.
+    pub fn check(&self, blocks: usize) -> Result<(), SettingsError> {
+        let within = |x: f32, least: f32, most: f32| x >= least && x <= most;
+        let most = blocks.saturating_sub(2).min(60_000) as u16;
+        let c = &self.calibration;
+        if !(self.sample_rate > 0.0 && self.sample_rate.is_finite()) {
+            Err(SettingsError::SampleRate(self.sample_rate))
+        } else if self.periods < 2 {
+            Err(SettingsError::PeriodsTooFew(self.periods))
+        } else if self.periods > most {
+            Err(SettingsError::PeriodsTooMany { periods: self.periods, most })
+        } else if self.hop == Some(0) {
+            Err(SettingsError::Hop)
+        } else if !within(self.start_angle, -1e4, 1e4) {
+            Err(SettingsError::StartAngle(self.start_angle))
+        } else if let Some(full_scale) = self.full_scale.filter(|&x| !(x > 0.0)) {
+            Err(SettingsError::FullScale(full_scale))
+        } else if !within(c.gain_ratio, 0.1, 10.0) {
+            Err(SettingsError::GainRatio(c.gain_ratio))
+        } else if !within(c.skew, -1e-3, 1e-3) {
+            Err(SettingsError::Skew(c.skew))
+        } else if !within(c.pick_off_angle, -0.3, 0.3) {
+            Err(SettingsError::PickOffAngle(c.pick_off_angle))
+        } else {
+            Ok(())
+        }
+    }
+
+    /// The blocks for a wave of `period` samples: one period each, or less where a window has fewer than ten periods.
+    pub fn layout(&self, period: f32) -> Layout {
+        let window = period * f32::from(self.periods);
+        let length = libm::roundf(period.min(window / BLOCKS_A_WINDOW)).max(1.0);
+        Layout { step: PhaseStep::from_period(period), length: length as u16 }
+    }
+
+    /// How many blocks of `layout` come nearest to a window.
+    pub fn blocks(&self, layout: Layout) -> u16 {
+        let window = layout.step.period() * f32::from(self.periods);
+        libm::roundf(window / f32::from(layout.length)) as u16
+    }
+}

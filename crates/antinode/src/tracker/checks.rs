@@ -1,0 +1,150 @@
+//! What a window must satisfy to be believed: general tests on its residuals and on its continuity with the window before.
+//!
+//! Every threshold is a false-alarm rate below 10⁻⁹ a window for white noise, plus a floor under which a deviation is no fault.
+
+use num_complex::Complex32;
+
+use super::record::Record;
+use crate::estimate::Flags;
+use crate::wave::{Standing, wrap};
+use crate::window::Fit;
+
+/// Standard deviations of an innocent deviation.
+const SIGMAS: f32 = 7.0;
+/// Below this share of a_A a step of an amplitude or an offset between windows is no fault.
+const AMPLITUDE_FLOOR: f32 = 2e-3;
+/// Below this a step of the pattern angle between windows is no fault, rad.
+const ANGLE_FLOOR: f32 = 2e-3;
+/// Below this a step of the phase is no fault, rad: a lost sample makes 2π/200 or more.
+const PHASE_FLOOR: f32 = 0.02;
+/// Third harmonic, as a share of a_A, that common electronics may have.
+const HARMONIC_FLOOR: f32 = 1e-3;
+/// Residual, as a share of a_A, that rounding and converters may leave: (2·10⁻⁴)².
+const RESIDUAL_FLOOR: f32 = 4e-8;
+/// By how much the residual variance about the carrier may exceed that about the third harmonic.
+const COLOUR: f32 = 16.0;
+
+/// The noise variance of the clean windows before.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Noise {
+    variance: f32,
+    freedom: f32,
+    refused: u8,
+}
+
+impl Noise {
+    /// Windows that raise their residual together are a new level of noise, if the third harmonic's neighbourhood agrees.
+    const NEW_LEVEL: u8 = 3;
+    /// Degrees of freedom remembered, in windows.
+    const MEMORY: f32 = 16.0;
+
+    /// Takes the noise of a window that is otherwise clean.
+    fn learn(&mut self, variance: f32, freedom: f32) {
+        self.freedom = (self.freedom + freedom).min(Self::MEMORY * freedom);
+        self.variance += (variance - self.variance) * freedom / self.freedom;
+        self.refused = 0;
+    }
+
+    /// How far a variance of `freedom` may exceed the one remembered.
+    fn limit(&self, freedom: f32) -> f32 {
+        // The logarithm of an F variable has about this variance; its upper tail is the lighter one.
+        let deviation = libm::sqrtf(2.0 / freedom + 2.0 / self.freedom);
+        self.variance * libm::expf(SIGMAS * deviation).max(9.0)
+    }
+}
+
+/// Tests of one window by itself and against the noise of those before.
+pub(crate) fn within(fit: &Fit, wave: &Standing, noise: &mut Noise) -> Flags {
+    let variance = fit.residual / fit.freedom;
+    let power = wave.main * wave.main;
+    let floor = RESIDUAL_FLOOR * power;
+    let mut flags = Flags::empty();
+
+    let significant = power > 36.0 * wave.main_variance;
+    flags = flags.with_if(!significant, Flags::LOST);
+
+    // White noise is the same about the carrier and about its third harmonic.
+    let coloured = variance
+        > COLOUR.max(spread(fit.freedom, fit.third_freedom)) * fit.third_noise + 4.0 * floor
+        && fit.third_freedom >= 12.0;
+    let known = noise.freedom > 0.0;
+    let louder = known && variance > noise.limit(fit.freedom) + floor;
+    // One block out of line with all others: a step, a spike or a short dropout.
+    let others = if known && noise.freedom > 3.0 * fit.freedom {
+        noise.variance
+    } else {
+        (fit.residual - fit.worst_block).max(0.0) / (fit.freedom - 6.0).max(1.0)
+    };
+    let outlier = fit.freedom > 20.0
+        && fit.worst_block > 60.0 * others * (1.0 + 20.0 / fit.freedom) + 6.0 * floor;
+    flags = flags.with_if(coloured || louder || outlier || !fit.settled, Flags::MISFIT);
+
+    let harmonic = fit.third.iter().map(Complex32::norm_sqr).sum::<f32>();
+    let harmonic_noise = fit.third_noise.max(variance.min(noise.variance));
+    let limit = SIGMAS * libm::sqrtf(wave.main_variance / variance.max(f32::MIN_POSITIVE) * 2.0 * harmonic_noise)
+        + HARMONIC_FLOOR * wave.main;
+    flags = flags.with_if(harmonic > limit * limit && fit.third_freedom >= 12.0, Flags::CLIPPED);
+
+    let round = wave.lesser * wave.lesser < 36.0 * wave.lesser_variance
+        || wave.lesser < 2e-3 * wave.main;
+    flags = flags.with_if(round && significant, Flags::CIRCULAR);
+
+    if flags.with(Flags::CIRCULAR) == Flags::CIRCULAR {
+        noise.learn(variance, fit.freedom);
+    } else if louder && !coloured && !outlier && fit.settled && significant {
+        noise.refused += 1;
+        if noise.refused >= Noise::NEW_LEVEL {
+            *noise = Noise::default();
+        }
+    }
+    flags
+}
+
+/// How far apart two estimates of one variance may be.
+fn spread(a: f32, b: f32) -> f32 {
+    libm::expf(SIGMAS * libm::sqrtf(2.0 / a + 2.0 / b))
+}
+
+/// Tests of a window against the clean one before.
+pub(crate) fn between(before: &Record, now: &Record) -> Flags {
+    let samples = 0.5 * (now.middle.wrapping_sub(before.middle)) as f32;
+    // Both windows' own rates, as a trapezoid: exact for a rate that itself changes steadily.
+    let step = |value: f32, rates: f32| value - 0.5 * rates * samples;
+    let deviation = |levels: f32, rates: f32| {
+        libm::sqrtf(levels + 0.25 * samples * samples * rates)
+    };
+    let beyond = |step: f32, deviation: f32, floor: f32| {
+        step.abs() > SIGMAS * deviation + floor || step.is_nan()
+    };
+
+    let phase = wrap(now.phase_advance(before));
+    let phase_deviation =
+        deviation(before.phase_variance + now.phase_variance, before.drift_variance + now.drift_variance);
+    let jump = phase_deviation < 0.3 && beyond(phase, phase_deviation, PHASE_FLOOR);
+
+    let amplitude_floor = AMPLITUDE_FLOOR * before.main;
+    let main = beyond(
+        step(now.main - before.main, now.main_rate + before.main_rate),
+        deviation(now.main_variance + before.main_variance, now.main_rate_variance + before.main_rate_variance),
+        amplitude_floor,
+    );
+    let quadrature = beyond(
+        step(now.quadrature - before.quadrature, now.quadrature_rate + before.quadrature_rate),
+        deviation(
+            now.quadrature_variance + before.quadrature_variance,
+            now.quadrature_rate_variance + before.quadrature_rate_variance,
+        ),
+        amplitude_floor,
+    );
+    let angle = beyond(
+        step(now.angle.less(before.angle), now.turning + before.turning),
+        deviation(now.angle_variance + before.angle_variance, now.turning_variance + before.turning_variance),
+        ANGLE_FLOOR,
+    );
+    let offset_deviation = libm::sqrtf(now.offset_variance + before.offset_variance);
+    let offsets = (0..2)
+        .any(|i| beyond(now.offsets[i] - before.offsets[i], offset_deviation, amplitude_floor));
+    Flags::empty()
+        .with_if(jump, Flags::PHASE_JUMP)
+        .with_if(main || quadrature || angle || offsets, Flags::STEP)
+}

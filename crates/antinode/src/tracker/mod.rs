@@ -1,0 +1,288 @@
+//! Blocks become estimates of a tracked wave: windows are cut, solved, checked, and joined to those before.
+
+mod checks;
+mod record;
+mod trend;
+
+use heapless::Deque;
+
+use crate::block::Block;
+use crate::estimate::{Estimate, Flags};
+use crate::settings::{Settings, SettingsError};
+use crate::wave::{Angle, Standing, wrap};
+use crate::window::{Fit, Model, solve};
+use checks::Noise;
+use record::Record;
+use trend::Trend;
+
+/// How far the detector's frequency may be off, as a share of it.
+const DETECTOR_UNCERTAINTY: f32 = 0.05;
+/// Windows without a wave after which the search starts anew.
+const GIVE_UP: u8 = 2;
+
+/// Cuts the stream of blocks into windows and tracks the wave over them. Holds up to `BLOCKS` blocks.
+///
+/// It works at block rate and may run in thread context while blocks are gathered in an interrupt.
+#[derive(Debug, Clone)]
+pub struct Tracker<const BLOCKS: usize> {
+    settings: Settings,
+    ring: Deque<Block, BLOCKS>,
+    model: Option<Model>,
+    /// Blocks a window.
+    count: u16,
+    /// Blocks until the next window ends.
+    wanted: u16,
+    noise: Noise,
+    trend: Trend,
+    /// The last clean window.
+    before: Option<Record>,
+    /// The angle of the last window that had one: continuity is kept over faults.
+    angle: Angle,
+    /// True from the loss of a wave to the first window after it.
+    lost: bool,
+    ever: bool,
+    failures: u8,
+}
+
+impl<const BLOCKS: usize> Tracker<BLOCKS> {
+    /// A tracker that waits for its first block.
+    pub fn new(settings: Settings) -> Result<Self, SettingsError> {
+        settings.check(BLOCKS)?;
+        Ok(Self {
+            settings,
+            ring: Deque::new(),
+            model: None,
+            count: 0,
+            wanted: 0,
+            noise: Noise::default(),
+            trend: Trend::new(),
+            before: None,
+            angle: Angle::new(settings.start_angle),
+            lost: false,
+            ever: false,
+            failures: 0,
+        })
+    }
+
+    /// Takes a block; gives the estimate of the window that it completes.
+    ///
+    /// A block of another layout, or one that does not follow the last, starts a new window.
+    pub fn push(&mut self, block: Block) -> Option<Estimate> {
+        self.follow(&block);
+        if self.ring.len() >= usize::from(self.count) || self.ring.is_full() {
+            self.ring.pop_front();
+        }
+        self.ring.push_back(block).ok()?;
+        self.wanted = self.wanted.saturating_sub(1);
+        if self.wanted > 0 || self.ring.len() < usize::from(self.count) {
+            return None;
+        }
+        self.wanted = self.settings.hop.unwrap_or(self.count);
+        self.estimate()
+    }
+
+    /// True when the wave has been lost for so long that a new period must be searched.
+    pub fn has_lost(&self) -> bool {
+        self.failures >= GIVE_UP
+    }
+
+    /// Starts a new window when a block does not continue the ring.
+    fn follow(&mut self, block: &Block) {
+        let same = self.model.as_ref().is_some_and(|model| model.layout == block.layout);
+        let next = self.ring.back().map(|last| last.start + u64::from(last.layout.length));
+        if same && next.is_none_or(|next| next == block.start) {
+            return;
+        }
+        self.ring.clear();
+        if !same {
+            let settings = &self.settings;
+            self.count = settings.blocks(block.layout).clamp(1, BLOCKS as u16);
+            self.model = Some(Model::new(
+                block.layout,
+                block.layout.step,
+                self.count,
+                settings.calibration,
+                settings.sample_rate as f32,
+            ));
+            self.noise = Noise::default();
+            self.trend.clear();
+            self.before = None;
+            self.lost = self.ever;
+            self.failures = 0;
+        }
+        self.wanted = self.count;
+    }
+
+    /// Solves the window that the ring holds.
+    fn estimate(&mut self) -> Option<Estimate> {
+        let fit = self.fit()?;
+        let model = self.model.as_ref()?;
+        let half = model.half();
+        let noise = fit.residual / fit.freedom;
+        // Rounding of f32 sums is noise too, where there is no other.
+        let size = fit.offsets[0].abs() + fit.offsets[1].abs()
+            + libm::sqrtf(fit.waves.value[0].norm_sqr() + fit.waves.value[1].norm_sqr());
+        let rounding = 1e-7 * size;
+        let variance = noise + rounding * rounding;
+        let wave = Standing::new(model, &fit, variance);
+
+        let first = self.ring.front()?.start;
+        let samples = u32::from(self.count) * u32::from(model.layout.length);
+        let middle = 2 * first + u64::from(samples) - 1;
+
+        let expected = match &self.before {
+            Some(before) => {
+                let passed = 0.5 * middle.wrapping_sub(before.middle) as f32;
+                before.angle.plus(before.turning * passed)
+            }
+            None => self.angle,
+        };
+        let (angle, quarters) = expected.nearest(wave.angle);
+        let phase = wrap(wave.phase + (quarters & 1) as f32 * core::f32::consts::PI);
+
+        let mut flags = checks::within(&fit, &wave, &mut self.noise);
+        flags = flags.with(self.sample_flags(&wave));
+        let mut record = Record::new(model, &fit, &wave, variance, middle, angle, phase);
+        let mut between = Flags::empty();
+        if let Some(before) = &self.before {
+            between = checks::between(before, &record);
+            // A circular pattern has neither an angle nor a phase of its own.
+            if !flags.intersects(Flags::CIRCULAR.with(Flags::LOST)) {
+                flags = flags.with(between);
+            }
+        }
+        self.promise(&mut record, &wave, half, samples);
+
+        if flags.contains(Flags::LOST) {
+            self.failures = self.failures.saturating_add(1);
+        } else if fit.settled {
+            self.failures = 0;
+            if self.lost {
+                flags = flags.with(Flags::REACQUIRED);
+                self.lost = false;
+            }
+            self.ever = true;
+        } else {
+            self.failures = self.failures.saturating_add(1);
+        }
+        self.remember(record, flags, between, samples);
+        Some(self.row(&record, &wave, first, samples, half, variance, flags))
+    }
+
+    /// Solves for the waves, from the last clean frequency or the detector's.
+    fn fit(&mut self) -> Option<Fit> {
+        let model = self.model.as_mut()?;
+        let rough = DETECTOR_UNCERTAINTY * model.layout.step.radians();
+        let (carrier, uncertainty) = match &self.before {
+            None => (model.layout.step, rough),
+            Some(before) => {
+                // A model that is near enough is kept: its matrix need not be built anew.
+                let drift = before.frequency_less(&Record { carrier: model.carrier, drift: 0.0, ..*before });
+                let half = 0.5 * f32::from(self.count) * f32::from(model.layout.length);
+                let near = (drift * half).abs() < 0.02;
+                (if near { model.carrier } else { before.carrier.shifted(before.drift) }, 0.0)
+            }
+        };
+        let (older, newer) = self.ring.as_slices();
+        let blocks = older.iter().chain(newer);
+        let fit = solve(model, blocks.clone(), self.count, carrier, uncertainty);
+        if fit.settled || uncertainty > 0.0 {
+            return Some(fit);
+        }
+        Some(solve(model, blocks, self.count, carrier, rough))
+    }
+
+    /// Faults that single samples show.
+    fn sample_flags(&self, wave: &Standing) -> Flags {
+        let mut low = [f32::INFINITY; 2];
+        let mut high = [f32::NEG_INFINITY; 2];
+        for block in &self.ring {
+            for (channel, sums) in block.channels.iter().enumerate() {
+                low[channel] = low[channel].min(sums.low);
+                high[channel] = high[channel].max(sums.high);
+            }
+        }
+        let rail = self.settings.full_scale.unwrap_or(f32::INFINITY);
+        let clipped = (0..2).any(|i| high[i] >= rail || low[i] <= -rail);
+        let dead = (0..2).any(|i| low[i] == high[i]);
+        Flags::empty()
+            .with_if(clipped, Flags::CLIPPED)
+            .with_if(dead, Flags::DEAD_CHANNEL)
+            .with_if(!(wave.main + wave.quadrature).is_finite(), Flags::NOT_FINITE.with(Flags::LOST))
+    }
+
+    /// Takes the share of a turning pattern out of the frequency, with what the angles of the windows before promise.
+    fn promise(&self, record: &mut Record, wave: &Standing, half: f32, samples: u32) {
+        let rate = self.trend.rate(record.middle, samples, record.angle, record.angle_variance);
+        let apart = record.turning - rate.value;
+        let spread = record.turning_variance + rate.variance;
+        if spread > 0.0 && apart * apart < 16.0 * spread {
+            let shared = wave.drift_turning / (half * half);
+            record.drift -= shared / spread * apart;
+            record.drift_variance -= shared * shared / spread;
+        }
+    }
+
+    /// Keeps what the next windows need.
+    fn remember(&mut self, record: Record, flags: Flags, between: Flags, samples: u32) {
+        let broken = Flags::LOST.with(Flags::MISFIT).with(Flags::NOT_FINITE);
+        if flags.intersects(broken) {
+            // The next window is judged by itself: what lies between it and the last clean one is already flagged.
+            self.trend.clear();
+            if let Some(before) = &mut self.before {
+                before.phase_variance = f32::INFINITY;
+                before.main_variance = f32::INFINITY;
+                before.quadrature_variance = f32::INFINITY;
+                before.angle_variance = f32::INFINITY;
+                before.offset_variance = f32::INFINITY;
+            }
+            return;
+        }
+        if !between.is_empty() {
+            self.trend.clear();
+        }
+        if !flags.contains(Flags::CIRCULAR) {
+            self.trend.keep(record.middle, samples, record.angle, record.angle_variance);
+            self.angle = record.angle;
+        }
+        self.before = Some(record);
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "it only lays out a row")]
+    fn row(
+        &self,
+        record: &Record,
+        wave: &Standing,
+        start: u64,
+        samples: u32,
+        half: f32,
+        variance: f32,
+        flags: Flags,
+    ) -> Estimate {
+        let rate = self.settings.sample_rate;
+        let rate32 = rate as f32;
+        let root = libm::sqrtf;
+        Estimate {
+            start,
+            samples,
+            time: 0.5 * record.middle as f64 / rate,
+            main_amplitude: record.main,
+            quadrature_amplitude: record.quadrature,
+            angle: record.angle.radians(),
+            phase: record.phase,
+            frequency: record.carrier.hertz(record.drift, rate),
+            angle_rate: record.turning * rate32,
+            decay_rate: -record.main_rate / record.main * rate32,
+            offsets: record.offsets,
+            main_amplitude_std: root(record.main_variance),
+            quadrature_amplitude_std: root(record.quadrature_variance),
+            angle_std: root(record.angle_variance),
+            phase_std: root(record.phase_variance),
+            frequency_std: root(record.drift_variance) * rate32 / core::f32::consts::TAU,
+            angle_rate_std: root(record.turning_variance) * rate32,
+            decay_rate_std: root(wave.main_change_variance) / (half * record.main) * rate32,
+            residual_rms: root(variance),
+            flags,
+        }
+    }
+}

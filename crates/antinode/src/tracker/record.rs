@@ -1,0 +1,87 @@
+//! One window as the tracker remembers it: values at its middle, rates a sample, variances.
+
+use crate::phase::PhaseStep;
+use crate::wave::{Angle, Standing};
+use crate::window::{Fit, Model};
+
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Record {
+    /// Middle of the window, half samples from the start of the stream.
+    pub middle: u64,
+    pub carrier: PhaseStep,
+    /// Frequency beyond the carrier, rad/sample.
+    pub drift: f32,
+    pub drift_variance: f32,
+    pub angle: Angle,
+    pub angle_variance: f32,
+    pub turning: f32,
+    pub turning_variance: f32,
+    /// α, paired with `angle`.
+    pub phase: f32,
+    pub phase_variance: f32,
+    pub main: f32,
+    pub main_variance: f32,
+    pub main_rate: f32,
+    pub main_rate_variance: f32,
+    pub quadrature: f32,
+    pub quadrature_variance: f32,
+    pub quadrature_rate: f32,
+    pub quadrature_rate_variance: f32,
+    pub offsets: [f32; 2],
+    pub offset_variance: f32,
+}
+
+impl Record {
+    /// The record of a fit; `angle` and `phase` are the pair already chosen among their equals.
+    pub(crate) fn new(
+        model: &Model,
+        fit: &Fit,
+        wave: &Standing,
+        noise: f32,
+        middle: u64,
+        angle: Angle,
+        phase: f32,
+    ) -> Self {
+        let half = model.half();
+        let squared = half * half;
+        Self {
+            middle,
+            carrier: model.carrier,
+            drift: wave.drift / half,
+            drift_variance: wave.drift_variance / squared,
+            angle,
+            angle_variance: wave.angle_variance,
+            turning: wave.turning / half,
+            turning_variance: wave.turning_variance / squared,
+            phase,
+            phase_variance: wave.phase_variance,
+            main: wave.main,
+            main_variance: wave.main_variance,
+            main_rate: wave.main_change / half,
+            main_rate_variance: wave.main_change_variance / squared,
+            quadrature: wave.quadrature,
+            quadrature_variance: wave.quadrature_variance,
+            quadrature_rate: wave.quadrature_change / half,
+            quadrature_rate_variance: wave.quadrature_change_variance / squared,
+            offsets: fit.offsets,
+            // A short window knows its offset worse than the mean of its samples.
+            offset_variance: 2.0 * noise / half,
+        }
+    }
+
+    /// By how much the phase has run beyond what the mean frequency of both windows explains, rad, not wrapped.
+    pub(crate) fn phase_advance(&self, before: &Self) -> f32 {
+        let half_samples = self.middle.wrapping_sub(before.middle);
+        let whole = before.carrier.after_half_samples(half_samples as i64);
+        let beyond = before.drift + self.frequency_less(before);
+        let run = 0.25 * half_samples as f32 * (beyond + before.drift);
+        let whole = (whole.0 as i32) as f32 * (core::f32::consts::TAU / 4_294_967_296.0);
+        (before.phase - self.phase) - whole - run
+    }
+
+    /// The frequency of this window less that of `before`, rad/sample.
+    pub(crate) fn frequency_less(&self, before: &Self) -> f32 {
+        let steps = self.carrier.0.wrapping_sub(before.carrier.0) as i32 as f32;
+        steps * (core::f32::consts::TAU / 4_294_967_296.0) + self.drift - before.drift
+    }
+}

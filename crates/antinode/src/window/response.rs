@@ -1,0 +1,185 @@
+//! What a block's sums see of a wave at a given carrier: every sum taken exactly over the block's samples.
+//!
+//! Within a block the wave of one pick-off is S(κ) = Re v(κ)·cos ωκ − Im v(κ)·sin ωκ + d, κ in samples from the block's middle,
+//! with v(κ) = v₀ + v₁κ + ½v₂κ². Even and odd parts separate, so each sum sees only a few of the numbers in v.
+
+use num_complex::Complex32;
+
+use crate::block::{Block, ChannelSums, Layout};
+use crate::phase::PhaseStep;
+
+/// Turns the three correlated sums of a block into independent numbers of equal noise: the noise of one sample.
+///
+/// The vectors are 1, the cosine less its mean, and the sine, each scaled to length one.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Basis {
+    one: f32,
+    cosine: f32,
+    cosine_mean: f32,
+    sine: f32,
+    /// How many of the three a block resolves: 1 for a block of one sample, else 2 or 3.
+    pub rank: u8,
+}
+
+/// The whitened sums of one pick-off.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Whitened {
+    pub mean: f32,
+    pub even: f32,
+    pub odd: f32,
+}
+
+/// How one even whitened sum answers to v: `level`·Re v₀ + `slope`·Im v₁ + `curve`·Re v₂; an odd one to Im v₀, Re v₁, Im v₂.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Answer {
+    pub level: f32,
+    pub slope: f32,
+    pub curve: f32,
+}
+
+/// The answers of all sums of a block at one carrier.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Response {
+    pub mean: Answer,
+    pub even: Answer,
+    pub odd: Answer,
+    /// What an offset of one adds to the mean: √length.
+    pub offset: f32,
+    third_even: Answer,
+    third_odd: Answer,
+    third_offset: f32,
+}
+
+/// A sum that keeps what each addition rounds off (Neumaier).
+#[derive(Clone, Copy, Default)]
+struct Sum {
+    value: f32,
+    lost: f32,
+}
+
+impl Sum {
+    fn add(&mut self, term: f32) {
+        let sum = self.value + term;
+        self.lost += if self.value.abs() >= term.abs() {
+            (self.value - sum) + term
+        } else {
+            (term - sum) + self.value
+        };
+        self.value = sum;
+    }
+
+    fn get(self) -> f32 {
+        self.value + self.lost
+    }
+}
+
+impl Basis {
+    pub(crate) fn new(layout: Layout) -> Self {
+        let n = f32::from(layout.length);
+        let mut mean = Sum::default();
+        let mut sine = Sum::default();
+        for k in 0..layout.length {
+            let reference = layout.reference(k);
+            mean.add(reference.cosine);
+            sine.add(reference.sine * reference.sine);
+        }
+        let cosine_mean = mean.get() / n;
+        let mut even = Sum::default();
+        for k in 0..layout.length {
+            let rest = layout.reference(k).cosine - cosine_mean;
+            even.add(rest * rest);
+        }
+        // Below these the vector is only rounding: a block of one or two samples has no room for it.
+        let inverse = |square: f32| if square > 1e-4 * n { 1.0 / libm::sqrtf(square) } else { 0.0 };
+        let (cosine, sine) = (inverse(even.get()), inverse(sine.get()));
+        Self {
+            one: 1.0 / libm::sqrtf(n),
+            cosine,
+            cosine_mean,
+            sine,
+            rank: 1 + u8::from(cosine > 0.0) + u8::from(sine > 0.0),
+        }
+    }
+
+    #[inline]
+    pub(crate) fn whiten(&self, sums: &ChannelSums) -> Whitened {
+        Whitened {
+            mean: sums.sum * self.one,
+            even: (sums.cosine - self.cosine_mean * sums.sum) * self.cosine,
+            odd: sums.sine * self.sine,
+        }
+    }
+}
+
+impl Response {
+    /// The answers of blocks of `layout` to a wave at `carrier`.
+    pub(crate) fn new(layout: Layout, basis: &Basis, carrier: PhaseStep) -> Self {
+        let mut sums = [[Sum::default(); 3]; 5];
+        let mut third_offset = Sum::default();
+        for k in 0..layout.length {
+            let reference = layout.reference(k);
+            let twice = layout.twice_from_middle(k);
+            let t = 0.5 * twice as f32;
+            let wave = carrier.after_half_samples(twice).unit();
+            let weights = [
+                (basis.one, false),
+                ((reference.cosine - basis.cosine_mean) * basis.cosine, false),
+                (reference.sine * basis.sine, true),
+                (reference.third_cosine, false),
+                (reference.third_sine, true),
+            ];
+            for (sums, (weight, odd)) in sums.iter_mut().zip(weights) {
+                let (level, slope) = if odd { (-wave.im, wave.re) } else { (wave.re, -wave.im) };
+                sums[0].add(weight * level);
+                sums[1].add(weight * t * slope);
+                sums[2].add(0.5 * weight * t * t * level);
+            }
+            third_offset.add(reference.third_cosine);
+        }
+        let answer =
+            |s: &[Sum; 3]| Answer { level: s[0].get(), slope: s[1].get(), curve: s[2].get() };
+        Self {
+            mean: answer(&sums[0]),
+            even: answer(&sums[1]),
+            odd: answer(&sums[2]),
+            offset: libm::sqrtf(f32::from(layout.length)),
+            third_even: answer(&sums[3]),
+            third_odd: answer(&sums[4]),
+            third_offset: third_offset.get(),
+        }
+    }
+
+    /// The whitened sums that a block would have, from v₀, v₁, v₂ and the offset.
+    #[inline(always)]
+    pub(crate) fn predict(&self, v: &[Complex32; 3], offset: f32) -> Whitened {
+        let even = |a: &Answer| a.level * v[0].re + a.slope * v[1].im + a.curve * v[2].re;
+        Whitened {
+            mean: even(&self.mean) + self.offset * offset,
+            even: even(&self.even),
+            odd: self.odd.level * v[0].im + self.odd.slope * v[1].re + self.odd.curve * v[2].im,
+        }
+    }
+
+    /// The third-harmonic sums of a block less what the wave and the offset put there, as Σ S e^{−3jφ}.
+    #[inline(always)]
+    pub(crate) fn third_rest(
+        &self,
+        sums: &ChannelSums,
+        v: &[Complex32; 3],
+        offset: f32,
+    ) -> Complex32 {
+        let (e, o) = (&self.third_even, &self.third_odd);
+        let cosine = e.level * v[0].re + e.slope * v[1].im + e.curve * v[2].re;
+        let sine = o.level * v[0].im + o.slope * v[1].re + o.curve * v[2].im;
+        Complex32::new(
+            sums.third_cosine - cosine - self.third_offset * offset,
+            sine - sums.third_sine,
+        )
+    }
+}
+
+/// The sums of both pick-offs of a block, whitened.
+#[inline]
+pub(crate) fn whiten(basis: &Basis, block: &Block) -> [Whitened; 2] {
+    [basis.whiten(&block.channels[0]), basis.whiten(&block.channels[1])]
+}

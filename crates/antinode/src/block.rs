@@ -169,6 +169,13 @@ impl<const N: usize> Demodulator<N> {
         (open, self.finished())
     }
 
+    /// Drops the block begun; the next one starts at sample pair `start` of the stream.
+    pub(crate) fn restart(&mut self, start: u64) {
+        self.start = start;
+        self.count = 0;
+        self.sums = [ChannelSums::EMPTY; 2];
+    }
+
     #[inline]
     fn finished(&mut self) -> Option<Block> {
         if self.count < self.layout.length {

@@ -6,6 +6,16 @@ use crate::block::Layout;
 use crate::calibration::Calibration;
 use crate::phase::PhaseStep;
 
+/// How the period is found from cold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Detection {
+    /// Formula (10): about three periods, any offset, 20 % noise and more.
+    #[default]
+    Difference,
+    /// Formula (9): about eleven periods, for signals with little noise.
+    MeanReturn,
+}
+
 /// Settings of an identification. Start from [`Settings::new`] and change what differs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
@@ -19,6 +29,8 @@ pub struct Settings {
     pub start_angle: f32,
     /// |sample| at and beyond which the converter is at its rail, input units; `None` where there is no rail.
     pub full_scale: Option<f32>,
+    /// How the period is found from cold.
+    pub detection: Detection,
     /// How the pick-offs differ from ideal ones.
     pub calibration: Calibration,
 }
@@ -86,6 +98,7 @@ impl Settings {
             hop: None,
             start_angle: core::f32::consts::FRAC_PI_4,
             full_scale: None,
+            detection: Detection::Difference,
             calibration: Calibration::IDEAL,
         }
     }

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use super::error::{InputError, Role};
+use super::error::{LineFault, Role};
 
 /// The columns to read, chosen by the user: `c,d` or `time,c,d`, each a name from the header or a
 /// number from 1.
@@ -14,7 +14,9 @@ pub struct Columns {
 
 /// Why a choice of columns cannot be understood.
 #[derive(Debug, thiserror::Error)]
-#[error("columns `{0}`: give two (S_C, S_D) or three (time, S_C, S_D) names or numbers, separated by commas")]
+#[error(
+    "columns `{0}`: give two (S_C, S_D) or three (time, S_C, S_D) names or numbers, separated by commas"
+)]
 pub struct ColumnsError(String);
 
 impl FromStr for Columns {
@@ -37,8 +39,6 @@ pub(super) type Places = [Option<usize>; 3];
 
 /// The first line of a text recording.
 pub(super) struct FirstLine<'a> {
-    pub file: &'a str,
-    pub line: u64,
     /// The names, if the line is a header.
     pub names: Option<&'a [String]>,
     pub width: usize,
@@ -46,43 +46,60 @@ pub(super) struct FirstLine<'a> {
 
 impl FirstLine<'_> {
     /// The places of the `chosen` columns, or else of those that names or number suggest.
-    pub fn places(&self, chosen: Option<&Columns>) -> Result<Places, InputError> {
+    pub fn places(&self, chosen: Option<&Columns>) -> Result<Places, LineFault> {
         let places = match chosen {
             Some(columns) => self.chosen(columns)?,
             None => self.suggested()?,
         };
         if let (Some(time), Some(names)) = (places[0], self.names) {
             let name = &names[time];
-            if matches!(unit(name).as_str(), "ms" | "us" | "µs" | "μs" | "ns" | "min" | "h") {
+            if matches!(
+                unit(name).as_str(),
+                "ms" | "us" | "µs" | "μs" | "ns" | "min" | "h"
+            ) {
                 let name = name.clone();
-                return Err(InputError::TimeUnit { file: self.file.to_owned(), line: self.line, name });
+                return Err(LineFault::TimeUnit {
+                    name,
+                });
             }
         }
         Ok(places)
     }
 
-    fn chosen(&self, columns: &Columns) -> Result<Places, InputError> {
+    fn chosen(&self, columns: &Columns) -> Result<Places, LineFault> {
         let [c, d] = &columns.signals;
-        let time = columns.time.as_ref().map(|time| self.find(time)).transpose()?;
+        let time = columns
+            .time
+            .as_ref()
+            .map(|time| self.find(time))
+            .transpose()?;
         Ok([time, Some(self.find(c)?), Some(self.find(d)?)])
     }
 
-    fn find(&self, wanted: &str) -> Result<usize, InputError> {
-        let by_name = self.names.and_then(|names| names.iter().position(|name| name == wanted));
-        let number = || wanted.parse::<usize>().ok()?.checked_sub(1).filter(|&place| place < self.width);
+    fn find(&self, wanted: &str) -> Result<usize, LineFault> {
+        let by_name = self
+            .names
+            .and_then(|names| names.iter().position(|name| name == wanted));
+        let number = || {
+            wanted
+                .parse::<usize>()
+                .ok()?
+                .checked_sub(1)
+                .filter(|&place| place < self.width)
+        };
         by_name.or_else(number).ok_or_else(|| {
             let numbers = format!("the numbers 1 to {}", self.width);
-            let known = self.names.map_or(numbers, |names| format!("`{}`", names.join("`, `")));
-            InputError::ColumnUnknown {
-                file: self.file.to_owned(),
-                line: self.line,
+            let known = self
+                .names
+                .map_or(numbers, |names| format!("`{}`", names.join("`, `")));
+            LineFault::ColumnUnknown {
                 wanted: wanted.to_owned(),
                 known,
             }
         })
     }
 
-    fn suggested(&self) -> Result<Places, InputError> {
+    fn suggested(&self) -> Result<Places, LineFault> {
         let role = |place: usize| self.names.and_then(|names| role(&names[place]));
         let place = |wanted: Role| (0..self.width).find(|&place| role(place) == Some(wanted));
         let [time, c, d] = Role::ALL.map(place);
@@ -97,9 +114,7 @@ impl FirstLine<'_> {
         let mut signals = (0..self.width).filter(|&place| Some(place) != time);
         match (signals.next(), signals.next(), signals.next()) {
             (Some(c), Some(d), None) => Ok([time, Some(c), Some(d)]),
-            _ => Err(InputError::ColumnCount {
-                file: self.file.to_owned(),
-                line: self.line,
+            _ => Err(LineFault::ColumnCount {
                 found: self.width,
             }),
         }
@@ -109,11 +124,14 @@ impl FirstLine<'_> {
 /// What a name says its column holds.
 fn role(name: &str) -> Option<Role> {
     let bare = name.split(['[', '(', '/']).next().unwrap_or_default();
-    let bare: String = bare.to_lowercase().chars().filter(|letter| letter.is_alphanumeric()).collect();
+    let bare: String = bare
+        .to_lowercase()
+        .chars()
+        .filter(|letter| letter.is_alphanumeric())
+        .collect();
     match bare.as_str() {
-        "t" | "time" | "times" | "ts" | "s" | "sec" | "seconds" | "timestamp" | "timems" | "timeus" => {
-            Some(Role::Time)
-        }
+        "t" | "time" | "times" | "ts" | "s" | "sec" | "seconds" | "timestamp" | "timems"
+        | "timeus" => Some(Role::Time),
         "c" | "sc" | "left" => Some(Role::ALL[1]),
         "d" | "sd" | "right" => Some(Role::ALL[2]),
         _ => None,
@@ -129,7 +147,10 @@ fn is_index(name: &str) -> bool {
 /// The unit at the end of a name: `time [ms]`, `time (ms)`, `time/ms`, `time_ms`.
 fn unit(name: &str) -> String {
     let end = name.trim_end_matches([']', ')', ' ']);
-    let unit = end.rsplit(['[', '(', '/', '_', ' ']).next().unwrap_or_default();
+    let unit = end
+        .rsplit(['[', '(', '/', '_', ' '])
+        .next()
+        .unwrap_or_default();
     unit.trim().to_lowercase()
 }
 
@@ -138,10 +159,22 @@ mod tests {
     use super::*;
 
     fn places(header: &str, chosen: Option<&str>) -> Result<Places, String> {
-        let names: Vec<String> = header.split(',').map(|name| name.trim().to_owned()).collect();
-        let line = FirstLine { file: "a.csv", line: 1, names: Some(&names), width: names.len() };
-        let chosen = chosen.map(|text| text.parse().map_err(|fault: ColumnsError| fault.to_string()));
-        line.places(chosen.transpose()?.as_ref()).map_err(|fault| fault.to_string())
+        let names: Vec<String> = header
+            .split(',')
+            .map(|name| name.trim().to_owned())
+            .collect();
+        let line = FirstLine {
+            
+            
+            names: Some(&names),
+            width: names.len(),
+        };
+        let chosen = chosen.map(|text| {
+            text.parse()
+                .map_err(|fault: ColumnsError| fault.to_string())
+        });
+        line.places(chosen.transpose()?.as_ref())
+            .map_err(|fault| fault.to_string())
     }
 
     #[test]
@@ -153,7 +186,10 @@ mod tests {
         assert_eq!(places("Time [s], S_C (V), S_D (V)", None), usual);
         assert_eq!(places("x,y", None), Ok([None, Some(0), Some(1)]));
         assert_eq!(places("d,c", None), Ok([None, Some(1), Some(0)]));
-        assert_eq!(places("right,left,t", None), Ok([Some(2), Some(1), Some(0)]));
+        assert_eq!(
+            places("right,left,t", None),
+            Ok([Some(2), Some(1), Some(0)])
+        );
         assert_eq!(places("x,time,y", None), Ok([Some(1), Some(0), Some(2)]));
         assert_eq!(places("index,c,d", None), Ok([None, Some(1), Some(2)]));
         assert_eq!(places("t,heat,c,d", None), Ok([Some(0), Some(2), Some(3)]));
@@ -162,21 +198,30 @@ mod tests {
     #[test]
     fn a_choice_is_by_name_or_number() {
         assert_eq!(places("a,b,c,d", Some("d,2")), Ok([None, Some(3), Some(1)]));
-        assert_eq!(places("a,b,c,d", Some("1, b, d")), Ok([Some(0), Some(1), Some(3)]));
+        assert_eq!(
+            places("a,b,c,d", Some("1, b, d")),
+            Ok([Some(0), Some(1), Some(3)])
+        );
     }
 
     #[test]
     fn errors_name_the_columns() {
         let fault = |header, chosen| places(header, chosen).unwrap_err();
-        assert!(fault("a", None).starts_with("a.csv:1: found 1 column, but two"));
-        assert!(fault("time,x", None).starts_with("a.csv:1: found 2 columns, but two"));
-        assert!(fault("a,b,x,y", None).starts_with("a.csv:1: found 4 columns, but two"));
-        assert!(fault("a,b", Some("a,e")).starts_with("a.csv:1: there is no column `e`; choose among `a`, `b`"));
-        assert!(fault("a,b", Some("0,1")).starts_with("a.csv:1: there is no column `0`"));
+        assert!(fault("a", None).starts_with("found 1 column, but two"));
+        assert!(fault("time,x", None).starts_with("found 2 columns, but two"));
+        assert!(fault("a,b,x,y", None).starts_with("found 4 columns, but two"));
+        assert!(
+            fault("a,b", Some("a,e"))
+                .starts_with("there is no column `e`; choose among `a`, `b`")
+        );
+        assert!(fault("a,b", Some("0,1")).starts_with("there is no column `0`"));
         assert!(fault("a,b", Some("a")).starts_with("columns `a`: give two"));
         assert!(fault("a,b", Some("a,,b")).starts_with("columns `a,,b`: give two"));
         for header in ["time_ms,c,d", "t [us],c,d", "Time (ms),x,y", "t/ns,c,d"] {
-            assert!(fault(header, None).contains("is not in seconds"), "{header}");
+            assert!(
+                fault(header, None).contains("is not in seconds"),
+                "{header}"
+            );
         }
     }
 }

@@ -5,24 +5,35 @@ use std::io::{self, BufReader, Cursor, Read};
 use csv::{ByteRecord, ReaderBuilder, Terminator};
 
 use super::columns::{Columns, FirstLine, Places};
-use super::error::{InputError, Role};
+use super::error::{InputError, LineFault, Place, Role};
 use super::text::{self, MAX_LINE, Number, Text, bare, fields, number};
-use super::time::{Printed, Stamp, TimeAxis, standstill};
+use super::time::{Printed, TimeAxis, standstill};
 use super::{Opened, Source, Stream};
 
 /// The lines read ahead to tell the sample rate, whose times are rounded as they are printed.
 const HEAD_LINES: usize = 1 << 16;
 
 /// Opens text; `chosen` are the columns the user asks for.
-pub(super) fn open(file: &str, stream: Stream, chosen: Option<&Columns>) -> Result<Opened, InputError> {
+pub(super) fn open(
+    file: &str,
+    stream: Stream,
+    chosen: Option<&Columns>,
+) -> Result<Opened, InputError> {
     let mut source = Delimited::open(file, stream, chosen)?;
     source.read_ahead();
     if source.ahead.len() == 0 {
-        let none = InputError::NoPairs { file: file.to_owned() };
+        let none = InputError::NoPairs {
+            file: file.to_owned(),
+        };
         return Err(source.fault.take().unwrap_or(none));
     }
     let sample_rate = source.axis.as_ref().map(TimeAxis::rate);
-    Ok(Opened { source: Box::new(source), sample_rate, pairs: None, full_scale: None })
+    Ok(Opened {
+        source: Box::new(source),
+        sample_rate,
+        pairs: None,
+        full_scale: None,
+    })
 }
 
 /// Reads lines of numbers.
@@ -64,12 +75,20 @@ impl Delimited {
             .quoting(false)
             .buffer_capacity(MAX_LINE)
             .from_reader(text);
-        let names: Vec<String> =
-            fields(&first, separator).map(|name| String::from_utf8_lossy(name).into_owned()).collect();
-        let is_header = !fields(&first, separator).any(|field| number::<f64>(field, separator).is_some());
+        let names: Vec<String> = fields(&first, separator)
+            .map(|name| String::from_utf8_lossy(name).into_owned())
+            .collect();
+        let is_header =
+            !fields(&first, separator).any(|field| number::<f64>(field, separator).is_some());
         let width = names.len();
         let names = is_header.then_some(names.as_slice());
-        let places = FirstLine { file, line, names, width }.places(chosen)?;
+        let places = FirstLine {
+            file,
+            line,
+            names,
+            width,
+        }
+        .places(chosen)?;
         let mut source = Self {
             file: file.to_owned(),
             reader,
@@ -91,7 +110,11 @@ impl Delimited {
 
     /// Reads as many lines as it takes to tell the sample rate, and checks their times.
     fn read_ahead(&mut self) {
-        let lines = if self.places[0].is_some() { HEAD_LINES } else { 1 };
+        let lines = if self.places[0].is_some() {
+            HEAD_LINES
+        } else {
+            1
+        };
         let (mut pairs, mut stamps) = (Vec::new(), Vec::new());
         while pairs.len() < lines && self.fault.is_none() {
             match self.row() {
@@ -105,10 +128,14 @@ impl Delimited {
         }
         self.axis = TimeAxis::of(&stamps, self.printed);
         let broken = match &mut self.axis {
-            Some(axis) => stamps.iter().enumerate().skip(1).find_map(|(index, &stamp)| {
-                let fault = axis.check(&self.file, stamp, self.printed).err()?;
-                Some((index, fault))
-            }),
+            Some(axis) => stamps
+                .iter()
+                .enumerate()
+                .skip(1)
+                .find_map(|(index, &stamp)| {
+                    let fault = axis.check(&self.file, stamp, self.printed).err()?;
+                    Some((index, fault))
+                }),
             None => standstill(&self.file, &stamps, self.printed),
         };
         if let Some((index, fault)) = broken {
@@ -125,7 +152,11 @@ impl Delimited {
 
     /// Goes to the next line that is neither blank nor a comment.
     fn next_record(&mut self) -> Result<bool, InputError> {
-        while self.reader.read_byte_record(&mut self.record).map_err(|fault| self.broken(fault))? {
+        while self
+            .reader
+            .read_byte_record(&mut self.record)
+            .map_err(|fault| self.broken(fault))?
+        {
             if !text::is_skipped(self.record.as_slice()) {
                 return Ok(true);
             }
@@ -137,10 +168,17 @@ impl Delimited {
         let file = self.file.clone();
         match fault.into_kind() {
             csv::ErrorKind::Io(fault) if fault.kind() == io::ErrorKind::InvalidData => {
-                InputError::LineTooLong { file, line: self.line() + 1, limit: MAX_LINE }
+                InputError::LineTooLong {
+                    file,
+                    line: self.line() + 1,
+                    limit: MAX_LINE,
+                }
             }
             csv::ErrorKind::Io(source) => InputError::io(&file, source),
-            other => InputError::Io { file, source: io::Error::other(format!("{other:?}")) },
+            other => InputError::Io {
+                file,
+                source: io::Error::other(format!("{other:?}")),
+            },
         }
     }
 
@@ -165,7 +203,12 @@ impl Delimited {
         let line = self.line();
         if count > self.width + usize::from(last_is_blank) {
             let file = self.file.clone();
-            return Err(InputError::FieldCount { file, line, found: count, expected: self.width });
+            return Err(InputError::FieldCount {
+                file,
+                line,
+                found: count,
+                expected: self.width,
+            });
         }
         let time = match self.places[0] {
             Some(_) => {
@@ -175,7 +218,10 @@ impl Delimited {
             }
             None => None,
         };
-        let pair = [self.number(Role::ALL[1], found[1])?, self.number(Role::ALL[2], found[2])?];
+        let pair = [
+            self.number(Role::ALL[1], found[1])?,
+            self.number(Role::ALL[2], found[2])?,
+        ];
         Ok(Some(Row { time, pair }))
     }
 
@@ -183,13 +229,31 @@ impl Delimited {
         let text = text.unwrap_or_default();
         number(text, self.separator).ok_or_else(|| {
             let (file, line) = (self.file.clone(), self.line());
-            let place = Role::ALL.iter().position(|&other| other == role).and_then(|index| self.places[index]);
+            let place = Role::ALL
+                .iter()
+                .position(|&other| other == role)
+                .and_then(|index| self.places[index]);
             let column = place.unwrap_or(0) + 1;
             if text.is_empty() {
-                return InputError::FieldMissing { file, line, column, role };
+                return InputError::FieldMissing {
+                    file,
+                    line,
+                    column,
+                    role,
+                };
             }
-            let text = String::from_utf8_lossy(text).chars().flat_map(char::escape_debug).take(40).collect();
-            InputError::Number { file, line, column, role, text }
+            let text = String::from_utf8_lossy(text)
+                .chars()
+                .flat_map(char::escape_debug)
+                .take(40)
+                .collect();
+            InputError::Number {
+                file,
+                line,
+                column,
+                role,
+                text,
+            }
         })
     }
 }

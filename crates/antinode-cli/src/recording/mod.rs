@@ -80,18 +80,36 @@ impl Recording {
         }
         let length = metadata.is_file().then_some(metadata.len());
         let mut file = File::open(path).map_err(io)?;
-        let again = if length.is_some() { Some(file.try_clone().map_err(io)?) } else { None };
+        let again = if length.is_some() {
+            Some(file.try_clone().map_err(io)?)
+        } else {
+            None
+        };
         let head = head(&mut file).map_err(io)?;
-        let extension = path.extension().map(|text| text.to_string_lossy().to_lowercase());
+        let extension = path
+            .extension()
+            .map(|text| text.to_string_lossy().to_lowercase());
         let extension = extension.unwrap_or_default();
         let stream = Box::new(Cursor::new(head.clone()).chain(file));
         let opened = match (Content::of(&head), extension.as_str()) {
             (Content::Nothing, _) => return Err(InputError::Empty { file: name }),
             (Content::Wav, _) => wav::open(&name, stream, length)?,
             (Content::Npy, _) => npy::open(&name, stream, again, length)?,
-            (_, "wav" | "wave") => return Err(InputError::NotOfKind { file: name, kind: "a WAV file" }),
-            (_, "npy") => return Err(InputError::NotOfKind { file: name, kind: "an NPY file" }),
-            (Content::Utf16, "csv" | "tsv" | "txt") => return Err(InputError::Utf16 { file: name }),
+            (_, "wav" | "wave") => {
+                return Err(InputError::NotOfKind {
+                    file: name,
+                    kind: "a WAV file",
+                });
+            }
+            (_, "npy") => {
+                return Err(InputError::NotOfKind {
+                    file: name,
+                    kind: "an NPY file",
+                });
+            }
+            (Content::Utf16, "csv" | "tsv" | "txt") => {
+                return Err(InputError::Utf16 { file: name });
+            }
             (_, "csv" | "tsv" | "txt") => delimited::open(&name, stream, options.columns.as_ref())?,
             _ => match options.raw {
                 Some(format) => raw::open(&name, stream, format, length),
@@ -113,7 +131,12 @@ impl Recording {
     }
 
     /// A stream that begins with `head`: a WAV or NPY file as it is, anything else as raw samples.
-    fn stream(name: &str, head: Vec<u8>, rest: Stream, options: &OpenOptions) -> Result<Opened, InputError> {
+    fn stream(
+        name: &str,
+        head: Vec<u8>,
+        rest: Stream,
+        options: &OpenOptions,
+    ) -> Result<Opened, InputError> {
         let file = name.to_owned();
         let content = Content::of(&head);
         let stream = Box::new(Cursor::new(head).chain(rest));
@@ -127,7 +150,13 @@ impl Recording {
     }
 
     fn new(name: String, opened: Opened, bytes_total: Option<u64>) -> Self {
-        Self { name, bytes_total, opened, fault: None, ended: false }
+        Self {
+            name,
+            bytes_total,
+            opened,
+            fault: None,
+            ended: false,
+        }
     }
 
     /// The path, or "standard input".
@@ -196,7 +225,17 @@ impl Content {
             [] => Self::Nothing,
             // Any twelve bytes of a raw stream could be a chunk's name, but hardly this pair.
             [b'R', b'I', b'F', b'F' | b'X', .., b'W', b'A', b'V', b'E'] => Self::Wav,
-            [b'R' | b'B', b'F' | b'W', b'6', b'4', .., b'W', b'A', b'V', b'E'] => Self::Wav,
+            [
+                b'R' | b'B',
+                b'F' | b'W',
+                b'6',
+                b'4',
+                ..,
+                b'W',
+                b'A',
+                b'V',
+                b'E',
+            ] => Self::Wav,
             [0x93, b'N', b'U', b'M', b'P', b'Y', ..] => Self::Npy,
             [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Self::Utf16,
             _ => Self::Other,

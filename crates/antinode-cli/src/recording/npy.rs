@@ -27,25 +27,44 @@ pub(super) fn open(
     length: Option<u64>,
 ) -> Result<Opened, InputError> {
     let text = header_text(file, &mut stream)?;
-    let damaged = InputError::NpyHeader { file: file.to_owned(), fault: "it cannot be understood" };
-    let Ok(header) = NpyHeader::from_reader(text.as_slice()) else { return Err(damaged) };
+    let damaged = InputError::NpyHeader {
+        file: file.to_owned(),
+        fault: "it cannot be understood",
+    };
+    let Ok(header) = NpyHeader::from_reader(text.as_slice()) else {
+        return Err(damaged);
+    };
     let code = code(file, &header.dtype())?;
     let (pairs, interleaved) = match (header.shape(), header.order()) {
         (&[pairs, 2], order) => (pairs, order == Order::C),
         (&[2, pairs], order) => (pairs, order == Order::Fortran),
-        (shape, _) => return Err(InputError::NpyShape { file: file.to_owned(), shape: shown(shape) }),
+        (shape, _) => {
+            return Err(InputError::NpyShape {
+                file: file.to_owned(),
+                shape: shown(shape),
+            });
+        }
     };
     if pairs == 0 {
-        return Err(InputError::NoPairs { file: file.to_owned() });
+        return Err(InputError::NoPairs {
+            file: file.to_owned(),
+        });
     }
     let start = text.len() as u64;
-    let Some(bytes) = pairs.checked_mul(code.pair_bytes() as u64) else { return Err(damaged) };
+    let Some(bytes) = pairs.checked_mul(code.pair_bytes() as u64) else {
+        return Err(damaged);
+    };
     let available = length.map_or(bytes, |length| bytes.min(length.saturating_sub(start)));
     let (source, there): (Box<dyn Source>, u64) = if interleaved {
         let source = Interleaved::new(file, stream, code, start).live(length.is_none());
-        (Box::new(source.promise(bytes)), available / code.pair_bytes() as u64)
+        (
+            Box::new(source.promise(bytes)),
+            available / code.pair_bytes() as u64,
+        )
     } else {
-        let again = again.ok_or_else(|| InputError::NpyPipe { file: file.to_owned() })?;
+        let again = again.ok_or_else(|| InputError::NpyPipe {
+            file: file.to_owned(),
+        })?;
         let there = available.saturating_sub(bytes / 2) / code.sample_bytes() as u64;
         let planes = Planes {
             file: file.to_owned(),
@@ -59,17 +78,32 @@ pub(super) fn open(
         };
         (Box::new(planes), there)
     };
-    Ok(Opened { source, sample_rate: None, pairs: Some(there), full_scale: code.full_scale() })
+    Ok(Opened {
+        source,
+        sample_rate: None,
+        pairs: Some(there),
+        full_scale: code.full_scale(),
+    })
 }
 
 /// The header, once it is known to be harmless to its parser.
 fn header_text(file: &str, stream: &mut Stream) -> Result<Vec<u8>, InputError> {
-    let fault = |fault| InputError::NpyHeader { file: file.to_owned(), fault };
+    let fault = |fault| InputError::NpyHeader {
+        file: file.to_owned(),
+        fault,
+    };
     let mut text = Vec::new();
     let mut read = |text: &mut Vec<u8>, count: usize| {
         let end = text.len() + count;
-        stream.take(count as u64).read_to_end(text).map_err(|fault| InputError::io(file, fault))?;
-        if text.len() < end { Err(fault("the file ends inside it")) } else { Ok(()) }
+        stream
+            .take(count as u64)
+            .read_to_end(text)
+            .map_err(|fault| InputError::io(file, fault))?;
+        if text.len() < end {
+            Err(fault("the file ends inside it"))
+        } else {
+            Ok(())
+        }
     };
     read(&mut text, 10)?;
     let size = match text[6] {
@@ -95,10 +129,12 @@ fn header_text(file: &str, stream: &mut Stream) -> Result<Vec<u8>, InputError> {
     }
     // The parser multiplies the sizes in the shape without looking for an overflow.
     let numbers = text[start..].split(|byte| !byte.is_ascii_digit());
-    let product = numbers.filter(|digits| !digits.is_empty()).try_fold(1u64, |product, digits| {
-        let number: u64 = str::from_utf8(digits).ok()?.parse().ok()?;
-        product.checked_mul(number.max(1))
-    });
+    let product = numbers
+        .filter(|digits| !digits.is_empty())
+        .try_fold(1u64, |product, digits| {
+            let number: u64 = str::from_utf8(digits).ok()?.parse().ok()?;
+            product.checked_mul(number.max(1))
+        });
     if deepest > MAX_DEPTH || product.is_none() {
         return Err(fault("it cannot be that of an array of numbers"));
     }
@@ -106,8 +142,13 @@ fn header_text(file: &str, stream: &mut Stream) -> Result<Vec<u8>, InputError> {
 }
 
 fn code(file: &str, dtype: &DType) -> Result<SampleCode, InputError> {
-    let refused = || InputError::NpyType { file: file.to_owned(), dtype: dtype.descr() };
-    let DType::Plain(plain) = dtype else { return Err(refused()) };
+    let refused = || InputError::NpyType {
+        file: file.to_owned(),
+        dtype: dtype.descr(),
+    };
+    let DType::Plain(plain) = dtype else {
+        return Err(refused());
+    };
     let kind = match (plain.type_char(), plain.size_field()) {
         (TypeChar::Int, 2) => Kind::I16,
         (TypeChar::Int, 4) => Kind::I32,
@@ -122,7 +163,14 @@ fn code(file: &str, dtype: &DType) -> Result<SampleCode, InputError> {
 fn shown(shape: &[u64]) -> String {
     match shape {
         [one] => format!("({one},)"),
-        _ => format!("({})", shape.iter().map(u64::to_string).collect::<Vec<_>>().join(", ")),
+        _ => format!(
+            "({})",
+            shape
+                .iter()
+                .map(u64::to_string)
+                .collect::<Vec<_>>()
+                .join(", ")
+        ),
     }
 }
 
@@ -146,7 +194,8 @@ impl Planes {
         let size = self.code.sample_bytes();
         for (start, chunk) in self.starts.iter().zip(&mut self.chunks) {
             chunk.resize(pairs * size, 0);
-            self.stream.seek(SeekFrom::Start(start + self.read * size as u64))?;
+            self.stream
+                .seek(SeekFrom::Start(start + self.read * size as u64))?;
             self.stream.read_exact(chunk)?;
         }
         let [c, d, both] = &mut self.chunks;
@@ -174,9 +223,18 @@ impl Source for Planes {
             let count = left.min(capacity - pairs.len()).min(PLANE_PAIRS);
             if count == 0 {
                 let (file, promised, found) = (self.file.clone(), self.promised, self.there);
-                return if found < promised { Err(InputError::Truncated { file, promised, found }) } else { Ok(()) };
+                return if found < promised {
+                    Err(InputError::Truncated {
+                        file,
+                        promised,
+                        found,
+                    })
+                } else {
+                    Ok(())
+                };
             }
-            self.read(count).map_err(|fault| InputError::io(&self.file, fault))?;
+            self.read(count)
+                .map_err(|fault| InputError::io(&self.file, fault))?;
             let decoded = self.code.decode(&self.chunks[2], pairs);
             decoded.map_err(|bad| bad_sample(&self.file, self.code, self.read, bad))?;
             self.read += count as u64;

@@ -85,8 +85,13 @@ impl Interleaved {
 
     /// Reads behind what is begun; 0 at the end.
     fn read(&mut self, pairs: usize) -> io::Result<usize> {
-        let most = pairs.saturating_mul(self.code.pair_bytes()).min(self.chunk.len()) - self.begun;
-        let most = self.left.map_or(most, |left| left.min(most as u64) as usize);
+        let most = pairs
+            .saturating_mul(self.code.pair_bytes())
+            .min(self.chunk.len())
+            - self.begun;
+        let most = self
+            .left
+            .map_or(most, |left| left.min(most as u64) as usize);
         let free = &mut self.chunk[self.begun..][..most];
         loop {
             match self.stream.read(free) {
@@ -99,7 +104,11 @@ impl Interleaved {
     fn end(&self) -> Result<(), InputError> {
         let (file, found) = (self.file.clone(), self.pairs);
         match self.promised {
-            Some(promised) if found < promised => Err(InputError::Truncated { file, promised, found }),
+            Some(promised) if found < promised => Err(InputError::Truncated {
+                file,
+                promised,
+                found,
+            }),
             _ if self.begun > 0 => Err(InputError::HalfPair { file, found }),
             _ if found == 0 => Err(InputError::NoPairs { file }),
             _ => Ok(()),
@@ -115,10 +124,21 @@ impl Interleaved {
 pub(super) fn bad_sample(file: &str, code: SampleCode, pairs: u64, bad: BadSample) -> InputError {
     let (file, pair, channel) = (file.to_owned(), pairs + bad.pair as u64, bad.channel);
     match bad.value {
-        BadValue::NotFinite(value) => InputError::NotFinite { file, pair, channel, value },
+        BadValue::NotFinite(value) => InputError::NotFinite {
+            file,
+            pair,
+            channel,
+            value,
+        },
         BadValue::Padding => {
             let (valid, container) = code.bits();
-            InputError::Padding { file, pair, channel, valid, container }
+            InputError::Padding {
+                file,
+                pair,
+                channel,
+                valid,
+                container,
+            }
         }
     }
 }
@@ -126,7 +146,9 @@ pub(super) fn bad_sample(file: &str, code: SampleCode, pairs: u64, bad: BadSampl
 impl Source for Interleaved {
     fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), InputError> {
         while pairs.len() < capacity {
-            let read = self.read(capacity - pairs.len()).map_err(|fault| InputError::io(&self.file, fault))?;
+            let read = self
+                .read(capacity - pairs.len())
+                .map_err(|fault| InputError::io(&self.file, fault))?;
             if read == 0 {
                 return self.end();
             }
@@ -134,7 +156,9 @@ impl Source for Interleaved {
             self.left = self.left.map(|left| left - read as u64);
             let there = self.begun + read;
             let whole = there - there % self.code.pair_bytes();
-            self.code.decode(&self.chunk[..whole], pairs).map_err(|bad| self.bad(bad))?;
+            self.code
+                .decode(&self.chunk[..whole], pairs)
+                .map_err(|bad| self.bad(bad))?;
             self.pairs += (whole / self.code.pair_bytes()) as u64;
             self.chunk.copy_within(whole..there, 0);
             self.begun = there - whole;
@@ -158,19 +182,39 @@ mod tests {
 
     fn raw(bytes: Vec<u8>, format: RawFormat) -> Recording {
         let stream = Box::new(Dribble::new(bytes, 7));
-        Recording::new("standard input".to_owned(), open("standard input", stream, format, None), None)
+        Recording::new(
+            "standard input".to_owned(),
+            open("standard input", stream, format, None),
+            None,
+        )
     }
 
     #[test]
     fn every_format_is_read_across_ragged_chunks() {
         let codes: Vec<i16> = (0..999).map(|k| k * 31 - 15_000).collect();
-        let values: Vec<f32> = codes.iter().map(|&code| f32::from(code) / 32_768.0).collect();
+        let values: Vec<f32> = codes
+            .iter()
+            .map(|&code| f32::from(code) / 32_768.0)
+            .collect();
         let whole = |bytes: Vec<u8>| bytes[..bytes.len() / 2 * 2].to_vec();
         let pairs = values[..998].as_chunks::<2>().0.to_vec();
-        let i16s = codes[..998].iter().flat_map(|code| code.to_le_bytes()).collect();
-        let i32s = codes[..998].iter().flat_map(|&code| (i32::from(code) << 16).to_le_bytes()).collect();
-        let f32s = values[..998].iter().flat_map(|value| value.to_le_bytes()).collect();
-        for (bytes, format) in [(i16s, RawFormat::I16), (i32s, RawFormat::I32), (f32s, RawFormat::F32)] {
+        let i16s = codes[..998]
+            .iter()
+            .flat_map(|code| code.to_le_bytes())
+            .collect();
+        let i32s = codes[..998]
+            .iter()
+            .flat_map(|&code| (i32::from(code) << 16).to_le_bytes())
+            .collect();
+        let f32s = values[..998]
+            .iter()
+            .flat_map(|value| value.to_le_bytes())
+            .collect();
+        for (bytes, format) in [
+            (i16s, RawFormat::I16),
+            (i32s, RawFormat::I32),
+            (f32s, RawFormat::F32),
+        ] {
             let (read, fault) = drain(&mut raw(whole(bytes), format));
             assert_eq!(read, pairs);
             assert!(fault.is_none());
@@ -181,17 +225,27 @@ mod tests {
     fn half_a_pair_at_the_end_is_an_error_after_the_good_data() {
         let (pairs, fault) = drain(&mut raw(vec![0, 0x40, 0, 0xc0, 1, 0], RawFormat::I16));
         assert_eq!(pairs, [[0.5, -0.5]]);
-        assert!(message(fault).starts_with("standard input: after 1 sample pairs: the data end in the middle"));
+        assert!(
+            message(fault)
+                .starts_with("standard input: after 1 sample pairs: the data end in the middle")
+        );
     }
 
     #[test]
     fn not_finite_is_named_by_pair_and_channel() {
         let mut values = vec![0.5f32; 40];
         values[30] = f32::NEG_INFINITY;
-        let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        let bytes = values
+            .iter()
+            .flat_map(|value| value.to_le_bytes())
+            .collect();
         let (pairs, fault) = drain(&mut raw(bytes, RawFormat::F32));
         assert_eq!(pairs.len(), 15);
-        assert!(message(fault).starts_with("standard input: sample pair 15 (from 0), S_C (left): the value is -inf"));
+        assert!(
+            message(fault).starts_with(
+                "standard input: sample pair 15 (from 0), S_C (left): the value is -inf"
+            )
+        );
     }
 
     #[test]
@@ -209,7 +263,11 @@ mod tests {
             }
         }
         let stream = Box::new(io::Cursor::new(vec![0; 8]).chain(Broken));
-        let mut recording = Recording::new("pipe".to_owned(), open("pipe", stream, RawFormat::I16, None), None);
+        let mut recording = Recording::new(
+            "pipe".to_owned(),
+            open("pipe", stream, RawFormat::I16, None),
+            None,
+        );
         let (pairs, fault) = drain(&mut recording);
         assert_eq!(pairs.len(), 2);
         assert!(message(fault).starts_with("pipe: cannot be read: cable pulled; "));

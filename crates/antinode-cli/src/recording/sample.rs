@@ -43,7 +43,11 @@ impl SampleCode {
     /// Little-endian samples, all bits valid.
     pub fn new(kind: Kind) -> Self {
         let valid_bits = 8 * bytes(kind) as u32;
-        Self { kind, big_endian: false, valid_bits }
+        Self {
+            kind,
+            big_endian: false,
+            valid_bits,
+        }
     }
 
     /// The same with the most significant byte first.
@@ -53,7 +57,10 @@ impl SampleCode {
 
     /// The same with only the upper `bits` of an integer in use.
     pub fn valid_bits(self, bits: u32) -> Self {
-        Self { valid_bits: bits, ..self }
+        Self {
+            valid_bits: bits,
+            ..self
+        }
     }
 
     /// The bytes of one sample.
@@ -88,8 +95,12 @@ impl SampleCode {
             (Kind::U8, _) => push(bytes, pairs, |[b]| (f32::from(b) - 128.0) / 128.0),
             (Kind::I16, false) => push(bytes, pairs, |b| scale_16(i16::from_le_bytes(b))),
             (Kind::I16, true) => push(bytes, pairs, |b| scale_16(i16::from_be_bytes(b))),
-            (Kind::I24, false) => push(bytes, pairs, |[a, b, c]| scale_32(i32::from_le_bytes([0, a, b, c]))),
-            (Kind::I24, true) => push(bytes, pairs, |[a, b, c]| scale_32(i32::from_be_bytes([a, b, c, 0]))),
+            (Kind::I24, false) => push(bytes, pairs, |[a, b, c]| {
+                scale_32(i32::from_le_bytes([0, a, b, c]))
+            }),
+            (Kind::I24, true) => push(bytes, pairs, |[a, b, c]| {
+                scale_32(i32::from_be_bytes([a, b, c, 0]))
+            }),
             (Kind::I32, false) => push(bytes, pairs, |b| scale_32(i32::from_le_bytes(b))),
             (Kind::I32, true) => push(bytes, pairs, |b| scale_32(i32::from_be_bytes(b))),
             (Kind::F32, false) => push(bytes, pairs, f32::from_le_bytes),
@@ -97,7 +108,11 @@ impl SampleCode {
             (Kind::F64, false) => push(bytes, pairs, |b| f64::from_le_bytes(b) as f32),
             (Kind::F64, true) => push(bytes, pairs, |b| f64::from_be_bytes(b) as f32),
         }
-        let bad = if self.is_integer() { self.padding(bytes) } else { not_finite(&pairs[start..]) };
+        let bad = if self.is_integer() {
+            self.padding(bytes)
+        } else {
+            not_finite(&pairs[start..])
+        };
         match bad {
             Some(bad) => {
                 pairs.truncate(start + bad.pair);
@@ -115,9 +130,21 @@ impl SampleCode {
             return None;
         }
         let whole = bytes.len() / self.pair_bytes() * self.pair_bytes();
-        let low = |sample: &[u8]| sample.iter().rev().fold(0, |code, &byte| code << 8 | u32::from(byte)) & mask;
-        let index = bytes[..whole].chunks_exact(self.sample_bytes()).position(|sample| low(sample) != 0)?;
-        Some(BadSample { pair: index / 2, channel: channel(index), value: BadValue::Padding })
+        let low = |sample: &[u8]| {
+            sample
+                .iter()
+                .rev()
+                .fold(0, |code, &byte| code << 8 | u32::from(byte))
+                & mask
+        };
+        let index = bytes[..whole]
+            .chunks_exact(self.sample_bytes())
+            .position(|sample| low(sample) != 0)?;
+        Some(BadSample {
+            pair: index / 2,
+            channel: channel(index),
+            value: BadValue::Padding,
+        })
     }
 }
 
@@ -132,7 +159,11 @@ fn bytes(kind: Kind) -> usize {
 }
 
 fn channel(index: usize) -> Channel {
-    if index.is_multiple_of(2) { Channel::C } else { Channel::D }
+    if index.is_multiple_of(2) {
+        Channel::C
+    } else {
+        Channel::D
+    }
 }
 
 fn scale_16(code: i16) -> f32 {
@@ -147,81 +178,31 @@ fn scale_32(code: i32) -> f32 {
 #[inline]
 fn push<const N: usize>(bytes: &[u8], pairs: &mut Vec<[f32; 2]>, value: impl Fn([u8; N]) -> f32) {
     let samples = bytes.as_chunks::<N>().0;
-    pairs.extend(samples.as_chunks::<2>().0.iter().map(|&[c, d]| [value(c), value(d)]));
+    pairs.extend(
+        samples
+            .as_chunks::<2>()
+            .0
+            .iter()
+            .map(|&[c, d]| [value(c), value(d)]),
+    );
 }
 
 fn not_finite(pairs: &[[f32; 2]]) -> Option<BadSample> {
     let values = pairs.as_flattened();
     // No early end: the usual case is that there is none, and this form is compiled to vector instructions.
-    if !values.iter().fold(false, |bad, value| bad | !value.is_finite()) {
+    if !values
+        .iter()
+        .fold(false, |bad, value| bad | !value.is_finite())
+    {
         return None;
     }
     let index = values.iter().position(|value| !value.is_finite())?;
-    Some(BadSample { pair: index / 2, channel: channel(index), value: BadValue::NotFinite(values[index]) })
+    Some(BadSample {
+        pair: index / 2,
+        channel: channel(index),
+        value: BadValue::NotFinite(values[index]),
+    })
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn decode(code: SampleCode, bytes: &[u8]) -> (Vec<[f32; 2]>, Option<BadSample>) {
-        let mut pairs = Vec::new();
-        let bad = code.decode(bytes, &mut pairs).err();
-        (pairs, bad)
-    }
-
-    #[test]
-    fn integers_scale_to_one() {
-        let code = SampleCode::new;
-        assert_eq!(decode(code(Kind::U8), &[0, 255]).0, [[-1.0, 127.0 / 128.0]]);
-        assert_eq!(decode(code(Kind::I16), &[0, 0x80, 0xff, 0x7f]).0, [[-1.0, 32_767.0 / 32_768.0]]);
-        assert_eq!(decode(code(Kind::I16).big_endian(true), &[0x80, 0, 0x40, 0]).0, [[-1.0, 0.5]]);
-        assert_eq!(
-            decode(code(Kind::I24), &[0, 0, 0x80, 0xff, 0xff, 0x7f]).0,
-            [[-1.0, 8_388_607.0 / 8_388_608.0]]
-        );
-        assert_eq!(decode(code(Kind::I24).big_endian(true), &[0x80, 0, 0, 0x40, 0, 0]).0, [[-1.0, 0.5]]);
-        assert_eq!(decode(code(Kind::I32), &[0, 0, 0, 0x80, 0, 0, 0, 0x40]).0, [[-1.0, 0.5]]);
-        assert_eq!(decode(code(Kind::I32).big_endian(true), &[0x80, 0, 0, 0, 0x40, 0, 0, 0]).0, [[-1.0, 0.5]]);
-    }
-
-    #[test]
-    fn full_scale_is_the_largest_code() {
-        for (kind, top) in [
-            (Kind::U8, &[255][..]),
-            (Kind::I16, &[0xff, 0x7f]),
-            (Kind::I24, &[0xff, 0xff, 0x7f]),
-            (Kind::I32, &[0xff, 0xff, 0xff, 0x7f]),
-        ] {
-            let code = SampleCode::new(kind);
-            assert_eq!(Some(decode(code, &[top, top].concat()).0[0][0]), code.full_scale());
-        }
-        let code = SampleCode::new(Kind::I32).valid_bits(24);
-        assert_eq!(Some(decode(code, &[0, 0xff, 0xff, 0x7f, 0, 0xff, 0xff, 0x7f]).0[0][1]), code.full_scale());
-        assert_eq!(SampleCode::new(Kind::F32).full_scale(), None);
-    }
-
-    #[test]
-    fn floats_pass_until_one_is_not_finite() {
-        let values = [0.25f32, -0.5, 1.5, f32::NAN, 1.0, 1.0];
-        let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        let (pairs, bad) = decode(SampleCode::new(Kind::F32), &bytes);
-        assert_eq!(pairs, [[0.25, -0.5]]);
-        assert!(matches!(bad, Some(BadSample { pair: 1, channel: Channel::D, value: BadValue::NotFinite(_) })));
-
-        let values = [0.25f64, 1.0e300];
-        let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_be_bytes()).collect();
-        let (pairs, bad) = decode(SampleCode::new(Kind::F64).big_endian(true), &bytes);
-        assert!(pairs.is_empty());
-        let infinite = BadValue::NotFinite(f32::INFINITY);
-        assert_eq!(bad, Some(BadSample { pair: 0, channel: Channel::D, value: infinite }));
-    }
-
-    #[test]
-    fn bits_below_the_valid_ones_are_refused() {
-        let code = SampleCode::new(Kind::I32).valid_bits(24);
-        let (pairs, bad) = decode(code, &[0, 0, 0, 1, 0, 0, 0, 2, 1, 0, 0, 0, 0, 0, 0, 0]);
-        assert_eq!(pairs.len(), 1);
-        assert_eq!(bad, Some(BadSample { pair: 1, channel: Channel::C, value: BadValue::Padding }));
-    }
-}
+mod tests;

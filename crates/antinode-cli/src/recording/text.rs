@@ -4,7 +4,7 @@ use std::io::{self, BufRead, Read};
 use std::str::FromStr;
 
 use super::Stream;
-use super::error::InputError;
+use super::error::{InputError, LineFault};
 
 /// No line of a few numbers is as long; a file without ends of line must not fill the memory.
 pub(super) const MAX_LINE: usize = 1 << 16;
@@ -19,7 +19,11 @@ pub(super) struct Text {
 
 impl Text {
     pub fn new(stream: Stream) -> Self {
-        Self { stream, line: 0, last: b'\n' }
+        Self {
+            stream,
+            line: 0,
+            last: b'\n',
+        }
     }
 }
 
@@ -53,17 +57,25 @@ impl Read for Text {
 }
 
 /// The first line that is neither blank nor a comment, its number, and the bytes before it.
-pub(super) fn first_line(file: &str, stream: &mut impl BufRead) -> Result<(Vec<u8>, u64, u64), InputError> {
+pub(super) fn first_line(
+    file: &str,
+    stream: &mut impl BufRead,
+) -> Result<(Vec<u8>, u64, u64), InputError> {
     let (mut line, mut number, mut before) = (Vec::new(), 0, 0);
     loop {
         before += line.len() as u64;
         number += 1;
         line.clear();
-        let read = stream.by_ref().take(MAX_LINE as u64).read_until(b'\n', &mut line);
-        let file = || file.to_owned();
-        match read.map_err(|fault| InputError::io(&file(), fault))? {
-            0 => return Err(InputError::NoPairs { file: file() }),
-            MAX_LINE => return Err(InputError::LineTooLong { file: file(), line: number, limit: MAX_LINE }),
+        let read = stream
+            .by_ref()
+            .take(MAX_LINE as u64)
+            .read_until(b'\n', &mut line);
+        match read.map_err(|fault| InputError::io(file, fault))? {
+            0 => return Err(InputError::NoPairs { file: file.to_owned() }),
+            MAX_LINE => {
+                let fault = LineFault::LineTooLong { limit: MAX_LINE };
+ return Err(InputError::line(file, number, fault));
+            }
             _ => {}
         }
         if let (1, Some(rest)) = (number, line.strip_prefix(b"\xef\xbb\xbf")) {
@@ -83,7 +95,10 @@ pub(super) fn is_skipped(line: &[u8]) -> bool {
 
 /// What separates the fields: the first of `;`, tab and `,` that is there, or else blanks.
 pub(super) fn separator(line: &[u8]) -> u8 {
-    [b';', b'\t', b','].into_iter().find(|mark| line.contains(mark)).unwrap_or(b' ')
+    [b';', b'\t', b',']
+        .into_iter()
+        .find(|mark| line.contains(mark))
+        .unwrap_or(b' ')
 }
 
 /// The fields of a line; of those between blanks, only those that are not empty.
@@ -125,7 +140,9 @@ impl Number for f64 {
 pub(super) fn number<T: Number>(field: &[u8], separator: u8) -> Option<T> {
     let text = str::from_utf8(field).ok()?;
     let number = match text.parse::<T>() {
-        Err(_) if separator != b',' && !text.contains('.') => text.replacen(',', ".", 1).parse::<T>(),
+        Err(_) if separator != b',' && !text.contains('.') => {
+            text.replacen(',', ".", 1).parse::<T>()
+        }
         number => number,
     };
     number.ok().filter(T::is_finite)
@@ -145,7 +162,11 @@ mod tests {
 
     #[test]
     fn fields_lose_blanks_and_quotes() {
-        let split = |line, mark| fields(line, mark).map(|field| str::from_utf8(field).unwrap()).collect::<Vec<_>>();
+        let split = |line, mark| {
+            fields(line, mark)
+                .map(|field| str::from_utf8(field).unwrap())
+                .collect::<Vec<_>>()
+        };
         assert_eq!(split(b" 1.5, \"2.5\" ,\r\n", b','), ["1.5", "2.5"]);
         assert_eq!(split(b"  1.5   2.5 \n", b' '), ["1.5", "2.5"]);
         assert_eq!(split(b"1,,2", b','), ["1", "", "2"]);
@@ -155,7 +176,13 @@ mod tests {
     fn numbers_are_finite_and_may_have_a_decimal_comma() {
         assert_eq!(number::<f32>(b"-1.5e-3", b','), Some(-1.5e-3));
         assert_eq!(number::<f64>(b"1,5", b';'), Some(1.5));
-        for (text, mark) in [("1,5", b','), ("1,234.5", b';'), ("1,234,5", b';'), ("nan", b','), ("-inf", b',')] {
+        for (text, mark) in [
+            ("1,5", b','),
+            ("1,234.5", b';'),
+            ("1,234,5", b';'),
+            ("nan", b','),
+            ("-inf", b','),
+        ] {
             assert_eq!(number::<f32>(text.as_bytes(), mark), None, "{text}");
         }
         assert_eq!(number::<f32>(b"1e39", b','), None);
@@ -166,7 +193,9 @@ mod tests {
     #[test]
     fn lines_end_the_same_way() {
         let mut text = String::new();
-        Text::new(Box::new(&b"1,2\r\n3,4"[..])).read_to_string(&mut text).unwrap();
+        Text::new(Box::new(&b"1,2\r\n3,4"[..]))
+            .read_to_string(&mut text)
+            .unwrap();
         assert_eq!(text, "1,2 \n3,4\n");
     }
 }

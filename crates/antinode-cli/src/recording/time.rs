@@ -1,6 +1,6 @@
 //! The time column of a text recording: its sample rate, and whether it keeps to it.
 
-use super::error::InputError;
+use super::error::LineFault;
 
 /// How far a step may be off, in samples.
 const STEP_TOLERANCE: f64 = 0.01;
@@ -10,13 +10,6 @@ const COARSE: f64 = 0.25;
 
 /// How many lines the rate is averaged over before it is compared.
 const RATE_LINES: u64 = 1 << 16;
-
-/// A line's time in s.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Stamp {
-    pub line: u64,
-    pub seconds: f64,
-}
 
 /// How finely times are printed: with so many decimals, or so many digits.
 #[derive(Debug, Clone, Copy, Default)]
@@ -41,8 +34,12 @@ impl Printed {
                 _ => {}
             }
         }
-        let exponent = std::str::from_utf8(bytes.as_slice()).ok().and_then(|text| text.parse::<i32>().ok());
-        self.decimals = self.decimals.max(decimals.saturating_sub(exponent.unwrap_or(0)));
+        let exponent = std::str::from_utf8(bytes.as_slice())
+            .ok()
+            .and_then(|text| text.parse::<i32>().ok());
+        self.decimals = self
+            .decimals
+            .max(decimals.saturating_sub(exponent.unwrap_or(0)));
         self.digits = self.digits.max(digits);
     }
 
@@ -50,67 +47,88 @@ impl Printed {
     fn step(self, seconds: f64) -> f64 {
         let magnitude = seconds.abs().log10().floor().max(-300.0) as i32;
         let by_digits = 10f64.powi(magnitude + 1 - self.digits);
-        10f64.powi(-self.decimals).max(by_digits).max(f64::EPSILON * seconds.abs())
+        10f64
+            .powi(-self.decimals)
+            .max(by_digits)
+            .max(f64::EPSILON * seconds.abs())
     }
 }
 
-/// A constant sample rate, and the last line that kept to it.
+/// A constant sample rate, and the last time that kept to it.
 pub(super) struct TimeAxis {
+    rate: f64,
     step: f64,
-    last: Stamp,
+    last: f64,
     /// The step between numbers printed near the last.
     rounding: f64,
-    /// Where the current average of the rate began.
-    anchor: Stamp,
+    /// Where the current average of the rate begins.
+    anchor: f64,
     lines: u64,
     /// The uncertainty of `step` from the rounding of the first lines.
     uncertainty: f64,
-    /// Whether many of the first steps are off by more than the tolerance, as rounding makes them.
-    ragged: bool,
+    /// Up to here, the rounding does no harm: the first steps are even in spite of it.
+    harmless: f64,
 }
 
 impl TimeAxis {
-    /// The rate of the `first` lines; none if there are not two, or if time mostly stands still.
-    pub fn of(first: &[Stamp], printed: Printed) -> Option<Self> {
+    /// The rate of the `first` times; none if there are not two, or if time mostly stands still.
+    pub fn of(first: &[f64], printed: Printed) -> Option<Self> {
         let [start, .., end] = first else { return None };
-        let steps: Vec<f64> = first.windows(2).map(|pair| pair[1].seconds - pair[0].seconds).collect();
-        let (_, &mut median, _) = steps.clone().select_nth_unstable_by(steps.len() / 2, f64::total_cmp);
+        let steps: Vec<f64> = first
+            .windows(2)
+            .map(|pair| pair[1] - pair[0])
+            .collect();
+        let (_, &mut median, _) = steps
+            .clone()
+            .select_nth_unstable_by(steps.len() / 2, f64::total_cmp);
         if median <= 0.0 {
             return None;
         }
         // The mean of all but the gaps: a lost sample must not bias the rate it is to be measured by.
-        let usual = steps.iter().filter(|&step| (step - median).abs() < 0.5 * median);
+        let usual = steps
+            .iter()
+            .filter(|&step| (step - median).abs() < 0.5 * median);
         let (count, sum) = usual.fold((0.0, 0.0), |(count, sum), step| (count + 1.0, sum + step));
         let runs = (steps.len() + 1) as f64 - count;
-        let rounding = printed.step(start.seconds).max(printed.step(end.seconds));
+        let rounding = printed.step(*start).max(printed.step(*end));
         let uncertainty = runs * rounding / count;
         let mean = sum / count;
-        let step = 1.0 / roundest(1.0 / mean, uncertainty / mean / mean);
-        let ragged = steps.iter().filter(|&step| (step / mean - 1.0).abs() > STEP_TOLERANCE).count();
+        let rate = roundest(1.0 / mean, uncertainty / mean / mean);
+        let ragged = steps
+            .iter()
+            .filter(|&step| (step / mean - 1.0).abs() > STEP_TOLERANCE)
+            .count();
+        let rounding = printed.step(*start);
         Some(Self {
-            step,
+            rate,
+            step: 1.0 / rate,
             last: *start,
-            rounding: printed.step(start.seconds),
+            rounding,
             anchor: *start,
             lines: 0,
             uncertainty,
-            ragged: 10 * ragged > steps.len(),
+            // A few uneven steps are faults, many are the work of the rounding.
+            harmless: if ragged > 2 && 10 * ragged > steps.len() {
+                0.0
+            } else {
+                2.0 * rounding
+            },
         })
     }
 
     /// The sample rate in Hz.
     pub fn rate(&self) -> f64 {
-        1.0 / self.step
+        self.rate
     }
 
     /// Takes the next line, or says how it breaks the rate.
-    pub fn check(&mut self, file: &str, now: Stamp, printed: Printed) -> Result<(), InputError> {
-        let step = now.seconds - self.last.seconds;
-        let printed = printed.step(now.seconds);
+    pub fn check(&mut self, now: f64, printed: Printed) -> Result<(), LineFault> {
+        let step = now - self.last;
+        let printed = printed.step(now);
         let rounding = printed.max(self.rounding) / self.step;
         let off = (step / self.step - 1.0).abs();
         if off > STEP_TOLERANCE + rounding.min(0.5 - STEP_TOLERANCE) {
-            return Err(self.broken(file, now, rounding));
+            return Err(self.broken(now, rounding));
         }
         self.last = now;
         self.rounding = printed;
@@ -118,51 +136,62 @@ impl TimeAxis {
         if self.lines < RATE_LINES {
             return Ok(());
         }
-        let length = now.seconds - self.anchor.seconds;
+        let length = now - self.anchor;
         let lines = self.lines as f64;
         // A few ppm of drift are the clock's; half a sample in this many is not.
         let allowed = (0.5 + 2.0 * rounding) * self.step + 2.0 * lines * self.uncertainty;
         if (length - lines * self.step).abs() > allowed {
-            let (from, to) = (self.rate(), lines / length);
-            return Err(InputError::TimeDrift { file: file.to_owned(), line: now.line, from, to });
+            let (from, to) = (self.rate, lines / length);
+            return Err(LineFault::TimeDrift { from,
+                to,
+            });
         }
         self.anchor = now;
         self.lines = 0;
         Ok(())
     }
 
-    fn broken(&self, file: &str, now: Stamp, rounding: f64) -> InputError {
-        let (file, line) = (file.to_owned(), now.line);
-        let (from, to, usual) = (self.last.seconds, now.seconds, self.step);
+    fn broken(&self, now: f64, rounding: f64) -> LineFault {
+        let (from, to, usual) = (self.last, now, self.step);
         let step = to - from;
         let samples = step / usual;
         let tolerance = STEP_TOLERANCE + rounding.min(COARSE) + samples * self.uncertainty / usual;
-        // Even steps show that rounding does no harm, however few the digits.
-        if rounding > COARSE && self.ragged {
-            InputError::TimeCoarse { file, line, printed: rounding * usual, usual }
+        if rounding > COARSE && rounding * usual > self.harmless {
+            LineFault::TimeCoarse {
+                printed: rounding * usual,
+                usual,
+            }
         } else if step <= 0.0 {
-            InputError::TimeBackwards { file, line, from, to }
+            LineFault::TimeBackwards {
+                from,
+                to,
+            }
         } else if samples > 1.5 && (samples - samples.round()).abs() <= tolerance {
-            InputError::TimeGap { file, line, lost: samples.round() as u64 - 1, from, to }
+            LineFault::TimeGap {
+                lost: samples.round() as u64 - 1,
+                from,
+                to,
+            }
         } else {
-            InputError::TimeUneven { file, line, step, usual }
+            LineFault::TimeUneven {
+                step,
+                usual,
+            }
         }
     }
 }
 
-/// The first line of `stamps` at which time does not go up.
-pub(super) fn standstill(file: &str, stamps: &[Stamp], printed: Printed) -> Option<(usize, InputError)> {
-    let at = stamps.windows(2).position(|pair| pair[1].seconds <= pair[0].seconds)?;
-    let (from, to, line) = (stamps[at].seconds, stamps[at + 1].seconds, stamps[at + 1].line);
-    let file = file.to_owned();
-    let (start, end) = (stamps.first()?.seconds, stamps.last()?.seconds);
-    let usual = (end - start) / (stamps.len() - 1) as f64;
+/// Which of `times` is the first that does not go up, and how.
+pub(super) fn standstill(times: &[f64], printed: Printed) -> Option<(usize, LineFault)> {
+    let at = 1 + times.windows(2).position(|pair| pair[1] <= pair[0])?;
+    let (from, to) = (times[at - 1], times[at]);
+    let usual = (times.last()? - times.first()?) / (times.len() - 1) as f64;
     let fault = if from == to && usual > 0.0 {
-        InputError::TimeCoarse { file, line, printed: printed.step(to), usual }
+        LineFault::TimeCoarse { printed: printed.step(to), usual }
     } else {
-        InputError::TimeBackwards { file, line, from, to }
+        LineFault::TimeBackwards { from, to }
     };
-    Some((at + 1, fault))
+    Some((at, fault))
 }
 
 /// The number of fewest digits within `uncertainty` of `value`.

@@ -21,7 +21,11 @@ const UNKNOWN: u64 = 0xffff_ffff;
 
 /// Opens a WAV file; `length` is that of the file, if it has one.
 pub(super) fn open(file: &str, stream: Stream, length: Option<u64>) -> Result<Opened, InputError> {
-    let mut header = Reader { file, stream, position: 0 };
+    let mut header = Reader {
+        file,
+        stream,
+        position: 0,
+    };
     let (format, data) = header.read()?;
     let start = header.position;
     let pair_bytes = format.code.pair_bytes() as u64;
@@ -102,8 +106,18 @@ impl Reader<'_> {
                     let Some(format) = format else {
                         return Err(self.fault("the data come before their format"));
                     };
-                    let data_bytes = if size == UNKNOWN { long_data.unwrap_or(size) } else { size };
-                    return Ok((format, Data { riff_bytes, data_bytes }));
+                    let data_bytes = if size == UNKNOWN {
+                        long_data.unwrap_or(size)
+                    } else {
+                        size
+                    };
+                    return Ok((
+                        format,
+                        Data {
+                            riff_bytes,
+                            data_bytes,
+                        },
+                    ));
                 }
                 _ => {
                     self.chunk(size, 0)?;
@@ -113,15 +127,20 @@ impl Reader<'_> {
     }
 
     fn fault(&self, fault: impl Into<String>) -> InputError {
-        InputError::WavHeader { file: self.file.to_owned(), fault: fault.into() }
+        InputError::WavHeader {
+            file: self.file.to_owned(),
+            fault: fault.into(),
+        }
     }
 
     fn bytes(&mut self, bytes: &mut [u8]) -> Result<(), InputError> {
         self.position += bytes.len() as u64;
-        self.stream.read_exact(bytes).map_err(|fault| match fault.kind() {
-            io::ErrorKind::UnexpectedEof => self.fault("the file ends before the data begin"),
-            _ => InputError::io(self.file, fault),
-        })
+        self.stream
+            .read_exact(bytes)
+            .map_err(|fault| match fault.kind() {
+                io::ErrorKind::UnexpectedEof => self.fault("the file ends before the data begin"),
+                _ => InputError::io(self.file, fault),
+            })
     }
 
     fn words<const N: usize>(&mut self) -> Result<[[u8; 4]; N], InputError> {
@@ -149,7 +168,10 @@ impl Reader<'_> {
         let (channels, frame, bits) = (word(2), u32::from(word(12)), u32::from(word(14)));
         let file = || self.file.to_owned();
         if channels != 2 {
-            return Err(InputError::Channels { file: file(), found: channels });
+            return Err(InputError::Channels {
+                file: file(),
+                found: channels,
+            });
         }
         let (mut tag, mut valid) = (word(0), bits);
         if tag == 0xfffe {
@@ -158,7 +180,11 @@ impl Reader<'_> {
             }
             tag = word(24);
             // Some writers leave the valid bits out.
-            valid = if word(18) == 0 { bits } else { u32::from(word(18)) };
+            valid = if word(18) == 0 {
+                bits
+            } else {
+                u32::from(word(18))
+            };
         }
         let kind = match (tag, bits) {
             (1, 1..=8) => Kind::U8,
@@ -167,7 +193,12 @@ impl Reader<'_> {
             (1, 25..=32) => Kind::I32,
             (3, 32) => Kind::F32,
             (3, 64) => Kind::F64,
-            _ => return Err(InputError::WavEncoding { file: file(), encoding: encoding(tag, bits) }),
+            _ => {
+                return Err(InputError::WavEncoding {
+                    file: file(),
+                    encoding: encoding(tag, bits),
+                });
+            }
         };
         let code = SampleCode::new(kind);
         let stored = 8 * code.sample_bytes() as u32;
@@ -177,7 +208,10 @@ impl Reader<'_> {
             return Err(self.fault(fault));
         }
         let rate = u32::from_le_bytes([chunk[4], chunk[5], chunk[6], chunk[7]]);
-        Ok(Format { code: code.valid_bits(valid), rate })
+        Ok(Format {
+            code: code.valid_bits(valid),
+            rate,
+        })
     }
 }
 

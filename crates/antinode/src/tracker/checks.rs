@@ -21,6 +21,8 @@ const PHASE_FLOOR: f32 = 0.02;
 const HARMONIC_FLOOR: f32 = 1e-3;
 /// Residual, as a share of a_A, that rounding and converters may leave: (2·10⁻⁴)².
 const RESIDUAL_FLOOR: f32 = 4e-8;
+/// Residual of a first window's blocks, as a share of the wave's own power, beyond which it is no wave: 20 % noise leaves 0.1.
+const STRANGER: f32 = 0.25;
 /// By how much the residual variance about the carrier may exceed that about the third harmonic.
 const COLOUR: f32 = 16.0;
 
@@ -51,6 +53,14 @@ impl Noise {
         let deviation = libm::sqrtf(2.0 / freedom + 2.0 / self.freedom);
         self.variance * libm::expf(SIGMAS * deviation).max(9.0)
     }
+}
+
+/// True when the first window after a search holds no wave, or as much else beside it: two tones, say.
+pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -> bool {
+    let samples = f32::from(blocks) * f32::from(length);
+    let explained = 0.5 * samples * (wave.main * wave.main + wave.quadrature * wave.quadrature);
+    let significant = wave.main * wave.main > 36.0 * wave.main_variance;
+    !significant || fit.residual > STRANGER * explained
 }
 
 /// Tests of one window by itself and against the noise of those before.

@@ -86,6 +86,13 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.failures >= GIVE_UP
     }
 
+    /// Drops the wave, but not its angle: the next block starts a new search's first window.
+    pub fn forget(&mut self) {
+        self.model = None;
+        self.ring.clear();
+        self.failures = 0;
+    }
+
     /// Starts a new window when a block does not continue the ring.
     fn follow(&mut self, block: &Block) {
         let same = self.model.as_ref().is_some_and(|model| model.layout == block.layout);
@@ -125,6 +132,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let rounding = 1e-7 * size;
         let variance = noise + rounding * rounding;
         let wave = Standing::new(model, &fit, variance);
+        if self.before.is_none() && checks::is_no_wave(&fit, &wave, self.count, model.layout.length) {
+            // The detector was deceived: nothing is reported, and the search goes on.
+            self.failures = GIVE_UP;
+            return None;
+        }
 
         let first = self.ring.front()?.start;
         let samples = u32::from(self.count) * u32::from(model.layout.length);

@@ -55,7 +55,7 @@ impl Trend {
         let _ = self.points.push_back(Point { middle, angle, variance });
     }
 
-    /// The rate at the middle of a window, from its own angle and the angles before: constant through two points, linear in time
+    /// The rate at the middle of a window, from its own angle and the angles before: constant through three points, linear in time
     /// through more. With none before, the pattern is taken to stand still until a window shows that it does not.
     pub(crate) fn rate(&self, middle: u64, samples: u32, angle: Angle, variance: f32) -> Rate {
         let mut normal = Normal::ZERO;
@@ -69,7 +69,7 @@ impl Trend {
             .map(|p| (-0.5 * (middle - p.middle) as f32 / window, p.angle.less(angle), p.variance));
         for (time, angle, variance) in earlier.chain(core::iter::once((0.0, 0.0, variance))) {
             let weight = 1.0 / libm::sqrtf(variance.max(1e-18));
-            let curve = if self.points.len() >= 2 { weight * time * time } else { 0.0 };
+            let curve = if self.points.len() >= 3 { weight * time * time } else { 0.0 };
             let row = [weight, weight * time, curve, 0.0, 0.0];
             normal.add(&row);
             for (sum, value) in rhs.iter_mut().zip(row) {

@@ -285,7 +285,8 @@ impl Model {
             offsets: parameters.offset,
             residual: (pass.residual - explained).max(0.0),
             freedom: 2.0 * (f32::from(self.basis.rank) * blocks - PARAMETERS as f32).max(0.5),
-            worst_block: pass.worst,
+            // Measured before the last step: what that step took away is no fault of the block's.
+            worst_block: (pass.worst - explained).max(0.0),
             third: pass.third.map(|sum| sum * (2.0 / (blocks * length))),
             third_noise: (pass.third_power - coherent).max(0.0) / (0.5 * length * third_freedom),
             third_freedom,

@@ -1,0 +1,283 @@
+//! Text recordings: what is understood, and what is said of what is not.
+
+use std::fmt::Write;
+
+use super::super::tests::{file, read, read_with};
+use super::super::{OpenOptions, Recording};
+
+const PAIRS: [[f32; 2]; 3] = [[0.1, 0.2], [-0.5, 1e-3], [1.5, -2.0]];
+
+fn good(text: &str) -> Vec<[f32; 2]> {
+    let (pairs, fault) = read("a.csv", text.as_bytes());
+    assert_eq!(fault, None, "{text}");
+    pairs
+}
+
+/// The good pairs, and what is said of what follows.
+fn bad(text: &str) -> (usize, String) {
+    let (pairs, fault) = read("a.csv", text.as_bytes());
+    (pairs.len(), fault.unwrap_or_default())
+}
+
+fn rate(text: &str) -> Option<f64> {
+    let (_directory, path) = file("a.csv", text.as_bytes());
+    Recording::open(&path, &OpenOptions::default())
+        .expect("a good recording")
+        .sample_rate()
+}
+
+#[test]
+fn every_separator_is_understood() {
+    for text in [
+        "0.1,0.2\n-0.5,1e-3\n1.5,-2\n",
+        "0.1, 0.2\r\n-0.5, 1e-3\r\n1.5, -2",
+        "0.1;0.2\n-0.5;1e-3\n1.5;-2\n",
+        "0,1;0,2\n-0,5;1e-3\n1,5;-2\n",
+        "0.1\t0.2\n-0.5\t1e-3\n1.5\t-2\n",
+        "0,1\t0,2\n-0,5\t0,001\n1,5\t-2\n",
+        "  0.1   0.2\n -0.5   1e-3 \n1.5 -2\n",
+        "\"0.1\",\"0.2\"\n\"-0.5\",\"1e-3\"\n1.5,-2\n",
+        "0.1,0.2,\n-0.5,1e-3,\n1.5,-2,\n",
+        "\u{feff}c,d\n0.1,0.2\n-0.5,1e-3\n1.5,-2\n",
+        "\u{feff}# one\n\n  # two\nc,d\n0.1,0.2\n\n \t\r\n# three, or four\n-0.5,1e-3\n1.5,-2\n#",
+        "d,c\n0.2,0.1\n1e-3,-0.5\n-2,1.5\n",
+        "time,c,d\n0,0.1,0.2\n1e-5,-0.5,1e-3\n2e-5,1.5,-2\n",
+        "0 0.1 0.2\n1 -0.5 1e-3\n2 1.5 -2\n",
+    ] {
+        assert_eq!(good(text), PAIRS, "{text}");
+    }
+}
+
+#[test]
+fn columns_can_be_chosen() {
+    let options = |columns: &str| OpenOptions {
+        raw: None,
+        columns: Some(columns.parse().unwrap()),
+    };
+    let text = b"n,heat,d,c\n1,20,0.2,0.1\n";
+    assert_eq!(
+        read_with("a.csv", text, &options("c,d")),
+        (vec![[0.1, 0.2]], None)
+    );
+    assert_eq!(
+        read_with("a.csv", text, &options("n,4,3")),
+        (vec![[0.1, 0.2]], None)
+    );
+    let fault = read_with("a.csv", b"\n1,2\n", &options("c,d"))
+        .1
+        .expect("a fault");
+    assert!(fault.starts_with(
+        "a.csv:2: there is no column `c`; choose among the numbers 1 to 2 with --columns"
+    ));
+}
+
+#[test]
+fn the_rate_comes_from_the_time() {
+    assert_eq!(rate("1,2\n3,4\n"), None);
+    assert_eq!(
+        rate("t,c,d\n5,1,2\n5.00001,3,4\n5.00002,5,6\n"),
+        Some(100_000.0)
+    );
+    assert_eq!(rate("0;1,5;2\n0,0001;3;4\n0,0002;3;4\n"), Some(10_000.0));
+    assert_eq!(rate("0,1,2\n"), None);
+}
+
+#[test]
+fn faults_in_a_line_are_named_by_line_and_column() {
+    for (text, pairs, expected) in [
+        (
+            "1,2\n3,x4\n",
+            1,
+            "a.csv:2:2: S_D is `x4`, not a finite number; correct or delete the line, or begin it",
+        ),
+        (
+            "#\n\nc,d\r\n1,2\r\n\r\nnan,4\r\n",
+            1,
+            "a.csv:6:1: S_C is `nan`, not a finite number; ",
+        ),
+        (
+            "0,1,2\n1,2,-inf\n",
+            1,
+            "a.csv:2:3: S_D is `-inf`, not a finite number; ",
+        ),
+        (
+            "0,1,2\n1,1e99,3\n",
+            1,
+            "a.csv:2:2: S_C is `1e99`, not a finite number; ",
+        ),
+        (
+            "0,1,2\nx,2,3\n",
+            1,
+            "a.csv:2:1: the time is `x`, not a finite number; ",
+        ),
+        (
+            "1,2\n3\n",
+            1,
+            "a.csv:2:2: S_D is missing here; complete or delete the line",
+        ),
+        ("1,2\n,3\n", 1, "a.csv:2:1: S_C is missing here; "),
+        ("1,2\n3,\n", 1, "a.csv:2:2: S_D is missing here; "),
+        ("1 2\n3\n", 1, "a.csv:2:2: S_D is missing here; "),
+        (
+            "1,2\n3,4,5\n",
+            1,
+            "a.csv:2: found 3 fields where the first line has 2; use another separator",
+        ),
+        ("1,x\n", 0, "a.csv:1:2: S_D is `x`, not a finite number; "),
+        ("s,V,V\n0,1\n", 0, "a.csv:2:3: S_D is missing here; "),
+        (
+            "time,c,d\ns,V,V\n",
+            0,
+            "a.csv:2:1: the time is `s`, not a finite number; ",
+        ),
+        (
+            "1\n2\n",
+            0,
+            "a.csv:1: found 1 column, but two (S_C, S_D) or three (time in s, S_C, S_D) are needed; ",
+        ),
+        ("1,2,3,4\n", 0, "a.csv:1: found 4 columns, but two "),
+        (
+            "# a\ntime_ms,c,d\n",
+            0,
+            "a.csv:2: the time column `time_ms` is not in seconds; ",
+        ),
+        (
+            "# nothing\n\n",
+            0,
+            "a.csv: there is not one sample pair in it; ",
+        ),
+        ("c,d\n", 0, "a.csv: there is not one sample pair in it; "),
+        (
+            "1,2\n3,\x1b[31m4\n",
+            1,
+            "a.csv:2:2: S_D is `\\u{1b}[31m4`, not",
+        ),
+    ] {
+        let (count, fault) = bad(text);
+        assert!(
+            fault.starts_with(expected) && count == pairs,
+            "{text}: {count}, {fault}"
+        );
+    }
+}
+
+#[test]
+fn long_text_is_cut_short() {
+    let fault = bad(&format!("1,2\n3,{}\n", "é".repeat(1000))).1;
+    assert!(
+        fault.starts_with(&format!("a.csv:2:2: S_D is `{}`, not", "é".repeat(40))),
+        "{fault}"
+    );
+}
+
+#[test]
+fn a_line_without_end_does_not_fill_the_memory() {
+    let endless = "1".repeat(300_000);
+    let expected =
+        "more than 65536 bytes without an end of line; give text with one sample pair a line";
+    assert_eq!(bad(&endless), (0, format!("a.csv:1: {expected}")));
+    assert_eq!(
+        bad(&format!("1,2\n3,4\n{endless}")),
+        (2, format!("a.csv:3: {expected}"))
+    );
+}
+
+#[test]
+fn faults_in_time_are_named_by_line() {
+    for (text, pairs, expected) in [
+        (
+            "0,1,2\n1,1,2\n2,1,2\n1.5,1,2\n",
+            3,
+            "a.csv:4: time goes from 2 s to 1.5 s, but must go up; sort",
+        ),
+        (
+            "0,1,2\n1,1,2\n2,1,2\n5,1,2\n6,1,2\n",
+            3,
+            "a.csv:4: 2 samples are lost before this line (time goes from 2 s",
+        ),
+        (
+            "0,1,2\n1,1,2\n2,1,2\n4,1,2\n5,1,2\n",
+            3,
+            "a.csv:4: 1 sample is lost before this line ",
+        ),
+        (
+            "0,1,2\n1.0,1,2\n2.00,1,2\n3.05,1,2\n4,1,2\n5,1,2\n",
+            3,
+            "a.csv:4: time steps by 1.0500e0 s here, but by 1.0000e0 s elsewhere; sample at",
+        ),
+        (
+            "2,1,2\n1,1,2\n",
+            1,
+            "a.csv:2: time goes from 2 s to 1 s, but must go up; ",
+        ),
+        (
+            "2,1,2\n2,1,2\n2,1,2\n",
+            1,
+            "a.csv:2: time goes from 2 s to 2 s, but must go up; ",
+        ),
+        (
+            "2,1,2\n2,1,2\n2,1,2\n3,1,2\n",
+            1,
+            "a.csv:2: time is printed to 1e0 s only, too coarse for samples ",
+        ),
+    ] {
+        let (count, fault) = bad(text);
+        assert!(
+            fault.starts_with(expected) && count == pairs,
+            "{text}: {count}, {fault}"
+        );
+    }
+}
+
+#[test]
+fn a_fault_far_behind_the_first_lines_is_found() {
+    let line = |k: u32| format!("{:.6},{},0.5\n", f64::from(k) / 96_000.0, k % 7);
+    let mut text = "time,c,d\n".to_owned();
+    (0..150_000)
+        .filter(|&k| k != 140_000)
+        .for_each(|k| text.push_str(&line(k)));
+    let (pairs, fault) = bad(&text);
+    assert_eq!(pairs, 140_000);
+    assert!(
+        fault.starts_with("a.csv:140002: 1 sample is lost before this line "),
+        "{fault}"
+    );
+    assert_eq!(rate(&text), Some(96_000.0));
+}
+
+#[test]
+fn progress_reaches_the_size_of_the_file() {
+    let mut text = "# comment\n\u{feff}".replace('\u{feff}', "");
+    (0..1000).for_each(|k| writeln!(text, "{k},{k}").unwrap());
+    let (_directory, path) = file("a.csv", text.as_bytes());
+    let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+    assert_eq!((recording.pairs(), recording.full_scale()), (None, None));
+    let mut block = Vec::new();
+    while recording.read(&mut block).unwrap() > 0 {}
+    assert_eq!(Some(recording.bytes_read()), recording.bytes_total());
+}
+
+#[test]
+#[ignore = "a measurement, for an optimised build"]
+fn throughput() {
+    let mut text = String::new();
+    let lines = 3_000_000;
+    (0..lines).for_each(|k| {
+        writeln!(
+            text,
+            "{:.6},{:.7},0.1234567",
+            f64::from(k) * 1e-5,
+            f64::from(k) * 1e-7
+        )
+        .unwrap()
+    });
+    let (_directory, path) = file("a.csv", text.as_bytes());
+    let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+    let start = std::time::Instant::now();
+    let mut block = Vec::new();
+    while recording.read(&mut block).unwrap() > 0 {}
+    println!(
+        "{:.1} M lines/s",
+        f64::from(lines) / start.elapsed().as_secs_f64() / 1e6
+    );
+}

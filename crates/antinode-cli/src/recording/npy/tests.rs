@@ -1,0 +1,283 @@
+//! NPY files, made by hand and by `numpy`.
+
+use std::process::Command;
+
+use super::super::tests::{Dribble, drain, file, message, read};
+use super::super::{OpenOptions, Recording};
+
+fn npy(descr: &str, fortran: bool, shape: &str, data: &[u8]) -> Vec<u8> {
+    let fortran = if fortran { "True" } else { "False" };
+    let text = format!("{{'descr': {descr}, 'fortran_order': {fortran}, 'shape': {shape}, }}\n");
+    [
+        &b"\x93NUMPY\x01\0"[..],
+        &(text.len() as u16).to_le_bytes(),
+        text.as_bytes(),
+        data,
+    ]
+    .concat()
+}
+
+fn codes(values: &[i16]) -> Vec<u8> {
+    values
+        .iter()
+        .flat_map(|value| value.to_le_bytes())
+        .collect()
+}
+
+const PAIRS: [[f32; 2]; 3] = [[0.0, 0.5], [0.25, -0.5], [-1.0, 0.125]];
+const INTERLEAVED: [i16; 6] = [0, 0x4000, 0x2000, -0x4000, -0x8000, 0x1000];
+const PLANES: [i16; 6] = [0, 0x2000, -0x8000, 0x4000, -0x4000, 0x1000];
+
+#[test]
+fn every_layout_is_read() {
+    for (fortran, shape, values) in [
+        (false, "(3, 2)", INTERLEAVED),
+        (true, "(2, 3)", INTERLEAVED),
+        (true, "(3, 2)", PLANES),
+        (false, "(2, 3)", PLANES),
+    ] {
+        let bytes = npy("'<i2'", fortran, shape, &codes(&values));
+        assert_eq!(
+            read("a.npy", &bytes),
+            (PAIRS.to_vec(), None),
+            "{fortran} {shape}"
+        );
+        let (_directory, path) = file("a.npy", &bytes);
+        let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+        assert_eq!(
+            (recording.pairs(), recording.sample_rate()),
+            (Some(3), None)
+        );
+        assert_eq!(recording.full_scale(), Some(32_767.0 / 32_768.0));
+        drain(&mut recording);
+        assert_eq!(Some(recording.bytes_read()), recording.bytes_total());
+    }
+}
+
+#[test]
+fn two_pairs_are_interleaved() {
+    let bytes = npy("'<i2'", false, "(2, 2)", &codes(&INTERLEAVED[..4]));
+    assert_eq!(read("a.npy", &bytes).0, PAIRS[..2]);
+}
+
+#[test]
+fn every_type_is_read_in_both_byte_orders() {
+    let bytes = |each: &dyn Fn(f32) -> Vec<u8>| {
+        PAIRS
+            .as_flattened()
+            .iter()
+            .flat_map(|&value| each(value))
+            .collect()
+    };
+    let types: [(&str, Vec<u8>); 8] = [
+        (
+            "'<i2'",
+            bytes(&|v| ((v * 32_768.0) as i16).to_le_bytes().to_vec()),
+        ),
+        (
+            "'>i2'",
+            bytes(&|v| ((v * 32_768.0) as i16).to_be_bytes().to_vec()),
+        ),
+        (
+            "'<i4'",
+            bytes(&|v| ((v * 2_147_483_648.0) as i32).to_le_bytes().to_vec()),
+        ),
+        (
+            "'>i4'",
+            bytes(&|v| ((v * 2_147_483_648.0) as i32).to_be_bytes().to_vec()),
+        ),
+        ("'<f4'", bytes(&|v| v.to_le_bytes().to_vec())),
+        ("'>f4'", bytes(&|v| v.to_be_bytes().to_vec())),
+        ("'<f8'", bytes(&|v| f64::from(v).to_le_bytes().to_vec())),
+        ("'>f8'", bytes(&|v| f64::from(v).to_be_bytes().to_vec())),
+    ];
+    for (descr, data) in types {
+        assert_eq!(
+            read("a.npy", &npy(descr, false, "(3, 2)", &data)),
+            (PAIRS.to_vec(), None),
+            "{descr}"
+        );
+    }
+}
+
+#[test]
+fn other_shapes_and_types_are_named() {
+    let fault = |descr, shape| {
+        read("a.npy", &npy(descr, false, shape, &[0; 64]))
+            .1
+            .expect("a fault")
+    };
+    for (shape, shown) in [
+        ("(6,)", "(6,)"),
+        ("(2, 3, 4)", "(2, 3, 4)"),
+        ("(3, 3)", "(3, 3)"),
+        ("()", "()"),
+    ] {
+        let expected = format!(
+            "a.npy: NPY header: the shape is {shown}, but (N, 2) is needed; save `numpy.stack("
+        );
+        assert!(
+            fault("'<i2'", shape).starts_with(&expected),
+            "{}",
+            fault("'<i2'", shape)
+        );
+    }
+    for (descr, shown) in [
+        ("'<i8'", "'<i8'"),
+        ("'|u1'", "'|u1'"),
+        ("'<f2'", "'<f2'"),
+        ("'<c16'", "'<c16'"),
+        ("'|O'", "'|O'"),
+        (
+            "[('c', '<f4'), ('d', '<f4')]",
+            "[('c', '<f4'), ('d', '<f4'), ]",
+        ),
+    ] {
+        let expected = format!(
+            "a.npy: NPY header: the dtype is {shown}, but i2, i4, f4 or f8 is needed; save "
+        );
+        assert!(
+            fault(descr, "(3, 2)").starts_with(&expected),
+            "{}",
+            fault(descr, "(3, 2)")
+        );
+    }
+    assert!(fault("'<i2'", "(0, 2)").starts_with("a.npy: there is not one sample pair in it; "));
+}
+
+#[test]
+fn a_damaged_header_is_named() {
+    let fault = |bytes: &[u8]| read("a.npy", bytes).1.expect("a fault");
+    let whole = npy("'<i2'", false, "(3, 2)", &[]);
+    for end in 6..whole.len() {
+        assert!(
+            fault(&whole[..end])
+                .starts_with("a.npy: NPY header: the file ends inside it; save it again")
+        );
+    }
+    let header = |text: &str| {
+        [
+            &b"\x93NUMPY\x01\0"[..],
+            &(text.len() as u16).to_le_bytes(),
+            text.as_bytes(),
+        ]
+        .concat()
+    };
+    for text in ["", "{}", "{'descr': '<i2'}", "not a header"] {
+        assert!(
+            fault(&header(text)).starts_with("a.npy: NPY header: it cannot be understood; "),
+            "{text}"
+        );
+    }
+    let deep = "(".repeat(5000);
+    let huge = "{'descr': '<i2', 'fortran_order': False, 'shape': (4294967296, 4294967296), }";
+    for text in [&deep, huge] {
+        let fault = fault(&header(text));
+        assert!(
+            fault.starts_with("a.npy: NPY header: it cannot be that of an array of numbers; "),
+            "{fault}"
+        );
+    }
+    let long = fault(b"\x93NUMPY\x02\0\xff\xff\xff\xff{");
+    assert!(long.starts_with("a.npy: NPY header: it is too long for an array of numbers; "));
+    assert!(
+        fault(b"\x93NUMPY\x09\0\x01\0\0\0{")
+            .starts_with("a.npy: NPY header: it cannot be understood; ")
+    );
+}
+
+#[test]
+fn truncated_data_are_delivered_before_the_error() {
+    for (shape, values, left) in [("(3, 2)", INTERLEAVED, 2), ("(2, 3)", PLANES, 1)] {
+        let bytes = npy("'<i2'", false, shape, &codes(&values));
+        let (pairs, fault) = read("a.npy", &bytes[..bytes.len() - 3]);
+        assert_eq!(pairs, PAIRS[..left], "{shape}");
+        let expected = format!(
+            "a.npy: after {left} sample pairs: the header promises 3 pairs, but the data end here; "
+        );
+        assert!(fault.expect("a fault").starts_with(&expected));
+    }
+    let (pairs, fault) = read(
+        "a.npy",
+        &npy("'<i2'", false, "(2, 3)", &codes(&PLANES[..2])),
+    );
+    assert!(pairs.is_empty());
+    assert!(
+        fault
+            .expect("a fault")
+            .starts_with("a.npy: after 0 sample pairs: the header promises 3 pairs")
+    );
+}
+
+#[test]
+fn not_finite_is_named_in_either_layout() {
+    let count = 40_000;
+    let mut values = vec![0.5f32; 2 * count];
+    values[2 * 30_000] = f32::NAN;
+    let data = |values: &[f32]| {
+        values
+            .iter()
+            .flat_map(|value| value.to_le_bytes())
+            .collect::<Vec<u8>>()
+    };
+    let apart: Vec<f32> = [0, 1]
+        .iter()
+        .flat_map(|&odd| values.iter().copied().skip(odd).step_by(2))
+        .collect();
+    for (shape, data) in [("(40000, 2)", data(&values)), ("(2, 40000)", data(&apart))] {
+        let (pairs, fault) = read("a.npy", &npy("'<f4'", false, shape, &data));
+        assert_eq!(pairs, [[0.5, 0.5]].repeat(30_000));
+        let expected = "a.npy: sample pair 30000 (from 0), S_C (left): the value is NaN, not a finite number; ";
+        assert!(fault.expect("a fault").starts_with(expected));
+    }
+}
+
+#[test]
+fn a_pipe_cannot_go_back() {
+    let open = |shape| {
+        let bytes = npy("'<i2'", false, shape, &codes(&INTERLEAVED));
+        super::open("pipe", Box::new(Dribble::new(bytes, 5)), None, None)
+    };
+    let mut recording = Recording::new("pipe".to_owned(), open("(3, 2)").unwrap(), None);
+    assert_eq!(drain(&mut recording).0, PAIRS);
+    assert!(
+        message(open("(2, 3)").err())
+            .starts_with("pipe: S_D follows after all of S_C, which a pipe cannot")
+    );
+}
+
+#[test]
+fn what_numpy_writes_is_read() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("a.npy");
+    for stack in [
+        "n.stack([c, d], 1)",
+        "n.stack([c, d])",
+        "n.asfortranarray(n.stack([c, d], 1))",
+    ] {
+        for dtype in ["<i2", ">i4", "<f4", ">f8"] {
+            let script = format!(
+                "import sys, numpy as n\n\
+                 c = n.arange(50000) % 100 / 128; d = -c\n\
+                 n.save(sys.argv[1], ({stack} * {{'<i2': 2**15, '>i4': 2**31}}.get('{dtype}', 1)).astype('{dtype}'))"
+            );
+            let made = Command::new("python3")
+                .arg("-c")
+                .arg(script)
+                .arg(&path)
+                .status();
+            if !made.is_ok_and(|status| status.success()) {
+                return;
+            }
+            let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+            assert_eq!(recording.pairs(), Some(50_000));
+            let (pairs, fault) = drain(&mut recording);
+            assert!(fault.is_none());
+            assert_eq!(pairs.len(), 50_000);
+            for (k, pair) in pairs.iter().enumerate() {
+                let value = (k % 100) as f32 / 128.0;
+                assert_eq!(*pair, [value, -value], "{stack} {dtype} {k}");
+            }
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Every kind of sample at its rails and in between.
+
+use super::*;
+
+fn decode(code: SampleCode, bytes: &[u8]) -> (Vec<[f32; 2]>, Option<BadSample>) {
+    let mut pairs = Vec::new();
+    let bad = code.decode(bytes, &mut pairs).err();
+    (pairs, bad)
+}
+
+#[test]
+fn integers_scale_to_one() {
+    let code = SampleCode::new;
+    assert_eq!(decode(code(Kind::U8), &[0, 255]).0, [[-1.0, 127.0 / 128.0]]);
+    assert_eq!(
+        decode(code(Kind::I16), &[0, 0x80, 0xff, 0x7f]).0,
+        [[-1.0, 32_767.0 / 32_768.0]]
+    );
+    assert_eq!(
+        decode(code(Kind::I16).big_endian(true), &[0x80, 0, 0x40, 0]).0,
+        [[-1.0, 0.5]]
+    );
+    assert_eq!(
+        decode(code(Kind::I24), &[0, 0, 0x80, 0xff, 0xff, 0x7f]).0,
+        [[-1.0, 8_388_607.0 / 8_388_608.0]]
+    );
+    assert_eq!(
+        decode(code(Kind::I24).big_endian(true), &[0x80, 0, 0, 0x40, 0, 0]).0,
+        [[-1.0, 0.5]]
+    );
+    assert_eq!(
+        decode(code(Kind::I32), &[0, 0, 0, 0x80, 0, 0, 0, 0x40]).0,
+        [[-1.0, 0.5]]
+    );
+    assert_eq!(
+        decode(
+            code(Kind::I32).big_endian(true),
+            &[0x80, 0, 0, 0, 0x40, 0, 0, 0]
+        )
+        .0,
+        [[-1.0, 0.5]]
+    );
+}
+
+#[test]
+fn full_scale_is_the_largest_code() {
+    for (kind, top) in [
+        (Kind::U8, &[255][..]),
+        (Kind::I16, &[0xff, 0x7f]),
+        (Kind::I24, &[0xff, 0xff, 0x7f]),
+        (Kind::I32, &[0xff, 0xff, 0xff, 0x7f]),
+    ] {
+        let code = SampleCode::new(kind);
+        assert_eq!(
+            Some(decode(code, &[top, top].concat()).0[0][0]),
+            code.full_scale()
+        );
+    }
+    let code = SampleCode::new(Kind::I32).valid_bits(24);
+    assert_eq!(
+        Some(decode(code, &[0, 0xff, 0xff, 0x7f, 0, 0xff, 0xff, 0x7f]).0[0][1]),
+        code.full_scale()
+    );
+    assert_eq!(SampleCode::new(Kind::F32).full_scale(), None);
+}
+
+#[test]
+fn floats_pass_until_one_is_not_finite() {
+    let values = [0.25f32, -0.5, 1.5, f32::NAN, 1.0, 1.0];
+    let bytes: Vec<u8> = values
+        .iter()
+        .flat_map(|value| value.to_le_bytes())
+        .collect();
+    let (pairs, bad) = decode(SampleCode::new(Kind::F32), &bytes);
+    assert_eq!(pairs, [[0.25, -0.5]]);
+    assert!(matches!(
+        bad,
+        Some(BadSample {
+            pair: 1,
+            channel: Channel::D,
+            value: BadValue::NotFinite(_)
+        })
+    ));
+
+    let values = [0.25f64, 1.0e300];
+    let bytes: Vec<u8> = values
+        .iter()
+        .flat_map(|value| value.to_be_bytes())
+        .collect();
+    let (pairs, bad) = decode(SampleCode::new(Kind::F64).big_endian(true), &bytes);
+    assert!(pairs.is_empty());
+    let infinite = BadValue::NotFinite(f32::INFINITY);
+    assert_eq!(
+        bad,
+        Some(BadSample {
+            pair: 0,
+            channel: Channel::D,
+            value: infinite
+        })
+    );
+}
+
+#[test]
+fn bits_below_the_valid_ones_are_refused() {
+    let code = SampleCode::new(Kind::I32).valid_bits(24);
+    let (pairs, bad) = decode(code, &[0, 0, 0, 1, 0, 0, 0, 2, 1, 0, 0, 0, 0, 0, 0, 0]);
+    assert_eq!(pairs.len(), 1);
+    assert_eq!(
+        bad,
+        Some(BadSample {
+            pair: 1,
+            channel: Channel::C,
+            value: BadValue::Padding
+        })
+    );
+}

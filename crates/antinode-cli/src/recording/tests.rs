@@ -1,0 +1,274 @@
+//! Opening, and what every format has in common.
+
+use std::io::{self, Read};
+
+use proptest::prelude::*;
+
+use super::*;
+
+/// A stream that gives no more than a few bytes at a time.
+pub(super) struct Dribble {
+    bytes: Cursor<Vec<u8>>,
+    most: usize,
+}
+
+impl Dribble {
+    pub fn new(bytes: Vec<u8>, most: usize) -> Self {
+        Self {
+            bytes: Cursor::new(bytes),
+            most,
+        }
+    }
+}
+
+impl Read for Dribble {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let most = self.most.min(bytes.len());
+        self.bytes.read(&mut bytes[..most])
+    }
+}
+
+/// All pairs up to the end or the first fault, after which there must be nothing more.
+pub(super) fn drain(recording: &mut Recording) -> (Vec<[f32; 2]>, Option<InputError>) {
+    let (mut all, mut block) = (Vec::new(), Vec::with_capacity(13));
+    let fault = loop {
+        match recording.read(&mut block) {
+            Ok(0) => break None,
+            Ok(count) => {
+                assert_eq!(count, block.len());
+                assert!(count <= 13 || block.capacity() > 13);
+                all.extend_from_slice(&block);
+            }
+            Err(fault) => break Some(fault),
+        }
+    };
+    assert!(matches!(recording.read(&mut block), Ok(0)));
+    (all, fault)
+}
+
+/// What is said of a fault that must be there.
+pub(super) fn message(fault: Option<InputError>) -> String {
+    fault.map(|fault| fault.to_string()).expect("a fault")
+}
+
+/// Writes a file into a directory that goes with the value returned.
+pub(super) fn file(name: &str, bytes: &[u8]) -> (tempfile::TempDir, std::path::PathBuf) {
+    let directory = tempfile::tempdir().expect("a directory for the test");
+    let path = directory.path().join(name);
+    fs::write(&path, bytes).expect("a file for the test");
+    (directory, path)
+}
+
+/// Opens what is written to a file of this name, and reads all of it.
+pub(super) fn read(name: &str, bytes: &[u8]) -> (Vec<[f32; 2]>, Option<String>) {
+    read_with(name, bytes, &OpenOptions::default())
+}
+
+/// The same, with the path left out of the message but for the name.
+pub(super) fn read_with(
+    name: &str,
+    bytes: &[u8],
+    options: &OpenOptions,
+) -> (Vec<[f32; 2]>, Option<String>) {
+    let (directory, path) = file(name, bytes);
+    let (pairs, fault) = match Recording::open(&path, options) {
+        Ok(mut recording) => drain(&mut recording),
+        Err(fault) => (Vec::new(), Some(fault)),
+    };
+    let prefix = format!("{}/", directory.path().display());
+    (
+        pairs,
+        fault.map(|fault| fault.to_string().replace(&prefix, "")),
+    )
+}
+
+fn open_fault(path: &Path) -> String {
+    message(Recording::open(path, &OpenOptions::default()).err())
+}
+
+#[test]
+fn a_path_that_leads_to_no_recording_is_named() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("none.wav");
+    let name = path.display();
+    assert_eq!(
+        open_fault(&path),
+        format!("{name}: there is no such file; check the path")
+    );
+    let expected = format!(
+        "{}: this is a directory; name the recording inside it",
+        directory.path().display()
+    );
+    assert_eq!(open_fault(directory.path()), expected);
+    assert!(open_fault(Path::new("/proc/self/mem")).contains(": cannot be read: "));
+}
+
+#[test]
+fn a_file_that_may_not_be_read_is_named() {
+    let fault = InputError::io("a.wav", io::ErrorKind::PermissionDenied.into());
+    assert!(
+        fault
+            .to_string()
+            .starts_with("a.wav: no permission to read it; grant")
+    );
+}
+
+#[test]
+fn content_that_is_no_recording_is_named() {
+    for (name, bytes, expected) in [
+        ("a.wav", &b""[..], "a.wav: there is nothing in it; check"),
+        (
+            "a.wav",
+            b"OggS and more",
+            "a.wav: this is not a WAV file, whatever its extension says; ",
+        ),
+        (
+            "a.npy",
+            b"PK\x03\x04 and more",
+            "a.npy: this is not an NPY file, whatever its extension says; ",
+        ),
+        (
+            "a.mat",
+            b"MATLAB 5.0 MAT-file",
+            "a.mat: neither its content nor its extension is known; give a .wav",
+        ),
+        (
+            "a",
+            b"1,2\n",
+            "a: neither its content nor its extension is known; give a .wav",
+        ),
+        (
+            "a.csv",
+            b"\xff\xfe1\0,\02\0",
+            "a.csv: this is UTF-16 text; save it as UTF-8",
+        ),
+    ] {
+        let (pairs, fault) = read(name, bytes);
+        assert!(pairs.is_empty());
+        let fault = fault.expect("a fault");
+        assert!(fault.starts_with(expected), "{fault}");
+    }
+}
+
+#[test]
+fn content_wins_over_the_extension() {
+    let mut wav = Cursor::new(Vec::new());
+    let spec = hound::WavSpec {
+        channels: 2,
+        sample_rate: 8,
+        bits_per_sample: 16,
+        sample_format: hound::SampleFormat::Int,
+    };
+    let mut writer = hound::WavWriter::new(&mut wav, spec).unwrap();
+    writer.write_sample(0x4000i16).unwrap();
+    writer.write_sample(-0x4000i16).unwrap();
+    writer.finalize().unwrap();
+    for name in ["a.wav", "a.WAV", "a.csv", "a.bin", "a"] {
+        assert_eq!(
+            read(name, wav.get_ref()),
+            (vec![[0.5, -0.5]], None),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_raw_file_is_read_in_the_format_given() {
+    let options = OpenOptions {
+        raw: Some(RawFormat::I16),
+        ..OpenOptions::default()
+    };
+    let (_directory, path) = file("a.bin", &[0, 0x40, 0, 0xc0]);
+    let mut recording = Recording::open(&path, &options).unwrap();
+    assert_eq!(
+        (recording.pairs(), recording.bytes_total()),
+        (Some(1), Some(4))
+    );
+    assert_eq!(
+        (recording.sample_rate(), recording.full_scale()),
+        (None, Some(32_767.0 / 32_768.0))
+    );
+    assert_eq!(recording.name(), path.display().to_string());
+    assert_eq!(drain(&mut recording).0, [[0.5, -0.5]]);
+    assert_eq!(recording.bytes_read(), 4);
+    assert_eq!(read_with("a.csv", b"1,2\n", &options).0, [[1.0, 2.0]]);
+}
+
+#[test]
+fn a_stream_needs_a_format_unless_it_is_a_file() {
+    let open = |bytes: &[u8], raw| {
+        let options = OpenOptions { raw, columns: None };
+        let rest = Box::new(io::empty());
+        Recording::stream("standard input", bytes.to_vec(), rest, &options)
+            .map(|opened| opened.full_scale)
+    };
+    assert!(open(b"abcd", Some(RawFormat::F32)).is_ok());
+    let fault = |bytes, raw| message(open(bytes, raw).err());
+    assert!(
+        fault(b"abcd", None).starts_with(
+            "standard input: raw samples do not tell their format; give it with --raw"
+        )
+    );
+    assert!(
+        fault(b"", Some(RawFormat::I16)).starts_with("standard input: there is nothing in it;")
+    );
+    assert!(
+        fault(b"RIFF1234WAVE", Some(RawFormat::I16)).starts_with("standard input: WAV header: ")
+    );
+    assert!(fault(b"\x93NUMPY", None).starts_with("standard input: NPY header: "));
+}
+
+#[test]
+fn a_buffer_without_capacity_is_given_some() {
+    let (_directory, path) = file("a.csv", b"1,2\n3,4\n");
+    let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+    assert_eq!(recording.read(&mut Vec::new()).unwrap(), 2);
+}
+
+#[test]
+fn a_recording_can_go_to_another_thread() {
+    fn send<T: Send>() {}
+    send::<Recording>();
+}
+
+/// Beginnings that lead deep into each reader.
+fn beginnings() -> impl Strategy<Value = Vec<u8>> {
+    let wav = b"RIFF\x24\0\0\0WAVEfmt \x10\0\0\0\x01\0\x02\0\0\0\x01\0\0\0\x04\0\x04\0\x10\0data";
+    prop_oneof![
+        Just(Vec::new()),
+        Just(b"RIFF\0\0\0\0WAVE".to_vec()),
+        Just(b"RF64\xff\xff\xff\xffWAVEds64\x1c\0\0\0".to_vec()),
+        Just(b"RIFF\0\0\0\0WAVEfmt \x28\0\0\0\xfe\xff\x02\0".to_vec()),
+        Just(wav.to_vec()),
+        Just(b"\x93NUMPY\x01\0\x46\0".to_vec()),
+        Just(
+            b"\x93NUMPY\x02\0\x46\0\0\0{'descr': '<f4', 'fortran_order': True, 'shape': (".to_vec()
+        ),
+        Just(b"time,c,d\n0,1,2\n1,3,4\n".to_vec()),
+        Just(b"1;2\n".to_vec()),
+    ]
+}
+
+fn text() -> impl Strategy<Value = Vec<u8>> {
+    proptest::collection::vec(
+        proptest::sample::select(b"0123456789.,;e- \t\r\n#\"'()[]{}<>if:nTF".to_vec()),
+        0..300,
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_bytes_make_a_reader_panic(
+        name in proptest::sample::select(vec!["a.wav", "a.csv", "a.npy", "a.raw"]),
+        mut bytes in beginnings(),
+        rest in prop_oneof![proptest::collection::vec(any::<u8>(), 0..300), text()],
+    ) {
+        bytes.extend_from_slice(&rest);
+        let options = OpenOptions { raw: Some(RawFormat::F32), columns: None };
+        let (pairs, fault) = read_with(name, &bytes, &options);
+        prop_assert!(pairs.as_flattened().iter().all(|value| value.is_finite()));
+        prop_assert!(fault.is_some() || !pairs.is_empty());
+    }
+}

@@ -1,0 +1,183 @@
+//! Times as programs print them, true and false.
+
+use super::*;
+
+/// Reads times as they are printed, the first `head` of them ahead.
+fn run(times: &[String], head: usize) -> Result<Option<f64>, (usize, String)> {
+    let mut printed = Printed::default();
+    let mut first = Vec::new();
+    for text in &times[..head.min(times.len())] {
+        printed.see(text.as_bytes());
+        first.push(text.parse().unwrap());
+    }
+    let Some(mut axis) = TimeAxis::of(&first, printed) else {
+        let (index, fault) = standstill(&first, printed).expect("a fault");
+        return Err((index, fault.to_string()));
+    };
+    for (index, text) in times.iter().enumerate().skip(1) {
+        printed.see(text.as_bytes());
+        let time = text.parse().unwrap();
+        axis.check(time, printed)
+            .map_err(|fault| (index, fault.to_string()))?;
+    }
+    Ok(Some(axis.rate()))
+}
+
+fn times(count: usize, rate: f64, start: f64, print: impl Fn(f64) -> String) -> Vec<String> {
+    (0..count).map(|k| print(start + k as f64 / rate)).collect()
+}
+
+/// `%.6g` and the like: so many digits, none of them trailing zeros.
+fn digits(value: f64, digits: usize) -> String {
+    let round: f64 = format!("{:.*e}", digits - 1, value).parse().unwrap();
+    format!("{round}")
+}
+
+const HEAD: usize = 1 << 16;
+
+#[test]
+fn rounded_times_give_the_rate() {
+    for rate in [96_000.0, 100_000.0, 99_999.0, 44_100.0, 65_536.0, 1e6 / 3.0] {
+        for start in [0.0, 3.7, 1000.0] {
+            for decimals in [7, 9, 12] {
+                let found = run(
+                    &times(200_000, rate, start, |t| format!("{t:.decimals$}")),
+                    HEAD,
+                );
+                let error = (found.unwrap().unwrap() - rate).abs() / rate;
+                assert!(error < 1e-5, "{rate} {start} {decimals}: {error}");
+            }
+            let shortest = run(&times(200_000, rate, start, |t| format!("{t}")), HEAD)
+                .unwrap()
+                .unwrap();
+            assert!((shortest - rate).abs() < 1e-6, "{rate} {start}: {shortest}");
+            let exponent = run(&times(200_000, rate, start, |t| format!("{t:.9e}")), HEAD)
+                .unwrap()
+                .unwrap();
+            assert!((exponent - rate).abs() < 1.0, "{rate} {start}: {exponent}");
+            run(&times(200_000, rate, start, |t| digits(t, 10)), HEAD).unwrap();
+        }
+    }
+}
+
+#[test]
+fn a_round_rate_is_found_exactly() {
+    for (rate, decimals) in [
+        (100_000.0, 5),
+        (100_000.0, 6),
+        (96_000.0, 6),
+        (44_100.0, 6),
+        (8_000.0, 6),
+    ] {
+        let text = times(100_000, rate, 0.0, |t| format!("{t:.decimals$}"));
+        assert_eq!(run(&text, HEAD), Ok(Some(rate)), "{rate} {decimals}");
+    }
+    assert_eq!(
+        run(&times(5, 100_000.0, 0.0, |t| format!("{t:.6}")), HEAD),
+        Ok(Some(100_000.0))
+    );
+    // Seconds since 1970, which leave little of a sample.
+    let epoch = run(
+        &times(100_000, 20_000.0, 1.7e9, |t| format!("{t:.6}")),
+        HEAD,
+    )
+    .unwrap()
+    .unwrap();
+    assert!((epoch - 20_000.0).abs() < 1.0, "{epoch}");
+}
+
+#[test]
+fn lost_samples_are_counted() {
+    for decimals in [5, 6, 9] {
+        for (at, lost) in [(1, 1), (10, 1), (70_000, 3), (30_000, 1000)] {
+            let mut text = times(100_000, 100_000.0, 0.0, |t| format!("{t:.decimals$}"));
+            text.drain(at..at + lost);
+            let (index, fault) = run(&text, HEAD).unwrap_err();
+            assert_eq!(index, at);
+            let plural = if lost == 1 {
+                "sample is"
+            } else {
+                "samples are"
+            };
+            assert!(
+                fault.starts_with(&format!("{lost} {plural} lost")),
+                "{decimals} {at}: {fault}"
+            );
+        }
+    }
+}
+
+#[test]
+fn uneven_steps_are_named() {
+    for (shift, expected) in [
+        (0.02, "time steps by 1.0200e-5 s"),
+        (-0.3, "time steps by 7.0000e-6 s"),
+        (0.5, "time"),
+    ] {
+        let mut text = times(1000, 100_000.0, 0.0, |t| format!("{t:.9}"));
+        text[500..]
+            .iter_mut()
+            .for_each(|time| *time = format!("{:.9}", time.parse::<f64>().unwrap() + shift * 1e-5));
+        let (index, fault) = run(&text, HEAD).unwrap_err();
+        assert_eq!(index, 500);
+        assert!(fault.starts_with(&format!("{expected}")), "{fault}");
+    }
+    let mut text = times(1000, 100_000.0, 0.0, |t| format!("{t:.9}"));
+    text[500..]
+        .iter_mut()
+        .for_each(|time| *time = format!("{:.9}", time.parse::<f64>().unwrap() + 0.005e-5));
+    assert!(run(&text, HEAD).is_ok());
+}
+
+#[test]
+fn time_that_does_not_go_up_is_named() {
+    let mut text = times(1000, 100_000.0, 0.0, |t| format!("{t:.6}"));
+    text.swap(600, 601);
+    assert_eq!(run(&text, HEAD).unwrap_err().0, 600);
+    let mut text = times(1000, 100_000.0, 0.0, |t| format!("{t:.6}"));
+    text[700] = text[699].clone();
+    let (index, fault) = run(&text, HEAD).unwrap_err();
+    assert_eq!(index, 700);
+    assert!(
+        fault.starts_with("time goes from 0.00699 s to 0.00699 s, but must go up; "),
+        "{fault}"
+    );
+}
+
+#[test]
+fn time_printed_too_coarsely_is_named() {
+    for (decimals, rate) in [(5, 150_000.0), (4, 100_000.0), (5, 70_000.0)] {
+        let (_, fault) =
+            run(&times(1000, rate, 0.0, |t| format!("{t:.decimals$}")), HEAD).unwrap_err();
+        assert!(
+            fault.contains("time is printed to 1e-"),
+            "{decimals} {rate}: {fault}"
+        );
+    }
+    // Five digits are enough for the first second only.
+    let (index, fault) = run(&times(200_000, 100_000.0, 0.0, |t| digits(t, 5)), HEAD).unwrap_err();
+    assert!(fault.contains("time is printed to 1e-"), "{index}: {fault}");
+}
+
+#[test]
+fn a_rate_that_creeps_away_is_named() {
+    let text: Vec<String> = (0..300_000)
+        .map(|k| f64::from(k))
+        .map(|k| format!("{:.12}", k * 1e-5 * (1.0 + 2e-9 * k)))
+        .collect();
+    let (index, fault) = run(&text, HEAD).unwrap_err();
+    assert_eq!((index + 1) % (1 << 16), 1);
+    assert!(fault.contains("the sample rate has gone from "), "{fault}");
+    let text: Vec<String> = (0..300_000)
+        .map(|k| f64::from(k))
+        .map(|k| format!("{:.12}", k * 1e-5 * (1.0 + 1e-12 * k)))
+        .collect();
+    assert!(run(&text, HEAD).is_ok());
+}
+
+#[test]
+fn the_fewest_digits_are_chosen() {
+    assert_eq!(roundest(99_999.3, 1.0), 100_000.0);
+    assert_eq!(roundest(44_100.02, 0.1), 44_100.0);
+    assert_eq!(roundest(44_100.02, 0.001), 44_100.02);
+}

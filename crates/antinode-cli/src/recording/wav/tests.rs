@@ -1,0 +1,352 @@
+//! WAV files made by hand.
+
+mod programs;
+
+use super::super::tests::{Dribble, drain, file, message, read};
+use super::super::{OpenOptions, Recording};
+
+/// A header made by hand, and its data.
+#[derive(Clone)]
+struct Wav {
+    magic: &'static [u8; 4],
+    riff: u32,
+    before: Vec<u8>,
+    format: Vec<u8>,
+    size: u32,
+    data: Vec<u8>,
+    after: Vec<u8>,
+}
+
+fn format(tag: u16, channels: u16, bits: u16) -> Vec<u8> {
+    let frame = channels * bits.div_ceil(8);
+    let mut format = Vec::new();
+    for word in [tag, channels, 0x86a0, 1, 0, 0, frame, bits] {
+        format.extend_from_slice(&word.to_le_bytes());
+    }
+    format
+}
+
+/// The extensible form: `bits` of which `valid` count.
+fn extensible(tag: u16, bits: u16, valid: u16) -> Vec<u8> {
+    let mut format = format(0xfffe, 2, bits);
+    for word in [22, valid, 3, 0, tag] {
+        format.extend_from_slice(&u16::to_le_bytes(word));
+    }
+    format.extend_from_slice(&super::SUBTYPE_TAIL);
+    format
+}
+
+fn wav(format: Vec<u8>, data: &[u8]) -> Wav {
+    let (size, data) = (data.len() as u32, data.to_vec());
+    Wav {
+        magic: b"RIFF",
+        riff: 1,
+        before: Vec::new(),
+        format,
+        size,
+        data,
+        after: Vec::new(),
+    }
+}
+
+impl Wav {
+    fn bytes(&self) -> Vec<u8> {
+        let words = [
+            b"WAVE",
+            &self.before[..],
+            b"fmt ",
+            &(self.format.len() as u32).to_le_bytes(),
+            &self.format,
+        ];
+        let head = [
+            &self.magic[..],
+            &self.riff.to_le_bytes(),
+            &words.concat(),
+            b"data",
+            &self.size.to_le_bytes(),
+        ];
+        [&head.concat(), &self.data[..], &self.after].concat()
+    }
+
+    fn read(&self) -> (Vec<[f32; 2]>, Option<String>) {
+        read("a.wav", &self.bytes())
+    }
+
+    fn fault(&self) -> String {
+        self.read().1.expect("a fault")
+    }
+
+    fn open(&self) -> Recording {
+        let (_directory, path) = file("a.wav", &self.bytes());
+        Recording::open(&path, &OpenOptions::default()).expect("a good recording")
+    }
+}
+
+const PAIR_16: [u8; 4] = [0, 0x40, 0, 0x80];
+
+#[test]
+fn every_sample_format_is_read() {
+    let half = 0.5f32.to_le_bytes();
+    let half_64 = 0.5f64.to_le_bytes();
+    for (format, data) in [
+        (format(1, 2, 8), &[0xc0, 0x40][..]),
+        (format(1, 2, 16), &[0, 0x40, 0, 0xc0]),
+        (format(1, 2, 24), &[0, 0, 0x40, 0, 0, 0xc0]),
+        (format(1, 2, 32), &[0, 0, 0, 0x40, 0, 0, 0, 0xc0]),
+        (format(3, 2, 32), &[half, (-0.5f32).to_le_bytes()].concat()),
+        (
+            format(3, 2, 64),
+            &[half_64, (-0.5f64).to_le_bytes()].concat(),
+        ),
+        (extensible(1, 16, 16), &[0, 0x40, 0, 0xc0]),
+        (extensible(1, 16, 12), &[0, 0x40, 0, 0xc0]),
+        (extensible(1, 32, 24), &[0, 0, 0, 0x40, 0, 0, 0, 0xc0]),
+        (extensible(1, 32, 0), &[0, 0, 0, 0x40, 0, 0, 0, 0xc0]),
+        (
+            extensible(3, 32, 32),
+            &[half, (-0.5f32).to_le_bytes()].concat(),
+        ),
+    ] {
+        assert_eq!(
+            wav(format.clone(), data).read(),
+            (vec![[0.5, -0.5]], None),
+            "{format:?}"
+        );
+    }
+}
+
+#[test]
+fn the_header_tells_rate_size_and_rail() {
+    let recording = wav(format(1, 2, 16), &[0; 40]).open();
+    assert_eq!(
+        (recording.sample_rate(), recording.pairs()),
+        (Some(100_000.0), Some(10))
+    );
+    assert_eq!(
+        (recording.bytes_total(), recording.bytes_read()),
+        (Some(84), 44)
+    );
+    assert_eq!(recording.full_scale(), Some(32_767.0 / 32_768.0));
+    assert_eq!(wav(format(3, 2, 32), &[0; 40]).open().full_scale(), None);
+    assert_eq!(
+        wav(extensible(1, 16, 12), &[0; 40]).open().full_scale(),
+        Some(2047.0 / 2048.0)
+    );
+    let mut no_rate = wav(format(1, 2, 16), &[0; 40]);
+    no_rate.format[4..8].fill(0);
+    assert_eq!(no_rate.open().sample_rate(), None);
+}
+
+#[test]
+fn other_chunks_are_passed_over() {
+    let mut padded = wav(format(1, 2, 16), &PAIR_16);
+    // Three bytes and one of padding.
+    padded.before = b"LIST\x03\0\0\0abc\0".to_vec();
+    padded.after = b"LIST\x03\0\0\0abc\0".to_vec();
+    assert_eq!(padded.read(), (vec![[0.5, -1.0]], None));
+}
+
+#[test]
+fn a_length_that_was_never_filled_in_means_to_the_end() {
+    for size in [0, 0xffff_ffff, 0xffff_fffc, 0x7fff_f000, 0x8000_0000] {
+        let mut streamed = wav(format(1, 2, 16), &[PAIR_16; 3].concat());
+        streamed.size = size;
+        assert_eq!(streamed.open().pairs(), Some(3));
+        assert_eq!(streamed.read(), (vec![[0.5, -1.0]; 3], None), "{size:#x}");
+    }
+    let mut streamed = wav(format(1, 2, 24), &[0; 12]);
+    streamed.size = 0x7fff_effc;
+    assert_eq!(streamed.read(), (vec![[0.0, 0.0]; 2], None));
+}
+
+#[test]
+fn a_finished_file_of_nothing_has_no_pairs() {
+    let mut empty = wav(format(1, 2, 16), &[]);
+    empty.after = b"LIST\x04\0\0\0abcd".to_vec();
+    empty.riff = empty.bytes().len() as u32 - 8;
+    assert!(
+        empty
+            .fault()
+            .starts_with("a.wav: there is not one sample pair in it;")
+    );
+}
+
+#[test]
+fn data_longer_than_4_gib_have_their_size_in_a_chunk_of_its_own() {
+    let mut long = wav(format(1, 2, 16), &[PAIR_16; 2].concat());
+    (long.magic, long.riff, long.size) = (b"RF64", u32::MAX, u32::MAX);
+    long.before = [
+        &b"ds64\x1c\0\0\0"[..],
+        &[0; 8],
+        &4u64.to_le_bytes(),
+        &[0; 12],
+    ]
+    .concat();
+    assert_eq!(long.read(), (vec![[0.5, -1.0]], None));
+    long.before[16..24].copy_from_slice(&(5u64 << 32).to_le_bytes());
+    assert!(
+        long.fault()
+            .starts_with("a.wav: after 2 sample pairs: the header promises 5368709120 pairs, but")
+    );
+}
+
+#[test]
+fn truncated_data_are_delivered_before_the_error() {
+    let mut cut = wav(format(1, 2, 16), &[PAIR_16; 3].concat());
+    cut.size = 40;
+    assert_eq!(cut.open().pairs(), Some(3));
+    let (pairs, fault) = cut.read();
+    assert_eq!(pairs, [[0.5, -1.0]; 3]);
+    let expected = "a.wav: after 3 sample pairs: the header promises 10 pairs, but the data end here; copy or record";
+    assert!(fault.expect("a fault").starts_with(expected));
+    cut.data.truncate(10);
+    assert_eq!(cut.read().0.len(), 2);
+    assert!(
+        cut.fault()
+            .starts_with("a.wav: after 2 sample pairs: the header promises 10 pairs")
+    );
+    cut.size = 10;
+    assert_eq!(cut.read().0.len(), 2);
+    assert!(
+        cut.fault()
+            .starts_with("a.wav: after 2 sample pairs: the data end in the middle of a pair; ")
+    );
+}
+
+#[test]
+fn other_than_two_channels_are_counted() {
+    let fault = |channels| wav(format(1, channels, 16), &[0; 48]).fault();
+    let one = "a.wav: WAV header: found 1 channel, but two are needed; put S_C on the left channel and S_D";
+    assert!(fault(1).starts_with(one));
+    assert!(fault(6).starts_with("a.wav: WAV header: found 6 channels, but two are needed; "));
+    assert!(fault(0).starts_with("a.wav: WAV header: found 0 channels"));
+}
+
+#[test]
+fn other_encodings_are_named() {
+    for (format, expected) in [
+        (
+            format(2, 2, 4),
+            "the samples are compressed (ADPCM); export",
+        ),
+        (
+            format(6, 2, 8),
+            "the samples are compressed (A-law); export",
+        ),
+        (
+            format(7, 2, 8),
+            "the samples are compressed (µ-law); export",
+        ),
+        (
+            format(0x55, 2, 0),
+            "the samples are compressed (MP3); export",
+        ),
+        (
+            format(0x1234, 2, 16),
+            "the samples are of an unknown encoding (tag 0x1234); export",
+        ),
+        (format(3, 2, 16), "the samples are 16-bit floats; export"),
+        (format(1, 2, 64), "the samples are 64-bit integers; export"),
+        (
+            extensible(7, 8, 8),
+            "the samples are compressed (µ-law); export",
+        ),
+    ] {
+        let fault = wav(format, &[0; 48]).fault();
+        assert!(
+            fault.starts_with(&format!("a.wav: WAV header: {expected}")),
+            "{fault}"
+        );
+    }
+}
+
+#[test]
+fn a_damaged_header_is_named() {
+    let good = wav(format(1, 2, 16), &PAIR_16);
+    let change = |change: fn(&mut Wav)| {
+        let mut wav = good.clone();
+        change(&mut wav);
+        wav.fault()
+    };
+    for (fault, expected) in [
+        (
+            change(|wav| wav.magic = b"RIFX"),
+            "it is big-endian (RIFX); ",
+        ),
+        (
+            change(|wav| wav.before = b"data\0\0\0\0".to_vec()),
+            "the data come before their format; ",
+        ),
+        (
+            change(|wav| wav.before = b"LIST\xff\xff\0\0".to_vec()),
+            "the file ends before the data begin; ",
+        ),
+        (
+            change(|wav| wav.format.truncate(14)),
+            "a chunk is too short; ",
+        ),
+        (
+            change(|wav| wav.format[12] = 8),
+            "16 valid of 16 bits do not fit pairs of 8 bytes; ",
+        ),
+        (
+            change(|wav| wav.format = extensible(1, 16, 24)),
+            "24 valid of 16 bits do not fit pairs of 4 bytes; ",
+        ),
+        (
+            change(|wav| wav.format = extensible(3, 32, 24)),
+            "24 valid of 32 bits do not fit pairs of 8 bytes; ",
+        ),
+        (
+            change(|wav| wav.format = format(0xfffe, 2, 16)),
+            "its extensible format is of no known kind; ",
+        ),
+    ] {
+        assert!(
+            fault.starts_with(&format!("a.wav: WAV header: {expected}")),
+            "{fault}"
+        );
+    }
+    let whole = good.bytes();
+    for end in 12..44 {
+        let fault = read("a.wav", &whole[..end]).1.expect("a fault");
+        assert!(
+            fault.starts_with("a.wav: WAV header: the file ends before the data begin; "),
+            "{end}: {fault}"
+        );
+    }
+}
+
+#[test]
+fn not_finite_and_padding_are_named() {
+    let values = [0.5f32, 0.5, 0.5, f32::NAN].map(f32::to_le_bytes);
+    let (pairs, fault) = wav(format(3, 2, 32), values.as_flattened()).read();
+    assert_eq!(pairs, [[0.5, 0.5]]);
+    assert!(
+        fault
+            .expect("a fault")
+            .starts_with("a.wav: sample pair 1 (from 0), S_D (right): the value is NaN, not")
+    );
+    let low = wav(extensible(1, 32, 24), &[0, 0, 0, 0, 7, 0, 0, 0]).fault();
+    let expected = "a.wav: sample pair 0 (from 0), S_D (right): bits are set below the 24 valid ones of a 32-bit";
+    assert!(low.starts_with(expected), "{low}");
+}
+
+#[test]
+fn a_pipe_needs_no_length() {
+    let mut piped = wav(format(1, 2, 16), &[PAIR_16; 500].concat());
+    piped.size = 0xffff_ffff;
+    let open = |wav: &Wav| {
+        let opened = super::open("pipe", Box::new(Dribble::new(wav.bytes(), 5)), None)
+            .expect("a good header");
+        Recording::new("pipe".to_owned(), opened, None)
+    };
+    assert_eq!(open(&piped).pairs(), None);
+    assert_eq!(drain(&mut open(&piped)).0.len(), 500);
+    piped.size = 4000;
+    assert_eq!(open(&piped).pairs(), Some(1000));
+    assert!(
+        message(drain(&mut open(&piped)).1)
+            .starts_with("pipe: after 500 sample pairs: the header promises 1000")
+    );
+}

@@ -1,0 +1,126 @@
+//! WAV files as other programs write them.
+
+use std::io::Cursor;
+use std::process::Command;
+
+use super::{format, wav};
+use crate::recording::tests::{drain, file, read};
+use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
+
+#[test]
+fn what_hound_writes_is_read_alike() {
+    for bits in [8, 16, 24, 32] {
+        let spec = hound::WavSpec {
+            channels: 2,
+            sample_rate: 100_000,
+            bits_per_sample: bits,
+            sample_format: hound::SampleFormat::Int,
+        };
+        let mut bytes = Cursor::new(Vec::new());
+        let mut writer = hound::WavWriter::new(&mut bytes, spec).unwrap();
+        let top = 1i64 << (bits - 1);
+        let codes: Vec<i32> = (0..2000)
+            .map(|k| ((k * 7_919_371_337_i64) % (2 * top) - top) as i32)
+            .collect();
+        codes
+            .iter()
+            .for_each(|&code| writer.write_sample(code).unwrap());
+        writer.finalize().unwrap();
+        let expected: Vec<f32> = codes
+            .iter()
+            .map(|&code| (f64::from(code) / top as f64) as f32)
+            .collect();
+        assert_eq!(
+            read("a.wav", bytes.get_ref()),
+            (expected.as_chunks::<2>().0.to_vec(), None),
+            "{bits}"
+        );
+    }
+}
+
+/// Whether a program made its file; where it is not installed, there is nothing to compare.
+fn made(program: &str, arguments: &[&str]) -> bool {
+    Command::new(program)
+        .args(arguments)
+        .status()
+        .is_ok_and(|status| status.success())
+}
+
+#[test]
+fn what_sox_and_scipy_write_is_read() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("a.wav");
+    let name = path.to_str().unwrap();
+    let check = |tolerance: f32| {
+        let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+        assert_eq!(
+            (recording.sample_rate(), recording.pairs()),
+            (Some(100_000.0), Some(1000))
+        );
+        let (pairs, fault) = drain(&mut recording);
+        assert!(fault.is_none());
+        for (k, pair) in pairs.iter().enumerate() {
+            let sine = 0.5 * (std::f32::consts::TAU * 0.05 * k as f32).sin();
+            assert!(
+                (pair[0] - sine).abs() < tolerance && (pair[1] + sine).abs() < tolerance,
+                "{k}: {pair:?} {sine}"
+            );
+        }
+    };
+    for (encoding, bits, tolerance) in [
+        ("unsigned", "8", 1e-2),
+        ("signed", "16", 1e-4),
+        ("signed", "24", 1e-5),
+        ("signed", "32", 1e-5),
+    ]
+    .into_iter()
+    .chain([("float", "32", 1e-5), ("float", "64", 1e-5)])
+    {
+        let format = [
+            "-D", "-r", "100000", "-n", "-e", encoding, "-b", bits, "-c", "2", name,
+        ];
+        let effects = [
+            "synth", "0.01", "sine", "5000", "vol", "0.5", "remix", "1", "1i",
+        ];
+        if made("sox", &[&format[..], &effects].concat()) {
+            check(tolerance);
+        }
+    }
+    for dtype in ["h", "i", "f", "d"] {
+        let script = "import sys, numpy as n, scipy.io.wavfile as w\n\
+             s = .5 * n.sin(2 * n.pi * .05 * n.arange(1000))\n\
+             a = n.stack([s, -s], axis=1)\n\
+             a = (a * {'h': 2**15, 'i': 2**31}.get(sys.argv[2], 1)).astype(sys.argv[2])\n\
+             w.write(sys.argv[1], 100000, a)";
+        if made("python3", &["-c", script, name, dtype]) {
+            check(1e-4);
+        }
+    }
+}
+
+#[test]
+#[ignore = "a measurement, for an optimised build"]
+fn throughput() {
+    let pairs = 50_000_000;
+    let mut long = wav(format(1, 2, 16), &[]);
+    long.data = (0..2 * pairs)
+        .flat_map(|k: u32| (k.wrapping_mul(40_503) as i16).to_le_bytes())
+        .collect();
+    long.size = long.data.len() as u32;
+    let (_directory, path) = file("a.wav", &long.bytes());
+    let mut block = Vec::with_capacity(BLOCK_PAIRS);
+    for _ in 0..5 {
+        let start = std::time::Instant::now();
+        let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+        let mut count = 0;
+        while recording.read(&mut block).unwrap() > 0 {
+            count += block.len();
+            std::hint::black_box(&mut block);
+        }
+        assert_eq!(count, pairs as usize);
+        println!(
+            "{:.0} M pairs/s",
+            f64::from(pairs) / start.elapsed().as_secs_f64() / 1e6
+        );
+    }
+}

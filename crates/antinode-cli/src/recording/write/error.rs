@@ -1,0 +1,53 @@
+//! What can go wrong in writing a recording, told as `FILE: what is wrong; remedy`.
+
+use std::io;
+
+use crate::recording::Channel;
+
+/// Why a recording cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[allow(
+    missing_docs,
+    reason = "the message above each variant says what its fields are"
+)]
+pub enum OutputError {
+    /// The extension names no format that is written.
+    #[error("{file}: the extension names no format; end the name in .wav, .csv or .npy")]
+    Unknown { file: String },
+    /// A device, a pipe or a directory.
+    #[error("{file}: this exists and is not a file; give the path of a file")]
+    NotAFile { file: String },
+    /// The system failed to write.
+    #[error(
+        "{file}: cannot be written: {fault}; check that its directory exists, may be written and has room"
+    )]
+    Io { file: String, fault: io::Error },
+    /// No rate, or one the format cannot hold.
+    #[error("{file}: {format} cannot hold a sample rate of {rate} Hz; {remedy}")]
+    Rate {
+        file: String,
+        format: &'static str,
+        rate: f64,
+        remedy: &'static str,
+    },
+    /// A sample format the container cannot hold.
+    #[error(
+        "{file}: a WAV file of 64-bit floats is not written; choose 32-bit floats, or a .npy or .csv file"
+    )]
+    Wav64 { file: String },
+    /// WAV files end at 4 GiB.
+    #[error(
+        "{file}: after {pairs} sample pairs: a WAV file holds no more than 4 GiB; write a .npy file, or fewer pairs"
+    )]
+    Full { file: String, pairs: u64 },
+    /// A sample that is no number.
+    #[error(
+        "{file}: sample pair {pair} (from 0), {channel}: {value} is not a finite number; mend what makes it"
+    )]
+    NotFinite {
+        file: String,
+        pair: u64,
+        channel: Channel,
+        value: f64,
+    },
+}

@@ -1,0 +1,103 @@
+//! Samples become blocks, from cold: the period is searched, then blocks are gathered. This is what runs in an interrupt.
+
+use crate::block::{Block, Demodulator, Pair};
+use crate::period::{DifferenceDetector, MeanReturnDetector};
+use crate::settings::{Detection, Settings, SettingsError};
+
+/// What the front is doing with samples.
+#[derive(Debug, Clone)]
+enum Stage<const N: usize> {
+    Difference(DifferenceDetector),
+    MeanReturn(MeanReturnDetector),
+    Gather(Demodulator<N>),
+}
+
+/// The sample-rate half of an identification, for blocks of up to `N` sample pairs; `N` bounds the period (200 for all).
+#[derive(Debug, Clone)]
+pub struct Front<const N: usize> {
+    settings: Settings,
+    stage: Stage<N>,
+    /// Index in the stream of the next sample pair.
+    index: u64,
+}
+
+impl<const N: usize> Front<N> {
+    /// A front that searches for a period.
+    pub fn new(settings: Settings) -> Result<Self, SettingsError> {
+        settings.check(usize::from(u16::MAX))?;
+        Ok(Self { settings, stage: Self::cold(&settings), index: 0 })
+    }
+
+    fn cold(settings: &Settings) -> Stage<N> {
+        match settings.detection {
+            Detection::Difference => Stage::Difference(DifferenceDetector::new()),
+            Detection::MeanReturn => Stage::MeanReturn(MeanReturnDetector::new()),
+        }
+    }
+
+    /// Drops the period and searches anew.
+    pub fn search(&mut self) {
+        self.stage = Self::cold(&self.settings);
+    }
+
+    /// True while a period is searched.
+    pub fn is_searching(&self) -> bool {
+        !matches!(self.stage, Stage::Gather(_))
+    }
+
+    /// Index in the stream of the next sample pair.
+    pub fn index(&self) -> u64 {
+        self.index
+    }
+
+    /// Tells that `count` sample pairs were lost before the next one: the block that they would have been part of is dropped.
+    pub fn skip(&mut self, count: u64) {
+        self.index += count;
+        if let Stage::Gather(demodulator) = &mut self.stage {
+            demodulator.restart(self.index);
+        } else {
+            self.search();
+        }
+    }
+
+    /// Takes one sample pair; gives the block that it finished.
+    #[inline]
+    pub fn push(&mut self, pair: Pair) -> Option<Block> {
+        self.push_slice(&[pair]).1
+    }
+
+    /// Takes pairs from the start of a slice up to the end of a block; gives how many it took and the block if one is finished.
+    ///
+    /// Call it again with the rest until it has taken all: results are the same to the bit however a stream is cut.
+    #[inline]
+    pub fn push_slice(&mut self, pairs: &[Pair]) -> (usize, Option<Block>) {
+        if let Stage::Gather(demodulator) = &mut self.stage {
+            let (taken, block) = demodulator.push_slice(pairs);
+            self.index += taken as u64;
+            return (taken, block);
+        }
+        (self.search_slice(pairs), None)
+    }
+
+    /// Takes pairs until a period is found; gives how many.
+    fn search_slice(&mut self, pairs: &[Pair]) -> usize {
+        for (taken, &pair) in pairs.iter().enumerate() {
+            self.index += 1;
+            let found = match &mut self.stage {
+                Stage::Difference(detector) => detector.push(pair),
+                Stage::MeanReturn(detector) => detector.push(pair),
+                Stage::Gather(_) => None,
+            };
+            if let Some(period) = found {
+                let layout = self.settings.layout(period);
+                if usize::from(layout.length) <= N {
+                    self.stage = Stage::Gather(Demodulator::new(layout, self.index));
+                } else {
+                    self.search();
+                }
+                return taken + 1;
+            }
+        }
+        pairs.len()
+    }
+}

@@ -1,0 +1,78 @@
+//! The whole path in one: samples in, estimates out.
+
+use crate::block::Pair;
+use crate::estimate::Estimate;
+use crate::front::Front;
+use crate::settings::{Settings, SettingsError};
+use crate::tracker::Tracker;
+
+/// Identifies the wave in a stream of sample pairs: a [`Front`] and a [`Tracker`] in one thread.
+///
+/// `N` is the most sample pairs a block may have, and so the longest period, 200 for all; `BLOCKS` is the length of the ring, a
+/// little more than the periods of a window.
+#[derive(Debug, Clone)]
+pub struct Identifier<const N: usize, const BLOCKS: usize> {
+    front: Front<N>,
+    tracker: Tracker<BLOCKS>,
+}
+
+impl<const N: usize, const BLOCKS: usize> Identifier<N, BLOCKS> {
+    /// An identification from cold.
+    pub fn new(settings: Settings) -> Result<Self, SettingsError> {
+        Ok(Self { front: Front::new(settings)?, tracker: Tracker::new(settings)? })
+    }
+
+    /// Takes one sample pair; gives the estimate of the window that it completes.
+    #[inline]
+    pub fn push(&mut self, pair: Pair) -> Option<Estimate> {
+        self.push_slice(&[pair]).1
+    }
+
+    /// Takes pairs from the start of a slice up to the end of a window; gives how many it took and the estimate, if any.
+    ///
+    /// Call it again with the rest until it has taken all: results are the same to the bit however a stream is cut.
+    pub fn push_slice(&mut self, pairs: &[Pair]) -> (usize, Option<Estimate>) {
+        let mut taken = 0;
+        while let Some(rest) = pairs.get(taken..).filter(|rest| !rest.is_empty()) {
+            let (count, block) = self.front.push_slice(rest);
+            taken += count;
+            if let Some(block) = block {
+                let estimate = self.tracker.push(block);
+                if self.tracker.has_lost() {
+                    self.front.search();
+                    self.tracker.forget();
+                }
+                if estimate.is_some() {
+                    return (taken, estimate);
+                }
+            }
+        }
+        (taken, None)
+    }
+
+    /// Takes all pairs of a slice and hands every estimate to `report`.
+    pub fn extend(&mut self, mut pairs: &[Pair], mut report: impl FnMut(Estimate)) {
+        while !pairs.is_empty() {
+            let (taken, estimate) = self.push_slice(pairs);
+            pairs = pairs.get(taken..).unwrap_or(&[]);
+            if let Some(estimate) = estimate {
+                report(estimate);
+            }
+        }
+    }
+
+    /// Tells that `count` sample pairs were lost before the next one; the window that they would have been part of is dropped.
+    pub fn skip(&mut self, count: u64) {
+        self.front.skip(count);
+    }
+
+    /// True while no wave is tracked.
+    pub fn is_searching(&self) -> bool {
+        self.front.is_searching()
+    }
+
+    /// Sample pairs taken so far, lost ones among them.
+    pub fn index(&self) -> u64 {
+        self.front.index()
+    }
+}

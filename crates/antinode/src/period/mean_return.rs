@@ -1,0 +1,173 @@
+//! Period by the return of the running sum to zero, formula (9).
+//!
+//! Summed from any start, a centred wave returns to zero after every whole period, moving as it did at the start; the one inner
+//! zero of each period is crossed the other way, and is skipped by that. An offset makes the sum run away, so the mean over two
+//! whole periods is taken off first, (4). The return rests on few samples: with noise it is rougher than formula (10), and it
+//! takes about eleven periods; formula (10) is the default.
+
+use core::f32::consts::TAU;
+
+use super::PERIODS;
+use super::confirm::Trial;
+use crate::block::Pair;
+
+/// Whole periods that the mean and the return are measured over.
+const SPAN: u16 = 2;
+/// Periods that the found period is tried on.
+const TRIED: f32 = 3.0;
+/// Samples of the longest stage: beyond it there is no period.
+const LONGEST: u16 = 800;
+
+/// Tells when a signal has crossed zero upwards, by more than a margin on both sides.
+#[derive(Debug, Clone, Copy, Default)]
+struct Upward {
+    below: bool,
+}
+
+impl Upward {
+    fn crossed(&mut self, value: f32, margin: f32) -> bool {
+        let crossed = self.below && value > margin;
+        self.below = value < -margin || self.below && !crossed;
+        crossed
+    }
+}
+
+/// What the detector does with the stronger signal.
+#[derive(Debug, Clone)]
+enum Stage {
+    /// Finds the range of both signals, until one of them has crossed its middle twice.
+    Range { low: Pair, high: Pair, upward: [Upward; 2], crossings: [u8; 2] },
+    /// Takes the mean from one upward crossing of the middle to another.
+    Mean { middle: f32, swing: f32, upward: Upward, crossings: u16, before: f32, area: f32, lead: f32 },
+    /// Waits until `samples` have passed: the crest, where the sum leaves and meets zero steeply.
+    Crest { mean: f32, margin: f32, samples: u16 },
+    /// Sums until the sum has returned.
+    Sum { mean: f32, margin: f32, upward: Upward, sum: f32, returns: u16 },
+    /// Tries the period found.
+    Try { trial: Trial },
+}
+
+/// The streaming detector of formula (9): periods of 4 to 200 samples. Bounded work a sample: a few additions.
+#[derive(Debug, Clone)]
+pub struct MeanReturnDetector {
+    stage: Stage,
+    channel: usize,
+    /// Samples in this stage.
+    time: u16,
+}
+
+impl MeanReturnDetector {
+    const START: Stage = Stage::Range {
+        low: [f32::INFINITY; 2],
+        high: [f32::NEG_INFINITY; 2],
+        upward: [Upward { below: false }; 2],
+        crossings: [0; 2],
+    };
+
+    /// A detector at rest.
+    pub const fn new() -> Self {
+        Self { stage: Self::START, channel: 0, time: 0 }
+    }
+
+    /// Takes a sample pair; gives the period in samples once it is sure.
+    pub fn push(&mut self, pair: Pair) -> Option<f32> {
+        self.time += 1;
+        let value = pair[self.channel & 1];
+        let next = match &mut self.stage {
+            Stage::Range { low, high, upward, crossings } => {
+                for i in 0..2 {
+                    low[i] = low[i].min(pair[i]);
+                    high[i] = high[i].max(pair[i]);
+                    let (middle, swing) = (0.5 * (high[i] + low[i]), 0.5 * (high[i] - low[i]));
+                    crossings[i] += u8::from(upward[i].crossed(pair[i] - middle, 0.25 * swing));
+                }
+                let swing = [0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1])];
+                let strong = usize::from(swing[1] > swing[0]);
+                (crossings[strong] >= 2).then(|| {
+                    self.channel = strong;
+                    Stage::Mean {
+                        middle: 0.5 * (high[strong] + low[strong]),
+                        swing: swing[strong],
+                        upward: Upward::default(),
+                        crossings: 0,
+                        before: 0.0,
+                        area: 0.0,
+                        lead: 0.0,
+                    }
+                })
+            }
+            Stage::Mean { middle, swing, upward, crossings, before, area, lead } => {
+                let height = value - *middle;
+                let rise = height - *before;
+                *area += 0.5 * (height + *before);
+                *before = height;
+                if !upward.crossed(height, 0.25 * *swing) {
+                    None
+                } else {
+                    // The crossing itself lies on the line through the last two samples, so long before this one.
+                    let late = if rise > 0.0 { height / rise } else { 0.0 };
+                    let triangle = 0.5 * height * late;
+                    *crossings += 1;
+                    if *crossings == 1 {
+                        (*area, *lead) = (triangle, late);
+                        self.time = 0;
+                    }
+                    (*crossings > SPAN).then(|| {
+                        let span = f32::from(self.time) + *lead - late;
+                        let mean = *middle + (*area - triangle) / span;
+                        let period = span / f32::from(SPAN);
+                        // The sum's first sample is to stand half a sample past the next crest.
+                        let samples = libm::roundf(1.25 * period - 0.5 - late) as u16;
+                        Stage::Crest { mean, margin: 0.25 * *swing * period / TAU, samples }
+                    })
+                }
+            }
+            Stage::Crest { mean, margin, samples } => {
+                (self.time >= *samples).then_some(Stage::Sum {
+                    mean: *mean,
+                    margin: *margin,
+                    upward: Upward::default(),
+                    sum: 0.0,
+                    returns: 0,
+                })
+            }
+            Stage::Sum { mean, margin, upward, sum, returns } => {
+                let step = value - *mean;
+                *sum += step;
+                // The return itself is the crossing of zero: the margin only arms it.
+                upward.below |= *sum < -*margin;
+                if upward.below && *sum >= 0.0 {
+                    upward.below = false;
+                    *returns += 1;
+                }
+                (*returns == SPAN).then(|| {
+                    let late = if step > 0.0 { (*sum / step).min(1.0) } else { 0.0 };
+                    let period = (f32::from(self.time) - late) / f32::from(SPAN);
+                    let length = (TRIED * period) as usize + 1;
+                    Stage::Try { trial: Trial::new(period.clamp(2.5, 400.0), length.max(12)) }
+                })
+            }
+            Stage::Try { trial } => {
+                if trial.push(pair) {
+                    let found = trial.verdict(&[]).map(|found| found.period);
+                    *self = Self::new();
+                    return found.filter(|period| PERIODS.contains(period));
+                }
+                None
+            }
+        };
+        if let Some(stage) = next {
+            self.stage = stage;
+            self.time = 0;
+        } else if self.time > LONGEST {
+            *self = Self::new();
+        }
+        None
+    }
+}
+
+impl Default for MeanReturnDetector {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,11 @@
+//! The period of a wave from cold, formulas (9) and (10).
+
+mod confirm;
+mod difference;
+mod mean_return;
+
+pub use difference::DifferenceDetector;
+pub use mean_return::MeanReturnDetector;
+
+/// Periods found, in samples: 4 to 200 and a little more.
+const PERIODS: core::ops::RangeInclusive<f32> = 3.9..=210.0;

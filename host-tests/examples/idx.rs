@@ -4,7 +4,7 @@ use antinode::settings::Settings;
 use antinode::tracker::Tracker;
 use antinode_sim::{Flaws, Gyro, random_wave};
 fn main() {
-    let fs = 1e5; let p = 18.754688; let n: u16 = std::env::args().nth(1).unwrap().parse().unwrap();
+    let fs = 1e5; let p: f64 = std::env::args().nth(2).unwrap().parse().unwrap(); let n: u16 = std::env::args().nth(1).unwrap().parse().unwrap();
     let noise = 0.02; let mut s = vec![0f64; 16]; let mut r = vec![0f64; 16];
     let runs = 3000;
     for seed in 0..runs {

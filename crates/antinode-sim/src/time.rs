@@ -104,17 +104,12 @@ mod tests {
         let got = Instant::of(1000.0).later(1e-3).turns(0.0, 2.0);
         // (1000.001)^2 = 1000002.000001
         assert!((got - 1e-6).abs() < 1e-15, "{got}");
-        // 100000 S/s, 0.2 Hz/s: sample k has turned k^2 / 10^11 times.
+        // 100000 S/s, 0.25 Hz/s: sample k has turned k^2 / (8 * 10^10) times.
         for k in [99_999u64, 123_456_789, 36_000 * 100_000 + 7] {
-            let square = u128::from(k).pow(2) % 100_000_000_000;
-            let expected = square as f64 / 1e11;
-            let got = Instant::of_sample(k, 100_000.0).turns(0.0, 0.2);
-            // 0.2 is no binary number: 1.1e-17 of it, over t^2 / 2.
-            let rate_off = 0.5 * 1.2e-17 * (k as f64 / 1e5).powi(2);
-            assert!(
-                fraction(got - expected).abs() < 1e-15 + rate_off,
-                "{k}: {got}"
-            );
+            let square = u128::from(k).pow(2) % 80_000_000_000;
+            let expected = square as f64 / 8e10;
+            let got = Instant::of_sample(k, 100_000.0).turns(0.0, 0.25);
+            assert!(fraction(got - expected).abs() < 1e-15, "{k}: {got}");
         }
     }
 
@@ -124,6 +119,10 @@ mod tests {
         assert_eq!(first_sample_from(0.07, 100_000.0), 7000);
         for k in 0..20_000u64 {
             assert_eq!(first_sample_from(k as f64 / 99_999.7, 99_999.7), k);
+            assert_eq!(
+                first_sample_from((k as f64 / 99_999.7).next_up(), 99_999.7),
+                k + 1
+            );
         }
         assert_eq!(first_sample_from(-1.0, 1e5), 0);
         assert_eq!(first_sample_from(1e-9, 1e5), 1);

@@ -61,6 +61,12 @@ pub struct ChannelSums {
     pub low: f32,
     /// The greatest sample.
     pub high: f32,
+    /// Most samples in a row that were equal to `low`: one, unless the signal is cut off.
+    pub low_run: u16,
+    /// Most samples in a row that were equal to `high`.
+    pub high_run: u16,
+    last: f32,
+    run: u16,
 }
 
 impl ChannelSums {
@@ -72,6 +78,10 @@ impl ChannelSums {
         third_sine: 0.0,
         low: f32::INFINITY,
         high: f32::NEG_INFINITY,
+        low_run: 0,
+        high_run: 0,
+        last: f32::NAN,
+        run: 0,
     };
 
     #[inline(always)]
@@ -81,8 +91,16 @@ impl ChannelSums {
         self.sum += sample;
         self.third_cosine += sample * reference.third_cosine;
         self.third_sine += sample * reference.third_sine;
-        self.low = if sample < self.low { sample } else { self.low };
-        self.high = if sample > self.high { sample } else { self.high };
+        self.run = if sample == self.last { self.run + 1 } else { 1 };
+        self.last = sample;
+        if sample <= self.low {
+            self.low_run = if sample < self.low { self.run } else { self.low_run.max(self.run) };
+            self.low = sample;
+        }
+        if sample >= self.high {
+            self.high_run = if sample > self.high { self.run } else { self.high_run.max(self.run) };
+            self.high = sample;
+        }
     }
 }
 
@@ -184,7 +202,12 @@ impl<const N: usize> Demodulator<N> {
         let block = Block { start: self.start, layout: self.layout, channels: self.sums };
         self.start += u64::from(self.layout.length);
         self.count = 0;
-        self.sums = [ChannelSums::EMPTY; 2];
+        // A run goes on over the end of a block.
+        self.sums = self.sums.map(|sums| ChannelSums {
+            last: sums.last,
+            run: sums.run.min(u16::MAX / 2),
+            ..ChannelSums::EMPTY
+        });
         Some(block)
     }
 }

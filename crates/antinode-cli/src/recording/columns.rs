@@ -58,9 +58,7 @@ impl FirstLine<'_> {
                 "ms" | "us" | "µs" | "μs" | "ns" | "min" | "h"
             ) {
                 let name = name.clone();
-                return Err(LineFault::TimeUnit {
-                    name,
-                });
+                return Err(LineFault::TimeUnit { name });
             }
         }
         Ok(places)
@@ -114,9 +112,7 @@ impl FirstLine<'_> {
         let mut signals = (0..self.width).filter(|&place| Some(place) != time);
         match (signals.next(), signals.next(), signals.next()) {
             (Some(c), Some(d), None) => Ok([time, Some(c), Some(d)]),
-            _ => Err(LineFault::ColumnCount {
-                found: self.width,
-            }),
+            _ => Err(LineFault::ColumnCount { found: self.width }),
         }
     }
 }
@@ -164,8 +160,6 @@ mod tests {
             .map(|name| name.trim().to_owned())
             .collect();
         let line = FirstLine {
-            
-            
             names: Some(&names),
             width: names.len(),
         };
@@ -211,8 +205,7 @@ mod tests {
         assert!(fault("time,x", None).starts_with("found 2 columns, but two"));
         assert!(fault("a,b,x,y", None).starts_with("found 4 columns, but two"));
         assert!(
-            fault("a,b", Some("a,e"))
-                .starts_with("there is no column `e`; choose among `a`, `b`")
+            fault("a,b", Some("a,e")).starts_with("there is no column `e`; choose among `a`, `b`")
         );
         assert!(fault("a,b", Some("0,1")).starts_with("there is no column `0`"));
         assert!(fault("a,b", Some("a")).starts_with("columns `a`: give two"));

@@ -13,6 +13,9 @@ use super::{Opened, Source, Stream};
 /// The lines read ahead to tell the sample rate, whose times are rounded as they are printed.
 const HEAD_LINES: usize = 1 << 16;
 
+/// As much of a bad field as an error shows.
+const SHOWN_LETTERS: usize = 40;
+
 /// Opens text; `chosen` are the columns the user asks for.
 pub(super) fn open(
     file: &str,
@@ -54,11 +57,8 @@ struct Delimited {
     fault: Option<InputError>,
 }
 
-/// A line's numbers.
-struct Row {
-    time: Option<Stamp>,
-    pair: [f32; 2],
-}
+/// A line's time, if there is one, and its pair.
+type Row = (Option<f64>, [f32; 2]);
 
 impl Delimited {
     fn open(file: &str, stream: Stream, chosen: Option<&Columns>) -> Result<Self, InputError> {
@@ -82,13 +82,9 @@ impl Delimited {
             !fields(&first, separator).any(|field| number::<f64>(field, separator).is_some());
         let width = names.len();
         let names = is_header.then_some(names.as_slice());
-        let places = FirstLine {
-            file,
-            line,
-            names,
-            width,
-        }
-        .places(chosen)?;
+        let places = FirstLine { names, width }
+            .places(chosen)
+            .map_err(|fault| InputError::line(file, line, fault))?;
         let mut source = Self {
             file: file.to_owned(),
             reader,
@@ -110,37 +106,34 @@ impl Delimited {
 
     /// Reads as many lines as it takes to tell the sample rate, and checks their times.
     fn read_ahead(&mut self) {
-        let lines = if self.places[0].is_some() {
+        let head = if self.places[0].is_some() {
             HEAD_LINES
         } else {
             1
         };
-        let (mut pairs, mut stamps) = (Vec::new(), Vec::new());
-        while pairs.len() < lines && self.fault.is_none() {
+        let (mut pairs, mut times, mut lines) = (Vec::new(), Vec::new(), Vec::new());
+        while pairs.len() < head && self.fault.is_none() {
             match self.row() {
-                Ok(Some(row)) => {
-                    pairs.push(row.pair);
-                    stamps.extend(row.time);
+                Ok(Some((time, pair))) => {
+                    pairs.push(pair);
+                    times.extend(time);
+                    lines.push(self.line());
                 }
                 Ok(None) => break,
                 Err(fault) => self.fault = Some(fault),
             }
         }
-        self.axis = TimeAxis::of(&stamps, self.printed);
+        self.axis = TimeAxis::of(&times, self.printed);
         let broken = match &mut self.axis {
-            Some(axis) => stamps
-                .iter()
-                .enumerate()
-                .skip(1)
-                .find_map(|(index, &stamp)| {
-                    let fault = axis.check(&self.file, stamp, self.printed).err()?;
-                    Some((index, fault))
-                }),
-            None => standstill(&self.file, &stamps, self.printed),
+            Some(axis) => times.iter().enumerate().skip(1).find_map(|(index, &time)| {
+                let fault = axis.check(time, self.printed).err()?;
+                Some((index, fault))
+            }),
+            None => standstill(&times, self.printed),
         };
         if let Some((index, fault)) = broken {
             pairs.truncate(index);
-            self.fault = Some(fault);
+            self.fault = Some(InputError::line(&self.file, lines[index], fault));
         }
         self.ahead = pairs.into_iter();
     }
@@ -152,33 +145,32 @@ impl Delimited {
 
     /// Goes to the next line that is neither blank nor a comment.
     fn next_record(&mut self) -> Result<bool, InputError> {
-        while self
-            .reader
-            .read_byte_record(&mut self.record)
-            .map_err(|fault| self.broken(fault))?
-        {
-            if !text::is_skipped(self.record.as_slice()) {
+        loop {
+            let read = self.reader.read_byte_record(&mut self.record);
+            if !read.map_err(|fault| self.broken(fault))? {
+                return Ok(false);
+            }
+            // A line of nothing but separators is not blank: its numbers are missing.
+            let whole = self.record.len() <= 1 || self.separator == b' ';
+            let start = if whole {
+                self.record.as_slice()
+            } else {
+                &self.record[0]
+            };
+            if !(text::is_skipped(start) && (whole || text::is_comment(start))) {
                 return Ok(true);
             }
         }
-        Ok(false)
     }
 
     fn broken(&self, fault: csv::Error) -> InputError {
-        let file = self.file.clone();
         match fault.into_kind() {
             csv::ErrorKind::Io(fault) if fault.kind() == io::ErrorKind::InvalidData => {
-                InputError::LineTooLong {
-                    file,
-                    line: self.line() + 1,
-                    limit: MAX_LINE,
-                }
+                let fault = LineFault::LineTooLong { limit: MAX_LINE };
+                InputError::line(&self.file, self.line() + 1, fault)
             }
-            csv::ErrorKind::Io(source) => InputError::io(&file, source),
-            other => InputError::Io {
-                file,
-                source: io::Error::other(format!("{other:?}")),
-            },
+            csv::ErrorKind::Io(fault) => InputError::io(&self.file, fault),
+            other => InputError::io(&self.file, io::Error::other(format!("{other:?}"))),
         }
     }
 
@@ -186,7 +178,7 @@ impl Delimited {
         if !self.next_record()? {
             return Ok(None);
         }
-        let mut found = [None; 3];
+        let mut found = [&[][..]; 3];
         let (mut count, mut last_is_blank) = (0, false);
         for field in self.record.iter().map(bare) {
             if field.is_empty() && self.separator == b' ' {
@@ -194,65 +186,55 @@ impl Delimited {
             }
             for (text, place) in found.iter_mut().zip(self.places) {
                 if place == Some(count) {
-                    *text = Some(field);
+                    *text = field;
                 }
             }
             count += 1;
             last_is_blank = field.is_empty();
         }
-        let line = self.line();
         if count > self.width + usize::from(last_is_blank) {
-            let file = self.file.clone();
-            return Err(InputError::FieldCount {
-                file,
-                line,
+            let fault = LineFault::FieldCount {
                 found: count,
                 expected: self.width,
-            });
+            };
+            return Err(InputError::line(&self.file, self.line(), fault));
         }
-        let time = match self.places[0] {
-            Some(_) => {
-                let seconds = self.number(Role::Time, found[0])?;
-                self.printed.see(found[0].unwrap_or_default());
-                Some(Stamp { line, seconds })
-            }
-            None => None,
-        };
-        let pair = [
-            self.number(Role::ALL[1], found[1])?,
-            self.number(Role::ALL[2], found[2])?,
-        ];
-        Ok(Some(Row { time, pair }))
+        let time = self.places[0]
+            .map(|_| self.number(0, found[0]))
+            .transpose()?;
+        if time.is_some() {
+            self.printed.see(found[0]);
+        }
+        let pair = [self.number(1, found[1])?, self.number(2, found[2])?];
+        Ok(Some((time, pair)))
     }
 
-    fn number<T: Number>(&self, role: Role, text: Option<&[u8]>) -> Result<T, InputError> {
-        let text = text.unwrap_or_default();
+    /// The number in `text`, which is in the column of this `role`.
+    fn number<T: Number>(&self, role: usize, text: &[u8]) -> Result<T, InputError> {
         number(text, self.separator).ok_or_else(|| {
-            let (file, line) = (self.file.clone(), self.line());
-            let place = Role::ALL
-                .iter()
-                .position(|&other| other == role)
-                .and_then(|index| self.places[index]);
-            let column = place.unwrap_or(0) + 1;
-            if text.is_empty() {
-                return InputError::FieldMissing {
-                    file,
-                    line,
-                    column,
+            let column = self.places[role].map(|place| place + 1);
+            let role = Role::ALL[role];
+            let fault = if text.is_empty() {
+                LineFault::FieldMissing { role }
+            } else {
+                let text = String::from_utf8_lossy(text);
+                let shown = text
+                    .chars()
+                    .flat_map(char::escape_debug)
+                    .take(SHOWN_LETTERS);
+                LineFault::Number {
                     role,
-                };
-            }
-            let text = String::from_utf8_lossy(text)
-                .chars()
-                .flat_map(char::escape_debug)
-                .take(40)
-                .collect();
-            InputError::Number {
-                file,
-                line,
+                    text: shown.collect(),
+                }
+            };
+            let place = Place {
+                line: self.line(),
                 column,
-                role,
-                text,
+            };
+            InputError::Line {
+                file: self.file.clone(),
+                place,
+                fault,
             }
         })
     }
@@ -265,11 +247,14 @@ impl Source for Delimited {
             if let Some(fault) = self.fault.take() {
                 return Err(fault);
             }
-            let Some(row) = self.row()? else { break };
-            if let (Some(axis), Some(stamp)) = (&mut self.axis, row.time) {
-                axis.check(&self.file, stamp, self.printed)?;
+            let Some((time, pair)) = self.row()? else {
+                break;
+            };
+            if let (Some(axis), Some(time)) = (&mut self.axis, time) {
+                let checked = axis.check(time, self.printed);
+                checked.map_err(|fault| InputError::line(&self.file, self.line(), fault))?;
             }
-            pairs.push(row.pair);
+            pairs.push(pair);
         }
         Ok(())
     }

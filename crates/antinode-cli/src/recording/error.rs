@@ -171,7 +171,11 @@ impl InputError {
     /// A fault in a line as a whole.
     pub(super) fn line(file: &str, line: u64, fault: LineFault) -> Self {
         let place = Place { line, column: None };
-        Self::Line { file: file.to_owned(), place, fault }
+        Self::Line {
+            file: file.to_owned(),
+            place,
+            fault,
+        }
     }
 
     /// What the system said about `file`, in the words of this tool.

@@ -16,10 +16,10 @@ use std::fs::{self, File};
 use std::io::{self, Cursor, IsTerminal, Read};
 use std::path::Path;
 
-pub use columns::Columns;
-pub use error::{COLUMNS_OPTION, Channel, InputError, OutputError, RAW_OPTION, Role};
+pub use columns::{Columns, ColumnsError};
+pub use error::{COLUMNS_OPTION, Channel, InputError, LineFault, Place, RAW_OPTION, Role};
 pub use raw::RawFormat;
-pub use write::{RecordingWriter, WavSample};
+pub use write::{OutputError, RecordingWriter, WavSample};
 
 /// The capacity given to a buffer that has none: small enough to stay in the cache.
 pub const BLOCK_PAIRS: usize = 1 << 14;
@@ -30,7 +30,7 @@ const HEAD_BYTES: usize = 12;
 /// What the content does not tell about itself.
 #[derive(Debug, Clone, Default)]
 pub struct OpenOptions {
-    /// The format of raw samples; needed for those on standard input.
+    /// The format of raw samples, on standard input or in a file of no known kind.
     pub raw: Option<RawFormat>,
     /// The columns of a text recording; by default, they are told from the header or their number.
     pub columns: Option<Columns>,
@@ -181,7 +181,9 @@ impl Recording {
 
     /// The bytes read so far.
     pub fn bytes_read(&self) -> u64 {
-        self.opened.source.bytes_read()
+        // A text file without a last end of line is read as if it had one.
+        let most = self.bytes_total.unwrap_or(u64::MAX);
+        self.opened.source.bytes_read().min(most)
     }
 
     /// The magnitude from which an integer sample is at its rail, 32767/32768 for 16 bits; none for floats.

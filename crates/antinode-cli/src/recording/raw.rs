@@ -225,15 +225,14 @@ mod tests {
     fn half_a_pair_at_the_end_is_an_error_after_the_good_data() {
         let (pairs, fault) = drain(&mut raw(vec![0, 0x40, 0, 0xc0, 1, 0], RawFormat::I16));
         assert_eq!(pairs, [[0.5, -0.5]]);
-        assert!(
-            message(fault)
-                .starts_with("standard input: after 1 sample pairs: the data end in the middle")
-        );
+        assert!(message(fault).starts_with(
+            "standard input: sample pair 1 (from 0): the data end in the middle of it"
+        ));
     }
 
     #[test]
     fn not_finite_is_named_by_pair_and_channel() {
-        let mut values = vec![0.5f32; 40];
+        let mut values = [0.5f32; 40];
         values[30] = f32::NEG_INFINITY;
         let bytes = values
             .iter()

@@ -139,7 +139,7 @@ fn content_that_is_no_recording_is_named() {
         ),
         (
             "a.csv",
-            b"\xff\xfe1\0,\02\0",
+            b"\xff\xfe1\0,\x002\0",
             "a.csv: this is UTF-16 text; save it as UTF-8",
         ),
     ] {

@@ -71,10 +71,14 @@ pub(super) fn first_line(
             .take(MAX_LINE as u64)
             .read_until(b'\n', &mut line);
         match read.map_err(|fault| InputError::io(file, fault))? {
-            0 => return Err(InputError::NoPairs { file: file.to_owned() }),
+            0 => {
+                return Err(InputError::NoPairs {
+                    file: file.to_owned(),
+                });
+            }
             MAX_LINE => {
                 let fault = LineFault::LineTooLong { limit: MAX_LINE };
- return Err(InputError::line(file, number, fault));
+                return Err(InputError::line(file, number, fault));
             }
             _ => {}
         }
@@ -90,7 +94,12 @@ pub(super) fn first_line(
 
 /// Whether a line is blank or a comment.
 pub(super) fn is_skipped(line: &[u8]) -> bool {
-    matches!(line.trim_ascii_start(), [] | [b'#', ..])
+    line.trim_ascii_start().is_empty() || is_comment(line)
+}
+
+/// Whether a line is a comment.
+pub(super) fn is_comment(line: &[u8]) -> bool {
+    line.trim_ascii_start().starts_with(b"#")
 }
 
 /// What separates the fields: the first of `;`, tab and `,` that is there, or else blanks.

@@ -74,10 +74,7 @@ impl TimeAxis {
     /// The rate of the `first` times; none if there are not two, or if time mostly stands still.
     pub fn of(first: &[f64], printed: Printed) -> Option<Self> {
         let [start, .., end] = first else { return None };
-        let steps: Vec<f64> = first
-            .windows(2)
-            .map(|pair| pair[1] - pair[0])
-            .collect();
+        let steps: Vec<f64> = first.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let (_, &mut median, _) = steps
             .clone()
             .select_nth_unstable_by(steps.len() / 2, f64::total_cmp);
@@ -142,9 +139,7 @@ impl TimeAxis {
         let allowed = (0.5 + 2.0 * rounding) * self.step + 2.0 * lines * self.uncertainty;
         if (length - lines * self.step).abs() > allowed {
             let (from, to) = (self.rate, lines / length);
-            return Err(LineFault::TimeDrift { from,
-                to,
-            });
+            return Err(LineFault::TimeDrift { from, to });
         }
         self.anchor = now;
         self.lines = 0;
@@ -162,10 +157,7 @@ impl TimeAxis {
                 usual,
             }
         } else if step <= 0.0 {
-            LineFault::TimeBackwards {
-                from,
-                to,
-            }
+            LineFault::TimeBackwards { from, to }
         } else if samples > 1.5 && (samples - samples.round()).abs() <= tolerance {
             LineFault::TimeGap {
                 lost: samples.round() as u64 - 1,
@@ -173,10 +165,7 @@ impl TimeAxis {
                 to,
             }
         } else {
-            LineFault::TimeUneven {
-                step,
-                usual,
-            }
+            LineFault::TimeUneven { step, usual }
         }
     }
 }
@@ -187,7 +176,10 @@ pub(super) fn standstill(times: &[f64], printed: Printed) -> Option<(usize, Line
     let (from, to) = (times[at - 1], times[at]);
     let usual = (times.last()? - times.first()?) / (times.len() - 1) as f64;
     let fault = if from == to && usual > 0.0 {
-        LineFault::TimeCoarse { printed: printed.step(to), usual }
+        LineFault::TimeCoarse {
+            printed: printed.step(to),
+            usual,
+        }
     } else {
         LineFault::TimeBackwards { from, to }
     };

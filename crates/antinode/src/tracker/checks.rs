@@ -51,7 +51,7 @@ impl Noise {
     fn limit(&self, freedom: f32) -> f32 {
         // The logarithm of an F variable has about this variance; its upper tail is the lighter one.
         let deviation = libm::sqrtf(2.0 / freedom + 2.0 / self.freedom);
-        self.variance * libm::expf(SIGMAS * deviation).max(9.0)
+        self.variance * libm::expf(SIGMAS * deviation).max(4.0)
     }
 }
 
@@ -87,11 +87,20 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, noise: &mut Noise) -> Flags {
     };
     let outlier = fit.freedom > 20.0
         && fit.worst_block > 60.0 * others * (1.0 + 20.0 / fit.freedom) + 6.0 * floor;
-    flags = flags.with_if(coloured || louder || outlier || !fit.settled, Flags::MISFIT);
+    // A course that bends within the window: chi-square of 8 degrees, or its ratio to the rest where the noise is not yet known.
+    let rest = (fit.residual - fit.bend).max(0.0) / (fit.freedom - 8.0).max(1.0);
+    let (level, limit) = if known && noise.freedom > 3.0 * fit.freedom {
+        (noise.variance.max(rest), 65.0)
+    } else {
+        (rest, 65.0 + 4000.0 / fit.freedom)
+    };
+    let bent = fit.freedom > 20.0 && fit.bend > limit * level + 8.0 * floor;
+    let misfit = coloured || louder || outlier || bent || !fit.settled;
+    flags = flags.with_if(misfit, Flags::MISFIT);
 
     let harmonic = fit.third.iter().map(Complex32::norm_sqr).sum::<f32>();
     let harmonic_noise = fit.third_noise.max(variance.min(noise.variance));
-    let limit = SIGMAS * libm::sqrtf(wave.main_variance / variance.max(f32::MIN_POSITIVE) * 2.0 * harmonic_noise)
+    let limit = SIGMAS * libm::sqrtf(wave.main_variance / variance.max(f32::MIN_POSITIVE) * 1.2 * harmonic_noise)
         + HARMONIC_FLOOR * wave.main;
     flags = flags.with_if(harmonic > limit * limit && fit.third_freedom >= 12.0, Flags::CLIPPED);
 
@@ -101,7 +110,7 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, noise: &mut Noise) -> Flags {
 
     if flags.with(Flags::CIRCULAR) == Flags::CIRCULAR {
         noise.learn(variance, fit.freedom);
-    } else if louder && !coloured && !outlier && fit.settled && significant {
+    } else if louder && !coloured && !outlier && !bent && fit.settled && significant {
         noise.refused += 1;
         if noise.refused >= Noise::NEW_LEVEL {
             *noise = Noise::default();

@@ -42,6 +42,8 @@ pub struct Tracker<const BLOCKS: usize> {
     lost: bool,
     ever: bool,
     failures: u8,
+    /// True while a fault lies between the last clean window and the next.
+    broken: bool,
 }
 
 impl<const BLOCKS: usize> Tracker<BLOCKS> {
@@ -61,6 +63,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             lost: false,
             ever: false,
             failures: 0,
+            broken: false,
         })
     }
 
@@ -163,6 +166,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
                 flags = flags.with(between);
             }
         }
+        let fault = self.broken || flags.intersects(Flags::MISFIT.with(Flags::STEP));
+        flags = flags.with_if(fault && self.has_fallen_silent(&record), Flags::DEAD_CHANNEL);
         self.promise(&mut record, &wave, half, samples);
 
         if flags.contains(Flags::LOST) {
@@ -179,6 +184,13 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
         self.remember(record, flags, between, samples);
         Some(self.row(&record, &wave, first, samples, half, variance, flags))
+    }
+
+    /// True when a pick-off that showed the wave in the last clean window shows none now.
+    fn has_fallen_silent(&self, now: &Record) -> bool {
+        self.before.as_ref().is_some_and(|before| {
+            (0..2).any(|i| now.is_silent(i) && before.channel_power[i] > 4.0 * now.channel_power[i] && !before.is_silent(i))
+        })
     }
 
     /// Solves for the waves, from the last clean frequency or the detector's.
@@ -204,6 +216,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         Some(solve(model, blocks, self.count, carrier, rough))
     }
 
+    /// Samples a period of the blocks' reference.
+    fn period(&self) -> f32 {
+        self.model.as_ref().map_or(f32::INFINITY, |model| model.layout.step.period())
+    }
+
     /// Faults that single samples show.
     fn sample_flags(&self, wave: &Standing) -> Flags {
         let mut low = [f32::INFINITY; 2];
@@ -214,8 +231,19 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
                 high[channel] = high[channel].max(sums.high);
             }
         }
-        let rail = self.settings.full_scale.unwrap_or(f32::INFINITY);
-        let clipped = (0..2).any(|i| high[i] >= rail || low[i] <= -rail);
+        // Where no rail is known, samples that stay at the extreme for longer than a crest does show one.
+        let crest = (self.period() / 16.0).max(2.0) as u16 + 1;
+        let flat = self.ring.iter().any(|block| {
+            (0..2).any(|i| {
+                let sums = &block.channels[i];
+                let wide = high[i] - low[i] > wave.main;
+                wide && (sums.high == high[i] && sums.high_run > crest || sums.low == low[i] && sums.low_run > crest)
+            })
+        });
+        let clipped = match self.settings.full_scale {
+            Some(rail) => (0..2).any(|i| high[i] >= rail || low[i] <= -rail),
+            None => flat,
+        };
         let dead = (0..2).any(|i| low[i] == high[i]);
         Flags::empty()
             .with_if(clipped, Flags::CLIPPED)
@@ -237,8 +265,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
 
     /// Keeps what the next windows need.
     fn remember(&mut self, record: Record, flags: Flags, between: Flags, samples: u32) {
-        let broken = Flags::LOST.with(Flags::MISFIT).with(Flags::NOT_FINITE);
-        if flags.intersects(broken) {
+        let broken = Flags::LOST.with(Flags::MISFIT).with(Flags::NOT_FINITE).with(Flags::DEAD_CHANNEL);
+        self.broken = flags.intersects(broken);
+        if self.broken {
             // The next window is judged by itself: what lies between it and the last clean one is already flagged.
             self.trend.clear();
             if let Some(before) = &mut self.before {

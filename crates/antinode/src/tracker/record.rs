@@ -27,6 +27,9 @@ pub(crate) struct Record {
     pub quadrature_variance: f32,
     pub quadrature_rate: f32,
     pub quadrature_rate_variance: f32,
+    /// Power of each pick-off's phasor, and its variance.
+    pub channel_power: [f32; 2],
+    pub channel_variance: f32,
     pub offsets: [f32; 2],
     pub offset_variance: f32,
 }
@@ -63,10 +66,17 @@ impl Record {
             quadrature_variance: wave.quadrature_variance,
             quadrature_rate: wave.quadrature_change / half,
             quadrature_rate_variance: wave.quadrature_change_variance / squared,
+            channel_power: fit.channel_power(),
+            channel_variance: noise * model.covariance[0][0].max(model.covariance[1][1]),
             offsets: fit.offsets,
             // A short window knows its offset worse than the mean of its samples.
             offset_variance: 2.0 * noise / half,
         }
+    }
+
+    /// True when pick-off `channel` shows no wave.
+    pub(crate) fn is_silent(&self, channel: usize) -> bool {
+        self.channel_power[channel] < 36.0 * self.channel_variance + 1e-6 * self.main * self.main
     }
 
     /// By how much the phase has run beyond what the mean frequency of both windows explains, rad, not wrapped.

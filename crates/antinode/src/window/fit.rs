@@ -55,6 +55,8 @@ pub(crate) struct Fit {
     pub freedom: f32,
     /// The largest share of one block in `residual`.
     pub worst_block: f32,
+    /// The share in `residual` of a course that bends: parabola and cubic of both phasors, 8 degrees of freedom.
+    pub bend: f32,
     /// Third harmonic of each pick-off: complex amplitude, input units.
     pub third: [Complex32; 2],
     /// Noise variance a sample seen about the third harmonic, and its degrees of freedom.
@@ -78,6 +80,8 @@ struct Pass {
     gradient: [Row; 2],
     residual: f32,
     worst: f32,
+    /// Gradient of a parabola and of a cubic in both phasors.
+    bend: [[[f32; 2]; 2]; 2],
     third: [Complex32; 2],
     third_power: f32,
 }
@@ -201,6 +205,7 @@ impl Model {
         let per_sample = 1.0 / self.half();
         let advance = waves.slope.map(|s| exponential(s * (2.0 / f32::from(self.blocks))));
         let first = waves.slope.map(|s| s * per_sample);
+        let bends = Bends::new(self.blocks);
         let mut course = [Complex32::ONE; 2];
         for (index, block) in blocks.enumerate() {
             let (u, phase) = self.place(index);
@@ -221,6 +226,7 @@ impl Model {
             });
             let rows = self.rows(u, unit);
             let seen = whiten(&self.basis, block);
+            let bend = bends.at(u);
             let mut power = 0.0;
             for channel in 0..2 {
                 let v = raw.map(|both| both[channel]);
@@ -232,6 +238,11 @@ impl Model {
                 ];
                 for (row, rest) in rows.iter().zip(rest) {
                     power += rest * rest;
+                    // The first two weights are those of z itself; the rows' own slope term stands in none of them.
+                    for (bend, sums) in bend.iter().zip(&mut pass.bend[channel]) {
+                        sums[0] += bend * row[0] * rest;
+                        sums[1] += bend * row[1] * rest;
+                    }
                     for (sum, weight) in pass.gradient[channel].iter_mut().zip(row) {
                         *sum += weight * rest;
                     }
@@ -280,6 +291,12 @@ impl Model {
         let length = f32::from(self.layout.length);
         let coherent = (pass.third[0].norm_sqr() + pass.third[1].norm_sqr()) / blocks;
         let third_freedom = 4.0 * (blocks - 1.0);
+        let r = &self.response;
+        // The mean weight of z in a block, over all phases of the carrier.
+        let weight = 0.5 * [r.mean, r.even, r.odd].iter().map(|a| a.level * a.level).sum::<f32>();
+        let bends = Bends::new(self.blocks);
+        let bend = pass.bend.iter().flatten().zip(bends.power.iter().cycle());
+        let bend = bend.map(|(g, p)| (g[0] * g[0] + g[1] * g[1]) / (p * weight)).sum();
         Fit {
             waves: self.waves(&parameters),
             offsets: parameters.offset,
@@ -287,11 +304,46 @@ impl Model {
             freedom: 2.0 * (f32::from(self.basis.rank) * blocks - PARAMETERS as f32).max(0.5),
             // Measured before the last step: what that step took away is no fault of the block's.
             worst_block: (pass.worst - explained).max(0.0),
+            bend,
             third: pass.third.map(|sum| sum * (2.0 / (blocks * length))),
             third_noise: (pass.third_power - coherent).max(0.0) / (0.5 * length * third_freedom),
             third_freedom,
             settled,
         }
+    }
+}
+
+/// A parabola and a cubic over a window, free of any constant and slope.
+struct Bends {
+    square: f32,
+    ratio: f32,
+    /// Sums of their squares over the blocks.
+    power: [f32; 2],
+}
+
+impl Bends {
+    fn new(blocks: u16) -> Self {
+        // Moments of the blocks' middles, u = (2i + 1 − K)/K.
+        let k = f32::from(blocks);
+        let w = 1.0 / (k * k);
+        let square = (1.0 - w) / 3.0;
+        let fourth = (3.0 - w * (10.0 - 7.0 * w)) / 15.0;
+        let sixth = (3.0 - w * (21.0 - w * (49.0 - 31.0 * w))) / 21.0;
+        let ratio = fourth / square;
+        let power = [k * (fourth - square * square), k * (sixth - ratio * fourth)];
+        Self { square, ratio, power: power.map(|p| p.max(1e-3)) }
+    }
+
+    fn at(&self, u: f32) -> [f32; 2] {
+        [u * u - self.square, u * (u * u - self.ratio)]
+    }
+}
+
+impl Fit {
+    /// |z|² of each (ideal) pick-off.
+    pub(crate) fn channel_power(&self) -> [f32; 2] {
+        let [plus, minus] = self.waves.value;
+        [0.25 * (plus + minus).norm_sqr(), 0.25 * (plus - minus).norm_sqr()]
     }
 }
 

@@ -117,6 +117,7 @@ fn faults_in_a_line_are_named_by_line_and_column() {
         ),
         ("1,2\n,3\n", 1, "a.csv:2:1: S_C is missing here; "),
         ("1,2\n3,\n", 1, "a.csv:2:2: S_D is missing here; "),
+        ("1,2\n,\n", 1, "a.csv:2:1: S_C is missing here; "),
         ("1 2\n3\n", 1, "a.csv:2:2: S_D is missing here; "),
         (
             "1,2\n3,4,5\n",
@@ -247,8 +248,8 @@ fn a_fault_far_behind_the_first_lines_is_found() {
 
 #[test]
 fn progress_reaches_the_size_of_the_file() {
-    let mut text = "# comment\n\u{feff}".replace('\u{feff}', "");
-    (0..1000).for_each(|k| writeln!(text, "{k},{k}").unwrap());
+    let mut text = "\u{feff}# comment\n".to_owned();
+    (0..1000).for_each(|k| write!(text, "\r\n{k},{k}").unwrap());
     let (_directory, path) = file("a.csv", text.as_bytes());
     let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
     assert_eq!((recording.pairs(), recording.full_scale()), (None, None));

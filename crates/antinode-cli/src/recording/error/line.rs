@@ -16,115 +16,82 @@ pub struct Place {
 impl fmt::Display for Place {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "{}", self.line)?;
-        self.column.map_or(Ok(()), |column| write!(formatter, ":{column}"))
+        self.column
+            .map_or(Ok(()), |column| write!(formatter, ":{column}"))
     }
 }
 
 /// Why a line of text cannot be taken for a pair of samples.
 #[derive(Debug, thiserror::Error)]
-#[allow(missing_docs, reason = "the message above each variant says what its fields are")]
+#[allow(
+    missing_docs,
+    reason = "the message above each variant says what its fields are"
+)]
 pub enum LineFault {
     /// Not lines of text.
     #[error(
         "more than {limit} bytes without an end of line; give text with one sample pair a line"
     )]
-    LineTooLong {
-        limit: usize,
-    },
+    LineTooLong { limit: usize },
     /// More or fewer columns than can be understood.
     #[error(
         "found {found} {}, but two (S_C, S_D) or three (time in s, S_C, S_D) are needed; \
          drop the others, or name the right ones with {COLUMNS_OPTION}",
         if *.found == 1 { "column" } else { "columns" }
     )]
-    ColumnCount {
-        found: usize,
-    },
+    ColumnCount { found: usize },
     /// A column asked for that is not there.
-    #[error(
-        "there is no column `{wanted}`; choose among {known} with {COLUMNS_OPTION}"
-    )]
-    ColumnUnknown {
-        wanted: String,
-        known: String,
-    },
+    #[error("there is no column `{wanted}`; choose among {known} with {COLUMNS_OPTION}")]
+    ColumnUnknown { wanted: String, known: String },
     /// Time in something other than seconds.
-    #[error(
-        "the time column `{name}` is not in seconds; convert it to seconds, or leave it out"
-    )]
-    TimeUnit {
-        name: String,
-    },
+    #[error("the time column `{name}` is not in seconds; convert it to seconds, or leave it out")]
+    TimeUnit { name: String },
     /// A field too few.
     #[error("{role} is missing here; complete or delete the line")]
-    FieldMissing {
-        role: Role,
-    },
+    FieldMissing { role: Role },
     /// A field too many.
     #[error(
         "found {found} fields where the first line has {expected}; use another separator \
          than the decimal mark, and the same one in every line"
     )]
-    FieldCount {
-        found: usize,
-        expected: usize,
-    },
+    FieldCount { found: usize, expected: usize },
     /// A field that is no finite number.
     #[error(
         "{role} is `{text}`, not a finite number; correct or delete the line, or \
          begin it with # if it is a comment"
     )]
-    Number {
-        role: Role,
-        text: String,
-    },
+    Number { role: Role, text: String },
     /// Time stands still or runs backwards.
     #[error(
         "time goes from {from} s to {to} s, but must go up; sort the lines, cut the \
          recording here, or print the time with more digits"
     )]
-    TimeBackwards {
-        from: f64,
-        to: f64,
-    },
+    TimeBackwards { from: f64, to: f64 },
     /// A gap of whole samples.
     #[error(
         "{lost} {} lost before this line (time goes from {from} s to {to} s); \
          cut the recording here, or record it again without loss",
         if *.lost == 1 { "sample is" } else { "samples are" }
     )]
-    TimeGap {
-        lost: u64,
-        from: f64,
-        to: f64,
-    },
+    TimeGap { lost: u64, from: f64, to: f64 },
     /// A step that is no whole number of samples.
     #[error(
         "time steps by {step:.4e} s here, but by {usual:.4e} s elsewhere; sample at a constant \
          rate, or resample it to one"
     )]
-    TimeUneven {
-        step: f64,
-        usual: f64,
-    },
+    TimeUneven { step: f64, usual: f64 },
     /// The rate creeps away.
     #[error(
         "the sample rate has gone from {from:.3} Hz to {to:.3} Hz; sample at a constant rate, or \
          resample it to one"
     )]
-    TimeDrift {
-        from: f64,
-        to: f64,
-    },
+    TimeDrift { from: f64, to: f64 },
     /// Time with too few digits.
     #[error(
         "time is printed to {printed:.0e} s only, too coarse for samples {usual:.4e} s apart; print \
          it with more digits, or leave the column out"
     )]
-    TimeCoarse {
-        printed: f64,
-        usual: f64,
-    },
+    TimeCoarse { printed: f64, usual: f64 },
 }
 
 /// What a column of a text recording holds.
@@ -138,7 +105,7 @@ pub enum Role {
 
 impl Role {
     /// In the order the columns are kept: time, S_C, S_D.
-    pub(super) const ALL: [Self; 3] = [
+    pub(in crate::recording) const ALL: [Self; 3] = [
         Self::Time,
         Self::Signal(Channel::C),
         Self::Signal(Channel::D),

@@ -193,7 +193,7 @@ fn truncated_data_are_delivered_before_the_error() {
         let (pairs, fault) = read("a.npy", &bytes[..bytes.len() - 3]);
         assert_eq!(pairs, PAIRS[..left], "{shape}");
         let expected = format!(
-            "a.npy: after {left} sample pairs: the header promises 3 pairs, but the data end here; "
+            "a.npy: at its end: the header promises 3 sample pairs, but there are {left}; "
         );
         assert!(fault.expect("a fault").starts_with(&expected));
     }
@@ -205,7 +205,7 @@ fn truncated_data_are_delivered_before_the_error() {
     assert!(
         fault
             .expect("a fault")
-            .starts_with("a.npy: after 0 sample pairs: the header promises 3 pairs")
+            .starts_with("a.npy: at its end: the header promises 3 sample pairs, but there are 0")
     );
 }
 

@@ -23,10 +23,9 @@ pub enum OutputError {
     )]
     Io { file: String, fault: io::Error },
     /// No rate, or one the format cannot hold.
-    #[error("{file}: {format} cannot hold a sample rate of {rate} Hz; {remedy}")]
+    #[error("{file}: this format cannot hold a sample rate of {rate} Hz; {remedy}")]
     Rate {
         file: String,
-        format: &'static str,
         rate: f64,
         remedy: &'static str,
     },

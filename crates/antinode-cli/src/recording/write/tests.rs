@@ -4,6 +4,7 @@ use std::process::Command;
 
 use super::super::tests::drain;
 use super::super::{OpenOptions, Recording};
+use super::encode::{MAX_WAV_DATA, Stored};
 use super::*;
 
 fn signal(count: usize) -> Vec<[f64; 2]> {
@@ -120,11 +121,11 @@ fn what_cannot_be_written_is_named() {
         fault("a.flac", 1e5, f32s, &pairs)
             .starts_with("a.flac: the extension names no format; end the name in")
     );
-    let expected = "a.wav: a WAV file cannot hold a sample rate of 100000.5 Hz; give a whole number of Hz, or write";
+    let expected = "a.wav: this format cannot hold a sample rate of 100000.5 Hz; give a whole number of Hz below";
     assert!(fault("a.wav", 100_000.5, f32s, &pairs).starts_with(expected));
     assert!(
         fault("a.wav", 1e9, f32s, &pairs)
-            .starts_with("a.wav: a WAV file cannot hold a sample rate of 1000000000")
+            .starts_with("a.wav: this format cannot hold a sample rate of 1000000000")
     );
     for rate in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(fault("a.csv", rate, f32s, &pairs).contains("cannot hold a sample rate of "));

@@ -29,6 +29,9 @@ pub struct Settings {
     pub start_angle: f32,
     /// |sample| at and beyond which the converter is at its rail, input units; `None` where there is no rail.
     pub full_scale: Option<f32>,
+    /// Step between neighbouring codes of the converter, input units, where it is known. A signal with less noise than a step has
+    /// errors that repeat with it and do not average: with this they count in the standard deviations.
+    pub resolution: Option<f32>,
     /// How the period is found from cold.
     pub detection: Detection,
     /// How the pick-offs differ from ideal ones.
@@ -56,6 +59,8 @@ pub enum SettingsError {
     StartAngle(f32),
     /// Full scale is not a positive number.
     FullScale(f32),
+    /// The resolution is not a positive number.
+    Resolution(f32),
     /// The gain ratio is outside 0.1 to 10.
     GainRatio(f32),
     /// The skew is not a number within ±1 ms.
@@ -75,6 +80,7 @@ impl fmt::Display for SettingsError {
             Self::Hop => write!(f, "a hop of 0 blocks: windows must move on by at least 1 block"),
             Self::StartAngle(angle) => write!(f, "start angle {angle} rad: it must lie within ±10000"),
             Self::FullScale(value) => write!(f, "full scale {value}: it must be a positive number"),
+            Self::Resolution(value) => write!(f, "resolution {value}: it must be a positive number"),
             Self::GainRatio(ratio) => write!(f, "gain ratio {ratio}: it must lie within 0.1 to 10"),
             Self::Skew(skew) => write!(f, "skew {skew} s: it must lie within ±0.001 s"),
             Self::PickOffAngle(angle) => {
@@ -98,6 +104,7 @@ impl Settings {
             hop: None,
             start_angle: core::f32::consts::FRAC_PI_4,
             full_scale: None,
+            resolution: None,
             detection: Detection::Difference,
             calibration: Calibration::IDEAL,
         }
@@ -120,6 +127,8 @@ impl Settings {
             Err(SettingsError::StartAngle(self.start_angle))
         } else if let Some(full_scale) = self.full_scale.filter(|&x| !(x > 0.0)) {
             Err(SettingsError::FullScale(full_scale))
+        } else if let Some(resolution) = self.resolution.filter(|&x| !(x > 0.0)) {
+            Err(SettingsError::Resolution(resolution))
         } else if !within(c.gain_ratio, 0.1, 10.0) {
             Err(SettingsError::GainRatio(c.gain_ratio))
         } else if !within(c.skew, -1e-3, 1e-3) {

@@ -64,10 +64,12 @@ pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -
 }
 
 /// Tests of one window by itself and against the noise of those before.
-pub(crate) fn within(fit: &Fit, wave: &Standing, noise: &mut Noise) -> Flags {
+///
+/// `coding` is the noise variance that the converter's steps may add.
+pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise) -> Flags {
     let variance = fit.residual / fit.freedom;
     let power = wave.main * wave.main;
-    let floor = RESIDUAL_FLOOR * power;
+    let floor = RESIDUAL_FLOOR * power + 3.0 * coding;
     let mut flags = Flags::empty();
 
     let significant = power > 36.0 * wave.main_variance;
@@ -87,21 +89,19 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, noise: &mut Noise) -> Flags {
     };
     let outlier = fit.freedom > 20.0
         && fit.worst_block > 60.0 * others * (1.0 + 20.0 / fit.freedom) + 6.0 * floor;
-    // A course that bends within the window: chi-square of 8 degrees, or its ratio to the rest where the noise is not yet known.
-    let rest = (fit.residual - fit.bend).max(0.0) / (fit.freedom - 8.0).max(1.0);
-    let (level, limit) = if known && noise.freedom > 3.0 * fit.freedom {
-        (noise.variance.max(rest), 65.0)
-    } else {
-        (rest, 65.0 + 4000.0 / fit.freedom)
-    };
-    let bent = fit.freedom > 20.0 && fit.bend > limit * level + 8.0 * floor;
-    let misfit = coloured || louder || outlier || bent || !fit.settled;
+    // A step within the window, or any course that bends: chi-square of 4 degrees at each of its places, or its ratio to the
+    // rest where the noise is not yet known.
+    let rest = (fit.residual - fit.step).max(0.0) / (fit.freedom - 4.0).max(1.0);
+    let limit = 56.0 * (1.0 + 40.0 / (noise.freedom + fit.freedom));
+    let stepped = fit.freedom > 20.0 && fit.step > limit * rest.max(noise.variance) + (8.0 + 0.1 * fit.freedom) * floor;
+    let misfit = coloured || louder || outlier || stepped || !fit.settled;
     flags = flags.with_if(misfit, Flags::MISFIT);
 
     let harmonic = fit.third.iter().map(Complex32::norm_sqr).sum::<f32>();
     let harmonic_noise = fit.third_noise.max(variance.min(noise.variance));
     let limit = SIGMAS * libm::sqrtf(wave.main_variance / variance.max(f32::MIN_POSITIVE) * 1.2 * harmonic_noise)
-        + HARMONIC_FLOOR * wave.main;
+        + HARMONIC_FLOOR * wave.main
+        + SIGMAS * libm::sqrtf(coding * wave.main_variance / variance.max(f32::MIN_POSITIVE));
     flags = flags.with_if(harmonic > limit * limit && fit.third_freedom >= 12.0, Flags::CLIPPED);
 
     let round = wave.lesser * wave.lesser < 36.0 * wave.lesser_variance
@@ -110,7 +110,7 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, noise: &mut Noise) -> Flags {
 
     if flags.with(Flags::CIRCULAR) == Flags::CIRCULAR {
         noise.learn(variance, fit.freedom);
-    } else if louder && !coloured && !outlier && !bent && fit.settled && significant {
+    } else if flags.with(Flags::CIRCULAR) == Flags::MISFIT.with(Flags::CIRCULAR) && !(coloured || outlier || stepped) && fit.settled {
         noise.refused += 1;
         if noise.refused >= Noise::NEW_LEVEL {
             *noise = Noise::default();

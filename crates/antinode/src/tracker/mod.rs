@@ -133,7 +133,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let size = fit.offsets[0].abs() + fit.offsets[1].abs()
             + libm::sqrtf(fit.waves.value[0].norm_sqr() + fit.waves.value[1].norm_sqr());
         let rounding = 1e-7 * size;
-        let variance = noise + rounding * rounding;
+        let coding = self.coding(noise, half);
+        let variance = noise + rounding * rounding + coding;
         let wave = Standing::new(model, &fit, variance);
         if self.before.is_none() && checks::is_no_wave(&fit, &wave, self.count, model.layout.length) {
             // The detector was deceived: nothing is reported, and the search goes on.
@@ -155,7 +156,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let (angle, quarters) = expected.nearest(wave.angle);
         let phase = wrap(wave.phase + (quarters & 1) as f32 * core::f32::consts::PI);
 
-        let mut flags = checks::within(&fit, &wave, &mut self.noise);
+        let mut flags = checks::within(&fit, &wave, coding, &mut self.noise);
         flags = flags.with(self.sample_flags(&wave));
         let mut record = Record::new(model, &fit, &wave, variance, middle, angle, phase);
         let mut between = Flags::empty();
@@ -221,6 +222,18 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.model.as_ref().map_or(f32::INFINITY, |model| model.layout.step.period())
     }
 
+    /// What the converter's steps add to the noise variance a sample, in a window of `half` samples each side.
+    ///
+    /// A quantised wave has errors of up to a third of a step that repeat with it; noise breaks them up as exp(−2π²σ²/step²).
+    fn coding(&self, noise: f32, half: f32) -> f32 {
+        let Some(step) = self.settings.resolution else {
+            return 0.0;
+        };
+        let square = step * step;
+        let repeated = 0.09 * square * libm::expf(-39.5 * noise / square);
+        (square / 12.0 - noise).max(0.0) + repeated * half
+    }
+
     /// Faults that single samples show.
     fn sample_flags(&self, wave: &Standing) -> Flags {
         let mut low = [f32::INFINITY; 2];
@@ -233,10 +246,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
         // Where no rail is known, samples that stay at the extreme for longer than a crest does show one.
         let crest = (self.period() / 16.0).max(2.0) as u16 + 1;
+        let fine = wave.main > 100.0 * self.settings.resolution.unwrap_or(0.0);
         let flat = self.ring.iter().any(|block| {
             (0..2).any(|i| {
                 let sums = &block.channels[i];
-                let wide = high[i] - low[i] > wave.main;
+                let wide = fine && high[i] - low[i] > wave.main;
                 wide && (sums.high == high[i] && sums.high_run > crest || sums.low == low[i] && sums.low_run > crest)
             })
         });

@@ -15,8 +15,10 @@ use crate::phase::{Phase, PhaseStep};
 
 /// Beyond this phase (rad) between a window's middle and its end the carrier is moved before the fit is believed.
 const CARRIER_REACH: f32 = 0.05;
-/// A fit that still moves by more than this share of the wave is stepped again.
-const SETTLED: f32 = 1e-4;
+/// A fit that still moves by more than this share of the wave has found nothing.
+const NEAR: f32 = 0.01;
+/// A fit that moves by less than this, or by less than its noise, is not stepped again.
+const SETTLED: f32 = 2e-6;
 /// Blocks between two exact exponentials; between them a recursion, whose rounding grows by 6·10⁻⁸ a block.
 const ANCHOR: usize = 8;
 
@@ -55,8 +57,8 @@ pub(crate) struct Fit {
     pub freedom: f32,
     /// The largest share of one block in `residual`.
     pub worst_block: f32,
-    /// The share in `residual` of a course that bends: parabola and cubic of both phasors, 8 degrees of freedom.
-    pub bend: f32,
+    /// The most that one step of both phasors between two blocks would take off `residual`, 4 degrees of freedom.
+    pub step: f32,
     /// Third harmonic of each pick-off: complex amplitude, input units.
     pub third: [Complex32; 2],
     /// Noise variance a sample seen about the third harmonic, and its degrees of freedom.
@@ -80,8 +82,7 @@ struct Pass {
     gradient: [Row; 2],
     residual: f32,
     worst: f32,
-    /// Gradient of a parabola and of a cubic in both phasors.
-    bend: [[[f32; 2]; 2]; 2],
+    step: f32,
     third: [Complex32; 2],
     third_power: f32,
 }
@@ -127,6 +128,11 @@ impl Model {
     /// Half the window, in samples.
     pub(crate) fn half(&self) -> f32 {
         0.5 * f32::from(self.blocks) * f32::from(self.layout.length)
+    }
+
+    /// Degrees of freedom that the residual has.
+    fn freedom(&self) -> f32 {
+        2.0 * (f32::from(self.basis.rank) * f32::from(self.blocks) - PARAMETERS as f32).max(0.5)
     }
 
     /// Correction of the pick-offs at the carrier.
@@ -205,7 +211,7 @@ impl Model {
         let per_sample = 1.0 / self.half();
         let advance = waves.slope.map(|s| exponential(s * (2.0 / f32::from(self.blocks))));
         let first = waves.slope.map(|s| s * per_sample);
-        let bends = Bends::new(self.blocks);
+        let mut steps = Steps::new(self.blocks, &self.response);
         let mut course = [Complex32::ONE; 2];
         for (index, block) in blocks.enumerate() {
             let (u, phase) = self.place(index);
@@ -226,7 +232,7 @@ impl Model {
             });
             let rows = self.rows(u, unit);
             let seen = whiten(&self.basis, block);
-            let bend = bends.at(u);
+            let mut level = [[0.0; 2]; 2];
             let mut power = 0.0;
             for channel in 0..2 {
                 let v = raw.map(|both| both[channel]);
@@ -238,11 +244,9 @@ impl Model {
                 ];
                 for (row, rest) in rows.iter().zip(rest) {
                     power += rest * rest;
-                    // The first two weights are those of z itself; the rows' own slope term stands in none of them.
-                    for (bend, sums) in bend.iter().zip(&mut pass.bend[channel]) {
-                        sums[0] += bend * row[0] * rest;
-                        sums[1] += bend * row[1] * rest;
-                    }
+                    // The first two weights are those of z itself.
+                    level[channel][0] += row[0] * rest;
+                    level[channel][1] += row[1] * rest;
                     for (sum, weight) in pass.gradient[channel].iter_mut().zip(row) {
                         *sum += weight * rest;
                     }
@@ -252,6 +256,7 @@ impl Model {
                 pass.third[channel] += third * Phase(phase.0.wrapping_mul(3)).unit().conj();
                 pass.third_power += third.norm_sqr();
             }
+            pass.step = pass.step.max(steps.add(u, level));
             pass.residual += power;
             pass.worst = if power > pass.worst { power } else { pass.worst };
         }
@@ -282,8 +287,10 @@ impl Model {
                 moved += z.norm_sqr() + slope.norm_sqr();
                 total += parameters.z[channel].norm_sqr();
             }
-            if step > 0 && moved <= SETTLED * SETTLED * total {
-                settled = true;
+            // Enough when the last step is small beside the noise, or beside rounding.
+            let rest = (pass.residual - explained) / self.freedom();
+            settled = step > 0 && moved <= NEAR * NEAR * total;
+            if settled && (explained < 0.3 * rest || moved <= SETTLED * SETTLED * total) {
                 break;
             }
         }
@@ -291,20 +298,14 @@ impl Model {
         let length = f32::from(self.layout.length);
         let coherent = (pass.third[0].norm_sqr() + pass.third[1].norm_sqr()) / blocks;
         let third_freedom = 4.0 * (blocks - 1.0);
-        let r = &self.response;
-        // The mean weight of z in a block, over all phases of the carrier.
-        let weight = 0.5 * [r.mean, r.even, r.odd].iter().map(|a| a.level * a.level).sum::<f32>();
-        let bends = Bends::new(self.blocks);
-        let bend = pass.bend.iter().flatten().zip(bends.power.iter().cycle());
-        let bend = bend.map(|(g, p)| (g[0] * g[0] + g[1] * g[1]) / (p * weight)).sum();
         Fit {
             waves: self.waves(&parameters),
             offsets: parameters.offset,
             residual: (pass.residual - explained).max(0.0),
-            freedom: 2.0 * (f32::from(self.basis.rank) * blocks - PARAMETERS as f32).max(0.5),
+            freedom: self.freedom(),
             // Measured before the last step: what that step took away is no fault of the block's.
             worst_block: (pass.worst - explained).max(0.0),
-            bend,
+            step: pass.step,
             third: pass.third.map(|sum| sum * (2.0 / (blocks * length))),
             third_noise: (pass.third_power - coherent).max(0.0) / (0.5 * length * third_freedom),
             third_freedom,
@@ -313,29 +314,44 @@ impl Model {
     }
 }
 
-/// A parabola and a cubic over a window, free of any constant and slope.
-struct Bends {
-    square: f32,
-    ratio: f32,
-    /// Sums of their squares over the blocks.
-    power: [f32; 2],
+/// Looks for a step of the phasors between two blocks: the sum of the residuals so far, against what noise would make it.
+struct Steps {
+    /// Mean weight of z in a block, over all phases of the carrier.
+    weight: f32,
+    blocks: f32,
+    /// Σu² over the window, u being the blocks' middles.
+    spread: f32,
+    count: f32,
+    time: f32,
+    sum: [[f32; 2]; 2],
 }
 
-impl Bends {
-    fn new(blocks: u16) -> Self {
-        // Moments of the blocks' middles, u = (2i + 1 − K)/K.
-        let k = f32::from(blocks);
-        let w = 1.0 / (k * k);
-        let square = (1.0 - w) / 3.0;
-        let fourth = (3.0 - w * (10.0 - 7.0 * w)) / 15.0;
-        let sixth = (3.0 - w * (21.0 - w * (49.0 - 31.0 * w))) / 21.0;
-        let ratio = fourth / square;
-        let power = [k * (fourth - square * square), k * (sixth - ratio * fourth)];
-        Self { square, ratio, power: power.map(|p| p.max(1e-3)) }
+impl Steps {
+    fn new(blocks: u16, response: &Response) -> Self {
+        let levels = [response.mean, response.even, response.odd].map(|answer| answer.level);
+        let blocks = f32::from(blocks);
+        Self {
+            weight: 0.5 * levels.iter().map(|level| level * level).sum::<f32>(),
+            blocks,
+            spread: (blocks - 1.0 / blocks) / 3.0,
+            count: 0.0,
+            time: 0.0,
+            sum: [[0.0; 2]; 2],
+        }
     }
 
-    fn at(&self, u: f32) -> [f32; 2] {
-        [u * u - self.square, u * (u * u - self.ratio)]
+    /// Takes the next block's residual along z; gives what a step after it would explain.
+    fn add(&mut self, u: f32, level: [[f32; 2]; 2]) -> f32 {
+        self.count += 1.0;
+        self.time += u;
+        let mut power = 0.0;
+        for (sum, level) in self.sum.iter_mut().flatten().zip(level.iter().flatten()) {
+            *sum += level;
+            power += *sum * *sum;
+        }
+        // A step is known by what of it is neither constant nor slope.
+        let room = self.count - self.count * self.count / self.blocks - self.time * self.time / self.spread;
+        if room > 0.2 { power / (self.weight * room) } else { 0.0 }
     }
 }
 

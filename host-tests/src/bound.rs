@@ -39,7 +39,9 @@ pub fn bound(wave: &Wave, samples: u32, middle: f64, sample_rate: f64) -> Bound 
             fisher += row.transpose() * row;
         }
     }
-    let covariance = fisher.try_inverse().expect("a window of two periods or more determines the wave");
+    let covariance = fisher
+        .try_inverse()
+        .expect("a window of two periods or more determines the wave");
     let deviation = |i: usize| covariance[(i, i)].sqrt();
     Bound {
         main: deviation(0),

@@ -1,3 +1,52 @@
 //! Shared helpers of the host tests: the Cramér–Rao bound, an independent oracle, and streams through the core.
 
 pub mod bound;
+pub mod oracle;
+pub mod score;
+
+use antinode::Estimate;
+use antinode::Identifier;
+use antinode::Settings;
+use antinode_sim::{Flaws, Gyro, Wave};
+
+/// Sample rate of all tests, Hz.
+pub const RATE: f64 = 100_000.0;
+
+/// The core as the tests use it: all periods, windows up to 254 periods.
+pub type Core = Identifier<256, 256>;
+
+/// Runs `samples` sample pairs of a gyro through the core, from cold; gives every estimate.
+pub fn identify(
+    wave: Wave,
+    flaws: &Flaws,
+    settings: Settings,
+    samples: usize,
+    seed: u64,
+) -> Vec<Estimate> {
+    let mut core = Core::new(settings).expect("the test's settings are valid");
+    let gyro = Gyro::new(wave, flaws.clone(), RATE, seed).expect("the test's gyro is valid");
+    gyro.take(samples)
+        .filter_map(|pair| core.push([pair.c as f32, pair.d as f32]))
+        .collect()
+}
+
+/// Settings with windows of `periods`.
+pub fn windows(periods: u16) -> Settings {
+    Settings {
+        periods,
+        ..Settings::new(RATE)
+    }
+}
+
+/// The difference of two pattern angles, modulo π/2, rad.
+pub fn angle_error(found: f64, truth: f64) -> f64 {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let error = found - truth;
+    error - (error / quarter).round() * quarter
+}
+
+/// The difference of two phases, modulo π (it goes with the angle's choice), rad.
+pub fn phase_error(found: f64, truth: f64) -> f64 {
+    let error = found - truth;
+    error - (error / std::f64::consts::PI).round() * std::f64::consts::PI
+}

@@ -1,4 +1,4 @@
-//! What the two pick-offs see, at three multiplications and additions a sample and channel where it can be had.
+//! What the two pick-offs see, by complex rotation: no sine or cosine at sample rate.
 //!
 //! The standing wave is two waves that run against each other: with u = S_C + j S_D, (1)-(3) read
 //!

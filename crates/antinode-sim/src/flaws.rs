@@ -147,7 +147,6 @@ fn require(what: &'static str, value: f64, holds: bool, need: &'static str) -> R
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::timed::{Channel, DropoutKind};
 
     #[test]
     fn every_number_has_its_range() {
@@ -271,38 +270,5 @@ mod tests {
             Some(2.0 / 32768.0)
         );
         assert_eq!(Flaws::default().lsb(), None);
-    }
-
-    #[test]
-    fn json_keeps_everything_and_fills_in_the_rest() {
-        let flaws = Flaws {
-            noise: 0.1,
-            clip: Some(1.5),
-            bits: Some(24),
-            full_scale: 2.5,
-            lost: vec![Loss { at: 3, count: 4 }],
-            dropouts: vec![Dropout {
-                from: 0.1,
-                to: 0.2,
-                kind: DropoutKind::NoiseOnly,
-                channel: Some(Channel::D),
-            }],
-            clip_spans: vec![ClipSpan {
-                from: 0.3,
-                to: 0.4,
-                level: 1.0,
-            }],
-            ..Flaws::default()
-        };
-        let json = serde_json::to_string(&flaws).unwrap();
-        assert_eq!(serde_json::from_str::<Flaws>(&json).unwrap(), flaws);
-        assert_eq!(
-            serde_json::from_str::<Flaws>("{}").unwrap(),
-            Flaws::default()
-        );
-        assert!(serde_json::from_str::<Flaws>(r#"{"noize": 1}"#).is_err());
-        let wave = crate::random_wave(3, 5332.1, 0.5);
-        let json = serde_json::to_string(&wave).unwrap();
-        assert_eq!(serde_json::from_str::<crate::Wave>(&json).unwrap(), wave);
     }
 }

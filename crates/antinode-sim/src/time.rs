@@ -104,11 +104,11 @@ mod tests {
         let got = Instant::of(1000.0).later(1e-3).turns(0.0, 2.0);
         // (1000.001)^2 = 1000002.000001
         assert!((got - 1e-6).abs() < 1e-15, "{got}");
-        // 100000 S/s, 0.25 Hz/s: sample k has turned k^2 / (8 * 10^10) times.
+        // 100000 S/s, 3/16 Hz/s: sample k has turned 3 k^2 / (32 * 10^10) times.
         for k in [99_999u64, 123_456_789, 36_000 * 100_000 + 7] {
-            let square = u128::from(k).pow(2) % 80_000_000_000;
-            let expected = square as f64 / 8e10;
-            let got = Instant::of_sample(k, 100_000.0).turns(0.0, 0.25);
+            let rest = 3 * u128::from(k).pow(2) % 320_000_000_000;
+            let expected = rest as f64 / 32e10;
+            let got = Instant::of_sample(k, 100_000.0).turns(0.0, 0.1875);
             assert!(fraction(got - expected).abs() < 1e-15, "{k}: {got}");
         }
     }

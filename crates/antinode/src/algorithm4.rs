@@ -39,19 +39,32 @@ impl Demodulated {
         let mut sums = [0.0f32; 4];
         let mut count = 0u32;
         for ([c, d], [cosine, sine]) in samples {
-            for (sum, term) in sums.iter_mut().zip([c * cosine, d * cosine, c * sine, d * sine]) {
+            for (sum, term) in sums
+                .iter_mut()
+                .zip([c * cosine, d * cosine, c * sine, d * sine])
+            {
                 *sum += term;
             }
             count += 1;
         }
         let scale = 2.0 / count as f32;
         let [cosine_c, cosine_d, sine_c, sine_d] = sums.map(|sum| sum * scale);
-        Self { cosine_c, cosine_d, sine_c, sine_d }
+        Self {
+            cosine_c,
+            cosine_d,
+            sine_c,
+            sine_d,
+        }
     }
 
     /// The wave by (25), with 2Φ = atan2(L, M) so that the quadrant is right.
     pub fn wave(&self) -> Wave {
-        let Self { cosine_c: cx, cosine_d: cy, sine_c: sx, sine_d: sy } = *self;
+        let Self {
+            cosine_c: cx,
+            cosine_d: cy,
+            sine_c: sx,
+            sine_d: sy,
+        } = *self;
         let e = sx * sx + cx * cx + sy * sy + cy * cy;
         let q = 2.0 * (sy * cx - sx * cy);
         let r = sx * sx + cx * cx - sy * sy - cy * cy;
@@ -66,7 +79,11 @@ impl Demodulated {
         let (cosine, sine) = (libm::cosf(2.0 * angle), libm::sinf(2.0 * angle));
         let along = |x: f32, y: f32| x * cosine + y * sine;
         if along(cx, cy) * libm::cosf(phase) + along(sx, sy) * libm::sinf(phase) < 0.0 {
-            phase += if phase > 0.0 { -2.0 * FRAC_PI_2 } else { 2.0 * FRAC_PI_2 };
+            phase += if phase > 0.0 {
+                -2.0 * FRAC_PI_2
+            } else {
+                2.0 * FRAC_PI_2
+            };
         }
         Wave {
             main_amplitude: 0.5 * (sum + difference),
@@ -83,7 +100,12 @@ mod tests {
 
     /// The paper's wave over `n` samples from t = 0; gives the errors of a_A, a_B and θ in degrees.
     fn errors(n: usize) -> [f64; 3] {
-        let (a, b, theta, alpha) = (2.0f64, 0.1f64, 30f64.to_radians(), core::f64::consts::PI / 6.0);
+        let (a, b, theta, alpha) = (
+            2.0f64,
+            0.1f64,
+            30f64.to_radians(),
+            core::f64::consts::PI / 6.0,
+        );
         let step = core::f64::consts::TAU * 5332.0 / 1e5;
         let samples = (0..n).map(|k| {
             let phi = step * k as f64;
@@ -92,7 +114,10 @@ mod tests {
             let (c2, s2) = (libm::cos(2.0 * theta), libm::sin(2.0 * theta));
             let c = main * c2 - quadrature * s2;
             let d = main * s2 + quadrature * c2;
-            ([c as f32, d as f32], [libm::cos(phi) as f32, libm::sin(phi) as f32])
+            (
+                [c as f32, d as f32],
+                [libm::cos(phi) as f32, libm::sin(phi) as f32],
+            )
         });
         let wave = Demodulated::gather(samples).wave();
         assert!((f64::from(wave.phase) - alpha).abs() < 0.02);
@@ -106,9 +131,15 @@ mod tests {
     #[test]
     fn leakage_is_what_double_precision_says() {
         // Independent double-precision values of the printed formulas, for windows of 1 and 10 periods.
-        for (n, wanted) in [(19, [7.2e-3, 3.8e-4, 3.6e-2]), (188, [1.6e-3, 8.2e-5, 6.6e-3])] {
+        for (n, wanted) in [
+            (19, [7.2e-3, 3.8e-4, 3.6e-2]),
+            (188, [1.6e-3, 8.2e-5, 6.6e-3]),
+        ] {
             for (found, wanted) in errors(n).iter().zip(wanted) {
-                assert!((found / wanted - 1.0).abs() < 0.03, "{n}: {found:e} for {wanted:e}");
+                assert!(
+                    (found / wanted - 1.0).abs() < 0.03,
+                    "{n}: {found:e} for {wanted:e}"
+                );
             }
         }
     }

@@ -38,7 +38,12 @@ impl Layout {
         let phase = self.step.after_half_samples(self.twice_from_middle(index));
         let first = phase.unit();
         let third = crate::phase::Phase(phase.0.wrapping_mul(3)).unit();
-        Reference { cosine: first.re, sine: first.im, third_cosine: third.re, third_sine: third.im }
+        Reference {
+            cosine: first.re,
+            sine: first.im,
+            third_cosine: third.re,
+            third_sine: third.im,
+        }
     }
 }
 
@@ -94,11 +99,19 @@ impl ChannelSums {
         self.run = if sample == self.last { self.run + 1 } else { 1 };
         self.last = sample;
         if sample <= self.low {
-            self.low_run = if sample < self.low { self.run } else { self.low_run.max(self.run) };
+            self.low_run = if sample < self.low {
+                self.run
+            } else {
+                self.low_run.max(self.run)
+            };
             self.low = sample;
         }
         if sample >= self.high {
-            self.high_run = if sample > self.high { self.run } else { self.high_run.max(self.run) };
+            self.high_run = if sample > self.high {
+                self.run
+            } else {
+                self.high_run.max(self.run)
+            };
             self.high = sample;
         }
     }
@@ -199,7 +212,11 @@ impl<const N: usize> Demodulator<N> {
         if self.count < self.layout.length {
             return None;
         }
-        let block = Block { start: self.start, layout: self.layout, channels: self.sums };
+        let block = Block {
+            start: self.start,
+            layout: self.layout,
+            channels: self.sums,
+        };
         self.start += u64::from(self.layout.length);
         self.count = 0;
         // A run goes on over the end of a block.

@@ -19,7 +19,11 @@ pub struct Calibration {
 
 impl Calibration {
     /// Ideal pick-offs.
-    pub const IDEAL: Self = Self { gain_ratio: 1.0, skew: 0.0, pick_off_angle: 0.0 };
+    pub const IDEAL: Self = Self {
+        gain_ratio: 1.0,
+        skew: 0.0,
+        pick_off_angle: 0.0,
+    };
 
     /// The correction for a wave of `cycles_per_sample`, at a sample rate in Hz.
     pub(crate) fn at(&self, cycles_per_sample: f32, sample_rate: f32) -> Correction {
@@ -27,7 +31,12 @@ impl Calibration {
         let lag = Phase((turns * 4_294_967_296.0) as i64 as u32).unit() * self.gain_ratio;
         let turned = Phase::from_radians(2.0 * self.pick_off_angle).unit();
         let ideal = *self == Self::IDEAL;
-        Correction { lag, cosine: turned.re, sine: turned.im, ideal }
+        Correction {
+            lag,
+            cosine: turned.re,
+            sine: turned.im,
+            ideal,
+        }
     }
 }
 
@@ -79,7 +88,11 @@ mod tests {
 
     #[test]
     fn correcting_undoes_distorting() {
-        let calibration = Calibration { gain_ratio: 1.1, skew: -1e-6, pick_off_angle: 0.02 };
+        let calibration = Calibration {
+            gain_ratio: 1.1,
+            skew: -1e-6,
+            pick_off_angle: 0.02,
+        };
         let correction = calibration.at(0.05332, 1e5);
         let wave = [Complex32::new(0.3, -1.2), Complex32::new(-0.7, 0.4)];
         let raw = correction.distort(wave);

@@ -25,7 +25,11 @@ impl<const N: usize> Front<N> {
     /// A front that searches for a period.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
         settings.check(usize::from(u16::MAX))?;
-        Ok(Self { settings, stage: Self::cold(&settings), index: 0 })
+        Ok(Self {
+            settings,
+            stage: Self::cold(&settings),
+            index: 0,
+        })
     }
 
     fn cold(settings: &Settings) -> Stage<N> {

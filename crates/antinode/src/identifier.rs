@@ -19,7 +19,10 @@ pub struct Identifier<const N: usize, const BLOCKS: usize> {
 impl<const N: usize, const BLOCKS: usize> Identifier<N, BLOCKS> {
     /// An identification from cold.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        Ok(Self { front: Front::new(settings)?, tracker: Tracker::new(settings)? })
+        Ok(Self {
+            front: Front::new(settings)?,
+            tracker: Tracker::new(settings)?,
+        })
     }
 
     /// Takes one sample pair; gives the estimate of the window that it completes.

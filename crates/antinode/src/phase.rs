@@ -31,9 +31,9 @@ impl Phase {
         let x = rest as f32 * (TAU / TURN);
         let x2 = x * x;
         // Taylor to x⁹ and x⁸: the first term left out is below 4·10⁻⁹ at π/4.
-        let sine = x
-            + x * x2
-                * (-1.0 / 6.0 + x2 * (1.0 / 120.0 + x2 * (-1.0 / 5040.0 + x2 * (1.0 / 362_880.0))));
+        let sine = x + x
+            * x2
+            * (-1.0 / 6.0 + x2 * (1.0 / 120.0 + x2 * (-1.0 / 5040.0 + x2 * (1.0 / 362_880.0))));
         let cosine =
             1.0 + x2 * (-0.5 + x2 * (1.0 / 24.0 + x2 * (-1.0 / 720.0 + x2 * (1.0 / 40_320.0))));
         match quarter & 3 {
@@ -105,9 +105,15 @@ mod tests {
         for offset in [1e-3f32, -2.5e-4, 3e-9, -0.01] {
             let moved = step.shifted(offset).hertz(0.0, 1e5) - step.hertz(0.0, 1e5);
             let wanted = f64::from(offset) / core::f64::consts::TAU * 1e5;
-            assert!((moved - wanted).abs() < 1.3e-5 + 1e-7 * wanted.abs(), "{moved} {wanted}");
+            assert!(
+                (moved - wanted).abs() < 1.3e-5 + 1e-7 * wanted.abs(),
+                "{moved} {wanted}"
+            );
             let added = step.hertz(offset, 1e5) - step.hertz(0.0, 1e5);
-            assert!((added - wanted).abs() < 1e-11 + 1e-9 * wanted.abs(), "{added} {wanted}");
+            assert!(
+                (added - wanted).abs() < 1e-11 + 1e-9 * wanted.abs(),
+                "{added} {wanted}"
+            );
         }
     }
 
@@ -115,7 +121,10 @@ mod tests {
     fn half_samples_wrap_exactly() {
         let step = PhaseStep(0x4000_0001);
         assert_eq!(step.after_half_samples(2), Phase(0x4000_0001));
-        assert_eq!(step.after_half_samples(-2), Phase(0x4000_0001u32.wrapping_neg()));
+        assert_eq!(
+            step.after_half_samples(-2),
+            Phase(0x4000_0001u32.wrapping_neg())
+        );
         assert_eq!(step.after_half_samples(8), Phase(4));
     }
 }

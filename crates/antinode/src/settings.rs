@@ -72,19 +72,34 @@ pub enum SettingsError {
 impl fmt::Display for SettingsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::SampleRate(rate) => write!(f, "sample rate {rate} Hz: it must be a positive number"),
+            Self::SampleRate(rate) => {
+                write!(f, "sample rate {rate} Hz: it must be a positive number")
+            }
             Self::PeriodsTooFew(n) => write!(f, "{n} periods a window: it takes at least 2"),
             Self::PeriodsTooMany { periods, most } => {
-                write!(f, "{periods} periods a window: the ring of blocks holds at most {most}")
+                write!(
+                    f,
+                    "{periods} periods a window: the ring of blocks holds at most {most}"
+                )
             }
-            Self::Hop => write!(f, "a hop of 0 blocks: windows must move on by at least 1 block"),
-            Self::StartAngle(angle) => write!(f, "start angle {angle} rad: it must lie within ±10000"),
+            Self::Hop => write!(
+                f,
+                "a hop of 0 blocks: windows must move on by at least 1 block"
+            ),
+            Self::StartAngle(angle) => {
+                write!(f, "start angle {angle} rad: it must lie within ±10000")
+            }
             Self::FullScale(value) => write!(f, "full scale {value}: it must be a positive number"),
-            Self::Resolution(value) => write!(f, "resolution {value}: it must be a positive number"),
+            Self::Resolution(value) => {
+                write!(f, "resolution {value}: it must be a positive number")
+            }
             Self::GainRatio(ratio) => write!(f, "gain ratio {ratio}: it must lie within 0.1 to 10"),
             Self::Skew(skew) => write!(f, "skew {skew} s: it must lie within ±0.001 s"),
             Self::PickOffAngle(angle) => {
-                write!(f, "pick-off angle error {angle} rad: it must lie within ±0.3")
+                write!(
+                    f,
+                    "pick-off angle error {angle} rad: it must lie within ±0.3"
+                )
             }
         }
     }
@@ -120,7 +135,10 @@ impl Settings {
         } else if self.periods < 2 {
             Err(SettingsError::PeriodsTooFew(self.periods))
         } else if self.periods > most {
-            Err(SettingsError::PeriodsTooMany { periods: self.periods, most })
+            Err(SettingsError::PeriodsTooMany {
+                periods: self.periods,
+                most,
+            })
         } else if self.hop == Some(0) {
             Err(SettingsError::Hop)
         } else if !within(self.start_angle, -1e4, 1e4) {
@@ -144,7 +162,10 @@ impl Settings {
     pub fn layout(&self, period: f32) -> Layout {
         let window = period * f32::from(self.periods);
         let length = libm::roundf(period.min(window / BLOCKS_A_WINDOW)).max(1.0);
-        Layout { step: PhaseStep::from_period(period), length: length as u16 }
+        Layout {
+            step: PhaseStep::from_period(period),
+            length: length as u16,
+        }
     }
 
     /// How many blocks of `layout` come nearest to a window.

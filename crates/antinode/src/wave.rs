@@ -45,7 +45,10 @@ type Gradient = [[f32; 2]; 2];
 /// The gradient of p·(component of z₊ along e₊) + m·(component of z₋ along e₋).
 fn gradient(plus: Complex32, minus: Complex32) -> Gradient {
     // z₊ = z_C + j z_D and z₋ = z_C − j z_D.
-    [[plus.re + minus.re, plus.im + minus.im], [plus.im - minus.im, minus.re - plus.re]]
+    [
+        [plus.re + minus.re, plus.im + minus.im],
+        [plus.im - minus.im, minus.re - plus.re],
+    ]
 }
 
 /// The variance or covariance of two quantities, under one 2×2 covariance for each pick-off.
@@ -61,7 +64,7 @@ impl Standing {
     /// The standing wave of a fit whose noise variance a sample is `noise`.
     pub(crate) fn new(model: &Model, fit: &Fit, noise: f32) -> Self {
         let [plus, minus] = fit.waves.value;
-        let [plus_slope, minus_slope] = fit.waves.slope;
+        let [plus_change, minus_change] = fit.waves.change;
         let size = |z: Complex32| libm::sqrtf(z.norm_sqr());
         let arg = |z: Complex32| libm::atan2f(z.im, z.re);
         let (p, m) = (size(plus), size(minus));
@@ -74,7 +77,13 @@ impl Standing {
             let size = size.max(1e-12 * (p + m)).max(f32::MIN_POSITIVE);
             Complex32::new(-e.im, e.re) / size
         };
+        // The component of a change along e or f: how the size and the phase of a wave move.
+        let turned = |change: Complex32, f: Complex32| change.re * f.re + change.im * f.im;
         let (f_plus, f_minus) = (across(e_plus, p), across(e_minus, m));
+
+        let (plus_turn, minus_turn) = (turned(plus_change, f_plus), turned(minus_change, f_minus));
+        let (plus_growth, minus_growth) =
+            (turned(plus_change, e_plus), turned(minus_change, e_minus));
 
         let c = &model.covariance;
         let levels = [[c[0][0], c[0][1]], [c[1][0], c[1][1]]];
@@ -97,10 +106,10 @@ impl Standing {
             quadrature: 0.5 * (p - m),
             angle: 0.25 * (arg(plus) - arg(minus)),
             phase: -0.5 * (arg(plus) + arg(minus)),
-            drift: 0.5 * (plus_slope.im + minus_slope.im),
-            turning: 0.25 * (plus_slope.im - minus_slope.im),
-            main_change: 0.5 * (p * plus_slope.re + m * minus_slope.re),
-            quadrature_change: 0.5 * (p * plus_slope.re - m * minus_slope.re),
+            drift: 0.5 * (plus_turn + minus_turn),
+            turning: 0.25 * (plus_turn - minus_turn),
+            main_change: 0.5 * (plus_growth + minus_growth),
+            quadrature_change: 0.5 * (plus_growth - minus_growth),
             lesser: p.min(m),
             lesser_variance: level(&least),
             main_variance: level(&sum),
@@ -134,7 +143,10 @@ pub(crate) struct Angle {
 impl Angle {
     pub(crate) fn new(radians: f32) -> Self {
         let quarters = libm::roundf(radians / FRAC_PI_2);
-        Self { quarters: quarters as i32, rest: radians - quarters * FRAC_PI_2 }
+        Self {
+            quarters: quarters as i32,
+            rest: radians - quarters * FRAC_PI_2,
+        }
     }
 
     /// The value nearest to this one that equals `angle` modulo π/2, and by how many quarter turns it was moved.
@@ -142,7 +154,13 @@ impl Angle {
         let quarters = libm::roundf((self.rest - angle) / FRAC_PI_2) as i32;
         let rest = angle + quarters as f32 * FRAC_PI_2;
         let moved = Angle::new(rest);
-        (Self { quarters: self.quarters.wrapping_add(moved.quarters), rest: moved.rest }, self.quarters.wrapping_add(quarters))
+        (
+            Self {
+                quarters: self.quarters.wrapping_add(moved.quarters),
+                rest: moved.rest,
+            },
+            self.quarters.wrapping_add(quarters),
+        )
     }
 
     /// This angle less `other`, rad.
@@ -153,7 +171,10 @@ impl Angle {
     /// This angle moved by a small one, rad.
     pub(crate) fn plus(self, radians: f32) -> Self {
         let moved = Angle::new(self.rest + radians);
-        Self { quarters: self.quarters.wrapping_add(moved.quarters), rest: moved.rest }
+        Self {
+            quarters: self.quarters.wrapping_add(moved.quarters),
+            rest: moved.rest,
+        }
     }
 
     /// In radians.

@@ -275,6 +275,24 @@ fn what_cannot_be_is_refused() {
             ..
         })
     ));
+    let two = [(0.0, 2.0), (1.0, 3.0)].map(|(from, to)| ClipSpan {
+        from,
+        to,
+        level: 1.0,
+    });
+    assert_eq!(
+        new(
+            Flaws {
+                clip_spans: two.to_vec(),
+                ..Flaws::default()
+            },
+            RATE
+        ),
+        Some(Error::Overlap {
+            what: "clip_spans",
+            index: 100_000
+        })
+    );
     let spans = vec![ClipSpan {
         from: 1.0,
         to: 1.0,

@@ -91,7 +91,8 @@ impl Trial {
         }
         let rest = ((self.square - explained) / power).max(1e-6);
         let drift = turned / size;
-        if !(rest < UNEXPLAINED && by_chance(rest, self.length) < FALSE_ALARM && drift.abs() < 1.0) {
+        if !(rest < UNEXPLAINED && by_chance(rest, self.length) < FALSE_ALARM && drift.abs() < 1.0)
+        {
             return None;
         }
         if rest > TONE {
@@ -108,7 +109,10 @@ impl Trial {
             }
         }
         let period = self.step.shifted(2.0 * drift / n).period();
-        Some(Confirmed { period, power: power / n })
+        Some(Confirmed {
+            period,
+            power: power / n,
+        })
     }
 }
 

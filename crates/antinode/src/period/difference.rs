@@ -4,8 +4,8 @@
 //! offsets. All lags from 4 to 200 samples would cost hundreds of products a sample. Here the stream is halved again and again,
 //! each octave sees lags of 1 to 10 of its own samples, and so all octaves together cost no more than twenty lags.
 
-use super::confirm::Trial;
 use super::PERIODS;
+use super::confirm::Trial;
 use crate::block::Pair;
 use crate::phase::Phase;
 
@@ -142,7 +142,9 @@ pub struct DifferenceDetector {
 impl DifferenceDetector {
     /// A detector at rest.
     pub const fn new() -> Self {
-        Self { octaves: [Octave::NEW; OCTAVES] }
+        Self {
+            octaves: [Octave::NEW; OCTAVES],
+        }
     }
 
     /// Takes a sample pair; gives the period in samples once it is sure.

@@ -36,13 +36,36 @@ impl Upward {
 #[derive(Debug, Clone)]
 enum Stage {
     /// Finds the range of both signals, until one of them has crossed its middle twice.
-    Range { low: Pair, high: Pair, upward: [Upward; 2], crossings: [u8; 2] },
+    Range {
+        low: Pair,
+        high: Pair,
+        upward: [Upward; 2],
+        crossings: [u8; 2],
+    },
     /// Takes the mean from one upward crossing of the middle to another.
-    Mean { middle: f32, swing: f32, upward: Upward, crossings: u16, before: f32, area: f32, lead: f32 },
+    Mean {
+        middle: f32,
+        swing: f32,
+        upward: Upward,
+        crossings: u16,
+        before: f32,
+        area: f32,
+        lead: f32,
+    },
     /// Waits until `samples` have passed: the crest, where the sum leaves and meets zero steeply.
-    Crest { mean: f32, margin: f32, samples: u16 },
+    Crest {
+        mean: f32,
+        margin: f32,
+        samples: u16,
+    },
     /// Sums until the sum has returned.
-    Sum { mean: f32, margin: f32, upward: Upward, sum: f32, returns: u16 },
+    Sum {
+        mean: f32,
+        margin: f32,
+        upward: Upward,
+        sum: f32,
+        returns: u16,
+    },
     /// Tries the period found.
     Try { trial: Trial },
 }
@@ -66,7 +89,11 @@ impl MeanReturnDetector {
 
     /// A detector at rest.
     pub const fn new() -> Self {
-        Self { stage: Self::START, channel: 0, time: 0 }
+        Self {
+            stage: Self::START,
+            channel: 0,
+            time: 0,
+        }
     }
 
     /// Takes a sample pair; gives the period in samples once it is sure.
@@ -74,7 +101,12 @@ impl MeanReturnDetector {
         self.time += 1;
         let value = pair[self.channel & 1];
         let next = match &mut self.stage {
-            Stage::Range { low, high, upward, crossings } => {
+            Stage::Range {
+                low,
+                high,
+                upward,
+                crossings,
+            } => {
                 for i in 0..2 {
                     low[i] = low[i].min(pair[i]);
                     high[i] = high[i].max(pair[i]);
@@ -96,7 +128,15 @@ impl MeanReturnDetector {
                     }
                 })
             }
-            Stage::Mean { middle, swing, upward, crossings, before, area, lead } => {
+            Stage::Mean {
+                middle,
+                swing,
+                upward,
+                crossings,
+                before,
+                area,
+                lead,
+            } => {
                 let height = value - *middle;
                 let rise = height - *before;
                 *area += 0.5 * (height + *before);
@@ -118,20 +158,32 @@ impl MeanReturnDetector {
                         let period = span / f32::from(SPAN);
                         // The sum's first sample is to stand half a sample past the next crest.
                         let samples = libm::roundf(1.25 * period - 0.5 - late) as u16;
-                        Stage::Crest { mean, margin: 0.25 * *swing * period / TAU, samples }
+                        Stage::Crest {
+                            mean,
+                            margin: 0.25 * *swing * period / TAU,
+                            samples,
+                        }
                     })
                 }
             }
-            Stage::Crest { mean, margin, samples } => {
-                (self.time >= *samples).then_some(Stage::Sum {
-                    mean: *mean,
-                    margin: *margin,
-                    upward: Upward::default(),
-                    sum: 0.0,
-                    returns: 0,
-                })
-            }
-            Stage::Sum { mean, margin, upward, sum, returns } => {
+            Stage::Crest {
+                mean,
+                margin,
+                samples,
+            } => (self.time >= *samples).then_some(Stage::Sum {
+                mean: *mean,
+                margin: *margin,
+                upward: Upward::default(),
+                sum: 0.0,
+                returns: 0,
+            }),
+            Stage::Sum {
+                mean,
+                margin,
+                upward,
+                sum,
+                returns,
+            } => {
                 let step = value - *mean;
                 *sum += step;
                 // The return itself is the crossing of zero: the margin only arms it.
@@ -141,10 +193,16 @@ impl MeanReturnDetector {
                     *returns += 1;
                 }
                 (*returns == SPAN).then(|| {
-                    let late = if step > 0.0 { (*sum / step).min(1.0) } else { 0.0 };
+                    let late = if step > 0.0 {
+                        (*sum / step).min(1.0)
+                    } else {
+                        0.0
+                    };
                     let period = (f32::from(self.time) - late) / f32::from(SPAN);
                     let length = (TRIED * period) as usize + 1;
-                    Stage::Try { trial: Trial::new(period.clamp(2.5, 400.0), length.max(12)) }
+                    Stage::Try {
+                        trial: Trial::new(period.clamp(2.5, 400.0), length.max(12)),
+                    }
                 })
             }
             Stage::Try { trial } => {

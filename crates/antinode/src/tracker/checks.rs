@@ -60,7 +60,8 @@ pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -
     let samples = f32::from(blocks) * f32::from(length);
     let explained = 0.5 * samples * (wave.main * wave.main + wave.quadrature * wave.quadrature);
     let significant = wave.main * wave.main > 36.0 * wave.main_variance;
-    !significant || fit.residual > STRANGER * explained
+    let strange = fit.residual.max(fit.third_noise * fit.third_freedom);
+    !significant || strange > STRANGER * explained
 }
 
 /// Tests of one window by itself and against the noise of those before.
@@ -93,24 +94,32 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
     // rest where the noise is not yet known.
     let rest = (fit.residual - fit.step).max(0.0) / (fit.freedom - 4.0).max(1.0);
     let limit = 56.0 * (1.0 + 40.0 / (noise.freedom + fit.freedom));
-    let stepped = fit.freedom > 20.0 && fit.step > limit * rest.max(noise.variance) + (8.0 + 0.1 * fit.freedom) * floor;
+    let stepped = fit.freedom > 20.0
+        && fit.step > limit * rest.max(noise.variance) + (8.0 + 0.1 * fit.freedom) * floor;
     let misfit = coloured || louder || outlier || stepped || !fit.settled;
     flags = flags.with_if(misfit, Flags::MISFIT);
 
     let harmonic = fit.third.iter().map(Complex32::norm_sqr).sum::<f32>();
     let harmonic_noise = fit.third_noise.max(variance.min(noise.variance));
-    let limit = SIGMAS * libm::sqrtf(wave.main_variance / variance.max(f32::MIN_POSITIVE) * 1.2 * harmonic_noise)
+    let limit = SIGMAS
+        * libm::sqrtf(wave.main_variance / variance.max(f32::MIN_POSITIVE) * 1.2 * harmonic_noise)
         + HARMONIC_FLOOR * wave.main
         + SIGMAS * libm::sqrtf(coding * wave.main_variance / variance.max(f32::MIN_POSITIVE));
-    flags = flags.with_if(harmonic > limit * limit && fit.third_freedom >= 12.0, Flags::CLIPPED);
+    flags = flags.with_if(
+        harmonic > limit * limit && fit.third_freedom >= 12.0,
+        Flags::CLIPPED,
+    );
 
-    let round = wave.lesser * wave.lesser < 36.0 * wave.lesser_variance
-        || wave.lesser < 2e-3 * wave.main;
+    let round =
+        wave.lesser * wave.lesser < 36.0 * wave.lesser_variance || wave.lesser < 2e-3 * wave.main;
     flags = flags.with_if(round && significant, Flags::CIRCULAR);
 
     if flags.with(Flags::CIRCULAR) == Flags::CIRCULAR {
         noise.learn(variance, fit.freedom);
-    } else if flags.with(Flags::CIRCULAR) == Flags::MISFIT.with(Flags::CIRCULAR) && !(coloured || outlier || stepped) && fit.settled {
+    } else if flags.with(Flags::CIRCULAR) == Flags::MISFIT.with(Flags::CIRCULAR)
+        && !(coloured || outlier || stepped)
+        && fit.settled
+    {
         noise.refused += 1;
         if noise.refused >= Noise::NEW_LEVEL {
             *noise = Noise::default();
@@ -129,26 +138,33 @@ pub(crate) fn between(before: &Record, now: &Record) -> Flags {
     let samples = 0.5 * (now.middle.wrapping_sub(before.middle)) as f32;
     // Both windows' own rates, as a trapezoid: exact for a rate that itself changes steadily.
     let step = |value: f32, rates: f32| value - 0.5 * rates * samples;
-    let deviation = |levels: f32, rates: f32| {
-        libm::sqrtf(levels + 0.25 * samples * samples * rates)
-    };
+    let deviation =
+        |levels: f32, rates: f32| libm::sqrtf(levels + 0.25 * samples * samples * rates);
     let beyond = |step: f32, deviation: f32, floor: f32| {
         step.abs() > SIGMAS * deviation + floor || step.is_nan()
     };
 
     let phase = wrap(now.phase_advance(before));
-    let phase_deviation =
-        deviation(before.phase_variance + now.phase_variance, before.drift_variance + now.drift_variance);
+    let phase_deviation = deviation(
+        before.phase_variance + now.phase_variance,
+        before.drift_variance + now.drift_variance,
+    );
     let jump = phase_deviation < 0.3 && beyond(phase, phase_deviation, PHASE_FLOOR);
 
     let amplitude_floor = AMPLITUDE_FLOOR * before.main;
     let main = beyond(
         step(now.main - before.main, now.main_rate + before.main_rate),
-        deviation(now.main_variance + before.main_variance, now.main_rate_variance + before.main_rate_variance),
+        deviation(
+            now.main_variance + before.main_variance,
+            now.main_rate_variance + before.main_rate_variance,
+        ),
         amplitude_floor,
     );
     let quadrature = beyond(
-        step(now.quadrature - before.quadrature, now.quadrature_rate + before.quadrature_rate),
+        step(
+            now.quadrature - before.quadrature,
+            now.quadrature_rate + before.quadrature_rate,
+        ),
         deviation(
             now.quadrature_variance + before.quadrature_variance,
             now.quadrature_rate_variance + before.quadrature_rate_variance,
@@ -157,12 +173,20 @@ pub(crate) fn between(before: &Record, now: &Record) -> Flags {
     );
     let angle = beyond(
         step(now.angle.less(before.angle), now.turning + before.turning),
-        deviation(now.angle_variance + before.angle_variance, now.turning_variance + before.turning_variance),
+        deviation(
+            now.angle_variance + before.angle_variance,
+            now.turning_variance + before.turning_variance,
+        ),
         ANGLE_FLOOR,
     );
     let offset_deviation = libm::sqrtf(now.offset_variance + before.offset_variance);
-    let offsets = (0..2)
-        .any(|i| beyond(now.offsets[i] - before.offsets[i], offset_deviation, amplitude_floor));
+    let offsets = (0..2).any(|i| {
+        beyond(
+            now.offsets[i] - before.offsets[i],
+            offset_deviation,
+            amplitude_floor,
+        )
+    });
     Flags::empty()
         .with_if(jump, Flags::PHASE_JUMP)
         .with_if(main || quadrature || angle || offsets, Flags::STEP)

@@ -98,8 +98,14 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
 
     /// Starts a new window when a block does not continue the ring.
     fn follow(&mut self, block: &Block) {
-        let same = self.model.as_ref().is_some_and(|model| model.layout == block.layout);
-        let next = self.ring.back().map(|last| last.start + u64::from(last.layout.length));
+        let same = self
+            .model
+            .as_ref()
+            .is_some_and(|model| model.layout == block.layout);
+        let next = self
+            .ring
+            .back()
+            .map(|last| last.start + u64::from(last.layout.length));
         if same && next.is_none_or(|next| next == block.start) {
             return;
         }
@@ -129,14 +135,16 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let model = self.model.as_ref()?;
         let half = model.half();
         let noise = fit.residual / fit.freedom;
-        // Rounding of f32 sums is noise too, where there is no other.
-        let size = fit.offsets[0].abs() + fit.offsets[1].abs()
+        // Rounding of f32 sums is an error too, where there is no other, and part of it does not average.
+        let size = fit.offsets[0].abs()
+            + fit.offsets[1].abs()
             + libm::sqrtf(fit.waves.value[0].norm_sqr() + fit.waves.value[1].norm_sqr());
         let rounding = 1e-7 * size;
         let coding = self.coding(noise, half);
-        let variance = noise + rounding * rounding + coding;
+        let variance = noise + rounding * rounding * (1.0 + half) + coding;
         let wave = Standing::new(model, &fit, variance);
-        if self.before.is_none() && checks::is_no_wave(&fit, &wave, self.count, model.layout.length) {
+        if self.before.is_none() && checks::is_no_wave(&fit, &wave, self.count, model.layout.length)
+        {
             // The detector was deceived: nothing is reported, and the search goes on.
             self.failures = GIVE_UP;
             return None;
@@ -168,7 +176,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             }
         }
         let fault = self.broken || flags.intersects(Flags::MISFIT.with(Flags::STEP));
-        flags = flags.with_if(fault && self.has_fallen_silent(&record), Flags::DEAD_CHANNEL);
+        flags = flags.with_if(
+            fault && self.has_fallen_silent(&record),
+            Flags::DEAD_CHANNEL,
+        );
         self.promise(&mut record, &wave, half, samples);
 
         if flags.contains(Flags::LOST) {
@@ -190,7 +201,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// True when a pick-off that showed the wave in the last clean window shows none now.
     fn has_fallen_silent(&self, now: &Record) -> bool {
         self.before.as_ref().is_some_and(|before| {
-            (0..2).any(|i| now.is_silent(i) && before.channel_power[i] > 4.0 * now.channel_power[i] && !before.is_silent(i))
+            (0..2).any(|i| {
+                now.is_silent(i)
+                    && before.channel_power[i] > 4.0 * now.channel_power[i]
+                    && !before.is_silent(i)
+            })
         })
     }
 
@@ -202,10 +217,21 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             None => (model.layout.step, rough),
             Some(before) => {
                 // A model that is near enough is kept: its matrix need not be built anew.
-                let drift = before.frequency_less(&Record { carrier: model.carrier, drift: 0.0, ..*before });
+                let drift = before.frequency_less(&Record {
+                    carrier: model.carrier,
+                    drift: 0.0,
+                    ..*before
+                });
                 let half = 0.5 * f32::from(self.count) * f32::from(model.layout.length);
                 let near = (drift * half).abs() < 0.02;
-                (if near { model.carrier } else { before.carrier.shifted(before.drift) }, 0.0)
+                (
+                    if near {
+                        model.carrier
+                    } else {
+                        before.carrier.shifted(before.drift)
+                    },
+                    0.0,
+                )
             }
         };
         let (older, newer) = self.ring.as_slices();
@@ -219,7 +245,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
 
     /// Samples a period of the blocks' reference.
     fn period(&self) -> f32 {
-        self.model.as_ref().map_or(f32::INFINITY, |model| model.layout.step.period())
+        self.model
+            .as_ref()
+            .map_or(f32::INFINITY, |model| model.layout.step.period())
     }
 
     /// What the converter's steps add to the noise variance a sample, in a window of `half` samples each side.
@@ -245,13 +273,14 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             }
         }
         // Where no rail is known, samples that stay at the extreme for longer than a crest does show one.
-        let crest = (self.period() / 16.0).max(2.0) as u16 + 1;
+        let crest = (self.period() / 16.0).max(2.0) as u16;
         let fine = wave.main > 100.0 * self.settings.resolution.unwrap_or(0.0);
         let flat = self.ring.iter().any(|block| {
             (0..2).any(|i| {
                 let sums = &block.channels[i];
                 let wide = fine && high[i] - low[i] > wave.main;
-                wide && (sums.high == high[i] && sums.high_run > crest || sums.low == low[i] && sums.low_run > crest)
+                wide && (sums.high == high[i] && sums.high_run > crest
+                    || sums.low == low[i] && sums.low_run > crest)
             })
         });
         let clipped = match self.settings.full_scale {
@@ -262,12 +291,17 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         Flags::empty()
             .with_if(clipped, Flags::CLIPPED)
             .with_if(dead, Flags::DEAD_CHANNEL)
-            .with_if(!(wave.main + wave.quadrature).is_finite(), Flags::NOT_FINITE.with(Flags::LOST))
+            .with_if(
+                !(wave.main + wave.quadrature).is_finite(),
+                Flags::NOT_FINITE.with(Flags::LOST),
+            )
     }
 
     /// Takes the share of a turning pattern out of the frequency, with what the angles of the windows before promise.
     fn promise(&self, record: &mut Record, wave: &Standing, half: f32, samples: u32) {
-        let rate = self.trend.rate(record.middle, samples, record.angle, record.angle_variance);
+        let rate = self
+            .trend
+            .rate(record.middle, samples, record.angle, record.angle_variance);
         let apart = record.turning - rate.value;
         let spread = record.turning_variance + rate.variance;
         if spread > 0.0 && apart * apart < 16.0 * spread {
@@ -279,7 +313,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
 
     /// Keeps what the next windows need.
     fn remember(&mut self, record: Record, flags: Flags, between: Flags, samples: u32) {
-        let broken = Flags::LOST.with(Flags::MISFIT).with(Flags::NOT_FINITE).with(Flags::DEAD_CHANNEL);
+        let broken = Flags::LOST
+            .with(Flags::MISFIT)
+            .with(Flags::NOT_FINITE)
+            .with(Flags::DEAD_CHANNEL);
         self.broken = flags.intersects(broken);
         if self.broken {
             // The next window is judged by itself: what lies between it and the last clean one is already flagged.
@@ -297,7 +334,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.trend.clear();
         }
         if !flags.contains(Flags::CIRCULAR) {
-            self.trend.keep(record.middle, samples, record.angle, record.angle_variance);
+            self.trend
+                .keep(record.middle, samples, record.angle, record.angle_variance);
             self.angle = record.angle;
         }
         self.before = Some(record);

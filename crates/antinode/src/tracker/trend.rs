@@ -34,7 +34,9 @@ pub(crate) struct Trend {
 
 impl Trend {
     pub(crate) const fn new() -> Self {
-        Self { points: Deque::new() }
+        Self {
+            points: Deque::new(),
+        }
     }
 
     pub(crate) fn clear(&mut self) {
@@ -52,7 +54,11 @@ impl Trend {
             self.points.pop_front();
         }
         // Never full here.
-        let _ = self.points.push_back(Point { middle, angle, variance });
+        let _ = self.points.push_back(Point {
+            middle,
+            angle,
+            variance,
+        });
     }
 
     /// The rate at the middle of a window, from its own angle and the angles before: constant through three points, linear in time
@@ -66,10 +72,20 @@ impl Trend {
             .points
             .iter()
             .filter(|point| point.middle + 2 * u64::from(samples) <= middle)
-            .map(|p| (-0.5 * (middle - p.middle) as f32 / window, p.angle.less(angle), p.variance));
+            .map(|p| {
+                (
+                    -0.5 * (middle - p.middle) as f32 / window,
+                    p.angle.less(angle),
+                    p.variance,
+                )
+            });
         for (time, angle, variance) in earlier.chain(core::iter::once((0.0, 0.0, variance))) {
             let weight = 1.0 / libm::sqrtf(variance.max(1e-18));
-            let curve = if self.points.len() >= 3 { weight * time * time } else { 0.0 };
+            let curve = if self.points.len() >= 3 {
+                weight * time * time
+            } else {
+                0.0
+            };
             let row = [weight, weight * time, curve, 0.0, 0.0];
             normal.add(&row);
             for (sum, value) in rhs.iter_mut().zip(row) {
@@ -78,7 +94,10 @@ impl Trend {
             used += 1;
         }
         if used < 2 {
-            return Rate { value: 0.0, variance: 0.0 };
+            return Rate {
+                value: 0.0,
+                variance: 0.0,
+            };
         }
         normal.factorise();
         let value = normal.solve(rhs)[1] / window;

@@ -43,8 +43,12 @@ pub(crate) struct Model {
 pub(crate) struct Waves {
     /// z₊ and z₋.
     pub value: [Complex32; 2],
-    /// z₊′/z₊ and z₋′/z₋ for each half window.
-    pub slope: [Complex32; 2],
+    /// z₊′ and z₋′ for each half window.
+    pub change: [Complex32; 2],
+    /// What of the change is exponential: z′/z, or nothing where a wave is too small to have a course of its own.
+    slope: [Complex32; 2],
+    /// What is left of the change: it runs linearly.
+    rest: [Complex32; 2],
 }
 
 /// What a fit found.
@@ -117,7 +121,9 @@ impl Model {
         if carrier != self.carrier {
             self.carrier = carrier;
             self.response = Response::new(self.layout, &self.basis, carrier);
-            self.correction = self.calibration.at(1.0 / carrier.period(), self.sample_rate);
+            self.correction = self
+                .calibration
+                .at(1.0 / carrier.period(), self.sample_rate);
         } else if blocks == self.blocks {
             return;
         }
@@ -145,7 +151,11 @@ impl Model {
     fn place(&self, index: usize) -> (f32, Phase) {
         let twice_blocks = 2 * index as i64 + 1 - i64::from(self.blocks);
         let u = twice_blocks as f32 / f32::from(self.blocks);
-        (u, self.carrier.after_half_samples(twice_blocks * i64::from(self.layout.length)))
+        (
+            u,
+            self.carrier
+                .after_half_samples(twice_blocks * i64::from(self.layout.length)),
+        )
     }
 
     /// The three design rows of a block: mean, even, odd.
@@ -162,7 +172,13 @@ impl Model {
         [
             even(r.mean.level, r.mean.slope, r.offset),
             even(r.even.level, r.even.slope, 0.0),
-            [r.odd.level * s, r.odd.level * c, l * s + k * c, l * c - k * s, 0.0],
+            [
+                r.odd.level * s,
+                r.odd.level * c,
+                l * s + k * c,
+                l * c - k * s,
+                0.0,
+            ],
         ]
     }
 
@@ -191,13 +207,22 @@ impl Model {
         };
         let value = travelling(parameters.z);
         let change = travelling(parameters.slope);
-        let total = value[0].norm_sqr() + value[1].norm_sqr();
         let slope = core::array::from_fn(|w| {
             let power = value[w].norm_sqr();
-            // A wave that is hardly there has no course of its own.
-            if power > 1e-6 * total { change[w] * value[w].conj() / power } else { Complex32::ZERO }
+            let steady = change[w].norm_sqr() < 0.25 * power;
+            if steady {
+                change[w] * value[w].conj() / power
+            } else {
+                Complex32::ZERO
+            }
         });
-        Waves { value, slope }
+        let rest = core::array::from_fn(|w| change[w] - slope[w] * value[w]);
+        Waves {
+            value,
+            change,
+            slope,
+            rest,
+        }
     }
 
     /// One pass: residuals of every block against the prediction, and their gradient.
@@ -209,7 +234,9 @@ impl Model {
     ) -> Pass {
         let mut pass = Pass::default();
         let per_sample = 1.0 / self.half();
-        let advance = waves.slope.map(|s| exponential(s * (2.0 / f32::from(self.blocks))));
+        let advance = waves
+            .slope
+            .map(|s| exponential(s * (2.0 / f32::from(self.blocks))));
         let first = waves.slope.map(|s| s * per_sample);
         let mut steps = Steps::new(self.blocks, &self.response);
         let mut course = [Complex32::ONE; 2];
@@ -221,14 +248,17 @@ impl Model {
             }
             let mut local = [[Complex32::ZERO; 2]; 3];
             for wave in 0..2 {
-                local[0][wave] = waves.value[wave] * course[wave] * unit;
-                local[1][wave] = local[0][wave] * first[wave];
-                local[2][wave] = local[1][wave] * first[wave];
+                let level = waves.value[wave] * course[wave] * unit;
+                let rest = waves.rest[wave] * unit;
+                local[0][wave] = level + rest * u;
+                local[1][wave] = level * first[wave] + rest * per_sample;
+                local[2][wave] = level * first[wave] * first[wave];
                 course[wave] *= advance[wave];
             }
             let raw = local.map(|[plus, minus]| {
                 let d = (plus - minus) * 0.5;
-                self.correction.distort([(plus + minus) * 0.5, Complex32::new(d.im, -d.re)])
+                self.correction
+                    .distort([(plus + minus) * 0.5, Complex32::new(d.im, -d.re)])
             });
             let rows = self.rows(u, unit);
             let seen = whiten(&self.basis, block);
@@ -251,14 +281,19 @@ impl Model {
                         *sum += weight * rest;
                     }
                 }
-                let third =
-                    self.response.third_rest(&block.channels[channel], &v, offset[channel]);
+                let third = self
+                    .response
+                    .third_rest(&block.channels[channel], &v, offset[channel]);
                 pass.third[channel] += third * Phase(phase.0.wrapping_mul(3)).unit().conj();
                 pass.third_power += third.norm_sqr();
             }
             pass.step = pass.step.max(steps.add(u, level));
             pass.residual += power;
-            pass.worst = if power > pass.worst { power } else { pass.worst };
+            pass.worst = if power > pass.worst {
+                power
+            } else {
+                pass.worst
+            };
         }
         pass
     }
@@ -278,7 +313,11 @@ impl Model {
             for channel in 0..2 {
                 let gradient = pass.gradient[channel];
                 let change = self.normal.solve(gradient);
-                explained += gradient.iter().zip(&change).map(|(g, x)| g * x).sum::<f32>();
+                explained += gradient
+                    .iter()
+                    .zip(&change)
+                    .map(|(g, x)| g * x)
+                    .sum::<f32>();
                 let z = Complex32::new(change[0], change[1]);
                 let slope = Complex32::new(change[2], change[3]);
                 parameters.z[channel] += z;
@@ -350,8 +389,14 @@ impl Steps {
             power += *sum * *sum;
         }
         // A step is known by what of it is neither constant nor slope.
-        let room = self.count - self.count * self.count / self.blocks - self.time * self.time / self.spread;
-        if room > 0.2 { power / (self.weight * room) } else { 0.0 }
+        let room = self.count
+            - self.count * self.count / self.blocks
+            - self.time * self.time / self.spread;
+        if room > 0.2 {
+            power / (self.weight * room)
+        } else {
+            0.0
+        }
     }
 }
 
@@ -359,17 +404,20 @@ impl Fit {
     /// |z|² of each (ideal) pick-off.
     pub(crate) fn channel_power(&self) -> [f32; 2] {
         let [plus, minus] = self.waves.value;
-        [0.25 * (plus + minus).norm_sqr(), 0.25 * (plus - minus).norm_sqr()]
+        [
+            0.25 * (plus + minus).norm_sqr(),
+            0.25 * (plus - minus).norm_sqr(),
+        ]
     }
 }
 
 impl Waves {
     /// The common phase advance beyond the carrier, rad a half window, weighted by the power of the waves.
     fn drift(&self) -> f32 {
-        let [plus, minus] = self.value.map(|z| z.norm_sqr());
-        let power = plus + minus;
+        let power = self.value[0].norm_sqr() + self.value[1].norm_sqr();
         if power > 0.0 {
-            (plus * self.slope[0].im + minus * self.slope[1].im) / power
+            let turned = |w: usize| (self.change[w] * self.value[w].conj()).im;
+            (turned(0) + turned(1)) / power
         } else {
             0.0
         }
@@ -392,10 +440,16 @@ pub(crate) fn solve<'a>(
     mut uncertainty: f32,
 ) -> Fit {
     let length = f32::from(model.layout.length);
-    let shortest = count.min((2.5 * carrier.period() / length) as u16 + 1).max(count.min(4));
+    let shortest = count
+        .min((2.5 * carrier.period() / length) as u16 + 1)
+        .max(count.min(4));
     let reach = |uncertainty: f32| {
         let blocks = 1.0 / (uncertainty * length + 1e-9);
-        if blocks >= f32::from(count) { count } else { (blocks as u16).max(shortest) }
+        if blocks >= f32::from(count) {
+            count
+        } else {
+            (blocks as u16).max(shortest)
+        }
     };
     let mut span = reach(uncertainty);
     let mut carrier = carrier;

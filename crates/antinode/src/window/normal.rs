@@ -14,7 +14,9 @@ pub(crate) struct Normal {
 }
 
 impl Normal {
-    pub(crate) const ZERO: Self = Self { entries: [[0.0; PARAMETERS]; PARAMETERS] };
+    pub(crate) const ZERO: Self = Self {
+        entries: [[0.0; PARAMETERS]; PARAMETERS],
+    };
 
     /// Adds the square of one design row.
     #[inline(always)]
@@ -37,7 +39,11 @@ impl Normal {
                 a[j][k] = scaled * a[k][k];
                 pivot -= scaled * a[j][k];
             }
-            a[j][j] = if pivot > 1e-5 * a[j][j] { 1.0 / pivot } else { 0.0 };
+            a[j][j] = if pivot > 1e-5 * a[j][j] {
+                1.0 / pivot
+            } else {
+                0.0
+            };
             for i in j + 1..PARAMETERS {
                 for k in 0..j {
                     a[i][j] -= a[i][k] * a[j][k];

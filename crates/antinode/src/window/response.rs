@@ -90,7 +90,13 @@ impl Basis {
             even.add(rest * rest);
         }
         // Below these the vector is only rounding: a block of one or two samples has no room for it.
-        let inverse = |square: f32| if square > 1e-4 * n { 1.0 / libm::sqrtf(square) } else { 0.0 };
+        let inverse = |square: f32| {
+            if square > 1e-4 * n {
+                1.0 / libm::sqrtf(square)
+            } else {
+                0.0
+            }
+        };
         let (cosine, sine) = (inverse(even.get()), inverse(sine.get()));
         Self {
             one: 1.0 / libm::sqrtf(n),
@@ -129,15 +135,22 @@ impl Response {
                 (reference.third_sine, true),
             ];
             for (sums, (weight, odd)) in sums.iter_mut().zip(weights) {
-                let (level, slope) = if odd { (-wave.im, wave.re) } else { (wave.re, -wave.im) };
+                let (level, slope) = if odd {
+                    (-wave.im, wave.re)
+                } else {
+                    (wave.re, -wave.im)
+                };
                 sums[0].add(weight * level);
                 sums[1].add(weight * t * slope);
                 sums[2].add(0.5 * weight * t * t * level);
             }
             third_offset.add(reference.third_cosine);
         }
-        let answer =
-            |s: &[Sum; 3]| Answer { level: s[0].get(), slope: s[1].get(), curve: s[2].get() };
+        let answer = |s: &[Sum; 3]| Answer {
+            level: s[0].get(),
+            slope: s[1].get(),
+            curve: s[2].get(),
+        };
         Self {
             mean: answer(&sums[0]),
             even: answer(&sums[1]),
@@ -181,5 +194,8 @@ impl Response {
 /// The sums of both pick-offs of a block, whitened.
 #[inline]
 pub(crate) fn whiten(basis: &Basis, block: &Block) -> [Whitened; 2] {
-    [basis.whiten(&block.channels[0]), basis.whiten(&block.channels[1])]
+    [
+        basis.whiten(&block.channels[0]),
+        basis.whiten(&block.channels[1]),
+    ]
 }

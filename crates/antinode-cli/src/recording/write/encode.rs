@@ -1,0 +1,255 @@
+//! From pairs of numbers to the bytes of each format.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
+
+use hound::{SampleFormat, WavSpec, WavWriter};
+
+/// A WAV file's sizes are 32-bit numbers, which count the longest header too.
+pub(super) const MAX_WAV_DATA: u64 = u32::MAX as u64 - 60;
+
+/// As long as the header of any (N, 2) array, so that N can be put in at the end.
+const NPY_HEADER: usize = 128;
+
+/// Enough that a system call is made for thousands of pairs.
+const BUFFER_BYTES: usize = 1 << 18;
+
+/// How samples are stored: in a WAV file as they are, in others as numbers of this resolution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WavSample {
+    /// 16-bit integers, full scale 1.0.
+    I16,
+    /// 24-bit integers, full scale 1.0.
+    I24,
+    /// 32-bit integers, full scale 1.0.
+    I32,
+    /// 32-bit floats.
+    F32,
+    /// 64-bit floats; not in WAV files.
+    F64,
+}
+
+/// A sample as it is stored.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Stored {
+    Code(i32),
+    F32(f32),
+    F64(f64),
+}
+
+impl WavSample {
+    fn bits(self) -> u16 {
+        match self {
+            Self::I16 => 16,
+            Self::I24 => 24,
+            Self::I32 | Self::F32 => 32,
+            Self::F64 => 64,
+        }
+    }
+
+    fn pair_bytes(self) -> u64 {
+        u64::from(self.bits() / 4)
+    }
+
+    /// The code of 1.0.
+    fn scale(self) -> f64 {
+        f64::from(self.bits() - 1).exp2()
+    }
+
+    /// `value` in this format; none if it is not finite there.
+    pub(super) fn store(self, value: f64) -> Option<Stored> {
+        match self {
+            Self::F32 => Some(value as f32)
+                .filter(|value| value.is_finite())
+                .map(Stored::F32),
+            Self::F64 => Some(value)
+                .filter(|value| value.is_finite())
+                .map(Stored::F64),
+            Self::I16 | Self::I24 | Self::I32 => {
+                let code = (value * self.scale()).round_ties_even();
+                let code = code.clamp(-self.scale(), self.scale() - 1.0);
+                value.is_finite().then_some(Stored::Code(code as i32))
+            }
+        }
+    }
+}
+
+/// The format of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Format {
+    Wav,
+    Csv,
+    Npy,
+}
+
+impl Format {
+    /// The format an extension names.
+    pub fn of(extension: &str) -> Option<Self> {
+        match extension {
+            "wav" => Some(Self::Wav),
+            "csv" => Some(Self::Csv),
+            "npy" => Some(Self::Npy),
+            _ => None,
+        }
+    }
+
+    /// Whether the format can hold a sample rate, or what to do instead.
+    pub fn check_rate(self, rate: f64, sample: WavSample) -> Result<(), &'static str> {
+        let per_second = rate * sample.pair_bytes() as f64;
+        if !rate.is_finite() || rate <= 0.0 {
+            Err("give a positive number of Hz")
+        } else if self == Self::Wav && (rate.fract() != 0.0 || per_second > f64::from(u32::MAX)) {
+            Err("give a whole number of Hz below 2^32 bytes/s, or write a .csv file")
+        } else {
+            Ok(())
+        }
+    }
+}
+
+/// A file begun.
+pub(super) struct Encoder {
+    sample: WavSample,
+    rate: f64,
+    output: Output,
+}
+
+enum Output {
+    // Boxed, as it is far larger than the others.
+    Wav(Box<WavWriter<BufWriter<File>>>),
+    Csv(BufWriter<File>),
+    Npy(BufWriter<File>),
+}
+
+impl Encoder {
+    pub fn begin(format: Format, file: File, rate: f64, sample: WavSample) -> io::Result<Self> {
+        let mut output = BufWriter::with_capacity(BUFFER_BYTES, file);
+        let output = match format {
+            Format::Wav => {
+                let wav = WavWriter::new(output, spec(rate, sample)).map_err(wav_fault)?;
+                Output::Wav(Box::new(wav))
+            }
+            Format::Csv => {
+                output.write_all(b"time,c,d\n")?;
+                Output::Csv(output)
+            }
+            Format::Npy => {
+                output.write_all(&npy_header(sample, 0))?;
+                Output::Npy(output)
+            }
+        };
+        Ok(Self {
+            sample,
+            rate,
+            output,
+        })
+    }
+
+    /// Whether the format has no room for one more pair.
+    pub fn is_full(&self, pairs: u64) -> bool {
+        let limited = matches!(self.output, Output::Wav(_));
+        limited && (pairs + 1).saturating_mul(self.sample.pair_bytes()) > MAX_WAV_DATA
+    }
+
+    /// Writes the pair of this `index`.
+    pub fn write(&mut self, index: u64, [c, d]: [Stored; 2]) -> io::Result<()> {
+        match &mut self.output {
+            Output::Wav(wav) => {
+                write_wav(wav, c)?;
+                write_wav(wav, d)
+            }
+            Output::Csv(output) => {
+                write!(output, "{:?},", index as f64 / self.rate)?;
+                write_text(output, self.sample, c)?;
+                output.write_all(b",")?;
+                write_text(output, self.sample, d)?;
+                output.write_all(b"\n")
+            }
+            Output::Npy(output) => {
+                write_npy(output, self.sample, c)?;
+                write_npy(output, self.sample, d)
+            }
+        }
+    }
+
+    /// Writes what is known only now that all `pairs` are written.
+    pub fn finish(self, pairs: u64) -> io::Result<()> {
+        match self.output {
+            Output::Wav(wav) => wav.finalize().map_err(wav_fault),
+            Output::Csv(mut output) => output.flush(),
+            Output::Npy(mut output) => {
+                output.seek(SeekFrom::Start(0))?;
+                output.write_all(&npy_header(self.sample, pairs))?;
+                output.flush()
+            }
+        }
+    }
+}
+
+fn spec(rate: f64, sample: WavSample) -> WavSpec {
+    let float = sample == WavSample::F32;
+    WavSpec {
+        channels: 2,
+        sample_rate: rate as u32,
+        bits_per_sample: sample.bits(),
+        sample_format: if float {
+            SampleFormat::Float
+        } else {
+            SampleFormat::Int
+        },
+    }
+}
+
+fn wav_fault(fault: hound::Error) -> io::Error {
+    match fault {
+        hound::Error::IoError(fault) => fault,
+        other => io::Error::other(other),
+    }
+}
+
+fn write_wav(wav: &mut WavWriter<BufWriter<File>>, value: Stored) -> io::Result<()> {
+    let written = match value {
+        Stored::Code(code) => wav.write_sample(code),
+        Stored::F32(value) => wav.write_sample(value),
+        Stored::F64(_) => Err(hound::Error::Unsupported),
+    };
+    written.map_err(wav_fault)
+}
+
+/// The fewest digits that read back as the same number.
+fn write_text(output: &mut impl Write, sample: WavSample, value: Stored) -> io::Result<()> {
+    match value {
+        Stored::Code(code) => write!(output, "{:?}", f64::from(code) / sample.scale()),
+        Stored::F32(value) => write!(output, "{value:?}"),
+        Stored::F64(value) => write!(output, "{value:?}"),
+    }
+}
+
+fn write_npy(output: &mut impl Write, sample: WavSample, value: Stored) -> io::Result<()> {
+    match value {
+        Stored::Code(code) if sample == WavSample::I16 => {
+            output.write_all(&(code as i16).to_le_bytes())
+        }
+        // There are no 24-bit numbers: they take the upper bits of 32.
+        Stored::Code(code) => output.write_all(&(code << (32 - sample.bits())).to_le_bytes()),
+        Stored::F32(value) => output.write_all(&value.to_le_bytes()),
+        Stored::F64(value) => output.write_all(&value.to_le_bytes()),
+    }
+}
+
+fn npy_header(sample: WavSample, pairs: u64) -> Vec<u8> {
+    let kind = match sample {
+        WavSample::I16 => "i2",
+        WavSample::I24 | WavSample::I32 => "i4",
+        WavSample::F32 => "f4",
+        WavSample::F64 => "f8",
+    };
+    let mut header = b"\x93NUMPY\x01\x00".to_vec();
+    header.extend_from_slice(&(NPY_HEADER as u16 - 10).to_le_bytes());
+    header.extend_from_slice(
+        format!("{{'descr': '<{kind}', 'fortran_order': False, 'shape': ({pairs}, 2), }}")
+            .as_bytes(),
+    );
+    header.resize(NPY_HEADER - 1, b' ');
+    header.push(b'\n');
+    header
+}

@@ -1,0 +1,69 @@
+//! Root mean squares of errors over the bound, and of what the core says its errors are.
+
+use antinode::Estimate;
+use antinode_sim::Wave;
+
+use crate::bound::bound;
+use crate::{RATE, angle_error};
+
+/// Names of the four quantities, in the order of all arrays here.
+pub const NAMES: [&str; 4] = [
+    "main amplitude",
+    "quadrature amplitude",
+    "angle",
+    "frequency",
+];
+
+/// Squares gathered over many windows.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Score {
+    windows: f64,
+    error: [f64; 4],
+    stated: [f64; 4],
+}
+
+impl Score {
+    /// Adds a window of a wave in white noise of `noise` rms a sample and channel.
+    pub fn add(&mut self, estimate: &Estimate, wave: &Wave, noise: f64) {
+        let bound = bound(wave, estimate.samples, estimate.time, RATE);
+        let bounds = [bound.main, bound.quadrature, bound.angle, bound.frequency];
+        let stated = [
+            estimate.main_amplitude_std,
+            estimate.quadrature_amplitude_std,
+            estimate.angle_std,
+            estimate.frequency_std,
+        ];
+        self.windows += 1.0;
+        for (i, error) in errors(estimate, wave).into_iter().enumerate() {
+            let bound = bounds[i] * noise;
+            self.error[i] += (error / bound).powi(2);
+            self.stated[i] += (f64::from(stated[i]) / bound).powi(2);
+        }
+    }
+
+    /// How many windows were added.
+    pub fn windows(&self) -> usize {
+        self.windows as usize
+    }
+
+    /// Rms error over the bound.
+    pub fn error(&self) -> [f64; 4] {
+        self.error.map(|sum| (sum / self.windows).sqrt())
+    }
+
+    /// Rms of the stated standard deviations over the bound.
+    pub fn stated(&self) -> [f64; 4] {
+        self.stated.map(|sum| (sum / self.windows).sqrt())
+    }
+}
+
+/// Errors of a_A, a_B (input units), θ (rad) and f (Hz) of an estimate, at its own time.
+pub fn errors(estimate: &Estimate, wave: &Wave) -> [f64; 4] {
+    let truth = wave.at(estimate.time);
+    [
+        f64::from(estimate.main_amplitude) - truth.main_amplitude,
+        f64::from(estimate.quadrature_amplitude) - truth.quadrature_amplitude,
+        angle_error(estimate.angle, truth.angle),
+        estimate.frequency - truth.frequency,
+    ]
+}

@@ -1,0 +1,175 @@
+//! The period from cold: never on noise, never a fraction or a multiple, soon.
+
+use antinode::period::{DifferenceDetector, MeanReturnDetector};
+use antinode_sim::{Flaws, Gyro, Wave, random_wave};
+use host_tests::{Core, RATE, identify, windows};
+
+/// A wave whose period runs evenly over 4 to 200 samples in its logarithm.
+fn wave(seed: u64) -> (Wave, f64) {
+    let period = 4.0 * 50f64.powf((seed as f64 * 0.618_034).fract());
+    (random_wave(seed, RATE / period, 0.5), period)
+}
+
+/// Periods that `push` found within `periods` periods of 10 000 waves: the relative errors, the times and how many found none.
+fn starts(
+    noise: f64,
+    offset: f64,
+    periods: f64,
+    mut detector: impl FnMut() -> Box<dyn FnMut([f32; 2]) -> Option<f32>>,
+) -> (f64, f64, f64, usize) {
+    let (mut worst, mut latest, mut sum, mut none) = (0f64, 0f64, 0f64, 0);
+    for seed in 0..10_000 {
+        let (wave, period) = wave(seed);
+        let a = wave.main_amplitude;
+        let flaws = Flaws {
+            noise: noise * a,
+            offset_c: offset * a,
+            offset_d: -offset * a,
+            ..Flaws::default()
+        };
+        let mut push = detector();
+        let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
+        let found = gyro
+            .take((periods * period) as usize)
+            .enumerate()
+            .find_map(|(k, pair)| {
+                push([pair.c as f32, pair.d as f32])
+                    .map(|found| (k as f64 / period, f64::from(found)))
+            });
+        match found {
+            Some((time, found)) => {
+                worst = worst.max((found / period - 1.0).abs());
+                latest = latest.max(time);
+                sum += time;
+            }
+            None => none += 1,
+        }
+    }
+    (worst, latest, sum / (10_000 - none) as f64, none)
+}
+
+#[test]
+fn difference_finds_every_wave_and_no_multiple() {
+    for (noise, error, latest) in [(0.0, 1e-3, 3.0), (0.02, 0.01, 3.0), (0.2, 0.08, 8.0)] {
+        let (worst, last, mean, none) = starts(noise, 0.9, 20.0, || {
+            let mut detector = DifferenceDetector::new();
+            Box::new(move |pair| detector.push(pair))
+        });
+        println!(
+            "(10), noise {noise}: worst {worst:.4}, mean time {mean:.2} periods, latest {last:.1}, none {none}"
+        );
+        assert_eq!(none, 0, "noise {noise}");
+        assert!(worst < error, "noise {noise}: {worst}");
+        assert!(last < latest && mean < 2.9, "noise {noise}: {mean} {last}");
+    }
+}
+
+#[test]
+fn mean_return_finds_no_multiple_either() {
+    for (noise, error) in [(0.0, 2e-3), (0.02, 0.02), (0.2, 0.08)] {
+        let (worst, _, mean, none) = starts(noise, 0.5, 40.0, || {
+            let mut detector = MeanReturnDetector::new();
+            Box::new(move |pair| detector.push(pair))
+        });
+        println!(
+            "(9), noise {noise}: worst {worst:.4}, mean time {mean:.2} periods, none {none} of 10 000"
+        );
+        assert!(worst < error, "noise {noise}: {worst}");
+        assert!(
+            none < if noise > 0.1 { 5000 } else { 60 },
+            "noise {noise}: {none}"
+        );
+    }
+}
+
+#[test]
+fn noise_is_no_wave() {
+    for seed in 0..10_000 {
+        let wave = Wave {
+            main_amplitude: 1e-12,
+            quadrature_amplitude: 0.0,
+            ..Wave::default()
+        };
+        let flaws = Flaws {
+            noise: 1.0,
+            offset_c: 0.5,
+            ..Flaws::default()
+        };
+        let mut difference = DifferenceDetector::new();
+        let mut mean_return = MeanReturnDetector::new();
+        for pair in Gyro::new(wave, flaws, RATE, seed).unwrap().take(2000) {
+            let pair = [pair.c as f32, pair.d as f32];
+            assert_eq!(difference.push(pair), None, "seed {seed}");
+            assert_eq!(mean_return.push(pair), None, "seed {seed}");
+        }
+    }
+}
+
+#[test]
+fn silence_is_no_wave() {
+    let mut core = Core::new(windows(10)).unwrap();
+    for k in 0..100_000 {
+        let offset = if k < 50_000 { 0.0 } else { 0.7 };
+        assert_eq!(core.push([offset, -offset]), None);
+    }
+    assert!(core.is_searching());
+}
+
+#[test]
+fn two_unrelated_tones_are_no_wave() {
+    let (mut rows, mut clean) = (0, 0);
+    for seed in 0..300 {
+        let period = 5.0 * 20f64.powf((seed as f64 * 0.618_034).fract());
+        let ratio = 1.15 + 2.0 * (seed as f64 * 0.754_878).fract();
+        let first = random_wave(seed, RATE / period, 0.5);
+        let mut second = random_wave(seed + 5000, RATE / period / ratio, 0.5);
+        second.quadrature_amplitude *= first.main_amplitude / second.main_amplitude;
+        second.main_amplitude = first.main_amplitude;
+        let flaws = Flaws {
+            noise: 0.01,
+            ..Flaws::default()
+        };
+        let one = Gyro::new(first, flaws.clone(), RATE, seed).unwrap();
+        let two = Gyro::new(second, flaws, RATE, seed + 1).unwrap();
+        let mut core = Core::new(windows(10)).unwrap();
+        for (one, two) in one.zip(two).take((60.0 * period) as usize) {
+            if let Some(estimate) = core.push([(one.c + two.c) as f32, (one.d + two.d) as f32]) {
+                rows += 1;
+                if estimate.flags.is_empty() {
+                    clean += 1;
+                    // The few that pass must be one of the two waves, not an invention.
+                    let far = |wave: &Wave| {
+                        let allowed = 6.0 * f64::from(estimate.frequency_std);
+                        (estimate.frequency - wave.frequency).abs() > allowed
+                    };
+                    assert!(!(far(&first) && far(&second)), "seed {seed}: {estimate:?}");
+                }
+            }
+        }
+    }
+    println!("two tones: {rows} windows reported of about 1500, {clean} without a flag");
+    assert!(rows < 15, "{rows}");
+}
+
+#[test]
+fn the_first_estimate_comes_within_four_periods_of_its_window() {
+    for seed in 0..300 {
+        let (wave, period) = wave(seed);
+        for periods in [2u16, 10, 50] {
+            let flaws = Flaws {
+                noise: 0.02 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let samples = ((f64::from(periods) + 6.0) * period) as usize;
+            let estimates = identify(wave, &flaws, windows(periods), samples, seed);
+            let end = estimates
+                .first()
+                .map(|e| (e.start + u64::from(e.samples)) as f64 / period);
+            let late = end.expect("a first window") - f64::from(periods);
+            assert!(
+                late < 4.0,
+                "seed {seed}, {period} samples a period, {periods} periods: {late}"
+            );
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Noisy waves: rms error over the Cramér–Rao bound, and stated standard deviations over it, from cold.
+
+use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::score::{NAMES, Score};
+use host_tests::{RATE, identify, windows};
+
+/// Period of the paper's gyro, samples.
+const PAPER: f64 = RATE / 5332.0;
+
+/// Scores `runs` cold starts of `each` windows.
+fn score(
+    period: f64,
+    periods: u16,
+    noise: f64,
+    runs: u64,
+    each: usize,
+    wave: impl Fn(u64) -> Wave,
+) -> Score {
+    let mut score = Score::default();
+    for seed in 0..runs {
+        let wave = wave(seed);
+        let a = wave.main_amplitude;
+        let flaws = Flaws {
+            noise: noise * a,
+            offset_c: 0.3 * a,
+            offset_d: -0.1 * a,
+            ..Flaws::default()
+        };
+        let samples = (period * (f64::from(periods) * (each as f64 + 0.6) + 12.0)) as usize;
+        for estimate in identify(wave, &flaws, windows(periods), samples, seed + 1000)
+            .iter()
+            .take(each)
+        {
+            score.add(estimate, &wave, noise * a);
+        }
+    }
+    score
+}
+
+/// Prints a row and asserts both ratios.
+fn check(label: &str, score: &Score, limit: f64) {
+    let (error, stated) = (score.error(), score.stated());
+    println!(
+        "{label}: {} windows, rms error/bound {error:.3?}, stated/bound {stated:.3?}",
+        score.windows()
+    );
+    for i in 0..4 {
+        assert!(
+            error[i] <= limit,
+            "{label}: {} at {:.3} of the bound",
+            NAMES[i],
+            error[i]
+        );
+        let ratio = stated[i] / error[i];
+        assert!(
+            (0.9..1.1).contains(&ratio),
+            "{label}: stated {} is {ratio:.3} of the scatter",
+            NAMES[i]
+        );
+    }
+}
+
+#[test]
+fn reaches_the_bound_from_cold() {
+    for (periods, runs) in [(2, 700), (4, 700), (10, 700), (50, 500)] {
+        for noise in [0.001, 0.02, 0.2] {
+            let score = score(PAPER, periods, noise, runs, 8, |seed| {
+                random_wave(seed, 5332.0, 0.5)
+            });
+            let limit = if periods == 2 && noise == 0.2 {
+                1.15
+            } else {
+                1.08
+            };
+            check(
+                &format!("{periods:2} periods, noise {:4.1} %", 100.0 * noise),
+                &score,
+                limit,
+            );
+        }
+    }
+}
+
+#[test]
+fn reaches_the_bound_at_any_sample_rate() {
+    for period in [4.3, 7.7, 43.0, 190.0] {
+        for periods in [4, 10] {
+            let runs = if period > 100.0 { 250 } else { 500 };
+            let score = score(period, periods, 0.02, runs, 8, |seed| {
+                random_wave(seed, RATE / period, 0.5)
+            });
+            check(
+                &format!("{period} samples a period, {periods} periods"),
+                &score,
+                1.08,
+            );
+        }
+    }
+}
+
+#[test]
+fn a_spinning_ringing_drifting_wave_is_not_smeared() {
+    for (rate, tau, drift) in [
+        (6.0, 0.3, 2.0),
+        (-6.0, 0.3, -2.0),
+        (6.0, 1e6, 0.0),
+        (0.0, 0.3, 0.0),
+    ] {
+        let score = score(PAPER, 10, 0.002, 400, 10, |seed| Wave {
+            angle_rate: rate,
+            decay_rate: 1.0 / tau,
+            frequency_rate: drift,
+            ..random_wave(seed, 5332.0, 0.5)
+        });
+        check(
+            &format!("{rate} rad/s, τ {tau} s, {drift} Hz/s"),
+            &score,
+            1.1,
+        );
+    }
+}
+
+#[test]
+fn rates_scatter_as_stated() {
+    let mut squares = [0f64; 2];
+    let mut count = 0.0;
+    for seed in 0..400 {
+        let wave = Wave {
+            angle_rate: 2.0,
+            decay_rate: 1.0,
+            ..random_wave(seed, 5332.0, 0.5)
+        };
+        let flaws = Flaws {
+            noise: 0.01 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        for estimate in identify(wave, &flaws, windows(10), 2500, seed) {
+            let truth = wave.at(estimate.time);
+            let turn = f64::from(estimate.angle_rate) - truth.angle_rate;
+            let decay = f64::from(estimate.decay_rate) - truth.decay_rate;
+            squares[0] += (turn / f64::from(estimate.angle_rate_std)).powi(2);
+            squares[1] += (decay / f64::from(estimate.decay_rate_std)).powi(2);
+            count += 1.0;
+        }
+    }
+    for square in squares {
+        let ratio = (square / count).sqrt();
+        assert!(
+            (0.93..1.07).contains(&ratio),
+            "{ratio:.3} of the stated scatter"
+        );
+    }
+}

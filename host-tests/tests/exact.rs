@@ -1,0 +1,109 @@
+//! Noise-free waves: what is left is rounding, whatever the window, the offset and the samples a period.
+
+use antinode::algorithm4::Demodulated;
+use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::score::errors;
+use host_tests::{RATE, identify, windows};
+
+/// A number in 0…1 that runs evenly over it as `seed` counts.
+fn even(seed: u64, step: f64) -> f64 {
+    (seed as f64 * step).fract()
+}
+
+#[test]
+fn any_window_any_offset_any_rate() {
+    let mut worst = [0f64; 4];
+    for seed in 0..600 {
+        // 4.3 to 190 samples a period, 2 to 100 periods, both evenly in their logarithm.
+        let period = 4.3 * (190.0f64 / 4.3).powf(even(seed, 0.618_034));
+        let periods = (2.0 * 50f64.powf(even(seed, 0.754_878))).round() as u16;
+        let wave = random_wave(seed, RATE / period, 0.5);
+        let a = wave.main_amplitude;
+        let flaws = Flaws {
+            offset_c: a * (2.0 * even(seed, 0.569_84) - 1.0),
+            offset_d: a * (2.0 * even(seed, 0.414_21) - 1.0),
+            ..Flaws::default()
+        };
+        let samples = (period * (f64::from(periods) * 3.2 + 10.0)) as usize;
+        let estimates = identify(wave, &flaws, windows(periods), samples, seed);
+        assert!(
+            estimates.len() >= 3,
+            "seed {seed}: {} windows",
+            estimates.len()
+        );
+        for estimate in estimates {
+            assert!(estimate.flags.is_empty(), "seed {seed}: {}", estimate.flags);
+            let [main, quadrature, angle, frequency] = errors(&estimate, &wave);
+            let relative = [main / a, quadrature / a, angle, frequency / wave.frequency];
+            for (worst, error) in worst.iter_mut().zip(relative) {
+                *worst = worst.max(error.abs());
+            }
+            for (i, offset) in [flaws.offset_c, flaws.offset_d].into_iter().enumerate() {
+                let error = (f64::from(estimate.offsets[i]) - offset).abs() / a;
+                assert!(error < 2e-6, "seed {seed}: offset {error:e}");
+            }
+        }
+    }
+    println!(
+        "worst errors: a_A {:.1e}, a_B {:.1e} of a_A, θ {:.1e} rad, f {:.1e} of f",
+        worst[0], worst[1], worst[2], worst[3]
+    );
+    assert!(worst[0] < 1e-6 && worst[1] < 1e-6, "{worst:?}");
+    assert!(worst[2] < 1e-6, "{worst:?}");
+    assert!(worst[3] < 2e-7, "{worst:?}");
+}
+
+#[test]
+fn algorithm_4_as_printed_leaks_where_the_core_does_not() {
+    let wave = Wave::default();
+    println!("periods   algorithm 4: a_A, a_B, θ       core: a_A, a_B, θ");
+    for periods in [2u16, 3, 4, 5, 8, 10] {
+        let samples = (f64::from(periods) * RATE / wave.frequency).round() as usize;
+        let found = Demodulated::gather((0..samples).map(|k| {
+            let t = k as f64 / RATE;
+            let (c, d) = wave.pick_offs(t);
+            let (sine, cosine) = (std::f64::consts::TAU * wave.frequency * t).sin_cos();
+            ([c as f32, d as f32], [cosine as f32, sine as f32])
+        }))
+        .wave();
+        let printed = [
+            f64::from(found.main_amplitude) - wave.main_amplitude,
+            f64::from(found.quadrature_amplitude) - wave.quadrature_amplitude,
+            f64::from(found.angle) - wave.angle,
+        ]
+        .map(f64::abs);
+        let run = identify(wave, &Flaws::default(), windows(periods), 500, 0);
+        let core = errors(&run[0], &wave).map(f64::abs);
+        println!(
+            "{periods:7}   {:.1e} {:.1e} {:.1e}        {:.1e} {:.1e} {:.1e}",
+            printed[0], printed[1], printed[2], core[0], core[1], core[2]
+        );
+        assert!(core[0] < 2e-6 && core[1] < 2e-6 && core[2] < 1e-6);
+        // Best at 4 and 8 periods, where the grid fits: still far above rounding.
+        assert!(
+            printed[0] > 50.0 * core[0].max(1e-7),
+            "{periods}: {printed:?}"
+        );
+    }
+}
+
+#[test]
+fn phase_and_time_rebuild_the_samples() {
+    let wave = Wave {
+        main_amplitude: 1.0,
+        quadrature_amplitude: -0.2,
+        angle: 0.9,
+        ..Wave::default()
+    };
+    for estimate in identify(wave, &Flaws::default(), windows(7), 4000, 0) {
+        let t = estimate.time + 1.234e-4;
+        let tau = std::f64::consts::TAU * estimate.frequency * (t - estimate.time)
+            - f64::from(estimate.phase);
+        let main = f64::from(estimate.main_amplitude) * tau.cos();
+        let quadrature = f64::from(estimate.quadrature_amplitude) * tau.sin();
+        let (s2, c2) = (2.0 * estimate.angle).sin_cos();
+        let (c, d) = wave.pick_offs(t);
+        assert!((main * c2 - quadrature * s2 - c).abs() < 3e-6);
+        assert!((main * s2 + quadrature * c2 - d).abs() < 3e-6);
+    }
+}

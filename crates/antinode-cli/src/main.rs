@@ -1,10 +1,32 @@
-//! The antinode command.
+//! The `antinode` command.
 
-#[allow(
-    dead_code,
-    unused_imports,
-    reason = "the command that uses it is yet to come"
-)]
+mod demonstration;
+mod failure;
+mod identify;
+mod options;
 mod recording;
+mod rows;
+mod simulate;
 
-fn main() {}
+use std::process::ExitCode;
+
+use clap::Parser;
+use options::{Command, Options};
+
+fn main() -> ExitCode {
+    let result = match Options::parse().command {
+        None => demonstration::run(),
+        Some(Command::Identify(options)) => identify::run(&options),
+        Some(Command::Simulate(options)) => simulate::run(&options),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            let message = failure.to_string();
+            if !message.is_empty() {
+                eprintln!("error: {message}");
+            }
+            ExitCode::from(failure.code())
+        }
+    }
+}

@@ -118,6 +118,8 @@ fn faults_in_a_line_are_named_by_line_and_column() {
         ("1,2\n,3\n", 1, "a.csv:2:1: S_C is missing here; "),
         ("1,2\n3,\n", 1, "a.csv:2:2: S_D is missing here; "),
         ("1,2\n,\n", 1, "a.csv:2:1: S_C is missing here; "),
+        ("1,2\n\"3,4\n5,6\n", 1, "a.csv:2:1: S_C is `\\\"3`, not"),
+        ("1,2\n\"3,4\n5,6\n", 1, "a.csv:2:1: S_C is `\\\"3`, not"),
         ("1 2\n3\n", 1, "a.csv:2:2: S_D is missing here; "),
         (
             "1,2\n3,4,5\n",

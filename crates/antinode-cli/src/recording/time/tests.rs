@@ -76,14 +76,13 @@ fn a_round_rate_is_found_exactly() {
         run(&times(5, 100_000.0, 0.0, |t| format!("{t:.6}")), HEAD),
         Ok(Some(100_000.0))
     );
-    // Seconds since 1970, which leave little of a sample.
-    let epoch = run(
-        &times(100_000, 20_000.0, 1.7e9, |t| format!("{t:.6}")),
+    // Seconds since 1970, of which a 64-bit number holds no more than a fortieth of these samples.
+    let found = run(
+        &times(80_000, 100_000.0, 1.7e9, |t| format!("{t:.9}")),
         HEAD,
-    )
-    .unwrap()
-    .unwrap();
-    assert!((epoch - 20_000.0).abs() < 1.0, "{epoch}");
+    );
+    let epoch = found.unwrap().unwrap();
+    assert!((epoch - 100_000.0).abs() < 1.0, "{epoch}");
 }
 
 #[test]

@@ -201,6 +201,11 @@ fn a_pipe_needs_no_length() {
     };
     assert_eq!(open(&piped).pairs(), None);
     assert_eq!(drain(&mut open(&piped)).0.len(), 500);
+    // What is there is not held back for what is still to come.
+    assert_eq!(
+        open(&piped).read(&mut Vec::with_capacity(500)).ok(),
+        Some(1)
+    );
     piped.size = 4000;
     assert_eq!(open(&piped).pairs(), Some(1000));
     assert!(

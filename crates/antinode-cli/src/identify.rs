@@ -1,0 +1,124 @@
+//! `antinode identify`: recordings in, rows out, as a stream.
+
+use std::io::{self, BufWriter, IsTerminal, Write};
+use std::path::Path;
+
+use antinode::Identifier;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::failure::Failure;
+use crate::options::Identify;
+use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
+use crate::rows::Rows;
+
+/// Periods of up to 256 samples, windows of up to 1022 periods.
+type Core = Identifier<256, 1024>;
+
+/// Recordings longer than this show how far they have come.
+const LONG: u64 = 32 << 20;
+
+/// Identifies every file; a fault in one does not keep the others from being read.
+pub fn run(options: &Identify) -> Result<(), Failure> {
+    // What is wrong with the options is wrong for every file: it is said once, before any is opened.
+    Core::new(options.settings(options.rate.unwrap_or(1.0), None))?;
+    let mut rows = Rows::new(BufWriter::new(io::stdout().lock()), options.output);
+    let several = options.files.len() > 1;
+    let mut failure = None;
+    for path in &options.files {
+        let result = identify(path, options, several, &mut rows);
+        // Rows found before a fault are printed before the fault is told.
+        rows.flush()?;
+        match result {
+            Err(Failure::Closed) => return Err(Failure::Closed),
+            Err(error) => {
+                if let Some(before) = failure.replace(error) {
+                    eprintln!("error: {before}");
+                }
+            }
+            Ok(()) => {}
+        }
+    }
+    failure.map_or(Ok(()), Err)
+}
+
+fn identify(path: &Path, options: &Identify, several: bool, rows: &mut Rows<impl Write>) -> Result<(), Failure> {
+    let open = OpenOptions { raw: options.raw.map(Into::into), columns: options.columns.clone() };
+    let mut recording = Recording::open(path, &open)?;
+    let name = recording.name().to_owned();
+    let rate = sample_rate(&name, options.rate, recording.sample_rate())?;
+    let mut core = Box::new(Core::new(options.settings(rate, recording.full_scale()))?);
+    let bar = progress(&recording);
+    rows.begin(&name, several)?;
+
+    let mut buffer = Vec::with_capacity(BLOCK_PAIRS);
+    let live = io::stdout().is_terminal();
+    let fault = loop {
+        match recording.read(&mut buffer) {
+            Ok(0) => break None,
+            Ok(_) => {}
+            Err(error) => break Some(error),
+        }
+        let mut pairs = buffer.as_slice();
+        while !pairs.is_empty() {
+            let (taken, estimate) = core.push_slice(pairs);
+            pairs = &pairs[taken..];
+            if let Some(estimate) = estimate {
+                rows.print(&name, &estimate)?;
+            }
+        }
+        if live || path == Path::new("-") {
+            // Somebody watches, or the samples arrive as they are taken.
+            rows.flush()?;
+        }
+        bar.set_position(recording.bytes_read());
+    };
+    bar.finish_and_clear();
+    if let Some(error) = fault {
+        return Err(error.into());
+    }
+    if rows.count() > 0 {
+        return Ok(());
+    }
+    let (pairs, seconds) = (core.index(), core.index() as f64 / rate);
+    Err(Failure::Recording(if core.is_searching() {
+        format!(
+            "{name}: no period found in {pairs} sample pairs ({seconds:.4} s): no wave of 4 to 200 samples a period \
+             stands out of the noise; check the sample rate, the channels and the signal"
+        )
+    } else {
+        format!(
+            "{name}: a period was found, but {pairs} sample pairs ({seconds:.4} s) hold no window of {} periods; \
+             record longer or give a smaller --periods",
+            options.periods
+        )
+    }))
+}
+
+/// The rate that was asked for, or else the recording's own.
+fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, Failure> {
+    let (rate, remedy) = match (asked, own) {
+        (Some(rate), _) => (rate, "give --rate in Hz, 100000 for 100 kS/s"),
+        (None, Some(rate)) => (rate, "the recording says so itself: give the true one as --rate HZ"),
+        (None, None) => {
+            return Err(Failure::Recording(format!(
+                "{name}: the sample rate is not known: the recording does not say it; give --rate HZ"
+            )));
+        }
+    };
+    if (1.0..=1e10).contains(&rate) {
+        Ok(rate)
+    } else {
+        Err(Failure::Recording(format!("{name}: a sample rate of {rate} Hz is absurd; {remedy}")))
+    }
+}
+
+/// A progress bar where a person watches and rows go elsewhere.
+fn progress(recording: &Recording) -> ProgressBar {
+    match recording.bytes_total() {
+        Some(total) if total > LONG && !io::stdout().is_terminal() => {
+            let style = ProgressStyle::with_template("{wide_bar} {bytes}/{total_bytes} {bytes_per_sec} {eta}");
+            ProgressBar::new(total).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+        }
+        _ => ProgressBar::hidden(),
+    }
+}

@@ -1,0 +1,144 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use antinode::{Calibration, Detection, Settings};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::recording::{Columns, RawFormat};
+
+/// Identifies the standing wave of a hemispherical resonator gyro, window by window, in recordings of its two pick-offs.
+///
+/// With no command: simulates a ring-down, streams it through the identification, and shows what it found beside the truth.
+#[derive(Debug, Parser)]
+#[command(name = "antinode", version, max_term_width = 100)]
+pub struct Options {
+    /// What to do; nothing: a demonstration.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// What the command can do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Identifies the wave in recordings, one row a window.
+    Identify(Box<Identify>),
+    /// Writes a simulated recording, and the truth beside it as JSON.
+    Simulate(Box<super::simulate::Simulate>),
+}
+
+/// `antinode identify`.
+#[derive(Debug, Args)]
+pub struct Identify {
+    /// Recordings: WAV (left S_C, right S_D), CSV, NPY; `-` is raw interleaved samples on standard input (with --raw).
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Periods a window.
+    #[arg(long, default_value_t = 10, value_name = "N")]
+    pub periods: u16,
+    /// Blocks from the start of one window to the start of the next [default: a window, without gap or overlap].
+    ///
+    /// A block is a period; in windows of fewer than ten periods it is a tenth of the window.
+    #[arg(long, value_name = "BLOCKS")]
+    pub hop: Option<u16>,
+    /// Sample rate in Hz [default: the recording's own].
+    #[arg(long, value_name = "HZ")]
+    pub rate: Option<f64>,
+    /// How rows are printed.
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    pub output: Format,
+    /// Gain of pick-off D over that of C.
+    #[arg(long, default_value_t = 1.0, value_name = "RATIO")]
+    pub gain_ratio: f32,
+    /// How much later than C pick-off D is sampled, ns.
+    #[arg(long, default_value_t = 0.0, value_name = "NS", allow_negative_numbers = true)]
+    pub skew_ns: f32,
+    /// Pick-off D stands at 45° plus this angle from C, rad.
+    #[arg(long, default_value_t = 0.0, value_name = "RAD", allow_negative_numbers = true)]
+    pub pick_off_angle: f32,
+    /// The first window's angle is chosen within π/4 of this one, rad [default: π/4, so that it lies in 0…π/2].
+    #[arg(long, value_name = "RAD", allow_negative_numbers = true)]
+    pub start_angle: Option<f32>,
+    /// |sample| at which the converter is at its rail [default: known for integer formats].
+    #[arg(long, value_name = "LEVEL")]
+    pub full_scale: Option<f32>,
+    /// Step between two codes of the converter [default: known for integer formats].
+    #[arg(long, value_name = "STEP")]
+    pub resolution: Option<f32>,
+    /// How the period is found.
+    #[arg(long, value_enum, default_value_t = Detector::Difference)]
+    pub detector: Detector,
+    /// Format of raw samples: little-endian, interleaved S_C, S_D.
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub raw: Option<Raw>,
+    /// Columns of a text recording, by name or number from 1: `C,D` or `TIME,C,D`.
+    #[arg(long, value_name = "COLUMNS")]
+    pub columns: Option<Columns>,
+}
+
+/// How rows are printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Aligned columns, for reading.
+    Table,
+    /// Comma-separated values with a header.
+    Csv,
+    /// One JSON object a line.
+    Jsonl,
+}
+
+/// Formulas for the period.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Detector {
+    /// Formula (10), the squared difference.
+    Difference,
+    /// Formula (9), the return of the running sum.
+    MeanReturn,
+}
+
+/// Formats of raw samples.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Raw {
+    /// 16-bit integers, full scale reads as 1.
+    I16,
+    /// 32-bit integers, full scale reads as 1.
+    I32,
+    /// 32-bit floating point.
+    F32,
+}
+
+impl From<Raw> for RawFormat {
+    fn from(raw: Raw) -> Self {
+        match raw {
+            Raw::I16 => Self::I16,
+            Raw::I32 => Self::I32,
+            Raw::F32 => Self::F32,
+        }
+    }
+}
+
+impl Identify {
+    /// The core's settings for a recording of this sample rate whose integers have this full scale.
+    pub fn settings(&self, sample_rate: f64, full_scale: Option<f32>) -> Settings {
+        // Integer full scale reads as 1: the largest code is a step below it.
+        let step = full_scale.map(|largest| 1.0 - largest).filter(|&step| step > 0.0);
+        let plain = Settings::new(sample_rate);
+        Settings {
+            periods: self.periods,
+            hop: self.hop,
+            start_angle: self.start_angle.unwrap_or(plain.start_angle),
+            full_scale: self.full_scale.or(full_scale),
+            resolution: self.resolution.or(step),
+            detection: match self.detector {
+                Detector::Difference => Detection::Difference,
+                Detector::MeanReturn => Detection::MeanReturn,
+            },
+            calibration: Calibration {
+                gain_ratio: self.gain_ratio,
+                skew: self.skew_ns * 1e-9,
+                pick_off_angle: self.pick_off_angle,
+            },
+            ..plain
+        }
+    }
+}

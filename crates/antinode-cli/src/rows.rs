@@ -1,0 +1,159 @@
+//! Estimates as rows: a table to read, CSV, or JSON lines.
+
+use std::io::{self, Write};
+
+use antinode::Estimate;
+use serde::Serialize;
+
+use crate::options::Format;
+
+/// One row of CSV or JSON lines; the names are the columns.
+#[derive(Debug, Serialize)]
+struct Row<'a> {
+    time_s: f64,
+    samples: u32,
+    main_amplitude: f32,
+    quadrature_amplitude: f32,
+    angle_rad: f64,
+    phase_rad: f32,
+    frequency_hz: f64,
+    angle_rate_rad_s: f32,
+    decay_rate_s: f32,
+    main_amplitude_std: f32,
+    quadrature_amplitude_std: f32,
+    angle_std_rad: f32,
+    frequency_std_hz: f32,
+    residual_rms: f32,
+    flags: &'a str,
+    offset_c: f32,
+    offset_d: f32,
+    phase_std_rad: f32,
+    angle_rate_std_rad_s: f32,
+    decay_rate_std_s: f32,
+    file: &'a str,
+}
+
+impl<'a> Row<'a> {
+    fn new(file: &'a str, flags: &'a str, e: &Estimate) -> Self {
+        // Nine decimals are beyond every bound; more would be digits of nothing.
+        let nine = |x: f64| (x * 1e9).round() / 1e9;
+        Self {
+            time_s: e.time,
+            samples: e.samples,
+            main_amplitude: e.main_amplitude,
+            quadrature_amplitude: e.quadrature_amplitude,
+            angle_rad: nine(e.angle),
+            phase_rad: e.phase,
+            frequency_hz: nine(e.frequency),
+            angle_rate_rad_s: e.angle_rate,
+            decay_rate_s: e.decay_rate,
+            main_amplitude_std: e.main_amplitude_std,
+            quadrature_amplitude_std: e.quadrature_amplitude_std,
+            angle_std_rad: e.angle_std,
+            frequency_std_hz: e.frequency_std,
+            residual_rms: e.residual_rms,
+            flags,
+            offset_c: e.offsets[0],
+            offset_d: e.offsets[1],
+            phase_std_rad: e.phase_std,
+            angle_rate_std_rad_s: e.angle_rate_std,
+            decay_rate_std_s: e.decay_rate_std,
+            file,
+        }
+    }
+}
+
+/// Where rows go.
+enum Sink<W: Write> {
+    Table(W),
+    Csv(Box<csv::Writer<W>>),
+    Jsonl(W),
+}
+
+/// Prints estimates to a stream.
+pub struct Rows<W: Write> {
+    sink: Sink<W>,
+    /// Rows printed of the present recording.
+    count: u64,
+}
+
+impl<W: Write> Rows<W> {
+    /// Rows of a format.
+    pub fn new(out: W, format: Format) -> Self {
+        let sink = match format {
+            Format::Table => Sink::Table(out),
+            Format::Csv => Sink::Csv(Box::new(csv::Writer::from_writer(out))),
+            Format::Jsonl => Sink::Jsonl(out),
+        };
+        Self { sink, count: 0 }
+    }
+
+    /// Begins a recording, one of `several` or the only one.
+    pub fn begin(&mut self, file: &str, several: bool) -> io::Result<()> {
+        self.count = 0;
+        if let Sink::Table(out) = &mut self.sink {
+            if several {
+                writeln!(out, "{file}")?;
+            }
+            writeln!(
+                out,
+                "{:>11} {:>20} {:>20} {:>20} {:>22} {:>9} {:>9} {:>9}  flags",
+                "time s", "main amplitude", "quadrature", "angle deg", "frequency Hz", "deg/s", "decay /s", "residual"
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Prints one window.
+    pub fn print(&mut self, file: &str, estimate: &Estimate) -> io::Result<()> {
+        self.count += 1;
+        let flags = estimate.flags.to_string();
+        match &mut self.sink {
+            Sink::Table(out) => table(out, estimate),
+            Sink::Csv(out) => out.serialize(Row::new(file, &flags, estimate)).map_err(io::Error::from),
+            Sink::Jsonl(out) => {
+                serde_json::to_writer(&mut *out, &Row::new(file, &flags, estimate))?;
+                writeln!(out)
+            }
+        }
+    }
+
+    /// Rows printed since [`Rows::begin`].
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// Hands on what is buffered.
+    pub fn flush(&mut self) -> io::Result<()> {
+        match &mut self.sink {
+            Sink::Table(out) | Sink::Jsonl(out) => out.flush(),
+            Sink::Csv(out) => out.flush(),
+        }
+    }
+}
+
+/// A value with its standard deviation, to the digits that this leaves.
+pub fn with_std(value: f64, std: f64) -> String {
+    if std > 0.0 && std.is_finite() {
+        let digits = (1.3 - std.log10()).ceil().clamp(0.0, 9.0) as usize;
+        format!("{value:.digits$} ± {std:.0e}")
+    } else {
+        format!("{value:.6}")
+    }
+}
+
+fn table(out: &mut impl Write, e: &Estimate) -> io::Result<()> {
+    writeln!(
+        out,
+        "{:>11.6} {:>20} {:>20} {:>20} {:>22} {:>9.3} {:>9.3} {:>9.1e}  {}",
+        e.time,
+        with_std(e.main_amplitude.into(), e.main_amplitude_std.into()),
+        with_std(e.quadrature_amplitude.into(), e.quadrature_amplitude_std.into()),
+        with_std(e.angle.to_degrees(), f64::from(e.angle_std).to_degrees()),
+        with_std(e.frequency, e.frequency_std.into()),
+        e.angle_rate.to_degrees(),
+        e.decay_rate,
+        e.residual_rms,
+        e.flags,
+    )
+}

@@ -233,11 +233,10 @@ fn numbers_that_are_none_cost_one_window() {
         let mut flagged = Vec::new();
         for (k, pair) in gyro.take(60_000).enumerate() {
             let c = if k == 30_000 { value } else { pair.c as f32 };
-            if let Some(estimate) = core.push([c, pair.d as f32]) {
-                if !estimate.flags.is_empty() {
-                    flagged.push(estimate);
-                }
-            }
+            flagged.extend(
+                core.push([c, pair.d as f32])
+                    .filter(|estimate| !estimate.flags.is_empty()),
+            );
         }
         assert!((1..=2).contains(&flagged.len()), "{value}: {flagged:?}");
         assert!(flagged[0].flags.contains(Flags::NOT_FINITE));

@@ -48,7 +48,9 @@ fn identify(path: &Path, options: &Identify, several: bool, rows: &mut Rows<impl
     let rate = sample_rate(&name, options.rate, recording.sample_rate())?;
     let mut core = Box::new(Core::new(options.settings(rate, recording.full_scale()))?);
     let bar = progress(&recording);
-    rows.begin(&name, several)?;
+    let length = recording.pairs().map_or(String::new(), |pairs| format!("{pairs} sample pairs at "));
+    let heading = several.then(|| format!("{name}: {length}{rate} Hz"));
+    rows.begin(heading.as_deref())?;
 
     let mut buffer = Vec::with_capacity(BLOCK_PAIRS);
     let live = io::stdout().is_terminal();

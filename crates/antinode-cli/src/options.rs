@@ -42,7 +42,7 @@ pub struct Identify {
     #[arg(long, value_name = "BLOCKS")]
     pub hop: Option<u16>,
     /// Sample rate in Hz [default: the recording's own].
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub rate: Option<f64>,
     /// How rows are printed.
     #[arg(long, value_enum, default_value_t = Format::Table)]

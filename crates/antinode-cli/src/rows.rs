@@ -88,12 +88,12 @@ impl<W: Write> Rows<W> {
         Self { sink, count: 0 }
     }
 
-    /// Begins a recording, one of `several` or the only one.
-    pub fn begin(&mut self, file: &str, several: bool) -> io::Result<()> {
+    /// Begins a recording; `heading` stands above a table's.
+    pub fn begin(&mut self, heading: Option<&str>) -> io::Result<()> {
         self.count = 0;
         if let Sink::Table(out) = &mut self.sink {
-            if several {
-                writeln!(out, "{file}")?;
+            if let Some(heading) = heading {
+                writeln!(out, "{heading}")?;
             }
             writeln!(
                 out,

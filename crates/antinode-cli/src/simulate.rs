@@ -38,10 +38,10 @@ pub struct Simulate {
     #[arg(long, default_value_t = 0.025, help_heading = "Wave")]
     quadrature_amplitude: f64,
     /// Pattern angle at the start, rad.
-    #[arg(long, default_value_t = 0.5236, help_heading = "Wave", value_name = "RAD")]
+    #[arg(long, default_value_t = std::f64::consts::FRAC_PI_6, help_heading = "Wave", value_name = "RAD")]
     angle: f64,
     /// Phase at the start, rad.
-    #[arg(long, default_value_t = 0.5236, help_heading = "Wave", value_name = "RAD")]
+    #[arg(long, default_value_t = std::f64::consts::FRAC_PI_6, help_heading = "Wave", value_name = "RAD")]
     phase: f64,
     /// Frequency at the start, Hz.
     #[arg(long, default_value_t = 5332.0, help_heading = "Wave", value_name = "HZ")]
@@ -178,7 +178,7 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     let usage = |error: antinode_sim::Error| Failure::Usage(error.to_string());
     let gyro = Gyro::new(wave, flaws.clone(), options.rate, options.seed).map_err(usage)?;
     let pairs = options.seconds * options.rate;
-    if !(pairs >= 1.0 && pairs < 1e12) {
+    if !(1.0..1e12).contains(&pairs) {
         return Err(Failure::Usage(format!("{} s at {} Hz is no length of a recording", options.seconds, options.rate)));
     }
     let pairs = pairs.round() as u64;

@@ -32,6 +32,7 @@ impl Calibration {
         let turned = Phase::from_radians(2.0 * self.pick_off_angle).unit();
         let ideal = *self == Self::IDEAL;
         Correction {
+            delay: self.skew * sample_rate,
             lag,
             cosine: turned.re,
             sine: turned.im,
@@ -49,6 +50,8 @@ impl Default for Calibration {
 /// A [`Calibration`] made ready for one frequency: D_raw = lag·(cosine·D − sine·C).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Correction {
+    /// Skew in samples: the slow course of the wave goes on during it.
+    pub delay: f32,
     lag: Complex32,
     cosine: f32,
     sine: f32,

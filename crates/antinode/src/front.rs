@@ -6,6 +6,10 @@ use crate::settings::{Detection, Settings, SettingsError};
 
 /// What the front is doing with samples.
 #[derive(Debug, Clone)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "the stages share one place on purpose: there is no heap"
+)]
 enum Stage<const N: usize> {
     Difference(DifferenceDetector),
     MeanReturn(MeanReturnDetector),

@@ -143,9 +143,15 @@ impl Settings {
             Err(SettingsError::Hop)
         } else if !within(self.start_angle, -1e4, 1e4) {
             Err(SettingsError::StartAngle(self.start_angle))
-        } else if let Some(full_scale) = self.full_scale.filter(|&x| !(x > 0.0)) {
+        } else if let Some(full_scale) = self
+            .full_scale
+            .filter(|&x| !within(x, f32::MIN_POSITIVE, f32::MAX))
+        {
             Err(SettingsError::FullScale(full_scale))
-        } else if let Some(resolution) = self.resolution.filter(|&x| !(x > 0.0)) {
+        } else if let Some(resolution) = self
+            .resolution
+            .filter(|&x| !within(x, f32::MIN_POSITIVE, f32::MAX))
+        {
             Err(SettingsError::Resolution(resolution))
         } else if !within(c.gain_ratio, 0.1, 10.0) {
             Err(SettingsError::GainRatio(c.gain_ratio))

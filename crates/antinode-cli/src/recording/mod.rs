@@ -16,8 +16,8 @@ use std::fs::{self, File};
 use std::io::{self, Cursor, IsTerminal, Read};
 use std::path::Path;
 
-pub use columns::{Columns, ColumnsError};
-pub use error::{COLUMNS_OPTION, Channel, InputError, LineFault, Place, RAW_OPTION, Role};
+pub use columns::Columns;
+pub use error::{Channel, InputError};
 pub use raw::RawFormat;
 pub use write::{OutputError, RecordingWriter, WavSample};
 

@@ -59,11 +59,11 @@ impl Trial {
     pub(crate) fn push(&mut self, sample: Pair) -> bool {
         let row = self.row(self.count);
         self.normal.add(&row);
-        for channel in 0..2 {
-            self.sum[channel] += sample[channel];
-            self.square += sample[channel] * sample[channel];
+        for (channel, value) in sample.into_iter().enumerate() {
+            self.sum[channel] += value;
+            self.square += value * value;
             for (sum, weight) in self.gradient[channel].iter_mut().zip(row) {
-                *sum += weight * sample[channel];
+                *sum += weight * value;
             }
         }
         self.count += 1;

@@ -45,10 +45,9 @@ impl Trend {
 
     /// Keeps a clean window of `samples`, unless it overlaps the last one kept.
     pub(crate) fn keep(&mut self, middle: u64, samples: u32, angle: Angle, variance: f32) {
-        if let Some(last) = self.points.back() {
-            if middle < last.middle + 2 * u64::from(samples) {
-                return;
-            }
+        let overlaps = |last: &Point| middle < last.middle + 2 * u64::from(samples);
+        if self.points.back().is_some_and(overlaps) {
+            return;
         }
         if self.points.is_full() {
             self.points.pop_front();

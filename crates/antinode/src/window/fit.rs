@@ -205,7 +205,10 @@ impl Model {
             let turned = Complex32::new(-d.im, d.re);
             [c + turned, c - turned]
         };
-        let value = travelling(parameters.z);
+        // Channel D was sampled later: what it saw lies that much further along its course.
+        let [c, d] = parameters.z;
+        let d = d - parameters.slope[1] * (self.correction.delay / self.half());
+        let value = travelling([c, d]);
         let change = travelling(parameters.slope);
         let slope = core::array::from_fn(|w| {
             let power = value[w].norm_sqr();
@@ -255,11 +258,13 @@ impl Model {
                 local[2][wave] = level * first[wave] * first[wave];
                 course[wave] *= advance[wave];
             }
-            let raw = local.map(|[plus, minus]| {
+            let mut raw = local.map(|[plus, minus]| {
                 let d = (plus - minus) * 0.5;
                 self.correction
                     .distort([(plus + minus) * 0.5, Complex32::new(d.im, -d.re)])
             });
+            raw[0][1] += raw[1][1] * self.correction.delay;
+            raw[1][1] += raw[2][1] * self.correction.delay;
             let rows = self.rows(u, unit);
             let seen = whiten(&self.basis, block);
             let mut level = [[0.0; 2]; 2];

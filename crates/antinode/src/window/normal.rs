@@ -29,6 +29,10 @@ impl Normal {
     }
 
     /// Factorises; a direction that the data do not see (pivot below 10⁻⁵ of its diagonal) is held at zero.
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "the indices are those of the textbook"
+    )]
     pub(crate) fn factorise(&mut self) {
         let a = &mut self.entries;
         for j in 0..PARAMETERS {

@@ -298,3 +298,176 @@ fn a_step_between_or_within_windows_is_flagged() {
         }
     }
 }
+
+/// Runs a gyro through the core with `change` applied to every pair; gives the estimates.
+fn changed(
+    seed: u64,
+    noise: f64,
+    periods: u16,
+    samples: usize,
+    change: impl Fn(usize, [f64; 2]) -> [f64; 2],
+) -> Vec<Estimate> {
+    let (wave, mut flaws) = gyro(seed);
+    flaws.noise = noise * wave.main_amplitude;
+    let mut core = Core::new(windows(periods)).unwrap();
+    let gyro = antinode_sim::Gyro::new(wave, flaws, RATE, seed).unwrap();
+    let pairs = gyro
+        .take(samples)
+        .enumerate()
+        .map(|(k, pair)| change(k, [pair.c, pair.d]));
+    pairs
+        .filter_map(|[c, d]| core.push([c as f32, d as f32]))
+        .collect()
+}
+
+/// The windows that a stretch of samples touches by at least a block, and the flags of all others.
+fn touched(estimates: &[Estimate], from: usize, to: usize) -> Vec<&Estimate> {
+    let block = 19;
+    estimates
+        .iter()
+        .filter(|e| {
+            e.start + block < to as u64 && e.start + u64::from(e.samples) > from as u64 + block
+        })
+        .collect()
+}
+
+#[test]
+fn a_sample_lost_between_two_windows_is_flagged() {
+    // Over one window's length of places, one falls between two windows.
+    let (wave, mut flaws) = gyro(1);
+    for at in 50_000..50_190 {
+        flaws.lost = vec![Loss { at, count: 1 }];
+        let estimates = identify(wave, &flaws, windows(10), 53_000, 1);
+        let end = |e: &Estimate| e.start + u64::from(e.samples);
+        let near = estimates.iter().filter(|e| end(e) >= at && e.start <= at);
+        assert!(
+            near.clone().any(|e| !e.flags.is_empty()),
+            "{at}: {near:?}",
+            near = near.collect::<Vec<_>>()
+        );
+        if let Some(after) = estimates.iter().find(|e| e.start == at) {
+            assert!(
+                after.flags.contains(Flags::PHASE_JUMP),
+                "{at}: {}",
+                after.flags
+            );
+        }
+    }
+}
+
+#[test]
+fn a_burst_of_noise_is_flagged() {
+    for seed in 0..10 {
+        let mut state: u64 = seed * 2 + 1;
+        let noise: Vec<f64> = (0..2000)
+            .map(|_| {
+                state = state
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1_442_695_040_888_963_407);
+                (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+            })
+            .collect();
+        let estimates = changed(seed, 0.005, 10, 60_000, |k, [c, d]| {
+            match k.checked_sub(30_000) {
+                // Uniform, so its rms is 0.29 of this: eight times the noise.
+                Some(i) if i < 400 => [c + 0.14 * noise[i], d + 0.14 * noise[1000 + i]],
+                _ => [c, d],
+            }
+        });
+        let inside = estimates
+            .iter()
+            .filter(|e| e.start >= 30_000 && e.start + 190 <= 30_400);
+        assert!(inside.clone().count() >= 1);
+        assert!(
+            inside.clone().all(|e| e.flags.contains(Flags::MISFIT)),
+            "seed {seed}"
+        );
+        assert!(
+            estimates
+                .iter()
+                .all(|e| e.flags.is_empty() || e.start < 30_600 && e.start > 29_700),
+            "seed {seed}"
+        );
+    }
+}
+
+#[test]
+fn a_second_tone_is_flagged_from_the_first_window_on() {
+    for seed in 0..10 {
+        let estimates = changed(seed, 0.001, 10, 20_000, |k, [c, d]| {
+            let tone = 0.05 * (std::f64::consts::TAU * 5800.0 * k as f64 / RATE).sin();
+            [c + tone, d - 0.5 * tone]
+        });
+        assert!(estimates.len() > 90);
+        assert!(
+            estimates.iter().all(|e| e.flags.contains(Flags::MISFIT)),
+            "seed {seed}"
+        );
+    }
+}
+
+#[test]
+fn a_spike_in_a_long_window_is_flagged() {
+    for seed in 0..10 {
+        let (wave, _) = gyro(seed);
+        let at = 60_000 + 17 * seed as usize;
+        let estimates = changed(seed, 0.02, 50, 120_000, |k, [c, d]| {
+            [
+                c,
+                if k == at {
+                    d + 0.9 * wave.main_amplitude
+                } else {
+                    d
+                },
+            ]
+        });
+        for estimate in touched(&estimates, at, at + 1) {
+            assert!(
+                estimate.flags.contains(Flags::MISFIT),
+                "seed {seed}: {estimate:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_small_step_within_a_window_is_flagged() {
+    for seed in 0..20 {
+        let estimates = changed(seed, 0.02, 10, 60_000, |k, [c, d]| {
+            // The middle half of every window holds no step but the one at a window's third.
+            let gain = if k >= 40_060 { 1.16 } else { 1.0 };
+            [gain * c, gain * d]
+        });
+        let hit = estimates
+            .iter()
+            .find(|e| (e.start + 30..e.start + 160).contains(&40_060));
+        if let Some(estimate) = hit {
+            assert!(
+                estimate.flags.intersects(Flags::MISFIT),
+                "seed {seed}: {estimate:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn flattened_crests_are_flagged_in_noise_without_a_known_rail() {
+    for seed in 0..10 {
+        let (wave, _) = gyro(seed);
+        let (s2, c2) = (2.0 * wave.at(0.5).angle).sin_cos();
+        let level = 0.75 * wave.at(0.5).main_amplitude * s2.abs().max(c2.abs());
+        let estimates = changed(seed, 0.1, 10, 90_000, |k, pair| {
+            if (40_000..60_000).contains(&k) {
+                pair.map(|s| s.clamp(-level, level))
+            } else {
+                pair
+            }
+        });
+        for estimate in touched(&estimates, 40_200, 59_800) {
+            assert!(
+                estimate.flags.contains(Flags::CLIPPED),
+                "seed {seed}: {estimate:?}"
+            );
+        }
+    }
+}

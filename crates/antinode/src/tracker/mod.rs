@@ -256,7 +256,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             return 0.0;
         };
         let square = step * step;
-        let repeated = 0.09 * square * libm::expf(-39.5 * noise / square);
+        // The steps' own noise does not break up anything.
+        let apart = (noise - square / 12.0).max(0.0);
+        let repeated = 0.09 * square * libm::expf(-39.5 * apart / square);
         (square / 12.0 - noise).max(0.0) + repeated * half
     }
 

@@ -133,8 +133,8 @@ impl Model {
             let gradient = gradient(self, blocks.clone(), &waves, parameters.offset);
             let mut moved = 0.0;
             let mut total = 0.0;
-            for channel in 0..2 {
-                let change = self.normal.solve(gradient[channel]);
+            for (channel, gradient) in gradient.into_iter().enumerate() {
+                let change = self.normal.solve(gradient);
                 let z = Complex32::new(change[0], change[1]);
                 let slope = Complex32::new(change[2], change[3]);
                 parameters.z[channel] += z;

@@ -130,7 +130,7 @@ impl<'a> Course<'a> {
         let index = self.index;
         self.index += 1;
         let u = self.model.time(index);
-        if index % ANCHOR == 0 {
+        if index.is_multiple_of(ANCHOR) {
             self.unit = self.model.phase(index).unit();
             let waves = &self.waves;
             self.running = core::array::from_fn(|w| {

@@ -2,6 +2,7 @@
 
 mod demonstration;
 mod failure;
+mod fixed;
 mod identify;
 mod options;
 mod recording;

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use antinode::Estimate;
 use serde::Serialize;
 
+use crate::fixed::{heading, with_std};
 use crate::options::Format;
 
 /// One row of CSV or JSON lines; the names are the columns.
@@ -75,6 +76,10 @@ pub struct Rows<W: Write> {
     sink: Sink<W>,
     /// Rows printed of the present recording.
     count: u64,
+    /// What stands above the next table.
+    title: Option<String>,
+    /// Tables begun.
+    tables: u64,
 }
 
 impl<W: Write> Rows<W> {
@@ -85,23 +90,18 @@ impl<W: Write> Rows<W> {
             Format::Csv => Sink::Csv(Box::new(csv::Writer::from_writer(out))),
             Format::Jsonl => Sink::Jsonl(out),
         };
-        Self { sink, count: 0 }
+        Self {
+            sink,
+            count: 0,
+            title: None,
+            tables: 0,
+        }
     }
 
-    /// Begins a recording; `heading` stands above a table's.
-    pub fn begin(&mut self, heading: Option<&str>) -> io::Result<()> {
+    /// Begins a recording; `title` stands above its table.
+    pub fn begin(&mut self, title: Option<String>) {
         self.count = 0;
-        if let Sink::Table(out) = &mut self.sink {
-            if let Some(heading) = heading {
-                writeln!(out, "{heading}")?;
-            }
-            writeln!(
-                out,
-                "{:>11} {:>20} {:>20} {:>20} {:>22} {:>9} {:>9} {:>9}  flags",
-                "time s", "main amplitude", "quadrature", "angle deg", "frequency Hz", "deg/s", "decay /s", "residual"
-            )?;
-        }
-        Ok(())
+        self.title = title;
     }
 
     /// Prints one window.
@@ -109,8 +109,20 @@ impl<W: Write> Rows<W> {
         self.count += 1;
         let flags = estimate.flags.to_string();
         match &mut self.sink {
-            Sink::Table(out) => table(out, estimate),
-            Sink::Csv(out) => out.serialize(Row::new(file, &flags, estimate)).map_err(io::Error::from),
+            Sink::Table(out) => {
+                // A recording without a row gets no heading.
+                if self.count == 1 {
+                    if let Some(title) = self.title.take() {
+                        writeln!(out, "{}{title}", if self.tables > 0 { "\n" } else { "" })?;
+                    }
+                    table_heading(out)?;
+                    self.tables += 1;
+                }
+                table(out, estimate)
+            }
+            Sink::Csv(out) => out
+                .serialize(Row::new(file, &flags, estimate))
+                .map_err(io::Error::from),
             Sink::Jsonl(out) => {
                 serde_json::to_writer(&mut *out, &Row::new(file, &flags, estimate))?;
                 writeln!(out)
@@ -132,28 +144,36 @@ impl<W: Write> Rows<W> {
     }
 }
 
-/// A value with its standard deviation, to the digits that this leaves.
-pub fn with_std(value: f64, std: f64) -> String {
-    if std > 0.0 && std.is_finite() {
-        let digits = (1.3 - std.log10()).ceil().clamp(0.0, 9.0) as usize;
-        format!("{value:.digits$} ± {std:.0e}")
-    } else {
-        format!("{value:.6}")
-    }
-}
-
-fn table(out: &mut impl Write, e: &Estimate) -> io::Result<()> {
+/// The line above a table.
+fn table_heading(out: &mut impl Write) -> io::Result<()> {
+    let names = ["main amplitude", "quadrature", "angle, °", "frequency, Hz"].map(heading);
     writeln!(
         out,
-        "{:>11.6} {:>20} {:>20} {:>20} {:>22} {:>9.3} {:>9.3} {:>9.1e}  {}",
+        "{:>10} {} {:>8} {:>8} {:>8}  flags",
+        "time, s",
+        names.join(" "),
+        "turn,°/s",
+        "decay,/s",
+        "residual"
+    )
+}
+
+/// A line of a table.
+fn table(out: &mut impl Write, e: &Estimate) -> io::Result<()> {
+    let line = format!(
+        "{:>10.6} {} {} {} {} {:>8.2} {:>8.3} {:>8.1e}  {}",
         e.time,
         with_std(e.main_amplitude.into(), e.main_amplitude_std.into()),
-        with_std(e.quadrature_amplitude.into(), e.quadrature_amplitude_std.into()),
+        with_std(
+            e.quadrature_amplitude.into(),
+            e.quadrature_amplitude_std.into()
+        ),
         with_std(e.angle.to_degrees(), f64::from(e.angle_std).to_degrees()),
         with_std(e.frequency, e.frequency_std.into()),
         e.angle_rate.to_degrees(),
         e.decay_rate,
         e.residual_rms,
         e.flags,
-    )
+    );
+    writeln!(out, "{}", line.trim_end())
 }

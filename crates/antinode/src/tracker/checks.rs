@@ -98,9 +98,10 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
     // A step within the window, or any course that bends: chi-square of 4 degrees at each of its places, or its ratio to the
     // rest where the noise is not yet known.
     let rest = (remains.residual - remains.step).max(0.0) / (remains.freedom - 4.0).max(1.0);
+    let level = if known { noise.variance } else { rest };
     let limit = 56.0 * (1.0 + 40.0 / (noise.freedom + remains.freedom));
     let stepped = remains.freedom > 20.0
-        && remains.step > limit * rest.max(noise.variance) + (8.0 + 0.1 * remains.freedom) * floor;
+        && remains.step > limit * level + (8.0 + 0.1 * remains.freedom) * floor;
     let misfit = coloured || louder || outlier || stepped || !fit.settled;
     flags = flags.with_if(misfit, Flags::MISFIT);
 

@@ -51,6 +51,38 @@ impl Default for Codes {
     }
 }
 
+/// Pairs of a half-buffer.
+const HALF_BUFFER: usize = 128;
+
+/// A half-buffer of sample pairs in f32.
+pub struct Floats {
+    pairs: [[f32; 2]; HALF_BUFFER],
+}
+
+impl Floats {
+    /// An empty half-buffer.
+    pub const fn new() -> Self {
+        Self {
+            pairs: [[0.0; 2]; HALF_BUFFER],
+        }
+    }
+
+    /// The first codes of a slice, as many as a half-buffer holds, in f32.
+    pub fn of(&mut self, codes: &[[i16; 2]]) -> &[[f32; 2]] {
+        for (pair, code) in self.pairs.iter_mut().zip(codes) {
+            *pair = [f32::from(code[0]), f32::from(code[1])];
+        }
+        let count = codes.len().min(HALF_BUFFER);
+        self.pairs.get(..count).unwrap_or(&[])
+    }
+}
+
+impl Default for Floats {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 /// The measurement begins with the return from here.
 #[unsafe(no_mangle)]
 #[inline(never)]

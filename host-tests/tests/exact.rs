@@ -113,7 +113,11 @@ fn a_wave_that_dies_and_turns_fast_is_exact_too() {
     // The amplitude falls by a fifth and the pattern turns by a degree within a window: blocks are not constant inside.
     let mut worst = 0f64;
     for seed in 0..20 {
-        let wave = Wave { decay_rate: 300.0, angle_rate: 20.0, ..random_wave(seed, 5332.0, 0.3) };
+        let wave = Wave {
+            decay_rate: 300.0,
+            angle_rate: 20.0,
+            ..random_wave(seed, 5332.0, 0.3)
+        };
         for estimate in identify(wave, &Flaws::default(), windows(4), 900, 0) {
             let a = wave.at(estimate.time).main_amplitude;
             let [main, quadrature, angle, frequency] = errors(&estimate, &wave);

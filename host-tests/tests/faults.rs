@@ -479,7 +479,10 @@ fn flattened_crests_are_flagged_in_noise_without_a_known_rail() {
 #[test]
 fn a_limiter_before_the_noise_is_flagged_by_its_harmonic() {
     for seed in 0..10 {
-        let wave = Wave { angle_rate: 0.0, ..gyro(seed).0 };
+        let wave = Wave {
+            angle_rate: 0.0,
+            ..gyro(seed).0
+        };
         let a = wave.main_amplitude;
         let (s2, c2) = (2.0 * wave.at(0.3).angle).sin_cos();
         let level = 0.9 * a * s2.abs().max(c2.abs());

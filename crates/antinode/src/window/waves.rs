@@ -57,7 +57,13 @@ impl Waves {
                 Complex32::ZERO
             }
         });
-        let rest = core::array::from_fn(|w| change[w] - slope[w] * value[w]);
+        let rest = core::array::from_fn(|w| {
+            if slope[w] == Complex32::ZERO {
+                change[w]
+            } else {
+                Complex32::ZERO
+            }
+        });
         Self {
             value,
             change,
@@ -93,6 +99,8 @@ pub(super) struct Course<'a> {
     running: [Complex32; 2],
     unit: Complex32,
     index: u16,
+    /// True when a wave has more than an exponential course.
+    is_bent: bool,
 }
 
 /// One block's phasors.
@@ -121,11 +129,12 @@ impl<'a> Course<'a> {
             running: [Complex32::ZERO; 2],
             unit: Complex32::ONE,
             index: 0,
+            is_bent: waves.rest != [Complex32::ZERO; 2],
         }
     }
 
     /// The next block.
-    #[inline]
+    #[inline(always)]
     pub(super) fn next(&mut self) -> Here {
         let index = self.index;
         self.index += 1;
@@ -143,11 +152,15 @@ impl<'a> Course<'a> {
                 self.running[1] * self.factor[1],
             ];
         }
-        let rest = self.waves.rest.map(|rest| rest * self.unit * u);
+        let mut waves = self.running;
+        if self.is_bent {
+            let rest = self.waves.rest.map(|rest| rest * self.unit * u);
+            waves = [waves[0] + rest[0], waves[1] + rest[1]];
+        }
         Here {
             u,
             unit: self.unit,
-            waves: [self.running[0] + rest[0], self.running[1] + rest[1]],
+            waves,
         }
     }
 }

@@ -7,7 +7,7 @@ pub mod score;
 use antinode::Estimate;
 use antinode::Identifier;
 use antinode::Settings;
-use antinode_sim::{Flaws, Gyro, Wave};
+use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 
 /// Sample rate of all tests, Hz.
 pub const RATE: f64 = 100_000.0;
@@ -49,4 +49,23 @@ pub fn angle_error(found: f64, truth: f64) -> f64 {
 pub fn phase_error(found: f64, truth: f64) -> f64 {
     let error = found - truth;
     error - (error / std::f64::consts::PI).round() * std::f64::consts::PI
+}
+
+/// A gyro that turns and decays, in 0.5 % noise.
+pub fn gyro(seed: u64) -> (Wave, Flaws) {
+    let wave = Wave {
+        angle_rate: 0.3,
+        decay_rate: 0.05,
+        ..random_wave(seed, 5332.0, 0.2)
+    };
+    let a = wave.main_amplitude;
+    (
+        wave,
+        Flaws {
+            noise: 0.005 * a,
+            offset_c: 0.05 * a,
+            offset_d: -0.02 * a,
+            ..Flaws::default()
+        },
+    )
 }

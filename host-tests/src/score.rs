@@ -27,17 +27,12 @@ impl Score {
     pub fn add(&mut self, estimate: &Estimate, wave: &Wave, noise: f64) {
         let bound = bound(wave, estimate.samples, estimate.time, RATE);
         let bounds = [bound.main, bound.quadrature, bound.angle, bound.frequency];
-        let stated = [
-            estimate.main_amplitude_std,
-            estimate.quadrature_amplitude_std,
-            estimate.angle_std,
-            estimate.frequency_std,
-        ];
+        let stated = stated(estimate);
         self.windows += 1.0;
         for (i, error) in errors(estimate, wave).into_iter().enumerate() {
             let bound = bounds[i] * noise;
             self.error[i] += (error / bound).powi(2);
-            self.stated[i] += (f64::from(stated[i]) / bound).powi(2);
+            self.stated[i] += (stated[i] / bound).powi(2);
         }
     }
 
@@ -66,4 +61,15 @@ pub fn errors(estimate: &Estimate, wave: &Wave) -> [f64; 4] {
         angle_error(estimate.angle, truth.angle),
         estimate.frequency - truth.frequency,
     ]
+}
+
+/// Standard deviations of a_A, a_B, θ and f that an estimate states.
+pub fn stated(estimate: &Estimate) -> [f64; 4] {
+    [
+        estimate.main_amplitude_std,
+        estimate.quadrature_amplitude_std,
+        estimate.angle_std,
+        estimate.frequency_std,
+    ]
+    .map(f64::from)
 }

@@ -2,7 +2,7 @@
 
 use antinode::{Calibration, Detection, Estimate, Settings, SettingsError, Tracker};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
-use host_tests::score::errors;
+use host_tests::score::{errors, stated};
 use host_tests::{Core, RATE, angle_error, identify, windows};
 use proptest::prelude::*;
 
@@ -177,14 +177,9 @@ fn windows_may_overlap_or_leave_gaps() {
         }
         for estimate in &estimates {
             assert!(estimate.flags.is_empty(), "hop {hop}: {}", estimate.flags);
-            let stds = [
-                estimate.main_amplitude_std,
-                estimate.quadrature_amplitude_std,
-                estimate.angle_std,
-                estimate.frequency_std,
-            ];
+            let stds = stated(estimate);
             for (i, error) in errors(estimate, &wave).into_iter().enumerate() {
-                squares[i] += (error / f64::from(stds[i])).powi(2);
+                squares[i] += (error / stds[i]).powi(2);
             }
         }
         for square in squares {

@@ -2,7 +2,7 @@
 
 use antinode::Settings;
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::score::errors;
+use host_tests::score::{errors, stated};
 use host_tests::{RATE, identify, windows};
 
 #[test]
@@ -50,14 +50,9 @@ fn check(bits: u32, scale: f64, period: f64, noise: f64, periods: u16) {
         for estimate in identify(wave, &flaws, settings, samples, seed) {
             rows += 1.0;
             flagged += usize::from(!estimate.flags.is_empty());
-            let stds = [
-                estimate.main_amplitude_std,
-                estimate.quadrature_amplitude_std,
-                estimate.angle_std,
-                estimate.frequency_std,
-            ];
+            let stds = stated(&estimate);
             for (i, error) in errors(&estimate, &wave).into_iter().enumerate() {
-                squares[i] += (error / f64::from(stds[i])).powi(2);
+                squares[i] += (error / stds[i]).powi(2);
             }
         }
     }

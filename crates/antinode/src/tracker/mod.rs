@@ -1,6 +1,7 @@
 //! Blocks become estimates of a tracked wave: windows are cut, solved, checked, and joined to those before.
 
 mod checks;
+mod converter;
 mod record;
 mod trend;
 
@@ -138,7 +139,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         // Rounding of f32 sums is an error too, where there is no other, and part of it does not average.
         let size = fit.offsets[0].abs() + fit.offsets[1].abs() + libm::sqrtf(fit.waves.power());
         let rounding = 1e-7 * size;
-        let coding = self.coding(noise, half);
+        let coding = converter::coding(&self.settings, noise, half);
         let variance = noise + rounding * rounding * (1.0 + half) + coding;
         let wave = Standing::new(model, &fit, variance);
         if self.before.is_none() && checks::is_no_wave(&fit, &wave, self.count, model.layout.length)
@@ -162,8 +163,13 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let (angle, quarters) = expected.nearest(wave.angle);
         let phase = wrap(wave.phase + (quarters & 1) as f32 * core::f32::consts::PI);
 
+        let (older, newer) = self.ring.as_slices();
         let mut flags = checks::within(&fit, &wave, coding, &mut self.noise);
-        flags = flags.with(self.sample_flags(&wave));
+        flags = flags.with(converter::sample_flags(
+            &self.settings,
+            older.iter().chain(newer),
+            &wave,
+        ));
         let mut record = Record::new(model, &fit, &wave, variance, middle, angle, phase);
         let mut between = Flags::empty();
         if let Some(before) = &self.before {
@@ -193,7 +199,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.failures = self.failures.saturating_add(1);
         }
         self.remember(record, flags, between, samples);
-        Some(self.row(&record, &wave, first, samples, half, variance, flags))
+        Some(record.estimate(self.settings.sample_rate, flags))
     }
 
     /// True when a pick-off that showed the wave in the last clean window shows none now.
@@ -241,62 +247,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         Some(solve(model, blocks, self.count, carrier, rough))
     }
 
-    /// Samples a period of the blocks' reference.
-    fn period(&self) -> f32 {
-        self.model
-            .as_ref()
-            .map_or(f32::INFINITY, |model| model.layout.step.period())
-    }
-
-    /// What the converter's steps add to the noise variance a sample, in a window of `half` samples each side.
-    ///
-    /// A quantised wave has errors of up to a third of a step that repeat with it; noise breaks them up as exp(−2π²σ²/step²).
-    fn coding(&self, noise: f32, half: f32) -> f32 {
-        let Some(step) = self.settings.resolution else {
-            return 0.0;
-        };
-        let square = step * step;
-        // The steps' own noise does not break up anything.
-        let apart = (noise - square / 12.0).max(0.0);
-        let repeated = 0.09 * square * libm::expf(-39.5 * apart / square);
-        (square / 12.0 - noise).max(0.0) + repeated * half
-    }
-
-    /// Faults that single samples show.
-    fn sample_flags(&self, wave: &Standing) -> Flags {
-        let mut low = [f32::INFINITY; 2];
-        let mut high = [f32::NEG_INFINITY; 2];
-        for block in &self.ring {
-            for (channel, sums) in block.channels.iter().enumerate() {
-                low[channel] = low[channel].min(sums.low);
-                high[channel] = high[channel].max(sums.high);
-            }
-        }
-        // Where no rail is known, samples that stay at the extreme for longer than a crest does show one.
-        let crest = (self.period() / 16.0).max(2.0) as u16;
-        let fine = wave.main > 100.0 * self.settings.resolution.unwrap_or(0.0);
-        let flat = self.ring.iter().any(|block| {
-            (0..2).any(|i| {
-                let sums = &block.channels[i];
-                let wide = fine && high[i] - low[i] > wave.main;
-                wide && (sums.high == high[i] && sums.high_run > crest
-                    || sums.low == low[i] && sums.low_run > crest)
-            })
-        });
-        let clipped = match self.settings.full_scale {
-            Some(rail) => (0..2).any(|i| high[i] >= rail || low[i] <= -rail),
-            None => flat,
-        };
-        let dead = (0..2).any(|i| low[i] == high[i]);
-        Flags::empty()
-            .with_if(clipped, Flags::CLIPPED)
-            .with_if(dead, Flags::DEAD_CHANNEL)
-            .with_if(
-                !(wave.main + wave.quadrature).is_finite(),
-                Flags::NOT_FINITE.with(Flags::LOST),
-            )
-    }
-
     /// Takes the share of a turning pattern out of the frequency, with what the angles of the windows before promise.
     fn promise(&self, record: &mut Record, wave: &Standing, half: f32, samples: u32) {
         let rate = self
@@ -339,43 +289,5 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.angle = record.angle;
         }
         self.before = Some(record);
-    }
-
-    #[expect(clippy::too_many_arguments, reason = "it only lays out a row")]
-    fn row(
-        &self,
-        record: &Record,
-        wave: &Standing,
-        start: u64,
-        samples: u32,
-        half: f32,
-        variance: f32,
-        flags: Flags,
-    ) -> Estimate {
-        let rate = self.settings.sample_rate;
-        let rate32 = rate as f32;
-        let root = libm::sqrtf;
-        Estimate {
-            start,
-            samples,
-            time: 0.5 * record.middle as f64 / rate,
-            main_amplitude: record.main,
-            quadrature_amplitude: record.quadrature,
-            angle: record.angle.radians(),
-            phase: record.phase,
-            frequency: record.carrier.hertz(record.drift, rate),
-            angle_rate: record.turning * rate32,
-            decay_rate: -record.main_rate / record.main * rate32,
-            offsets: record.offsets,
-            main_amplitude_std: root(record.main_variance),
-            quadrature_amplitude_std: root(record.quadrature_variance),
-            angle_std: root(record.angle_variance),
-            phase_std: root(record.phase_variance),
-            frequency_std: root(record.drift_variance) * rate32 / core::f32::consts::TAU,
-            angle_rate_std: root(record.turning_variance) * rate32,
-            decay_rate_std: root(wave.main_change_variance) / (half * record.main) * rate32,
-            residual_rms: root(variance),
-            flags,
-        }
     }
 }

@@ -1,5 +1,6 @@
 //! One window as the tracker remembers it: values at its middle, rates a sample, variances.
 
+use crate::estimate::{Estimate, Flags};
 use crate::phase::PhaseStep;
 use crate::wave::{Angle, Standing};
 use crate::window::{Fit, Model};
@@ -8,6 +9,10 @@ use crate::window::{Fit, Model};
 pub(crate) struct Record {
     /// Middle of the window, half samples from the start of the stream.
     pub middle: u64,
+    /// Sample pairs of the window.
+    pub samples: u32,
+    /// Noise variance a sample.
+    pub noise: f32,
     pub carrier: PhaseStep,
     /// Frequency beyond the carrier, rad/sample.
     pub drift: f32,
@@ -49,6 +54,8 @@ impl Record {
         let squared = half * half;
         Self {
             middle,
+            samples: u32::from(model.blocks) * u32::from(model.layout.length),
+            noise,
             carrier: model.carrier,
             drift: wave.drift / half,
             drift_variance: wave.drift_variance / squared,
@@ -71,6 +78,34 @@ impl Record {
             offsets: fit.offsets,
             // A short window knows its offset worse than the mean of its samples.
             offset_variance: 2.0 * noise / half,
+        }
+    }
+
+    /// The window as it is reported.
+    pub(crate) fn estimate(&self, sample_rate: f64, flags: Flags) -> Estimate {
+        let rate = sample_rate as f32;
+        let root = libm::sqrtf;
+        Estimate {
+            start: (self.middle + 1 - u64::from(self.samples)) / 2,
+            samples: self.samples,
+            time: 0.5 * self.middle as f64 / sample_rate,
+            main_amplitude: self.main,
+            quadrature_amplitude: self.quadrature,
+            angle: self.angle.radians(),
+            phase: self.phase,
+            frequency: self.carrier.hertz(self.drift, sample_rate),
+            angle_rate: self.turning * rate,
+            decay_rate: -self.main_rate / self.main * rate,
+            offsets: self.offsets,
+            main_amplitude_std: root(self.main_variance),
+            quadrature_amplitude_std: root(self.quadrature_variance),
+            angle_std: root(self.angle_variance),
+            phase_std: root(self.phase_variance),
+            frequency_std: root(self.drift_variance) * rate / core::f32::consts::TAU,
+            angle_rate_std: root(self.turning_variance) * rate,
+            decay_rate_std: root(self.main_rate_variance) / self.main * rate,
+            residual_rms: root(self.noise),
+            flags,
         }
     }
 

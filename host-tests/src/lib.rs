@@ -2,6 +2,7 @@
 
 pub mod bound;
 pub mod oracle;
+pub mod printed;
 pub mod score;
 
 use antinode::Estimate;

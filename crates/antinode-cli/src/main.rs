@@ -7,6 +7,7 @@ mod options;
 mod recording;
 mod rows;
 mod simulate;
+mod study;
 
 use std::process::ExitCode;
 
@@ -18,6 +19,7 @@ fn main() -> ExitCode {
         None => demonstration::run(),
         Some(Command::Identify(options)) => identify::run(&options),
         Some(Command::Simulate(options)) => simulate::run(&options),
+        Some(Command::Study(options)) => study::run(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

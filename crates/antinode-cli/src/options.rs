@@ -25,6 +25,8 @@ pub enum Command {
     Identify(Box<Identify>),
     /// Writes a simulated recording, and the truth beside it as JSON.
     Simulate(Box<super::simulate::Simulate>),
+    /// Computes the paper's comparison of its four methods anew: figures, tables, and its conclusions checked.
+    Study(super::study::Study),
 }
 
 /// `antinode identify`.

@@ -1,4 +1,4 @@
-//! The Cramér–Rao bound of a window: seven unknowns, the Fisher matrix over its samples inverted.
+//! The Cramér–Rao bounds of a window: the Fisher matrix over its samples inverted.
 
 use std::f64::consts::TAU;
 
@@ -7,8 +7,27 @@ use nalgebra::SMatrix;
 
 /// Least standard deviations of a_A, a_B, θ (degrees) and f (Hz) over `count` sample pairs from t = 0, for noise of one a sample.
 ///
-/// Unknown are a_A, a_B, θ, ω, α and both offsets. NaN where the window does not determine them.
+/// Unknown are a_A, a_B, θ, ω, α and both offsets. NaN where the window does not determine them. No unbiased estimate is better; a
+/// biased one may be, as those of the four algorithms are on one period.
 pub fn bound(wave: &Wave, count: usize, rate: f64) -> [f64; 4] {
+    deviations(fisher(wave, count, rate).try_inverse(), rate)
+}
+
+/// The same for centred signals, with five unknowns.
+pub fn centred_bound(wave: &Wave, count: usize, rate: f64) -> [f64; 4] {
+    deviations(fisher(wave, count, rate).fixed_resize::<5, 5>(0.0).try_inverse(), rate)
+}
+
+fn deviations<const N: usize>(covariance: Option<SMatrix<f64, N, N>>, rate: f64) -> [f64; 4] {
+    let Some(covariance) = covariance else {
+        return [f64::NAN; 4];
+    };
+    let deviation = |i: usize| covariance[(i, i)].sqrt();
+    [deviation(0), deviation(1), deviation(2).to_degrees(), deviation(3) * rate / TAU]
+}
+
+/// The Fisher matrix for noise of one a sample: a_A, a_B, θ, ω, α at the middle, offsets.
+fn fisher(wave: &Wave, count: usize, rate: f64) -> SMatrix<f64, 7, 7> {
     let omega = TAU * wave.frequency / rate;
     let (a, b) = (wave.main_amplitude, wave.quadrature_amplitude);
     let (s2, c2) = (2.0 * wave.angle).sin_cos();
@@ -28,9 +47,5 @@ pub fn bound(wave: &Wave, count: usize, rate: f64) -> [f64; 4] {
             fisher += row.transpose() * row;
         }
     }
-    let Some(covariance) = fisher.try_inverse() else {
-        return [f64::NAN; 4];
-    };
-    let deviation = |i: usize| covariance[(i, i)].sqrt();
-    [deviation(0), deviation(1), deviation(2).to_degrees(), deviation(3) * rate / TAU]
+    fisher
 }

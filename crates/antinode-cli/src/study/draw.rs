@@ -13,6 +13,10 @@ use super::figure::{Figure, Name, Panel};
 
 /// Width and height, pixels.
 const SIZE: (u32, u32) = (960, 600);
+/// Width of the legend, right of the chart, pixels.
+const KEY_WIDTH: u32 = 220;
+/// A bound's dashes and the gaps between them, pixels.
+const DASH: (u32, u32) = (7, 5);
 /// The registered font; viewers of the SVG that have no such font take their own sans.
 const FONT: &str = "sans-serif";
 
@@ -32,17 +36,18 @@ where
     B::ErrorType: 'static,
 {
     area.fill(&WHITE)?;
+    let (area, beside) = area.split_horizontally(SIZE.0 - KEY_WIDTH);
+    key(&beside, panel)?;
     let values = || panel.curves.iter().flat_map(|curve| &curve.y).copied().filter(|y| y.is_finite());
     let greatest = values().fold(f64::MIN_POSITIVE, f64::max);
     let least = values().filter(|&y| y > 0.0).fold(greatest, f64::min);
     let (first, last) = (figure.x.first().copied().unwrap_or(0.0), figure.x.last().copied().unwrap_or(1.0));
     let margin = 0.02 * (last - first);
     let across = first - margin..last + margin;
-    let mut builder = ChartBuilder::on(area);
+    let mut builder = ChartBuilder::on(&area);
     builder
         .caption(format!("Figure {}{}: {}", figure.number, panel.letter, panel.title), (FONT, 22))
         .margin(12)
-        .margin_right(210)
         .x_label_area_size(48)
         .y_label_area_size(84);
     if panel.logarithmic {
@@ -73,6 +78,8 @@ where
         .label_style((FONT, 15))
         .light_line_style(RGBColor(240, 240, 240))
         .bold_line_style(RGBColor(215, 215, 215))
+        .x_labels(11)
+        .x_label_formatter(&|x| format!("{x}"))
         .y_label_formatter(&|y| label(y))
         .draw()?;
     for curve in &panel.curves {
@@ -80,28 +87,36 @@ where
         let points: Vec<(f64, f64)> =
             figure.x.iter().copied().zip(curve.y.iter().copied()).filter(|(_, y)| y.is_finite()).collect();
         let line = color.stroke_width(width);
-        if curve.name == Name::Bound {
-            chart
-                .draw_series(DashedLineSeries::new(points.iter().copied(), 7, 5, line))?
-                .label(curve.name.text())
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], line));
-            continue;
+        if curve.name.is_bound() {
+            chart.draw_series(DashedLineSeries::new(points, DASH.0, DASH.1, line))?;
+        } else {
+            chart.draw_series(LineSeries::new(points.iter().copied(), line))?;
+            chart.draw_series(points.iter().map(|&point| Circle::new(point, 3, color.filled())))?;
         }
-        chart
-            .draw_series(LineSeries::new(points.iter().copied(), line))?
-            .label(curve.name.text())
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], line));
-        chart.draw_series(points.iter().map(|&point| Circle::new(point, 3, color.filled())))?;
     }
-    let beside = chart.plotting_area().dim_in_pixel().0 as i32 + 12;
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::Coordinate(beside, 0))
-        .label_font((FONT, 16))
-        .background_style(WHITE)
-        .border_style(RGBColor(200, 200, 200))
-        .draw()?;
     chart.plotting_area().present()?;
+    Ok(())
+}
+
+/// The legend.
+fn key<B: DrawingBackend>(area: &DrawingArea<B, Shift>, panel: &Panel) -> Result<(), Box<dyn Error>>
+where
+    B::ErrorType: 'static,
+{
+    for (row, curve) in (0..).zip(&panel.curves) {
+        let (color, width) = style(curve.name);
+        let y = 60 + 26 * row;
+        let line = color.stroke_width(width);
+        if curve.name.is_bound() {
+            for x in [4, 4 + (DASH.0 + DASH.1) as i32, 4 + 2 * (DASH.0 + DASH.1) as i32] {
+                area.draw(&PathElement::new([(x, y), (x + DASH.0 as i32, y)], line))?;
+            }
+        } else {
+            area.draw(&PathElement::new([(4, y), (34, y)], line))?;
+            area.draw(&Circle::new((19, y), 3, color.filled()))?;
+        }
+        area.draw(&Text::new(curve.name.text(), (42, y - 8), (FONT, 16)))?;
+    }
     Ok(())
 }
 
@@ -117,6 +132,7 @@ fn style(name: Name) -> (RGBColor, u32) {
         Name::Fractional => (RGBColor(0, 70, 140), 1),
         Name::Exact => (RGBColor(0, 0, 0), 3),
         Name::Bound => (RGBColor(200, 0, 0), 2),
+        Name::CentredBound => (RGBColor(200, 120, 120), 2),
         Name::Deviation => (RGBColor(0, 114, 178), 2),
     }
 }

@@ -45,13 +45,20 @@ pub enum Name {
     Fractional,
     /// Least squares without condition (8).
     Exact,
-    /// The Cramér–Rao bound.
+    /// The Cramér–Rao bound with both offsets unknown, as for the exact solution.
     Bound,
+    /// The Cramér–Rao bound of centred signals, as the four algorithms take them.
+    CentredBound,
     /// n/(N·P) − 1 of the window itself.
     Deviation,
 }
 
 impl Name {
+    /// True for a bound, which no window gave.
+    pub fn is_bound(self) -> bool {
+        matches!(self, Self::Bound | Self::CentredBound)
+    }
+
     /// As the legend has it.
     pub fn text(self) -> &'static str {
         match self {
@@ -64,6 +71,7 @@ impl Name {
             Self::Fractional => "2, fractional delay",
             Self::Exact => "exact solution",
             Self::Bound => "Cramér-Rao bound",
+            Self::CentredBound => "bound, no offsets",
             Self::Deviation => "sampled span",
         }
     }

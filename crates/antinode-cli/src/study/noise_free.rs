@@ -3,7 +3,7 @@
 use antinode_sim::Wave;
 
 use super::RATE;
-use super::bound::bound;
+use super::bound::{bound, centred_bound};
 use super::evaluate::{CURVES, errors};
 use super::figure::{Curve, Figure, Name, Panel};
 use super::samples::Samples;
@@ -44,18 +44,19 @@ fn figure(
     let mut panels: Vec<Panel> = kinds
         .map(|(letter, title, axis)| Panel {
             letter,
-            title: format!("{title}, without noise"),
+            title: format!("{title}, without noise (bounds: noise of 0.01 %)"),
             axis,
             logarithmic: true,
-            curves: CURVES.into_iter().chain([Name::Bound]).map(|name| Curve { name, y: Vec::new() }).collect(),
+            curves: CURVES.into_iter().chain([Name::Bound, Name::CentredBound]).map(|name| Curve { name, y: Vec::new() }).collect(),
         })
         .into();
     let mut deviation = Vec::new();
     for window in windows {
-        let bound = bound(wave, window.count, window.rate).map(|x| x * BOUND_NOISE * wave.main_amplitude);
+        let noise = BOUND_NOISE * wave.main_amplitude;
+        let bounds = [bound, centred_bound].map(|bound| bound(wave, window.count, window.rate).map(|x| x * noise));
         let errors = errors(&window, wave);
         for (i, panel) in panels.iter_mut().enumerate() {
-            let values = errors.iter().map(|error| error[i].abs().max(FLOOR)).chain([bound[i]]);
+            let values = errors.iter().map(|error| error[i].abs().max(FLOOR)).chain(bounds.map(|bound| bound[i]));
             for (curve, value) in panel.curves.iter_mut().zip(values) {
                 curve.y.push(value);
             }

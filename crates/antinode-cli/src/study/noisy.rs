@@ -5,7 +5,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
 use super::RATE;
-use super::bound::bound;
+use super::bound::{bound, centred_bound};
 use super::evaluate::{CURVES, errors};
 use super::figure::{Curve, Figure, Name, Panel};
 use super::samples::Samples;
@@ -65,7 +65,7 @@ pub fn against_noise(wave: &Wave, runs: u32, seed: u64) -> Figure {
     let rms = rms(wave, 1, &levels, runs, seed);
     let percent = 100.0 / wave.main_amplitude;
     let count = (RATE / wave.frequency).round() as usize;
-    let bound = bound(wave, count, RATE);
+    let bounds = [(Name::Bound, bound(wave, count, RATE)), (Name::CentredBound, centred_bound(wave, count, RATE))];
     let kinds = [
         ('a', "main amplitude", "rms error, % of a_A", percent),
         ('b', "quadrature amplitude", "rms error, % of a_A", percent),
@@ -80,7 +80,9 @@ pub fn against_noise(wave: &Wave, runs: u32, seed: u64) -> Figure {
             .filter(|curve| curve.y.iter().any(|y| y.is_finite()))
             .collect();
         let noise = |level: &u32| 0.01 * f64::from(*level) * wave.main_amplitude;
-        curves.push(Curve { name: Name::Bound, y: levels.iter().map(|level| bound[i] * noise(level) * scale).collect() });
+        for (name, bound) in bounds {
+            curves.push(Curve { name, y: levels.iter().map(|level| bound[i] * noise(level) * scale).collect() });
+        }
         Panel { letter, title: format!("{title}, one period"), axis, logarithmic: false, curves }
     });
     Figure {

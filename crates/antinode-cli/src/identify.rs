@@ -7,7 +7,8 @@ use antinode::Identifier;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
-use crate::options::Identify;
+use crate::methods::History;
+use crate::options::{Identify, Methods};
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
 
@@ -21,7 +22,7 @@ const LONG: u64 = 32 << 20;
 pub fn run(options: &Identify) -> Result<(), Failure> {
     // What is wrong with the options is wrong for every file: it is said once, before any is opened.
     Core::new(options.settings(options.rate.unwrap_or(1.0), None))?;
-    let mut rows = Rows::new(BufWriter::new(io::stdout().lock()), options.output);
+    let mut rows = Rows::new(BufWriter::new(io::stdout().lock()), options.output, options.methods == Methods::All);
     let several = options.files.len() > 1;
     let mut failure = None;
     for path in &options.files {
@@ -46,7 +47,9 @@ fn identify(path: &Path, options: &Identify, several: bool, rows: &mut Rows<impl
     let mut recording = Recording::open(path, &open)?;
     let name = recording.name().to_owned();
     let rate = sample_rate(&name, options.rate, recording.sample_rate())?;
-    let mut core = Box::new(Core::new(options.settings(rate, recording.full_scale()))?);
+    let settings = options.settings(rate, recording.full_scale());
+    let mut core = Box::new(Core::new(settings)?);
+    let mut history = (options.methods == Methods::All).then(|| History::new(settings.calibration, rate));
     let bar = progress(&recording);
     let length = recording.pairs().map_or(String::new(), |pairs| format!("{pairs} sample pairs at "));
     let heading = several.then(|| format!("{name}: {length}{rate} Hz"));
@@ -63,9 +66,14 @@ fn identify(path: &Path, options: &Identify, several: bool, rows: &mut Rows<impl
         let mut pairs = buffer.as_slice();
         while !pairs.is_empty() {
             let (taken, estimate) = core.push_slice(pairs);
-            pairs = &pairs[taken..];
+            let (new, rest) = pairs.split_at(taken);
+            pairs = rest;
+            if let Some(history) = &mut history {
+                history.extend(new);
+            }
             if let Some(estimate) = estimate {
-                rows.print(&name, &estimate)?;
+                let methods = history.as_ref().and_then(|history| history.compare(&estimate));
+                rows.print(&name, &estimate, methods.as_ref())?;
             }
         }
         if live || path == Path::new("-") {

@@ -3,6 +3,8 @@
 mod demonstration;
 mod failure;
 mod identify;
+mod method_rows;
+mod methods;
 mod options;
 mod recording;
 mod rows;

@@ -49,6 +49,9 @@ pub struct Identify {
     /// How rows are printed.
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub output: Format,
+    /// Which methods a row shows.
+    #[arg(long, value_enum, default_value_t = Methods::Exact)]
+    pub methods: Methods,
     /// Gain of pick-off D over that of C.
     #[arg(long, default_value_t = 1.0, value_name = "RATIO")]
     pub gain_ratio: f32,
@@ -76,6 +79,15 @@ pub struct Identify {
     /// Columns of a text recording, by name or number from 1: `C,D` or `TIME,C,D`.
     #[arg(long, value_name = "COLUMNS")]
     pub columns: Option<Columns>,
+}
+
+/// Which methods a row shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Methods {
+    /// The exact solution alone.
+    Exact,
+    /// The paper's four methods beside it, ranked, with a warning where they disagree beyond noise.
+    All,
 }
 
 /// How rows are printed.

@@ -25,6 +25,7 @@
 //! | functionals | (6), (15), (23) | [`functional`] |
 //! | J → min(ω) | | [`frequency`] |
 //! | the exact solution, to compare with | (6) without (8) | [`exact`] |
+//! | all side by side, ranked | | [`comparison`] |
 //!
 //! Formula numbers: R. I. Mingazov, K. V. Shishakov, 2021, DOI 10.22213/2410-9304-2021-3-12-24, with these errata: (12) takes its sign
 //! from ⟨S_C S_D⟩; the arguments in (14), (15), (18) are τ = ωt − α; in (16) a_B = (F − E)/2; in (22) a_B has the sign of Q in
@@ -60,12 +61,14 @@ pub mod algorithm2;
 pub mod algorithm3;
 pub mod algorithm4;
 pub mod axes;
+pub mod comparison;
 pub mod exact;
 pub mod frequency;
 pub mod functional;
 pub mod phase;
 
 mod delayed;
+mod expected;
 mod moments;
 mod products;
 mod ratio;

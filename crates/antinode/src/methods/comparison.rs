@@ -11,6 +11,8 @@ use super::{algorithm1, algorithm2, algorithm3, algorithm4, functional, phase};
 /// In white noise of 0.1 to 20 % of a_A no window of 20 000 came near it.
 pub const DISAGREEMENT: f64 = 6.0;
 
+/// The place of algorithm 1.
+const NO_QUADRATURE: usize = 0;
 /// The place of algorithm 3.
 const AXES: usize = 2;
 
@@ -153,6 +155,10 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
             // (22) gives |a_B|: near zero its borrowed sign may be the other one in noise.
             let own = explained.shape.quadrature_amplitude;
             seen.quadrature_amplitude = libm::copysign(seen.quadrature_amplitude, own);
+        }
+        if i == NO_QUADRATURE {
+            // So is the side of the pick-off's axis on which (12) sees the wave.
+            seen.angle = libm::copysign(seen.angle, explained.shape.angle);
         }
         let unit = scatter(&explained.shape, reference, count);
         Method {

@@ -73,6 +73,7 @@ pub mod block;
 pub mod methods;
 pub mod period;
 pub mod phase;
+pub mod regrid;
 
 mod calibration;
 mod estimate;

@@ -79,6 +79,8 @@ where
         .light_line_style(RGBColor(240, 240, 240))
         .bold_line_style(RGBColor(215, 215, 215))
         .x_labels(11)
+        .x_max_light_lines(0)
+        .y_max_light_lines(if panel.logarithmic { 1 } else { 0 })
         .x_label_formatter(&|x| format!("{x}"))
         .y_label_formatter(&|y| label(y))
         .draw()?;

@@ -64,29 +64,7 @@ impl History {
             delayed: Delayed::of(&pairs, lead, lag),
             products: Products::of(window, omega),
         };
-        let middle = 0.5 * (window.len() as f64 - 1.0);
-        // A rate that is lost in noise is none.
-        let change = |rate: f32, deviation: f32| {
-            let significant = rate.abs() > 3.0 * deviation;
-            if significant { f64::from(rate) * window.len() as f64 / self.sample_rate } else { 0.0 }
-        };
-        let reference = Reference {
-            wave: Wave {
-                shape: Shape {
-                    main_amplitude: estimate.main_amplitude.into(),
-                    quadrature_amplitude: estimate.quadrature_amplitude.into(),
-                    angle: estimate.angle,
-                },
-                phase: f64::from(estimate.phase) + omega * middle,
-            },
-            deviations: [estimate.main_amplitude_std, estimate.quadrature_amplitude_std, estimate.angle_std]
-                .map(|x| f64::from(x.max(f32::MIN_POSITIVE))),
-            noise: f64::from(estimate.residual_rms).powi(2),
-            // The core sees noise in three sums a block, ten blocks a window at the least, less ten unknowns.
-            noise_uncertainty: (2.0 / (6.0 * (window.len() as f64 * omega / TAU).max(10.0) - 10.0)).sqrt(),
-            turn: change(estimate.angle_rate, estimate.angle_rate_std),
-            decay: change(estimate.decay_rate, estimate.decay_rate_std),
-        };
+        let reference = Reference::of(estimate, self.sample_rate);
         let frequencies = self.frequencies(window, &sums, omega);
         Some(Methods { comparison: compare(&sums, &reference), frequencies })
     }

@@ -131,3 +131,64 @@ pub fn table(out: &mut impl Write, methods: &Methods) -> io::Result<()> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use antinode::{Identifier, Settings};
+    use antinode_sim::{Flaws, Gyro, Wave};
+
+    use super::*;
+    use crate::methods::History;
+
+    /// The last window of the paper's wave in noise, after it has gone through `change`.
+    fn last(change: impl Fn([f32; 2]) -> [f32; 2]) -> Methods {
+        let settings = Settings::new(1e5);
+        let flaws = Flaws { noise: 0.002, offset_c: 0.3, ..Flaws::default() };
+        let mut core = Box::new(Identifier::<256, 64>::new(settings).expect("valid settings"));
+        let mut history = History::new(settings.calibration, 1e5);
+        let mut found = None;
+        for pair in Gyro::new(Wave::default(), flaws, 1e5, 1).expect("a valid gyro").take(3000) {
+            let pair = change([pair.c as f32, pair.d as f32]);
+            history.extend(&[pair]);
+            if let Some(estimate) = core.push(pair) {
+                found = history.compare(&estimate);
+            }
+        }
+        found.expect("a window")
+    }
+
+    #[test]
+    fn every_column_has_its_value() {
+        let methods = last(|pair| pair);
+        let (names, fields) = (names(), fields(Some(&methods)));
+        assert_eq!((names.len(), fields.len(), super::fields(None).len()), (41, 41, 41));
+        let value = |name: &str| match fields[names.iter().position(|n| n == name).expect("a column")] {
+            Field::Number(x) => x,
+            Field::Count(n) => n.into(),
+            _ => panic!("{name} is no number"),
+        };
+        // Ten blocks of 19 samples are 10.13 periods: 1 % leaks.
+        assert!((value("method4_main_amplitude") - 2.0).abs() < 0.03);
+        assert!((value("method3_quadrature_amplitude") - 0.1).abs() < 0.02);
+        assert!((value("method2_quadrature_amplitude") - 0.1).abs() < 0.02);
+        assert!((value("method1_angle_rad") - 0.5236).abs() < 0.01);
+        assert!((value("leakage") - 0.011).abs() < 0.001);
+        for i in 1..=4 {
+            assert!((value(&format!("method{i}_frequency_hz")) - 5332.0).abs() < 1.0);
+        }
+        // Noise alone makes J 8·10⁻⁶; a_A off by 1 % of 2 adds half the square of that.
+        assert!((6e-6..6e-4).contains(&value("method4_j")) && value("method1_j") > value("method4_j"));
+        let text = serde_json::to_string(&Columns(Some(&methods))).expect("JSON");
+        assert!(text.contains("\"methods_flag\":\"\"") && text.contains("\"method1_rank\":4"), "{text}");
+    }
+
+    #[test]
+    fn a_limiter_is_warned_of() {
+        let methods = last(|pair| pair.map(|x| x.clamp(-0.8, 0.8)));
+        let mut lines = Vec::new();
+        table(&mut lines, &methods).expect("memory");
+        let lines = String::from_utf8(lines).expect("text");
+        assert!(lines.contains("unexplained") && lines.contains("warning"), "{lines}");
+        assert!(matches!(fields(Some(&methods)).last(), Some(Field::Text(flag)) if flag == "disagree"));
+    }
+}

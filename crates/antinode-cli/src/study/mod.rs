@@ -10,6 +10,8 @@ mod noisy;
 mod period;
 mod samples;
 mod table;
+#[cfg(test)]
+mod tests;
 
 use std::fs;
 use std::io::{self, Write};

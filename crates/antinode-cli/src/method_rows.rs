@@ -31,7 +31,13 @@ const OF_A_METHOD: [&str; 9] = [
     "rank",
 ];
 /// Columns of all methods together.
-const OF_ALL: [&str; 5] = ["leakage", "delay_imbalance", "phase_difference_rad", "methods_by_rank", "methods_flag"];
+const OF_ALL: [&str; 5] = [
+    "leakage",
+    "delay_imbalance",
+    "phase_difference_rad",
+    "methods_by_rank",
+    "methods_flag",
+];
 
 /// The names of all columns, in order.
 pub fn names() -> Vec<String> {
@@ -41,7 +47,11 @@ pub fn names() -> Vec<String> {
 
 /// The values of all columns, in order.
 pub fn fields(methods: Option<&Methods>) -> Vec<Field> {
-    let Some(Methods { comparison, frequencies }) = methods else {
+    let Some(Methods {
+        comparison,
+        frequencies,
+    }) = methods
+    else {
         return vec![Field::Missing; names().len()];
     };
     let mut fields = Vec::new();
@@ -64,7 +74,12 @@ pub fn fields(methods: Option<&Methods>) -> Vec<Field> {
         fields.push(Field::Count(method.rank));
     }
     fields.extend(
-        [comparison.leakage, comparison.imbalance, comparison.phase_difference].map(|x| Field::Number(rounded(x))),
+        [
+            comparison.leakage,
+            comparison.imbalance,
+            comparison.phase_difference,
+        ]
+        .map(|x| Field::Number(rounded(x))),
     );
     fields.push(Field::Text(by_rank(comparison)));
     fields.push(Field::Text(flag(comparison).into()));
@@ -78,9 +93,18 @@ fn rounded(x: f64) -> f64 {
 
 /// The methods from the most trusted to the least: `4>3>2>1`.
 fn by_rank(comparison: &Comparison) -> String {
-    let mut order: Vec<(u8, usize)> = comparison.methods.iter().zip(1..).map(|(m, i)| (m.rank, i)).collect();
+    let mut order: Vec<(u8, usize)> = comparison
+        .methods
+        .iter()
+        .zip(1..)
+        .map(|(m, i)| (m.rank, i))
+        .collect();
     order.sort_unstable();
-    order.iter().map(|(_, i)| i.to_string()).collect::<Vec<_>>().join(">")
+    order
+        .iter()
+        .map(|(_, i)| i.to_string())
+        .collect::<Vec<_>>()
+        .join(">")
 }
 
 /// The warning, or nothing.
@@ -104,8 +128,20 @@ impl Serialize for Columns<'_> {
 /// One line a method under a window's row: values, differences from the exact solution in its deviations, rank.
 pub fn table(out: &mut impl Write, methods: &Methods) -> io::Result<()> {
     let comparison = &methods.comparison;
-    for (i, (method, frequency)) in comparison.methods.iter().zip(methods.frequencies).enumerate() {
-        let Method { wave, j, differences, unexplained, conditions_hold, rank } = method;
+    for (i, (method, frequency)) in comparison
+        .methods
+        .iter()
+        .zip(methods.frequencies)
+        .enumerate()
+    {
+        let Method {
+            wave,
+            j,
+            differences,
+            unexplained,
+            conditions_hold,
+            rank,
+        } = method;
         let shape = wave.shape;
         let value = |x: f64, i: usize| format!("{x:.6} ({:+.1} σ)", differences[i]);
         let worst = unexplained.iter().fold(0f64, |worst, x| worst.max(x.abs()));
@@ -118,7 +154,11 @@ pub fn table(out: &mut impl Write, methods: &Methods) -> io::Result<()> {
             value(shape.angle.to_degrees(), 2),
             format!("{frequency:.4}"),
             j,
-            if *conditions_hold { "" } else { ", conditions do not hold" },
+            if *conditions_hold {
+                ""
+            } else {
+                ", conditions do not hold"
+            },
             if worst > antinode::methods::comparison::DISAGREEMENT {
                 format!(", {worst:.0} σ unexplained")
             } else {
@@ -127,7 +167,11 @@ pub fn table(out: &mut impl Write, methods: &Methods) -> io::Result<()> {
         )?;
     }
     if comparison.disagree {
-        writeln!(out, "{:>11} the methods disagree beyond noise: the signal is not one steady wave in white noise", "warning:")?;
+        writeln!(
+            out,
+            "{:>11} the methods disagree beyond noise: the signal is not one steady wave in white noise",
+            "warning:"
+        )?;
     }
     Ok(())
 }
@@ -143,11 +187,18 @@ mod tests {
     /// The last window of the paper's wave in noise, after it has gone through `change`.
     fn last(change: impl Fn([f32; 2]) -> [f32; 2]) -> Methods {
         let settings = Settings::new(1e5);
-        let flaws = Flaws { noise: 0.002, offset_c: 0.3, ..Flaws::default() };
+        let flaws = Flaws {
+            noise: 0.002,
+            offset_c: 0.3,
+            ..Flaws::default()
+        };
         let mut core = Box::new(Identifier::<256, 64>::new(settings).expect("valid settings"));
         let mut history = History::new(settings.calibration, 1e5);
         let mut found = None;
-        for pair in Gyro::new(Wave::default(), flaws, 1e5, 1).expect("a valid gyro").take(3000) {
+        for pair in Gyro::new(Wave::default(), flaws, 1e5, 1)
+            .expect("a valid gyro")
+            .take(3000)
+        {
             let pair = change([pair.c as f32, pair.d as f32]);
             history.extend(&[pair]);
             if let Some(estimate) = core.push(pair) {
@@ -161,12 +212,16 @@ mod tests {
     fn every_column_has_its_value() {
         let methods = last(|pair| pair);
         let (names, fields) = (names(), fields(Some(&methods)));
-        assert_eq!((names.len(), fields.len(), super::fields(None).len()), (41, 41, 41));
-        let value = |name: &str| match fields[names.iter().position(|n| n == name).expect("a column")] {
-            Field::Number(x) => x,
-            Field::Count(n) => n.into(),
-            _ => panic!("{name} is no number"),
-        };
+        assert_eq!(
+            (names.len(), fields.len(), super::fields(None).len()),
+            (41, 41, 41)
+        );
+        let value =
+            |name: &str| match fields[names.iter().position(|n| n == name).expect("a column")] {
+                Field::Number(x) => x,
+                Field::Count(n) => n.into(),
+                _ => panic!("{name} is no number"),
+            };
         // Ten blocks of 19 samples are 10.13 periods: 1 % leaks.
         assert!((value("method4_main_amplitude") - 2.0).abs() < 0.03);
         assert!((value("method3_quadrature_amplitude") - 0.1).abs() < 0.02);
@@ -177,9 +232,14 @@ mod tests {
             assert!((value(&format!("method{i}_frequency_hz")) - 5332.0).abs() < 1.0);
         }
         // Noise alone makes J 8·10⁻⁶; a_A off by 1 % of 2 adds half the square of that.
-        assert!((6e-6..6e-4).contains(&value("method4_j")) && value("method1_j") > value("method4_j"));
+        assert!(
+            (6e-6..6e-4).contains(&value("method4_j")) && value("method1_j") > value("method4_j")
+        );
         let text = serde_json::to_string(&Columns(Some(&methods))).expect("JSON");
-        assert!(text.contains("\"methods_flag\":\"\"") && text.contains("\"method1_rank\":4"), "{text}");
+        assert!(
+            text.contains("\"methods_flag\":\"\"") && text.contains("\"method1_rank\":4"),
+            "{text}"
+        );
     }
 
     #[test]
@@ -188,7 +248,12 @@ mod tests {
         let mut lines = Vec::new();
         table(&mut lines, &methods).expect("memory");
         let lines = String::from_utf8(lines).expect("text");
-        assert!(lines.contains("unexplained") && lines.contains("warning"), "{lines}");
-        assert!(matches!(fields(Some(&methods)).last(), Some(Field::Text(flag)) if flag == "disagree"));
+        assert!(
+            lines.contains("unexplained") && lines.contains("warning"),
+            "{lines}"
+        );
+        assert!(
+            matches!(fields(Some(&methods)).last(), Some(Field::Text(flag)) if flag == "disagree")
+        );
     }
 }

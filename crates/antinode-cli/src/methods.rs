@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 use antinode::Estimate;
 use antinode::methods::comparison::{Comparison, Reference, Sums, compare};
 use antinode::methods::{
-    Delayed, Moments, Products, Shape, Wave, algorithm1, algorithm2, algorithm3, algorithm4, frequency, functional, phase,
+    Delayed, Moments, Products, Shape, Wave, algorithm1, algorithm2, algorithm3, algorithm4,
+    frequency, functional, phase,
 };
 use antinode::{Calibration, Pair};
 
@@ -33,7 +34,12 @@ const LEAD: usize = 66;
 impl History {
     /// Nothing kept yet.
     pub fn new(calibration: Calibration, sample_rate: f64) -> Self {
-        Self { pairs: VecDeque::new(), start: 0, calibration, sample_rate }
+        Self {
+            pairs: VecDeque::new(),
+            start: 0,
+            calibration,
+            sample_rate,
+        }
     }
 
     /// Takes the samples that the identification took.
@@ -51,7 +57,11 @@ impl History {
         let first = usize::try_from(estimate.start.checked_sub(self.start)?).ok()?;
         let from = first.saturating_sub(LEAD);
         let end = first + estimate.samples as usize;
-        let raw: Vec<Pair> = self.pairs.range(from..end.min(self.pairs.len())).copied().collect();
+        let raw: Vec<Pair> = self
+            .pairs
+            .range(from..end.min(self.pairs.len()))
+            .copied()
+            .collect();
         let pairs = self.corrected(&raw, estimate, omega);
         let lead = first - from;
         let window = pairs.get(lead..)?;
@@ -66,12 +76,19 @@ impl History {
         };
         let reference = Reference::of(estimate, self.sample_rate);
         let frequencies = self.frequencies(window, &sums, omega);
-        Some(Methods { comparison: compare(&sums, &reference), frequencies })
+        Some(Methods {
+            comparison: compare(&sums, &reference),
+            frequencies,
+        })
     }
 
     /// J → min(ω) of each method, in Hz, from the exact frequency.
     fn frequencies(&self, window: &[Pair], sums: &Sums, omega: f64) -> [f64; 4] {
-        let Sums { moments, delayed, products } = sums;
+        let Sums {
+            moments,
+            delayed,
+            products,
+        } = sums;
         let search = |at: &dyn Fn(&Products) -> Wave| {
             let j = |omega: f64| {
                 let products = Products::of(window, omega);
@@ -79,7 +96,8 @@ impl History {
             };
             frequency::exact(omega, window.len() as u32, j) / TAU * self.sample_rate
         };
-        let fixed = |shape: Shape| search(&move |products: &Products| phase::align(&shape, products));
+        let fixed =
+            |shape: Shape| search(&move |products: &Products| phase::align(&shape, products));
         [
             fixed(algorithm1::shape(moments)),
             fixed(algorithm2::shape(moments, delayed.quarter(moments, omega))),
@@ -90,18 +108,34 @@ impl History {
 
     /// Centred samples of ideal pick-offs. The estimate's offsets are those of the raw signals.
     fn corrected(&self, raw: &[Pair], estimate: &Estimate, omega: f64) -> Vec<Pair> {
-        let Calibration { gain_ratio, skew, pick_off_angle } = self.calibration;
+        let Calibration {
+            gain_ratio,
+            skew,
+            pick_off_angle,
+        } = self.calibration;
         let (s, c) = (2.0 * pick_off_angle).sin_cos();
-        let centred: Vec<Pair> =
-            raw.iter().map(|p| [p[0] - estimate.offsets[0], p[1] - estimate.offsets[1]]).collect();
+        let centred: Vec<Pair> = raw
+            .iter()
+            .map(|p| [p[0] - estimate.offsets[0], p[1] - estimate.offsets[1]])
+            .collect();
         // D was sampled `delay` later: what it showed earlier is exact between two samples of a sinusoid.
         let delay = f64::from(skew) * self.sample_rate;
-        let neighbour = |k: usize| if delay >= 0.0 { k.checked_sub(1) } else { Some(k + 1) };
+        let neighbour = |k: usize| {
+            if delay >= 0.0 {
+                k.checked_sub(1)
+            } else {
+                Some(k + 1)
+            }
+        };
         let own = ((omega * (1.0 - delay.abs())).sin() / omega.sin()) as f32;
         let other = ((omega * delay.abs()).sin() / omega.sin()) as f32;
         let earlier = |k: usize, d: f32| {
             let beside = neighbour(k).and_then(|k| centred.get(k));
-            if delay == 0.0 { d } else { beside.map_or(d, |p| own * d + other * p[1]) }
+            if delay == 0.0 {
+                d
+            } else {
+                beside.map_or(d, |p| own * d + other * p[1])
+            }
         };
         let ideal = |(k, p): (usize, &Pair)| [p[0], (earlier(k, p[1]) / gain_ratio + p[0] * s) / c];
         centred.iter().enumerate().map(ideal).collect()

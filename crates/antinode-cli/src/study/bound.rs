@@ -15,7 +15,12 @@ pub fn bound(wave: &Wave, count: usize, rate: f64) -> [f64; 4] {
 
 /// The same for centred signals, with five unknowns.
 pub fn centred_bound(wave: &Wave, count: usize, rate: f64) -> [f64; 4] {
-    deviations(fisher(wave, count, rate).fixed_resize::<5, 5>(0.0).try_inverse(), rate)
+    deviations(
+        fisher(wave, count, rate)
+            .fixed_resize::<5, 5>(0.0)
+            .try_inverse(),
+        rate,
+    )
 }
 
 fn deviations<const N: usize>(covariance: Option<SMatrix<f64, N, N>>, rate: f64) -> [f64; 4] {
@@ -23,7 +28,12 @@ fn deviations<const N: usize>(covariance: Option<SMatrix<f64, N, N>>, rate: f64)
         return [f64::NAN; 4];
     };
     let deviation = |i: usize| covariance[(i, i)].sqrt();
-    [deviation(0), deviation(1), deviation(2).to_degrees(), deviation(3) * rate / TAU]
+    [
+        deviation(0),
+        deviation(1),
+        deviation(2).to_degrees(),
+        deviation(3) * rate / TAU,
+    ]
 }
 
 /// The Fisher matrix for noise of one a sample: a_A, a_B, θ, ω, α at the middle, offsets.
@@ -38,10 +48,29 @@ fn fisher(wave: &Wave, count: usize, rate: f64) -> SMatrix<f64, 7, 7> {
         let (s, c) = (omega * t - wave.phase).sin_cos();
         // Derivatives of (1)–(3): with respect to τ and θ, then to each unknown.
         let tau = [-a * s * c2 - b * c * s2, -a * s * s2 + b * c * c2];
-        let angle = [-2.0 * (a * c * s2 + b * s * c2), 2.0 * (a * c * c2 - b * s * s2)];
+        let angle = [
+            -2.0 * (a * c * s2 + b * s * c2),
+            2.0 * (a * c * c2 - b * s * s2),
+        ];
         for row in [
-            [c * c2, -s * s2, angle[0], (t - middle) * tau[0], -tau[0], 1.0, 0.0],
-            [c * s2, s * c2, angle[1], (t - middle) * tau[1], -tau[1], 0.0, 1.0],
+            [
+                c * c2,
+                -s * s2,
+                angle[0],
+                (t - middle) * tau[0],
+                -tau[0],
+                1.0,
+                0.0,
+            ],
+            [
+                c * s2,
+                s * c2,
+                angle[1],
+                (t - middle) * tau[1],
+                -tau[1],
+                0.0,
+                1.0,
+            ],
         ] {
             let row = SMatrix::<f64, 1, 7>::from_row_slice(&row);
             fisher += row.transpose() * row;

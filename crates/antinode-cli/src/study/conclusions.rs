@@ -15,13 +15,32 @@ pub struct Conclusion {
     pub found: String,
 }
 
-const FOUR: [Name; 4] = [Name::Algorithm1, Name::Algorithm2, Name::Algorithm3, Name::Algorithm4];
+const FOUR: [Name; 4] = [
+    Name::Algorithm1,
+    Name::Algorithm2,
+    Name::Algorithm3,
+    Name::Algorithm4,
+];
 
 /// Checks them all.
-pub fn check(wave: &Wave, first: &Figure, second: &Figure, third: &Figure, options: &Study) -> Vec<Conclusion> {
+pub fn check(
+    wave: &Wave,
+    first: &Figure,
+    second: &Figure,
+    third: &Figure,
+    options: &Study,
+) -> Vec<Conclusion> {
     vec![
-        best(first, "Figure 1: errors are least at 4 and 8 periods, where the grid fits the period.", [4.0, 8.0]),
-        best(second, "Figure 2: errors are least at 75 and 150 samples a period.", [75.0, 150.0]),
+        best(
+            first,
+            "Figure 1: errors are least at 4 and 8 periods, where the grid fits the period.",
+            [4.0, 8.0],
+        ),
+        best(
+            second,
+            "Figure 2: errors are least at 75 and 150 samples a period.",
+            [75.0, 150.0],
+        ),
         divides_by_four(wave),
         floor(wave, first),
         alike(first),
@@ -34,8 +53,12 @@ pub fn check(wave: &Wave, first: &Figure, second: &Figure, third: &Figure, optio
 
 /// Where a curve is lowest: its two best places.
 fn two_best(figure: &Figure, letter: char, name: Name) -> Vec<f64> {
-    let mut points: Vec<(f64, f64)> =
-        figure.curve(letter, name).iter().copied().zip(figure.x.iter().copied()).collect();
+    let mut points: Vec<(f64, f64)> = figure
+        .curve(letter, name)
+        .iter()
+        .copied()
+        .zip(figure.x.iter().copied())
+        .collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut best: Vec<f64> = points.iter().take(2).map(|point| point.1).collect();
     best.sort_by(f64::total_cmp);
@@ -43,7 +66,12 @@ fn two_best(figure: &Figure, letter: char, name: Name) -> Vec<f64> {
 }
 
 fn best(figure: &Figure, claim: &'static str, places: [f64; 2]) -> Conclusion {
-    let fits = |name: Name| "abc".chars().filter(|&letter| two_best(figure, letter, name) == places).count();
+    let fits = |name: Name| {
+        "abc"
+            .chars()
+            .filter(|&letter| two_best(figure, letter, name) == places)
+            .count()
+    };
     let found: Vec<String> = FOUR
         .iter()
         .map(|&name| format!("algorithm {}: {} of 3", &name.text()[..1], fits(name)))
@@ -92,10 +120,27 @@ fn divides_by_four(wave: &Wave) -> Conclusion {
 
 fn floor(wave: &Wave, first: &Figure) -> Conclusion {
     let place = 3;
-    let [a, angle] = ['a', 'c'].map(|letter| first.curve(letter, Name::Algorithm1).get(place).copied().unwrap_or(f64::NAN));
-    let third = first.curve('a', Name::Algorithm3).get(place).copied().unwrap_or(f64::NAN);
-    let pure = Wave { quadrature_amplitude: 0.0, ..*wave };
-    let without = error(&Samples::simulate(&pure, 4, RATE, 0.0, 0), &pure, Name::Algorithm1);
+    let [a, angle] = ['a', 'c'].map(|letter| {
+        first
+            .curve(letter, Name::Algorithm1)
+            .get(place)
+            .copied()
+            .unwrap_or(f64::NAN)
+    });
+    let third = first
+        .curve('a', Name::Algorithm3)
+        .get(place)
+        .copied()
+        .unwrap_or(f64::NAN);
+    let pure = Wave {
+        quadrature_amplitude: 0.0,
+        ..*wave
+    };
+    let without = error(
+        &Samples::simulate(&pure, 4, RATE, 0.0, 0),
+        &pure,
+        Name::Algorithm1,
+    );
     Conclusion {
         claim: "Algorithm 1's errors have a floor, from neglecting quadrature.",
         confirmed: a > 10.0 * without[0] && a > 10.0 * third && angle > 10.0 * without[2],
@@ -112,14 +157,23 @@ fn alike(first: &Figure) -> Conclusion {
     let mut widest = 1f64;
     for i in 0..first.x.len() {
         // What lies below the search's own step of 1 Hz is alike.
-        let values = FOUR.map(|name| first.curve('d', name).get(i).copied().unwrap_or(f64::NAN).max(0.5));
+        let values = FOUR.map(|name| {
+            first
+                .curve('d', name)
+                .get(i)
+                .copied()
+                .unwrap_or(f64::NAN)
+                .max(0.5)
+        });
         let [low, high] = [f64::min, f64::max].map(|pick| values.into_iter().fold(values[0], pick));
         widest = widest.max(high / low);
     }
     Conclusion {
         claim: "Figure 1: the four algorithms' errors of frequency behave alike.",
         confirmed: widest < 3.0,
-        found: format!("Largest over least of the four, at any count of periods, in units of half the search's step or more: {widest:.1}."),
+        found: format!(
+            "Largest over least of the four, at any count of periods, in units of half the search's step or more: {widest:.1}."
+        ),
     }
 }
 
@@ -142,8 +196,20 @@ fn grid(first: &Figure) -> Conclusion {
 
 fn noise(wave: &Wave, third: &Figure, options: &Study) -> Conclusion {
     let level = 10;
-    let one = |letter, name| third.curve(letter, name).get(level).copied().unwrap_or(f64::NAN);
-    let ten = noisy::rms(wave, 10, &[level as u32], (options.runs / 5).max(1), options.seed);
+    let one = |letter, name| {
+        third
+            .curve(letter, name)
+            .get(level)
+            .copied()
+            .unwrap_or(f64::NAN)
+    };
+    let ten = noisy::rms(
+        wave,
+        10,
+        &[level as u32],
+        (options.runs / 5).max(1),
+        options.seed,
+    );
     let place = |name| CURVES.iter().position(|&curve| curve == name).unwrap_or(0);
     let ratio = |name| one('c', name) / ten[0][place(name)][2];
     let [third, fourth] = [ratio(Name::Algorithm3), ratio(Name::Algorithm4)];
@@ -159,7 +225,13 @@ fn noise(wave: &Wave, third: &Figure, options: &Study) -> Conclusion {
 }
 
 fn long(first: &Figure, quadrature_of_two: bool) -> Conclusion {
-    let last = |letter, name| first.curve(letter, name).last().copied().unwrap_or(f64::NAN);
+    let last = |letter, name| {
+        first
+            .curve(letter, name)
+            .last()
+            .copied()
+            .unwrap_or(f64::NAN)
+    };
     if quadrature_of_two {
         let (whole, fractional) = (last('b', Name::Algorithm2), last('b', Name::Fractional));
         return Conclusion {
@@ -170,7 +242,11 @@ fn long(first: &Figure, quadrature_of_two: bool) -> Conclusion {
             ),
         };
     }
-    let worst = |letter| FOUR.iter().map(|&name| last(letter, name)).fold(0.0, f64::max);
+    let worst = |letter| {
+        FOUR.iter()
+            .map(|&name| last(letter, name))
+            .fold(0.0, f64::max)
+    };
     let fine = worst('a') < 0.01 && worst('c') < 0.1 && worst('d') < 2.0;
     Conclusion {
         claim: "All four work well from 10 periods on (a_A within 0.5 %, angle within 0.1°, frequency within 2 Hz).",

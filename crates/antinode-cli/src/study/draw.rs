@@ -27,31 +27,57 @@ pub fn write(path: &Path, figure: &Figure, panel: &Panel) -> Result<(), Box<dyn 
         // It fails only for a font that cannot be read, and this one can.
         let _ = register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT);
     });
-    draw(&SVGBackend::new(&path.with_extension("svg"), SIZE).into_drawing_area(), figure, panel)?;
-    draw(&BitMapBackend::new(&path.with_extension("png"), SIZE).into_drawing_area(), figure, panel)
+    draw(
+        &SVGBackend::new(&path.with_extension("svg"), SIZE).into_drawing_area(),
+        figure,
+        panel,
+    )?;
+    draw(
+        &BitMapBackend::new(&path.with_extension("png"), SIZE).into_drawing_area(),
+        figure,
+        panel,
+    )
 }
 
-fn draw<B: DrawingBackend>(area: &DrawingArea<B, Shift>, figure: &Figure, panel: &Panel) -> Result<(), Box<dyn Error>>
+fn draw<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    figure: &Figure,
+    panel: &Panel,
+) -> Result<(), Box<dyn Error>>
 where
     B::ErrorType: 'static,
 {
     area.fill(&WHITE)?;
     let (area, beside) = area.split_horizontally(SIZE.0 - KEY_WIDTH);
     key(&beside, panel)?;
-    let values = || panel.curves.iter().flat_map(|curve| &curve.y).copied().filter(|y| y.is_finite());
+    let values = || {
+        panel
+            .curves
+            .iter()
+            .flat_map(|curve| &curve.y)
+            .copied()
+            .filter(|y| y.is_finite())
+    };
     let greatest = values().fold(f64::MIN_POSITIVE, f64::max);
     let least = values().filter(|&y| y > 0.0).fold(greatest, f64::min);
-    let (first, last) = (figure.x.first().copied().unwrap_or(0.0), figure.x.last().copied().unwrap_or(1.0));
+    let (first, last) = (
+        figure.x.first().copied().unwrap_or(0.0),
+        figure.x.last().copied().unwrap_or(1.0),
+    );
     let margin = 0.02 * (last - first);
     let across = first - margin..last + margin;
     let mut builder = ChartBuilder::on(&area);
     builder
-        .caption(format!("Figure {}{}: {}", figure.number, panel.letter, panel.title), (FONT, 22))
+        .caption(
+            format!("Figure {}{}: {}", figure.number, panel.letter, panel.title),
+            (FONT, 22),
+        )
         .margin(12)
         .x_label_area_size(48)
         .y_label_area_size(84);
     if panel.logarithmic {
-        let chart = builder.build_cartesian_2d(across, (0.5 * least..2.0 * greatest).log_scale())?;
+        let chart =
+            builder.build_cartesian_2d(across, (0.5 * least..2.0 * greatest).log_scale())?;
         fill(chart, figure, panel, &|y| format!("{y:.0e}"))
     } else {
         let chart = builder.build_cartesian_2d(across, 0.0..1.05 * greatest)?;
@@ -86,14 +112,23 @@ where
         .draw()?;
     for curve in &panel.curves {
         let (color, width) = style(curve.name);
-        let points: Vec<(f64, f64)> =
-            figure.x.iter().copied().zip(curve.y.iter().copied()).filter(|(_, y)| y.is_finite()).collect();
+        let points: Vec<(f64, f64)> = figure
+            .x
+            .iter()
+            .copied()
+            .zip(curve.y.iter().copied())
+            .filter(|(_, y)| y.is_finite())
+            .collect();
         let line = color.stroke_width(width);
         if curve.name.is_bound() {
             chart.draw_series(DashedLineSeries::new(points, DASH.0, DASH.1, line))?;
         } else {
             chart.draw_series(LineSeries::new(points.iter().copied(), line))?;
-            chart.draw_series(points.iter().map(|&point| Circle::new(point, 3, color.filled())))?;
+            chart.draw_series(
+                points
+                    .iter()
+                    .map(|&point| Circle::new(point, 3, color.filled())),
+            )?;
         }
     }
     chart.plotting_area().present()?;
@@ -110,7 +145,11 @@ where
         let y = 60 + 26 * row;
         let line = color.stroke_width(width);
         if curve.name.is_bound() {
-            for x in [4, 4 + (DASH.0 + DASH.1) as i32, 4 + 2 * (DASH.0 + DASH.1) as i32] {
+            for x in [
+                4,
+                4 + (DASH.0 + DASH.1) as i32,
+                4 + 2 * (DASH.0 + DASH.1) as i32,
+            ] {
                 area.draw(&PathElement::new([(x, y), (x + DASH.0 as i32, y)], line))?;
             }
         } else {

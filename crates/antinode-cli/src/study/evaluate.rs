@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use antinode::methods::{
-    Delayed, Moments, Products, Shape, Wave as Found, algorithm1, algorithm2, algorithm3, algorithm4, exact, frequency,
-    functional, phase,
+    Delayed, Moments, Products, Shape, Wave as Found, algorithm1, algorithm2, algorithm3,
+    algorithm4, exact, frequency, functional, phase,
 };
 use antinode_sim::Wave;
 
@@ -40,7 +40,11 @@ pub fn errors(samples: &Samples, wave: &Wave) -> [Errors; 8] {
     let rough = period::by_difference(samples);
     let moments = Moments::of(window);
     let products = Products::of(window, known);
-    let lag = algorithm2::choose_lag(samples.with_lead(), samples.lead, algorithm2::quarter_lag((1.0 / rough) as f32));
+    let lag = algorithm2::choose_lag(
+        samples.with_lead(),
+        samples.lead,
+        algorithm2::quarter_lag((1.0 / rough) as f32),
+    );
     let delayed = Delayed::of(samples.with_lead(), samples.lead, lag);
 
     let first = algorithm1::shape(&moments);
@@ -59,7 +63,14 @@ pub fn errors(samples: &Samples, wave: &Wave) -> [Errors; 8] {
     let aligned = |shape: Shape| refined(&|products: &Products| phase::align(&shape, products));
     let solved = exact::solve(window, TAU * rough);
     let by = |shape: Shape, omega: f64| difference(&shape, omega, samples.rate, wave);
-    let frequency_only = |cycles: f64| [f64::NAN, f64::NAN, f64::NAN, cycles * samples.rate - wave.frequency];
+    let frequency_only = |cycles: f64| {
+        [
+            f64::NAN,
+            f64::NAN,
+            f64::NAN,
+            cycles * samples.rate - wave.frequency,
+        ]
+    };
     [
         by(first, aligned(first)),
         by(second, aligned(second)),

@@ -54,13 +54,18 @@ pub fn run(options: &Study) -> Result<(), Failure> {
         let path = options.out.join(format!("figure-{}.csv", figure.number));
         table::write(&path, figure).map_err(|error| failed(&path, &error))?;
         for panel in &figure.panels {
-            let path = options.out.join(format!("figure-{}{}", figure.number, panel.letter));
+            let path = options
+                .out
+                .join(format!("figure-{}{}", figure.number, panel.letter));
             draw::write(&path, figure, panel).map_err(|error| failed(&path, &error))?;
         }
     }
 
     let mut out = io::stdout().lock();
-    let panels: usize = [&first, &second, &third].iter().map(|figure| figure.panels.len()).sum();
+    let panels: usize = [&first, &second, &third]
+        .iter()
+        .map(|figure| figure.panels.len())
+        .sum();
     writeln!(
         out,
         "{panels} panels as SVG and PNG, and 3 tables as CSV, are in {}; {} runs a point in figure 3, seed {}.\n",
@@ -69,8 +74,16 @@ pub fn run(options: &Study) -> Result<(), Failure> {
         options.seed,
     )?;
     for conclusion in conclusions::check(&wave, &first, &second, &third, options) {
-        let mark = if conclusion.confirmed { "confirmed" } else { "NOT CONFIRMED" };
-        writeln!(out, "{mark:>13}  {}\n{:15}{}", conclusion.claim, "", conclusion.found)?;
+        let mark = if conclusion.confirmed {
+            "confirmed"
+        } else {
+            "NOT CONFIRMED"
+        };
+        writeln!(
+            out,
+            "{mark:>13}  {}\n{:15}{}",
+            conclusion.claim, "", conclusion.found
+        )?;
     }
     Ok(())
 }

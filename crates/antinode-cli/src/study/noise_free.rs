@@ -22,10 +22,17 @@ pub fn against_periods(wave: &Wave) -> Figure {
 
 /// Figure 2: one period, at 1 to 10 times 100 kS/s.
 pub fn against_samples(wave: &Wave) -> Figure {
-    let windows: Vec<Samples> =
-        (1..=10).map(|times| Samples::simulate(wave, 1, RATE * f64::from(times), 0.0, 0)).collect();
+    let windows: Vec<Samples> = (1..=10)
+        .map(|times| Samples::simulate(wave, 1, RATE * f64::from(times), 0.0, 0))
+        .collect();
     let x = windows.iter().map(|window| window.count as f64).collect();
-    figure(2, "samples in the window of one period", x, windows.into_iter(), wave)
+    figure(
+        2,
+        "samples in the window of one period",
+        x,
+        windows.into_iter(),
+        wave,
+    )
 }
 
 fn figure(
@@ -37,7 +44,11 @@ fn figure(
 ) -> Figure {
     let kinds = [
         ('a', "main amplitude a_A = 2", "absolute error, input units"),
-        ('b', "quadrature amplitude a_B = 0.1", "absolute error, input units"),
+        (
+            'b',
+            "quadrature amplitude a_B = 0.1",
+            "absolute error, input units",
+        ),
         ('c', "angle of the standing wave", "absolute error, degrees"),
         ('d', "frequency", "absolute error, Hz"),
     ];
@@ -47,16 +58,27 @@ fn figure(
             title: format!("{title}, without noise (bounds: noise of 0.01 %)"),
             axis,
             logarithmic: true,
-            curves: CURVES.into_iter().chain([Name::Bound, Name::CentredBound]).map(|name| Curve { name, y: Vec::new() }).collect(),
+            curves: CURVES
+                .into_iter()
+                .chain([Name::Bound, Name::CentredBound])
+                .map(|name| Curve {
+                    name,
+                    y: Vec::new(),
+                })
+                .collect(),
         })
         .into();
     let mut deviation = Vec::new();
     for window in windows {
         let noise = BOUND_NOISE * wave.main_amplitude;
-        let bounds = [bound, centred_bound].map(|bound| bound(wave, window.count, window.rate).map(|x| x * noise));
+        let bounds = [bound, centred_bound]
+            .map(|bound| bound(wave, window.count, window.rate).map(|x| x * noise));
         let errors = errors(&window, wave);
         for (i, panel) in panels.iter_mut().enumerate() {
-            let values = errors.iter().map(|error| error[i].abs().max(FLOOR)).chain(bounds.map(|bound| bound[i]));
+            let values = errors
+                .iter()
+                .map(|error| error[i].abs().max(FLOOR))
+                .chain(bounds.map(|bound| bound[i]));
             for (curve, value) in panel.curves.iter_mut().zip(values) {
                 curve.y.push(value);
             }
@@ -66,7 +88,10 @@ fn figure(
     for panel in &mut panels {
         // f64::max takes no part in a missing value.
         panel.curves.retain(|curve| {
-            !matches!((curve.name, panel.letter), (Name::MeanReturn | Name::Difference, 'a'..='c') | (Name::Fractional, 'd'))
+            !matches!(
+                (curve.name, panel.letter),
+                (Name::MeanReturn | Name::Difference, 'a'..='c') | (Name::Fractional, 'd')
+            )
         });
     }
     panels.push(Panel {
@@ -74,7 +99,15 @@ fn figure(
         title: "relative deviation of the sampled span from whole periods".into(),
         axis: "|n/(N·P) − 1|",
         logarithmic: false,
-        curves: vec![Curve { name: Name::Deviation, y: deviation }],
+        curves: vec![Curve {
+            name: Name::Deviation,
+            y: deviation,
+        }],
     });
-    Figure { number, axis, x, panels }
+    Figure {
+        number,
+        axis,
+        x,
+        panels,
+    }
 }

@@ -28,7 +28,10 @@ pub fn by_mean_return(samples: &Samples) -> f64 {
 ///
 /// Looked for between half and one and a half periods.
 pub fn by_difference(samples: &Samples) -> f64 {
-    let (least, most) = ((0.5 * samples.period).ceil() as usize, (1.5 * samples.period) as usize);
+    let (least, most) = (
+        (0.5 * samples.period).ceil() as usize,
+        (1.5 * samples.period) as usize,
+    );
     let mut best = (f64::INFINITY, 1);
     for lag in least..=most {
         let before = &samples.pairs[samples.lead - lag..];

@@ -28,12 +28,32 @@ impl Samples {
         let lead = (1.5 * period).ceil() as usize;
         let count = (f64::from(periods) * period).round() as usize;
         let after = (0.25 * period).ceil() as usize + 1;
-        let early = Wave { phase: wave.phase + TAU * wave.frequency * lead as f64 / rate, ..*wave };
-        let gyro = Gyro::new(early, Flaws { noise, ..Flaws::default() }, rate, seed);
+        let early = Wave {
+            phase: wave.phase + TAU * wave.frequency * lead as f64 / rate,
+            ..*wave
+        };
+        let gyro = Gyro::new(
+            early,
+            Flaws {
+                noise,
+                ..Flaws::default()
+            },
+            rate,
+            seed,
+        );
         let pairs = gyro.map_or(Vec::new(), |gyro| {
-            gyro.take(lead + count + after).map(|pair| [pair.c as f32, pair.d as f32]).collect()
+            gyro.take(lead + count + after)
+                .map(|pair| [pair.c as f32, pair.d as f32])
+                .collect()
         });
-        Self { pairs, lead, count, period, rate, periods }
+        Self {
+            pairs,
+            lead,
+            count,
+            period,
+            rate,
+            periods,
+        }
     }
 
     /// The window.

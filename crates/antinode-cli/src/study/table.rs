@@ -7,7 +7,9 @@ use super::figure::Figure;
 /// Writes all panels of a figure.
 pub fn write(path: &Path, figure: &Figure) -> Result<(), csv::Error> {
     let mut out = csv::Writer::from_path(path)?;
-    out.write_record(["figure", "panel", "quantity", "value_is", "curve", "x_is", "x", "value"])?;
+    out.write_record([
+        "figure", "panel", "quantity", "value_is", "curve", "x_is", "x", "value",
+    ])?;
     for panel in &figure.panels {
         for curve in &panel.curves {
             for (x, y) in figure.x.iter().zip(&curve.y) {

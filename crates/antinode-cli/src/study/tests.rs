@@ -7,7 +7,10 @@ use super::*;
 fn seeded_whatever_the_cores() {
     let wave = Wave::default();
     let with = |threads: usize, seed: u64| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool of threads");
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("a pool of threads");
         pool.install(|| noisy::rms(&wave, 1, &[0, 10], 600, seed))
     };
     let text = |seed, threads| format!("{:?}", with(threads, seed));
@@ -20,11 +23,17 @@ fn the_exact_solution_reaches_the_bound() {
     let wave = Wave::default();
     let figure = noisy::against_noise(&wave, 2000, 1);
     for letter in ['a', 'b', 'c', 'd'] {
-        let (exact, bound) = (figure.curve(letter, Name::Exact), figure.curve(letter, Name::Bound));
+        let (exact, bound) = (
+            figure.curve(letter, Name::Exact),
+            figure.curve(letter, Name::Bound),
+        );
         assert_eq!((exact.len(), bound.len()), (21, 21));
         for level in 1..=10 {
             let ratio = exact[level] / bound[level];
-            assert!((0.92..1.08).contains(&ratio), "{letter} at {level} %: {ratio}");
+            assert!(
+                (0.92..1.08).contains(&ratio),
+                "{letter} at {level} %: {ratio}"
+            );
         }
     }
     // Noise biases the quadrature of algorithm 3, and not that of 4.
@@ -36,23 +45,42 @@ fn the_exact_solution_reaches_the_bound() {
 fn conclusions_and_files_are_those_of_the_documentation() {
     let wave = Wave::default();
     let folder = tempfile::tempdir().expect("a folder");
-    let options = Study { out: folder.path().join("new"), runs: 500, seed: 1 };
+    let options = Study {
+        out: folder.path().join("new"),
+        runs: 500,
+        seed: 1,
+    };
     run(&options).expect("a study");
     let first = noise_free::against_periods(&wave);
     let second = noise_free::against_samples(&wave);
     let third = noisy::against_noise(&wave, 500, 1);
     let found = conclusions::check(&wave, &first, &second, &third, &options);
-    let confirmed: Vec<bool> = found.iter().map(|conclusion| conclusion.confirmed).collect();
-    assert_eq!(confirmed, [true, true, true, true, true, true, true, true, false]);
+    let confirmed: Vec<bool> = found
+        .iter()
+        .map(|conclusion| conclusion.confirmed)
+        .collect();
+    assert_eq!(
+        confirmed,
+        [true, true, true, true, true, true, true, true, false]
+    );
     let mut count = [0; 3];
     for entry in fs::read_dir(&options.out).expect("the folder made") {
         let path = entry.expect("an entry").path();
-        let kind = ["svg", "png", "csv"].iter().position(|kind| path.extension().is_some_and(|e| e == *kind));
+        let kind = ["svg", "png", "csv"]
+            .iter()
+            .position(|kind| path.extension().is_some_and(|e| e == *kind));
         count[kind.expect("a known kind of file")] += 1;
-        assert!(fs::metadata(&path).expect("a file").len() > 5000, "{}", path.display());
+        assert!(
+            fs::metadata(&path).expect("a file").len() > 5000,
+            "{}",
+            path.display()
+        );
     }
     assert_eq!(count, [14, 14, 3]);
     // A header, then 10 points of every curve: 8 each of a, b, c with two bounds less (9) and (10), 9 of d, 1 of e.
-    let rows = fs::read_to_string(options.out.join("figure-1.csv")).expect("a table").lines().count();
+    let rows = fs::read_to_string(options.out.join("figure-1.csv"))
+        .expect("a table")
+        .lines()
+        .count();
     assert_eq!(rows, 1 + 10 * (8 + 8 + 8 + 9 + 1));
 }

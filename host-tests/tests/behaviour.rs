@@ -343,3 +343,27 @@ fn settings_that_cannot_work_are_refused() {
         "20 periods a window: the ring of blocks holds at most 14"
     );
 }
+
+#[test]
+fn the_angle_runs_on_over_gaps_in_which_it_turns_far() {
+    // A window every 0.19 s: the pattern turns by 0.95 rad meanwhile, more than the ambiguity allows without its rate.
+    let wave = Wave {
+        angle_rate: 5.0,
+        ..Wave::default()
+    };
+    let settings = Settings {
+        hop: Some(1000),
+        ..windows(10)
+    };
+    let flaws = Flaws {
+        noise: 0.002,
+        ..Flaws::default()
+    };
+    let estimates = identify(wave, &flaws, settings, 300_000, 3);
+    assert!(estimates.len() > 12);
+    for pair in estimates.windows(2) {
+        let turned = pair[1].angle - pair[0].angle;
+        let expected = 5.0 * (pair[1].time - pair[0].time);
+        assert!((turned - expected).abs() < 0.01, "{turned} {expected}");
+    }
+}

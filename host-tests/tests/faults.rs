@@ -298,3 +298,232 @@ fn a_step_between_or_within_windows_is_flagged() {
         }
     }
 }
+
+/// Runs a gyro through the core with `change` applied to every pair; gives the estimates.
+fn changed(
+    seed: u64,
+    noise: f64,
+    periods: u16,
+    samples: usize,
+    change: impl Fn(usize, [f64; 2]) -> [f64; 2],
+) -> Vec<Estimate> {
+    let (wave, mut flaws) = gyro(seed);
+    flaws.noise = noise * wave.main_amplitude;
+    let mut core = Core::new(windows(periods)).unwrap();
+    let gyro = antinode_sim::Gyro::new(wave, flaws, RATE, seed).unwrap();
+    let pairs = gyro
+        .take(samples)
+        .enumerate()
+        .map(|(k, pair)| change(k, [pair.c, pair.d]));
+    pairs
+        .filter_map(|[c, d]| core.push([c as f32, d as f32]))
+        .collect()
+}
+
+/// The windows that a stretch of samples touches by at least a block, and the flags of all others.
+fn touched(estimates: &[Estimate], from: usize, to: usize) -> Vec<&Estimate> {
+    let block = 19;
+    estimates
+        .iter()
+        .filter(|e| {
+            e.start + block < to as u64 && e.start + u64::from(e.samples) > from as u64 + block
+        })
+        .collect()
+}
+
+#[test]
+fn a_sample_lost_between_two_windows_is_flagged() {
+    // Over one window's length of places, one falls between two windows.
+    let (wave, mut flaws) = gyro(1);
+    for at in 50_000..50_190 {
+        flaws.lost = vec![Loss { at, count: 1 }];
+        let estimates = identify(wave, &flaws, windows(10), 53_000, 1);
+        let end = |e: &Estimate| e.start + u64::from(e.samples);
+        let near = estimates.iter().filter(|e| end(e) >= at && e.start <= at);
+        assert!(
+            near.clone().any(|e| !e.flags.is_empty()),
+            "{at}: {near:?}",
+            near = near.collect::<Vec<_>>()
+        );
+        if let Some(after) = estimates.iter().find(|e| e.start == at) {
+            assert!(
+                after.flags.contains(Flags::PHASE_JUMP),
+                "{at}: {}",
+                after.flags
+            );
+        }
+    }
+}
+
+#[test]
+fn a_burst_of_noise_is_flagged() {
+    for seed in 0..40 {
+        let (wave, _) = gyro(seed);
+        let mut state: u64 = seed * 2 + 1;
+        let noise: Vec<f64> = (0..2000)
+            .map(|_| {
+                state = state
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1_442_695_040_888_963_407);
+                // Uniform: with the wave's own noise 3.3 times as much as before.
+                0.055 * wave.main_amplitude * ((state >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
+            })
+            .collect();
+        let estimates = changed(seed, 0.005, 10, 60_000, |k, [c, d]| {
+            match k.checked_sub(30_000) {
+                Some(i) if i < 500 => [c + noise[i], d + noise[1000 + i]],
+                _ => [c, d],
+            }
+        });
+        let inside = estimates
+            .iter()
+            .filter(|e| e.start >= 30_000 && e.start + 190 <= 30_500);
+        assert!(inside.clone().count() >= 1);
+        assert!(
+            inside.clone().all(|e| e.flags.contains(Flags::MISFIT)),
+            "seed {seed}"
+        );
+        let near = |e: &Estimate| e.start < 30_700 && e.start > 29_700;
+        assert!(
+            estimates.iter().all(|e| e.flags.is_empty() || near(e)),
+            "seed {seed}"
+        );
+    }
+}
+
+#[test]
+fn a_second_tone_is_flagged_from_the_first_window_on() {
+    for seed in 0..10 {
+        let estimates = changed(seed, 0.001, 10, 20_000, |k, [c, d]| {
+            let tone = 0.05 * (std::f64::consts::TAU * 5800.0 * k as f64 / RATE).sin();
+            [c + tone, d - 0.5 * tone]
+        });
+        assert!(estimates.len() > 90);
+        assert!(
+            estimates.iter().all(|e| e.flags.contains(Flags::MISFIT)),
+            "seed {seed}"
+        );
+    }
+}
+
+#[test]
+fn a_spike_in_a_long_window_is_flagged() {
+    for seed in 0..10 {
+        let (wave, _) = gyro(seed);
+        let at = 60_000 + 17 * seed as usize;
+        let estimates = changed(seed, 0.02, 50, 120_000, |k, [c, d]| {
+            [
+                c,
+                if k == at {
+                    d + 0.9 * wave.main_amplitude
+                } else {
+                    d
+                },
+            ]
+        });
+        for estimate in touched(&estimates, at, at + 1) {
+            assert!(
+                estimate.flags.contains(Flags::MISFIT),
+                "seed {seed}: {estimate:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_small_step_within_a_window_is_flagged() {
+    // A tenth of the amplitude in 2 % noise: the residual as a whole hardly rises, but it has the shape of a step.
+    let mut hits = 0;
+    for seed in 0..40 {
+        let at = 40_000 + 43 * seed;
+        let estimates = changed(seed, 0.02, 10, 50_000, |k, [c, d]| {
+            let gain = if k as u64 >= at { 1.1 } else { 1.0 };
+            [gain * c, gain * d]
+        });
+        if let Some(estimate) = estimates
+            .iter()
+            .find(|e| (e.start + 57..e.start + 133).contains(&at))
+        {
+            assert!(
+                estimate.flags.contains(Flags::MISFIT),
+                "seed {seed}: {estimate:?}"
+            );
+            hits += 1;
+        }
+    }
+    assert!(hits > 10, "{hits}");
+}
+
+#[test]
+fn flattened_crests_are_flagged_in_noise_without_a_known_rail() {
+    for seed in 0..10 {
+        let (wave, _) = gyro(seed);
+        let (s2, c2) = (2.0 * wave.at(0.5).angle).sin_cos();
+        let level = 0.75 * wave.at(0.5).main_amplitude * s2.abs().max(c2.abs());
+        let estimates = changed(seed, 0.1, 10, 90_000, |k, pair| {
+            if (40_000..60_000).contains(&k) {
+                pair.map(|s| s.clamp(-level, level))
+            } else {
+                pair
+            }
+        });
+        for estimate in touched(&estimates, 40_200, 59_800) {
+            assert!(
+                estimate.flags.contains(Flags::CLIPPED),
+                "seed {seed}: {estimate:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_limiter_before_the_noise_is_flagged_by_its_harmonic() {
+    for seed in 0..10 {
+        let wave = Wave {
+            angle_rate: 0.0,
+            ..gyro(seed).0
+        };
+        let a = wave.main_amplitude;
+        let (s2, c2) = (2.0 * wave.at(0.3).angle).sin_cos();
+        let level = 0.9 * a * s2.abs().max(c2.abs());
+        let mut state = 77 + seed;
+        let mut noise = move || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            0.01 * a * ((state >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
+        };
+        // Limited amplifiers ahead of a noisy converter: no two samples are equal.
+        let mut core = Core::new(windows(10)).unwrap();
+        let gyro = antinode_sim::Gyro::new(wave, Flaws::default(), RATE, seed).unwrap();
+        let mut estimates = Vec::new();
+        for (k, pair) in gyro.take(60_000).enumerate() {
+            let limit = if k < 30_000 { f64::INFINITY } else { level };
+            let [c, d] = [pair.c, pair.d].map(|s| (s.clamp(-limit, limit) + noise()) as f32);
+            estimates.extend(core.push([c, d]));
+        }
+        for estimate in &estimates {
+            if estimate.start >= 30_000 {
+                assert!(
+                    estimate.flags.contains(Flags::CLIPPED),
+                    "seed {seed}: {estimate:?}"
+                );
+            } else if estimate.start + u64::from(estimate.samples) < 30_000 {
+                assert!(estimate.flags.is_empty(), "seed {seed}: {}", estimate.flags);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_pick_off_that_was_dead_from_the_start_is_flagged() {
+    for value in [0.0, 0.3] {
+        let estimates = changed(4, 0.01, 10, 20_000, |_, [c, _]| [c, value]);
+        assert!(estimates.len() > 90);
+        assert!(
+            estimates
+                .iter()
+                .all(|e| e.flags.contains(Flags::DEAD_CHANNEL))
+        );
+    }
+}

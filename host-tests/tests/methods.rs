@@ -383,6 +383,25 @@ fn streaming_sums_are_those_of_the_slice() {
         }
     }
     assert_eq!((blocks.len(), moments.count, delayed.count), (10, 190, 185));
+    // Cut in any way, the sums are the same to the bit.
+    let (mut by_one, mut by_slice) = (
+        (MomentSums::new(offsets), DelayedSums::<50>::new(5, offsets)),
+        (MomentSums::new(offsets), DelayedSums::<50>::new(5, offsets)),
+    );
+    for (i, part) in shifted.chunk_by(|a, b| a[0] < b[0]).enumerate() {
+        for &pair in part {
+            by_one.0.push(pair);
+            by_one.1.push(pair);
+        }
+        by_slice.0.extend(part);
+        by_slice.1.extend(part);
+        if i % 3 == 0 {
+            assert_eq!(by_one.0.take(), by_slice.0.take());
+            assert_eq!(by_one.1.take(), by_slice.1.take());
+        }
+    }
+    assert_eq!(by_one.0.take(), by_slice.0.take());
+    assert_eq!(by_one.1.take(), by_slice.1.take());
     let near = |a: f64, b: f64| assert!((a - b).abs() < 3e-6, "{a} {b}");
     let whole = Moments::of(&raw[..190]);
     let (cc, dd, cd) = moments.means();

@@ -30,6 +30,7 @@ impl Failure {
         match self {
             Self::Closed => 0,
             Self::Usage(_) => 2,
+            Self::Output(error) if error.is_usage() => 2,
             _ => 1,
         }
     }
@@ -42,7 +43,10 @@ impl fmt::Display for Failure {
             Self::Output(error) => error.fmt(f),
             Self::Recording(message) | Self::Usage(message) => f.write_str(message),
             Self::Closed => Ok(()),
-            Self::Rows(error) => write!(f, "rows cannot be written: {error}; check the disk or the pipe"),
+            Self::Rows(error) => write!(
+                f,
+                "rows cannot be written: {error}; check the disk or the pipe"
+            ),
         }
     }
 }
@@ -61,12 +65,61 @@ impl From<OutputError> for Failure {
 
 impl From<SettingsError> for Failure {
     fn from(error: SettingsError) -> Self {
-        Self::Usage(error.to_string())
+        let option = match error {
+            SettingsError::GainRatio(_) => "--gain-ratio: ",
+            SettingsError::Skew(_) => "--skew-ns: ",
+            SettingsError::PickOffAngle(_) => "--pick-off-angle: ",
+            SettingsError::FullScale(_) => "--full-scale: ",
+            SettingsError::Resolution(_) => "--resolution: ",
+            SettingsError::StartAngle(_) => "--start-angle: ",
+            _ => "",
+        };
+        Self::Usage(format!("{option}{error}"))
+    }
+}
+
+impl From<antinode_sim::Error> for Failure {
+    fn from(error: antinode_sim::Error) -> Self {
+        use antinode_sim::Error;
+        Self::Usage(match error {
+            Error::OutOfRange { what, need, .. } => {
+                format!("{}: it must be {need}", simulate_option(what))
+            }
+            Error::EmptySpan { what, from, to } => format!(
+                "{}: it goes from {from} s to {to} s, but must end after it begins, both at finite times",
+                simulate_option(what)
+            ),
+            Error::Overlap { what, index } => format!(
+                "{}: two of them share sample {index} of a channel, but must not overlap",
+                simulate_option(what)
+            ),
+            Error::QuadratureAboveMain { main, quadrature } => format!(
+                "--quadrature-amplitude: {quadrature} exceeds the main amplitude of {main} in size; \
+                 exchange the two and turn the angle by 45°"
+            ),
+            other => other.to_string(),
+        })
+    }
+}
+
+/// The option of `simulate` that sets a field of the simulation.
+fn simulate_option(field: &str) -> String {
+    match field {
+        "sample_rate" => "--rate".to_owned(),
+        "skew" | "jitter" => format!("--{field}-ns"),
+        "pick_off_error" => "--pick-off-angle".to_owned(),
+        "clip_spans" => "--clip-span".to_owned(),
+        "dropouts" => "--dropout".to_owned(),
+        other => format!("--{}", other.replace('_', "-")),
     }
 }
 
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
-        if error.kind() == io::ErrorKind::BrokenPipe { Self::Closed } else { Self::Rows(error) }
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Self::Closed
+        } else {
+            Self::Rows(error)
+        }
     }
 }

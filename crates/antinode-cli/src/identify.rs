@@ -8,12 +8,12 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
 use crate::methods::History;
-use crate::options::{Identify, Methods};
+use crate::options::{Identify, MOST_PERIODS, Methods};
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
 
 /// Periods of up to 256 samples, windows of up to 1022 periods.
-type Core = Identifier<256, 1024>;
+type Core = Identifier<256, { MOST_PERIODS as usize + 2 }>;
 
 /// Recordings longer than this show how far they have come.
 const LONG: u64 = 32 << 20;
@@ -21,8 +21,15 @@ const LONG: u64 = 32 << 20;
 /// Identifies every file; a fault in one does not keep the others from being read.
 pub fn run(options: &Identify) -> Result<(), Failure> {
     // What is wrong with the options is wrong for every file: it is said once, before any is opened.
-    Core::new(options.settings(options.rate.unwrap_or(1.0), None))?;
-    let mut rows = Rows::new(BufWriter::new(io::stdout().lock()), options.output, options.methods == Methods::All);
+    // The rate is not among them: it belongs to a recording.
+    options
+        .settings(1.0, None)
+        .check(usize::from(MOST_PERIODS) + 2)?;
+    let mut rows = Rows::new(
+        BufWriter::new(io::stdout().lock()),
+        options.output,
+        options.methods == Methods::All,
+    );
     let several = options.files.len() > 1;
     let mut failure = None;
     for path in &options.files {
@@ -42,20 +49,36 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     failure.map_or(Ok(()), Err)
 }
 
-fn identify(path: &Path, options: &Identify, several: bool, rows: &mut Rows<impl Write>) -> Result<(), Failure> {
-    let open = OpenOptions { raw: options.raw.map(Into::into), columns: options.columns.clone() };
+fn identify(
+    path: &Path,
+    options: &Identify,
+    several: bool,
+    rows: &mut Rows<impl Write>,
+) -> Result<(), Failure> {
+    let open = OpenOptions {
+        raw: options.raw.map(Into::into),
+        columns: options.columns.clone(),
+    };
     let mut recording = Recording::open(path, &open)?;
     let name = recording.name().to_owned();
+    let mut buffer = Vec::with_capacity(BLOCK_PAIRS);
+    if options.rate.or(recording.sample_rate()).is_none() && path != Path::new("-") {
+        // A fault in the first lines may be why the rate is not known: one block, and what ended it.
+        for _ in 0..2 {
+            recording.read(&mut buffer)?;
+        }
+    }
     let rate = sample_rate(&name, options.rate, recording.sample_rate())?;
     let settings = options.settings(rate, recording.full_scale());
     let mut core = Box::new(Core::new(settings)?);
-    let mut history = (options.methods == Methods::All).then(|| History::new(settings.calibration, rate));
+    let mut history =
+        (options.methods == Methods::All).then(|| History::new(settings.calibration, rate));
     let bar = progress(&recording);
-    let length = recording.pairs().map_or(String::new(), |pairs| format!("{pairs} sample pairs at "));
-    let heading = several.then(|| format!("{name}: {length}{rate} Hz"));
-    rows.begin(heading.as_deref())?;
+    let length = recording
+        .pairs()
+        .map_or(String::new(), |pairs| format!("{pairs} sample pairs at "));
+    rows.begin(several.then(|| format!("{name}: {length}{rate} Hz")));
 
-    let mut buffer = Vec::with_capacity(BLOCK_PAIRS);
     let live = io::stdout().is_terminal();
     let fault = loop {
         match recording.read(&mut buffer) {
@@ -72,7 +95,9 @@ fn identify(path: &Path, options: &Identify, several: bool, rows: &mut Rows<impl
                 history.extend(new);
             }
             if let Some(estimate) = estimate {
-                let methods = history.as_ref().and_then(|history| history.compare(&estimate));
+                let methods = history
+                    .as_ref()
+                    .and_then(|history| history.compare(&estimate));
                 rows.print(&name, &estimate, methods.as_ref())?;
             }
         }
@@ -108,7 +133,10 @@ fn identify(path: &Path, options: &Identify, several: bool, rows: &mut Rows<impl
 fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, Failure> {
     let (rate, remedy) = match (asked, own) {
         (Some(rate), _) => (rate, "give --rate in Hz, 100000 for 100 kS/s"),
-        (None, Some(rate)) => (rate, "the recording says so itself: give the true one as --rate HZ"),
+        (None, Some(rate)) => (
+            rate,
+            "the recording says so itself: give the true one as --rate HZ",
+        ),
         (None, None) => {
             return Err(Failure::Recording(format!(
                 "{name}: the sample rate is not known: the recording does not say it; give --rate HZ"
@@ -118,7 +146,9 @@ fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, 
     if (1.0..=1e10).contains(&rate) {
         Ok(rate)
     } else {
-        Err(Failure::Recording(format!("{name}: a sample rate of {rate} Hz is absurd; {remedy}")))
+        Err(Failure::Recording(format!(
+            "{name}: a sample rate of {rate} Hz is absurd; {remedy}"
+        )))
     }
 }
 
@@ -126,8 +156,11 @@ fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, 
 fn progress(recording: &Recording) -> ProgressBar {
     match recording.bytes_total() {
         Some(total) if total > LONG && !io::stdout().is_terminal() => {
-            let style = ProgressStyle::with_template("{wide_bar} {bytes}/{total_bytes} {bytes_per_sec} {eta}");
-            ProgressBar::new(total).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+            let style = ProgressStyle::with_template(
+                "{wide_bar} {bytes}/{total_bytes} {bytes_per_sec} {eta}",
+            );
+            ProgressBar::new(total)
+                .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         }
         _ => ProgressBar::hidden(),
     }

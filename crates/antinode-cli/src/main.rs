@@ -2,6 +2,7 @@
 
 mod demonstration;
 mod failure;
+mod fixed;
 mod identify;
 mod method_rows;
 mod methods;

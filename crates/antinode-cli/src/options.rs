@@ -3,15 +3,28 @@
 use std::path::PathBuf;
 
 use antinode::{Calibration, Detection, Settings};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 
 use crate::recording::{Columns, RawFormat};
+
+/// Under the help of the whole.
+const EXAMPLES: &str = "\
+Examples:
+  antinode                                              the demonstration
+  antinode identify recording.wav                       a table to read
+  antinode identify --output csv a.wav b.npy > rows.csv
+  antinode identify --rate 100000 --columns t,C,D log.csv
+  recorder | antinode identify --raw i16 --rate 100000 -
+  antinode simulate -o ring.wav --noise 0.005 --decay-rate 0.5";
+
+/// The most periods a window may have; the ring of blocks holds two more.
+pub const MOST_PERIODS: u16 = 1022;
 
 /// Identifies the standing wave of a hemispherical resonator gyro, window by window, in recordings of its two pick-offs.
 ///
 /// With no command: simulates a ring-down, streams it through the identification, and shows what it found beside the truth.
 #[derive(Debug, Parser)]
-#[command(name = "antinode", version, max_term_width = 100)]
+#[command(name = "antinode", version, max_term_width = 100, after_help = EXAMPLES)]
 pub struct Options {
     /// What to do; nothing: a demonstration.
     #[command(subcommand)]
@@ -31,54 +44,72 @@ pub enum Command {
 
 /// `antinode identify`.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Identify {
-    /// Recordings: WAV (left S_C, right S_D), CSV, NPY; `-` is raw interleaved samples on standard input (with --raw).
+    /// Recordings: WAV (left S_C, right S_D), CSV, NPY; `-` is standard input.
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// Periods a window.
-    #[arg(long, default_value_t = 10, value_name = "N")]
+    /// Periods a window, 2 to 1022.
+    #[arg(long, default_value_t = 10, value_name = "N", value_parser = value_parser!(u16).range(2..=i64::from(MOST_PERIODS)))]
     pub periods: u16,
-    /// Blocks from the start of one window to the start of the next [default: a window, without gap or overlap].
+    /// Blocks from the start of one window to the start of the next [default: those of one window].
     ///
     /// A block is a period; in windows of fewer than ten periods it is a tenth of the window.
-    #[arg(long, value_name = "BLOCKS")]
+    /// Fewer blocks than a window has make windows overlap, more leave gaps.
+    #[arg(long, value_name = "BLOCKS", value_parser = value_parser!(u16).range(1..))]
     pub hop: Option<u16>,
-    /// Sample rate in Hz [default: the recording's own].
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    /// Sample rate, Hz [default: the recording's own].
+    #[arg(long, value_name = "HZ")]
     pub rate: Option<f64>,
     /// How rows are printed.
-    #[arg(long, value_enum, default_value_t = Format::Table)]
+    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
     pub output: Format,
     /// Which methods a row shows.
     #[arg(long, value_enum, default_value_t = Methods::Exact)]
     pub methods: Methods,
-    /// Gain of pick-off D over that of C.
-    #[arg(long, default_value_t = 1.0, value_name = "RATIO")]
-    pub gain_ratio: f32,
-    /// How much later than C pick-off D is sampled, ns.
-    #[arg(long, default_value_t = 0.0, value_name = "NS", allow_negative_numbers = true)]
-    pub skew_ns: f32,
-    /// Pick-off D stands at 45° plus this angle from C, rad.
-    #[arg(long, default_value_t = 0.0, value_name = "RAD", allow_negative_numbers = true)]
-    pub pick_off_angle: f32,
-    /// The first window's angle is chosen within π/4 of this one, rad [default: π/4, so that it lies in 0…π/2].
-    #[arg(long, value_name = "RAD", allow_negative_numbers = true)]
-    pub start_angle: Option<f32>,
-    /// |sample| at which the converter is at its rail [default: known for integer formats].
-    #[arg(long, value_name = "LEVEL")]
-    pub full_scale: Option<f32>,
-    /// Step between two codes of the converter [default: known for integer formats].
-    #[arg(long, value_name = "STEP")]
-    pub resolution: Option<f32>,
+    /// Format of raw samples on standard input or in a file of another kind: little-endian, S_C and S_D in turn.
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub raw: Option<Raw>,
+    /// Columns of a text recording, by name or number from 1, as C,D or TIME,C,D [default: by their names or number].
+    #[arg(long, value_name = "COLUMNS")]
+    pub columns: Option<Columns>,
     /// How the period is found.
     #[arg(long, value_enum, default_value_t = Detector::Difference)]
     pub detector: Detector,
-    /// Format of raw samples: little-endian, interleaved S_C, S_D.
-    #[arg(long, value_enum, value_name = "FORMAT")]
-    pub raw: Option<Raw>,
-    /// Columns of a text recording, by name or number from 1: `C,D` or `TIME,C,D`.
-    #[arg(long, value_name = "COLUMNS")]
-    pub columns: Option<Columns>,
+    /// The first window's angle is chosen within π/4 of this one, rad [default: π/4, so that it lies in 0…π/2].
+    #[arg(long, value_name = "RAD")]
+    pub start_angle: Option<f32>,
+
+    /// Gain of pick-off D over that of C.
+    #[arg(
+        long,
+        default_value_t = 1.0,
+        value_name = "RATIO",
+        help_heading = "Calibration"
+    )]
+    pub gain_ratio: f32,
+    /// How much later than C pick-off D is sampled, ns.
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        value_name = "NS",
+        help_heading = "Calibration"
+    )]
+    pub skew_ns: f32,
+    /// Pick-off D stands at 45° plus this angle from C, rad.
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        value_name = "RAD",
+        help_heading = "Calibration"
+    )]
+    pub pick_off_angle: f32,
+    /// |sample| at which the converter is at its rail [default: known for integers, none for others].
+    #[arg(long, value_name = "LEVEL", help_heading = "Calibration")]
+    pub full_scale: Option<f32>,
+    /// Step between two codes of the converter [default: known for integers, none for others].
+    #[arg(long, value_name = "STEP", help_heading = "Calibration")]
+    pub resolution: Option<f32>,
 }
 
 /// Which methods a row shows.
@@ -135,7 +166,9 @@ impl Identify {
     /// The core's settings for a recording of this sample rate whose integers have this full scale.
     pub fn settings(&self, sample_rate: f64, full_scale: Option<f32>) -> Settings {
         // Integer full scale reads as 1: the largest code is a step below it.
-        let step = full_scale.map(|largest| 1.0 - largest).filter(|&step| step > 0.0);
+        let step = full_scale
+            .map(|largest| 1.0 - largest)
+            .filter(|&step| step > 0.0);
         let plain = Settings::new(sample_rate);
         Settings {
             periods: self.periods,

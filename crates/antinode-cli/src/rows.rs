@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use antinode::Estimate;
 use serde::Serialize;
 
+use crate::fixed::{heading, with_std};
 use crate::method_rows::{self, Columns};
 use crate::methods::Methods;
 use crate::options::Format;
@@ -90,6 +91,10 @@ pub struct Rows<W: Write> {
     wide: bool,
     /// True once the header of a wide CSV stands.
     headed: bool,
+    /// What stands above the next table.
+    title: Option<String>,
+    /// Tables begun.
+    tables: u64,
 }
 
 impl<W: Write> Rows<W> {
@@ -98,35 +103,49 @@ impl<W: Write> Rows<W> {
         let sink = match format {
             Format::Table => Sink::Table(out),
             // Headers of nested rows are written by hand.
-            Format::Csv => Sink::Csv(Box::new(csv::WriterBuilder::new().has_headers(!wide).from_writer(out))),
+            Format::Csv => Sink::Csv(Box::new(
+                csv::WriterBuilder::new()
+                    .has_headers(!wide)
+                    .from_writer(out),
+            )),
             Format::Jsonl => Sink::Jsonl(out),
         };
-        Self { sink, count: 0, wide, headed: false }
+        Self {
+            sink,
+            count: 0,
+            title: None,
+            tables: 0,
+            wide,
+            headed: false,
+        }
     }
 
-    /// Begins a recording; `heading` stands above a table's.
-    pub fn begin(&mut self, heading: Option<&str>) -> io::Result<()> {
+    /// Begins a recording; `title` stands above its table.
+    pub fn begin(&mut self, title: Option<String>) {
         self.count = 0;
-        if let Sink::Table(out) = &mut self.sink {
-            if let Some(heading) = heading {
-                writeln!(out, "{heading}")?;
-            }
-            writeln!(
-                out,
-                "{:>11} {:>20} {:>20} {:>20} {:>22} {:>9} {:>9} {:>9}  flags",
-                "time s", "main amplitude", "quadrature", "angle deg", "frequency Hz", "deg/s", "decay /s", "residual"
-            )?;
-        }
-        Ok(())
+        self.title = title;
     }
 
     /// Prints one window, with its methods where they were asked for and are known.
-    pub fn print(&mut self, file: &str, estimate: &Estimate, methods: Option<&Methods>) -> io::Result<()> {
+    pub fn print(
+        &mut self,
+        file: &str,
+        estimate: &Estimate,
+        methods: Option<&Methods>,
+    ) -> io::Result<()> {
         self.count += 1;
         let flags = estimate.flags.to_string();
         let row = Row::new(file, &flags, estimate);
         match &mut self.sink {
             Sink::Table(out) => {
+                // A recording without a row gets no heading.
+                if self.count == 1 {
+                    if let Some(title) = self.title.take() {
+                        writeln!(out, "{}{title}", if self.tables > 0 { "\n" } else { "" })?;
+                    }
+                    table_heading(out)?;
+                    self.tables += 1;
+                }
                 table(out, estimate)?;
                 methods.map_or(Ok(()), |methods| method_rows::table(out, methods))
             }
@@ -135,12 +154,19 @@ impl<W: Write> Rows<W> {
                     let own = header(&row)?;
                     out.write_record(own.iter().map(String::from).chain(method_rows::names()))?;
                 }
-                out.serialize((row, method_rows::fields(methods))).map_err(io::Error::from)
+                out.serialize((row, method_rows::fields(methods)))
+                    .map_err(io::Error::from)
             }
             Sink::Csv(out) => out.serialize(row).map_err(io::Error::from),
             Sink::Jsonl(out) => {
                 if self.wide {
-                    serde_json::to_writer(&mut *out, &Wide { row, methods: Columns(methods) })?;
+                    serde_json::to_writer(
+                        &mut *out,
+                        &Wide {
+                            row,
+                            methods: Columns(methods),
+                        },
+                    )?;
                 } else {
                     serde_json::to_writer(&mut *out, &row)?;
                 }
@@ -167,32 +193,42 @@ impl<W: Write> Rows<W> {
 fn header(row: &Row) -> io::Result<csv::StringRecord> {
     let mut scratch = csv::Writer::from_writer(Vec::new());
     scratch.serialize(row)?;
-    let text = scratch.into_inner().map_err(|error| io::Error::other(error.to_string()))?;
+    let text = scratch
+        .into_inner()
+        .map_err(|error| io::Error::other(error.to_string()))?;
     Ok(csv::Reader::from_reader(text.as_slice()).headers()?.clone())
 }
 
-/// A value with its standard deviation, to the digits that this leaves.
-pub fn with_std(value: f64, std: f64) -> String {
-    if std > 0.0 && std.is_finite() {
-        let digits = (1.3 - std.log10()).ceil().clamp(0.0, 9.0) as usize;
-        format!("{value:.digits$} ± {std:.0e}")
-    } else {
-        format!("{value:.6}")
-    }
-}
-
-fn table(out: &mut impl Write, e: &Estimate) -> io::Result<()> {
+/// The line above a table.
+fn table_heading(out: &mut impl Write) -> io::Result<()> {
+    let names = ["main amplitude", "quadrature", "angle, °", "frequency, Hz"].map(heading);
     writeln!(
         out,
-        "{:>11.6} {:>20} {:>20} {:>20} {:>22} {:>9.3} {:>9.3} {:>9.1e}  {}",
+        "{:>10} {} {:>8} {:>8} {:>8}  flags",
+        "time, s",
+        names.join(" "),
+        "turn,°/s",
+        "decay,/s",
+        "residual"
+    )
+}
+
+/// A line of a table.
+fn table(out: &mut impl Write, e: &Estimate) -> io::Result<()> {
+    let line = format!(
+        "{:>10.6} {} {} {} {} {:>8.2} {:>8.3} {:>8.1e}  {}",
         e.time,
         with_std(e.main_amplitude.into(), e.main_amplitude_std.into()),
-        with_std(e.quadrature_amplitude.into(), e.quadrature_amplitude_std.into()),
+        with_std(
+            e.quadrature_amplitude.into(),
+            e.quadrature_amplitude_std.into()
+        ),
         with_std(e.angle.to_degrees(), f64::from(e.angle_std).to_degrees()),
         with_std(e.frequency, e.frequency_std.into()),
         e.angle_rate.to_degrees(),
         e.decay_rate,
         e.residual_rms,
         e.flags,
-    )
+    );
+    writeln!(out, "{}", line.trim_end())
 }

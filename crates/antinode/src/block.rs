@@ -219,12 +219,7 @@ impl<const N: usize> Demodulator<N> {
         };
         self.start += u64::from(self.layout.length);
         self.count = 0;
-        // A run goes on over the end of a block.
-        self.sums = self.sums.map(|sums| ChannelSums {
-            last: sums.last,
-            run: sums.run.min(u16::MAX / 2),
-            ..ChannelSums::EMPTY
-        });
+        self.sums = [ChannelSums::EMPTY; 2];
         Some(block)
     }
 }

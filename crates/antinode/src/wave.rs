@@ -88,7 +88,7 @@ impl Standing {
         let c = &model.covariance;
         let levels = [[c[0][0], c[0][1]], [c[1][0], c[1][1]]];
         let slopes = [[c[2][2], c[2][3]], [c[3][2], c[3][3]]];
-        let gain_d = model.correction().noise_gain();
+        let gain_d = model.correction.noise_gain();
         let level = |g: &Gradient| noise * covariance(g, g, levels, gain_d);
         let slope = |g: &Gradient, h: &Gradient| noise * covariance(g, h, slopes, gain_d);
 

@@ -19,7 +19,7 @@ use std::path::Path;
 pub use columns::Columns;
 pub use error::{Channel, InputError};
 pub use raw::RawFormat;
-pub use write::{OutputError, RecordingWriter, WavSample};
+pub use write::{OutputError, RecordingWriter, WavSample, WholeFile};
 
 /// The capacity given to a buffer that has none: small enough to stay in the cache.
 pub const BLOCK_PAIRS: usize = 1 << 14;

@@ -2,24 +2,19 @@
 
 mod encode;
 mod error;
+mod whole;
 
-use std::fs::{self, File};
-use std::io;
-use std::path::{Path, PathBuf};
-
-use tempfile::TempPath;
+use std::path::Path;
 
 use super::Channel;
 pub use encode::WavSample;
 use encode::{Encoder, Format};
 pub use error::OutputError;
+pub use whole::WholeFile;
 
 /// Writes pairs of samples to a file, which takes its name only in [`finish`](Self::finish).
 pub struct RecordingWriter {
-    file: String,
-    target: PathBuf,
-    /// Deleted unless it is given its name.
-    temporary: TempPath,
+    whole: WholeFile,
     sample: WavSample,
     encoder: Encoder,
     pairs: u64,
@@ -45,22 +40,11 @@ impl RecordingWriter {
         if format == Format::Wav && sample == WavSample::F64 {
             return Err(OutputError::Wav64 { file });
         }
-        let io = |fault| OutputError::Io {
-            file: file.clone(),
-            fault,
-        };
-        let target = match fs::metadata(path) {
-            Ok(metadata) if !metadata.is_file() => return Err(OutputError::NotAFile { file }),
-            // A link keeps leading to the file it leads to.
-            Ok(_) => fs::canonicalize(path).map_err(io)?,
-            Err(_) => path.to_owned(),
-        };
-        let (output, temporary) = temporary(&target).map_err(io)?.into_parts();
-        let encoder = Encoder::begin(format, output, sample_rate, sample).map_err(io)?;
+        let (whole, output) = WholeFile::create(path)?;
+        let encoder = Encoder::begin(format, output, sample_rate, sample)
+            .map_err(|fault| OutputError::io(&file, fault))?;
         Ok(Self {
-            file,
-            target,
-            temporary,
+            whole,
             sample,
             encoder,
             pairs: 0,
@@ -74,35 +58,22 @@ impl RecordingWriter {
         };
         if self.encoder.is_full(self.pairs) {
             return Err(OutputError::Full {
-                file: self.file.clone(),
+                file: self.whole.name().to_owned(),
                 pairs: self.pairs,
             });
         }
         let written = self.encoder.write(self.pairs, [c, d]);
-        written.map_err(|fault| OutputError::Io {
-            file: self.file.clone(),
-            fault,
-        })?;
+        written.map_err(|fault| OutputError::io(self.whole.name(), fault))?;
         self.pairs += 1;
         Ok(())
     }
 
     /// Completes the file and gives it its name; dropped without this, it leaves nothing behind.
     pub fn finish(self) -> Result<(), OutputError> {
-        let Self {
-            file,
-            target,
-            temporary,
-            encoder,
-            pairs,
-            ..
-        } = self;
-        encoder
-            .finish(pairs)
-            // On the disk before it replaces what may be a good recording.
-            .and_then(|()| File::options().write(true).open(&temporary)?.sync_all())
-            .and_then(|()| temporary.persist(target).map_err(|fault| fault.error))
-            .map_err(|fault| OutputError::Io { file, fault })
+        self.encoder
+            .finish(self.pairs)
+            .map_err(|fault| OutputError::io(self.whole.name(), fault))?;
+        self.whole.finish()
     }
 
     fn not_finite(&self, [c, d]: [f64; 2]) -> OutputError {
@@ -111,24 +82,12 @@ impl RecordingWriter {
             Some(_) => (Channel::D, d),
         };
         OutputError::NotFinite {
-            file: self.file.clone(),
+            file: self.whole.name().to_owned(),
             pair: self.pairs,
             channel,
             value,
         }
     }
-}
-
-/// An empty file beside `target`, with the permissions of any new file.
-fn temporary(target: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let directory = target
-        .parent()
-        .filter(|directory| !directory.as_os_str().is_empty());
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".antinode-").suffix(".tmp");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(directory.unwrap_or(Path::new(".")))
 }
 
 #[cfg(test)]

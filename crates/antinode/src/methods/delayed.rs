@@ -107,7 +107,7 @@ impl<const LAGS: usize> DelayedSums<LAGS> {
     pub fn new(lag: u16, offsets: [f32; 2]) -> Self {
         Self {
             offsets,
-            lag: lag.clamp(1, LAGS as u16),
+            lag: lag.min(LAGS as u16).max(1),
             line: [[0.0; 2]; LAGS],
             place: 0,
             filled: 0,
@@ -134,6 +134,43 @@ impl<const LAGS: usize> DelayedSums<LAGS> {
         }
         add(&mut self.sums, now, before);
         self.count += 1;
+    }
+
+    /// Adds the pairs of a slice, to the bit as [`push`](Self::push) would: the sums stay in registers.
+    #[inline]
+    pub fn extend(&mut self, mut pairs: &[Pair]) {
+        let offsets = self.offsets;
+        while !pairs.is_empty() {
+            if self.filled < self.lag {
+                let Some((first, rest)) = pairs.split_first() else {
+                    return;
+                };
+                self.push(*first);
+                pairs = rest;
+                continue;
+            }
+            // As far as the line's end, or the slice's.
+            let place = usize::from(self.place);
+            let open = usize::from(self.lag).saturating_sub(place).min(pairs.len());
+            let (Some(line), Some((taken, rest))) = (
+                self.line.get_mut(place..place + open),
+                pairs.split_at_checked(open),
+            ) else {
+                return;
+            };
+            let mut sums = self.sums;
+            for (slot, pair) in line.iter_mut().zip(taken) {
+                let now = [pair[0] - offsets[0], pair[1] - offsets[1]];
+                add(&mut sums, now, core::mem::replace(slot, now));
+            }
+            self.sums = sums;
+            self.count += open as u32;
+            self.place += open as u16;
+            if self.place == self.lag {
+                self.place = 0;
+            }
+            pairs = rest;
+        }
     }
 
     /// The products since the last call; the sums start anew, the line goes on.

@@ -80,6 +80,16 @@ impl MomentSums {
         self.count += 1;
     }
 
+    /// Adds the pairs of a slice: the sums stay in registers.
+    #[inline]
+    pub fn extend(&mut self, pairs: &[Pair]) {
+        let mut own = self.clone();
+        for &pair in pairs {
+            own.push(pair);
+        }
+        *self = own;
+    }
+
     /// The moments since the last call; the sums start anew.
     pub fn take(&mut self) -> Moments {
         let [cc, dd, cd] = self.sums.map(Sum::value);

@@ -44,19 +44,28 @@ impl Octave {
         waiting: None,
     };
 
+    /// The frame so far.
+    fn samples(&self) -> &[Pair] {
+        self.frame.get(..self.count).unwrap_or(&[])
+    }
+
     /// Takes a sample; gives the next octave's.
     fn push(&mut self, sample: Pair) -> Option<Pair> {
         if self.count == FRAME {
             self.count = 0;
             self.difference = [0.0; LAGS];
         }
-        let past = self.frame[..self.count].iter().rev();
-        for (sum, before) in self.difference.iter_mut().zip(past) {
+        let past = self.samples().iter().rev();
+        let mut difference = self.difference;
+        for (sum, before) in difference.iter_mut().zip(past) {
             let (c, d) = (sample[0] - before[0], sample[1] - before[1]);
             *sum += c * c + d * d;
         }
-        self.frame[self.count] = sample;
-        self.count += 1;
+        self.difference = difference;
+        if let Some(place) = self.frame.get_mut(self.count) {
+            *place = sample;
+            self.count += 1;
+        }
         if self.count >= 8 {
             // The mean square of half a difference of neighbours.
             self.lost = 0.25 * self.difference[0] / (self.count - 1) as f32;
@@ -111,7 +120,7 @@ impl Octave {
         if HELD * rough > self.count as f32 {
             return None;
         }
-        let samples = &self.frame[..self.count];
+        let samples = self.samples();
         let mut trial = Trial::new(rough, samples.len());
         for &sample in samples {
             trial.push(sample);

@@ -57,10 +57,13 @@ impl Noise {
 
 /// True when the first window after a search holds no wave, or as much else beside it: two tones, say.
 pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -> bool {
+    let remains = &fit.remains;
     let samples = f32::from(blocks) * f32::from(length);
     let explained = 0.5 * samples * (wave.main * wave.main + wave.quadrature * wave.quadrature);
     let significant = wave.main * wave.main > 36.0 * wave.main_variance;
-    let strange = fit.residual.max(fit.third_noise * fit.third_freedom);
+    let strange = remains
+        .residual
+        .max(remains.third_noise * remains.third_freedom);
     !significant || strange > STRANGER * explained
 }
 
@@ -68,7 +71,8 @@ pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -
 ///
 /// `coding` is the noise variance that the converter's steps may add.
 pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise) -> Flags {
-    let variance = fit.residual / fit.freedom;
+    let remains = &fit.remains;
+    let variance = remains.variance();
     let power = wave.main * wave.main;
     let floor = RESIDUAL_FLOOR * power + 3.0 * coding;
     let mut flags = Flags::empty();
@@ -78,35 +82,37 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
 
     // White noise is the same about the carrier and about its third harmonic.
     let coloured = variance
-        > COLOUR.max(spread(fit.freedom, fit.third_freedom)) * fit.third_noise + 4.0 * floor
-        && fit.third_freedom >= 12.0;
+        > COLOUR.max(spread(remains.freedom, remains.third_freedom)) * remains.third_noise
+            + 4.0 * floor
+        && remains.third_freedom >= 12.0;
     let known = noise.freedom > 0.0;
-    let louder = known && variance > noise.limit(fit.freedom) + floor;
+    let louder = known && variance > noise.limit(remains.freedom) + floor;
     // One block out of line with all others: a step, a spike or a short dropout.
-    let others = if known && noise.freedom > 3.0 * fit.freedom {
+    let others = if known && noise.freedom > 3.0 * remains.freedom {
         noise.variance
     } else {
-        (fit.residual - fit.worst_block).max(0.0) / (fit.freedom - 6.0).max(1.0)
+        (remains.residual - remains.worst_block).max(0.0) / (remains.freedom - 6.0).max(1.0)
     };
-    let outlier = fit.freedom > 20.0
-        && fit.worst_block > 60.0 * others * (1.0 + 20.0 / fit.freedom) + 6.0 * floor;
+    let outlier = remains.freedom > 20.0
+        && remains.worst_block > 60.0 * others * (1.0 + 20.0 / remains.freedom) + 6.0 * floor;
     // A step within the window, or any course that bends: chi-square of 4 degrees at each of its places, or its ratio to the
     // rest where the noise is not yet known.
-    let rest = (fit.residual - fit.step).max(0.0) / (fit.freedom - 4.0).max(1.0);
-    let limit = 56.0 * (1.0 + 40.0 / (noise.freedom + fit.freedom));
-    let stepped = fit.freedom > 20.0
-        && fit.step > limit * rest.max(noise.variance) + (8.0 + 0.1 * fit.freedom) * floor;
+    let rest = (remains.residual - remains.step).max(0.0) / (remains.freedom - 4.0).max(1.0);
+    let level = if known { noise.variance } else { rest };
+    let limit = 56.0 * (1.0 + 40.0 / (noise.freedom + remains.freedom));
+    let stepped = remains.freedom > 20.0
+        && remains.step > limit * level + (8.0 + 0.1 * remains.freedom) * floor;
     let misfit = coloured || louder || outlier || stepped || !fit.settled;
     flags = flags.with_if(misfit, Flags::MISFIT);
 
-    let harmonic = fit.third.iter().map(Complex32::norm_sqr).sum::<f32>();
-    let harmonic_noise = fit.third_noise.max(variance.min(noise.variance));
+    let harmonic = remains.third.iter().map(Complex32::norm_sqr).sum::<f32>();
+    let harmonic_noise = remains.third_noise.max(variance.min(noise.variance));
     let limit = SIGMAS
         * libm::sqrtf(wave.main_variance / variance.max(f32::MIN_POSITIVE) * 1.2 * harmonic_noise)
         + HARMONIC_FLOOR * wave.main
         + SIGMAS * libm::sqrtf(coding * wave.main_variance / variance.max(f32::MIN_POSITIVE));
     flags = flags.with_if(
-        harmonic > limit * limit && fit.third_freedom >= 12.0,
+        harmonic > limit * limit && remains.third_freedom >= 12.0,
         Flags::CLIPPED,
     );
 
@@ -115,7 +121,7 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
     flags = flags.with_if(round && significant, Flags::CIRCULAR);
 
     if flags.with(Flags::CIRCULAR) == Flags::CIRCULAR {
-        noise.learn(variance, fit.freedom);
+        noise.learn(variance, remains.freedom);
     } else if flags.with(Flags::CIRCULAR) == Flags::MISFIT.with(Flags::CIRCULAR)
         && !(coloured || outlier || stepped)
         && fit.settled

@@ -10,7 +10,7 @@ use crate::block::Block;
 use crate::estimate::{Estimate, Flags};
 use crate::settings::{Settings, SettingsError};
 use crate::wave::{Angle, Standing, wrap};
-use crate::window::{Fit, Model, solve};
+use crate::window::{CARRIER_REACH, Fit, Model, solve};
 use checks::Noise;
 use record::Record;
 use trend::Trend;
@@ -134,11 +134,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let fit = self.fit()?;
         let model = self.model.as_ref()?;
         let half = model.half();
-        let noise = fit.residual / fit.freedom;
+        let noise = fit.remains.variance();
         // Rounding of f32 sums is an error too, where there is no other, and part of it does not average.
-        let size = fit.offsets[0].abs()
-            + fit.offsets[1].abs()
-            + libm::sqrtf(fit.waves.value[0].norm_sqr() + fit.waves.value[1].norm_sqr());
+        let size = fit.offsets[0].abs() + fit.offsets[1].abs() + libm::sqrtf(fit.waves.power());
         let rounding = 1e-7 * size;
         let coding = self.coding(noise, half);
         let variance = noise + rounding * rounding * (1.0 + half) + coding;
@@ -223,7 +221,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
                     ..*before
                 });
                 let half = 0.5 * f32::from(self.count) * f32::from(model.layout.length);
-                let near = (drift * half).abs() < 0.02;
+                let near = (drift * half).abs() < CARRIER_REACH;
                 (
                     if near {
                         model.carrier
@@ -258,7 +256,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             return 0.0;
         };
         let square = step * step;
-        let repeated = 0.09 * square * libm::expf(-39.5 * noise / square);
+        // The steps' own noise does not break up anything.
+        let apart = (noise - square / 12.0).max(0.0);
+        let repeated = 0.09 * square * libm::expf(-39.5 * apart / square);
         (square / 12.0 - noise).max(0.0) + repeated * half
     }
 

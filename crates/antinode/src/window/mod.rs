@@ -1,8 +1,12 @@
-//! Block sums become a window's estimate.
+//! Block sums become a window's waves.
 
+mod examine;
 mod fit;
+mod model;
 mod normal;
 mod response;
+mod waves;
 
-pub(crate) use fit::{Fit, Model, solve};
+pub(crate) use fit::{CARRIER_REACH, Fit, solve};
+pub(crate) use model::Model;
 pub(crate) use normal::Normal;

@@ -3,9 +3,7 @@
 //! Within a block the wave of one pick-off is S(κ) = Re v(κ)·cos ωκ − Im v(κ)·sin ωκ + d, κ in samples from the block's middle,
 //! with v(κ) = v₀ + v₁κ + ½v₂κ². Even and odd parts separate, so each sum sees only a few of the numbers in v.
 
-use num_complex::Complex32;
-
-use crate::block::{Block, ChannelSums, Layout};
+use crate::block::{ChannelSums, Layout};
 use crate::phase::PhaseStep;
 
 /// Turns the three correlated sums of a block into independent numbers of equal noise: the noise of one sample.
@@ -45,9 +43,9 @@ pub(crate) struct Response {
     pub odd: Answer,
     /// What an offset of one adds to the mean: √length.
     pub offset: f32,
-    third_even: Answer,
-    third_odd: Answer,
-    third_offset: f32,
+    pub third_even: Answer,
+    pub third_odd: Answer,
+    pub third_offset: f32,
 }
 
 /// A sum that keeps what each addition rounds off (Neumaier).
@@ -125,7 +123,7 @@ impl Response {
         for k in 0..layout.length {
             let reference = layout.reference(k);
             let twice = layout.twice_from_middle(k);
-            let t = 0.5 * twice as f32;
+            let t = 0.5 * twice as i32 as f32;
             let wave = carrier.after_half_samples(twice).unit();
             let weights = [
                 (basis.one, false),
@@ -161,41 +159,4 @@ impl Response {
             third_offset: third_offset.get(),
         }
     }
-
-    /// The whitened sums that a block would have, from v₀, v₁, v₂ and the offset.
-    #[inline(always)]
-    pub(crate) fn predict(&self, v: &[Complex32; 3], offset: f32) -> Whitened {
-        let even = |a: &Answer| a.level * v[0].re + a.slope * v[1].im + a.curve * v[2].re;
-        Whitened {
-            mean: even(&self.mean) + self.offset * offset,
-            even: even(&self.even),
-            odd: self.odd.level * v[0].im + self.odd.slope * v[1].re + self.odd.curve * v[2].im,
-        }
-    }
-
-    /// The third-harmonic sums of a block less what the wave and the offset put there, as Σ S e^{−3jφ}.
-    #[inline(always)]
-    pub(crate) fn third_rest(
-        &self,
-        sums: &ChannelSums,
-        v: &[Complex32; 3],
-        offset: f32,
-    ) -> Complex32 {
-        let (e, o) = (&self.third_even, &self.third_odd);
-        let cosine = e.level * v[0].re + e.slope * v[1].im + e.curve * v[2].re;
-        let sine = o.level * v[0].im + o.slope * v[1].re + o.curve * v[2].im;
-        Complex32::new(
-            sums.third_cosine - cosine - self.third_offset * offset,
-            sine - sums.third_sine,
-        )
-    }
-}
-
-/// The sums of both pick-offs of a block, whitened.
-#[inline]
-pub(crate) fn whiten(basis: &Basis, block: &Block) -> [Whitened; 2] {
-    [
-        basis.whiten(&block.channels[0]),
-        basis.whiten(&block.channels[1]),
-    ]
 }

@@ -17,6 +17,9 @@ pub enum OutputError {
     /// A device, a pipe or a directory.
     #[error("{file}: this exists and is not a file; give the path of a file")]
     NotAFile { file: String },
+    /// The directory that the file would stand in is not there.
+    #[error("{file}: there is no directory `{directory}`; make it first, or correct the path")]
+    NoDirectory { file: String, directory: String },
     /// The system failed to write.
     #[error(
         "{file}: cannot be written: {fault}; check that its directory exists, may be written and has room"
@@ -31,7 +34,7 @@ pub enum OutputError {
     },
     /// A sample format the container cannot hold.
     #[error(
-        "{file}: a WAV file of 64-bit floats is not written; choose 32-bit floats, or a .npy or .csv file"
+        "{file}: a WAV file of 64-bit floats is not written; choose --sample f32, or a .npy or .csv file"
     )]
     Wav64 { file: String },
     /// WAV files end at 4 GiB.
@@ -49,4 +52,20 @@ pub enum OutputError {
         channel: Channel,
         value: f64,
     },
+}
+
+impl OutputError {
+    /// What the system said about `file`.
+    pub(super) fn io(file: &str, fault: io::Error) -> Self {
+        let file = file.to_owned();
+        Self::Io { file, fault }
+    }
+
+    /// True where what was asked can never be written, whatever the disk holds.
+    pub fn is_usage(&self) -> bool {
+        matches!(
+            self,
+            Self::Unknown { .. } | Self::Rate { .. } | Self::Wav64 { .. }
+        )
+    }
 }

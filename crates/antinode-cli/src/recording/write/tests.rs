@@ -5,6 +5,8 @@ use std::process::Command;
 use super::super::tests::drain;
 use super::super::{OpenOptions, Recording};
 use super::encode::{MAX_WAV_DATA, Stored};
+use std::fs::{self, File};
+
 use super::*;
 
 fn signal(count: usize) -> Vec<[f64; 2]> {
@@ -147,7 +149,7 @@ fn what_cannot_be_written_is_named() {
     );
     assert!(
         fault("none/a.csv", 1e5, f32s, &pairs)
-            .starts_with("none/a.csv: cannot be written: No such file")
+            .starts_with("none/a.csv: there is no directory `none`")
     );
     let directory = tempfile::tempdir().unwrap();
     fs::create_dir(directory.path().join("a.wav")).unwrap();

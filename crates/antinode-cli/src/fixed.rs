@@ -1,0 +1,61 @@
+//! Numbers for reading: fixed notation, to the digits that their deviation leaves.
+
+/// Decimals beyond these are below any deviation that single precision leaves.
+const MOST_DECIMALS: f64 = 9.0;
+
+/// The decimals that show two digits of a standard deviation.
+fn decimals(std: f64) -> usize {
+    if std > 0.0 && std.is_finite() {
+        (1.0 - std.log10()).ceil().clamp(0.0, MOST_DECIMALS) as usize
+    } else {
+        6
+    }
+}
+
+/// A value with its standard deviation, the value to the right and the deviation to the left of one place.
+pub fn with_std(value: f64, std: f64) -> String {
+    with_std_to(decimals(std), value, std)
+}
+
+/// [`with_std`] to so many decimals.
+pub fn with_std_to(decimals: usize, value: f64, std: f64) -> String {
+    if std > 0.0 && std.is_finite() {
+        format!("{value:>9.decimals$} ±{:<7}", format!("{std:.decimals$}"))
+    } else {
+        without_std(decimals, value)
+    }
+}
+
+/// A value alone, to stand under [`with_std_to`].
+pub fn without_std(decimals: usize, value: f64) -> String {
+    format!("{value:>9.decimals$}{:9}", "")
+}
+
+/// The heading of a column of [`with_std`].
+pub fn heading(name: &str) -> String {
+    format!("{name:>18}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_digits_of_the_deviation_are_shown() {
+        assert_eq!(with_std(0.500_412, 4.53e-4), "  0.50041 ±0.00045");
+        assert_eq!(with_std(-5331.6715, 0.2695), " -5331.67 ±0.27   ");
+        assert_eq!(with_std(1.0, 0.0101), "    1.000 ±0.010  ");
+        assert_eq!(with_std(20_000.4, 321.0), "    20000 ±321    ");
+    }
+
+    #[test]
+    fn a_value_without_deviation_stands_alone() {
+        assert_eq!(with_std(0.5, f64::NAN), " 0.500000         ");
+        assert_eq!(with_std(0.5, 0.0), " 0.500000         ");
+    }
+
+    #[test]
+    fn the_truth_stands_under_its_estimate() {
+        assert_eq!(without_std(5, 0.499_96), "  0.49996         ");
+    }
+}

@@ -1,0 +1,217 @@
+//! The command line of `antinode simulate`.
+
+use std::path::PathBuf;
+
+use antinode_sim::{ClipSpan, Dropout, Flaws, Loss, Wave};
+use clap::{Args, ValueEnum};
+
+use super::fields::Parsed;
+use crate::failure::Failure;
+use crate::recording::WavSample;
+
+/// `antinode simulate`.
+#[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
+pub struct Simulate {
+    /// The recording to write: .wav, .csv or .npy. The truth goes beside it, under the same name with .json.
+    #[arg(short = 'o', long = "to", value_name = "FILE")]
+    pub to: PathBuf,
+    /// Length, s.
+    #[arg(long, default_value_t = 1.0, value_name = "S")]
+    pub seconds: f64,
+    /// Sample rate, Hz.
+    #[arg(long, default_value_t = 100_000.0, value_name = "HZ")]
+    pub rate: f64,
+    /// Seed of all noise.
+    #[arg(long, default_value_t = 1, value_name = "SEED")]
+    pub seed: u64,
+    /// How samples are stored.
+    #[arg(long, value_enum, default_value_t = Sample::I16, value_name = "FORMAT")]
+    pub sample: Sample,
+
+    #[command(flatten)]
+    wave: WaveOptions,
+    #[command(flatten)]
+    flaws: FlawOptions,
+}
+
+/// The wave at the first sample, and its rates.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Wave")]
+struct WaveOptions {
+    /// Main amplitude at the start; integer samples end at 1.
+    #[arg(long, default_value_t = 0.5, value_name = "LEVEL")]
+    main_amplitude: f64,
+    /// Quadrature amplitude at the start, signed.
+    #[arg(long, default_value_t = 0.025, value_name = "LEVEL")]
+    quadrature_amplitude: f64,
+    /// Pattern angle at the start, rad.
+    #[arg(long, default_value_t = std::f64::consts::FRAC_PI_6, value_name = "RAD")]
+    angle: f64,
+    /// Phase at the start, rad.
+    #[arg(long, default_value_t = std::f64::consts::FRAC_PI_6, value_name = "RAD")]
+    phase: f64,
+    /// Frequency at the start, Hz.
+    #[arg(long, default_value_t = 5332.0, value_name = "HZ")]
+    frequency: f64,
+    /// Drift of the frequency, Hz/s.
+    #[arg(long, default_value_t = 0.0, value_name = "HZ/S")]
+    frequency_rate: f64,
+    /// Precession, rad/s.
+    #[arg(long, default_value_t = 0.0, value_name = "RAD/S")]
+    angle_rate: f64,
+    /// Decay of the amplitudes, 1/s.
+    #[arg(long, default_value_t = 0.0, value_name = "1/S")]
+    decay_rate: f64,
+}
+
+/// What stands between the wave and the file.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Flaws")]
+struct FlawOptions {
+    /// White noise, rms a sample and channel, in the units of the amplitudes.
+    #[arg(long, default_value_t = 0.0, value_name = "RMS")]
+    noise: f64,
+    /// Offset of S_C, in the units of the amplitudes.
+    #[arg(long, default_value_t = 0.0, value_name = "LEVEL")]
+    offset_c: f64,
+    /// Offset of S_D, in the units of the amplitudes.
+    #[arg(long, default_value_t = 0.0, value_name = "LEVEL")]
+    offset_d: f64,
+    /// Gain of pick-off D over that of C.
+    #[arg(long, default_value_t = 1.0, value_name = "RATIO")]
+    gain_ratio: f64,
+    /// How much later than C pick-off D is sampled, ns.
+    #[arg(long, default_value_t = 0.0, value_name = "NS")]
+    skew_ns: f64,
+    /// Pick-off D stands at 45° plus this angle from C, rad.
+    #[arg(long, default_value_t = 0.0, value_name = "RAD")]
+    pick_off_angle: f64,
+    /// Cubic nonlinearity: S becomes S + C·S³/a², a the main amplitude at the start.
+    #[arg(long, default_value_t = 0.0, value_name = "C")]
+    cubic: f64,
+    /// Level at which |S| is clipped.
+    #[arg(long, value_name = "LEVEL")]
+    clip: Option<f64>,
+    /// Level at which |S| is clipped between two times, s; may be given again.
+    #[arg(long, value_name = "FROM:TO:LEVEL")]
+    clip_span: Vec<Parsed<ClipSpan>>,
+    /// Bits of the converter, 2 to 32 [default: no converter, but the steps of the file].
+    #[arg(long, value_name = "BITS")]
+    bits: Option<u32>,
+    /// Full scale of the converter of --bits.
+    #[arg(long, default_value_t = 1.0, value_name = "LEVEL", requires = "bits")]
+    full_scale: f64,
+    /// Jitter of the sampling instants, rms, ns.
+    #[arg(long, default_value_t = 0.0, value_name = "NS")]
+    jitter_ns: f64,
+    /// Sample pairs lost, COUNT of them from INDEX on (from 0); may be given again.
+    #[arg(long, value_name = "INDEX:COUNT")]
+    lost: Vec<Parsed<Loss>>,
+    /// A dropout between two times, s; may be given again.
+    ///
+    /// KIND is zero, hold (the last sample) or noise (no wave); CHANNEL is c or d, or both if not given.
+    #[arg(long, value_name = "FROM:TO:KIND[:CHANNEL]")]
+    dropout: Vec<Parsed<Dropout>>,
+}
+
+/// How samples are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Sample {
+    /// 16-bit integers, full scale 1; CSV holds their values.
+    I16,
+    /// 24-bit integers, full scale 1; NPY holds them in 32 bits, CSV their values.
+    I24,
+    /// 32-bit integers, full scale 1; CSV holds their values.
+    I32,
+    /// 32-bit floating point.
+    F32,
+    /// 64-bit floating point; not in WAV.
+    F64,
+}
+
+impl From<Sample> for WavSample {
+    fn from(sample: Sample) -> Self {
+        match sample {
+            Sample::I16 => Self::I16,
+            Sample::I24 => Self::I24,
+            Sample::I32 => Self::I32,
+            Sample::F32 => Self::F32,
+            Sample::F64 => Self::F64,
+        }
+    }
+}
+
+impl Simulate {
+    /// The wave at the first sample.
+    pub fn wave(&self) -> Wave {
+        Wave {
+            main_amplitude: self.wave.main_amplitude,
+            quadrature_amplitude: self.wave.quadrature_amplitude,
+            angle: self.wave.angle,
+            phase: self.wave.phase,
+            frequency: self.wave.frequency,
+            frequency_rate: self.wave.frequency_rate,
+            angle_rate: self.wave.angle_rate,
+            decay_rate: self.wave.decay_rate,
+        }
+    }
+
+    /// True for samples that end at full scale.
+    pub fn is_integer(&self) -> bool {
+        !matches!(self.sample, Sample::F32 | Sample::F64)
+    }
+
+    /// Refuses what would begin only after the last sample.
+    pub fn check_places(&self, pairs: u64) -> Result<(), Failure> {
+        let flaws = self.flaws();
+        // Lost samples take their time too.
+        let end = |index: u64| {
+            let before = flaws.lost.iter().filter(|loss| loss.at < index);
+            (pairs + before.map(|loss| loss.count).sum::<u64>()) as f64 / self.rate
+        };
+        let last = end(u64::MAX);
+        let clips = flaws
+            .clip_spans
+            .iter()
+            .map(|span| ("--clip-span", span.from, last));
+        let dropouts = flaws
+            .dropouts
+            .iter()
+            .map(|span| ("--dropout", span.from, last));
+        let losses = flaws
+            .lost
+            .iter()
+            .map(|loss| ("--lost", loss.at as f64 / self.rate, end(loss.at)));
+        match clips
+            .chain(dropouts)
+            .chain(losses)
+            .find(|&(_, from, end)| from >= end)
+        {
+            Some((option, from, end)) => Err(Failure::Usage(format!(
+                "{option}: it begins at {from} s, but the recording ends at {end} s; give more --seconds"
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// What stands between the wave and the file.
+    pub fn flaws(&self) -> Flaws {
+        Flaws {
+            noise: self.flaws.noise,
+            offset_c: self.flaws.offset_c,
+            offset_d: self.flaws.offset_d,
+            gain_ratio: self.flaws.gain_ratio,
+            skew: self.flaws.skew_ns * 1e-9,
+            pick_off_error: self.flaws.pick_off_angle,
+            cubic: self.flaws.cubic,
+            clip: self.flaws.clip,
+            clip_spans: self.flaws.clip_span.iter().map(|span| span.0).collect(),
+            bits: self.flaws.bits,
+            full_scale: self.flaws.full_scale,
+            jitter: self.flaws.jitter_ns * 1e-9,
+            lost: self.flaws.lost.iter().map(|loss| loss.0).collect(),
+            dropouts: self.flaws.dropout.iter().map(|dropout| dropout.0).collect(),
+        }
+    }
+}

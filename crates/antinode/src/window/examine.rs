@@ -1,0 +1,162 @@
+//! What a window's waves leave unexplained: the residual as a whole, by blocks, as a step, and about the third harmonic.
+
+use num_complex::Complex32;
+
+use super::fit::Prediction;
+use super::model::Model;
+use super::response::Response;
+use super::waves::{Course, Gains, Mixing, Waves};
+use crate::block::Block;
+
+/// The residual of a fit, in several views. Squares are in input units squared.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Remains {
+    /// Sum of the squared whitened residuals: noise of variance σ² a sample leaves `freedom`·σ².
+    pub residual: f32,
+    pub freedom: f32,
+    /// The largest share of one block in `residual`: 6 degrees of freedom.
+    pub worst_block: f32,
+    /// The most that one step of both phasors between two blocks would take off `residual`: 4 degrees of freedom.
+    pub step: f32,
+    /// Third harmonic of each pick-off: complex amplitude, input units.
+    pub third: [Complex32; 2],
+    /// Noise variance a sample seen about the third harmonic, and its degrees of freedom.
+    pub third_noise: f32,
+    pub third_freedom: f32,
+}
+
+impl Remains {
+    /// Noise variance a sample, seen about the carrier.
+    pub(crate) fn variance(&self) -> f32 {
+        self.residual / self.freedom
+    }
+}
+
+/// Passes once more over the blocks of a window, with its final waves and offsets.
+pub(super) fn examine<'a>(
+    model: &Model,
+    blocks: impl Iterator<Item = &'a Block>,
+    waves: &Waves,
+    offset: [f32; 2],
+) -> Remains {
+    let response = &model.response;
+    let mixing = Mixing::new(model, waves);
+    let predictions: [(Prediction, Third); 2] = core::array::from_fn(|i| {
+        (
+            Prediction::new(model, &mixing, i, offset[i]),
+            Third::new(model, &mixing, i, offset[i]),
+        )
+    });
+    let mut course = Course::new(model, waves);
+    let mut steps = Steps::new(model.blocks, response);
+    let mut remains = Remains {
+        freedom: model.freedom(),
+        ..Remains::default()
+    };
+    let mut third_power = 0.0;
+    for block in blocks {
+        let here = course.next();
+        let back = here.unit.conj();
+        let back_third = back * back * back;
+        let mut along = [Complex32::ZERO; 2];
+        let mut power = 0.0;
+        for channel in 0..2 {
+            let sums = &block.channels[channel];
+            let (prediction, third) = &predictions[channel];
+            let rest = prediction.rest(&model.basis.whiten(sums), &here);
+            power += rest.mean * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
+            along[channel] = Complex32::new(
+                response.mean.level * rest.mean + response.even.level * rest.even,
+                response.odd.level * rest.odd,
+            ) * back;
+            let harmonic = Complex32::new(
+                sums.third_cosine - third.offset - third.cosine.of(&here),
+                third.sine.of(&here) - sums.third_sine,
+            );
+            remains.third[channel] += harmonic * back_third;
+            third_power += harmonic.norm_sqr();
+        }
+        remains.residual += power;
+        remains.worst_block = if power > remains.worst_block {
+            power
+        } else {
+            remains.worst_block
+        };
+        let step = steps.add(here.u, along);
+        remains.step = if step > remains.step {
+            step
+        } else {
+            remains.step
+        };
+    }
+    let (count, length) = (f32::from(model.blocks), f32::from(model.layout.length));
+    let coherent = (remains.third[0].norm_sqr() + remains.third[1].norm_sqr()) / count;
+    remains.third_freedom = 4.0 * (count - 1.0);
+    remains.third_noise =
+        (third_power - coherent).max(0.0) / (0.5 * length * remains.third_freedom);
+    remains.third = remains.third.map(|sum| sum * (2.0 / (count * length)));
+    remains
+}
+
+/// Predicts the third-harmonic sums of one pick-off: what the wave itself puts there in blocks that do not fit its period.
+struct Third {
+    cosine: Gains,
+    sine: Gains,
+    offset: f32,
+}
+
+impl Third {
+    fn new(model: &Model, mixing: &Mixing, channel: usize, offset: f32) -> Self {
+        let response = &model.response;
+        Self {
+            cosine: mixing.even(channel, &response.third_even),
+            sine: mixing.odd(channel, &response.third_odd),
+            offset: response.third_offset * offset,
+        }
+    }
+}
+
+/// Looks for a step of the phasors between two blocks: the sum of the residuals so far, against what noise would make it.
+struct Steps {
+    /// Mean weight of z in a block, over all phases of the carrier.
+    weight: f32,
+    blocks: f32,
+    /// Σu² over the window, u being the blocks' middles.
+    spread: f32,
+    count: f32,
+    time: f32,
+    sum: [Complex32; 2],
+}
+
+impl Steps {
+    fn new(blocks: u16, response: &Response) -> Self {
+        let levels = [response.mean, response.even, response.odd].map(|answer| answer.level);
+        let blocks = f32::from(blocks);
+        Self {
+            weight: 0.5 * levels.iter().map(|level| level * level).sum::<f32>(),
+            blocks,
+            spread: (blocks - 1.0 / blocks) / 3.0,
+            count: 0.0,
+            time: 0.0,
+            sum: [Complex32::ZERO; 2],
+        }
+    }
+
+    /// Takes the next block's residual along z; gives what a step after it would explain.
+    fn add(&mut self, u: f32, along: [Complex32; 2]) -> f32 {
+        self.count += 1.0;
+        self.time += u;
+        self.sum[0] += along[0];
+        self.sum[1] += along[1];
+        // A step is known by what of it is neither constant nor slope.
+        let room = self.count
+            - self.count * self.count / self.blocks
+            - self.time * self.time / self.spread;
+        let power = self.sum[0].norm_sqr() + self.sum[1].norm_sqr();
+        if room > 0.2 {
+            power / (self.weight * room)
+        } else {
+            0.0
+        }
+    }
+}

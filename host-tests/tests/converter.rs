@@ -1,0 +1,70 @@
+//! Signals through a converter: its steps are counted in what is stated, and a clean signal is never flagged for them.
+
+use antinode::Settings;
+use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::score::errors;
+use host_tests::{RATE, identify, windows};
+
+#[test]
+fn steps_are_errors_that_are_stated() {
+    for bits in [10u32, 12, 16] {
+        for scale in [0.9, 0.3] {
+            for period in [4.3, 18.75, 20.0, 60.0] {
+                // From no noise at all, where the errors repeat with the signal, to noise that breaks them up.
+                for noise in [0.0, 0.3, 2.0] {
+                    for periods in [2, 10, 50] {
+                        check(bits, scale, period, noise, periods);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Runs one combination: `scale` is the amplitude over full scale, `noise` is in steps.
+fn check(bits: u32, scale: f64, period: f64, noise: f64, periods: u16) {
+    let label = format!(
+        "{bits} bits, {scale} of full scale, {period} a period, noise {noise} steps, {periods} periods"
+    );
+    let (mut squares, mut rows, mut flagged) = ([0f64; 4], 0.0, 0);
+    for seed in 0..5 {
+        let wave = Wave {
+            decay_rate: 0.1,
+            angle_rate: 0.05,
+            ..random_wave(seed, RATE / period, 0.3)
+        };
+        let full_scale = wave.main_amplitude / scale;
+        let step = full_scale / 2f64.powi(bits as i32 - 1);
+        let flaws = Flaws {
+            noise: noise * step,
+            bits: Some(bits),
+            full_scale,
+            ..Flaws::default()
+        };
+        let settings = Settings {
+            resolution: Some(step as f32),
+            full_scale: Some((full_scale - step) as f32),
+            ..windows(periods)
+        };
+        let samples = (period * f64::from(periods) * 30.0) as usize;
+        for estimate in identify(wave, &flaws, settings, samples, seed) {
+            rows += 1.0;
+            flagged += usize::from(!estimate.flags.is_empty());
+            let stds = [
+                estimate.main_amplitude_std,
+                estimate.quadrature_amplitude_std,
+                estimate.angle_std,
+                estimate.frequency_std,
+            ];
+            for (i, error) in errors(&estimate, &wave).into_iter().enumerate() {
+                squares[i] += (error / f64::from(stds[i])).powi(2);
+            }
+        }
+    }
+    assert!(rows > 100.0, "{label}: {rows} rows");
+    assert_eq!(flagged, 0, "{label}");
+    for square in squares {
+        let ratio = (square / rows).sqrt();
+        assert!(ratio < 1.5, "{label}: {ratio:.2} of what is stated");
+    }
+}

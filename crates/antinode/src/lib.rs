@@ -68,7 +68,6 @@
 #[cfg(test)]
 extern crate std;
 
-
 pub mod block;
 pub mod methods;
 pub mod period;

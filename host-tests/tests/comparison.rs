@@ -123,9 +123,9 @@ fn ranks_follow_conditions_and_j() {
         let methods = comparison.methods;
         for a in &methods {
             for b in &methods {
-                if a.conditions_hold && !b.conditions_hold {
-                    assert!(a.rank < b.rank);
-                } else if a.conditions_hold == b.conditions_hold && a.j < b.j {
+                let better = a.conditions_hold && !b.conditions_hold;
+                let equal = a.conditions_hold == b.conditions_hold;
+                if better || equal && a.j < b.j {
                     assert!(a.rank < b.rank);
                 }
             }

@@ -1,7 +1,9 @@
 //! Shared helpers of the host tests: the Cramér–Rao bound, an independent oracle, and streams through the core.
 
 pub mod bound;
+pub mod methods;
 pub mod oracle;
+pub mod printed;
 pub mod score;
 
 use antinode::Estimate;

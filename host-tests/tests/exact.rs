@@ -1,6 +1,6 @@
 //! Noise-free waves: what is left is rounding, whatever the window, the offset and the samples a period.
 
-use antinode::algorithm4::Demodulated;
+use antinode::methods::{Products, algorithm4};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::errors;
 use host_tests::{RATE, identify, windows};
@@ -59,17 +59,18 @@ fn algorithm_4_as_printed_leaks_where_the_core_does_not() {
     println!("periods   algorithm 4: a_A, a_B, θ       core: a_A, a_B, θ");
     for periods in [2u16, 3, 4, 5, 8, 10] {
         let samples = (f64::from(periods) * RATE / wave.frequency).round() as usize;
-        let found = Demodulated::gather((0..samples).map(|k| {
-            let t = k as f64 / RATE;
-            let (c, d) = wave.pick_offs(t);
-            let (sine, cosine) = (std::f64::consts::TAU * wave.frequency * t).sin_cos();
-            ([c as f32, d as f32], [cosine as f32, sine as f32])
-        }))
-        .wave();
+        let pairs: Vec<[f32; 2]> = (0..samples)
+            .map(|k| {
+                let (c, d) = wave.pick_offs(k as f64 / RATE);
+                [c as f32, d as f32]
+            })
+            .collect();
+        let omega = std::f64::consts::TAU * wave.frequency / RATE;
+        let found = algorithm4::wave(&Products::of(&pairs, omega)).shape;
         let printed = [
-            f64::from(found.main_amplitude) - wave.main_amplitude,
-            f64::from(found.quadrature_amplitude) - wave.quadrature_amplitude,
-            f64::from(found.angle) - wave.angle,
+            found.main_amplitude - wave.main_amplitude,
+            found.quadrature_amplitude - wave.quadrature_amplitude,
+            found.angle - wave.angle,
         ]
         .map(f64::abs);
         let run = identify(wave, &Flaws::default(), windows(periods), 500, 0);

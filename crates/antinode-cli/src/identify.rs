@@ -7,7 +7,8 @@ use antinode::Identifier;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
-use crate::options::{Identify, MOST_PERIODS};
+use crate::methods::History;
+use crate::options::{Identify, MOST_PERIODS, Methods};
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
 
@@ -24,7 +25,11 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     options
         .settings(1.0, None)
         .check(usize::from(MOST_PERIODS) + 2)?;
-    let mut rows = Rows::new(BufWriter::new(io::stdout().lock()), options.output);
+    let mut rows = Rows::new(
+        BufWriter::new(io::stdout().lock()),
+        options.output,
+        options.methods == Methods::All,
+    );
     let several = options.files.len() > 1;
     let mut failure = None;
     for path in &options.files {
@@ -64,7 +69,10 @@ fn identify(
         }
     }
     let rate = sample_rate(&name, options.rate, recording.sample_rate())?;
-    let mut core = Box::new(Core::new(options.settings(rate, recording.full_scale()))?);
+    let settings = options.settings(rate, recording.full_scale());
+    let mut core = Box::new(Core::new(settings)?);
+    let mut history =
+        (options.methods == Methods::All).then(|| History::new(settings.calibration, rate));
     let bar = progress(&recording);
     let length = recording
         .pairs()
@@ -81,9 +89,16 @@ fn identify(
         let mut pairs = buffer.as_slice();
         while !pairs.is_empty() {
             let (taken, estimate) = core.push_slice(pairs);
-            pairs = &pairs[taken..];
+            let (new, rest) = pairs.split_at(taken);
+            pairs = rest;
+            if let Some(history) = &mut history {
+                history.extend(new);
+            }
             if let Some(estimate) = estimate {
-                rows.print(&name, &estimate)?;
+                let methods = history
+                    .as_ref()
+                    .and_then(|history| history.compare(&estimate));
+                rows.print(&name, &estimate, methods.as_ref())?;
             }
         }
         if live || path == Path::new("-") {

@@ -4,10 +4,13 @@ mod demonstration;
 mod failure;
 mod fixed;
 mod identify;
+mod method_rows;
+mod methods;
 mod options;
 mod recording;
 mod rows;
 mod simulate;
+mod study;
 
 use std::process::ExitCode;
 
@@ -19,6 +22,7 @@ fn main() -> ExitCode {
         None => demonstration::run(),
         Some(Command::Identify(options)) => identify::run(&options),
         Some(Command::Simulate(options)) => simulate::run(&options),
+        Some(Command::Study(options)) => study::run(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -38,6 +38,8 @@ pub enum Command {
     Identify(Box<Identify>),
     /// Writes a simulated recording, and the truth beside it as JSON.
     Simulate(Box<super::simulate::Simulate>),
+    /// Computes the paper's comparison of its four methods anew: figures, tables, and its conclusions checked.
+    Study(super::study::Study),
 }
 
 /// `antinode identify`.
@@ -62,6 +64,9 @@ pub struct Identify {
     /// How rows are printed.
     #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
     pub output: Format,
+    /// Which methods a row shows.
+    #[arg(long, value_enum, default_value_t = Methods::Exact)]
+    pub methods: Methods,
     /// Format of raw samples on standard input or in a file of another kind: little-endian, S_C and S_D in turn.
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub raw: Option<Raw>,
@@ -105,6 +110,15 @@ pub struct Identify {
     /// Step between two codes of the converter [default: known for integers, none for others].
     #[arg(long, value_name = "STEP", help_heading = "Calibration")]
     pub resolution: Option<f32>,
+}
+
+/// Which methods a row shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Methods {
+    /// The exact solution alone.
+    Exact,
+    /// The paper's four methods beside it, ranked, with a warning where they disagree beyond noise.
+    All,
 }
 
 /// How rows are printed.

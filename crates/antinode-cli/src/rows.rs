@@ -6,6 +6,8 @@ use antinode::Estimate;
 use serde::Serialize;
 
 use crate::fixed::{heading, with_std};
+use crate::method_rows::{self, Columns};
+use crate::methods::Methods;
 use crate::options::Format;
 
 /// One row of CSV or JSON lines; the names are the columns.
@@ -64,6 +66,15 @@ impl<'a> Row<'a> {
     }
 }
 
+/// A row with the methods' columns after its own.
+#[derive(Serialize)]
+struct Wide<'a> {
+    #[serde(flatten)]
+    row: Row<'a>,
+    #[serde(flatten)]
+    methods: Columns<'a>,
+}
+
 /// Where rows go.
 enum Sink<W: Write> {
     Table(W),
@@ -76,6 +87,10 @@ pub struct Rows<W: Write> {
     sink: Sink<W>,
     /// Rows printed of the present recording.
     count: u64,
+    /// True where each row has the methods' columns too.
+    wide: bool,
+    /// True once the header of a wide CSV stands.
+    headed: bool,
     /// What stands above the next table.
     title: Option<String>,
     /// Tables begun.
@@ -83,11 +98,16 @@ pub struct Rows<W: Write> {
 }
 
 impl<W: Write> Rows<W> {
-    /// Rows of a format.
-    pub fn new(out: W, format: Format) -> Self {
+    /// Rows of a format; `wide` ones have the methods' columns too.
+    pub fn new(out: W, format: Format, wide: bool) -> Self {
         let sink = match format {
             Format::Table => Sink::Table(out),
-            Format::Csv => Sink::Csv(Box::new(csv::Writer::from_writer(out))),
+            // Headers of nested rows are written by hand.
+            Format::Csv => Sink::Csv(Box::new(
+                csv::WriterBuilder::new()
+                    .has_headers(!wide)
+                    .from_writer(out),
+            )),
             Format::Jsonl => Sink::Jsonl(out),
         };
         Self {
@@ -95,6 +115,8 @@ impl<W: Write> Rows<W> {
             count: 0,
             title: None,
             tables: 0,
+            wide,
+            headed: false,
         }
     }
 
@@ -104,10 +126,16 @@ impl<W: Write> Rows<W> {
         self.title = title;
     }
 
-    /// Prints one window.
-    pub fn print(&mut self, file: &str, estimate: &Estimate) -> io::Result<()> {
+    /// Prints one window, with its methods where they were asked for and are known.
+    pub fn print(
+        &mut self,
+        file: &str,
+        estimate: &Estimate,
+        methods: Option<&Methods>,
+    ) -> io::Result<()> {
         self.count += 1;
         let flags = estimate.flags.to_string();
+        let row = Row::new(file, &flags, estimate);
         match &mut self.sink {
             Sink::Table(out) => {
                 // A recording without a row gets no heading.
@@ -118,13 +146,30 @@ impl<W: Write> Rows<W> {
                     table_heading(out)?;
                     self.tables += 1;
                 }
-                table(out, estimate)
+                table(out, estimate)?;
+                methods.map_or(Ok(()), |methods| method_rows::table(out, methods))
             }
-            Sink::Csv(out) => out
-                .serialize(Row::new(file, &flags, estimate))
-                .map_err(io::Error::from),
+            Sink::Csv(out) if self.wide => {
+                if !std::mem::replace(&mut self.headed, true) {
+                    let own = header(&row)?;
+                    out.write_record(own.iter().map(String::from).chain(method_rows::names()))?;
+                }
+                out.serialize((row, method_rows::fields(methods)))
+                    .map_err(io::Error::from)
+            }
+            Sink::Csv(out) => out.serialize(row).map_err(io::Error::from),
             Sink::Jsonl(out) => {
-                serde_json::to_writer(&mut *out, &Row::new(file, &flags, estimate))?;
+                if self.wide {
+                    serde_json::to_writer(
+                        &mut *out,
+                        &Wide {
+                            row,
+                            methods: Columns(methods),
+                        },
+                    )?;
+                } else {
+                    serde_json::to_writer(&mut *out, &row)?;
+                }
                 writeln!(out)
             }
         }
@@ -142,6 +187,16 @@ impl<W: Write> Rows<W> {
             Sink::Csv(out) => out.flush(),
         }
     }
+}
+
+/// The names of a row's own columns.
+fn header(row: &Row) -> io::Result<csv::StringRecord> {
+    let mut scratch = csv::Writer::from_writer(Vec::new());
+    scratch.serialize(row)?;
+    let text = scratch
+        .into_inner()
+        .map_err(|error| io::Error::other(error.to_string()))?;
+    Ok(csv::Reader::from_reader(text.as_slice()).headers()?.clone())
 }
 
 /// The line above a table.

@@ -9,7 +9,7 @@
 //!
 //! Window by window this crate finds a_A, a_B, θ, ω and α, with their rates, standard deviations, and flags for whatever the
 //! model does not explain. Numbers in parentheses are formulas of R. I. Mingazov, K. V. Shishakov, DOI
-//! 10.22213/2410-9304-2021-3-12-24, whose algorithm 4 is [`algorithm4`]; the identification itself is its exact counterpart.
+//! 10.22213/2410-9304-2021-3-12-24, whose four algorithms are in [`methods`]; the identification itself is the exact counterpart of the fourth.
 //!
 //! Data flows one way:
 //!
@@ -68,10 +68,11 @@
 #[cfg(test)]
 extern crate std;
 
-pub mod algorithm4;
 pub mod block;
+pub mod methods;
 pub mod period;
 pub mod phase;
+pub mod regrid;
 
 mod calibration;
 mod estimate;

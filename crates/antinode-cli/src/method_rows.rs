@@ -1,0 +1,259 @@
+//! The methods of a window as columns, and as lines of a table.
+
+use std::io::{self, Write};
+
+use antinode::methods::comparison::{Comparison, Method};
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+use crate::methods::Methods;
+
+/// A value of a column.
+#[derive(Debug, Clone, serde::Serialize)]
+#[serde(untagged)]
+pub enum Field {
+    Number(f64),
+    Count(u8),
+    Text(String),
+    /// The window's samples were not at hand.
+    Missing,
+}
+
+/// Columns of one method, each after its name and an underscore.
+const OF_A_METHOD: [&str; 9] = [
+    "main_amplitude",
+    "quadrature_amplitude",
+    "angle_rad",
+    "frequency_hz",
+    "j",
+    "main_differs_std",
+    "quadrature_differs_std",
+    "angle_differs_std",
+    "rank",
+];
+/// Columns of all methods together.
+const OF_ALL: [&str; 5] = [
+    "leakage",
+    "delay_imbalance",
+    "phase_difference_rad",
+    "methods_by_rank",
+    "methods_flag",
+];
+
+/// The names of all columns, in order.
+pub fn names() -> Vec<String> {
+    let of_methods = (1..=4).flat_map(|i| OF_A_METHOD.map(|name| format!("method{i}_{name}")));
+    of_methods.chain(OF_ALL.map(String::from)).collect()
+}
+
+/// The values of all columns, in order.
+pub fn fields(methods: Option<&Methods>) -> Vec<Field> {
+    let Some(Methods {
+        comparison,
+        frequencies,
+    }) = methods
+    else {
+        return vec![Field::Missing; names().len()];
+    };
+    let mut fields = Vec::new();
+    for (method, &frequency) in comparison.methods.iter().zip(frequencies) {
+        let shape = method.wave.shape;
+        let [main, quadrature, angle] = method.differences;
+        fields.extend(
+            [
+                shape.main_amplitude,
+                shape.quadrature_amplitude,
+                shape.angle,
+                frequency,
+                method.j,
+                main,
+                quadrature,
+                angle,
+            ]
+            .map(|x| Field::Number(if x == 0.0 { 0.0 } else { rounded(x) })),
+        );
+        fields.push(Field::Count(method.rank));
+    }
+    fields.extend(
+        [
+            comparison.leakage,
+            comparison.imbalance,
+            comparison.phase_difference,
+        ]
+        .map(|x| Field::Number(rounded(x))),
+    );
+    fields.push(Field::Text(by_rank(comparison)));
+    fields.push(Field::Text(flag(comparison).into()));
+    fields
+}
+
+/// Nine significant digits.
+fn rounded(x: f64) -> f64 {
+    format!("{x:.8e}").parse().unwrap_or(x)
+}
+
+/// The methods from the most trusted to the least: `4>3>2>1`.
+fn by_rank(comparison: &Comparison) -> String {
+    let mut order: Vec<(u8, usize)> = comparison
+        .methods
+        .iter()
+        .zip(1..)
+        .map(|(m, i)| (m.rank, i))
+        .collect();
+    order.sort_unstable();
+    order
+        .iter()
+        .map(|(_, i)| i.to_string())
+        .collect::<Vec<_>>()
+        .join(">")
+}
+
+/// The warning, or nothing.
+fn flag(comparison: &Comparison) -> &'static str {
+    if comparison.disagree { "disagree" } else { "" }
+}
+
+/// The columns as members of a JSON object.
+pub struct Columns<'a>(pub Option<&'a Methods>);
+
+impl Serialize for Columns<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        for (name, field) in names().iter().zip(fields(self.0)) {
+            map.serialize_entry(name, &field)?;
+        }
+        map.end()
+    }
+}
+
+/// One line a method under a window's row: values, differences from the exact solution in its deviations, rank.
+pub fn table(out: &mut impl Write, methods: &Methods) -> io::Result<()> {
+    let comparison = &methods.comparison;
+    for (i, (method, frequency)) in comparison
+        .methods
+        .iter()
+        .zip(methods.frequencies)
+        .enumerate()
+    {
+        let Method {
+            wave,
+            j,
+            differences,
+            unexplained,
+            conditions_hold,
+            rank,
+        } = method;
+        let shape = wave.shape;
+        let value = |x: f64, i: usize| format!("{x:.6} ({:+.1} σ)", differences[i]);
+        let worst = unexplained.iter().fold(0f64, |worst, x| worst.max(x.abs()));
+        writeln!(
+            out,
+            "{:>11} {:>20} {:>20} {:>20} {:>22} J {:.2e}  rank {rank}{}{}",
+            format!("method {}", i + 1),
+            value(shape.main_amplitude, 0),
+            value(shape.quadrature_amplitude, 1),
+            value(shape.angle.to_degrees(), 2),
+            format!("{frequency:.4}"),
+            j,
+            if *conditions_hold {
+                ""
+            } else {
+                ", conditions do not hold"
+            },
+            if worst > antinode::methods::comparison::DISAGREEMENT {
+                format!(", {worst:.0} σ unexplained")
+            } else {
+                String::new()
+            },
+        )?;
+    }
+    if comparison.disagree {
+        writeln!(
+            out,
+            "{:>11} the methods disagree beyond noise: the signal is not one steady wave in white noise",
+            "warning:"
+        )?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use antinode::{Identifier, Settings};
+    use antinode_sim::{Flaws, Gyro, Wave};
+
+    use super::*;
+    use crate::methods::History;
+
+    /// The last window of the paper's wave in noise, after it has gone through `change`.
+    fn last(change: impl Fn([f32; 2]) -> [f32; 2]) -> Methods {
+        let settings = Settings::new(1e5);
+        let flaws = Flaws {
+            noise: 0.002,
+            offset_c: 0.3,
+            ..Flaws::default()
+        };
+        let mut core = Box::new(Identifier::<256, 64>::new(settings).expect("valid settings"));
+        let mut history = History::new(settings.calibration, 1e5);
+        let mut found = None;
+        for pair in Gyro::new(Wave::default(), flaws, 1e5, 1)
+            .expect("a valid gyro")
+            .take(3000)
+        {
+            let pair = change([pair.c as f32, pair.d as f32]);
+            history.extend(&[pair]);
+            if let Some(estimate) = core.push(pair) {
+                found = history.compare(&estimate);
+            }
+        }
+        found.expect("a window")
+    }
+
+    #[test]
+    fn every_column_has_its_value() {
+        let methods = last(|pair| pair);
+        let (names, fields) = (names(), fields(Some(&methods)));
+        assert_eq!(
+            (names.len(), fields.len(), super::fields(None).len()),
+            (41, 41, 41)
+        );
+        let value =
+            |name: &str| match fields[names.iter().position(|n| n == name).expect("a column")] {
+                Field::Number(x) => x,
+                Field::Count(n) => n.into(),
+                _ => panic!("{name} is no number"),
+            };
+        // Ten blocks of 19 samples are 10.13 periods: 1 % leaks.
+        assert!((value("method4_main_amplitude") - 2.0).abs() < 0.03);
+        assert!((value("method3_quadrature_amplitude") - 0.1).abs() < 0.02);
+        assert!((value("method2_quadrature_amplitude") - 0.1).abs() < 0.02);
+        assert!((value("method1_angle_rad") - 0.5236).abs() < 0.01);
+        assert!((value("leakage") - 0.011).abs() < 0.001);
+        for i in 1..=4 {
+            assert!((value(&format!("method{i}_frequency_hz")) - 5332.0).abs() < 1.0);
+        }
+        // Noise alone makes J 8·10⁻⁶; a_A off by 1 % of 2 adds half the square of that.
+        assert!(
+            (6e-6..6e-4).contains(&value("method4_j")) && value("method1_j") > value("method4_j")
+        );
+        let text = serde_json::to_string(&Columns(Some(&methods))).expect("JSON");
+        assert!(
+            text.contains("\"methods_flag\":\"\"") && text.contains("\"method1_rank\":4"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn a_limiter_is_warned_of() {
+        let methods = last(|pair| pair.map(|x| x.clamp(-0.8, 0.8)));
+        let mut lines = Vec::new();
+        table(&mut lines, &methods).expect("memory");
+        let lines = String::from_utf8(lines).expect("text");
+        assert!(
+            lines.contains("unexplained") && lines.contains("warning"),
+            "{lines}"
+        );
+        assert!(
+            matches!(fields(Some(&methods)).last(), Some(Field::Text(flag)) if flag == "disagree")
+        );
+    }
+}

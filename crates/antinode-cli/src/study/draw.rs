@@ -1,0 +1,179 @@
+//! A panel as SVG and PNG.
+
+use std::error::Error;
+use std::path::Path;
+use std::sync::Once;
+
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::ValueFormatter;
+use plotters::prelude::*;
+use plotters::style::{FontStyle, register_font};
+
+use super::figure::{Figure, Name, Panel};
+
+/// Width and height, pixels.
+const SIZE: (u32, u32) = (960, 600);
+/// Width of the legend, right of the chart, pixels.
+const KEY_WIDTH: u32 = 220;
+/// A bound's dashes and the gaps between them, pixels.
+const DASH: (u32, u32) = (7, 5);
+/// The registered font; viewers of the SVG that have no such font take their own sans.
+const FONT: &str = "sans-serif";
+
+/// Writes `path`.svg and `path`.png.
+pub fn write(path: &Path, figure: &Figure, panel: &Panel) -> Result<(), Box<dyn Error>> {
+    static FONTS: Once = Once::new();
+    FONTS.call_once(|| {
+        // It fails only for a font that cannot be read, and this one can.
+        let _ = register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT);
+    });
+    draw(
+        &SVGBackend::new(&path.with_extension("svg"), SIZE).into_drawing_area(),
+        figure,
+        panel,
+    )?;
+    draw(
+        &BitMapBackend::new(&path.with_extension("png"), SIZE).into_drawing_area(),
+        figure,
+        panel,
+    )
+}
+
+fn draw<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    figure: &Figure,
+    panel: &Panel,
+) -> Result<(), Box<dyn Error>>
+where
+    B::ErrorType: 'static,
+{
+    area.fill(&WHITE)?;
+    let (area, beside) = area.split_horizontally(SIZE.0 - KEY_WIDTH);
+    key(&beside, panel)?;
+    let values = || {
+        panel
+            .curves
+            .iter()
+            .flat_map(|curve| &curve.y)
+            .copied()
+            .filter(|y| y.is_finite())
+    };
+    let greatest = values().fold(f64::MIN_POSITIVE, f64::max);
+    let least = values().filter(|&y| y > 0.0).fold(greatest, f64::min);
+    let (first, last) = (
+        figure.x.first().copied().unwrap_or(0.0),
+        figure.x.last().copied().unwrap_or(1.0),
+    );
+    let margin = 0.02 * (last - first);
+    let across = first - margin..last + margin;
+    let mut builder = ChartBuilder::on(&area);
+    builder
+        .caption(
+            format!("Figure {}{}: {}", figure.number, panel.letter, panel.title),
+            (FONT, 22),
+        )
+        .margin(12)
+        .x_label_area_size(48)
+        .y_label_area_size(84);
+    if panel.logarithmic {
+        let chart =
+            builder.build_cartesian_2d(across, (0.5 * least..2.0 * greatest).log_scale())?;
+        fill(chart, figure, panel, &|y| format!("{y:.0e}"))
+    } else {
+        let chart = builder.build_cartesian_2d(across, 0.0..1.05 * greatest)?;
+        fill(chart, figure, panel, &|y| format!("{y}"))
+    }
+}
+
+fn fill<'a, B, Y>(
+    mut chart: ChartContext<'a, B, Cartesian2d<plotters::coord::types::RangedCoordf64, Y>>,
+    figure: &Figure,
+    panel: &Panel,
+    label: &dyn Fn(&f64) -> String,
+) -> Result<(), Box<dyn Error>>
+where
+    B: DrawingBackend + 'a,
+    B::ErrorType: 'static,
+    Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+{
+    chart
+        .configure_mesh()
+        .x_desc(figure.axis)
+        .y_desc(panel.axis)
+        .axis_desc_style((FONT, 18))
+        .label_style((FONT, 15))
+        .light_line_style(RGBColor(240, 240, 240))
+        .bold_line_style(RGBColor(215, 215, 215))
+        .x_labels(11)
+        .x_max_light_lines(0)
+        .y_max_light_lines(if panel.logarithmic { 1 } else { 0 })
+        .x_label_formatter(&|x| format!("{x}"))
+        .y_label_formatter(&|y| label(y))
+        .draw()?;
+    for curve in &panel.curves {
+        let (color, width) = style(curve.name);
+        let points: Vec<(f64, f64)> = figure
+            .x
+            .iter()
+            .copied()
+            .zip(curve.y.iter().copied())
+            .filter(|(_, y)| y.is_finite())
+            .collect();
+        let line = color.stroke_width(width);
+        if curve.name.is_bound() {
+            chart.draw_series(DashedLineSeries::new(points, DASH.0, DASH.1, line))?;
+        } else {
+            chart.draw_series(LineSeries::new(points.iter().copied(), line))?;
+            chart.draw_series(
+                points
+                    .iter()
+                    .map(|&point| Circle::new(point, 3, color.filled())),
+            )?;
+        }
+    }
+    chart.plotting_area().present()?;
+    Ok(())
+}
+
+/// The legend.
+fn key<B: DrawingBackend>(area: &DrawingArea<B, Shift>, panel: &Panel) -> Result<(), Box<dyn Error>>
+where
+    B::ErrorType: 'static,
+{
+    for (row, curve) in (0..).zip(&panel.curves) {
+        let (color, width) = style(curve.name);
+        let y = 60 + 26 * row;
+        let line = color.stroke_width(width);
+        if curve.name.is_bound() {
+            for x in [
+                4,
+                4 + (DASH.0 + DASH.1) as i32,
+                4 + 2 * (DASH.0 + DASH.1) as i32,
+            ] {
+                area.draw(&PathElement::new([(x, y), (x + DASH.0 as i32, y)], line))?;
+            }
+        } else {
+            area.draw(&PathElement::new([(4, y), (34, y)], line))?;
+            area.draw(&Circle::new((19, y), 3, color.filled()))?;
+        }
+        area.draw(&Text::new(curve.name.text(), (42, y - 8), (FONT, 16)))?;
+    }
+    Ok(())
+}
+
+/// Colours that are told apart by colour-blind readers too (Okabe and Ito's).
+fn style(name: Name) -> (RGBColor, u32) {
+    match name {
+        Name::Algorithm1 => (RGBColor(230, 159, 0), 2),
+        Name::Algorithm2 => (RGBColor(86, 180, 233), 2),
+        Name::Algorithm3 => (RGBColor(0, 158, 115), 2),
+        Name::Algorithm4 => (RGBColor(213, 94, 0), 2),
+        Name::MeanReturn => (RGBColor(150, 150, 150), 2),
+        Name::Difference => (RGBColor(204, 121, 167), 2),
+        Name::Fractional => (RGBColor(0, 70, 140), 1),
+        Name::Exact => (RGBColor(0, 0, 0), 3),
+        Name::Bound => (RGBColor(200, 0, 0), 2),
+        Name::CentredBound => (RGBColor(200, 120, 120), 2),
+        Name::Deviation => (RGBColor(0, 114, 178), 2),
+    }
+}

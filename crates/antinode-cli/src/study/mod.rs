@@ -1,0 +1,89 @@
+//! `antinode study`: the paper's comparison of its methods, computed anew, as figures and tables, with its conclusions checked.
+
+mod bound;
+mod conclusions;
+mod draw;
+mod evaluate;
+mod figure;
+mod noise_free;
+mod noisy;
+mod period;
+mod samples;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use antinode_sim::Wave;
+use clap::Args;
+
+use crate::failure::Failure;
+
+/// `antinode study`.
+#[derive(Debug, Args)]
+pub struct Study {
+    /// The folder that figures and tables go to; it is made where it is missing.
+    #[arg(long, default_value = "study", value_name = "DIR")]
+    out: PathBuf,
+    /// Runs a point of figure 3, at least 1.
+    #[arg(long, default_value_t = 10_000, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    runs: u32,
+    /// Seed of all noise.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+/// Sample rate of figures 1 and 3, and a step of figure 2's, Hz.
+const RATE: f64 = 100_000.0;
+
+/// Computes, draws, and tells what is confirmed.
+pub fn run(options: &Study) -> Result<(), Failure> {
+    let wave = Wave::default();
+    let first = noise_free::against_periods(&wave);
+    let second = noise_free::against_samples(&wave);
+    let third = noisy::against_noise(&wave, options.runs, options.seed);
+
+    let failed = |what: &std::path::Path, error: &dyn std::fmt::Display| {
+        Failure::Recording(format!("{}: cannot be written: {error}", what.display()))
+    };
+    fs::create_dir_all(&options.out).map_err(|error| failed(&options.out, &error))?;
+    for figure in [&first, &second, &third] {
+        let path = options.out.join(format!("figure-{}.csv", figure.number));
+        table::write(&path, figure).map_err(|error| failed(&path, &error))?;
+        for panel in &figure.panels {
+            let path = options
+                .out
+                .join(format!("figure-{}{}", figure.number, panel.letter));
+            draw::write(&path, figure, panel).map_err(|error| failed(&path, &error))?;
+        }
+    }
+
+    let mut out = io::stdout().lock();
+    let panels: usize = [&first, &second, &third]
+        .iter()
+        .map(|figure| figure.panels.len())
+        .sum();
+    writeln!(
+        out,
+        "{panels} panels as SVG and PNG, and 3 tables as CSV, are in {}; {} runs a point in figure 3, seed {}.\n",
+        options.out.display(),
+        options.runs,
+        options.seed,
+    )?;
+    for conclusion in conclusions::check(&wave, &first, &second, &third, options) {
+        let mark = if conclusion.confirmed {
+            "confirmed"
+        } else {
+            "NOT CONFIRMED"
+        };
+        writeln!(
+            out,
+            "{mark:>13}  {}\n{:15}{}",
+            conclusion.claim, "", conclusion.found
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,113 @@
+//! Figures 1 and 2: absolute errors without noise, against the periods of a window and against the samples of a period.
+
+use antinode_sim::Wave;
+
+use super::RATE;
+use super::bound::{bound, centred_bound};
+use super::evaluate::{CURVES, errors};
+use super::figure::{Curve, Figure, Name, Panel};
+use super::samples::Samples;
+
+/// Noise of the bound drawn beside errors without noise, as a share of a_A: 80 dB.
+const BOUND_NOISE: f64 = 1e-4;
+/// Below this an error is drawn here: rounding of samples to f32 is about as large.
+const FLOOR: f64 = 1e-9;
+
+/// Figure 1: windows of 1 to 10 periods at 100 kS/s.
+pub fn against_periods(wave: &Wave) -> Figure {
+    let windows = (1..=10).map(|periods| Samples::simulate(wave, periods, RATE, 0.0, 0));
+    let x = (1..=10).map(f64::from).collect();
+    figure(1, "periods in the window", x, windows, wave)
+}
+
+/// Figure 2: one period, at 1 to 10 times 100 kS/s.
+pub fn against_samples(wave: &Wave) -> Figure {
+    let windows: Vec<Samples> = (1..=10)
+        .map(|times| Samples::simulate(wave, 1, RATE * f64::from(times), 0.0, 0))
+        .collect();
+    let x = windows.iter().map(|window| window.count as f64).collect();
+    figure(
+        2,
+        "samples in the window of one period",
+        x,
+        windows.into_iter(),
+        wave,
+    )
+}
+
+fn figure(
+    number: u8,
+    axis: &'static str,
+    x: Vec<f64>,
+    windows: impl Iterator<Item = Samples>,
+    wave: &Wave,
+) -> Figure {
+    let kinds = [
+        ('a', "main amplitude a_A = 2", "absolute error, input units"),
+        (
+            'b',
+            "quadrature amplitude a_B = 0.1",
+            "absolute error, input units",
+        ),
+        ('c', "angle of the standing wave", "absolute error, degrees"),
+        ('d', "frequency", "absolute error, Hz"),
+    ];
+    let mut panels: Vec<Panel> = kinds
+        .map(|(letter, title, axis)| Panel {
+            letter,
+            title: format!("{title}, without noise (bounds: noise of 0.01 %)"),
+            axis,
+            logarithmic: true,
+            curves: CURVES
+                .into_iter()
+                .chain([Name::Bound, Name::CentredBound])
+                .map(|name| Curve {
+                    name,
+                    y: Vec::new(),
+                })
+                .collect(),
+        })
+        .into();
+    let mut deviation = Vec::new();
+    for window in windows {
+        let noise = BOUND_NOISE * wave.main_amplitude;
+        let bounds = [bound, centred_bound]
+            .map(|bound| bound(wave, window.count, window.rate).map(|x| x * noise));
+        let errors = errors(&window, wave);
+        for (i, panel) in panels.iter_mut().enumerate() {
+            let values = errors
+                .iter()
+                .map(|error| error[i].abs().max(FLOOR))
+                .chain(bounds.map(|bound| bound[i]));
+            for (curve, value) in panel.curves.iter_mut().zip(values) {
+                curve.y.push(value);
+            }
+        }
+        deviation.push(window.deviation().abs());
+    }
+    for panel in &mut panels {
+        // f64::max takes no part in a missing value.
+        panel.curves.retain(|curve| {
+            !matches!(
+                (curve.name, panel.letter),
+                (Name::MeanReturn | Name::Difference, 'a'..='c') | (Name::Fractional, 'd')
+            )
+        });
+    }
+    panels.push(Panel {
+        letter: 'e',
+        title: "relative deviation of the sampled span from whole periods".into(),
+        axis: "|n/(N·P) − 1|",
+        logarithmic: false,
+        curves: vec![Curve {
+            name: Name::Deviation,
+            y: deviation,
+        }],
+    });
+    Figure {
+        number,
+        axis,
+        x,
+        panels,
+    }
+}

@@ -1,0 +1,73 @@
+//! Windows of a simulated gyro, with samples before and after them for delays and for the search of the period.
+
+use std::f64::consts::TAU;
+
+use antinode_sim::{Flaws, Gyro, Wave};
+
+/// A window that starts at t = 0.
+#[derive(Debug, Clone)]
+pub struct Samples {
+    /// All sample pairs.
+    pub pairs: Vec<[f32; 2]>,
+    /// Sample pairs before t = 0.
+    pub lead: usize,
+    /// Sample pairs in the window.
+    pub count: usize,
+    /// Samples a period.
+    pub period: f64,
+    /// Sample rate, Hz.
+    pub rate: f64,
+    /// Periods that the window is meant to have.
+    pub periods: u32,
+}
+
+impl Samples {
+    /// `periods` of a wave that does not change, to the nearest sample, in white noise of `noise` rms a sample and channel.
+    pub fn simulate(wave: &Wave, periods: u32, rate: f64, noise: f64, seed: u64) -> Self {
+        let period = rate / wave.frequency;
+        let lead = (1.5 * period).ceil() as usize;
+        let count = (f64::from(periods) * period).round() as usize;
+        let after = (0.25 * period).ceil() as usize + 1;
+        let early = Wave {
+            phase: wave.phase + TAU * wave.frequency * lead as f64 / rate,
+            ..*wave
+        };
+        let gyro = Gyro::new(
+            early,
+            Flaws {
+                noise,
+                ..Flaws::default()
+            },
+            rate,
+            seed,
+        );
+        let pairs = gyro.map_or(Vec::new(), |gyro| {
+            gyro.take(lead + count + after)
+                .map(|pair| [pair.c as f32, pair.d as f32])
+                .collect()
+        });
+        Self {
+            pairs,
+            lead,
+            count,
+            period,
+            rate,
+            periods,
+        }
+    }
+
+    /// The window.
+    pub fn window(&self) -> &[[f32; 2]] {
+        &self.pairs[self.lead..self.lead + self.count]
+    }
+
+    /// The window with all before it.
+    pub fn with_lead(&self) -> &[[f32; 2]] {
+        &self.pairs[..self.lead + self.count]
+    }
+
+    /// By how much the window is longer than its periods, as a share of them.
+    pub fn deviation(&self) -> f64 {
+        self.count as f64 / (f64::from(self.periods) * self.period) - 1.0
+    }
+}

@@ -1,0 +1,86 @@
+//! The study itself: reproducible, at the bound where it must be, its files whole, its conclusions as the documentation says.
+
+use super::figure::Name;
+use super::*;
+
+#[test]
+fn seeded_whatever_the_cores() {
+    let wave = Wave::default();
+    let with = |threads: usize, seed: u64| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("a pool of threads");
+        pool.install(|| noisy::rms(&wave, 1, &[0, 10], 600, seed))
+    };
+    let text = |seed, threads| format!("{:?}", with(threads, seed));
+    assert_eq!(text(1, 1), text(1, 3));
+    assert_ne!(text(1, 1), text(2, 1));
+}
+
+#[test]
+fn the_exact_solution_reaches_the_bound() {
+    let wave = Wave::default();
+    let figure = noisy::against_noise(&wave, 2000, 1);
+    for letter in ['a', 'b', 'c', 'd'] {
+        let (exact, bound) = (
+            figure.curve(letter, Name::Exact),
+            figure.curve(letter, Name::Bound),
+        );
+        assert_eq!((exact.len(), bound.len()), (21, 21));
+        for level in 1..=10 {
+            let ratio = exact[level] / bound[level];
+            assert!(
+                (0.92..1.08).contains(&ratio),
+                "{letter} at {level} %: {ratio}"
+            );
+        }
+    }
+    // Noise biases the quadrature of algorithm 3, and not that of 4.
+    let at = |name| figure.curve('b', name)[20];
+    assert!(at(Name::Algorithm3) > 3.0 * at(Name::Algorithm4));
+}
+
+#[test]
+fn conclusions_and_files_are_those_of_the_documentation() {
+    let wave = Wave::default();
+    let folder = tempfile::tempdir().expect("a folder");
+    let options = Study {
+        out: folder.path().join("new"),
+        runs: 500,
+        seed: 1,
+    };
+    run(&options).expect("a study");
+    let first = noise_free::against_periods(&wave);
+    let second = noise_free::against_samples(&wave);
+    let third = noisy::against_noise(&wave, 500, 1);
+    let found = conclusions::check(&wave, &first, &second, &third, &options);
+    let confirmed: Vec<bool> = found
+        .iter()
+        .map(|conclusion| conclusion.confirmed)
+        .collect();
+    assert_eq!(
+        confirmed,
+        [true, true, true, true, true, true, true, true, false]
+    );
+    let mut count = [0; 3];
+    for entry in fs::read_dir(&options.out).expect("the folder made") {
+        let path = entry.expect("an entry").path();
+        let kind = ["svg", "png", "csv"]
+            .iter()
+            .position(|kind| path.extension().is_some_and(|e| e == *kind));
+        count[kind.expect("a known kind of file")] += 1;
+        assert!(
+            fs::metadata(&path).expect("a file").len() > 5000,
+            "{}",
+            path.display()
+        );
+    }
+    assert_eq!(count, [14, 14, 3]);
+    // A header, then 10 points of every curve: 8 each of a, b, c with two bounds less (9) and (10), 9 of d, 1 of e.
+    let rows = fs::read_to_string(options.out.join("figure-1.csv"))
+        .expect("a table")
+        .lines()
+        .count();
+    assert_eq!(rows, 1 + 10 * (8 + 8 + 8 + 9 + 1));
+}

@@ -1,0 +1,20 @@
+//! Algorithm 3: the axes of the wave, formulas (21) and (22).
+
+use super::axes::rotated;
+use super::moments::Moments;
+use super::wave::Shape;
+
+/// a_A, a_B and θ by (21), (5) and (22).
+///
+/// (22) gives |a_B|; its sign is that of `sign`: Q of (24), [`Products::q`](super::Products::q), or −q of (16). Noise of σ a sample
+/// adds 2σ² to both squared amplitudes.
+pub fn shape(moments: &Moments, sign: f64) -> Shape {
+    let (cc, dd, cd) = moments.means();
+    let angle = 0.25 * libm::atan2(2.0 * cd, cc - dd);
+    let (main, quadrature) = rotated(moments, angle);
+    Shape {
+        main_amplitude: libm::sqrt((2.0 * main).max(0.0)),
+        quadrature_amplitude: libm::copysign(libm::sqrt((2.0 * quadrature).max(0.0)), sign),
+        angle,
+    }
+}

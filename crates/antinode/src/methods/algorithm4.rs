@@ -1,0 +1,36 @@
+//! Algorithm 4: digital demodulation, formulas (24) and (25).
+//!
+//! It holds exactly only where the window fits the period, condition (8); elsewhere leakage remains: 7·10⁻³ of amplitude for a window
+//! of 19 samples at 18.75 a period. The window solution of the [`Tracker`](crate::Tracker) is its exact counterpart and has none.
+
+use super::axes::resolve_half_period;
+use super::products::Products;
+use super::wave::{Shape, Wave};
+
+/// The wave by (25), with 2Φ = atan2(L, M) so that the quadrant is right, and Φ or Φ + π by (5).
+///
+/// The reference is φ = ωt, that is φ₀ = 0: α = Φ.
+pub fn wave(products: &Products) -> Wave {
+    let [cx, cy] = products.cosine.map(|mean| 2.0 * mean);
+    let [sx, sy] = products.sine.map(|mean| 2.0 * mean);
+    let e = sx * sx + cx * cx + sy * sy + cy * cy;
+    let q = 2.0 * (sy * cx - sx * cy);
+    let r = sx * sx + cx * cx - sy * sy - cy * cy;
+    let s = 2.0 * (sx * sy + cx * cy);
+    let l = 2.0 * (sx * cx + sy * cy);
+    let m = cx * cx + cy * cy - sx * sx - sy * sy;
+    let sum = libm::sqrt((e + q).max(0.0));
+    let difference = libm::sqrt((e - q).max(0.0));
+    let shape = Shape {
+        main_amplitude: 0.5 * (sum + difference),
+        quadrature_amplitude: 0.5 * (sum - difference),
+        angle: 0.25 * libm::atan2(s, r),
+    };
+    resolve_half_period(
+        Wave {
+            shape,
+            phase: 0.5 * libm::atan2(l, m),
+        },
+        products,
+    )
+}

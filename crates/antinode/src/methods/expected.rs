@@ -1,0 +1,94 @@
+//! What a wave makes of a window's sums when there is no other noise than white: closed forms, no samples.
+//!
+//! With these each method's own leakage and bias is known beforehand, so that it is not taken for a fault.
+
+use super::delayed::Delayed;
+use super::moments::Moments;
+use super::products::{Products, mean_harmonic};
+use super::wave::Wave;
+
+/// ⟨cos²⟩, ⟨sin²⟩ and ⟨sin cos⟩ of ωt over a window.
+struct Means {
+    cosines: f64,
+    sines: f64,
+    mixed: f64,
+}
+
+impl Means {
+    fn new(omega: f64, count: u32) -> Self {
+        let double = mean_harmonic(2, omega, count);
+        Self {
+            cosines: 0.5 * (1.0 + double.re),
+            sines: 0.5 * (1.0 - double.re),
+            mixed: -0.5 * double.im,
+        }
+    }
+
+    /// ⟨(u cos + v sin)(x cos + y sin)⟩.
+    fn product(&self, u: f64, v: f64, x: f64, y: f64) -> f64 {
+        u * x * self.cosines + v * y * self.sines + (u * y + v * x) * self.mixed
+    }
+}
+
+impl Moments {
+    /// Those of `wave` at `omega` rad a sample over `count` pairs, in noise of variance `noise` a sample, while the pattern turns by
+    /// `turn` rad from the first sample to the last: turning blurs the angle.
+    pub fn expected(wave: &Wave, omega: f64, count: u32, noise: f64, turn: f64) -> Self {
+        let means = Means::new(omega, count);
+        let (u, v) = wave.quadratures();
+        let n = f64::from(count);
+        let [cc, dd] = [0, 1].map(|i: usize| means.product(u[i], v[i], u[i], v[i]));
+        let cd = means.product(u[0], v[0], u[1], v[1]);
+        // 4θ runs over ±2 turn: its mean unit vector is shorter by sin x/x.
+        let x = 2.0 * turn;
+        let blur = if x.abs() < 1e-4 {
+            1.0 - x * x / 6.0
+        } else {
+            libm::sin(x) / x
+        };
+        let (half, difference) = (0.5 * (cc + dd), 0.5 * (cc - dd) * blur);
+        Self {
+            count,
+            cc: n * (half + difference + noise),
+            dd: n * (half - difference + noise),
+            cd: n * cd * blur,
+        }
+    }
+}
+
+impl Products {
+    /// Those of `wave` at its own frequency over `count` pairs.
+    pub fn expected(wave: &Wave, omega: f64, count: u32) -> Self {
+        let means = Means::new(omega, count);
+        let first = mean_harmonic(1, omega, count);
+        let (u, v) = wave.quadratures();
+        Self {
+            count,
+            omega,
+            cosine: [0, 1].map(|i: usize| means.product(u[i], v[i], 1.0, 0.0)),
+            sine: [0, 1].map(|i: usize| means.product(u[i], v[i], 0.0, 1.0)),
+            mean: [0, 1].map(|i: usize| u[i] * first.re - v[i] * first.im),
+        }
+    }
+}
+
+impl Delayed {
+    /// Those of `wave` over `count` pairs at a delay of `lag` samples, with samples before the window.
+    pub fn expected(wave: &Wave, omega: f64, count: u32, lag: u16) -> Self {
+        let means = Means::new(omega, count);
+        let (u, v) = wave.quadratures();
+        // u cos ω(t − t₃) + v sin ω(t − t₃) as x cos ωt + y sin ωt.
+        let (s, c) = libm::sincos(omega * f64::from(lag));
+        let x = [0, 1].map(|i: usize| u[i] * c - v[i] * s);
+        let y = [0, 1].map(|i: usize| u[i] * s + v[i] * c);
+        let n = f64::from(count);
+        let product = |i: usize, j: usize| n * means.product(u[i], v[i], x[j], y[j]);
+        Self {
+            lag,
+            count,
+            cd: product(0, 1),
+            cc: product(0, 0),
+            dd: product(1, 1),
+        }
+    }
+}

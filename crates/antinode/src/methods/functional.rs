@@ -1,0 +1,43 @@
+//! How badly a wave explains a window: the functionals (6), (18), (23), and (15).
+
+use super::moments::Moments;
+use super::products::{Products, mean_harmonic};
+use super::wave::Wave;
+use crate::block::Pair;
+
+/// J of (6), input units squared: the mean over samples of the squared residuals of both pick-offs. (14), (18) and (23) are this one.
+///
+/// From sums alone, and exact: ⟨cos² ωt⟩ and its kin are Dirichlet sums, not (8). With noise of σ a sample a perfect wave has 2σ².
+pub fn squares(wave: &Wave, moments: &Moments, products: &Products) -> f64 {
+    let (u, v) = wave.quadratures();
+    let double = mean_harmonic(2, products.omega, products.count);
+    let cosines = 0.5 * (1.0 + double.re);
+    let sines = 0.5 * (1.0 - double.re);
+    let mixed = -0.5 * double.im;
+    let mut j = moments.power();
+    for i in 0..2 {
+        j -= 2.0 * (u[i] * products.cosine[i] + v[i] * products.sine[i]);
+        j += u[i] * u[i] * cosines + v[i] * v[i] * sines + 2.0 * u[i] * v[i] * mixed;
+    }
+    j
+}
+
+/// (15), input units: the mean of |residual| of both pick-offs, at `omega` rad a sample. It takes the samples themselves, centred.
+///
+/// Printed for algorithm 1, it serves any wave.
+pub fn absolutes(wave: &Wave, pairs: &[Pair], omega: f64) -> f64 {
+    let (u, v) = wave.quadratures();
+    let (step_sine, step_cosine) = libm::sincos(omega);
+    let (mut sine, mut cosine) = (0.0, 1.0);
+    let mut sum = 0.0;
+    for pair in pairs {
+        for i in 0..2 {
+            sum += (f64::from(pair[i]) - u[i] * cosine - v[i] * sine).abs();
+        }
+        (sine, cosine) = (
+            sine * step_cosine + cosine * step_sine,
+            cosine * step_cosine - sine * step_sine,
+        );
+    }
+    sum / pairs.len() as f64
+}

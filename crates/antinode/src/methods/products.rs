@@ -1,0 +1,114 @@
+//! Mean products of the pick-offs with a reference: CC, CS, DC, DS of (14), and with a factor of 2 the C and S of (24).
+
+use num_complex::Complex64;
+
+use crate::block::{Block, Pair};
+
+/// Mean products of a window with cos ωt and sin ωt, t from the window's first sample, in input units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Products {
+    /// Sample pairs.
+    pub count: u32,
+    /// ω of the reference, rad a sample.
+    pub omega: f64,
+    /// CC = ⟨S_C cos ωt⟩ and DC = ⟨S_D cos ωt⟩.
+    pub cosine: [f64; 2],
+    /// CS = ⟨S_C sin ωt⟩ and DS = ⟨S_D sin ωt⟩.
+    pub sine: [f64; 2],
+    /// ⟨S_C⟩ and ⟨S_D⟩.
+    pub mean: [f64; 2],
+}
+
+impl Products {
+    /// Of a slice of centred sample pairs, in f64: for one frequency of a search, or on a PC. An empty slice gives NaN.
+    pub fn of(pairs: &[Pair], omega: f64) -> Self {
+        let (sine, cosine) = libm::sincos(omega);
+        let advance = Complex64::new(cosine, -sine);
+        let mut unit = Complex64::new(1.0, 0.0);
+        let mut sums = [Complex64::ZERO; 2];
+        let mut mean = [0.0; 2];
+        for pair in pairs {
+            for i in 0..2 {
+                let sample = f64::from(pair[i]);
+                sums[i] += unit * sample;
+                mean[i] += sample;
+            }
+            unit *= advance;
+        }
+        Self::new(pairs.len() as u32, omega, sums, mean)
+    }
+
+    /// Of blocks that follow each other: the demodulator's own sums, at its own frequency. No block gives `None`.
+    pub fn from_blocks<'a>(blocks: impl IntoIterator<Item = &'a Block>) -> Option<Self> {
+        let mut blocks = blocks.into_iter().peekable();
+        let first = **blocks.peek()?;
+        let step = first.layout.step;
+        let omega = core::f64::consts::TAU * f64::from(step.0) / 4_294_967_296.0;
+        let mut sums = [Complex64::ZERO; 2];
+        let mut mean = [0.0; 2];
+        let mut count = 0;
+        for block in blocks {
+            // Phase of the block's middle about the window's first sample.
+            let samples = block.start.wrapping_sub(first.start) as f64
+                + 0.5 * (f64::from(block.layout.length) - 1.0);
+            let (sine, cosine) = libm::sincos(omega * samples);
+            for (i, channel) in block.channels.iter().enumerate() {
+                let own = Complex64::new(f64::from(channel.cosine), -f64::from(channel.sine));
+                sums[i] += own * Complex64::new(cosine, -sine);
+                mean[i] += f64::from(channel.sum);
+            }
+            count += u32::from(block.layout.length);
+        }
+        Some(Self::new(count, omega, sums, mean))
+    }
+
+    fn new(count: u32, omega: f64, sums: [Complex64; 2], mean: [f64; 2]) -> Self {
+        let scale = 1.0 / f64::from(count);
+        Self {
+            count,
+            omega,
+            cosine: sums.map(|sum| sum.re * scale),
+            sine: sums.map(|sum| -sum.im * scale),
+            mean: mean.map(|sum| sum * scale),
+        }
+    }
+
+    /// These products with `offsets` of S_C and S_D taken off every sample, (4).
+    pub fn centred(&self, offsets: [f64; 2]) -> Self {
+        let unit = mean_harmonic(1, self.omega, self.count);
+        let mut centred = *self;
+        for (i, offset) in offsets.into_iter().enumerate() {
+            centred.cosine[i] -= offset * unit.re;
+            centred.sine[i] += offset * unit.im;
+            centred.mean[i] -= offset;
+        }
+        centred
+    }
+
+    /// Q of (24), input units squared: 2 a_A a_B. Its sign is that of the quadrature.
+    pub fn q(&self) -> f64 {
+        8.0 * (self.sine[1] * self.cosine[0] - self.sine[0] * self.cosine[1])
+    }
+
+    /// The products seen along an axis: ⟨S cos ωt⟩ and ⟨S sin ωt⟩ for S = x S_C + y S_D.
+    pub fn along(&self, x: f64, y: f64) -> (f64, f64) {
+        (
+            x * self.cosine[0] + y * self.cosine[1],
+            x * self.sine[0] + y * self.sine[1],
+        )
+    }
+}
+
+/// ⟨e^{−jmωt}⟩ over `count` samples from t = 0, ω in rad a sample: the Dirichlet sum whose smallness for m = 2 is condition (8).
+pub fn mean_harmonic(m: u32, omega: f64, count: u32) -> Complex64 {
+    let half = 0.5 * f64::from(m) * omega;
+    let n = f64::from(count);
+    let below = libm::sin(half);
+    let size = if below == 0.0 {
+        1.0
+    } else {
+        libm::sin(n * half) / (n * below)
+    };
+    let (sine, cosine) = libm::sincos(half * (n - 1.0));
+    Complex64::new(size * cosine, -size * sine)
+}

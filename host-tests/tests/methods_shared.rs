@@ -1,0 +1,184 @@
+//! What the four methods share: sums of a stream, the functional J, the search for the frequency, and the exact solution.
+
+use std::f64::consts::{PI, TAU};
+
+use antinode::block::{Demodulator, Layout};
+use antinode::methods::{
+    Delayed, DelayedSums, MomentSums, Moments, Products, Wave as Found, algorithm1, algorithm3,
+    algorithm4, exact, frequency, functional, phase,
+};
+use antinode::phase::PhaseStep;
+use antinode_sim::{Wave, random_wave};
+use host_tests::methods::{LEAD, list, numbers, omega, samples};
+use host_tests::printed::Window;
+use host_tests::{RATE, angle_error};
+
+#[test]
+fn j_from_sums_is_j_from_samples() {
+    for seed in 0..50 {
+        let wave = random_wave(seed, 5332.0, 0.5);
+        let pairs = samples(&wave, 1 + seed as usize % 10);
+        let window = &pairs[LEAD..];
+        let doubles: Vec<[f64; 2]> = window.iter().map(|p| p.map(f64::from)).collect();
+        // A wrong frequency makes J large.
+        let omega = omega(&wave) * 1.01;
+        let plain = Window {
+            pairs: &doubles,
+            lead: 0,
+            omega,
+        };
+        let (moments, products) = (Moments::of(window), Products::of(window, omega));
+        let found = algorithm4::wave(&products);
+        let j = functional::squares(&found, &moments, &products);
+        let truth = plain.j(numbers(&found));
+        assert!(
+            (j - truth).abs() < 1e-7 * moments.power(),
+            "{j:e} {truth:e}"
+        );
+        assert!(truth > 1e-5 * moments.power());
+        let other = Found {
+            phase: found.phase + PI,
+            ..found
+        };
+        assert!(functional::squares(&other, &moments, &products) > j);
+    }
+}
+
+#[test]
+fn frequency_is_refined_on_a_grid_and_exactly() {
+    let wave = Wave::default();
+    let hertz = TAU / RATE;
+    for periods in [1usize, 4, 10] {
+        let pairs = samples(&wave, periods);
+        let window = &pairs[LEAD..];
+        let moments = Moments::of(window);
+        let third = algorithm3::shape(&moments, 1.0);
+        let j = |omega: f64| {
+            let products = Products::of(window, omega);
+            functional::squares(&phase::align(&third, &products), &moments, &products)
+        };
+        let start = TAU / 19.0;
+        let near = frequency::on_grid(start, hertz, 400, j);
+        // Trying each grid point finds the same.
+        let each = (-400..=400)
+            .map(|i| start + f64::from(i) * hertz)
+            .min_by(|a, b| j(*a).total_cmp(&j(*b)))
+            .unwrap();
+        assert!((near - each).abs() < 1e-9, "{near} {each}");
+        let fine = frequency::exact(near, window.len() as u32, j);
+        assert!((fine - near).abs() < 0.51 * hertz);
+        assert!(j(fine) <= j(near));
+        // (15) has its minimum nearby.
+        let first = algorithm1::shape(&moments);
+        let sharp = frequency::on_grid(start, hertz, 400, |omega| {
+            let wave = phase::align(&first, &Products::of(window, omega));
+            functional::absolutes(&wave, window, omega)
+        });
+        let solved = exact::solve(window, near);
+        let errors = [near, fine, sharp, solved.omega].map(|w| w / hertz - 5332.0);
+        println!(
+            "{periods} periods: 1 Hz grid, exact, (15), least squares: {} Hz",
+            list(&errors)
+        );
+        assert!(errors[0].abs() < 25.0);
+        // Over one period, quadrature and grid leave (15) where it began.
+        assert!(periods == 1 || errors[2].abs() < 25.0);
+        assert!(errors[3].abs() < 2e-3 * 4.0 / periods as f64, "{errors:?}");
+    }
+}
+
+#[test]
+fn the_exact_solution_has_no_leakage_and_takes_offsets() {
+    for seed in 0..60 {
+        let wave = random_wave(seed, 5332.0, 0.5);
+        for periods in [1, 2, 3, 10] {
+            let mut pairs = samples(&wave, periods);
+            for pair in &mut pairs {
+                pair[0] += 0.3;
+                pair[1] -= 0.1;
+            }
+            let solved = exact::solve(&pairs[LEAD..], omega(&wave) * 1.01);
+            let [a, b, theta, _] = numbers(&solved.wave);
+            // Rounding of f32 samples, which one period with free offsets and frequency amplifies.
+            let share = if periods == 1 { 1e-5 } else { 2e-6 };
+            let size = wave.main_amplitude;
+            assert!((a - size).abs() < share * size, "{seed} {periods}: {a}");
+            assert!((b - wave.quadrature_amplitude).abs() < share * size);
+            assert!(angle_error(theta, wave.angle).abs() < share);
+            assert!((solved.offsets[0] - 0.3).abs() < share * size);
+            assert!((solved.offsets[1] + 0.1).abs() < share * size);
+        }
+    }
+}
+
+#[test]
+fn streaming_sums_are_those_of_the_slice() {
+    let wave = Wave::default();
+    let (offsets, length) = ([0.4f32, -0.2f32], 19u16);
+    let raw: Vec<[f32; 2]> = samples(&wave, 12);
+    let shifted: Vec<[f32; 2]> = raw
+        .iter()
+        .map(|p| [p[0] + offsets[0], p[1] + offsets[1]])
+        .collect();
+    let layout = Layout {
+        step: PhaseStep::from_period(18.754_688),
+        length,
+    };
+    let mut blocks = Vec::new();
+    let mut demodulator = Demodulator::<64>::new(layout, 0);
+    let mut moment_sums = MomentSums::new(offsets);
+    let mut delayed_sums = DelayedSums::<50>::new(5, offsets);
+    let (mut moments, mut delayed) = (
+        Moments::default(),
+        Delayed {
+            lag: 5,
+            ..Delayed::default()
+        },
+    );
+    for &pair in shifted.iter().take(190) {
+        moment_sums.push(pair);
+        delayed_sums.push(pair);
+        if let Some(block) = demodulator.push(pair) {
+            blocks.push(block);
+            moments = moments.with(&moment_sums.take());
+            delayed = delayed.with(&delayed_sums.take());
+        }
+    }
+    assert_eq!((blocks.len(), moments.count, delayed.count), (10, 190, 185));
+    // Cut in any way, the sums are the same to the bit.
+    let (mut by_one, mut by_slice) = (
+        (MomentSums::new(offsets), DelayedSums::<50>::new(5, offsets)),
+        (MomentSums::new(offsets), DelayedSums::<50>::new(5, offsets)),
+    );
+    for (i, part) in shifted.chunk_by(|a, b| a[0] < b[0]).enumerate() {
+        for &pair in part {
+            by_one.0.push(pair);
+            by_one.1.push(pair);
+        }
+        by_slice.0.extend(part);
+        by_slice.1.extend(part);
+        if i % 3 == 0 {
+            assert_eq!(by_one.0.take(), by_slice.0.take());
+            assert_eq!(by_one.1.take(), by_slice.1.take());
+        }
+    }
+    assert_eq!(by_one.0.take(), by_slice.0.take());
+    assert_eq!(by_one.1.take(), by_slice.1.take());
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 3e-6, "{a} {b}");
+    let whole = Moments::of(&raw[..190]);
+    let (cc, dd, cd) = moments.means();
+    let (wc, wd, wcd) = whole.means();
+    near(cc, wc);
+    near(dd, wd);
+    near(cd, wcd);
+    near(delayed.q(), Delayed::of(&raw[..190], 5, 5).q());
+    let offsets = offsets.map(f64::from);
+    let products = Products::from_blocks(&blocks).unwrap().centred(offsets);
+    let direct = Products::of(&raw[..190], products.omega);
+    for i in 0..2 {
+        near(products.cosine[i], direct.cosine[i]);
+        near(products.sine[i], direct.sine[i]);
+        near(products.mean[i], direct.mean[i]);
+    }
+    assert!(Products::from_blocks([]).is_none());
+}

@@ -1,0 +1,143 @@
+//! Re-gridding: on a grid that fits the period the leakage of all four methods is gone, and the filter filters.
+
+use std::f64::consts::TAU;
+
+use antinode::methods::{
+    Delayed, Moments, Products, Shape, algorithm1, algorithm2, algorithm3, algorithm4,
+};
+use antinode::regrid::{Regrid, RegridError};
+use antinode_sim::{Wave, random_wave};
+use host_tests::{RATE, angle_error};
+
+/// Samples of the new grid, from the output number `skip` on.
+fn regridded<const TAPS: usize>(
+    signal: impl Fn(usize) -> [f64; 2],
+    period: f64,
+    count: usize,
+) -> Vec<[f32; 2]> {
+    let mut regrid = Regrid::<TAPS>::new(period as f32, 20, 2.0).expect("a valid grid");
+    let mut out = Vec::new();
+    let mut k = 0;
+    while out.len() < count {
+        regrid.push(signal(k).map(|x| x as f32), |pair| out.push(pair));
+        k += 1;
+    }
+    out
+}
+
+fn errors(shape: &Shape, wave: &Wave) -> [f64; 3] {
+    [
+        (shape.main_amplitude - wave.main_amplitude).abs() / wave.main_amplitude,
+        (shape.quadrature_amplitude - wave.quadrature_amplitude).abs() / wave.main_amplitude,
+        angle_error(shape.angle, wave.angle).abs(),
+    ]
+}
+
+/// Worst errors of algorithms 2, 3, 4, and of a_A² = a_A² + a_B² of algorithm 1, over one period of 20 samples, 5 before it.
+fn worst(pairs: &[[f32; 2]], wave: &Wave) -> f64 {
+    let window = &pairs[5..25];
+    let (moments, products) = (Moments::of(window), Products::of(window, TAU / 20.0));
+    let delayed = Delayed::of(&pairs[..25], 5, 5);
+    let shapes = [
+        algorithm2::shape(&moments, delayed.q()),
+        algorithm3::shape(&moments, products.q()),
+        algorithm4::wave(&products).shape,
+    ];
+    let size = wave.main_amplitude.hypot(wave.quadrature_amplitude);
+    let first = (algorithm1::shape(&moments).main_amplitude - size).abs() / size;
+    let others = shapes.iter().flat_map(|shape| errors(shape, wave));
+    others.fold(first, f64::max)
+}
+
+#[test]
+fn one_period_leaks_no_more() {
+    let (mut before, mut after) = (f64::INFINITY, 0f64);
+    for seed in 0..100 {
+        let wave = Wave {
+            quadrature_amplitude: 0.3,
+            ..random_wave(seed, 5332.0, 0.5)
+        };
+        let signal = |k: usize| <[f64; 2]>::from(wave.pick_offs(k as f64 / RATE));
+        let period = RATE / wave.frequency;
+        let fitted = regridded::<32>(signal, period, 60);
+        after = after.max(worst(&fitted[30..], &wave));
+        // The first output stands at input sample TAPS/2 − 1, and each next one a twentieth of a period later.
+        for (k, pair) in fitted.iter().enumerate() {
+            let (c, d) = wave.pick_offs((15.0 + k as f64 * period / 20.0) / RATE);
+            assert!((f64::from(pair[0]) - c).abs() + (f64::from(pair[1]) - d).abs() < 2e-5);
+        }
+        // The same on the converter's own grid, 19 samples for 18.75.
+        let raw: Vec<[f32; 2]> = (0..24).map(|k| signal(k).map(|x| x as f32)).collect();
+        let shape = algorithm4::wave(&Products::of(&raw[5..], TAU / period)).shape;
+        before = before.min(errors(&shape, &wave).into_iter().fold(0.0, f64::max));
+    }
+    println!(
+        "one period, worst error: {before:.1e} at least on the converter's grid, {after:.1e} at most on the fitting one"
+    );
+    assert!(before > 1e-3 && after < 2e-5);
+}
+
+#[test]
+fn the_filter_takes_noise_and_harmonics() {
+    // Two and a half periods of taps, cut-off at twice the frequency.
+    let period = RATE / 5332.0;
+    let power = |signal: &dyn Fn(usize) -> [f64; 2]| {
+        let out = regridded::<48>(signal, period, 4000);
+        let sum: f64 = out[100..].iter().map(|p| f64::from(p[0]).powi(2)).sum();
+        sum / 3900.0
+    };
+    let tone =
+        |multiple: f64| power(&move |k| [(TAU * multiple * k as f64 / period).cos(), 0.0]) / 0.5;
+    assert!((tone(1.0) - 1.0).abs() < 1e-5);
+    for multiple in [3.0, 4.0, 5.5, 8.0] {
+        let kept = tone(multiple);
+        println!(
+            "{multiple} times the frequency: {:.0} dB",
+            10.0 * kept.log10()
+        );
+        assert!(kept < 1e-3, "{multiple}: {kept}");
+    }
+    // White noise keeps the share of its band that passes: 2·2/18.75.
+    let gyro = antinode_sim::Gyro::new(
+        Wave {
+            main_amplitude: 1e-9,
+            quadrature_amplitude: 0.0,
+            ..Wave::default()
+        },
+        antinode_sim::Flaws {
+            noise: 1.0,
+            ..Default::default()
+        },
+        RATE,
+        7,
+    );
+    let noise: Vec<[f64; 2]> = gyro.unwrap().take(8000).map(|p| [p.c, p.d]).collect();
+    let kept = power(&|k| noise[k]);
+    println!("white noise: {kept:.3} of its power passes");
+    assert!((kept / (4.0 / period) - 1.0).abs() < 0.15, "{kept}");
+}
+
+#[test]
+fn grids_that_cannot_be_are_refused() {
+    assert_eq!(
+        Regrid::<32>::new(1.0, 20, 2.0).err(),
+        Some(RegridError::Period(1.0))
+    );
+    assert_eq!(
+        Regrid::<32>::new(18.75, 2, 0.9).err(),
+        Some(RegridError::PerPeriod(2))
+    );
+    assert_eq!(
+        Regrid::<32>::new(18.75, 20, 1.0).err(),
+        Some(RegridError::CutOff(1.0))
+    );
+    assert_eq!(
+        Regrid::<32>::new(18.75, 20, 9.5).err(),
+        Some(RegridError::CutOff(9.5))
+    );
+    assert_eq!(
+        Regrid::<5>::new(18.75, 20, 2.0).err(),
+        Some(RegridError::Taps(5))
+    );
+    assert!(Regrid::<32>::new(f32::NAN, 20, 2.0).is_err());
+}

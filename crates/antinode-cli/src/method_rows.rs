@@ -226,7 +226,7 @@ mod tests {
         assert!((value("method4_main_amplitude") - 2.0).abs() < 0.03);
         assert!((value("method3_quadrature_amplitude") - 0.1).abs() < 0.02);
         assert!((value("method2_quadrature_amplitude") - 0.1).abs() < 0.02);
-        assert!((value("method1_angle_rad") - 0.5236).abs() < 0.01);
+        assert!((value("method1_angle_rad") - std::f64::consts::FRAC_PI_6).abs() < 0.01);
         assert!((value("leakage") - 0.011).abs() < 0.001);
         for i in 1..=4 {
             assert!((value(&format!("method{i}_frequency_hz")) - 5332.0).abs() < 1.0);

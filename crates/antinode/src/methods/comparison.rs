@@ -205,7 +205,7 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
         }
         let unit = scatter(&explained.shape, reference, count, leakage);
         Method {
-            wave,
+            wave: wave.near(exact.shape.angle),
             j: functional::squares(&wave, &sums.moments, &sums.products).max(0.0),
             differences: apart(&wave.shape, &exact.shape, &reference.deviations),
             unexplained: apart(&seen, &explained.shape, &unit),

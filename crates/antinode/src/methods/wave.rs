@@ -7,7 +7,7 @@ pub struct Shape {
     pub main_amplitude: f64,
     /// a_B, input units, signed.
     pub quadrature_amplitude: f64,
-    /// θ_A in rad, within −π/4…π/4: it is known modulo π/2.
+    /// θ_A in rad; it is known modulo π/2, and lies within −π/4…π/4 unless [`Wave::near`] chose another value.
     pub angle: f64,
 }
 
@@ -21,6 +21,21 @@ pub struct Wave {
 }
 
 impl Wave {
+    /// The same motion under the angle that is nearest to `angle`, rad: θ moves by quarter turns, α by as many halves.
+    pub fn near(self, angle: f64) -> Self {
+        use core::f64::consts::{FRAC_PI_2, PI, TAU};
+        let quarters = libm::round((angle - self.shape.angle) / FRAC_PI_2);
+        let phase = self.phase + quarters * PI;
+        let phase = phase - libm::round(phase / TAU) * TAU;
+        Self {
+            shape: Shape {
+                angle: self.shape.angle + quarters * FRAC_PI_2,
+                ..self.shape
+            },
+            phase,
+        }
+    }
+
     /// The pick-offs of (3) as S = u cos ωt + v sin ωt: ([u_C, u_D], [v_C, v_D]), input units.
     pub fn quadratures(&self) -> ([f64; 2], [f64; 2]) {
         let Shape {
@@ -34,5 +49,31 @@ impl Wave {
             [a * c * c2 + b * s * s2, a * c * s2 - b * s * c2],
             [a * s * c2 - b * c * s2, a * s * s2 + b * c * c2],
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_near_angle_names_the_same_motion() {
+        let wave = Wave {
+            shape: Shape {
+                main_amplitude: 1.0,
+                quadrature_amplitude: -0.2,
+                angle: 0.3,
+            },
+            phase: 2.5,
+        };
+        for angle in [-7.0, -1.0, 0.4, 1.6, 12.0] {
+            let near = wave.near(angle);
+            assert!((near.shape.angle - angle).abs() <= core::f64::consts::FRAC_PI_4 + 1e-12);
+            let (before, after) = (wave.quadratures(), near.quadratures());
+            for i in 0..2 {
+                assert!((before.0[i] - after.0[i]).abs() < 1e-12);
+                assert!((before.1[i] - after.1[i]).abs() < 1e-12);
+            }
+        }
     }
 }

@@ -133,7 +133,6 @@ pub struct Block {
 pub struct Demodulator<const N: usize> {
     layout: Layout,
     table: [Reference; N],
-    filled: u16,
     start: u64,
     count: u16,
     sums: [ChannelSums; 2],
@@ -143,27 +142,18 @@ impl<const N: usize> Demodulator<N> {
     /// A demodulator whose first block starts at sample pair `start` of the stream. A length beyond 1…`N` is brought into it.
     pub fn new(layout: Layout, start: u64) -> Self {
         let length = layout.length.clamp(1, N as u16);
-        let mut demodulator = Self {
-            layout: Layout { length, ..layout },
-            table: [Reference::default(); N],
-            filled: 0,
+        let layout = Layout { length, ..layout };
+        let mut table = [Reference::default(); N];
+        for (index, entry) in (0..length).zip(&mut table) {
+            *entry = layout.reference(index);
+        }
+        Self {
+            layout,
+            table,
             start,
             count: 0,
             sums: [ChannelSums::EMPTY; 2],
-        };
-        while !demodulator.fill() {}
-        demodulator
-    }
-
-    /// Computes one more entry of the reference; true when the table is whole.
-    fn fill(&mut self) -> bool {
-        if self.filled < self.layout.length {
-            if let Some(entry) = self.table.get_mut(usize::from(self.filled)) {
-                *entry = self.layout.reference(self.filled);
-            }
-            self.filled += 1;
         }
-        self.filled == self.layout.length
     }
 
     /// Reference frequency and length of the blocks.
@@ -174,12 +164,7 @@ impl<const N: usize> Demodulator<N> {
     /// Takes one sample pair; gives the block that it finished.
     #[inline]
     pub fn push(&mut self, pair: Pair) -> Option<Block> {
-        if let Some(reference) = self.table.get(usize::from(self.count)) {
-            self.sums[0].add(pair[0], reference);
-            self.sums[1].add(pair[1], reference);
-        }
-        self.count += 1;
-        self.finished()
+        self.push_slice(&[pair]).1
     }
 
     /// Takes the first pairs of a slice up to the end of the present block; gives how many it took and the block if it is finished.
@@ -217,9 +202,7 @@ impl<const N: usize> Demodulator<N> {
             layout: self.layout,
             channels: self.sums,
         };
-        self.start += u64::from(self.layout.length);
-        self.count = 0;
-        self.sums = [ChannelSums::EMPTY; 2];
+        self.restart(self.start + u64::from(self.layout.length));
         Some(block)
     }
 }

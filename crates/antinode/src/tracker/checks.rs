@@ -49,9 +49,7 @@ impl Noise {
 
     /// How far a variance of `freedom` may exceed the one remembered.
     fn limit(&self, freedom: f32) -> f32 {
-        // The logarithm of an F variable has about this variance; its upper tail is the lighter one.
-        let deviation = libm::sqrtf(2.0 / freedom + 2.0 / self.freedom);
-        self.variance * libm::expf(SIGMAS * deviation).max(4.0)
+        self.variance * spread(freedom, self.freedom).max(4.0)
     }
 }
 
@@ -60,11 +58,15 @@ pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -
     let remains = &fit.remains;
     let samples = f32::from(blocks) * f32::from(length);
     let explained = 0.5 * samples * (wave.main * wave.main + wave.quadrature * wave.quadrature);
-    let significant = wave.main * wave.main > 36.0 * wave.main_variance;
     let strange = remains
         .residual
         .max(remains.third_noise * remains.third_freedom);
-    !significant || strange > STRANGER * explained
+    !is_significant(wave) || strange > STRANGER * explained
+}
+
+/// True when the main amplitude stands out of its own noise.
+fn is_significant(wave: &Standing) -> bool {
+    wave.main * wave.main > 36.0 * wave.main_variance
 }
 
 /// Tests of one window by itself and against the noise of those before.
@@ -77,7 +79,7 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
     let floor = RESIDUAL_FLOOR * power + 3.0 * coding;
     let mut flags = Flags::empty();
 
-    let significant = power > 36.0 * wave.main_variance;
+    let significant = is_significant(wave);
     flags = flags.with_if(!significant, Flags::LOST);
 
     // White noise is the same about the carrier and about its third harmonic.
@@ -136,6 +138,7 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
 
 /// How far apart two estimates of one variance may be.
 fn spread(a: f32, b: f32) -> f32 {
+    // The logarithm of an F variable has about this variance; its upper tail is the lighter one.
     libm::expf(SIGMAS * libm::sqrtf(2.0 / a + 2.0 / b))
 }
 

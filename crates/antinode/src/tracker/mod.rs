@@ -184,7 +184,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             fault && self.has_fallen_silent(&record),
             Flags::DEAD_CHANNEL,
         );
-        self.promise(&mut record, &wave, half, samples);
+        self.promise(&mut record, &wave, half);
 
         if flags.contains(Flags::LOST) {
             self.failures = self.failures.saturating_add(1);
@@ -198,7 +198,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         } else {
             self.failures = self.failures.saturating_add(1);
         }
-        self.remember(record, flags, between, samples);
+        self.remember(record, flags, between);
         Some(record.estimate(self.settings.sample_rate, flags))
     }
 
@@ -221,11 +221,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             None => (model.layout.step, rough),
             Some(before) => {
                 // A model that is near enough is kept: its matrix need not be built anew.
-                let drift = before.frequency_less(&Record {
-                    carrier: model.carrier,
-                    drift: 0.0,
-                    ..*before
-                });
+                let drift = before.frequency_beyond(model.carrier);
                 let half = 0.5 * f32::from(self.count) * f32::from(model.layout.length);
                 let near = (drift * half).abs() < CARRIER_REACH;
                 (
@@ -248,10 +244,13 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Takes the share of a turning pattern out of the frequency, with what the angles of the windows before promise.
-    fn promise(&self, record: &mut Record, wave: &Standing, half: f32, samples: u32) {
-        let rate = self
-            .trend
-            .rate(record.middle, samples, record.angle, record.angle_variance);
+    fn promise(&self, record: &mut Record, wave: &Standing, half: f32) {
+        let rate = self.trend.rate(
+            record.middle,
+            record.samples,
+            record.angle,
+            record.angle_variance,
+        );
         let apart = record.turning - rate.value;
         let spread = record.turning_variance + rate.variance;
         if spread > 0.0 && apart * apart < 16.0 * spread {
@@ -262,7 +261,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Keeps what the next windows need.
-    fn remember(&mut self, record: Record, flags: Flags, between: Flags, samples: u32) {
+    fn remember(&mut self, record: Record, flags: Flags, between: Flags) {
         let broken = Flags::LOST
             .with(Flags::MISFIT)
             .with(Flags::NOT_FINITE)
@@ -284,8 +283,12 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.trend.clear();
         }
         if !flags.contains(Flags::CIRCULAR) {
-            self.trend
-                .keep(record.middle, samples, record.angle, record.angle_variance);
+            self.trend.keep(
+                record.middle,
+                record.samples,
+                record.angle,
+                record.angle_variance,
+            );
             self.angle = record.angle;
         }
         self.before = Some(record);

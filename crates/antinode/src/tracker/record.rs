@@ -125,8 +125,13 @@ impl Record {
     }
 
     /// The frequency of this window less that of `before`, rad/sample.
-    pub(crate) fn frequency_less(&self, before: &Self) -> f32 {
-        let steps = self.carrier.0.wrapping_sub(before.carrier.0) as i32 as f32;
-        steps * (core::f32::consts::TAU / 4_294_967_296.0) + self.drift - before.drift
+    fn frequency_less(&self, before: &Self) -> f32 {
+        self.frequency_beyond(before.carrier) - before.drift
+    }
+
+    /// The frequency of this window beyond a carrier, rad/sample.
+    pub(crate) fn frequency_beyond(&self, carrier: PhaseStep) -> f32 {
+        let steps = self.carrier.0.wrapping_sub(carrier.0) as i32 as f32;
+        steps * (core::f32::consts::TAU / 4_294_967_296.0) + self.drift
     }
 }

@@ -15,7 +15,7 @@ use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 pub const RATE: f64 = 100_000.0;
 
 /// The core as the tests use it: all periods, windows up to 254 periods.
-pub type Core = Identifier<256, 256>;
+pub type Core = Identifier<f32, 256, 256>;
 
 /// Runs `samples` sample pairs of a gyro through the core, from cold; gives every estimate.
 pub fn identify(

@@ -39,7 +39,7 @@ proptest! {
 
     #[test]
     fn no_input_panics_or_hangs(samples in prop::collection::vec((any::<f32>(), any::<f32>()), 0..3000), periods in 2u16..30, hop in 1u16..40) {
-        let settings = Settings { hop: Some(hop), full_scale: Some(1.0), resolution: Some(1e-3), ..windows(periods) };
+        let settings = Settings { hop: Some(hop), rails: Some([-1.0, 1.0]), resolution: Some(1e-3), ..windows(periods) };
         let mut core = Core::new(settings).unwrap();
         for (c, d) in samples {
             core.push([c, d]);
@@ -313,8 +313,8 @@ fn settings_that_cannot_work_are_refused() {
         Some(SettingsError::StartAngle(1e9))
     );
     assert_eq!(
-        refused(|s| s.full_scale = Some(-1.0)),
-        Some(SettingsError::FullScale(-1.0))
+        refused(|s| s.rails = Some([1.0, -1.0])),
+        Some(SettingsError::Rails([1.0, -1.0]))
     );
     assert_eq!(
         refused(|s| s.resolution = Some(0.0)),

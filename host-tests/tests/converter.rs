@@ -43,7 +43,7 @@ fn check(bits: u32, scale: f64, period: f64, noise: f64, periods: u16) {
         };
         let settings = Settings {
             resolution: Some(step as f32),
-            full_scale: Some((full_scale - step) as f32),
+            rails: Some([-1.0, 1.0].map(|side| (side * (full_scale - step)) as f32)),
             ..windows(periods)
         };
         let samples = (period * f64::from(periods) * 30.0) as usize;

@@ -137,7 +137,7 @@ fn the_converters_rail_is_flagged_at_the_first_sample() {
         flaws.dropouts = Vec::new();
         flaws.offset_c = 0.0;
         let settings = Settings {
-            full_scale: Some((full * 2047.0 / 2048.0) as f32),
+            rails: Some([-1.0, 1.0].map(|side| (side * full * 2047.0 / 2048.0) as f32)),
             ..windows(10)
         };
         let clean = identify(wave, &flaws, settings, 50_000, seed);

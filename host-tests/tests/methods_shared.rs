@@ -120,12 +120,9 @@ fn streaming_sums_are_those_of_the_slice() {
         .iter()
         .map(|p| [p[0] + offsets[0], p[1] + offsets[1]])
         .collect();
-    let layout = Layout {
-        step: PhaseStep::from_period(18.754_688),
-        length,
-    };
+    let layout = Layout::new::<f32>(PhaseStep::from_period(18.754_688), length);
     let mut blocks = Vec::new();
-    let mut demodulator = Demodulator::<64>::new(layout, 0);
+    let mut demodulator = Demodulator::<f32, 64>::new(layout, 0, true);
     let mut moment_sums = MomentSums::new(offsets);
     let mut delayed_sums = DelayedSums::<50>::new(5, offsets);
     let (mut moments, mut delayed) = (
@@ -180,5 +177,5 @@ fn streaming_sums_are_those_of_the_slice() {
         near(products.sine[i], direct.sine[i]);
         near(products.mean[i], direct.mean[i]);
     }
-    assert!(Products::from_blocks([]).is_none());
+    assert!(Products::from_blocks::<f32>([]).is_none());
 }

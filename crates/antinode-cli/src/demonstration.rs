@@ -38,7 +38,7 @@ pub fn run() -> Result<(), Failure> {
     };
     let noise = flaws.noise;
     let gyro = Gyro::new(wave, flaws, RATE, 1)?;
-    let mut core = Box::new(Identifier::<256, 16>::new(Settings::new(RATE))?);
+    let mut core = Box::new(Identifier::<f32, 256, 16>::new(Settings::new(RATE))?);
     let pairs = gyro.take((SECONDS * RATE) as usize);
     let estimates: Vec<Estimate> = pairs
         .filter_map(|pair| core.push([pair.c as f32, pair.d as f32]))

@@ -69,7 +69,7 @@ impl From<SettingsError> for Failure {
             SettingsError::GainRatio(_) => "--gain-ratio: ",
             SettingsError::Skew(_) => "--skew-ns: ",
             SettingsError::PickOffAngle(_) => "--pick-off-angle: ",
-            SettingsError::FullScale(_) => "--full-scale: ",
+            SettingsError::Rails(_) => "--full-scale: ",
             SettingsError::Resolution(_) => "--resolution: ",
             SettingsError::StartAngle(_) => "--start-angle: ",
             _ => "",

@@ -13,7 +13,7 @@ use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
 
 /// Periods of up to 256 samples, windows of up to 1022 periods.
-type Core = Identifier<256, { MOST_PERIODS as usize + 2 }>;
+type Core = Identifier<f32, 256, { MOST_PERIODS as usize + 2 }>;
 
 /// Recordings longer than this show how far they have come.
 const LONG: u64 = 32 << 20;

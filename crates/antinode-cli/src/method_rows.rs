@@ -192,7 +192,7 @@ mod tests {
             offset_c: 0.3,
             ..Flaws::default()
         };
-        let mut core = Box::new(Identifier::<256, 64>::new(settings).expect("valid settings"));
+        let mut core = Box::new(Identifier::<f32, 256, 64>::new(settings).expect("valid settings"));
         let mut history = History::new(settings.calibration, 1e5);
         let mut found = None;
         for pair in Gyro::new(Wave::default(), flaws, 1e5, 1)

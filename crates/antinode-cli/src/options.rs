@@ -174,7 +174,7 @@ impl Identify {
             periods: self.periods,
             hop: self.hop,
             start_angle: self.start_angle.unwrap_or(plain.start_angle),
-            full_scale: self.full_scale.or(full_scale),
+            rails: self.full_scale.or(full_scale).map(|full| [-full, full]),
             resolution: self.resolution.or(step),
             detection: match self.detector {
                 Detector::Difference => Detection::Difference,

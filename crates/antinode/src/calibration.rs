@@ -2,6 +2,7 @@
 
 use num_complex::Complex32;
 
+use crate::arch::square_root;
 use crate::phase::Phase;
 
 /// How the D pick-off differs from an ideal one that stands 45° from C, has C's gain and is sampled with C.
@@ -81,7 +82,7 @@ impl Correction {
 
     /// By how much correcting amplifies the noise of channel D.
     pub(crate) fn noise_gain(&self) -> f32 {
-        1.0 / (libm::sqrtf(self.lag.norm_sqr()) * self.cosine)
+        1.0 / (square_root(self.lag.norm_sqr()) * self.cosine)
     }
 }
 

@@ -1,7 +1,8 @@
 //! Samples become blocks, from cold: the period is searched, then blocks are gathered. This is what runs in an interrupt.
 
-use crate::block::{Block, Demodulator, Pair};
+use crate::block::{Block, Demodulator};
 use crate::period::{DifferenceDetector, MeanReturnDetector};
+use crate::sample::{Sample, SamplePair};
 use crate::settings::{Detection, Settings, SettingsError};
 
 /// What the front is doing with samples.
@@ -10,22 +11,23 @@ use crate::settings::{Detection, Settings, SettingsError};
     clippy::large_enum_variant,
     reason = "the stages share one place on purpose: there is no heap"
 )]
-enum Stage<const N: usize> {
-    Difference(DifferenceDetector),
+enum Stage<S: Sample, const N: usize> {
+    Difference(DifferenceDetector<S>),
     MeanReturn(MeanReturnDetector),
-    Gather(Demodulator<N>),
+    Gather(Demodulator<S, N>),
 }
 
-/// The sample-rate half of an identification, for blocks of up to `N` sample pairs; `N` bounds the period (200 for all).
+/// The sample-rate half of an identification on samples of type `S`, for blocks of up to `N` sample pairs; `N` bounds the period
+/// (200 for all).
 #[derive(Debug, Clone)]
-pub struct Front<const N: usize> {
+pub struct Front<S: Sample, const N: usize> {
     settings: Settings,
-    stage: Stage<N>,
+    stage: Stage<S, N>,
     /// Index in the stream of the next sample pair.
     index: u64,
 }
 
-impl<const N: usize> Front<N> {
+impl<S: Sample, const N: usize> Front<S, N> {
     /// A front that searches for a period.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
         settings.check(usize::from(u16::MAX))?;
@@ -36,7 +38,7 @@ impl<const N: usize> Front<N> {
         })
     }
 
-    fn cold(settings: &Settings) -> Stage<N> {
+    fn cold(settings: &Settings) -> Stage<S, N> {
         match settings.detection {
             Detection::Difference => Stage::Difference(DifferenceDetector::new()),
             Detection::MeanReturn => Stage::MeanReturn(MeanReturnDetector::new()),
@@ -70,7 +72,7 @@ impl<const N: usize> Front<N> {
 
     /// Takes one sample pair; gives the block that it finished.
     #[inline]
-    pub fn push(&mut self, pair: Pair) -> Option<Block> {
+    pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<Block<S>> {
         self.push_slice(&[pair]).1
     }
 
@@ -78,7 +80,7 @@ impl<const N: usize> Front<N> {
     ///
     /// Call it again with the rest until it has taken all: results are the same to the bit however a stream is cut.
     #[inline]
-    pub fn push_slice(&mut self, pairs: &[Pair]) -> (usize, Option<Block>) {
+    pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<Block<S>>) {
         if let Stage::Gather(demodulator) = &mut self.stage {
             let (taken, block) = demodulator.push_slice(pairs);
             self.index += taken as u64;
@@ -88,18 +90,19 @@ impl<const N: usize> Front<N> {
     }
 
     /// Takes pairs until a period is found; gives how many.
-    fn search_slice(&mut self, pairs: &[Pair]) -> usize {
+    fn search_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> usize {
         for (taken, &pair) in pairs.iter().enumerate() {
             self.index += 1;
             let found = match &mut self.stage {
                 Stage::Difference(detector) => detector.push(pair),
-                Stage::MeanReturn(detector) => detector.push(pair),
+                Stage::MeanReturn(detector) => detector.push(pair.pair().map(S::to_f32)),
                 Stage::Gather(_) => None,
             };
             if let Some(period) = found {
                 let layout = self.settings.layout(period);
                 if usize::from(layout.length) <= N {
-                    self.stage = Stage::Gather(Demodulator::new(layout, self.index));
+                    self.stage =
+                        Stage::Gather(Demodulator::new(layout, self.index, self.settings.watch));
                 } else {
                     self.search();
                 }

@@ -1,22 +1,22 @@
 //! The whole path in one: samples in, estimates out.
 
-use crate::block::Pair;
 use crate::estimate::Estimate;
 use crate::front::Front;
+use crate::sample::{Sample, SamplePair};
 use crate::settings::{Settings, SettingsError};
 use crate::tracker::Tracker;
 
 /// Identifies the wave in a stream of sample pairs: a [`Front`] and a [`Tracker`] in one thread.
 ///
-/// `N` is the most sample pairs a block may have, and so the longest period, 200 for all; `BLOCKS` is the length of the ring, a
+/// `S` is the type of its samples, `f32`, `i16` or `i32`. `N` is the most sample pairs a block may have, and so the longest period, 200 for all; `BLOCKS` is the length of the ring, a
 /// little more than the periods of a window.
 #[derive(Debug, Clone)]
-pub struct Identifier<const N: usize, const BLOCKS: usize> {
-    front: Front<N>,
+pub struct Identifier<S: Sample, const N: usize, const BLOCKS: usize> {
+    front: Front<S, N>,
     tracker: Tracker<BLOCKS>,
 }
 
-impl<const N: usize, const BLOCKS: usize> Identifier<N, BLOCKS> {
+impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     /// An identification from cold.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
         Ok(Self {
@@ -27,20 +27,20 @@ impl<const N: usize, const BLOCKS: usize> Identifier<N, BLOCKS> {
 
     /// Takes one sample pair; gives the estimate of the window that it completes.
     #[inline]
-    pub fn push(&mut self, pair: Pair) -> Option<Estimate> {
+    pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<Estimate> {
         self.push_slice(&[pair]).1
     }
 
     /// Takes pairs from the start of a slice up to the end of a window; gives how many it took and the estimate, if any.
     ///
     /// Call it again with the rest until it has taken all: results are the same to the bit however a stream is cut.
-    pub fn push_slice(&mut self, pairs: &[Pair]) -> (usize, Option<Estimate>) {
+    pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<Estimate>) {
         let mut taken = 0;
         while let Some(rest) = pairs.get(taken..).filter(|rest| !rest.is_empty()) {
             let (count, block) = self.front.push_slice(rest);
             taken += count;
             if let Some(block) = block {
-                let estimate = self.tracker.push(block);
+                let estimate = self.tracker.push(&block);
                 if self.tracker.has_lost() {
                     self.front.search();
                     self.tracker.forget();
@@ -54,7 +54,7 @@ impl<const N: usize, const BLOCKS: usize> Identifier<N, BLOCKS> {
     }
 
     /// Takes all pairs of a slice and hands every estimate to `report`.
-    pub fn extend(&mut self, mut pairs: &[Pair], mut report: impl FnMut(Estimate)) {
+    pub fn extend<P: SamplePair<S>>(&mut self, mut pairs: &[P], mut report: impl FnMut(Estimate)) {
         while !pairs.is_empty() {
             let (taken, estimate) = self.push_slice(pairs);
             pairs = pairs.get(taken..).unwrap_or(&[]);

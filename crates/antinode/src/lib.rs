@@ -29,7 +29,7 @@
 //! use antinode::{Identifier, Settings};
 //!
 //! // Blocks of up to 200 sample pairs, and so periods of up to 200; a ring of 16 blocks, enough for 10 periods.
-//! let mut identifier = Identifier::<200, 16>::new(Settings::new(100_000.0))?;
+//! let mut identifier = Identifier::<f32, 200, 16>::new(Settings::new(100_000.0))?;
 //! let (mut windows, omega) = (0, core::f32::consts::TAU * 5_332.0 / 100_000.0);
 //! for k in 0..2_000 {
 //!     // A main wave of 1 at θ = 0.3 rad, a quadrature wave of 0.1.
@@ -68,6 +68,7 @@
 #[cfg(test)]
 extern crate std;
 
+mod arch;
 pub mod block;
 pub mod methods;
 pub mod period;
@@ -78,6 +79,7 @@ mod calibration;
 mod estimate;
 mod front;
 mod identifier;
+mod sample;
 mod settings;
 mod tracker;
 mod wave;
@@ -88,6 +90,7 @@ pub use calibration::Calibration;
 pub use estimate::{Estimate, Flags};
 pub use front::Front;
 pub use identifier::Identifier;
+pub use sample::{Packed, Sample, SamplePair};
 pub use settings::{Detection, Settings, SettingsError};
 pub use tracker::Tracker;
 

@@ -27,13 +27,17 @@ pub struct Settings {
     pub hop: Option<u16>,
     /// The pattern angle nearest to which the first window's angle is chosen, rad; π/4 puts it in 0…π/2.
     pub start_angle: f32,
-    /// |sample| at and beyond which the converter is at its rail, input units; `None` where there is no rail.
-    pub full_scale: Option<f32>,
+    /// The least and the greatest sample that the converter gives, input units: at or beyond them a window is flagged as clipped.
+    /// `None` where they are not known.
+    pub rails: Option<[f32; 2]>,
     /// Step between neighbouring codes of the converter, input units, where it is known. A signal with less noise than a step has
     /// errors that repeat with it and do not average: with this they count in the standard deviations.
     pub resolution: Option<f32>,
     /// How the period is found from cold.
     pub detection: Detection,
+    /// True when the third harmonic and the extremes of the samples are watched: [`Flags::CLIPPED`](crate::Flags::CLIPPED) needs
+    /// it, and other faults are found earlier with it. It about doubles the work at sample rate.
+    pub watch: bool,
     /// How the pick-offs differ from ideal ones.
     pub calibration: Calibration,
 }
@@ -57,8 +61,8 @@ pub enum SettingsError {
     Hop,
     /// The start angle is not a number within ±10⁴ rad.
     StartAngle(f32),
-    /// Full scale is not a positive number.
-    FullScale(f32),
+    /// The lower rail is not below the upper one.
+    Rails([f32; 2]),
     /// The resolution is not a positive number.
     Resolution(f32),
     /// The gain ratio is outside 0.1 to 10.
@@ -89,7 +93,12 @@ impl fmt::Display for SettingsError {
             Self::StartAngle(angle) => {
                 write!(f, "start angle {angle} rad: it must lie within ±10000")
             }
-            Self::FullScale(value) => write!(f, "full scale {value}: it must be a positive number"),
+            Self::Rails([low, high]) => {
+                write!(
+                    f,
+                    "rails {low} and {high}: the first must lie below the second"
+                )
+            }
             Self::Resolution(value) => {
                 write!(f, "resolution {value}: it must be a positive number")
             }
@@ -111,16 +120,17 @@ impl core::error::Error for SettingsError {}
 const BLOCKS_A_WINDOW: f32 = 10.0;
 
 impl Settings {
-    /// Windows of 10 periods that follow each other, ideal pick-offs, no rail.
+    /// Windows of 10 periods that follow each other, ideal pick-offs, no known rails, everything watched.
     pub const fn new(sample_rate: f64) -> Self {
         Self {
             sample_rate,
             periods: 10,
             hop: None,
             start_angle: core::f32::consts::FRAC_PI_4,
-            full_scale: None,
+            rails: None,
             resolution: None,
             detection: Detection::Difference,
+            watch: true,
             calibration: Calibration::IDEAL,
         }
     }
@@ -143,11 +153,11 @@ impl Settings {
             Err(SettingsError::Hop)
         } else if !within(self.start_angle, -1e4, 1e4) {
             Err(SettingsError::StartAngle(self.start_angle))
-        } else if let Some(full_scale) = self
-            .full_scale
-            .filter(|&x| !within(x, f32::MIN_POSITIVE, f32::MAX))
-        {
-            Err(SettingsError::FullScale(full_scale))
+        } else if let Some(rails) = self.rails.filter(|rails| {
+            // Not a number, either of them, is no order.
+            rails[0].partial_cmp(&rails[1]) != Some(core::cmp::Ordering::Less)
+        }) {
+            Err(SettingsError::Rails(rails))
         } else if let Some(resolution) = self
             .resolution
             .filter(|&x| !within(x, f32::MIN_POSITIVE, f32::MAX))
@@ -164,14 +174,12 @@ impl Settings {
         }
     }
 
-    /// The blocks for a wave of `period` samples: one period each, or less where a window has fewer than ten periods.
+    /// The blocks for a wave of `period` samples: one period each, or less where a window has fewer than ten periods. The scale is
+    /// that of f32; a [`Demodulator`](crate::block::Demodulator) puts in its own.
     pub fn layout(&self, period: f32) -> Layout {
         let window = period * f32::from(self.periods);
         let length = libm::roundf(period.min(window / BLOCKS_A_WINDOW)).max(1.0);
-        Layout {
-            step: PhaseStep::from_period(period),
-            length: length as u16,
-        }
+        Layout::new::<f32>(PhaseStep::from_period(period), length as u16)
     }
 
     /// How many blocks of `layout` come nearest to a window.

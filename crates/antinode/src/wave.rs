@@ -7,6 +7,7 @@ use core::f32::consts::{FRAC_PI_2, PI, TAU};
 
 use num_complex::Complex32;
 
+use crate::arch::square_root;
 use crate::window::{Fit, Model};
 
 /// The standing wave at the middle of a window, with its rates per half window, and variances for the fit's own noise.
@@ -65,7 +66,7 @@ impl Standing {
     pub(crate) fn new(model: &Model, fit: &Fit, noise: f32) -> Self {
         let [plus, minus] = fit.waves.value;
         let [plus_change, minus_change] = fit.waves.change;
-        let size = |z: Complex32| libm::sqrtf(z.norm_sqr());
+        let size = |z: Complex32| square_root(z.norm_sqr());
         let arg = |z: Complex32| libm::atan2f(z.im, z.re);
         let (p, m) = (size(plus), size(minus));
         let along = |z: Complex32, size: f32| {

@@ -3,6 +3,7 @@
 use num_complex::Complex64;
 
 use crate::block::{Block, Pair};
+use crate::sample::Sample;
 
 /// Mean products of a window with cos ωt and sin ωt, t from the window's first sample, in input units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +40,9 @@ impl Products {
     }
 
     /// Of blocks that follow each other: the demodulator's own sums, at its own frequency. No block gives `None`.
-    pub fn from_blocks<'a>(blocks: impl IntoIterator<Item = &'a Block>) -> Option<Self> {
+    pub fn from_blocks<'a, S: Sample>(
+        blocks: impl IntoIterator<Item = &'a Block<S>>,
+    ) -> Option<Self> {
         let mut blocks = blocks.into_iter().peekable();
         let first = **blocks.peek()?;
         let step = first.layout.step;
@@ -52,10 +55,12 @@ impl Products {
             let samples = block.start.wrapping_sub(first.start) as f64
                 + 0.5 * (f64::from(block.layout.length) - 1.0);
             let (sine, cosine) = libm::sincos(omega * samples);
-            for (i, channel) in block.channels.iter().enumerate() {
-                let own = Complex64::new(f64::from(channel.cosine), -f64::from(channel.sine));
+            let unit = 1.0 / f64::from(block.layout.one());
+            let value = |sum| f64::from(S::sum_to_f32(sum));
+            for (i, channel) in block.sums.iter().enumerate() {
+                let own = Complex64::new(value(channel.cosine), -value(channel.sine)) * unit;
                 sums[i] += own * Complex64::new(cosine, -sine);
-                mean[i] += f64::from(channel.sum);
+                mean[i] += value(channel.sum);
             }
             count += u32::from(block.layout.length);
         }

@@ -14,78 +14,135 @@ const FALSE_ALARM: f32 = 1e-11;
 const TONE: f32 = 2e-3;
 
 /// A wave, its slope and an offset, fitted to a stretch of samples of known length.
+///
+/// About the middle of the stretch the design is (cos φ, −sin φ, u cos φ, −u sin φ, 1): its even and odd columns do not mix.
 #[derive(Debug, Clone)]
 pub(crate) struct Trial {
     step: PhaseStep,
     length: usize,
     count: usize,
-    normal: Normal,
+    row: Row,
+    /// Squares and products of columns: (0,0), (0,3), (3,3), (0,4), (3,4); then (1,1), (1,2), (2,2).
+    even: [f32; 5],
+    odd: [f32; 3],
     gradient: [[f32; 5]; 2],
-    sum: [f32; 2],
     square: f32,
 }
 
-/// What a trial says.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Confirmed {
+/// The design, from sample to sample.
+#[derive(Debug, Clone, Copy)]
+struct Row {
+    /// cos φ − j sin φ.
+    unit: Complex32,
+    turn: Complex32,
+    u: f32,
+    advance: f32,
+}
+
+impl Row {
+    fn new(step: PhaseStep, length: usize) -> Self {
+        let length = length as i64;
+        Self {
+            unit: step.after_half_samples(length - 1).unit(),
+            turn: step.after_half_samples(-2).unit(),
+            u: (1 - length) as f32 / length as f32,
+            advance: 2.0 / length as f32,
+        }
+    }
+
+    /// The columns but for the last, which is one.
+    #[inline(always)]
+    fn next(&mut self) -> [f32; 4] {
+        let (Complex32 { re, im }, u) = (self.unit, self.u);
+        self.unit *= self.turn;
+        self.u += self.advance;
+        [re, im, u * re, u * im]
+    }
+}
+
+/// The fit of a trial that may be a wave.
+#[derive(Debug, Clone)]
+pub(crate) struct Fitted {
     /// Period in samples.
     pub period: f32,
     /// Variance of the samples, both pick-offs together.
     pub power: f32,
+    /// True when what the wave leaves must still be shown to be noise, not a second tone.
+    pub is_doubtful: bool,
+    parameters: [[f32; 5]; 2],
 }
 
 impl Trial {
     /// A trial of `period` samples over a stretch of `length`.
     pub(crate) fn new(period: f32, length: usize) -> Self {
+        let step = PhaseStep::from_period(period);
         Self {
-            step: PhaseStep::from_period(period),
+            step,
             length,
             count: 0,
-            normal: Normal::ZERO,
+            row: Row::new(step, length),
+            even: [0.0; 5],
+            odd: [0.0; 3],
             gradient: [[0.0; 5]; 2],
-            sum: [0.0; 2],
             square: 0.0,
         }
     }
 
-    fn row(&self, index: usize) -> [f32; 5] {
-        let twice = 2 * index as i64 + 1 - self.length as i64;
-        let u = twice as f32 / self.length as f32;
-        let Complex32 { re: c, im: s } = self.step.after_half_samples(twice).unit();
-        [c, -s, u * c, -u * s, 1.0]
-    }
-
     /// Takes the next sample; true when the stretch is whole.
+    #[inline(always)]
     pub(crate) fn push(&mut self, sample: Pair) -> bool {
-        let row = self.row(self.count);
-        self.normal.add(&row);
-        for (channel, value) in sample.into_iter().enumerate() {
-            self.sum[channel] += value;
+        let row = self.row.next();
+        let [c, s, uc, us] = row;
+        let even = [c * c, c * us, us * us, c, us];
+        let odd = [s * s, s * uc, uc * uc];
+        for (sum, value) in self.even.iter_mut().zip(even) {
+            *sum += value;
+        }
+        for (sum, value) in self.odd.iter_mut().zip(odd) {
+            *sum += value;
+        }
+        for (gradient, value) in self.gradient.iter_mut().zip(sample) {
             self.square += value * value;
-            for (sum, weight) in self.gradient[channel].iter_mut().zip(row) {
+            for (sum, weight) in gradient.iter_mut().zip(row) {
                 *sum += weight * value;
             }
+            gradient[4] += value;
         }
         self.count += 1;
         self.count == self.length
     }
 
-    /// The verdict, once the stretch is whole; `samples` are the same again where they are at hand, to tell noise from a tone.
-    pub(crate) fn verdict(&self, samples: &[Pair]) -> Option<Confirmed> {
-        let mut normal = self.normal;
+    /// The normal equations.
+    fn normal(&self) -> Normal {
+        let [cc, cus, usus, c1, us1] = self.even;
+        let [ss, suc, ucuc] = self.odd;
+        let mut normal = Normal::from_lower([
+            [cc, 0.0, 0.0, 0.0, 0.0],
+            [0.0, ss, 0.0, 0.0, 0.0],
+            [0.0, suc, ucuc, 0.0, 0.0],
+            [cus, 0.0, 0.0, usus, 0.0],
+            [c1, 0.0, 0.0, us1, self.length as f32],
+        ]);
         normal.factorise();
+        normal
+    }
+
+    /// The wave, once the stretch is whole and holds one.
+    pub(crate) fn fitted(&self) -> Option<Fitted> {
+        let normal = self.normal();
         let n = self.length as f32;
-        let fits = self.gradient.map(|gradient| normal.solve(gradient));
+        let parameters = self.gradient.map(|gradient| normal.solve(gradient));
         let mut explained = 0.0;
         let mut turned = 0.0;
         let mut size = 0.0;
-        for (gradient, x) in self.gradient.iter().zip(&fits) {
+        for (gradient, x) in self.gradient.iter().zip(&parameters) {
             explained += gradient.iter().zip(x).map(|(g, x)| g * x).sum::<f32>();
             let (z, change) = (Complex32::new(x[0], x[1]), Complex32::new(x[2], x[3]));
             turned += (change * z.conj()).im;
             size += z.norm_sqr();
         }
-        let power = self.square - (self.sum[0] * self.sum[0] + self.sum[1] * self.sum[1]) / n;
+        let sums = self.gradient.map(|gradient| gradient[4]);
+        let power = self.square - (sums[0] * sums[0] + sums[1] * sums[1]) / n;
         if !(power > 1e-6 * self.square && size > 0.0) {
             return None;
         }
@@ -95,42 +152,67 @@ impl Trial {
         {
             return None;
         }
-        if rest > TONE {
-            let [one, two] = correlations(samples.iter().enumerate().map(|(k, sample)| {
-                let row = self.row(k);
-                core::array::from_fn(|channel| {
-                    let wave = fits[channel].iter().zip(row).map(|(x, weight)| x * weight);
-                    sample[channel] - wave.sum::<f32>()
-                })
-            }));
-            // Noise has neither; a second tone slower than twice the wave has one or the other.
-            if one > 0.5 || two < -0.6 {
-                return None;
-            }
-        }
-        let period = self.step.shifted(2.0 * drift / n).period();
-        Some(Confirmed {
-            period,
+        Some(Fitted {
+            period: self.step.shifted(2.0 * drift / n).period(),
             power: power / n,
+            is_doubtful: rest > TONE,
+            parameters,
         })
+    }
+
+    /// Begins a second pass over the same samples.
+    pub(crate) fn again(&self, fitted: &Fitted) -> Rests {
+        Rests {
+            row: Row::new(self.step, self.length),
+            parameters: fitted.parameters,
+            sums: [f32::MIN_POSITIVE, 0.0, 0.0],
+            before: [[0.0; 2]; 2],
+        }
     }
 }
 
 /// The chance that noise leaves less than `rest` of 2n numbers less ten parameters: rest^(n−5).
 fn by_chance(rest: f32, n: usize) -> f32 {
+    let (mut chance, mut power) = (1.0, rest);
     // Longer stretches only make it smaller.
-    (5..n.min(64)).fold(1.0, |chance, _| chance * rest)
+    let mut left = n.min(64).saturating_sub(5);
+    while left > 0 {
+        if left % 2 == 1 {
+            chance *= power;
+        }
+        power *= power;
+        left /= 2;
+    }
+    chance
 }
 
-/// Correlation of residuals with those one and two samples before; zeros when there are none.
-fn correlations(rests: impl Iterator<Item = Pair>) -> [f32; 2] {
-    let mut sums = [f32::MIN_POSITIVE, 0.0, 0.0];
-    let mut before = [[0.0f32; 2]; 2];
-    for rest in rests {
-        for (sum, other) in sums.iter_mut().zip([rest, before[0], before[1]]) {
+/// What a fit leaves of its samples, and the correlation of that with the samples one and two before.
+#[derive(Debug, Clone)]
+pub(crate) struct Rests {
+    row: Row,
+    parameters: [[f32; 5]; 2],
+    sums: [f32; 3],
+    before: [Pair; 2],
+}
+
+impl Rests {
+    /// Takes the next sample.
+    pub(crate) fn push(&mut self, sample: Pair) {
+        let row = self.row.next();
+        let rest: Pair = core::array::from_fn(|channel| {
+            let [a, b, c, d, offset] = self.parameters[channel];
+            sample[channel] - (a * row[0] + b * row[1] + c * row[2] + d * row[3] + offset)
+        });
+        let others = [rest, self.before[0], self.before[1]];
+        for (sum, other) in self.sums.iter_mut().zip(others) {
             *sum += rest[0] * other[0] + rest[1] * other[1];
         }
-        before = [rest, before[0]];
+        self.before = [rest, self.before[0]];
     }
-    [sums[1] / sums[0], sums[2] / sums[0]]
+
+    /// True when they are noise: a second tone slower than twice the wave has one correlation or the other.
+    pub(crate) fn are_noise(&self) -> bool {
+        let [all, one, two] = self.sums;
+        one <= 0.5 * all && two >= -0.6 * all
+    }
 }

@@ -5,176 +5,213 @@
 //! each octave sees lags of 1 to 10 of its own samples, and so all octaves together cost no more than twenty lags.
 
 use super::PERIODS;
-use super::confirm::Trial;
-use crate::block::Pair;
+use super::attempt::{Attempt, Verdict};
 use crate::phase::Phase;
+use crate::sample::{Sample, SamplePair};
 
 /// Lags of an octave.
-const LAGS: usize = 10;
+pub(crate) const LAGS: usize = 10;
 /// Samples of a frame: more than three of the longest periods of its octave.
-const FRAME: usize = 32;
+pub(super) const FRAME: usize = 32;
 /// Octaves: periods of 4 to 8, 8 to 16, … 128 to 256 samples.
 const OCTAVES: usize = 6;
 /// Periods that an octave answers for, in its own samples: wider than an octave, so that neighbours overlap.
 const RANGE: core::ops::RangeInclusive<f32> = 3.7..=9.2;
+/// Periods that a trial may end with, from one proposed within the range.
+const FOUND: core::ops::RangeInclusive<f32> = 3.5..=9.6;
 /// Power lost by halving beyond the wave's own, as a share of the wave's: noise of 20 % loses 0.2.
 const STRANGER: f32 = 0.4;
 /// Periods that a frame must hold before it is tried.
 const HELD: f32 = 2.5;
+/// Samples of a frame before its D(T) is looked at.
+const LEAST: usize = 12;
+
+/// D(1)…D(10), not yet divided by the count of pairs in each.
+pub(crate) type Lags<S> = [<S as Sample>::Square; LAGS];
 
 /// One octave of the stream: a frame of samples and its D(T).
 #[derive(Debug, Clone)]
-struct Octave {
-    frame: [Pair; FRAME],
+struct Octave<S: Sample> {
+    frame: [[S; 2]; FRAME],
     count: usize,
-    /// D(1)…D(10) over the frame so far.
-    difference: [f32; LAGS],
-    /// Power that halving takes away, from the last frame that was long enough.
-    lost: f32,
+    /// D(T) over the frame so far.
+    differences: Lags<S>,
+    /// D(1) of the last frame and its count of pairs.
+    last: (S::Square, usize),
     /// The first of two samples that make one of the next octave.
-    waiting: Option<Pair>,
+    waiting: Option<[S; 2]>,
 }
 
-impl Octave {
-    const NEW: Self = Self {
-        frame: [[0.0; 2]; FRAME],
-        count: 0,
-        difference: [0.0; LAGS],
-        lost: 0.0,
-        waiting: None,
-    };
-
-    /// The frame so far.
-    fn samples(&self) -> &[Pair] {
-        self.frame.get(..self.count).unwrap_or(&[])
+impl<S: Sample> Octave<S> {
+    fn new() -> Self {
+        let zero = S::EXTREMES[0];
+        Self {
+            frame: [[zero; 2]; FRAME],
+            count: 0,
+            differences: Lags::<S>::default(),
+            last: (S::Square::default(), 1),
+            waiting: None,
+        }
     }
 
     /// Takes a sample; gives the next octave's.
-    fn push(&mut self, sample: Pair) -> Option<Pair> {
+    #[inline(always)]
+    fn push(&mut self, sample: [S; 2]) -> Option<[S; 2]> {
         if self.count == FRAME {
+            self.last = (self.differences[0], FRAME - 1);
             self.count = 0;
-            self.difference = [0.0; LAGS];
+            self.differences = Lags::<S>::default();
         }
-        let past = self.samples().iter().rev();
-        let mut difference = self.difference;
-        for (sum, before) in difference.iter_mut().zip(past) {
-            let (c, d) = (sample[0] - before[0], sample[1] - before[1]);
-            *sum += c * c + d * d;
-        }
-        self.difference = difference;
+        let before = self.frame.get(..self.count).unwrap_or(&[]);
+        S::add_differences(&mut self.differences, sample, before);
         if let Some(place) = self.frame.get_mut(self.count) {
             *place = sample;
             self.count += 1;
-        }
-        if self.count >= 8 {
-            // The mean square of half a difference of neighbours.
-            self.lost = 0.25 * self.difference[0] / (self.count - 1) as f32;
         }
         match self.waiting.take() {
             None => {
                 self.waiting = Some(sample);
                 None
             }
-            Some(first) => Some([0.5 * (first[0] + sample[0]), 0.5 * (first[1] + sample[1])]),
+            Some(first) => Some(S::mean(first, sample)),
         }
     }
 
-    /// D(T) a pair of samples, T = 1 to 10; 0 where the frame is too short.
-    fn mean_difference(&self, lag: usize) -> f32 {
-        match self.difference.get(lag - 1) {
-            Some(sum) if self.count > lag => sum / (self.count - lag) as f32,
-            _ => 0.0,
-        }
+    /// Power that halving takes away: the mean square of half a difference of neighbours.
+    fn lost(&self) -> f32 {
+        let (sum, count) = if self.count >= 8 {
+            (self.differences[0], self.count - 1)
+        } else {
+            self.last
+        };
+        0.25 * S::square_to_f32(sum) / count as f32
     }
 
-    /// The first minimum of D(T) after its first maximum, between samples.
-    fn first_minimum(&self) -> Option<f32> {
-        let d = |lag| self.mean_difference(lag);
-        let mut greatest = d(1);
-        for lag in 2..LAGS {
-            greatest = greatest.max(d(lag));
-            let (before, here, after) = (d(lag - 1), d(lag), d(lag + 1));
-            if self.count < lag + 2 || !(here < 0.5 * greatest && here <= before && here < after) {
-                continue;
+    /// The first minimum of D(T) after its first maximum, between samples, where the frame is long enough for it.
+    #[inline(always)]
+    fn period(&self) -> Option<f32> {
+        if self.count < LEAST || self.count % 2 == 1 {
+            return None;
+        }
+        let levels = S::means(&self.differences, self.count);
+        let [mut before, mut here, ..] = levels;
+        let mut greatest = if before < here { here } else { before };
+        for (lag, &after) in (2u8..).zip(&levels[2..]) {
+            if here < S::halved(greatest) && here <= before && here < after {
+                return self.between(f32::from(lag), [before, here, after]);
             }
-            // About its minimum D(T) = level − depth·cos ω(T − P): three lags give P.
-            let ratio = (after - before) / (after + before - 2.0 * here);
-            let mut period = lag as f32;
-            for _ in 0..2 {
-                let omega = core::f32::consts::TAU / period;
-                let half = Phase::from_radians(0.5 * omega).unit();
-                period = lag as f32 - libm::atan2f(ratio * half.im, half.re) / omega;
+            if after > greatest {
+                greatest = after;
             }
-            return Some(period);
+            (before, here) = (here, after);
         }
         None
     }
 
-    /// The period of the frame, in this octave's samples, when there is one; the octaves below, `halvings` of them, lost
-    /// `lost_below` of the signal's power.
-    fn period(&self, halvings: usize, lost_below: f32) -> Option<f32> {
-        if self.count < 12 || self.count % 2 == 1 {
-            return None;
-        }
-        let rough = self.first_minimum().filter(|p| RANGE.contains(p))?;
-        if HELD * rough > self.count as f32 {
-            return None;
-        }
-        let samples = self.samples();
-        let mut trial = Trial::new(rough, samples.len());
-        for &sample in samples {
-            trial.push(sample);
-        }
-        let found = trial.verdict(samples)?;
-        // Halving takes little from this wave, and all from a faster one that folds down to the same period or hides it.
+    /// The minimum of D(T) about a lag.
+    #[inline(never)]
+    fn between(&self, lag: f32, levels: [S::Level; 3]) -> Option<f32> {
+        let [before, here, after] = levels.map(S::level_to_f32);
+        // About its minimum D(T) = level − depth·cos ω(T − P): three lags give P.
+        let ratio = (after - before) / (after + before - 2.0 * here);
+        let omega = core::f32::consts::TAU / (lag - 0.5 * ratio);
+        let half = Phase::from_radians(0.5 * omega).unit();
+        let period = lag - libm::atan2f(ratio * half.im, half.re) / omega;
+        (RANGE.contains(&period) && HELD * period <= self.count as f32).then_some(period)
+    }
+}
+
+/// A frame under trial, and what it was found under.
+#[derive(Debug, Clone)]
+struct Candidate<S: Sample> {
+    attempt: Attempt<S>,
+    halvings: usize,
+    /// Power that the octaves below lost.
+    lost: f32,
+}
+
+impl<S: Sample> Candidate<S> {
+    /// The period in samples of the stream, where halving took little of the wave found: it takes all of a faster one that folds
+    /// down to the same period or hides it.
+    fn accept(&self, period: f32, power: f32) -> Option<f32> {
         let mut kept = 1.0;
-        let mut turn = core::f32::consts::PI / found.period;
-        for _ in 0..halvings {
+        let mut scale = 1.0;
+        let mut turn = core::f32::consts::PI / period;
+        for _ in 0..self.halvings {
             turn *= 0.5;
+            scale *= 2.0;
             let cosine = Phase::from_radians(turn).unit().re;
             kept *= cosine * cosine;
         }
-        let whole = lost_below < found.power * (1.0 / kept - 1.0 + STRANGER);
-        (whole && RANGE.contains(&found.period)).then_some(found.period)
+        let is_whole = self.lost < power * (1.0 / kept - 1.0 + STRANGER);
+        let found = period * scale;
+        (is_whole && FOUND.contains(&period) && PERIODS.contains(&found)).then_some(found)
     }
 }
 
 /// The streaming detector of formula (10): periods of 4 to 200 samples, from cold, with any offset.
 ///
-/// Work a sample: ten lags of an octave, on average of two octaves. White noise is taken for a wave with a chance below 10⁻⁹ a
-/// frame; a wave in 20 % noise is found within about four periods, and never at a fraction or a multiple of its period.
+/// Work a sample: ten lags of an octave, on average of two octaves, and a few samples of a trial while there is a candidate; it is
+/// done in integers on codes, but for the trial. White noise is taken for a wave with a chance below 10⁻⁹ a frame; a wave in 20 %
+/// noise is found within about four periods, and never at a fraction or a multiple of its period.
 #[derive(Debug, Clone)]
-pub struct DifferenceDetector {
-    octaves: [Octave; OCTAVES],
+pub struct DifferenceDetector<S: Sample> {
+    octaves: [Octave<S>; OCTAVES],
+    candidate: Option<Candidate<S>>,
 }
 
-impl DifferenceDetector {
+impl<S: Sample> DifferenceDetector<S> {
     /// A detector at rest.
-    pub const fn new() -> Self {
+    pub fn new() -> Self {
         Self {
-            octaves: [Octave::NEW; OCTAVES],
+            octaves: core::array::from_fn(|_| Octave::new()),
+            candidate: None,
         }
     }
 
     /// Takes a sample pair; gives the period in samples once it is sure.
-    pub fn push(&mut self, pair: Pair) -> Option<f32> {
-        let mut next = Some(pair);
-        let mut lost = 0.0;
-        let mut scale = 1.0;
+    pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<f32> {
+        let mut next = Some(pair.pair());
+        let mut found = None;
         for (halvings, octave) in self.octaves.iter_mut().enumerate() {
-            let sample = next?;
+            let Some(sample) = next else { break };
             next = octave.push(sample);
-            if let Some(period) = octave.period(halvings, lost) {
-                return Some(period * scale).filter(|p| PERIODS.contains(p));
+            if self.candidate.is_none() && found.is_none() {
+                found = octave.period().map(|period| (halvings, period));
             }
-            lost += octave.lost;
-            scale *= 2.0;
         }
-        None
+        if let Some((halvings, period)) = found {
+            self.propose(halvings, period);
+        }
+        self.attempt()
+    }
+
+    /// Goes on with the trial of the candidate, if there is one.
+    fn attempt(&mut self) -> Option<f32> {
+        let candidate = self.candidate.as_mut()?;
+        let period = match candidate.attempt.advance() {
+            Verdict::Open => return None,
+            Verdict::Refused => None,
+            Verdict::Accepted(fitted) => candidate.accept(fitted.period, fitted.power),
+        };
+        self.candidate = None;
+        period
+    }
+
+    /// Puts the frame of an octave on trial.
+    #[inline(never)]
+    fn propose(&mut self, halvings: usize, period: f32) {
+        let below = self.octaves.iter().take(halvings);
+        let lost = below.map(Octave::lost).sum();
+        self.candidate = self.octaves.get(halvings).map(|octave| Candidate {
+            attempt: Attempt::new(&octave.frame, octave.count, period),
+            halvings,
+            lost,
+        });
     }
 }
 
-impl Default for DifferenceDetector {
+impl<S: Sample> Default for DifferenceDetector<S> {
     fn default() -> Self {
         Self::new()
     }

@@ -207,7 +207,7 @@ impl MeanReturnDetector {
             }
             Stage::Try { trial } => {
                 if trial.push(pair) {
-                    let found = trial.verdict(&[]).map(|found| found.period);
+                    let found = trial.fitted().map(|found| found.period);
                     *self = Self::new();
                     return found.filter(|period| PERIODS.contains(period));
                 }

@@ -1,10 +1,12 @@
 //! The period of a wave from cold, formulas (9) and (10).
 
+mod attempt;
 mod confirm;
 mod difference;
 mod mean_return;
 
 pub use difference::DifferenceDetector;
+pub(crate) use difference::{LAGS, Lags};
 pub use mean_return::MeanReturnDetector;
 
 /// Periods found, in samples: 4 to 200 and a little more.

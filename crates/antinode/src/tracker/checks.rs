@@ -5,6 +5,7 @@
 use num_complex::Complex32;
 
 use super::record::Record;
+use crate::arch::square_root;
 use crate::estimate::Flags;
 use crate::wave::{Standing, wrap};
 use crate::window::Fit;
@@ -110,9 +111,9 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
     let harmonic = remains.third.iter().map(Complex32::norm_sqr).sum::<f32>();
     let harmonic_noise = remains.third_noise.max(variance.min(noise.variance));
     let limit = SIGMAS
-        * libm::sqrtf(wave.main_variance / variance.max(f32::MIN_POSITIVE) * 1.2 * harmonic_noise)
+        * square_root(wave.main_variance / variance.max(f32::MIN_POSITIVE) * 1.2 * harmonic_noise)
         + HARMONIC_FLOOR * wave.main
-        + SIGMAS * libm::sqrtf(coding * wave.main_variance / variance.max(f32::MIN_POSITIVE));
+        + SIGMAS * square_root(coding * wave.main_variance / variance.max(f32::MIN_POSITIVE));
     flags = flags.with_if(
         harmonic > limit * limit && remains.third_freedom >= 12.0,
         Flags::CLIPPED,
@@ -139,7 +140,7 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
 /// How far apart two estimates of one variance may be.
 fn spread(a: f32, b: f32) -> f32 {
     // The logarithm of an F variable has about this variance; its upper tail is the lighter one.
-    libm::expf(SIGMAS * libm::sqrtf(2.0 / a + 2.0 / b))
+    libm::expf(SIGMAS * square_root(2.0 / a + 2.0 / b))
 }
 
 /// Tests of a window against the clean one before.
@@ -148,7 +149,7 @@ pub(crate) fn between(before: &Record, now: &Record) -> Flags {
     // Both windows' own rates, as a trapezoid: exact for a rate that itself changes steadily.
     let step = |value: f32, rates: f32| value - 0.5 * rates * samples;
     let deviation =
-        |levels: f32, rates: f32| libm::sqrtf(levels + 0.25 * samples * samples * rates);
+        |levels: f32, rates: f32| square_root(levels + 0.25 * samples * samples * rates);
     let beyond = |step: f32, deviation: f32, floor: f32| {
         step.abs() > SIGMAS * deviation + floor || step.is_nan()
     };
@@ -188,7 +189,7 @@ pub(crate) fn between(before: &Record, now: &Record) -> Flags {
         ),
         ANGLE_FLOOR,
     );
-    let offset_deviation = libm::sqrtf(now.offset_variance + before.offset_variance);
+    let offset_deviation = square_root(now.offset_variance + before.offset_variance);
     let offsets = (0..2).any(|i| {
         beyond(
             now.offsets[i] - before.offsets[i],

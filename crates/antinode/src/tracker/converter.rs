@@ -1,9 +1,9 @@
 //! What the converter does to a window: its steps, its rails, and channels that stand still.
 
-use crate::block::Block;
 use crate::estimate::Flags;
 use crate::settings::Settings;
 use crate::wave::Standing;
+use crate::window::{Extremes, Seen};
 
 /// What the converter's steps add to the noise variance a sample, in a window of `half` samples each side.
 ///
@@ -19,44 +19,46 @@ pub(super) fn coding(settings: &Settings, noise: f32, half: f32) -> f32 {
     (square / 12.0 - noise).max(0.0) + repeated * half
 }
 
-/// Faults that single samples show, in a window of blocks that holds `wave`.
+/// Faults that single samples show, in a window of blocks of a wave of `period` samples.
 pub(super) fn sample_flags<'a>(
     settings: &Settings,
-    blocks: impl Iterator<Item = &'a Block> + Clone,
+    blocks: impl Iterator<Item = &'a Seen> + Clone,
+    period: f32,
     wave: &Standing,
 ) -> Flags {
+    let broken = !(wave.main + wave.quadrature).is_finite();
+    let flags = Flags::empty().with_if(broken, Flags::NOT_FINITE.with(Flags::LOST));
+    let watched = blocks.filter_map(|block| block.watched.as_ref());
+    let extremes = watched.map(|watched| &watched.extremes);
+    if extremes.clone().next().is_none() {
+        return flags;
+    }
     let mut low = [f32::INFINITY; 2];
     let mut high = [f32::NEG_INFINITY; 2];
-    let mut period = f32::INFINITY;
-    for block in blocks.clone() {
-        period = block.layout.step.period();
-        for (channel, sums) in block.channels.iter().enumerate() {
-            low[channel] = low[channel].min(sums.low);
-            high[channel] = high[channel].max(sums.high);
+    for block in extremes.clone() {
+        for i in 0..2 {
+            low[i] = low[i].min(block[i].low);
+            high[i] = high[i].max(block[i].high);
         }
     }
     // Where no rail is known, samples that stay at the extreme for longer than a crest does show one.
     let crest = (period / 16.0).max(2.0) as u16;
     let fine = wave.main > 100.0 * settings.resolution.unwrap_or(0.0);
-    let flat = |block: &Block| {
+    let flat = |block: &[Extremes; 2]| {
         (0..2).any(|i| {
-            let sums = &block.channels[i];
+            let seen = &block[i];
             let wide = fine && high[i] - low[i] > wave.main;
-            let above = sums.high == high[i] && sums.high_run > crest;
-            let below = sums.low == low[i] && sums.low_run > crest;
+            let above = seen.high == high[i] && seen.high_run > crest;
+            let below = seen.low == low[i] && seen.low_run > crest;
             wide && (above || below)
         })
     };
-    let clipped = match settings.full_scale {
-        Some(rail) => (0..2).any(|i| high[i] >= rail || low[i] <= -rail),
-        None => blocks.clone().any(flat),
+    let clipped = match settings.rails {
+        Some([least, most]) => (0..2).any(|i| high[i] >= most || low[i] <= least),
+        None => extremes.clone().any(flat),
     };
     let dead = (0..2).any(|i| low[i] == high[i]);
-    Flags::empty()
+    flags
         .with_if(clipped, Flags::CLIPPED)
         .with_if(dead, Flags::DEAD_CHANNEL)
-        .with_if(
-            !(wave.main + wave.quadrature).is_finite(),
-            Flags::NOT_FINITE.with(Flags::LOST),
-        )
 }

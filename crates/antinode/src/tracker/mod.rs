@@ -7,11 +7,13 @@ mod trend;
 
 use heapless::Deque;
 
-use crate::block::Block;
+use crate::arch::square_root;
+use crate::block::{Block, Layout};
 use crate::estimate::{Estimate, Flags};
+use crate::sample::Sample;
 use crate::settings::{Settings, SettingsError};
 use crate::wave::{Angle, Standing, wrap};
-use crate::window::{CARRIER_REACH, Fit, Model, solve};
+use crate::window::{CARRIER_REACH, Fit, Model, Seen, solve};
 use checks::Noise;
 use record::Record;
 use trend::Trend;
@@ -27,7 +29,9 @@ const GIVE_UP: u8 = 2;
 #[derive(Debug, Clone)]
 pub struct Tracker<const BLOCKS: usize> {
     settings: Settings,
-    ring: Deque<Block, BLOCKS>,
+    ring: Deque<Seen, BLOCKS>,
+    /// Index in the stream of the sample pair after the ring's last block.
+    end: u64,
     model: Option<Model>,
     /// Blocks a window.
     count: u16,
@@ -54,6 +58,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         Ok(Self {
             settings,
             ring: Deque::new(),
+            end: 0,
             model: None,
             count: 0,
             wanted: 0,
@@ -71,12 +76,19 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Takes a block; gives the estimate of the window that it completes.
     ///
     /// A block of another layout, or one that does not follow the last, starts a new window.
-    pub fn push(&mut self, block: Block) -> Option<Estimate> {
-        self.follow(&block);
+    pub fn push<S: Sample>(&mut self, block: &Block<S>) -> Option<Estimate> {
+        self.follow(block.layout, block.start);
+        self.end = block.start + u64::from(block.layout.length);
+        let seen = self.model.as_ref()?.see(block);
+        self.gather(seen)
+    }
+
+    /// Takes a block into the ring, and solves the window that it completes.
+    fn gather(&mut self, seen: Seen) -> Option<Estimate> {
         if self.ring.len() >= usize::from(self.count) || self.ring.is_full() {
             self.ring.pop_front();
         }
-        self.ring.push_back(block).ok()?;
+        self.ring.push_back(seen).ok()?;
         self.wanted = self.wanted.saturating_sub(1);
         if self.wanted > 0 || self.ring.len() < usize::from(self.count) {
             return None;
@@ -98,25 +110,21 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Starts a new window when a block does not continue the ring.
-    fn follow(&mut self, block: &Block) {
+    fn follow(&mut self, layout: Layout, start: u64) {
         let same = self
             .model
             .as_ref()
-            .is_some_and(|model| model.layout == block.layout);
-        let next = self
-            .ring
-            .back()
-            .map(|last| last.start + u64::from(last.layout.length));
-        if same && next.is_none_or(|next| next == block.start) {
+            .is_some_and(|model| model.layout == layout);
+        if same && (self.ring.is_empty() || self.end == start) {
             return;
         }
         self.ring.clear();
         if !same {
             let settings = &self.settings;
-            self.count = settings.blocks(block.layout).clamp(1, BLOCKS as u16);
+            self.count = settings.blocks(layout).clamp(1, BLOCKS as u16);
             self.model = Some(Model::new(
-                block.layout,
-                block.layout.step,
+                layout,
+                layout.step,
                 self.count,
                 settings.calibration,
                 settings.sample_rate as f32,
@@ -137,7 +145,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let half = model.half();
         let noise = fit.remains.variance();
         // Rounding of f32 sums is an error too, where there is no other, and part of it does not average.
-        let size = fit.offsets[0].abs() + fit.offsets[1].abs() + libm::sqrtf(fit.waves.power());
+        let size = fit.offsets[0].abs() + fit.offsets[1].abs() + square_root(fit.waves.power());
         let rounding = 1e-7 * size;
         let coding = converter::coding(&self.settings, noise, half);
         let variance = noise + rounding * rounding * (1.0 + half) + coding;
@@ -149,9 +157,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             return None;
         }
 
-        let first = self.ring.front()?.start;
         let samples = u32::from(self.count) * u32::from(model.layout.length);
-        let middle = 2 * first + u64::from(samples) - 1;
+        let middle = 2 * self.end - u64::from(samples) - 1;
 
         let expected = match &self.before {
             Some(before) => {
@@ -168,6 +175,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         flags = flags.with(converter::sample_flags(
             &self.settings,
             older.iter().chain(newer),
+            model.layout.step.period(),
             &wave,
         ));
         let mut record = Record::new(model, &fit, &wave, variance, middle, angle, phase);

@@ -1,5 +1,6 @@
 //! One window as the tracker remembers it: values at its middle, rates a sample, variances.
 
+use crate::arch::square_root;
 use crate::estimate::{Estimate, Flags};
 use crate::phase::PhaseStep;
 use crate::wave::{Angle, Standing};
@@ -84,7 +85,7 @@ impl Record {
     /// The window as it is reported.
     pub(crate) fn estimate(&self, sample_rate: f64, flags: Flags) -> Estimate {
         let rate = sample_rate as f32;
-        let root = libm::sqrtf;
+        let root = square_root;
         Estimate {
             start: (self.middle + 1 - u64::from(self.samples)) / 2,
             samples: self.samples,

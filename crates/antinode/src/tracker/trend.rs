@@ -5,6 +5,7 @@
 
 use heapless::Deque;
 
+use crate::arch::square_root;
 use crate::wave::Angle;
 use crate::window::Normal;
 
@@ -79,7 +80,7 @@ impl Trend {
                 )
             });
         for (time, angle, variance) in earlier.chain(core::iter::once((0.0, 0.0, variance))) {
-            let weight = 1.0 / libm::sqrtf(variance.max(1e-18));
+            let weight = 1.0 / square_root(variance.max(1e-18));
             let curve = if self.points.len() >= 3 {
                 weight * time * time
             } else {

@@ -5,8 +5,8 @@ use num_complex::Complex32;
 use super::fit::Prediction;
 use super::model::Model;
 use super::response::Response;
+use super::seen::Seen;
 use super::waves::{Course, Gains, Mixing, Waves};
-use crate::block::Block;
 
 /// The residual of a fit, in several views. Squares are in input units squared.
 #[derive(Debug, Clone, Copy, Default)]
@@ -35,7 +35,7 @@ impl Remains {
 /// Passes once more over the blocks of a window, with its final waves and offsets.
 pub(super) fn examine<'a>(
     model: &Model,
-    blocks: impl Iterator<Item = &'a Block>,
+    blocks: impl Iterator<Item = &'a Seen>,
     waves: &Waves,
     offset: [f32; 2],
 ) -> Remains {
@@ -61,20 +61,23 @@ pub(super) fn examine<'a>(
         let mut along = [Complex32::ZERO; 2];
         let mut power = 0.0;
         for channel in 0..2 {
-            let sums = &block.channels[channel];
             let (prediction, third) = &predictions[channel];
-            let rest = prediction.rest(&model.basis.whiten(sums), &here);
+            let rest = prediction.rest(&block.whitened[channel], &here);
             power += rest.mean * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
             along[channel] = Complex32::new(
                 response.mean.level * rest.mean + response.even.level * rest.even,
                 response.odd.level * rest.odd,
             ) * back;
-            let harmonic = Complex32::new(
-                sums.third_cosine - third.offset - third.cosine.of(&here),
-                third.sine.of(&here) - sums.third_sine,
-            );
-            remains.third[channel] += harmonic * back_third;
-            third_power += harmonic.norm_sqr();
+            if let Some(watched) = &block.watched {
+                let seen = watched.third[channel];
+                let harmonic = Complex32::new(
+                    seen.re - third.offset - third.cosine.of(&here),
+                    third.sine.of(&here) - seen.im,
+                );
+                remains.third[channel] += harmonic * back_third;
+                third_power += harmonic.norm_sqr();
+                remains.third_freedom += 2.0;
+            }
         }
         remains.residual += power;
         remains.worst_block = if power > remains.worst_block {
@@ -91,9 +94,9 @@ pub(super) fn examine<'a>(
     }
     let (count, length) = (f32::from(model.blocks), f32::from(model.layout.length));
     let coherent = (remains.third[0].norm_sqr() + remains.third[1].norm_sqr()) / count;
-    remains.third_freedom = 4.0 * (count - 1.0);
+    remains.third_freedom = (remains.third_freedom - 4.0).max(0.0);
     remains.third_noise =
-        (third_power - coherent).max(0.0) / (0.5 * length * remains.third_freedom);
+        (third_power - coherent).max(0.0) / (0.5 * length * remains.third_freedom.max(1.0));
     remains.third = remains.third.map(|sum| sum * (2.0 / (count * length)));
     remains
 }

@@ -10,8 +10,9 @@ use super::examine::{Remains, examine};
 use super::model::Model;
 use super::normal::Row;
 use super::response::Whitened;
+use super::seen::Seen;
 use super::waves::{Course, Gains, Here, Mixing, Parameters, Waves};
-use crate::block::Block;
+use crate::arch::square_root;
 use crate::phase::PhaseStep;
 
 /// Beyond this phase (rad) between a window's middle and its end the carrier is moved before the fit is believed.
@@ -78,7 +79,7 @@ impl Prediction {
 /// One pass over the blocks: the gradient of both pick-offs' parameters.
 fn gradient<'a>(
     model: &Model,
-    blocks: impl Iterator<Item = &'a Block>,
+    blocks: impl Iterator<Item = &'a Seen>,
     waves: &Waves,
     offset: [f32; 2],
 ) -> [Row; 2] {
@@ -94,8 +95,7 @@ fn gradient<'a>(
         let here = course.next();
         let back = here.unit.conj();
         for channel in 0..2 {
-            let seen = model.basis.whiten(&block.channels[channel]);
-            let rest = predictions[channel].rest(&seen, &here);
+            let rest = predictions[channel].rest(&block.whitened[channel], &here);
             let along = Complex32::new(
                 response.mean.level * rest.mean + response.even.level * rest.even,
                 response.odd.level * rest.odd,
@@ -125,7 +125,7 @@ fn gradient<'a>(
 
 impl Model {
     /// Fits `blocks`, which are as many as the model was built for.
-    fn fit<'a>(&self, blocks: impl Iterator<Item = &'a Block> + Clone) -> Fit {
+    fn fit<'a>(&self, blocks: impl Iterator<Item = &'a Seen> + Clone) -> Fit {
         let mut parameters = Parameters::default();
         let mut waves = Waves::default();
         let mut settled = false;
@@ -164,7 +164,7 @@ impl Model {
 /// A carrier too rough for the whole window is first refined in its middle: a single jump to a long window would slip a turn.
 pub(crate) fn solve<'a>(
     model: &mut Model,
-    blocks: impl Iterator<Item = &'a Block> + Clone,
+    blocks: impl Iterator<Item = &'a Seen> + Clone,
     count: u16,
     mut carrier: PhaseStep,
     mut uncertainty: f32,
@@ -209,7 +209,7 @@ pub(crate) fn solve<'a>(
         // Four standard deviations of the frequency, from the bound.
         let noise = fit.remains.variance();
         let variance = 2.0 * noise * model.covariance[3][3] / fit.waves.power();
-        uncertainty = 4.0 * libm::sqrtf(variance) / half;
+        uncertainty = 4.0 * square_root(variance) / half;
         span = reach(uncertainty).max(span + 1).min(count);
     }
 }

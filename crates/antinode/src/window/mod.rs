@@ -5,8 +5,10 @@ mod fit;
 mod model;
 mod normal;
 mod response;
+mod seen;
 mod waves;
 
 pub(crate) use fit::{CARRIER_REACH, Fit, solve};
 pub(crate) use model::Model;
 pub(crate) use normal::Normal;
+pub(crate) use seen::{Extremes, Seen};

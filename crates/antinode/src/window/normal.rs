@@ -18,11 +18,16 @@ impl Normal {
         entries: [[0.0; PARAMETERS]; PARAMETERS],
     };
 
+    /// A matrix from its lower triangle.
+    pub(crate) const fn from_lower(entries: [[f32; PARAMETERS]; PARAMETERS]) -> Self {
+        Self { entries }
+    }
+
     /// Adds the square of one design row.
     #[inline(always)]
     pub(crate) fn add(&mut self, row: &Row) {
-        for (entries, &left) in self.entries.iter_mut().zip(row) {
-            for (entry, &right) in entries.iter_mut().zip(row) {
+        for (i, (entries, &left)) in self.entries.iter_mut().zip(row).enumerate() {
+            for (entry, &right) in entries.iter_mut().zip(row).take(i + 1) {
                 *entry += left * right;
             }
         }

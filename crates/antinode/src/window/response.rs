@@ -3,7 +3,8 @@
 //! Within a block the wave of one pick-off is S(κ) = Re v(κ)·cos ωκ − Im v(κ)·sin ωκ + d, κ in samples from the block's middle,
 //! with v(κ) = v₀ + v₁κ + ½v₂κ². Even and odd parts separate, so each sum sees only a few of the numbers in v.
 
-use crate::block::{ChannelSums, Layout};
+use crate::arch::square_root;
+use crate::block::Layout;
 use crate::phase::PhaseStep;
 
 /// Turns the three correlated sums of a block into independent numbers of equal noise: the noise of one sample.
@@ -88,16 +89,17 @@ impl Basis {
             even.add(rest * rest);
         }
         // Below these the vector is only rounding: a block of one or two samples has no room for it.
+        let least = 1e-4 * n * layout.one() * layout.one();
         let inverse = |square: f32| {
-            if square > 1e-4 * n {
-                1.0 / libm::sqrtf(square)
+            if square > least {
+                1.0 / square_root(square)
             } else {
                 0.0
             }
         };
         let (cosine, sine) = (inverse(even.get()), inverse(sine.get()));
         Self {
-            one: 1.0 / libm::sqrtf(n),
+            one: 1.0 / square_root(n),
             cosine,
             cosine_mean,
             sine,
@@ -106,11 +108,11 @@ impl Basis {
     }
 
     #[inline]
-    pub(crate) fn whiten(&self, sums: &ChannelSums) -> Whitened {
+    pub(crate) fn whiten(&self, cosine: f32, sine: f32, sum: f32) -> Whitened {
         Whitened {
-            mean: sums.sum * self.one,
-            even: (sums.cosine - self.cosine_mean * sums.sum) * self.cosine,
-            odd: sums.sine * self.sine,
+            mean: sum * self.one,
+            even: (cosine - self.cosine_mean * sum) * self.cosine,
+            odd: sine * self.sine,
         }
     }
 }
@@ -120,6 +122,7 @@ impl Response {
     pub(crate) fn new(layout: Layout, basis: &Basis, carrier: PhaseStep) -> Self {
         let mut sums = [[Sum::default(); 3]; 5];
         let mut third_offset = Sum::default();
+        let unit = 1.0 / layout.one();
         for k in 0..layout.length {
             let reference = layout.reference(k);
             let twice = layout.twice_from_middle(k);
@@ -129,8 +132,8 @@ impl Response {
                 (basis.one, false),
                 ((reference.cosine - basis.cosine_mean) * basis.cosine, false),
                 (reference.sine * basis.sine, true),
-                (reference.third_cosine, false),
-                (reference.third_sine, true),
+                (reference.third_cosine * unit, false),
+                (reference.third_sine * unit, true),
             ];
             for (sums, (weight, odd)) in sums.iter_mut().zip(weights) {
                 let (level, slope) = if odd {
@@ -142,7 +145,7 @@ impl Response {
                 sums[1].add(weight * t * slope);
                 sums[2].add(0.5 * weight * t * t * level);
             }
-            third_offset.add(reference.third_cosine);
+            third_offset.add(reference.third_cosine * unit);
         }
         let answer = |s: &[Sum; 3]| Answer {
             level: s[0].get(),
@@ -153,7 +156,7 @@ impl Response {
             mean: answer(&sums[0]),
             even: answer(&sums[1]),
             odd: answer(&sums[2]),
-            offset: libm::sqrtf(f32::from(layout.length)),
+            offset: square_root(f32::from(layout.length)),
             third_even: answer(&sums[3]),
             third_odd: answer(&sums[4]),
             third_offset: third_offset.get(),

@@ -1,0 +1,68 @@
+//! What a block is, and the reference that its samples are multiplied with.
+
+use crate::phase::{Phase, PhaseStep};
+use crate::sample::Sample;
+
+/// What a block is: its reference frequency, its count of sample pairs, and how its reference is rounded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Layout {
+    /// Reference frequency. Within 1 % of the wave's for the stated accuracy.
+    pub step: PhaseStep,
+    /// Sample pairs in a block, 1 to the capacity of the [`Demodulator`](super::Demodulator).
+    pub length: u16,
+    /// The whole number that stands for a reference of one; 0 where the reference is not rounded.
+    pub scale: u16,
+}
+
+/// The reference at one sample of a block, times the scale where there is one.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Reference {
+    pub cosine: f32,
+    pub sine: f32,
+    pub third_cosine: f32,
+    pub third_sine: f32,
+}
+
+impl Layout {
+    /// The layout of blocks of `length` pairs of samples of type `S`.
+    pub fn new<S: Sample>(step: PhaseStep, length: u16) -> Self {
+        Self {
+            step,
+            length,
+            scale: S::scale(length),
+        }
+    }
+
+    /// Twice the time from the middle of the block to sample `index`, in samples.
+    pub(crate) fn twice_from_middle(self, index: u16) -> i64 {
+        2 * i64::from(index) + 1 - i64::from(self.length)
+    }
+
+    /// The reference at sample `index`: the same on the demodulator's side and the solution's, so nothing is handed over.
+    pub(crate) fn reference(self, index: u16) -> Reference {
+        let twice = self.twice_from_middle(index);
+        // Taken after the middle and mirrored before it: exactly even and odd, whatever is rounded.
+        let phase = self.step.after_half_samples(twice.abs());
+        let third = Phase(phase.0.wrapping_mul(3));
+        let side = if twice < 0 { -1.0 } else { 1.0 };
+        let [[cosine, sine], [third_cosine, third_sine]] = [phase, third].map(|phase| {
+            if self.scale == 0 {
+                let unit = phase.unit();
+                [unit.re, unit.im]
+            } else {
+                phase.scaled_unit(self.scale).map(f32::from)
+            }
+        });
+        Reference {
+            cosine,
+            sine: side * sine,
+            third_cosine,
+            third_sine: side * third_sine,
+        }
+    }
+
+    /// What a reference of one is in the sums.
+    pub(crate) fn one(self) -> f32 {
+        f32::from(self.scale.max(1))
+    }
+}

@@ -1,0 +1,64 @@
+//! What a block keeps of its samples.
+
+use crate::sample::Sample;
+
+/// The running sums of one pick-off over one block: formula (24), in input units times the layout's scale.
+///
+/// Bounds at full scale: in f32 each sum is at most `length` × the largest |sample|. Of `i16` codes, 32 768 × scale × length is at
+/// most 32 768 × 65 535 < 2³¹; of `i32` codes, 2³¹ × 32 767 × 65 535 < 2⁶².
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ChannelSums<S: Sample> {
+    /// Σ S cos φ, the C sum of (24).
+    pub cosine: S::Sum,
+    /// Σ S sin φ, the S sum of (24).
+    pub sine: S::Sum,
+    /// Σ S, which carries the offset; without the scale.
+    pub sum: S::Sum,
+}
+
+impl<S: Sample> ChannelSums<S> {
+    pub(crate) fn empty() -> Self {
+        Self {
+            cosine: S::Sum::default(),
+            sine: S::Sum::default(),
+            sum: S::Sum::default(),
+        }
+    }
+}
+
+/// What is watched of one pick-off over one block beside its sums: where clipping, nonlinearity and dead channels show.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ChannelWatch<S: Sample> {
+    /// Σ S cos 3φ, as large as the sums of the carrier.
+    pub third_cosine: S::Sum,
+    /// Σ S sin 3φ.
+    pub third_sine: S::Sum,
+    /// The least sample.
+    pub low: S,
+    /// The greatest sample.
+    pub high: S,
+    /// Most samples in a row that were equal to `low`: one, unless the signal is cut off. Counted of f32 only, else 1: codes have
+    /// known rails.
+    pub low_run: u16,
+    /// Most samples in a row that were equal to `high`.
+    pub high_run: u16,
+    /// The runs that go on at the last samples: their length, and the index after them.
+    pub(crate) low_now: (u16, u16),
+    pub(crate) high_now: (u16, u16),
+}
+
+impl<S: Sample> ChannelWatch<S> {
+    pub(crate) fn empty() -> Self {
+        let [high, low] = S::EXTREMES;
+        Self {
+            third_cosine: S::Sum::default(),
+            third_sine: S::Sum::default(),
+            low,
+            high,
+            low_run: 1,
+            high_run: 1,
+            low_now: (0, 0),
+            high_now: (0, 0),
+        }
+    }
+}

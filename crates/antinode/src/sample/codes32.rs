@@ -1,0 +1,119 @@
+//! Arithmetic at sample rate on codes of up to 32 bits: sums in 64 bits.
+
+use super::codes::{self, Levels};
+use super::{Sample, SamplePair};
+use crate::block::{ChannelSums, ChannelWatch};
+use crate::period::Lags;
+
+#[inline(always)]
+fn product(sample: i32, weight: i16) -> i64 {
+    i64::from(sample) * i64::from(weight)
+}
+
+impl Sample for i32 {
+    type Sum = i64;
+    type Weight = i16;
+    type Square = u64;
+    type Level = u32;
+
+    const EXTREMES: [Self; 2] = [i32::MIN, i32::MAX];
+
+    #[inline(always)]
+    fn to_f32(self) -> f32 {
+        self as f32
+    }
+
+    #[inline(always)]
+    fn sum_to_f32(sum: i64) -> f32 {
+        sum as f32
+    }
+
+    fn scale(_: u16) -> u16 {
+        i16::MAX as u16
+    }
+
+    #[inline(always)]
+    fn weight(value: f32) -> i16 {
+        value as i16
+    }
+
+    #[inline(always)]
+    fn add<P: SamplePair<Self>>(
+        sums: &mut [ChannelSums<Self>; 2],
+        pairs: &[P],
+        cosine: &[i16],
+        sine: &[i16],
+    ) {
+        let [mut c, mut d] = *sums;
+        for ((pair, &cosine), &sine) in pairs.iter().zip(cosine).zip(sine) {
+            let pair = pair.pair();
+            c.cosine += product(pair[0], cosine);
+            c.sine += product(pair[0], sine);
+            c.sum += i64::from(pair[0]);
+            d.cosine += product(pair[1], cosine);
+            d.sine += product(pair[1], sine);
+            d.sum += i64::from(pair[1]);
+        }
+        *sums = [c, d];
+    }
+
+    #[inline(always)]
+    fn watch<P: SamplePair<Self>>(
+        watch: &mut [ChannelWatch<Self>; 2],
+        pairs: &[P],
+        _: u16,
+        third_cosine: &[i16],
+        third_sine: &[i16],
+    ) {
+        let [mut c, mut d] = *watch;
+        for ((pair, &cosine), &sine) in pairs.iter().zip(third_cosine).zip(third_sine) {
+            let pair = pair.pair();
+            for (channel, sample) in [&mut c, &mut d].into_iter().zip(pair) {
+                channel.third_cosine += product(sample, cosine);
+                channel.third_sine += product(sample, sine);
+                channel.high = channel.high.max(sample);
+                channel.low = channel.low.min(sample);
+            }
+        }
+        *watch = [c, d];
+    }
+
+    #[inline(always)]
+    fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]) {
+        // A square of up to 2⁶⁴, less its last 7 bits, fits in the sum 64 times.
+        let square = |a: i32, b: i32| {
+            let apart = u64::from(a.abs_diff(b));
+            (apart * apart) >> 7
+        };
+        for (sum, before) in sums.iter_mut().zip(before.iter().rev()) {
+            *sum += square(pair[0], before[0]) + square(pair[1], before[1]);
+        }
+    }
+
+    #[inline(always)]
+    fn mean(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+        // Without overflow: halves, and what both halvings rounded off.
+        let mean = |a: i32, b: i32| (a >> 1) + (b >> 1) + (a & b & 1);
+        [mean(a[0], b[0]), mean(a[1], b[1])]
+    }
+
+    #[inline(always)]
+    fn means(sums: &Lags<Self>, count: usize) -> Levels {
+        codes::means(sums, count)
+    }
+
+    #[inline(always)]
+    fn halved(level: u32) -> u32 {
+        level / 2
+    }
+
+    #[inline(always)]
+    fn level_to_f32(level: u32) -> f32 {
+        level as f32
+    }
+
+    #[inline(always)]
+    fn square_to_f32(square: u64) -> f32 {
+        128.0 * square as f32
+    }
+}

@@ -1,0 +1,150 @@
+//! Arithmetic at sample rate in f32.
+
+use super::{Sample, SamplePair};
+use crate::block::{ChannelSums, ChannelWatch};
+use crate::period::{LAGS, Lags};
+
+impl Sample for f32 {
+    type Sum = f32;
+    type Weight = f32;
+    type Square = f32;
+    type Level = f32;
+
+    const EXTREMES: [Self; 2] = [f32::NEG_INFINITY, f32::INFINITY];
+
+    #[inline(always)]
+    fn to_f32(self) -> f32 {
+        self
+    }
+
+    #[inline(always)]
+    fn sum_to_f32(sum: f32) -> f32 {
+        sum
+    }
+
+    fn scale(_: u16) -> u16 {
+        0
+    }
+
+    #[inline(always)]
+    fn weight(value: f32) -> f32 {
+        value
+    }
+
+    #[inline(always)]
+    fn add<P: SamplePair<Self>>(
+        sums: &mut [ChannelSums<Self>; 2],
+        pairs: &[P],
+        cosine: &[f32],
+        sine: &[f32],
+    ) {
+        let [mut c, mut d] = *sums;
+        for ((pair, &cosine), &sine) in pairs.iter().zip(cosine).zip(sine) {
+            let pair = pair.pair();
+            c.cosine += pair[0] * cosine;
+            c.sine += pair[0] * sine;
+            c.sum += pair[0];
+            d.cosine += pair[1] * cosine;
+            d.sine += pair[1] * sine;
+            d.sum += pair[1];
+        }
+        *sums = [c, d];
+    }
+
+    #[inline(always)]
+    fn watch<P: SamplePair<Self>>(
+        watch: &mut [ChannelWatch<Self>; 2],
+        pairs: &[P],
+        index: u16,
+        third_cosine: &[f32],
+        third_sine: &[f32],
+    ) {
+        let [mut c, mut d] = *watch;
+        let thirds = third_cosine.iter().zip(third_sine);
+        for ((pair, (&cosine, &sine)), index) in pairs.iter().zip(thirds).zip(index..) {
+            let pair = pair.pair();
+            c.third_cosine += pair[0] * cosine;
+            c.third_sine += pair[0] * sine;
+            d.third_cosine += pair[1] * cosine;
+            d.third_sine += pair[1] * sine;
+            c.see(pair[0], index);
+            d.see(pair[1], index);
+        }
+        *watch = [c, d];
+    }
+
+    #[inline(always)]
+    fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]) {
+        for (sum, before) in sums.iter_mut().zip(before.iter().rev()) {
+            let (c, d) = (pair[0] - before[0], pair[1] - before[1]);
+            *sum += c * c + d * d;
+        }
+    }
+
+    #[inline(always)]
+    fn mean(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
+        [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
+    }
+
+    #[inline(always)]
+    fn means(sums: &Lags<Self>, count: usize) -> [f32; LAGS] {
+        let mut means = *sums;
+        for (lag, mean) in (1..).zip(&mut means) {
+            *mean *= RECIPROCALS.get(count - lag).copied().unwrap_or(0.0);
+        }
+        means
+    }
+
+    #[inline(always)]
+    fn halved(level: f32) -> f32 {
+        0.5 * level
+    }
+
+    #[inline(always)]
+    fn level_to_f32(level: f32) -> f32 {
+        level
+    }
+
+    #[inline(always)]
+    fn square_to_f32(square: f32) -> f32 {
+        square
+    }
+}
+
+/// 1/n up to a frame of the period search.
+static RECIPROCALS: [f32; 33] = {
+    let mut table = [0.0; 33];
+    let mut n = 1;
+    while n < table.len() {
+        table[n] = 1.0 / n as f32;
+        n += 1;
+    }
+    table
+};
+
+impl ChannelWatch<f32> {
+    #[inline(always)]
+    fn see(&mut self, sample: f32, index: u16) {
+        // Few samples of a block are an extreme so far: only those cost more than two comparisons.
+        if sample >= self.high {
+            (self.high_run, self.high_now) =
+                run(sample > self.high, self.high_run, self.high_now, index);
+            self.high = sample;
+        }
+        if sample <= self.low {
+            (self.low_run, self.low_now) =
+                run(sample < self.low, self.low_run, self.low_now, index);
+            self.low = sample;
+        }
+    }
+}
+
+/// The longest run at an extreme and the present one, after sample `index`, which is a new extreme or equals the last.
+#[inline(always)]
+fn run(is_new: bool, longest: u16, now: (u16, u16), index: u16) -> (u16, (u16, u16)) {
+    if is_new {
+        return (1, (1, index + 1));
+    }
+    let length = if now.1 == index { now.0 + 1 } else { 1 };
+    (longest.max(length), (length, index + 1))
+}

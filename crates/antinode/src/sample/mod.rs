@@ -1,0 +1,191 @@
+//! What samples are, and with it the arithmetic at sample rate: f32, or integers of 16 or 32 bits.
+
+mod codes;
+mod codes16;
+mod codes32;
+mod float;
+
+use core::fmt::Debug;
+
+use crate::block::{ChannelSums, ChannelWatch};
+use crate::period::{LAGS, Lags};
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for i16 {}
+    impl Sealed for i32 {}
+}
+
+/// A sample of a pick-off as the core takes it; it decides the arithmetic at sample rate.
+///
+/// | type | for | sums of a block |
+/// |---|---|---|
+/// | `f32` | any input unit | f32 |
+/// | `i16` | converter codes of up to 16 bits | i32, reference weights as large as cannot overflow |
+/// | `i32` | converter codes of up to 32 bits | i64 |
+///
+/// With integers the input unit is the code. All three reach the same accuracy: the reference's own rounding is part of the
+/// window's equations. Integers need no floating point at sample rate.
+pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
+    /// A running sum of weighted samples.
+    type Sum: Copy + Debug + PartialEq + Default + Send;
+    /// The reference at one sample of a block.
+    type Weight: Copy + Debug + Default + Send;
+    /// A running sum of squared differences.
+    type Square: Copy + Debug + Default + Send;
+    /// A mean squared difference, to be compared with others.
+    type Level: Copy + Debug + PartialOrd + Send;
+
+    /// The sample in f32.
+    #[doc(hidden)]
+    fn to_f32(self) -> f32;
+    /// A sum in f32.
+    #[doc(hidden)]
+    fn sum_to_f32(sum: Self::Sum) -> f32;
+    /// The weight that stands for one in a block of `length`: the largest whose sums cannot overflow; 0 for weights not rounded.
+    #[doc(hidden)]
+    fn scale(length: u16) -> u16;
+    /// A weight from its value in f32, which is a whole number where there is a scale.
+    #[doc(hidden)]
+    fn weight(value: f32) -> Self::Weight;
+    /// Adds pairs to the carrier's sums, each with its weights.
+    #[doc(hidden)]
+    fn add<P: SamplePair<Self>>(
+        sums: &mut [ChannelSums<Self>; 2],
+        pairs: &[P],
+        cosine: &[Self::Weight],
+        sine: &[Self::Weight],
+    );
+    /// Watches pairs, the first of which has `index` in its block.
+    #[doc(hidden)]
+    fn watch<P: SamplePair<Self>>(
+        watch: &mut [ChannelWatch<Self>; 2],
+        pairs: &[P],
+        index: u16,
+        third_cosine: &[Self::Weight],
+        third_sine: &[Self::Weight],
+    );
+    /// Less than every sample, and more than every sample: extremes of none.
+    #[doc(hidden)]
+    const EXTREMES: [Self; 2];
+    /// Adds the squared differences of a pair from those before it, the last first.
+    #[doc(hidden)]
+    fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]);
+    /// The mean of two pairs, for the next octave of the period search.
+    #[doc(hidden)]
+    fn mean(a: [Self; 2], b: [Self; 2]) -> [Self; 2];
+    /// The sums as means over `count` − lag pairs: only their ratios mean anything.
+    #[doc(hidden)]
+    fn means(sums: &Lags<Self>, count: usize) -> [Self::Level; LAGS];
+    /// Half a level.
+    #[doc(hidden)]
+    fn halved(level: Self::Level) -> Self::Level;
+    /// A level in f32.
+    #[doc(hidden)]
+    fn level_to_f32(level: Self::Level) -> f32;
+    /// A sum of squared differences in f32, input units squared.
+    #[doc(hidden)]
+    fn square_to_f32(square: Self::Square) -> f32;
+}
+
+/// A sample pair, S_C and S_D sampled together, in a form that holds samples of type `S` without loss.
+///
+/// | for | forms |
+/// |---|---|
+/// | `f32` | `[f32; 2]`, `[i16; 2]`, `[u16; 2]`, `[i8; 2]`, [`Packed`] |
+/// | `i16` | `[i16; 2]`, `[I1F15; 2]`, [`Packed`] |
+/// | `i32` | `[i32; 2]`, `[i16; 2]`, `[u16; 2]`, `[I1F31; 2]`, [`Packed`] |
+///
+/// `I1F15` and `I1F31` are those of the crate `fixed`, with the feature of that name; a unit of the estimates is then 2⁻¹⁵ or 2⁻³¹.
+pub trait SamplePair<S>: Copy {
+    /// S_C and S_D.
+    fn pair(self) -> [S; 2];
+}
+
+/// A pair of 16-bit codes in one word, S_C in its low half: as a dual converter's DMA leaves it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(transparent)]
+pub struct Packed(pub u32);
+
+impl<S> SamplePair<S> for [S; 2]
+where
+    S: Sample,
+{
+    #[inline(always)]
+    fn pair(self) -> [S; 2] {
+        self
+    }
+}
+
+impl SamplePair<i16> for Packed {
+    #[inline(always)]
+    fn pair(self) -> [i16; 2] {
+        [self.0 as i16, (self.0 >> 16) as i16]
+    }
+}
+
+impl SamplePair<f32> for Packed {
+    #[inline(always)]
+    fn pair(self) -> [f32; 2] {
+        SamplePair::<i16>::pair(self).map(f32::from)
+    }
+}
+
+impl SamplePair<i32> for Packed {
+    #[inline(always)]
+    fn pair(self) -> [i32; 2] {
+        SamplePair::<i16>::pair(self).map(i32::from)
+    }
+}
+
+impl SamplePair<f32> for [i16; 2] {
+    #[inline(always)]
+    fn pair(self) -> [f32; 2] {
+        self.map(f32::from)
+    }
+}
+
+impl SamplePair<f32> for [u16; 2] {
+    #[inline(always)]
+    fn pair(self) -> [f32; 2] {
+        self.map(f32::from)
+    }
+}
+
+impl SamplePair<f32> for [i8; 2] {
+    #[inline(always)]
+    fn pair(self) -> [f32; 2] {
+        self.map(f32::from)
+    }
+}
+
+impl SamplePair<i32> for [i16; 2] {
+    #[inline(always)]
+    fn pair(self) -> [i32; 2] {
+        self.map(i32::from)
+    }
+}
+
+impl SamplePair<i32> for [u16; 2] {
+    #[inline(always)]
+    fn pair(self) -> [i32; 2] {
+        self.map(i32::from)
+    }
+}
+
+#[cfg(feature = "fixed")]
+impl SamplePair<i16> for [fixed::types::I1F15; 2] {
+    #[inline(always)]
+    fn pair(self) -> [i16; 2] {
+        self.map(fixed::types::I1F15::to_bits)
+    }
+}
+
+#[cfg(feature = "fixed")]
+impl SamplePair<i32> for [fixed::types::I1F31; 2] {
+    #[inline(always)]
+    fn pair(self) -> [i32; 2] {
+        self.map(fixed::types::I1F31::to_bits)
+    }
+}

@@ -1,0 +1,181 @@
+//! The kernels that the bench images measure, each between the marks over [`PAIRS`] sample pairs.
+//!
+//! Samples arrive as packed codes; slices are half-buffers of 128 pairs. `S` decides the arithmetic: `i16` or `f32`.
+
+use core::hint::black_box;
+
+use antinode::block::{Demodulator, Layout};
+use antinode::phase::PhaseStep;
+use antinode::{Front, Identifier, Packed, Sample, SamplePair, Settings, Tracker};
+
+use crate::codes::{Codes, PERIOD};
+use crate::marks::{leave, mark_begin, mark_end};
+
+/// Sample pairs that a bench works through.
+pub const PAIRS: usize = 16_384;
+/// Pairs of a half-buffer.
+const HALF_BUFFER: usize = 128;
+
+fn demodulator<S: Sample>(watch: bool) -> Demodulator<S, 200> {
+    Demodulator::new(
+        Layout::new::<S>(PhaseStep::from_period(PERIOD), 19),
+        0,
+        watch,
+    )
+}
+
+/// Block sums from half-buffers, with or without the watch.
+pub fn block<S: Sample>(watch: bool) -> !
+where
+    Packed: SamplePair<S>,
+{
+    let codes = Codes::new();
+    let mut demodulator = demodulator::<S>(watch);
+    let mut run = |from: usize, to: usize| {
+        let mut at = from;
+        while at < to {
+            let mut pairs = codes.slice(at, HALF_BUFFER.min(to - at));
+            at += pairs.len();
+            while !pairs.is_empty() {
+                let (taken, block) = demodulator.push_slice(pairs);
+                black_box(&block);
+                pairs = pairs.get(taken..).unwrap_or(&[]);
+            }
+        }
+    };
+    // The first block makes the table.
+    run(0, 100);
+    mark_begin();
+    run(100, 100 + PAIRS);
+    mark_end();
+    leave()
+}
+
+/// Block sums from one call a pair, without the watch.
+pub fn push<S: Sample>() -> !
+where
+    Packed: SamplePair<S>,
+{
+    let codes = Codes::new();
+    let mut demodulator = demodulator::<S>(false);
+    let mut run = |from: usize, to: usize| {
+        let mut at = from;
+        while at < to {
+            let pairs = codes.slice(at, to - at);
+            at += pairs.len();
+            for &pair in pairs {
+                if let Some(block) = push_one(&mut demodulator, pair) {
+                    black_box(&block);
+                }
+            }
+        }
+    };
+    run(0, 100);
+    mark_begin();
+    run(100, 100 + PAIRS);
+    mark_end();
+    leave()
+}
+
+/// One call a pair, as from an interrupt: not inlined into the loop.
+#[inline(never)]
+fn push_one<S: Sample>(
+    demodulator: &mut Demodulator<S, 200>,
+    pair: Packed,
+) -> Option<antinode::Block<S>>
+where
+    Packed: SamplePair<S>,
+{
+    demodulator.push(pair)
+}
+
+/// Everything, with the watch: samples, blocks, and a solved, tracked window every 10 periods.
+pub fn pipeline<S: Sample>() -> !
+where
+    Packed: SamplePair<S>,
+{
+    let codes = Codes::new();
+    let Ok(mut identifier) = Identifier::<S, 200, 16>::new(Settings::new(100_000.0)) else {
+        leave()
+    };
+    let mut run = |from: usize, to: usize| {
+        let mut at = from;
+        while at < to {
+            let pairs = codes.slice(at, HALF_BUFFER.min(to - at));
+            at += pairs.len();
+            identifier.extend(pairs, |estimate| {
+                black_box(&estimate);
+            });
+        }
+    };
+    // From cold to a tracked wave before the marks.
+    run(0, 2_000);
+    mark_begin();
+    run(2_000, 2_000 + PAIRS);
+    mark_end();
+    leave()
+}
+
+/// The solution alone, in thread context: as many windows as blocks of [`PAIRS`] pairs make; a window every 10 blocks.
+pub fn solution<S: Sample>() -> !
+where
+    Packed: SamplePair<S>,
+{
+    let codes = Codes::new();
+    let mut demodulator = demodulator::<S>(true);
+    let Ok(mut tracker) = Tracker::<16>::new(Settings::new(100_000.0)) else {
+        leave()
+    };
+    let mut at = 0;
+    let mut next = || loop {
+        let (taken, block) = demodulator.push_slice(codes.slice(at, HALF_BUFFER));
+        at += taken;
+        if let Some(block) = block {
+            return block;
+        }
+    };
+    for _ in 0..100 {
+        let block = next();
+        black_box(tracker.push(&block));
+    }
+    let blocks: [_; 10] = core::array::from_fn(|_| next());
+    mark_begin();
+    for block in &blocks {
+        black_box(tracker.push(block));
+    }
+    mark_end();
+    leave()
+}
+
+/// The search for a period from cold to its end, again and again, one call a pair.
+pub fn acquire<S: Sample>() -> !
+where
+    Packed: SamplePair<S>,
+{
+    let codes = Codes::new();
+    let Ok(mut front) = Front::<S, 200>::new(Settings::new(100_000.0)) else {
+        leave()
+    };
+    let mut at = 0;
+    mark_begin();
+    while at < PAIRS {
+        let pairs = codes.slice(at, PAIRS - at);
+        at += pairs.len();
+        for &pair in pairs {
+            black_box(front_push(&mut front, pair).is_some());
+            if !front.is_searching() {
+                front.search();
+            }
+        }
+    }
+    mark_end();
+    leave()
+}
+
+#[inline(never)]
+fn front_push<S: Sample>(front: &mut Front<S, 200>, pair: Packed) -> Option<antinode::Block<S>>
+where
+    Packed: SamplePair<S>,
+{
+    front.push(pair)
+}

@@ -1,0 +1,16 @@
+//! The period detector until its first period, again and again, in f32.
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use firmware::{bench, marks};
+
+#[entry]
+fn main() -> ! {
+    bench::acquire::<f32>()
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo) -> ! {
+    marks::leave()
+}

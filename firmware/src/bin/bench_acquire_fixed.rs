@@ -1,0 +1,16 @@
+//! The period detector until its first period, again and again, in fixed point.
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use firmware::{bench, marks};
+
+#[entry]
+fn main() -> ! {
+    bench::acquire::<i16>()
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo) -> ! {
+    marks::leave()
+}

@@ -1,0 +1,16 @@
+//! Block sums from one call a pair, in f32.
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use firmware::{bench, marks};
+
+#[entry]
+fn main() -> ! {
+    bench::push::<f32>()
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo) -> ! {
+    marks::leave()
+}

@@ -1,0 +1,16 @@
+//! The solution of one window of 10 periods, in thread context, in fixed point.
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use firmware::{bench, marks};
+
+#[entry]
+fn main() -> ! {
+    bench::solution::<i16>()
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo) -> ! {
+    marks::leave()
+}

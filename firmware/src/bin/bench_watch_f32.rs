@@ -1,0 +1,16 @@
+//! Block sums from half-buffers of codes, with everything watched, in f32.
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use firmware::{bench, marks};
+
+#[entry]
+fn main() -> ! {
+    bench::block::<f32>(true)
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo) -> ! {
+    marks::leave()
+}

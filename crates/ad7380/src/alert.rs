@@ -75,7 +75,7 @@ impl core::fmt::Display for ThresholdsError {
 
 impl core::error::Error for ThresholdsError {}
 
-/// What the register ALERT says. By the data sheet its bits stay until they are read.
+/// What the register ALERT says. The data sheet calls its bits sticky: they stay until they are read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Alert {
     /// A conversion of `[A, B]` was above the high threshold.

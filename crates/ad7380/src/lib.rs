@@ -69,7 +69,7 @@
 //! - Analog Devices, data sheet AD7380/AD7381, and application note AN-2003 on its oversampling.
 //! - Linux: `drivers/iio/adc/ad7380.c` (registers, thresholds, times), `Documentation/iio/ad7380.rst` (alert, resolution boost) and
 //!   `Documentation/devicetree/bindings/iio/adc/adi,ad7380.yaml` (80 MHz).
-//! - Analog Devices, no-OS: `drivers/adc/ad738x` (registers, frames).
+//! - Analog Devices, no-OS: `drivers/adc/ad738x` (registers, frames); AD738x-FMC user guide (SPI mode).
 #![no_std]
 #![forbid(unsafe_code)]
 

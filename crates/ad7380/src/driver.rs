@@ -1,0 +1,190 @@
+//! The driver itself.
+
+use embedded_hal::delay::DelayNs;
+use embedded_hal::spi::{MODE_2, Mode, SpiDevice};
+
+use crate::alert::{Alert, Thresholds};
+use crate::config::Config;
+use crate::frame::{pair_from_boosted_frame, pair_from_frame};
+use crate::register::{HARD_RESET, ONE_WIRE, Register, SOFT_RESET};
+use crate::timing::{POWER_UP_MS, RESET_US};
+
+/// The SPI mode: the clock idles high, and its falling edge takes the data, highest bit first.
+///
+/// As in Analog Devices' AD738x-FMC user guide and no-OS example for it; the example of Linux's binding has mode 3. With a mode
+/// that does not work [`Ad7380::new`] says [`Error::ReadBack`].
+pub const SPI_MODE: Mode = MODE_2;
+
+/// An AD7380, configured, in 1-wire mode.
+///
+/// `SPI` is the chip on its bus, with CS; a `&mut` to it does too, and stays with the caller when `new` fails.
+#[derive(Debug)]
+pub struct Ad7380<SPI> {
+    spi: SPI,
+    config: Config,
+}
+
+impl<SPI: SpiDevice> Ad7380<SPI> {
+    /// Waits 5 ms for the supply and the reference, resets the chip, configures it, reads every register back and clears the
+    /// averages. The result that was on its way is thrown away: the first pair that [`Self::read_pair`] gives was sampled with
+    /// these settings.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Spi`] from the bus; [`Error::ReadBack`] when a register does not hold what was written: no chip, no supply, a
+    /// wrong SPI mode, or too fast a clock for the wiring.
+    pub fn new<D: DelayNs>(
+        spi: SPI,
+        delay: &mut D,
+        config: Config,
+    ) -> Result<Self, Error<SPI::Error>> {
+        let mut adc = Self { spi, config };
+        delay.delay_ms(POWER_UP_MS);
+        adc.write(Register::Configuration2, HARD_RESET)?;
+        delay.delay_us(RESET_US);
+
+        // The alert is enabled after its thresholds are there.
+        let [low, high] = config.alert.unwrap_or(Thresholds::FULL).registers();
+        let settings = [
+            (Register::AlertLowThreshold, low),
+            (Register::AlertHighThreshold, high),
+            (Register::Configuration2, ONE_WIRE),
+            (Register::Configuration1, config.configuration1()),
+        ];
+        for (register, value) in settings {
+            adc.write(register, value)?;
+        }
+        for (register, wrote) in settings {
+            let read = adc.read(register)? & register.read_back_mask();
+            if read != wrote {
+                return Err(Error::ReadBack {
+                    register,
+                    wrote,
+                    read,
+                });
+            }
+        }
+        adc.soft_reset(delay)?;
+        Ok(adc)
+    }
+
+    /// Clears the averages and the register ALERT; the settings stay. The result that was on its way is thrown away, as in
+    /// [`Self::new`].
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Spi`] from the bus.
+    pub fn soft_reset<D: DelayNs>(&mut self, delay: &mut D) -> Result<(), Error<SPI::Error>> {
+        self.write(Register::Configuration2, ONE_WIRE | SOFT_RESET)?;
+        delay.delay_us(RESET_US);
+        for _ in 0..self.config.oversampling.stale_frames() {
+            self.read_pair()?;
+            delay.delay_ns(self.config.oversampling.conversion_ns());
+        }
+        Ok(())
+    }
+
+    /// The pair `[A, B]` as sampled at the last frame before this one, and a new conversion of both.
+    ///
+    /// With resolution boost the two lowest bits of a result are cut off.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Spi`] from the bus.
+    #[inline]
+    pub fn read_pair(&mut self) -> Result<[i16; 2], Error<SPI::Error>> {
+        if self.config.oversampling.boost() {
+            return Ok(self.read_boosted_pair()?.map(|code| (code >> 2) as i16));
+        }
+        Ok(pair_from_frame(self.frame([0; 4])?))
+    }
+
+    /// As [`Self::read_pair`], but in units of VREF / 131 072, −131 072 to 131 071.
+    ///
+    /// Without resolution boost the two lowest bits are 0.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Spi`] from the bus.
+    #[inline]
+    pub fn read_boosted_pair(&mut self) -> Result<[i32; 2], Error<SPI::Error>> {
+        if !self.config.oversampling.boost() {
+            return Ok(self.read_pair()?.map(|code| i32::from(code) << 2));
+        }
+        Ok(pair_from_boosted_frame(self.frame([0; 5])?))
+    }
+
+    /// Reads, and thereby clears, the register ALERT.
+    ///
+    /// It takes two frames, which convert as any other: the result on its way is lost, and the next pair was sampled at the second
+    /// of them. To keep a steady rate ask between recordings, or watch the pin ALERT.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Spi`] from the bus.
+    pub fn alert(&mut self) -> Result<Alert, Error<SPI::Error>> {
+        Ok(Alert::from_register(self.read(Register::Alert)?))
+    }
+
+    /// The settings.
+    pub fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// Gives the SPI back. The chip stays configured.
+    pub fn free(self) -> SPI {
+        self.spi
+    }
+
+    fn write(&mut self, register: Register, value: u16) -> Result<(), Error<SPI::Error>> {
+        self.spi
+            .write(&register.write_frame(value))
+            .map_err(Error::Spi)
+    }
+
+    fn read(&mut self, register: Register) -> Result<u16, Error<SPI::Error>> {
+        self.spi.write(&register.read_frame()).map_err(Error::Spi)?;
+        Ok(Register::value(self.frame([0; 2])?))
+    }
+
+    /// Sends zeros, the chip's no-operation: what a plain read sends is up to the bus, and ones would be a write.
+    #[inline]
+    fn frame<const N: usize>(&mut self, mut bytes: [u8; N]) -> Result<[u8; N], Error<SPI::Error>> {
+        self.spi.transfer_in_place(&mut bytes).map_err(Error::Spi)?;
+        Ok(bytes)
+    }
+}
+
+/// What stopped the driver. `E` is the bus's own error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Error<E> {
+    /// The bus failed.
+    Spi(E),
+    /// A register does not hold what was written.
+    ReadBack {
+        /// The register.
+        register: Register,
+        /// Its data as written, 12 bits.
+        wrote: u16,
+        /// Its data as read, without the reserved bits.
+        read: u16,
+    },
+}
+
+impl<E: core::fmt::Debug> core::fmt::Display for Error<E> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Spi(error) => write!(f, "the SPI bus failed: {error:?}"),
+            Self::ReadBack {
+                register,
+                wrote,
+                read,
+            } => write!(
+                f,
+                "{register:?} reads {read:#05x} after {wrote:#05x} was written: check supply, wiring, SPI mode and clock (10 MHz is safe)"
+            ),
+        }
+    }
+}
+
+impl<E: core::fmt::Debug> core::error::Error for Error<E> {}

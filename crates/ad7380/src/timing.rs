@@ -1,0 +1,96 @@
+//! The chip's limits in time, and which SPI clock serves which rate.
+
+use crate::config::Oversampling;
+
+/// The largest SPI clock, Hz.
+pub const MAX_SCLK_HZ: u32 = 80_000_000;
+/// The largest rate of conversions, Hz, out of reach in 1-wire mode: see [`max_pair_rate_hz`].
+pub const MAX_CONVERSION_HZ: u32 = 4_000_000;
+/// One conversion, nanoseconds.
+pub const CONVERSION_NS: u32 = 190;
+/// CS must be high for so long between two frames, nanoseconds.
+pub const CS_HIGH_NS: u32 = 10;
+/// Clocks of a frame that carries a pair.
+pub const FRAME_CLOCKS: u32 = 32;
+/// Clocks of a frame that carries a pair of 18 bits each, in whole bytes.
+pub const BOOSTED_FRAME_CLOCKS: u32 = 40;
+
+/// Normal average: from CS to the first conversion, nanoseconds.
+pub(crate) const FIRST_OVERSAMPLE_NS: u32 = 10;
+/// Normal average: each further conversion, nanoseconds. Linux: 500 times the number of channels over that of data lines.
+pub(crate) const NEXT_OVERSAMPLE_NS: u32 = 500 * 2;
+/// Supply and reference settle, milliseconds.
+pub(crate) const POWER_UP_MS: u32 = 5;
+/// After a reset, microseconds: the data sheet asks for less than one.
+pub(crate) const RESET_US: u32 = 10;
+
+/// The shortest time from one falling edge of CS to the next, nanoseconds, rounded up.
+///
+/// The frame's clocks and [`CS_HIGH_NS`], or the conversions where they take longer. `None` when `sclk_hz` is 0 or above
+/// [`MAX_SCLK_HZ`].
+///
+/// ```
+/// use ad7380::{Oversampling, timing::min_frame_ns};
+/// assert_eq!(min_frame_ns(80_000_000, Oversampling::Off), Some(410));
+/// assert_eq!(min_frame_ns(10_000_000, Oversampling::Off), Some(3_210));
+/// ```
+pub const fn min_frame_ns(sclk_hz: u32, oversampling: Oversampling) -> Option<u32> {
+    if sclk_hz == 0 || sclk_hz > MAX_SCLK_HZ {
+        return None;
+    }
+    let clocks = if oversampling.boost() {
+        BOOSTED_FRAME_CLOCKS
+    } else {
+        FRAME_CLOCKS
+    };
+    let shifting = (clocks as u64 * 1_000_000_000).div_ceil(sclk_hz as u64) + CS_HIGH_NS as u64;
+    let converting = oversampling.conversion_ns() as u64;
+    let frame = if shifting > converting {
+        shifting
+    } else {
+        converting
+    };
+    // A clock of a few hertz makes a frame of more than the 4.3 s that fit.
+    Some(if frame > u32::MAX as u64 {
+        u32::MAX
+    } else {
+        frame as u32
+    })
+}
+
+/// The largest rate of pairs with an SPI clock, Hz, rounded down. `None` as in [`min_frame_ns`].
+///
+/// ```
+/// use ad7380::{Oversampling, timing::max_pair_rate_hz};
+/// assert_eq!(max_pair_rate_hz(80_000_000, Oversampling::Off), Some(2_439_024));
+/// ```
+pub const fn max_pair_rate_hz(sclk_hz: u32, oversampling: Oversampling) -> Option<u32> {
+    match min_frame_ns(sclk_hz, oversampling) {
+        Some(frame) => Some(1_000_000_000 / frame),
+        None => None,
+    }
+}
+
+/// The smallest SPI clock that serves a rate of pairs of 16 bits, Hz, rounded up.
+///
+/// `None` when `pair_rate_hz` is 0, or so large that it needs more than [`MAX_SCLK_HZ`]. Software needs time between its frames:
+/// then take a good deal more.
+///
+/// ```
+/// use ad7380::timing::min_sclk_hz;
+/// assert_eq!(min_sclk_hz(100_000), Some(3_203_204));
+/// assert_eq!(min_sclk_hz(2_500_000), None);
+/// ```
+pub const fn min_sclk_hz(pair_rate_hz: u32) -> Option<u32> {
+    if pair_rate_hz == 0 || pair_rate_hz > MAX_CONVERSION_HZ {
+        return None;
+    }
+    // A frame has 1 / rate less the time that CS is high; both sides times rate · 1e9, so that it stays exact.
+    let shifting = 1_000_000_000 - CS_HIGH_NS as u64 * pair_rate_hz as u64;
+    let sclk = (FRAME_CLOCKS as u64 * pair_rate_hz as u64 * 1_000_000_000).div_ceil(shifting);
+    if sclk > MAX_SCLK_HZ as u64 {
+        None
+    } else {
+        Some(sclk as u32)
+    }
+}

@@ -1,0 +1,64 @@
+//! The limits in time, against the same computed by hand.
+
+use ad7380::timing::*;
+use ad7380::{Oversampling, Ratio, RollingRatio};
+
+#[test]
+fn a_frame_takes_its_clocks_and_the_pulse_of_cs() {
+    assert_eq!(min_frame_ns(80_000_000, Oversampling::Off), Some(400 + 10));
+    assert_eq!(
+        min_frame_ns(1_000_000, Oversampling::Off),
+        Some(32_000 + 10)
+    );
+    // 32 / 3 MHz = 10 666.7 ns.
+    assert_eq!(
+        min_frame_ns(3_000_000, Oversampling::Off),
+        Some(10_667 + 10)
+    );
+    let boosted = Oversampling::Rolling {
+        ratio: RollingRatio::X8,
+        boost: true,
+    };
+    assert_eq!(min_frame_ns(80_000_000, boosted), Some(500 + 10));
+    // 32 s.
+    assert_eq!(min_frame_ns(1, Oversampling::Off), Some(u32::MAX));
+    assert_eq!(min_frame_ns(0, Oversampling::Off), None);
+    assert_eq!(min_frame_ns(80_000_001, Oversampling::Off), None);
+    assert_eq!(max_pair_rate_hz(0, Oversampling::Off), None);
+}
+
+#[test]
+fn many_conversions_take_longer_than_the_frame() {
+    let slow = Oversampling::Normal {
+        ratio: Ratio::X32,
+        boost: false,
+    };
+    assert_eq!(slow.conversion_ns(), 10 + 31 * 1_000);
+    assert_eq!(min_frame_ns(80_000_000, slow), Some(31_010));
+    assert_eq!(max_pair_rate_hz(80_000_000, slow), Some(32_247));
+    let two = Oversampling::Normal {
+        ratio: Ratio::X2,
+        boost: false,
+    };
+    assert_eq!(two.conversion_ns(), 1_010);
+    let rolling = Oversampling::Rolling {
+        ratio: RollingRatio::X8,
+        boost: false,
+    };
+    assert_eq!(rolling.conversion_ns(), Oversampling::Off.conversion_ns());
+}
+
+#[test]
+fn the_smallest_clock_serves_its_rate_and_one_hertz_less_does_not() {
+    for rate in [1, 48_000, 100_000, 999_999, 1_000_000, 2_439_024] {
+        let sclk = min_sclk_hz(rate).unwrap();
+        // In units of 1e-9 clocks: what fits into the period less 10 ns.
+        let clocks =
+            |sclk: u32| u64::from(sclk) * (1_000_000_000 - 10 * u64::from(rate)) / u64::from(rate);
+        assert!(clocks(sclk) >= 32_000_000_000, "{rate} Hz");
+        assert!(clocks(sclk - 1) < 32_000_000_000, "{rate} Hz");
+    }
+    assert_eq!(min_sclk_hz(0), None);
+    assert_eq!(min_sclk_hz(2_439_025), None);
+    assert_eq!(min_sclk_hz(u32::MAX), None);
+}

@@ -194,12 +194,7 @@ fn what_is_no_telemetry_is_told() {
         &["none.bin: ", "neither such a port nor such a file"],
     );
     fault(here, ".", Vec::new(), &[".: ", "directory"]);
-    fault(
-        here,
-        "-",
-        Vec::new(),
-        &["standard input: ", "nothing in it"],
-    );
+    fault(here, "-", Vec::new(), &["standard input: ", "not one byte"]);
     let garbage: Vec<u8> = (0..100_000u32)
         .map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8)
         .collect();

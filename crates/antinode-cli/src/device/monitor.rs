@@ -11,7 +11,6 @@ use super::source::{Input, Source};
 use super::{BAUD, told};
 use crate::failure::Failure;
 use crate::options::Format;
-use crate::recording::InputError;
 use crate::rows::Rows;
 
 /// `antinode monitor`.
@@ -62,7 +61,9 @@ pub fn run(options: &Monitor) -> Result<(), Failure> {
     }
     let Screen { name, bytes, .. } = screen;
     if bytes == 0 {
-        return Err(InputError::Empty { file: name }.into());
+        return Err(Failure::Recording(format!(
+            "{name}: not one byte came; check that the device runs and is wired, or that its bytes were saved or sent"
+        )));
     }
     Err(Failure::Recording(format!(
         "{name}: no telemetry in {bytes} bytes; check --baud (it was {}), the wiring, and that firmware and command \

@@ -79,6 +79,7 @@ mod estimate;
 mod front;
 mod identifier;
 mod settings;
+mod sum;
 mod tracker;
 mod wave;
 mod window;

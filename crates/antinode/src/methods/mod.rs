@@ -72,7 +72,6 @@ mod expected;
 mod moments;
 mod products;
 mod ratio;
-mod sum;
 mod wave;
 
 pub use delayed::{Delayed, DelayedSums};

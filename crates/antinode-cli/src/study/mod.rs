@@ -1,6 +1,5 @@
 //! `antinode study`: the paper's comparison of its methods, computed anew, as figures and tables, with its conclusions checked.
 
-mod bound;
 mod conclusions;
 mod draw;
 mod evaluate;

@@ -3,8 +3,10 @@
 mod demonstration;
 mod failure;
 mod fixed;
+mod ideal;
 mod identify;
 mod method_rows;
+mod method_table;
 mod methods;
 mod options;
 mod recording;

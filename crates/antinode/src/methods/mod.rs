@@ -67,6 +67,7 @@ pub mod frequency;
 pub mod functional;
 pub mod phase;
 
+mod conditions;
 mod delayed;
 mod expected;
 mod moments;

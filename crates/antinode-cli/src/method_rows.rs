@@ -12,7 +12,7 @@ pub enum Field {
     Number(f64),
     Count(u8),
     Text(String),
-    /// The window's samples were not at hand.
+    /// The window holds no wave, or its samples were not at hand.
     Missing,
 }
 

@@ -3,13 +3,12 @@
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
-use antinode::Estimate;
 use antinode::methods::comparison::{Comparison, Reference, Sums, compare};
 use antinode::methods::{
     Delayed, Moments, Products, Shape, Wave, algorithm1, algorithm2, algorithm3, algorithm4,
     frequency, functional, phase,
 };
-use antinode::{Calibration, Pair};
+use antinode::{Calibration, Estimate, Flags, Pair};
 
 use crate::ideal::Ideal;
 
@@ -56,8 +55,11 @@ impl History {
         self.start += excess as u64;
     }
 
-    /// All methods over the window of an estimate; `None` where its samples are not here.
+    /// All methods over the window of an estimate; `None` where it holds no wave, or its samples are not here.
     pub fn compare(&self, estimate: &Estimate) -> Option<Methods> {
+        if estimate.flags.contains(Flags::LOST) {
+            return None;
+        }
         let omega = TAU * estimate.frequency / self.sample_rate;
         let first = usize::try_from(estimate.start.checked_sub(self.start)?).ok()?;
         let from = first.saturating_sub(LEAD);

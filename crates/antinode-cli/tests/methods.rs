@@ -263,3 +263,37 @@ fn the_exact_solution_alone_has_no_columns_of_methods() {
     assert_eq!(wrong.code, 2);
     assert!(wrong.err.contains("exact, all"), "{}", wrong.err);
 }
+
+#[test]
+fn a_window_without_a_wave_has_no_methods() {
+    let directory = tempfile::tempdir().unwrap();
+    let gone = format!("--seconds 0.2 --noise 0.001 --dropout 0.05:0.1:zero {WAVE}");
+    let rows = simulated(directory.path(), &gone, "");
+    let lost = |row: &&Row| row.text("flags").contains("lost");
+    let count = rows.iter().filter(lost).count();
+    assert!(count > 0 && count < rows.len());
+    for row in &rows {
+        assert_eq!(row.text("method4_rank").is_empty(), lost(&row));
+        assert_eq!(row.text("leakage").is_empty(), lost(&row));
+    }
+    let table = run(directory.path(), "identify a.wav --methods all").out;
+    assert_eq!(
+        table.matches("method 4").count(),
+        rows.len() - count,
+        "{table}"
+    );
+}
+
+#[test]
+fn a_study_that_cannot_be_is_refused_before_the_work() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("taken"), "").unwrap();
+    let run = |arguments: &str| run(directory.path(), arguments);
+    let taken = run("study --out taken --runs 10000000");
+    assert_eq!((taken.code, taken.out.as_str()), (1, ""));
+    assert!(taken.err.contains("taken: ") && taken.err.contains("--out"));
+    assert_eq!(run("study --runs 0").code, 2);
+    let made = run("study --out a/b --runs 20");
+    assert_eq!((made.code, made.err.as_str()), (0, ""));
+    assert!(directory.path().join("a/b/figure-3.csv").is_file());
+}

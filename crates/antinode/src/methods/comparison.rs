@@ -135,7 +135,7 @@ pub struct Comparison {
     pub methods: [Method; 4],
     /// Condition (8): |⟨e^{2jωt}⟩| over the window, 0 where it fits the period.
     pub leakage: f64,
-    /// (17): how far the whole-sample delay is from a quarter period, about cos ωt₃.
+    /// (17) at the whole-sample delay, as a share of ⟨S_C² + S_D²⟩: about cos ωt₃.
     pub imbalance: f64,
     /// (17) at the fractional delay of a quarter period, less what the exact solution expects, in its own deviations.
     pub imbalance_excess: f64,

@@ -70,7 +70,11 @@ fn front_end() -> impl Strategy<Value = FrontEnd> {
 
 fn configuration() -> impl Strategy<Value = Configuration> {
     (
-        (double(), any::<(u16, Option<u16>, bool, bool, bool)>(), single()),
+        (
+            double(),
+            any::<(u16, Option<u16>, bool, bool, bool)>(),
+            single(),
+        ),
         proptest::option::of([single(), single()]),
         proptest::option::of(single()),
         calibration(),

@@ -61,7 +61,7 @@ where
     let mut run = |from: usize, to: usize| {
         let mut at = from;
         while at < to {
-            let pairs = codes.slice(at, to - at);
+            let pairs = codes.slice(at, HALF_BUFFER.min(to - at));
             at += pairs.len();
             for &pair in pairs {
                 if let Some(block) = push_one(&mut demodulator, pair) {

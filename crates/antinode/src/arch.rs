@@ -16,15 +16,6 @@ pub mod portable {
     use crate::block::{ChannelSums, ChannelWatch};
     use crate::sample::SamplePair;
 
-    /// `sum` + low·low + high·high of two words of signed halves, wrapping.
-    #[inline(always)]
-    pub fn dual_multiply_add(a: u32, b: u32, sum: i32) -> i32 {
-        let [a_low, a_high] = halves(a);
-        let [b_low, b_high] = halves(b);
-        sum.wrapping_add(a_low * b_low)
-            .wrapping_add(a_high * b_high)
-    }
-
     /// `sum` + low·low + high·high of two words of signed halves, in 64 bits.
     #[inline(always)]
     pub fn dual_multiply_add_long(a: u32, b: u32, sum: u64) -> u64 {
@@ -114,17 +105,6 @@ mod dsp {
 
     use crate::block::{ChannelSums, ChannelWatch};
     use crate::sample::SamplePair;
-
-    /// SMLAD.
-    #[inline(always)]
-    pub fn dual_multiply_add(a: u32, b: u32, mut sum: i32) -> i32 {
-        // SAFETY: reads and writes the named registers, and the flag Q.
-        unsafe {
-            asm!("smlad {sum}, {a}, {b}, {sum}", sum = inout(reg) sum, a = in(reg) a, b = in(reg) b,
-                options(pure, nomem, nostack));
-        }
-        sum
-    }
 
     /// SMLALD.
     #[inline(always)]
@@ -338,13 +318,9 @@ mod fpu {
 }
 
 #[cfg(has_dsp)]
-pub use dsp::{
-    add_pairs, dual_multiply_add, dual_multiply_add_long, half_difference, half_sum, watch_pairs,
-};
+pub use dsp::{add_pairs, dual_multiply_add_long, half_difference, half_sum, watch_pairs};
 #[cfg(not(has_dsp))]
-pub use portable::{
-    add_pairs, dual_multiply_add, dual_multiply_add_long, half_difference, half_sum, watch_pairs,
-};
+pub use portable::{add_pairs, dual_multiply_add_long, half_difference, half_sum, watch_pairs};
 
 #[cfg(has_vsqrt)]
 pub use fpu::square_root;
@@ -362,7 +338,6 @@ mod tests {
         assert_eq!(half_difference(least, most), 0x8000_8000);
         assert_eq!(half_sum(least, least), least);
         assert_eq!(half_sum(0x0001_ffff, 0x0000_0000), 0x0000_ffff);
-        assert_eq!(dual_multiply_add(least, least, -1), 0x7fff_ffff);
         assert_eq!(dual_multiply_add_long(least, least, 5), 5 + (1 << 31));
         assert_eq!(
             dual_multiply_add_long(least, 0x0001_0001, 0),

@@ -28,16 +28,30 @@ pub struct Block<S: Sample> {
     pub watch: Option<[ChannelWatch<S>; 2]>,
 }
 
+/// Pairs that single calls hold back: a slice of them costs far less than each by itself.
+const HELD: usize = 32;
+
 /// Gathers sample pairs into blocks of up to `N` pairs. `N` is even.
 #[derive(Debug, Clone)]
 pub struct Demodulator<S: Sample, const N: usize> {
-    table: [S::Weight; N],
-    third: [S::Weight; N],
-    /// How much of the tables is there: they grow with the first block, so that no sample waits for all of them.
-    known: u16,
+    /// Pairs held back, and how many may be: they are summed together, at the latest when the block ends.
+    held: u16,
+    room: u16,
+    holding: [[S; 2]; HELD],
+    summing: Summing<S, N>,
+}
+
+/// The block in progress and its weights.
+#[derive(Debug, Clone)]
+#[repr(C)]
+struct Summing<S: Sample, const N: usize> {
     /// Sample pairs in `block`; when it is full the next sample begins a new one.
     count: u16,
+    /// How much of the tables is there: they grow with the first block, so that no sample waits for all of them.
+    known: u16,
     block: Block<S>,
+    table: [S::Weight; N],
+    third: [S::Weight; N],
 }
 
 impl<S: Sample, const N: usize> Demodulator<S, N> {
@@ -48,38 +62,41 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         const { assert!(N.is_multiple_of(2), "weights stand in twos") };
         let length = layout.length.clamp(1, N.min(usize::from(u16::MAX)) as u16);
         Self {
-            table: [S::Weight::default(); N],
-            third: [S::Weight::default(); N],
-            known: 0,
-            count: 0,
-            block: Block {
-                start,
-                layout: Layout::new::<S>(layout.step, length),
-                sums: [ChannelSums::empty(); 2],
-                watch: watch.then_some([ChannelWatch::empty(); 2]),
+            held: 0,
+            room: length.min(HELD as u16),
+            holding: [[S::EXTREMES[0]; 2]; HELD],
+            summing: Summing {
+                count: 0,
+                known: 0,
+                block: Block {
+                    start,
+                    layout: Layout::new::<S>(layout.step, length),
+                    sums: [ChannelSums::empty(); 2],
+                    watch: watch.then_some([ChannelWatch::empty(); 2]),
+                },
+                table: [S::Weight::default(); N],
+                third: [S::Weight::default(); N],
             },
         }
     }
 
     /// Reference frequency, length and scale of the blocks.
     pub fn layout(&self) -> Layout {
-        self.block.layout
+        self.summing.block.layout
     }
 
     /// Takes one sample pair; gives the block that it finished.
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<&Block<S>> {
-        self.begin();
-        if self.count >= self.known {
-            self.extend_table(self.count + 1);
+        let held = self.held;
+        if let Some(place) = self.holding.get_mut(usize::from(held)) {
+            *place = pair.pair();
         }
-        let index = usize::from(self.count);
-        S::add(&mut self.block.sums, pair, &self.table, index);
-        if let Some(watch) = &mut self.block.watch {
-            S::watch_slice(watch, &[pair], &self.third, index);
+        self.held = held + 1;
+        if held + 1 < self.room {
+            return None;
         }
-        self.count += 1;
-        self.finished()
+        self.sum_held()
     }
 
     /// Takes the first pairs of a slice up to the end of the present block; gives how many it took and the block if it is finished.
@@ -87,24 +104,70 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     /// Call it again with the rest: the sums are the same to the bit however a stream is cut.
     #[inline]
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
-        self.begin();
-        let open = usize::from(self.block.layout.length - self.count).min(pairs.len());
-        let end = self.count + open as u16;
-        if end > self.known {
-            self.extend_table(end);
+        if self.held > 0 {
+            self.sum_held();
         }
+        let taken = self.summing.sum(pairs);
+        self.room = self.summing.left().min(HELD as u16);
+        (taken, self.summing.finished())
+    }
+
+    /// Sums the pairs held back.
+    #[inline(never)]
+    fn sum_held(&mut self) -> Option<&Block<S>> {
+        let held = self.holding.get(..usize::from(self.held));
+        self.summing.sum(held.unwrap_or(&[]));
+        self.held = 0;
+        self.room = self.summing.left().min(HELD as u16);
+        self.summing.finished()
+    }
+
+    /// Drops the block begun; the next one starts at sample pair `start` of the stream.
+    pub(crate) fn restart(&mut self, start: u64) {
+        self.held = 0;
+        self.summing.restart(start);
+        self.room = self.summing.left().min(HELD as u16);
+    }
+}
+
+impl<S: Sample, const N: usize> Summing<S, N> {
+    /// Takes pairs up to the end of the block; gives how many.
+    #[inline(always)]
+    fn sum<P: SamplePair<S>>(&mut self, pairs: &[P]) -> usize {
+        if self.finished().is_some() {
+            self.restart(self.block.start + u64::from(self.count));
+        }
+        let open = usize::from(self.left()).min(pairs.len());
         let index = usize::from(self.count);
+        self.count += open as u16;
+        if self.count > self.known {
+            self.extend_table();
+        }
         let pairs = pairs.get(..open).unwrap_or(&[]);
         S::add_slice(&mut self.block.sums, pairs, &self.table, index);
         if let Some(watch) = &mut self.block.watch {
             S::watch_slice(watch, pairs, &self.third, index);
         }
-        self.count = end;
-        (open, self.finished())
+        open
     }
 
-    /// Drops the block begun; the next one starts at sample pair `start` of the stream.
-    pub(crate) fn restart(&mut self, start: u64) {
+    /// Pairs to the end of the block; of the next one when it is full.
+    #[inline(always)]
+    fn left(&self) -> u16 {
+        let length = self.block.layout.length;
+        match length - self.count {
+            0 => length,
+            left => left,
+        }
+    }
+
+    #[inline(always)]
+    fn finished(&self) -> Option<&Block<S>> {
+        (self.count == self.block.layout.length).then_some(&self.block)
+    }
+
+    #[inline(always)]
+    fn restart(&mut self, start: u64) {
         self.count = 0;
         let block = &mut self.block;
         block.start = start;
@@ -114,29 +177,17 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         }
     }
 
-    /// Begins a new block where the last one is full.
-    #[inline(always)]
-    fn begin(&mut self) {
-        if self.count == self.block.layout.length {
-            self.restart(self.block.start + u64::from(self.count));
-        }
-    }
-
-    #[inline(always)]
-    fn finished(&self) -> Option<&Block<S>> {
-        (self.count == self.block.layout.length).then_some(&self.block)
-    }
-
+    /// Makes the tables as long as the block so far.
     #[cold]
     #[inline(never)]
-    fn extend_table(&mut self, end: u16) {
-        for index in self.known..end {
+    fn extend_table(&mut self) {
+        for index in self.known..self.count {
             let reference = self.block.layout.reference(index);
             let index = usize::from(index);
             S::set_weight(&mut self.table, index, [reference.cosine, reference.sine]);
             let third = [reference.third_cosine, reference.third_sine];
             S::set_weight(&mut self.third, index, third);
         }
-        self.known = end;
+        self.known = self.count;
     }
 }

@@ -87,27 +87,6 @@ impl Sample for i16 {
     }
 
     #[inline(always)]
-    fn add(
-        sums: &mut [ChannelSums<Self>; 2],
-        pair: impl SamplePair<Self>,
-        table: &[u32],
-        index: usize,
-    ) {
-        let [cosine, sine] = weights(table, index & !1)
-            .first()
-            .copied()
-            .unwrap_or_default();
-        // The other sample of the two is zero.
-        let shift = 16 * (index % 2) as u32;
-        for (sums, sample) in sums.iter_mut().zip(pair.pair()) {
-            let samples = u32::from(sample as u16) << shift;
-            sums.cosine = arch::dual_multiply_add(samples, cosine, sums.cosine);
-            sums.sine = arch::dual_multiply_add(samples, sine, sums.sine);
-            sums.sum += i32::from(sample);
-        }
-    }
-
-    #[inline(always)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
@@ -116,7 +95,11 @@ impl Sample for i16 {
     ) {
         let (first, pairs) = odd_first(pairs, index);
         if let Some(first) = first {
-            Self::add(sums, *first, table, index);
+            arch::add_pairs(
+                sums,
+                &after_nothing(first.pair()),
+                weights(table, index & !1),
+            );
         }
         arch::add_pairs(sums, pairs, weights(table, (index + 1) & !1));
     }

@@ -45,19 +45,6 @@ impl Sample for i32 {
         }
     }
 
-    #[inline(always)]
-    fn add(
-        sums: &mut [ChannelSums<Self>; 2],
-        pair: impl SamplePair<Self>,
-        table: &[[i16; 2]],
-        index: usize,
-    ) {
-        let weight = table.get(index).copied().unwrap_or_default();
-        for (sums, sample) in sums.iter_mut().zip(pair.pair()) {
-            sums.add(sample, weight);
-        }
-    }
-
     #[inline(never)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],

@@ -15,9 +15,7 @@ mod sealed {
     // Of 16-bit codes a pair is a word of memory: the kernels of `arch` rest on it.
     pub trait Pair {}
     impl Pair for super::Packed {}
-    impl Pair for [f32; 2] {}
-    impl Pair for [i32; 2] {}
-    impl Pair for [i16; 2] {}
+    impl<S: Sealed> Pair for [S; 2] {}
     impl Pair for [u16; 2] {}
     impl Pair for [i8; 2] {}
     #[cfg(feature = "fixed")]
@@ -63,14 +61,6 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     /// Puts the weights of sample `index` into a table, from cosine and sine in f32: whole numbers where there is a scale.
     #[doc(hidden)]
     fn set_weight(table: &mut [Self::Weight], index: usize, weight: [f32; 2]);
-    /// Adds one pair, sample `index` of its block, to the carrier's sums.
-    #[doc(hidden)]
-    fn add(
-        sums: &mut [ChannelSums<Self>; 2],
-        pair: impl SamplePair<Self>,
-        table: &[Self::Weight],
-        index: usize,
-    );
     /// Adds pairs, the first of which is sample `index` of its block, to the carrier's sums.
     #[doc(hidden)]
     fn add_slice<P: SamplePair<Self>>(
@@ -135,7 +125,6 @@ pub struct Packed(pub u32);
 impl<S> SamplePair<S> for [S; 2]
 where
     S: Sample,
-    [S; 2]: sealed::Pair,
 {
     #[inline(always)]
     fn pair(self) -> [S; 2] {

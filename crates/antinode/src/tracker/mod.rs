@@ -13,7 +13,7 @@ use crate::estimate::{Estimate, Flags};
 use crate::sample::Sample;
 use crate::settings::{Settings, SettingsError};
 use crate::wave::{Angle, Standing, wrap};
-use crate::window::{CARRIER_REACH, Fit, Model, Seen, solve};
+use crate::window::{Blocks, CARRIER_REACH, Fit, Last, Model, Seen, Start, solve};
 use checks::Noise;
 use record::Record;
 use trend::Trend;
@@ -39,6 +39,8 @@ pub struct Tracker<const BLOCKS: usize> {
     wanted: u16,
     noise: Noise,
     trend: Trend,
+    /// The last fit, and where its window ended.
+    last: Option<(Last, u64)>,
     /// The last clean window.
     before: Option<Record>,
     /// The angle of the last window that had one: continuity is kept over faults.
@@ -64,6 +66,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             wanted: 0,
             noise: Noise::default(),
             trend: Trend::new(),
+            last: None,
             before: None,
             angle: Angle::new(settings.start_angle),
             lost: false,
@@ -132,6 +135,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.noise = Noise::default();
             self.trend.clear();
             self.before = None;
+            self.last = None;
             self.lost = self.ever;
             self.failures = 0;
         }
@@ -193,6 +197,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             Flags::DEAD_CHANNEL,
         );
         self.promise(&mut record, &wave, half);
+        self.last = fit.settled.then(|| (fit.last(), self.end));
 
         if flags.contains(Flags::LOST) {
             self.failures = self.failures.saturating_add(1);
@@ -243,12 +248,28 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             }
         };
         let (older, newer) = self.ring.as_slices();
-        let blocks = older.iter().chain(newer);
-        let fit = solve(model, blocks.clone(), self.count, carrier, uncertainty);
+        let blocks = Blocks {
+            parts: [older, newer],
+        };
+        let start = match &self.last {
+            Some((last, end)) if uncertainty == 0.0 => {
+                let half_samples = 2 * self.end.wrapping_sub(*end);
+                Start::after(model, last, half_samples, self.noise.variance())
+            }
+            _ => Start::default(),
+        };
+        let fit = solve(model, blocks, self.count, carrier, uncertainty, start);
         if fit.settled || uncertainty > 0.0 {
             return Some(fit);
         }
-        Some(solve(model, blocks, self.count, carrier, rough))
+        Some(solve(
+            model,
+            blocks,
+            self.count,
+            carrier,
+            rough,
+            Start::default(),
+        ))
     }
 
     /// Takes the share of a turning pattern out of the frequency, with what the angles of the windows before promise.

@@ -2,10 +2,9 @@
 
 use num_complex::Complex32;
 
-use super::fit::Prediction;
+use super::fit::{Blocks, Prediction};
 use super::model::Model;
 use super::response::Response;
-use super::seen::Seen;
 use super::waves::{Course, Gains, Mixing, Waves};
 
 /// The residual of a fit, in several views. Squares are in input units squared.
@@ -33,20 +32,17 @@ impl Remains {
 }
 
 /// Passes once more over the blocks of a window, with its final waves and offsets.
-pub(super) fn examine<'a>(
+#[inline(never)]
+pub(super) fn examine(
     model: &Model,
-    blocks: impl Iterator<Item = &'a Seen>,
+    blocks: Blocks<'_>,
     waves: &Waves,
-    offset: [f32; 2],
+    offsets: [f32; 2],
 ) -> Remains {
     let response = &model.response;
     let mixing = Mixing::new(model, waves);
-    let predictions: [(Prediction, Third); 2] = core::array::from_fn(|i| {
-        (
-            Prediction::new(model, &mixing, i, offset[i]),
-            Third::new(model, &mixing, i, offset[i]),
-        )
-    });
+    let predictions = Prediction::new(model, &mixing, offsets);
+    let thirds = Third::new(model, &mixing, offsets);
     let mut course = Course::new(model, waves);
     let mut steps = Steps::new(model.blocks, response);
     let mut remains = Remains {
@@ -54,14 +50,14 @@ pub(super) fn examine<'a>(
         ..Remains::default()
     };
     let mut third_power = 0.0;
-    for block in blocks {
+    for block in blocks.iter() {
         let here = course.next();
         let back = here.unit.conj();
         let back_third = back * back * back;
         let mut along = [Complex32::ZERO; 2];
         let mut power = 0.0;
         for channel in 0..2 {
-            let (prediction, third) = &predictions[channel];
+            let (prediction, third) = (&predictions[channel], &thirds[channel]);
             let rest = prediction.rest(&block.whitened[channel], &here);
             power += rest.mean * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
             along[channel] = Complex32::new(
@@ -109,13 +105,23 @@ struct Third {
 }
 
 impl Third {
-    fn new(model: &Model, mixing: &Mixing, channel: usize, offset: f32) -> Self {
+    fn new(model: &Model, mixing: &Mixing, offsets: [f32; 2]) -> [Self; 2] {
         let response = &model.response;
-        Self {
-            cosine: mixing.even(channel, &response.third_even),
-            sine: mixing.odd(channel, &response.third_odd),
-            offset: response.third_offset * offset,
-        }
+        let [cosine_c, cosine_d] = mixing.even(&response.third_even);
+        let [sine_c, sine_d] = mixing.odd(&response.third_odd);
+        let [offset_c, offset_d] = offsets.map(|offset| response.third_offset * offset);
+        [
+            Self {
+                cosine: cosine_c,
+                sine: sine_c,
+                offset: offset_c,
+            },
+            Self {
+                cosine: cosine_d,
+                sine: sine_d,
+                offset: offset_d,
+            },
+        ]
     }
 }
 
@@ -123,9 +129,9 @@ impl Third {
 struct Steps {
     /// Mean weight of z in a block, over all phases of the carrier.
     weight: f32,
-    blocks: f32,
-    /// Σu² over the window, u being the blocks' middles.
-    spread: f32,
+    /// 1/Σu² over the window, u being the blocks' middles; and one over the blocks.
+    per_spread: f32,
+    per_block: f32,
     count: f32,
     time: f32,
     sum: [Complex32; 2],
@@ -137,8 +143,8 @@ impl Steps {
         let blocks = f32::from(blocks);
         Self {
             weight: 0.5 * levels.iter().map(|level| level * level).sum::<f32>(),
-            blocks,
-            spread: (blocks - 1.0 / blocks) / 3.0,
+            per_spread: 3.0 / (blocks - 1.0 / blocks),
+            per_block: 1.0 / blocks,
             count: 0.0,
             time: 0.0,
             sum: [Complex32::ZERO; 2],
@@ -153,8 +159,8 @@ impl Steps {
         self.sum[1] += along[1];
         // A step is known by what of it is neither constant nor slope.
         let room = self.count
-            - self.count * self.count / self.blocks
-            - self.time * self.time / self.spread;
+            - self.count * self.count * self.per_block
+            - self.time * self.time * self.per_spread;
         let power = self.sum[0].norm_sqr() + self.sum[1].norm_sqr();
         if room > 0.2 {
             power / (self.weight * room)

@@ -82,16 +82,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     pub fn push<S: Sample>(&mut self, block: &Block<S>) -> Option<Estimate> {
         self.follow(block.layout, block.start);
         self.end = block.start + u64::from(block.layout.length);
-        let seen = self.model.as_ref()?.see(block);
-        self.gather(seen)
-    }
-
-    /// Takes a block into the ring, and solves the window that it completes.
-    fn gather(&mut self, seen: Seen) -> Option<Estimate> {
         if self.ring.len() >= usize::from(self.count) || self.ring.is_full() {
             self.ring.pop_front();
         }
-        self.ring.push_back(seen).ok()?;
+        let model = self.model.as_ref()?;
+        self.ring.push_back(model.see(block)).ok()?;
         self.wanted = self.wanted.saturating_sub(1);
         if self.wanted > 0 || self.ring.len() < usize::from(self.count) {
             return None;
@@ -143,6 +138,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Solves the window that the ring holds.
+    #[inline(never)]
     fn estimate(&mut self) -> Option<Estimate> {
         let fit = self.fit()?;
         let model = self.model.as_ref()?;

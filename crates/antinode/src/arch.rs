@@ -107,7 +107,11 @@ pub mod portable {
     /// Pairs with a cosine and a sine for each.
     #[inline(always)]
     fn each<P: Copy>(pairs: &[P], weights: &[u32]) -> impl Iterator<Item = ((P, i32), i32)> {
-        let pairs = pairs.get(..weights.len()).map_or(pairs, |_| &[]);
+        let pairs = if pairs.len() > weights.len() {
+            &[]
+        } else {
+            pairs
+        };
         let weights = weights.as_chunks().0;
         let cosines = weights
             .iter()

@@ -60,24 +60,25 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     /// A length beyond 1…`N` is brought into it; the scale is that of `S`.
     pub fn new(layout: Layout, start: u64, watch: bool) -> Self {
         const { assert!(N.is_multiple_of(2), "weights stand in twos") };
-        let length = layout.length.clamp(1, N.min(usize::from(u16::MAX)) as u16);
-        Self {
+        let mut demodulator = Self {
             held: 0,
-            room: length.min(HELD as u16),
+            room: 0,
             holding: [[S::EXTREMES[0]; 2]; HELD],
             summing: Summing {
-                left: length,
-                unknown: length,
+                left: 0,
+                unknown: 0,
                 block: Block {
-                    start,
-                    layout: Layout::new::<S>(layout.step, length),
+                    start: 0,
+                    layout,
                     sums: [ChannelSums::empty(); 2],
                     watch: watch.then_some([ChannelWatch::empty(); 2]),
                 },
                 table: [S::Weight::default(); N],
                 third: [S::Weight::default(); N],
             },
-        }
+        };
+        demodulator.begin(layout, start);
+        demodulator
     }
 
     /// Reference frequency, length and scale of the blocks.
@@ -123,11 +124,19 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         self.summing.finished()
     }
 
+    /// Begins anew, with blocks of another layout from sample pair `start` of the stream on.
+    pub(crate) fn begin(&mut self, layout: Layout, start: u64) {
+        let length = layout.length.clamp(1, N.min(usize::from(u16::MAX)) as u16);
+        self.summing.block.layout = Layout::new::<S>(layout.step, length);
+        self.summing.unknown = length;
+        self.restart(start);
+    }
+
     /// Drops the block begun; the next one starts at sample pair `start` of the stream.
     pub(crate) fn restart(&mut self, start: u64) {
         self.held = 0;
         self.summing.restart(start);
-        self.room = self.summing.left().min(HELD as u16);
+        self.room = self.summing.left.min(HELD as u16);
     }
 }
 

@@ -27,6 +27,8 @@ const GIVE_UP: u8 = 2;
 #[derive(Debug, Clone)]
 pub struct Tracker<const BLOCKS: usize> {
     settings: Settings,
+    /// One over the sample rate, s.
+    sample_time: f64,
     gathered: Gathered<BLOCKS>,
     /// Index in the stream of the sample pair after the last block.
     end: u64,
@@ -55,6 +57,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         settings.check(BLOCKS)?;
         Ok(Self {
             settings,
+            sample_time: reciprocal(settings.sample_rate),
             gathered: Gathered::new(),
             end: 0,
             model: None,
@@ -199,7 +202,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.failures = self.failures.saturating_add(1);
         }
         self.remember(record, flags, between);
-        Some(record.estimate(self.settings.sample_rate, flags))
+        Some(record.estimate(self.settings.sample_rate, self.sample_time, flags))
     }
 
     /// True when a pick-off that showed the wave in the last clean window shows none now.
@@ -299,4 +302,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
         self.before = Some(record);
     }
+}
+
+/// 1/x to within two units of the last place, for x that f32 can hold: by Newton's steps, as a division in f64 is a kilobyte of code on
+/// a core without one.
+fn reciprocal(x: f64) -> f64 {
+    let rough = f64::from(1.0 / x as f32);
+    (0..2).fold(rough, |rough, _| rough * (2.0 - x * rough))
 }

@@ -6,7 +6,7 @@ use super::model::Model;
 use super::waves::Waves;
 
 /// Blocks from one exact exponential to the next; between them a recursion, whose rounding grows by 6·10⁻⁸ a block.
-pub(super) const CHUNK: usize = 12;
+pub(super) const CHUNK: usize = 10;
 
 /// One block's phasors.
 #[derive(Debug, Clone, Copy, Default)]

@@ -3,4 +3,6 @@
 
 pub mod bench;
 pub mod codes;
+pub mod gauge;
+pub mod line;
 pub mod marks;

@@ -2,6 +2,7 @@
 #![no_std]
 
 pub mod bench;
+pub mod beside;
 pub mod codes;
 pub mod gauge;
 pub mod line;

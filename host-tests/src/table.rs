@@ -159,30 +159,30 @@ mod tests {
             state: 100,
             stack: 0,
         };
-        Table(vec![row(PEER, 50.0, None), row("block", 12.25, Some(18.5))])
+        Table(vec![row(PEER, 50.0, None), row("block", 12.50, Some(18.5))])
     }
 
     #[test]
     fn a_printed_table_reads_as_it_was() {
         let printed = format!("words before\n\n{}\nwords after", table());
-        assert!(printed.contains("| block | pair | 12.25 | 0.25 | 18.50 | 1000 | 100 | 0 |"));
+        assert!(printed.contains("| block | pair | 12.50 | 0.25 | 18.50 | 1000 | 100 | 0 |"));
         assert_eq!(Table::parse(&printed), table());
     }
 
     #[test]
     fn growth_beyond_the_tolerance_is_named() {
         let mut now = table();
-        now.0[1].instructions = 12.61;
+        now.0[1].instructions = 12.87;
         now.0[1].flash = 1030;
         assert!(now.worse_than(&table()).is_empty());
-        now.0[1].instructions = 12.63;
+        now.0[1].instructions = 12.88;
         now.0[1].flash = 1031;
         now.0[0].stack = 1;
         assert_eq!(
             now.worse_than(&table()),
             [
                 "idsp_sums: stack was 0, is 1",
-                "block: instructions was 12.25, is 12.63",
+                "block: instructions was 12.5, is 12.88",
                 "block: flash was 1000, is 1031",
             ]
         );

@@ -152,7 +152,7 @@ where
     mark_begin();
     apart(|| {
         for block in &blocks {
-            black_box(tracker.push(block));
+            black_box(&tracker.push(block));
         }
     });
     mark_end();

@@ -15,7 +15,7 @@ mod block {
     pub use antinode::block::{ChannelSums, ChannelWatch};
 }
 mod sample {
-    pub use antinode::SamplePair;
+    pub use antinode::{Form, SamplePair};
 }
 
 use antinode::SamplePair;
@@ -117,21 +117,21 @@ fn on_words(random: &mut Random, agrees: impl Fn(u32, u32, u32) -> bool) -> bool
 /// Kernels on slices: of every length and alignment, with weights for all pairs, or for fewer.
 fn on_slices(
     random: &mut Random,
-    mut agrees: impl FnMut(&mut Random, &[[i16; 2]], &[[u32; 2]]) -> bool,
+    mut agrees: impl FnMut(&mut Random, &[[i16; 2]], &[u32]) -> bool,
 ) -> bool {
     let mut pairs = [[0; 2]; LONGEST + 1];
-    let mut weights = [[0; 2]; LONGEST / 2];
+    let mut weights = [0; LONGEST];
     (0..SLICES).all(|_| {
         for pair in &mut pairs {
             let word = random.rough_word();
             *pair = [word as i16, (word >> 16) as i16];
         }
         for weight in &mut weights {
-            *weight = [random.rough_word(), random.rough_word()];
+            *weight = random.rough_word();
         }
         let length = random.word() as usize % (LONGEST + 1);
-        let known = random.word() as usize % (LONGEST / 2 + 1);
-        let enough = length.div_ceil(2);
+        let known = 2 * (random.word() as usize % (LONGEST / 2 + 1));
+        let enough = length.next_multiple_of(2);
         let known = if random.word() & 3 == 0 {
             known
         } else {
@@ -155,7 +155,7 @@ fn same_root(bits: u32) -> bool {
     root.to_bits() == twin.to_bits() || root.is_nan() && twin.is_nan()
 }
 
-fn add(random: &mut Random, pairs: &[impl SamplePair<i16>], weights: &[[u32; 2]]) -> bool {
+fn add(random: &mut Random, pairs: &[impl SamplePair<i16>], weights: &[u32]) -> bool {
     let mut sums = random.sums();
     let mut twin = sums;
     arch::add_pairs(&mut sums, pairs, weights);
@@ -163,7 +163,42 @@ fn add(random: &mut Random, pairs: &[impl SamplePair<i16>], weights: &[[u32; 2]]
     sums == twin
 }
 
-fn watch(random: &mut Random, pairs: &[impl SamplePair<i16>], weights: &[[u32; 2]]) -> bool {
+/// Sums of codes and of floats: products and sums rounded one by one.
+fn add_floats(random: &mut Random, codes: &[[i16; 2]], weights: &[u32]) -> bool {
+    let small = |word: u32| word as i32 as f32 / 2_147_483_648.0;
+    let mut factors = [[0.0; 2]; LONGEST];
+    for (factor, &word) in factors.iter_mut().zip(weights) {
+        *factor = [small(word), small(word.rotate_left(16))];
+    }
+    let mut floats = [[0.0; 2]; LONGEST];
+    for (float, code) in floats.iter_mut().zip(codes) {
+        *float = code.map(|code| small(random.word()) * f32::from(code));
+    }
+    let sums = random.sums().map(|sums| ChannelSums::<f32> {
+        cosine: small(sums.cosine as u32),
+        sine: small(sums.sine as u32),
+        sum: small(sums.sum as u32),
+    });
+    let factors = factors.get(..weights.len()).unwrap_or(&[]);
+    let floats = floats.get(..codes.len()).unwrap_or(&[]);
+    same_floats(sums, codes, factors) && same_floats(sums, floats, factors)
+}
+
+fn same_floats(
+    sums: [ChannelSums<f32>; 2],
+    pairs: &[impl SamplePair<f32>],
+    weights: &[[f32; 2]],
+) -> bool {
+    let (mut sums, mut twin) = (sums, sums);
+    arch::add_floats(&mut sums, pairs, weights);
+    portable::add_floats(&mut twin, pairs, weights);
+    let bits = |sums: [ChannelSums<f32>; 2]| {
+        sums.map(|sums| [sums.cosine, sums.sine, sums.sum].map(f32::to_bits))
+    };
+    bits(sums) == bits(twin)
+}
+
+fn watch(random: &mut Random, pairs: &[impl SamplePair<i16>], weights: &[u32]) -> bool {
     let mut watch = random.watch();
     let mut twin = watch;
     arch::watch_pairs(&mut watch, pairs, weights);
@@ -199,6 +234,7 @@ fn main() -> ! {
                 && (0..WORDS).all(|_| same_root(random.word())),
         ),
         ("add_pairs", on_slices(random, add)),
+        ("add_floats", on_slices(random, add_floats)),
         ("watch_pairs", on_slices(random, watch)),
     ];
     let mut good = true;

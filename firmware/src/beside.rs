@@ -3,10 +3,10 @@
 use core::hint::black_box;
 use core::num::Wrapping;
 
-use antinode::block::{Demodulator, Layout, Pair};
+use antinode::block::{Demodulator, Layout};
 use antinode::methods::{DelayedSums, MomentSums};
 use antinode::phase::PhaseStep;
-use antinode::{Packed, SamplePair};
+use antinode::{Packed, Sample, SamplePair};
 use idsp::{Accu, cossin};
 
 use crate::bench::{HALF_BUFFER, PAIRS};
@@ -58,24 +58,22 @@ pub fn idsp_sums(name: &'static str) -> ! {
     gauge.finish()
 }
 
-/// The block sums in f32 with the sums of all four methods beside them: `bench_block_f32` is the demodulator alone.
-pub fn methods_f32(name: &'static str) -> ! {
+/// The block sums with the sums of all four methods beside them: `bench_block_f32` and `_fixed` are the demodulator alone.
+pub fn methods<S: Sample>(name: &'static str) -> !
+where
+    Packed: SamplePair<S>,
+{
     let codes = Codes::new();
-    let layout = Layout::new::<f32>(PhaseStep::from_period(PERIOD), 19);
+    let layout = Layout::new::<S>(PhaseStep::from_period(PERIOD), 19);
     let offsets = [20.0, -15.0];
-    let mut demodulator = Demodulator::<f32, 200>::new(layout, 0, false);
-    let mut moments = MomentSums::new(offsets);
+    let mut demodulator = Demodulator::<S, 200>::new(layout, 0, false);
+    let mut moments = MomentSums::<S>::new(offsets);
     // A quarter of a period; a line for one of the longest.
-    let mut delayed = DelayedSums::<50>::new(5, offsets);
-    let mut floats = [[0.0; 2]; HALF_BUFFER];
+    let mut delayed = DelayedSums::<50, S>::new(5, offsets);
     let state = size_of_val(&demodulator) + size_of_val(&moments) + size_of_val(&delayed);
     let mut gauge = Gauge::new(name, PAIRS, state);
     let mut blocks = 0;
     let mut run = |pairs: &[Packed]| {
-        for (float, pair) in floats.iter_mut().zip(pairs) {
-            *float = pair.pair();
-        }
-        let pairs: &[Pair] = floats.get(..pairs.len()).unwrap_or(&[]);
         // The methods' sums run on from block to block, as far as the window's end.
         let (mut at, mut window) = (0, 0);
         while at < pairs.len() {

@@ -7,7 +7,7 @@
 //! | `bench_acquire_*` | the search for a period |
 //! | `bench_solution_*` | the solution of one window |
 //! | `bench_pipeline_*` | everything |
-//! | `bench_methods_f32` | block sums with the sums of the paper's four methods beside them |
+//! | `bench_methods_fixed`, `_f32` | block sums with the sums of the paper's four methods beside them |
 //! | `bench_idsp_sums` | the peer: the same sums with the crate idsp |
 //! | `bench_nothing` | what every other image has beside its kernel |
 //! | `check_arch` | compares the core's kernels in instructions with their portable twins |

@@ -9,10 +9,6 @@ use crate::settings::{Detection, Settings, SettingsError};
 
 /// What searches for the period.
 #[derive(Debug, Clone)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "there is no heap to put the larger on"
-)]
 enum Detector<S: Sample> {
     Difference(DifferenceDetector<S>),
     #[cfg(feature = "mean-return")]

@@ -7,7 +7,7 @@ use firmware::{beside, marks};
 
 #[entry]
 fn main() -> ! {
-    beside::methods_f32(env!("CARGO_BIN_NAME"))
+    beside::methods::<f32>(env!("CARGO_BIN_NAME"))
 }
 
 #[panic_handler]

@@ -52,10 +52,14 @@ fn run() -> Result<(), Vec<String>> {
     let mut table = measure(&root).map_err(|fault| vec![fault])?;
     table.fill_cycles(&committed);
     print!("{table}");
-    if let (Some(beside), Some(alone)) = (table.row("methods_f32"), table.row("block_f32")) {
+    for kind in ["fixed", "f32"] {
+        let row = |kernel| table.row(&format!("{kernel}_{kind}"));
+        let (Some(beside), Some(alone)) = (row("methods"), row("block")) else {
+            continue;
+        };
         let ratio = beside.instructions / alone.instructions;
         println!(
-            "\nThe sums of all four methods beside the demodulator: {ratio:.2} times the demodulator alone."
+            "\nThe sums of all four methods beside the demodulator, {kind}: {ratio:.2} times the demodulator alone."
         );
     }
     if bless {

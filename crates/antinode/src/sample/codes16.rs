@@ -6,6 +6,9 @@ use crate::arch;
 use crate::block::{ChannelSums, ChannelWatch};
 use crate::period::{LAGS, Lags};
 
+/// Centred codes in units of one code.
+const SIXTEENTHS: f32 = 16.0;
+
 /// Two 16-bit halves as a word.
 #[inline(always)]
 fn word(pair: [i16; 2]) -> u32 {
@@ -47,6 +50,9 @@ impl Sample for i16 {
     type Weight = u32;
     type Runs = ();
     type Square = u32;
+    // Codes and offsets in sixteenths: below 2²⁰, so that 2²³ products stay below 2⁶³.
+    type Centred = i32;
+    type Products = [i64; 3];
     type Level = u32;
 
     const EXTREMES: [Self; 2] = [i16::MIN, i16::MAX];
@@ -122,6 +128,28 @@ impl Sample for i16 {
             (pairs, index) = (rest, index + 1);
         }
         arch::watch_pairs(watch, pairs, weights(table, index, pairs.len()));
+    }
+
+    #[inline(always)]
+    fn offset(offset: f32) -> i32 {
+        libm::roundf(offset.clamp(-32_768.0, 32_767.0) * SIXTEENTHS) as i32
+    }
+
+    #[inline(always)]
+    fn centred(self, offset: i32) -> i32 {
+        (i32::from(self) << 4) - offset
+    }
+
+    #[inline(always)]
+    fn add_products(sums: &mut [i64; 3], factors: [[i32; 2]; 3]) {
+        for (sum, [a, b]) in sums.iter_mut().zip(factors) {
+            *sum = sum.wrapping_add(i64::from(a) * i64::from(b));
+        }
+    }
+
+    fn products(sums: [i64; 3]) -> [f64; 3] {
+        let unit = 1.0 / f64::from(SIXTEENTHS * SIXTEENTHS);
+        sums.map(|sum| sum as f64 * unit)
     }
 
     #[inline(always)]

@@ -4,12 +4,15 @@ use super::{Sample, SamplePair};
 use crate::arch;
 use crate::block::{ChannelSums, ChannelWatch, Runs};
 use crate::period::{LAGS, Lags};
+use crate::sum::Sum;
 
 impl Sample for f32 {
     type Sum = f32;
     type Weight = [f32; 2];
     type Runs = Runs;
     type Square = f32;
+    type Centred = f32;
+    type Products = [Sum; 3];
     type Level = f32;
 
     const EXTREMES: [Self; 2] = [f32::NEG_INFINITY, f32::INFINITY];
@@ -70,6 +73,27 @@ impl Sample for f32 {
             d.see(pair[1], index);
         }
         *watch = [c, d];
+    }
+
+    #[inline(always)]
+    fn offset(offset: f32) -> f32 {
+        offset
+    }
+
+    #[inline(always)]
+    fn centred(self, offset: f32) -> f32 {
+        self - offset
+    }
+
+    #[inline(always)]
+    fn add_products(sums: &mut [Sum; 3], factors: [[f32; 2]; 3]) {
+        for (sum, [a, b]) in sums.iter_mut().zip(factors) {
+            sum.add(a * b);
+        }
+    }
+
+    fn products(sums: [Sum; 3]) -> [f64; 3] {
+        sums.map(Sum::value)
     }
 
     #[inline(always)]

@@ -79,6 +79,10 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     type Runs: Copy + Debug + PartialEq + Default + Send;
     /// A running sum of squared differences.
     type Square: Copy + Debug + Default + Send;
+    /// A sample less its offset, as the sums of products take it.
+    type Centred: Copy + Debug + Default + Send;
+    /// Three running sums of products.
+    type Products: Copy + Debug + Default + Send;
     /// A mean squared difference, to be compared with others.
     type Level: Copy + Debug + PartialOrd + Send;
 
@@ -118,6 +122,18 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     /// Less than every sample, and more than every sample: extremes of none.
     #[doc(hidden)]
     const EXTREMES: [Self; 2];
+    /// An offset in input units, to be taken off by [`centred`](Self::centred).
+    #[doc(hidden)]
+    fn offset(offset: f32) -> Self::Centred;
+    /// The sample less an offset.
+    #[doc(hidden)]
+    fn centred(self, offset: Self::Centred) -> Self::Centred;
+    /// Adds products of two.
+    #[doc(hidden)]
+    fn add_products(sums: &mut Self::Products, factors: [[Self::Centred; 2]; 3]);
+    /// The sums in input units squared.
+    #[doc(hidden)]
+    fn products(sums: Self::Products) -> [f64; 3];
     /// The sample as the search for a period takes it: of 16-bit codes, less two bits.
     #[doc(hidden)]
     fn search_form(self) -> Self;

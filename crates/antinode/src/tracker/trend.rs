@@ -91,8 +91,8 @@ impl Trend {
             let time = -(passed as f32) * per_window;
             let angle = point.angle.less(angle);
             let mut weight = 1.0 / point.variance.max(1e-18);
-            for n in 0..5 {
-                powers[n] += weight;
+            for (n, power) in powers.iter_mut().enumerate() {
+                *power += weight;
                 if let Some(value) = values.get_mut(n) {
                     *value += weight * angle;
                 }

@@ -49,11 +49,13 @@ impl<const BLOCKS: usize> Gathered<BLOCKS> {
 
     /// Moves on by `hop` blocks: those that the next window shares with this one are kept.
     pub(crate) fn advance(&mut self, hop: u16) {
-        let skipped = usize::from(hop).min(self.length);
-        self.gap = hop - skipped as u16;
-        if skipped < self.length {
-            self.seen.copy_within(skipped..self.length, 0);
+        // The first bound is there for the compiler: with it no check is left that could panic.
+        let length = self.length.min(BLOCKS);
+        let skipped = usize::from(hop).min(length);
+        self.gap = hop.saturating_sub(skipped as u16);
+        if skipped < length {
+            self.seen.copy_within(skipped..length, 0);
         }
-        self.length -= skipped;
+        self.length = length - skipped;
     }
 }

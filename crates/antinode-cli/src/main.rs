@@ -1,6 +1,7 @@
 //! The `antinode` command.
 
 mod demonstration;
+mod device;
 mod failure;
 mod fixed;
 mod identify;
@@ -23,6 +24,8 @@ fn main() -> ExitCode {
         Some(Command::Identify(options)) => identify::run(&options),
         Some(Command::Simulate(options)) => simulate::run(&options),
         Some(Command::Study(options)) => study::run(&options),
+        Some(Command::Monitor(options)) => device::monitor::run(&options),
+        Some(Command::Send(options)) => device::command::run(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

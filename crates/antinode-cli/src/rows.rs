@@ -175,6 +175,14 @@ impl<W: Write> Rows<W> {
         }
     }
 
+    /// Prints lines under the last row of a table; other formats have none.
+    pub fn under(&mut self, lines: &str) -> io::Result<()> {
+        match &mut self.sink {
+            Sink::Table(out) => out.write_all(lines.as_bytes()),
+            Sink::Csv(_) | Sink::Jsonl(_) => Ok(()),
+        }
+    }
+
     /// Rows printed since [`Rows::begin`].
     pub fn count(&self) -> u64 {
         self.count

@@ -1,0 +1,192 @@
+//! The interrupt half of the pipeline: a source's pairs become blocks in a queue.
+
+use antinode::{Block, Front, Sample, SamplePair, Settings, SettingsError};
+use antinode_telemetry::Cause;
+use heapless::spsc::{Consumer, Producer};
+
+use crate::counts::Counts;
+use crate::sampling::{Lapse, Ready, Source};
+use crate::settings::LONGEST_PERIOD;
+
+/// What the interrupt hands to the main loop.
+#[derive(Debug, Clone, Copy)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "nearly every item is a block; there is no heap"
+)]
+pub enum Item<S: Sample> {
+    /// The next block.
+    Block(Block<S>),
+    /// Sample pairs are missing before the next block.
+    Lapse(Lapse),
+    /// From here on blocks are those of a new search: the answer to the request of this number.
+    Searching(u8),
+}
+
+/// What the main loop asks of the interrupt, with a number that the answer repeats.
+#[derive(Debug, Clone, Copy)]
+pub enum Request {
+    /// Search for a period anew.
+    Search(u8),
+    /// Go on with other settings.
+    Configure(u8, Settings),
+    /// Start sampling anew: no pair came for too long.
+    Resample,
+}
+
+/// Gathers blocks at sample rate. It never waits.
+pub struct Gatherer<'q, S: Sample> {
+    front: Front<S, LONGEST_PERIOD>,
+    items: Producer<'q, Item<S>>,
+    requests: Consumer<'q, Request>,
+    counts: &'q Counts,
+    /// What found no room in the queue yet: it goes before any block.
+    owed_lapse: Option<Lapse>,
+    owed_answer: Option<u8>,
+    /// True where the block begun has a pair at a rail.
+    saturated: bool,
+}
+
+impl<'q, S: Sample> Gatherer<'q, S> {
+    /// A gatherer that searches for a period.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Settings::check`].
+    pub fn new(
+        settings: Settings,
+        items: Producer<'q, Item<S>>,
+        requests: Consumer<'q, Request>,
+        counts: &'q Counts,
+    ) -> Result<Self, SettingsError> {
+        Ok(Self {
+            front: Front::new(settings)?,
+            items,
+            requests,
+            counts,
+            owed_lapse: None,
+            owed_answer: None,
+            saturated: false,
+        })
+    }
+
+    /// Serves the source's interrupt: obeys requests, then takes what the source has.
+    #[inline]
+    pub fn serve<R: Source>(&mut self, source: &mut R)
+    where
+        R::Pair: SamplePair<S>,
+    {
+        if self.requests.ready() {
+            self.obey(source);
+        }
+        match source.next() {
+            Ready::Nothing => {}
+            Ready::Pairs => self.gather(source),
+            Ready::Lapse(lapse) => self.skip(lapse),
+        }
+    }
+
+    #[cold]
+    fn obey<R: Source>(&mut self, source: &mut R) {
+        while let Some(request) = self.requests.dequeue() {
+            match request {
+                Request::Search(number) => {
+                    self.front.search();
+                    self.owed_answer = Some(number);
+                }
+                Request::Configure(number, settings) => {
+                    // The main loop has checked them: an error, which never is, leaves the old ones.
+                    if let Ok(mut front) = Front::new(settings) {
+                        front.skip(self.front.index());
+                        self.front = front;
+                    }
+                    self.owed_answer = Some(number);
+                }
+                Request::Resample => {
+                    let lapse = source.restart(Cause::Converter);
+                    self.skip(lapse);
+                }
+            }
+            self.saturated = false;
+        }
+    }
+
+    #[inline]
+    fn gather<R: Source>(&mut self, source: &mut R)
+    where
+        R::Pair: SamplePair<S>,
+    {
+        let mut rest = source.pairs();
+        self.counts.pairs.add(rest.len() as u32);
+        while !rest.is_empty() {
+            let (taken, block) = self.front.push_slice(rest);
+            let (done, after) = rest.split_at_checked(taken).unwrap_or((rest, &[]));
+            rest = after;
+            let at_rail = done.iter().filter(|&&pair| R::is_at_rail(pair)).count();
+            if at_rail > 0 {
+                self.counts.saturated_pairs.add(at_rail as u32);
+                self.saturated = true;
+            }
+            // Asked before the block is handed over: what was overwritten meanwhile must not be taken for a wave.
+            if !source.is_intact() {
+                let left = rest.len() as u32;
+                let lapse = source.restart(Cause::Overrun);
+                self.skip(Lapse {
+                    lost: lapse.lost.wrapping_add(left),
+                    ..lapse
+                });
+                return;
+            }
+            if let Some(block) = block {
+                self.hand_over(block);
+            }
+        }
+    }
+
+    #[inline]
+    fn hand_over(&mut self, block: Block<S>) {
+        if core::mem::take(&mut self.saturated) {
+            self.counts.saturated_blocks.add(1);
+        }
+        // The tracker sees the hole by the next block's start, and begins a new window after it.
+        if !self.pay() || self.items.enqueue(Item::Block(block)).is_err() {
+            self.counts.blocks_dropped.add(1);
+        }
+    }
+
+    /// Pays what is owed; false while there is no room for it.
+    #[inline]
+    fn pay(&mut self) -> bool {
+        if let Some(lapse) = self.owed_lapse {
+            if self.items.enqueue(Item::Lapse(lapse)).is_err() {
+                return false;
+            }
+            self.owed_lapse = None;
+        }
+        if let Some(number) = self.owed_answer {
+            if self.items.enqueue(Item::Searching(number)).is_err() {
+                return false;
+            }
+            self.owed_answer = None;
+        }
+        true
+    }
+
+    /// Goes on after missing pairs, in the same count of pairs.
+    #[cold]
+    fn skip(&mut self, lapse: Lapse) {
+        self.front.skip(u64::from(lapse.lost));
+        self.saturated = false;
+        self.counts.pairs_lost.add(lapse.lost);
+        self.counts.restarts.add(1);
+        if lapse.cause == Cause::Overrun {
+            self.counts.overruns.add(1);
+        }
+        let before = self.owed_lapse.map_or(0, |owed| owed.lost);
+        self.owed_lapse = Some(Lapse {
+            lost: lapse.lost.wrapping_add(before),
+            ..lapse
+        });
+        self.pay();
+    }
+}

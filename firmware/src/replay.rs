@@ -58,9 +58,8 @@ pub struct Script {
 impl Script {
     /// The script, and the recording's name at the start of the line with a zero behind it; `None` where there is none.
     pub fn read(line: &mut [u8; LINE + 1]) -> Option<Self> {
-        let block = [line.as_mut_ptr() as usize, LINE];
-        // SAFETY: the host writes at most as many bytes as the block says.
-        if unsafe { syscall!(GET_CMDLINE, block.as_ptr()) } != 0 {
+        // SAFETY: the host writes at most as many bytes as it is told.
+        if unsafe { syscall!(GET_CMDLINE, line.as_mut_ptr(), LINE) } != 0 {
             return None;
         }
         let mut script = Self { slow: 1, ..Self::default() };
@@ -108,9 +107,8 @@ impl Replay {
     /// Opens the recording whose name is at the start of `line`, with a zero behind it; `None` where it cannot be.
     pub fn open(line: &[u8; LINE + 1], script: Script) -> Option<Self> {
         let name = line.iter().position(|&byte| byte == 0)?;
-        let block = [line.as_ptr() as usize, READ_BYTES, name];
         // SAFETY: the name and the zero behind it lie in `line`.
-        let file = unsafe { syscall!(OPEN, block.as_ptr()) };
+        let file = unsafe { syscall!(OPEN, line.as_ptr(), READ_BYTES, name) };
         (file != usize::MAX).then_some(Self {
             file,
             pairs: [Packed(0); HALF],
@@ -122,9 +120,8 @@ impl Replay {
     /// Reads up to `pairs` pairs.
     fn read(&mut self, pairs: usize) {
         let bytes = 4 * pairs.min(HALF);
-        let block = [self.file, self.pairs.as_mut_ptr() as usize, bytes];
         // SAFETY: the host writes at most `bytes` bytes, which the pairs have; a pair may have any bits.
-        let missing = unsafe { syscall!(READ, block.as_ptr()) };
+        let missing = unsafe { syscall!(READ, self.file, self.pairs.as_mut_ptr(), bytes) };
         self.length = bytes.saturating_sub(missing) / 4;
     }
 }

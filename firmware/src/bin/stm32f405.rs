@@ -8,6 +8,10 @@ use antinode_telemetry::Cause;
 use cortex_m_rt::{ExceptionFrame, exception};
 use firmware::hardware::reset;
 
+// Not in the library: an image has one logger, and `replay` has another.
+#[path = "../rtt.rs"]
+mod rtt;
+
 #[rtic::app(device = stm32f4xx_hal::pac)]
 mod app {
     use antinode::Packed;
@@ -18,7 +22,8 @@ mod app {
     use firmware::hardware::ring::Memory;
     use firmware::hardware::sampler::Sampler;
     use firmware::hardware::watchdog::Watchdog;
-    use firmware::hardware::{clock, log, reset, rtt};
+    use firmware::hardware::{clock, log, reset};
+    use crate::rtt;
     use firmware::instrument::Instrument;
     use firmware::pipeline::Queues;
     use firmware::settings::{Arithmetic, DUAL_ADC_RAILS, HALF, configuration};

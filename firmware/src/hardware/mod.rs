@@ -7,7 +7,6 @@ pub mod log;
 pub mod pair_clock;
 pub mod reset;
 pub mod ring;
-pub mod rtt;
 pub mod sampler;
 pub mod spi_adc;
 pub mod watchdog;

@@ -29,7 +29,7 @@ pub fn hello(hello: &Hello) -> String {
         c.skew * 1e9,
         c.pick_off_angle,
         s.start_angle,
-        level("full scale", s.full_scale),
+        s.rails.map_or(String::new(), |[low, high]| format!(", rails {low} and {high}")),
         level("resolution", s.resolution),
         match s.detection {
             Detection::Difference => "",

@@ -6,7 +6,7 @@ use heapless::spsc::{Consumer, Producer};
 
 use crate::counts::Counts;
 use crate::sampling::{Lapse, Ready, Source};
-use crate::settings::LONGEST_PERIOD;
+use crate::settings::{LONGEST_PERIOD, QUEUE, REQUESTS};
 
 /// What the interrupt hands to the main loop.
 #[derive(Debug, Clone, Copy)]
@@ -37,8 +37,8 @@ pub enum Request {
 /// Gathers blocks at sample rate. It never waits.
 pub struct Gatherer<'q, S: Sample> {
     front: Front<S, LONGEST_PERIOD>,
-    items: Producer<'q, Item<S>>,
-    requests: Consumer<'q, Request>,
+    items: Producer<'q, Item<S>, QUEUE>,
+    requests: Consumer<'q, Request, REQUESTS>,
     counts: &'q Counts,
     /// What found no room in the queue yet: it goes before any block.
     owed_lapse: Option<Lapse>,
@@ -55,8 +55,8 @@ impl<'q, S: Sample> Gatherer<'q, S> {
     /// Those of [`Settings::check`].
     pub fn new(
         settings: Settings,
-        items: Producer<'q, Item<S>>,
-        requests: Consumer<'q, Request>,
+        items: Producer<'q, Item<S>, QUEUE>,
+        requests: Consumer<'q, Request, REQUESTS>,
         counts: &'q Counts,
     ) -> Result<Self, SettingsError> {
         Ok(Self {

@@ -11,7 +11,7 @@ use crate::counts::Counts;
 use crate::gather::{Item, Request};
 use crate::link::Link;
 use crate::sampling::Lapse;
-use crate::settings::{COUNTERS_MS, RING};
+use crate::settings::{COUNTERS_MS, QUEUE, REQUESTS, RING};
 use crate::supervision::Liveness;
 
 /// What is worth a line in the log.
@@ -33,8 +33,8 @@ pub enum Event {
 /// Solves, tracks and reports.
 pub struct Instrument<'q, S: Sample> {
     tracker: Tracker<RING>,
-    items: Consumer<'q, Item<S>>,
-    requests: Producer<'q, Request>,
+    items: Consumer<'q, Item<S>, QUEUE>,
+    requests: Producer<'q, Request, REQUESTS>,
     counts: &'q Counts,
     link: Link<'q>,
     configuration: Configuration,
@@ -61,8 +61,8 @@ impl<'q, S: Sample> Instrument<'q, S> {
     /// Those of [`antinode::Settings::check`] for [`RING`].
     pub fn new(
         configuration: Configuration,
-        items: Consumer<'q, Item<S>>,
-        requests: Producer<'q, Request>,
+        items: Consumer<'q, Item<S>, QUEUE>,
+        requests: Producer<'q, Request, REQUESTS>,
         counts: &'q Counts,
         link: Link<'q>,
         cause: Cause,

@@ -3,10 +3,12 @@
 use antinode_telemetry::{CommandFrame, Decoder, MAX_FRAME, Report, Reporter};
 use heapless::spsc::{Consumer, Producer};
 
+use crate::settings::{INBOX, OUTBOX};
+
 /// Reports out and commands in, through two queues of bytes that the line's interrupt empties and fills.
 pub struct Link<'q> {
-    out: Producer<'q, u8>,
-    bytes: Consumer<'q, u8>,
+    out: Producer<'q, u8, OUTBOX>,
+    bytes: Consumer<'q, u8, INBOX>,
     reporter: Reporter,
     decoder: Decoder<CommandFrame>,
     dropped: u32,
@@ -15,7 +17,7 @@ pub struct Link<'q> {
 
 impl<'q> Link<'q> {
     /// A link whose next report is number 0.
-    pub const fn new(out: Producer<'q, u8>, bytes: Consumer<'q, u8>) -> Self {
+    pub const fn new(out: Producer<'q, u8, OUTBOX>, bytes: Consumer<'q, u8, INBOX>) -> Self {
         Self {
             out,
             bytes,

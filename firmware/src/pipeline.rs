@@ -8,12 +8,12 @@ use crate::counts::Counts;
 use crate::gather::{Gatherer, Item, Request};
 use crate::instrument::Instrument;
 use crate::link::Link;
-use crate::settings::{INBOX, OUTBOX, QUEUE};
+use crate::settings::{INBOX, OUTBOX, QUEUE, REQUESTS};
 
 /// The queues between the contexts; each image has one, in a static.
 pub struct Queues<S: Sample> {
     items: Queue<Item<S>, QUEUE>,
-    requests: Queue<Request, 4>,
+    requests: Queue<Request, REQUESTS>,
     out: Queue<u8, OUTBOX>,
     bytes: Queue<u8, INBOX>,
     counts: Counts,
@@ -26,9 +26,9 @@ pub struct Parts<'q, S: Sample> {
     /// For the main loop.
     pub instrument: Instrument<'q, S>,
     /// For the line's interrupt: bytes to send.
-    pub out: Consumer<'q, u8>,
+    pub out: Consumer<'q, u8, OUTBOX>,
     /// For the line's interrupt: bytes received.
-    pub bytes: Producer<'q, u8>,
+    pub bytes: Producer<'q, u8, INBOX>,
 }
 
 impl<S: Sample> Queues<S> {

@@ -27,6 +27,8 @@ pub const LONGEST_PERIOD: usize = 200;
 pub const RING: usize = 24;
 /// Blocks that may wait for the main loop, and one more.
 pub const QUEUE: usize = 16;
+/// Requests that may wait for the interrupt, and one more.
+pub const REQUESTS: usize = 4;
 /// Bytes that may wait for the line, and one more: 17 reports of 110 bytes, 22 ms.
 pub const OUTBOX: usize = 2048;
 /// Bytes that may wait for the main loop, and one more: two frames.

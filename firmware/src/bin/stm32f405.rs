@@ -23,7 +23,6 @@ mod app {
     use firmware::hardware::sampler::Sampler;
     use firmware::hardware::watchdog::Watchdog;
     use firmware::hardware::{clock, log, reset};
-    use crate::rtt;
     use firmware::instrument::Instrument;
     use firmware::pipeline::Queues;
     use firmware::settings::{Arithmetic, DUAL_ADC_RAILS, HALF, configuration};
@@ -53,7 +52,6 @@ mod app {
     fn init(c: init::Context) -> (Shared, Local) {
         let device = c.device;
         let watchdog = Watchdog::start(device.IWDG);
-        rtt::start();
         let (cause, place) = reset::started(&device.RCC);
         log::started(cause, place);
         let crystal = clock::start(&device.RCC, &device.FLASH);

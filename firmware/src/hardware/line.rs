@@ -4,7 +4,7 @@ use heapless::spsc::{Consumer, Producer};
 use stm32f4xx_hal::pac::{RCC, USART1};
 
 use crate::hardware::clock::APB2;
-use crate::settings::BAUD;
+use crate::settings::{BAUD, INBOX, OUTBOX};
 
 /// BRR: the divider in sixteenths of 16 samples a bit, that is APB2's clock over the baud rate, rounded.
 const DIVIDER: u32 = (APB2 + BAUD / 2) / BAUD;
@@ -18,8 +18,8 @@ const _: () = {
 /// The line's end of both byte queues.
 pub struct Line {
     usart: USART1,
-    out: Consumer<'static, u8>,
-    bytes: Producer<'static, u8>,
+    out: Consumer<'static, u8, OUTBOX>,
+    bytes: Producer<'static, u8, INBOX>,
 }
 
 impl Line {
@@ -27,8 +27,8 @@ impl Line {
     pub fn new(
         usart: USART1,
         rcc: &RCC,
-        out: Consumer<'static, u8>,
-        bytes: Producer<'static, u8>,
+        out: Consumer<'static, u8, OUTBOX>,
+        bytes: Producer<'static, u8, INBOX>,
     ) -> Self {
         // APB2ENR.USART1EN: its clock.
         rcc.apb2enr().modify(|_, w| w.usart1en().set_bit());

@@ -25,6 +25,8 @@ pub mod bench;
 #[cfg(target_os = "none")]
 pub mod codes;
 #[cfg(target_os = "none")]
+pub mod load;
+#[cfg(target_os = "none")]
 pub mod marks;
 #[cfg(target_os = "none")]
 pub mod hardware;

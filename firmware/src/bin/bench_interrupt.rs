@@ -1,0 +1,19 @@
+//! The interrupt half of the pipeline on half-buffers of codes; its queue is full, as nobody empties it.
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use firmware::pipeline::Queues;
+use firmware::settings::Arithmetic;
+use firmware::{load, marks};
+
+#[entry]
+fn main() -> ! {
+    static mut QUEUES: Queues<Arithmetic> = Queues::new();
+    load::run(QUEUES, true)
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo) -> ! {
+    marks::leave()
+}

@@ -75,6 +75,9 @@ pub struct Identify {
     #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
     pub output: Format,
     /// Which methods a row shows.
+    ///
+    /// With `all`, columns method1_… to method4_… follow in CSV and JSON lines; those that end in off_sigma are differences from the
+    /// exact solution in its standard deviations. Windows without a wave have none.
     #[arg(long, value_enum, default_value_t = Methods::Exact)]
     pub methods: Methods,
     /// Format of raw samples on standard input or in a file of another kind: little-endian, S_C and S_D in turn.

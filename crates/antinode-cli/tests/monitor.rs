@@ -15,11 +15,11 @@ use common::{RATE, Row, WAVE, rows, run, run_with, wav};
 fn estimates(codes: &[[i16; 2]]) -> Vec<Estimate> {
     let step = 1.0 / 32_768.0;
     let settings = Settings {
-        full_scale: Some(1.0 - step),
+        rails: Some([step - 1.0, 1.0 - step]),
         resolution: Some(step),
         ..Settings::new(RATE)
     };
-    let mut identifier = Box::new(Identifier::<256, 1024>::new(settings).unwrap());
+    let mut identifier = Box::new(Identifier::<f32, 256, 1024>::new(settings).unwrap());
     let pairs: Vec<_> = codes
         .iter()
         .map(|pair| pair.map(|code| f32::from(code) * step))

@@ -199,7 +199,7 @@ fn silence_is_told_after_the_time_out() {
 
 /// An estimate of a noise-free wave.
 fn estimate() -> Estimate {
-    let mut identifier = Identifier::<200, 16>::new(Settings::new(1e5)).unwrap();
+    let mut identifier = Identifier::<f32, 200, 16>::new(Settings::new(1e5)).unwrap();
     let pair = |k: u32| [(f64::from(k) * 0.335).cos() as f32, 0.0];
     (0..2000)
         .find_map(|k| identifier.push(pair(k)))

@@ -18,7 +18,7 @@ pub fn hello(hello: &Hello) -> String {
     let level = |name, value: Option<f32>| value.map_or(String::new(), |x| format!(", {name} {x}"));
     format!(
         "firmware {}, protocol {}, {}, {} Hz, window {} periods, {hop}, methods {}, gain ratio {}, skew {} ns, \
-         pick-off angle {} rad, start angle {} rad{}{}{}",
+         pick-off angle {} rad, start angle {} rad{}{}{}{}",
         hello.firmware,
         hello.protocol,
         source(*front_end),
@@ -29,12 +29,15 @@ pub fn hello(hello: &Hello) -> String {
         c.skew * 1e9,
         c.pick_off_angle,
         s.start_angle,
-        s.rails.map_or(String::new(), |[low, high]| format!(", rails {low} and {high}")),
+        s.rails.map_or(String::new(), |[low, high]| format!(
+            ", rails {low} and {high}"
+        )),
         level("resolution", s.resolution),
         match s.detection {
             Detection::Difference => "",
             Detection::MeanReturn => ", detector mean-return",
         },
+        if s.watch { "" } else { ", samples not watched" },
     )
 }
 

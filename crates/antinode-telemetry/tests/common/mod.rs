@@ -70,14 +70,18 @@ fn front_end() -> impl Strategy<Value = FrontEnd> {
 
 fn configuration() -> impl Strategy<Value = Configuration> {
     (
-        (double(), any::<(u16, Option<u16>, bool, bool, bool)>(), single()),
+        (
+            double(),
+            any::<(u16, Option<u16>, bool, bool, bool)>(),
+            single(),
+        ),
         proptest::option::of([single(), single()]),
         proptest::option::of(single()),
         calibration(),
         front_end(),
     )
         .prop_map(|(plain, rails, resolution, calibration, front_end)| {
-            let (sample_rate, (periods, hop, detection, watch, methods), start_angle) = plain;
+            let (sample_rate, (periods, hop, detection, methods, watch), start_angle) = plain;
             Configuration {
                 settings: Settings {
                     sample_rate,
@@ -152,7 +156,7 @@ fn command_error() -> impl Strategy<Value = CommandError> {
                 2 => SettingsError::PeriodsTooMany { periods: n, most },
                 3 => SettingsError::Hop,
                 4 => SettingsError::StartAngle(s),
-                5 => SettingsError::Rails([s, d as f32]),
+                5 => SettingsError::Rails([s, -s]),
                 6 => SettingsError::Resolution(s),
                 7 => SettingsError::GainRatio(s),
                 8 => SettingsError::Skew(s),

@@ -34,17 +34,82 @@ pub enum Request {
     Resample,
 }
 
+/// The queue to the main loop, and what is owed to it.
+struct Outlet<'q, S: Sample> {
+    items: Producer<'q, Item<S>, QUEUE>,
+    counts: &'q Counts,
+    /// What found no room in the queue yet: it goes before any block.
+    lapse: Option<Lapse>,
+    answer: Option<u8>,
+    /// True where the block begun has a pair at a rail.
+    saturated: bool,
+}
+
+impl<S: Sample> Outlet<'_, S> {
+    #[cold]
+    fn saturate(&mut self, pairs: usize) {
+        if pairs == 0 {
+            return;
+        }
+        self.counts.saturated_pairs.add(pairs as u32);
+        self.saturated = true;
+    }
+
+    #[inline]
+    fn hand_over(&mut self, block: &Block<S>) {
+        if core::mem::take(&mut self.saturated) {
+            self.counts.saturated_blocks.add(1);
+        }
+        // The tracker sees the hole by the next block's start, and begins a new window after it.
+        if !self.pay() || self.items.enqueue(Item::Block(*block)).is_err() {
+            self.counts.blocks_dropped.add(1);
+        }
+    }
+
+    /// Pays what is owed; false while there is no room for it.
+    #[inline]
+    fn pay(&mut self) -> bool {
+        (self.lapse.is_none() && self.answer.is_none()) || self.pay_out()
+    }
+
+    #[cold]
+    fn pay_out(&mut self) -> bool {
+        if let Some(lapse) = self.lapse {
+            if self.items.enqueue(Item::Lapse(lapse)).is_err() {
+                return false;
+            }
+            self.lapse = None;
+        }
+        if let Some(number) = self.answer {
+            if self.items.enqueue(Item::Searching(number)).is_err() {
+                return false;
+            }
+            self.answer = None;
+        }
+        true
+    }
+
+    fn owe(&mut self, lapse: Lapse) {
+        self.saturated = false;
+        self.counts.pairs_lost.add(lapse.lost);
+        self.counts.restarts.add(1);
+        if lapse.cause == Cause::Overrun {
+            self.counts.overruns.add(1);
+        }
+        let before = self.lapse.map_or(0, |owed| owed.lost);
+        self.lapse = Some(Lapse {
+            lost: lapse.lost.wrapping_add(before),
+            ..lapse
+        });
+        self.pay();
+    }
+}
+
 /// Gathers blocks at sample rate. It never waits.
 pub struct Gatherer<'q, S: Sample> {
     front: Front<S, LONGEST_PERIOD>,
-    items: Producer<'q, Item<S>, QUEUE>,
     requests: Consumer<'q, Request, REQUESTS>,
-    counts: &'q Counts,
-    /// What found no room in the queue yet: it goes before any block.
-    owed_lapse: Option<Lapse>,
-    owed_answer: Option<u8>,
-    /// True where the block begun has a pair at a rail.
-    saturated: bool,
+    outlet: Outlet<'q, S>,
 }
 
 impl<'q, S: Sample> Gatherer<'q, S> {
@@ -61,12 +126,14 @@ impl<'q, S: Sample> Gatherer<'q, S> {
     ) -> Result<Self, SettingsError> {
         Ok(Self {
             front: Front::new(settings)?,
-            items,
             requests,
-            counts,
-            owed_lapse: None,
-            owed_answer: None,
-            saturated: false,
+            outlet: Outlet {
+                items,
+                counts,
+                lapse: None,
+                answer: None,
+                saturated: false,
+            },
         })
     }
 
@@ -92,22 +159,23 @@ impl<'q, S: Sample> Gatherer<'q, S> {
             match request {
                 Request::Search(number) => {
                     self.front.search();
-                    self.owed_answer = Some(number);
+                    self.outlet.answer = Some(number);
                 }
                 Request::Configure(number, settings) => {
                     // The main loop has checked them: an error, which never is, leaves the old ones.
-                    if let Ok(mut front) = Front::new(settings) {
-                        front.skip(self.front.index());
+                    let index = self.front.index();
+                    if let Ok(front) = Front::new(settings) {
                         self.front = front;
+                        self.front.skip(index);
                     }
-                    self.owed_answer = Some(number);
+                    self.outlet.answer = Some(number);
                 }
                 Request::Resample => {
                     let lapse = source.restart(Cause::Converter);
                     self.skip(lapse);
                 }
             }
-            self.saturated = false;
+            self.outlet.saturated = false;
         }
     }
 
@@ -116,16 +184,19 @@ impl<'q, S: Sample> Gatherer<'q, S> {
     where
         R::Pair: SamplePair<S>,
     {
+        let Self { front, outlet, .. } = self;
         let mut rest = source.pairs();
-        self.counts.pairs.add(rest.len() as u32);
+        outlet.counts.pairs.add(rest.len() as u32);
+        // Without a branch for each pair; they are counted only where there are any.
+        let at_rail = rest
+            .iter()
+            .fold(false, |any, &pair| any | R::is_at_rail(pair));
         while !rest.is_empty() {
-            let (taken, block) = self.front.push_slice(rest);
+            let (taken, block) = front.push_slice(rest);
             let (done, after) = rest.split_at_checked(taken).unwrap_or((rest, &[]));
             rest = after;
-            let at_rail = done.iter().filter(|&&pair| R::is_at_rail(pair)).count();
-            if at_rail > 0 {
-                self.counts.saturated_pairs.add(at_rail as u32);
-                self.saturated = true;
+            if at_rail {
+                outlet.saturate(done.iter().filter(|&&pair| R::is_at_rail(pair)).count());
             }
             // Asked before the block is handed over: what was overwritten meanwhile must not be taken for a wave.
             if !source.is_intact() {
@@ -138,55 +209,15 @@ impl<'q, S: Sample> Gatherer<'q, S> {
                 return;
             }
             if let Some(block) = block {
-                self.hand_over(block);
+                outlet.hand_over(block);
             }
         }
-    }
-
-    #[inline]
-    fn hand_over(&mut self, block: Block<S>) {
-        if core::mem::take(&mut self.saturated) {
-            self.counts.saturated_blocks.add(1);
-        }
-        // The tracker sees the hole by the next block's start, and begins a new window after it.
-        if !self.pay() || self.items.enqueue(Item::Block(block)).is_err() {
-            self.counts.blocks_dropped.add(1);
-        }
-    }
-
-    /// Pays what is owed; false while there is no room for it.
-    #[inline]
-    fn pay(&mut self) -> bool {
-        if let Some(lapse) = self.owed_lapse {
-            if self.items.enqueue(Item::Lapse(lapse)).is_err() {
-                return false;
-            }
-            self.owed_lapse = None;
-        }
-        if let Some(number) = self.owed_answer {
-            if self.items.enqueue(Item::Searching(number)).is_err() {
-                return false;
-            }
-            self.owed_answer = None;
-        }
-        true
     }
 
     /// Goes on after missing pairs, in the same count of pairs.
     #[cold]
     fn skip(&mut self, lapse: Lapse) {
         self.front.skip(u64::from(lapse.lost));
-        self.saturated = false;
-        self.counts.pairs_lost.add(lapse.lost);
-        self.counts.restarts.add(1);
-        if lapse.cause == Cause::Overrun {
-            self.counts.overruns.add(1);
-        }
-        let before = self.owed_lapse.map_or(0, |owed| owed.lost);
-        self.owed_lapse = Some(Lapse {
-            lost: lapse.lost.wrapping_add(before),
-            ..lapse
-        });
-        self.pay();
+        self.outlet.owe(lapse);
     }
 }

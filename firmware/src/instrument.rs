@@ -227,7 +227,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
         self.reported = self.now;
     }
 
-    /// True once a command asked for a restart and its acknowledgement is with the line.
+    /// True once a command asked for a restart and its acknowledgement was sent.
     pub fn wants_restart(&self) -> bool {
         self.restart && self.link.is_empty()
     }
@@ -237,7 +237,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
         self.asks
     }
 
-    /// True when all reports are with the line.
+    /// True when all reports were sent.
     pub fn is_flushed(&self) -> bool {
         self.link.is_empty()
     }

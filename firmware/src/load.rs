@@ -11,7 +11,7 @@ use stm32f4xx_hal::pac::Peripherals;
 use crate::bench::PAIRS;
 use crate::codes::Codes;
 use crate::gather::Gatherer;
-use crate::hardware::line::Line;
+use crate::hardware::line::{By, Line};
 use crate::marks::{leave, mark_begin, mark_end};
 use crate::pipeline::Queues;
 use crate::sampling::{Lapse, Ready, Source, is_at_rail_12};
@@ -69,7 +69,7 @@ pub fn run(queues: &'static mut Queues<Arithmetic>, alone: bool) -> ! {
     };
     // SAFETY: nobody else uses the peripherals.
     let device = unsafe { Peripherals::steal() };
-    let mut line = Line::new(device.USART1, &device.RCC, parts.out, parts.bytes);
+    let mut line = Line::new(device.USART1, &device.RCC, parts.out, parts.bytes, By::Hand);
     let mut now = 0;
     let mut half = |alone: bool| {
         interrupt(&mut parts.gatherer, &mut source);

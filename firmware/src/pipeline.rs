@@ -2,19 +2,20 @@
 
 use antinode::{Sample, SettingsError};
 use antinode_telemetry::{Cause, Configuration};
-use heapless::spsc::{Consumer, Producer, Queue};
+use heapless::spsc::{Producer, Queue};
 
-use crate::counts::Counts;
+use crate::counts::{Count, Counts};
 use crate::gather::{Gatherer, Item, Request};
 use crate::instrument::Instrument;
-use crate::link::Link;
-use crate::settings::{INBOX, OUTBOX, QUEUE, REQUESTS};
+use crate::link::{Link, Outbox, Outgoing};
+use crate::settings::{INBOX, QUEUE, REQUESTS};
 
 /// The queues between the contexts; each image has one, in a static.
 pub struct Queues<S: Sample> {
     items: Queue<Item<S>, QUEUE>,
     requests: Queue<Request, REQUESTS>,
-    out: Queue<u8, OUTBOX>,
+    out: Outbox,
+    sent: Count,
     bytes: Queue<u8, INBOX>,
     counts: Counts,
 }
@@ -26,7 +27,7 @@ pub struct Parts<'q, S: Sample> {
     /// For the main loop.
     pub instrument: Instrument<'q, S>,
     /// For the line's interrupt: bytes to send.
-    pub out: Consumer<'q, u8, OUTBOX>,
+    pub out: Outgoing<'q>,
     /// For the line's interrupt: bytes received.
     pub bytes: Producer<'q, u8, INBOX>,
 }
@@ -37,7 +38,8 @@ impl<S: Sample> Queues<S> {
         Self {
             items: Queue::new(),
             requests: Queue::new(),
-            out: Queue::new(),
+            out: Outbox::new(),
+            sent: Count::new(),
             bytes: Queue::new(),
             counts: Counts::new(),
         }
@@ -55,14 +57,13 @@ impl<S: Sample> Queues<S> {
     ) -> Result<Parts<'_, S>, SettingsError> {
         let (items, taken) = self.items.split();
         let (requests, asked) = self.requests.split();
-        let (sent, out) = self.out.split();
         let (bytes, received) = self.bytes.split();
-        let link = Link::new(sent, received);
+        let link = Link::new(&self.out, &self.sent, received);
         let counts = &self.counts;
         Ok(Parts {
             gatherer: Gatherer::new(configuration.settings, items, asked, counts)?,
             instrument: Instrument::new(configuration, taken, requests, counts, link, cause)?,
-            out,
+            out: Outgoing::new(&self.out, &self.sent),
             bytes,
         })
     }

@@ -29,7 +29,7 @@ pub const RING: usize = 24;
 pub const QUEUE: usize = 16;
 /// Requests that may wait for the interrupt, and one more.
 pub const REQUESTS: usize = 4;
-/// Bytes that may wait for the line, and one more: 17 reports of 110 bytes, 22 ms.
+/// Bytes that may wait for the line: 17 reports of 110 bytes, 22 ms.
 pub const OUTBOX: usize = 2048;
 /// Bytes that may wait for the main loop, and one more: two frames.
 pub const INBOX: usize = 256;

@@ -12,7 +12,7 @@ use firmware::hardware::reset;
 mod app {
     use antinode_telemetry::{Cause, FrontEnd};
     use firmware::gather::Gatherer;
-    use firmware::hardware::{clock, line::Line, log, reset};
+    use firmware::hardware::{clock, line::{By, Line}, log, reset};
     use firmware::instrument::Instrument;
     use firmware::marks;
     use firmware::pipeline::Queues;
@@ -55,7 +55,7 @@ mod app {
             defmt::error!("the settings cannot be");
             marks::leave()
         };
-        let line = Line::new(c.device.USART1, &c.device.RCC, parts.out, parts.bytes);
+        let line = Line::new(c.device.USART1, &c.device.RCC, parts.out, parts.bytes, By::Hand);
         let local = Local {
             source,
             gatherer: parts.gatherer,

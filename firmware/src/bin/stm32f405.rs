@@ -18,7 +18,7 @@ mod app {
     use antinode_telemetry::{Cause, FrontEnd};
     use firmware::gather::Gatherer;
     use firmware::hardware::dual_adc::DualAdc;
-    use firmware::hardware::line::Line;
+    use firmware::hardware::line::{By, Line};
     use firmware::hardware::ring::Memory;
     use firmware::hardware::sampler::Sampler;
     use firmware::hardware::watchdog::Watchdog;
@@ -36,12 +36,13 @@ mod app {
         source: Option<Sampler<DualAdc>>,
         #[lock_free]
         gatherer: Gatherer<'static, Arithmetic>,
+        #[lock_free]
+        line: Line,
     }
 
     #[local]
     struct Local {
         instrument: Instrument<'static, Arithmetic>,
-        line: Line,
         watchdog: Watchdog,
     }
 
@@ -67,7 +68,7 @@ mod app {
             // The host's tests check the settings.
             reset::restart(Cause::Unknown, line!())
         };
-        let line = Line::new(device.USART1, &rcc, parts.out, parts.bytes);
+        let line = Line::new(device.USART1, &rcc, parts.out, parts.bytes, By::Dma);
         let source = crystal.then(|| {
             DualAdc::start(
                 (device.ADC1, device.ADC2, device.ADC_COMMON),
@@ -84,10 +85,10 @@ mod app {
         let shared = Shared {
             source,
             gatherer: parts.gatherer,
+            line,
         };
         let local = Local {
             instrument: parts.instrument,
-            line,
             watchdog,
         };
         (shared, local)
@@ -105,6 +106,8 @@ mod app {
                 rtic::pend(Interrupt::DMA2_STREAM0);
             }
             if instrument.wants_restart() {
+                // The last bytes are still in the USART.
+                cortex_m::asm::delay(clock::CORE / 1000);
                 reset::restart(Cause::Command, 0);
             }
             cortex_m::asm::wfi();
@@ -127,9 +130,16 @@ mod app {
         }
     }
 
-    #[task(binds = USART1, priority = 2, local = [line])]
+    /// A byte has arrived, or the main loop has some to send.
+    #[task(binds = USART1, priority = 2, shared = [line])]
     fn line(c: line::Context) {
-        c.local.line.serve(true);
+        c.shared.line.serve(true);
+    }
+
+    /// A run of bytes has left.
+    #[task(binds = DMA2_STREAM7, priority = 2, shared = [line])]
+    fn sent(c: sent::Context) {
+        c.shared.line.serve(true);
     }
 
     #[task(binds = SysTick, priority = 1)]

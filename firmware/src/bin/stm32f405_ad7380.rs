@@ -18,7 +18,7 @@ mod app {
     use antinode_telemetry::{Cause, FrontEnd};
     use firmware::gather::Gatherer;
     use firmware::hardware::spi_adc::SpiAdc;
-    use firmware::hardware::line::Line;
+    use firmware::hardware::line::{By, Line};
     use firmware::hardware::ring::Memory;
     use firmware::hardware::sampler::Sampler;
     use firmware::hardware::watchdog::Watchdog;
@@ -30,7 +30,10 @@ mod app {
     use stm32f4xx_hal::prelude::*;
 
     #[shared]
-    struct Shared {}
+    struct Shared {
+        #[lock_free]
+        line: Line,
+    }
 
     #[local]
     struct Local {
@@ -38,7 +41,6 @@ mod app {
         source: Option<Sampler<SpiAdc>>,
         gatherer: Gatherer<'static, Arithmetic>,
         instrument: Instrument<'static, Arithmetic>,
-        line: Line,
         watchdog: Watchdog,
     }
 
@@ -69,7 +71,7 @@ mod app {
             // The host's tests check the settings.
             reset::restart(Cause::Unknown, line!())
         };
-        let line = Line::new(device.USART1, &rcc, parts.out, parts.bytes);
+        let line = Line::new(device.USART1, &rcc, parts.out, parts.bytes, By::Dma);
         let started = if crystal {
             SpiAdc::start(
                 device.SPI1,
@@ -91,10 +93,9 @@ mod app {
             source: started.ok(),
             gatherer: parts.gatherer,
             instrument: parts.instrument,
-            line,
             watchdog,
         };
-        (Shared {}, local)
+        (Shared { line }, local)
     }
 
     #[idle(local = [instrument, watchdog])]
@@ -109,6 +110,8 @@ mod app {
                 rtic::pend(Interrupt::DMA2_STREAM0);
             }
             if instrument.wants_restart() {
+                // The last bytes are still in the USART.
+                cortex_m::asm::delay(clock::CORE / 1000);
                 reset::restart(Cause::Command, 0);
             }
             cortex_m::asm::wfi();
@@ -123,9 +126,16 @@ mod app {
         }
     }
 
-    #[task(binds = USART1, priority = 2, local = [line])]
+    /// A byte has arrived, or the main loop has some to send.
+    #[task(binds = USART1, priority = 2, shared = [line])]
     fn line(c: line::Context) {
-        c.local.line.serve(true);
+        c.shared.line.serve(true);
+    }
+
+    /// A run of bytes has left.
+    #[task(binds = DMA2_STREAM7, priority = 2, shared = [line])]
+    fn sent(c: sent::Context) {
+        c.shared.line.serve(true);
     }
 
     #[task(binds = SysTick, priority = 1)]

@@ -68,7 +68,6 @@ pub struct Device {
     line: UnixStream,
     receiver: Receiver,
     began: Instant,
-    pub log: PathBuf,
     /// What it has sent so far.
     pub reports: Vec<Report>,
 }
@@ -108,14 +107,16 @@ impl Device {
         fs::remove_file(&socket).expect("it is there");
         line.set_read_timeout(Some(Duration::from_millis(50)))
             .expect("a socket has a timeout");
-        Self {
+        let mut device = Self {
             child,
             line,
             receiver: Receiver::new(),
             began: Instant::now(),
-            log,
             reports: Vec::new(),
-        }
+        };
+        // Before that its USART is off, and drops bytes.
+        assert!(device.read_until(|reports| !reports.is_empty()));
+        device
     }
 
     /// Sends bytes.
@@ -143,6 +144,8 @@ impl Device {
                     }
                 }
                 Err(error) if error.kind() == ErrorKind::WouldBlock => {}
+                // QEMU has ended before it took all that it was sent.
+                Err(error) if error.kind() == ErrorKind::ConnectionReset => return false,
                 Err(error) => panic!("{error}"),
             }
         }

@@ -102,6 +102,7 @@ fn recordings_show_what_they_hold() {
     let clean = flagged("clean");
     assert!(estimates(&clean).iter().all(|e| e.flags.is_empty()));
     let dropout = flagged("dropout");
+    println!("{:?}", dropout.iter().filter(|r| matches!(r, Report::State(_))).collect::<Vec<_>>());
     assert_eq!(with(&dropout, Flags::REACQUIRED), 1);
     assert!(with(&dropout, Flags::LOST) >= 1 && with(&dropout, Flags::MISFIT) >= 1);
     let states: Vec<_> = dropout.iter().filter(|r| matches!(r, Report::State(_))).collect();

@@ -16,13 +16,13 @@ pub mod portable {
     use crate::block::{ChannelSums, ChannelWatch};
     use crate::sample::SamplePair;
 
-    /// `sum` + low·low + high·high of two words of signed halves, in 64 bits.
+    /// `sum` + low·low + high·high of two words of signed halves, wrapping.
     #[inline(always)]
-    pub fn dual_multiply_add_long(a: u32, b: u32, sum: u64) -> u64 {
+    pub fn dual_multiply_add(a: u32, b: u32, sum: u32) -> u32 {
         let [a_low, a_high] = halves(a);
         let [b_low, b_high] = halves(b);
-        let products = i64::from(a_low * b_low) + i64::from(a_high * b_high);
-        sum.wrapping_add(products as u64)
+        sum.wrapping_add((a_low * b_low) as u32)
+            .wrapping_add((a_high * b_high) as u32)
     }
 
     /// Half the difference of each half, rounded down.
@@ -106,16 +106,15 @@ mod dsp {
     use crate::block::{ChannelSums, ChannelWatch};
     use crate::sample::SamplePair;
 
-    /// SMLALD.
+    /// SMLAD.
     #[inline(always)]
-    pub fn dual_multiply_add_long(a: u32, b: u32, sum: u64) -> u64 {
-        let (mut low, mut high) = (sum as u32, (sum >> 32) as u32);
-        // SAFETY: reads and writes the named registers only.
+    pub fn dual_multiply_add(a: u32, b: u32, mut sum: u32) -> u32 {
+        // SAFETY: reads and writes the named registers, and the flag Q.
         unsafe {
-            asm!("smlald {low}, {high}, {a}, {b}", low = inout(reg) low, high = inout(reg) high, a = in(reg) a, b = in(reg) b,
-                options(pure, nomem, nostack, preserves_flags));
+            asm!("smlad {sum}, {a}, {b}, {sum}", sum = inout(reg) sum, a = in(reg) a, b = in(reg) b,
+                options(pure, nomem, nostack));
         }
-        u64::from(low) | u64::from(high) << 32
+        sum
     }
 
     /// SHSUB16.
@@ -318,9 +317,9 @@ mod fpu {
 }
 
 #[cfg(has_dsp)]
-pub use dsp::{add_pairs, dual_multiply_add_long, half_difference, half_sum, watch_pairs};
+pub use dsp::{add_pairs, dual_multiply_add, half_difference, half_sum, watch_pairs};
 #[cfg(not(has_dsp))]
-pub use portable::{add_pairs, dual_multiply_add_long, half_difference, half_sum, watch_pairs};
+pub use portable::{add_pairs, dual_multiply_add, half_difference, half_sum, watch_pairs};
 
 #[cfg(has_vsqrt)]
 pub use fpu::square_root;
@@ -338,10 +337,6 @@ mod tests {
         assert_eq!(half_difference(least, most), 0x8000_8000);
         assert_eq!(half_sum(least, least), least);
         assert_eq!(half_sum(0x0001_ffff, 0x0000_0000), 0x0000_ffff);
-        assert_eq!(dual_multiply_add_long(least, least, 5), 5 + (1 << 31));
-        assert_eq!(
-            dual_multiply_add_long(least, 0x0001_0001, 0),
-            (-65_536i64) as u64
-        );
+        assert_eq!(dual_multiply_add(least, least, 5), 5 + (1 << 31));
     }
 }

@@ -44,7 +44,7 @@ impl Sample for i16 {
     // Cosines of two samples in the even places, their sines in the odd ones.
     type Weight = u32;
     type Runs = ();
-    type Square = u64;
+    type Square = u32;
     type Level = u32;
 
     const EXTREMES: [Self; 2] = [i16::MIN, i16::MAX];
@@ -126,12 +126,26 @@ impl Sample for i16 {
     }
 
     #[inline(always)]
+    fn search_form(self) -> Self {
+        self >> 2
+    }
+
+    #[inline(always)]
     fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]) {
-        // Halved, a difference of any two codes fits in 16 bits; 32 of 2³¹ fit in the sum.
         let pair = word(pair);
-        for (sum, &before) in sums.iter_mut().zip(before.iter().rev()) {
+        let add = |sum: &mut u32, before: [i16; 2]| {
+            // Of codes of 14 bits half a difference is below 2¹³: 31 squares of two stay below 2³².
             let half = arch::half_difference(pair, word(before));
-            *sum = arch::dual_multiply_add_long(half, half, *sum);
+            *sum = arch::dual_multiply_add(half, half, *sum);
+        };
+        if let Some(all) = before.last_chunk::<LAGS>() {
+            for lag in 0..LAGS {
+                add(&mut sums[lag], all[LAGS - 1 - lag]);
+            }
+        } else {
+            for (sum, &before) in sums.iter_mut().zip(before.iter().rev()) {
+                add(sum, before);
+            }
         }
     }
 
@@ -156,9 +170,7 @@ impl Sample for i16 {
     }
 
     #[inline(always)]
-    fn square_to_f32(square: u64) -> f32 {
+    fn square_to_f32(square: u32) -> f32 {
         4.0 * square as f32
     }
 }
-
-const _: () = assert!(LAGS < 16);

@@ -81,6 +81,11 @@ impl Sample for i32 {
     }
 
     #[inline(always)]
+    fn search_form(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
     fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]) {
         // A square of up to 2⁶⁴, less its last 7 bits, fits in the sum 64 times.
         let square = |a: i32, b: i32| {
@@ -101,7 +106,10 @@ impl Sample for i32 {
 
     #[inline(always)]
     fn means(sums: &Lags<Self>, count: usize) -> Levels {
-        codes::means(sums, count)
+        // The 32 highest bits that any of the sums uses.
+        let used = sums.iter().fold(0, |all, &sum| all | sum);
+        let shift = 32u32.saturating_sub(used.leading_zeros());
+        codes::means(&sums.map(|sum| (sum >> shift) as u32), count)
     }
 
     #[inline(always)]

@@ -77,10 +77,24 @@ impl Sample for f32 {
     }
 
     #[inline(always)]
+    fn search_form(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
     fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]) {
-        for (sum, before) in sums.iter_mut().zip(before.iter().rev()) {
+        let add = |sum: &mut f32, before: [f32; 2]| {
             let (c, d) = (pair[0] - before[0], pair[1] - before[1]);
             *sum += c * c + d * d;
+        };
+        if let Some(all) = before.last_chunk::<LAGS>() {
+            for lag in 0..LAGS {
+                add(&mut sums[lag], all[LAGS - 1 - lag]);
+            }
+        } else {
+            for (sum, &before) in sums.iter_mut().zip(before.iter().rev()) {
+                add(sum, before);
+            }
         }
     }
 
@@ -91,9 +105,11 @@ impl Sample for f32 {
 
     #[inline(always)]
     fn means(sums: &Lags<Self>, count: usize) -> [f32; LAGS] {
+        let first = count.saturating_sub(LAGS);
+        let reciprocals = RECIPROCALS.get(first..first + LAGS).unwrap_or(&[]);
         let mut means = *sums;
-        for (lag, mean) in (1..).zip(&mut means) {
-            *mean *= RECIPROCALS.get(count - lag).copied().unwrap_or(0.0);
+        for (mean, reciprocal) in means.iter_mut().zip(reciprocals.iter().rev()) {
+            *mean *= reciprocal;
         }
         means
     }

@@ -83,6 +83,9 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     /// Less than every sample, and more than every sample: extremes of none.
     #[doc(hidden)]
     const EXTREMES: [Self; 2];
+    /// The sample as the search for a period takes it: of 16-bit codes, less two bits.
+    #[doc(hidden)]
+    fn search_form(self) -> Self;
     /// Adds the squared differences of a pair from those before it, the last first.
     #[doc(hidden)]
     fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]);

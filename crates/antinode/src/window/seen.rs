@@ -33,6 +33,7 @@ pub(crate) struct Extremes {
 
 impl Model {
     /// Takes a block into a window.
+    #[inline(always)]
     pub(crate) fn see<S: Sample>(&self, block: &Block<S>) -> Seen {
         let unit = 1.0 / self.layout.one();
         let watched = |channel: &ChannelWatch<S>| {

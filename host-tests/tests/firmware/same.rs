@@ -102,12 +102,12 @@ fn recordings_show_what_they_hold() {
     let clean = flagged("clean");
     assert!(estimates(&clean).iter().all(|e| e.flags.is_empty()));
     let dropout = flagged("dropout");
-    println!("{:?}", dropout.iter().filter(|r| matches!(r, Report::State(_))).collect::<Vec<_>>());
-    assert_eq!(with(&dropout, Flags::REACQUIRED), 1);
+    // Held for 4 ms, and 50 ms without a wave: both are lost and found again.
+    assert_eq!(with(&dropout, Flags::REACQUIRED), 2);
     assert!(with(&dropout, Flags::LOST) >= 1 && with(&dropout, Flags::MISFIT) >= 1);
     let states: Vec<_> = dropout.iter().filter(|r| matches!(r, Report::State(_))).collect();
     let (searching, tracking) = (Report::State(State::Searching), Report::State(State::Tracking));
-    assert_eq!(states[1..], [&searching, &tracking, &searching, &tracking]);
+    assert_eq!(states[1..], [&searching, &tracking].repeat(3));
     let clipping = flagged("clipping");
     assert!(with(&clipping, Flags::CLIPPED) > 200);
     let Some(Report::Counters(counters)) = clipping.last() else {

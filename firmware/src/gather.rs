@@ -1,5 +1,6 @@
 //! The interrupt half of the pipeline: a source's pairs become blocks in a queue.
 
+use antinode::block::ChannelWatch;
 use antinode::{Block, Front, Sample, SamplePair, Settings, SettingsError};
 use antinode_telemetry::Cause;
 use heapless::spsc::{Consumer, Producer};
@@ -46,6 +47,15 @@ struct Outlet<'q, S: Sample> {
 }
 
 impl<S: Sample> Outlet<'_, S> {
+    /// False where no sample of the block can be at a rail, the converter's least or greatest code.
+    #[inline]
+    fn may_be_saturated(block: &Block<S>, [low, high]: [S; 2]) -> bool {
+        let watched = |[c, d]: &[ChannelWatch<S>; 2]| {
+            c.low == low || d.low == low || c.high == high || d.high == high
+        };
+        block.watch.as_ref().is_none_or(watched)
+    }
+
     #[cold]
     fn saturate(&mut self, pairs: usize) {
         if pairs == 0 {
@@ -61,9 +71,32 @@ impl<S: Sample> Outlet<'_, S> {
             self.counts.saturated_blocks.add(1);
         }
         // The tracker sees the hole by the next block's start, and begins a new window after it.
-        if !self.pay() || self.items.enqueue(Item::Block(*block)).is_err() {
+        if !self.pay() || !self.items.ready() {
             self.counts.blocks_dropped.add(1);
+            return;
         }
+        self.put(block);
+    }
+
+    /// Copies a block into the queue, which has room: the queue's own check would have it copied twice.
+    #[allow(unsafe_code, reason = "there must be room")]
+    #[inline]
+    fn put(&mut self, block: &Block<S>) {
+        // Part by part: of few words each, they go through registers, not through memcpy.
+        let &Block {
+            start,
+            layout,
+            sums,
+            watch,
+        } = block;
+        let block = Block {
+            start,
+            layout,
+            sums,
+            watch,
+        };
+        // SAFETY: the caller has asked whether there is room, and nobody else fills it.
+        unsafe { self.items.enqueue_unchecked(Item::Block(block)) };
     }
 
     /// Pays what is owed; false while there is no room for it.
@@ -154,6 +187,7 @@ impl<'q, S: Sample> Gatherer<'q, S> {
     }
 
     #[cold]
+    #[inline(never)]
     fn obey<R: Source>(&mut self, source: &mut R) {
         while let Some(request) = self.requests.dequeue() {
             match request {
@@ -162,12 +196,7 @@ impl<'q, S: Sample> Gatherer<'q, S> {
                     self.outlet.answer = Some(number);
                 }
                 Request::Configure(number, settings) => {
-                    // The main loop has checked them: an error, which never is, leaves the old ones.
-                    let index = self.front.index();
-                    if let Ok(front) = Front::new(settings) {
-                        self.front = front;
-                        self.front.skip(index);
-                    }
+                    renew(&mut self.front, settings);
                     self.outlet.answer = Some(number);
                 }
                 Request::Resample => {
@@ -179,24 +208,23 @@ impl<'q, S: Sample> Gatherer<'q, S> {
         }
     }
 
-    #[inline]
+    // Not inlined, and nor is what follows: its stack need not hold that of the requests too.
+    #[inline(never)]
     fn gather<R: Source>(&mut self, source: &mut R)
     where
         R::Pair: SamplePair<S>,
     {
         let Self { front, outlet, .. } = self;
+        let rails = source.rails().map(|pair| pair.pair()[0]);
         let mut rest = source.pairs();
         outlet.counts.pairs.add(rest.len() as u32);
-        // Without a branch for each pair; they are counted only where there are any.
-        let at_rail = rest
-            .iter()
-            .fold(false, |any, &pair| any | R::is_at_rail(pair));
         while !rest.is_empty() {
             let (taken, block) = front.push_slice(rest);
             let (done, after) = rest.split_at_checked(taken).unwrap_or((rest, &[]));
             rest = after;
-            if at_rail {
-                outlet.saturate(done.iter().filter(|&&pair| R::is_at_rail(pair)).count());
+            // A watched block tells by its extremes whether it has pairs at a rail: they are looked for only there.
+            if block.is_none_or(|block| Outlet::may_be_saturated(block, rails)) {
+                outlet.saturate(done.iter().filter(|&&pair| source.is_at_rail(pair)).count());
             }
             // Asked before the block is handed over: what was overwritten meanwhile must not be taken for a wave.
             if !source.is_intact() {
@@ -219,5 +247,16 @@ impl<'q, S: Sample> Gatherer<'q, S> {
     fn skip(&mut self, lapse: Lapse) {
         self.front.skip(u64::from(lapse.lost));
         self.outlet.owe(lapse);
+    }
+}
+
+/// A new front in the place of the old one, which goes on with its count of pairs.
+#[inline(never)]
+fn renew<S: Sample>(front: &mut Front<S, LONGEST_PERIOD>, settings: Settings) {
+    let index = front.index();
+    // The main loop has checked them: an error, which never is, leaves the old ones.
+    if let Ok(new) = Front::new(settings) {
+        *front = new;
+        front.skip(index);
     }
 }

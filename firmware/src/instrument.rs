@@ -101,9 +101,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
             let done = self.answer(frame);
             log(Event::Answered { id: frame.id, done });
         }
-        while let Some(item) = self.items.dequeue() {
-            self.take(item, &mut log);
-        }
+        while self.take(&mut log) {}
         if matches!(self.state, State::Started(_)) {
             self.enter(State::Searching, &mut log);
         }
@@ -116,28 +114,32 @@ impl<'q, S: Sample> Instrument<'q, S> {
         alive
     }
 
-    fn take(&mut self, item: Item<S>, log: &mut impl FnMut(Event)) {
-        match item {
-            Item::Block(_) if self.awaits => {}
-            Item::Block(block) => {
-                if let Some(estimate) = self.tracker.push(&block) {
-                    self.enter(State::Tracking, log);
-                    self.link.send(Report::Estimate(estimate));
-                }
-                if self.tracker.has_lost() {
-                    self.tracker.forget();
-                    self.request(Request::Search);
-                    self.enter(State::Searching, log);
-                }
+    /// Takes the next item; false where there is none.
+    fn take(&mut self, log: &mut impl FnMut(Event)) -> bool {
+        let mut estimate = None;
+        match self.items.peek() {
+            None => return false,
+            Some(Item::Block(block)) if !self.awaits => estimate = self.tracker.push(block),
+            Some(Item::Block(_)) => {}
+            Some(Item::Lapse(lapse)) => {
+                log(Event::Lapse(*lapse));
+                let restarted = State::SamplingRestarted(lapse.cause);
+                self.link.send(Report::State(restarted));
             }
-            Item::Lapse(lapse) => {
-                log(Event::Lapse(lapse));
-                self.link
-                    .send(Report::State(State::SamplingRestarted(lapse.cause)));
-            }
-            Item::Searching(number) if number == self.number => self.awaits = false,
-            Item::Searching(_) => {}
+            Some(Item::Searching(number)) => self.awaits &= *number != self.number,
         }
+        // Only now: a block is read where it lies.
+        self.items.dequeue();
+        if let Some(estimate) = estimate {
+            self.enter(State::Tracking, log);
+            self.link.send(Report::Estimate(estimate));
+        }
+        if self.tracker.has_lost() {
+            self.tracker.forget();
+            self.request(Request::Search);
+            self.enter(State::Searching, log);
+        }
+        true
     }
 
     /// Asks the interrupt; false where it has not worked off earlier requests.

@@ -6,35 +6,61 @@ use core::hint::black_box;
 
 use antinode::Packed;
 use antinode_telemetry::{Cause, FrontEnd};
+use heapless::spsc::Queue;
 use stm32f4xx_hal::pac::Peripherals;
 
 use crate::bench::PAIRS;
 use crate::codes::Codes;
+use crate::counts::Counts;
 use crate::gather::Gatherer;
 use crate::hardware::line::{By, Line};
 use crate::marks::{leave, mark_begin, mark_end};
 use crate::pipeline::Queues;
-use crate::sampling::{Lapse, Ready, Source, is_at_rail_12};
+use crate::sampling::{Lapse, Ready, Source, both, is_at_rail_12};
 use crate::settings::{Arithmetic, DUAL_ADC_RAILS, HALF, configuration};
 
-/// Codes without end, half a ring at a time.
+/// Pairs in the ring of codes.
+const RING: usize = 1406;
+
+/// Codes without end, half a ring of the DMA at a time.
 struct Endless {
-    codes: Codes,
+    ring: [Packed; RING],
     from: usize,
     to: usize,
+    /// Pairs given out.
+    total: usize,
+}
+
+impl Endless {
+    fn new() -> Self {
+        let codes = Codes::new();
+        let mut ring = [Packed(0); RING];
+        for (to, from) in ring.iter_mut().zip(codes.slice(0, RING)) {
+            // About the middle of twelve bits, as the converters give them.
+            let unipolar = |code: u32| u32::from((code as u16).wrapping_add(2048));
+            *to = Packed(unipolar(from.0) | unipolar(from.0 >> 16) << 16);
+        }
+        Self {
+            ring,
+            from: 0,
+            to: 0,
+            total: 0,
+        }
+    }
 }
 
 impl Source for Endless {
     type Pair = Packed;
 
     fn next(&mut self) -> Ready {
-        self.from = self.to;
-        self.to += self.codes.slice(self.from, HALF).len();
+        self.from = self.to % RING;
+        self.to = (self.from + HALF).min(RING);
+        self.total += self.to - self.from;
         Ready::Pairs
     }
 
     fn pairs(&self) -> &[Packed] {
-        self.codes.slice(self.from, self.to - self.from)
+        self.ring.get(self.from..self.to).unwrap_or(&[])
     }
 
     fn is_intact(&self) -> bool {
@@ -45,7 +71,11 @@ impl Source for Endless {
         Lapse { cause, lost: 0 }
     }
 
-    fn is_at_rail(pair: Packed) -> bool {
+    fn rails(&self) -> [Packed; 2] {
+        both(DUAL_ADC_RAILS)
+    }
+
+    fn is_at_rail(&self, pair: Packed) -> bool {
         is_at_rail_12(pair)
     }
 }
@@ -56,13 +86,35 @@ fn interrupt(gatherer: &mut Gatherer<'_, Arithmetic>, source: &mut Endless) {
     gatherer.serve(source);
 }
 
-/// The pipeline from cold over a tenth of a second, then [`PAIRS`] pairs between the marks: the interrupt `alone`, or all there is.
-pub fn run(queues: &'static mut Queues<Arithmetic>, alone: bool) -> ! {
-    let mut source = Endless {
-        codes: Codes::new(),
-        from: 0,
-        to: 0,
+/// [`PAIRS`] pairs between the marks, after a tenth of a second from cold.
+fn measure(mut half: impl FnMut() -> usize) -> ! {
+    while half() < 10_000 {}
+    mark_begin();
+    while half() < 10_000 + PAIRS {}
+    mark_end();
+    leave()
+}
+
+/// The interrupt, and a main loop that only takes the blocks from the queue.
+pub fn interrupt_alone() -> ! {
+    let mut source = Endless::new();
+    let (mut items, mut requests, counts) = (Queue::new(), Queue::new(), Counts::new());
+    let (sender, mut blocks) = items.split();
+    let (_, asked) = requests.split();
+    let settings = configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS).settings;
+    let Ok(mut gatherer) = Gatherer::<Arithmetic>::new(settings, sender, asked, &counts) else {
+        leave()
     };
+    measure(|| {
+        interrupt(&mut gatherer, &mut source);
+        while blocks.dequeue().is_some() {}
+        source.total
+    })
+}
+
+/// The whole pipeline.
+pub fn application(queues: &'static mut Queues<Arithmetic>) -> ! {
+    let mut source = Endless::new();
     let configuration = configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS);
     let Ok(mut parts) = queues.split(configuration, Cause::PowerOn) else {
         leave()
@@ -71,18 +123,11 @@ pub fn run(queues: &'static mut Queues<Arithmetic>, alone: bool) -> ! {
     let device = unsafe { Peripherals::steal() };
     let mut line = Line::new(device.USART1, &device.RCC, parts.out, parts.bytes, By::Hand);
     let mut now = 0;
-    let mut half = |alone: bool| {
+    measure(|| {
         interrupt(&mut parts.gatherer, &mut source);
-        if !alone {
-            now += 1;
-            black_box(parts.instrument.poll(now, |_| {}));
-            line.serve(true);
-        }
-        source.to
-    };
-    while half(false) < 10_000 {}
-    mark_begin();
-    while half(alone) < 10_000 + PAIRS {}
-    mark_end();
-    leave()
+        now += 1;
+        black_box(parts.instrument.poll(now, |_| {}));
+        line.serve(true);
+        source.total
+    })
 }

@@ -19,8 +19,8 @@ use antinode::Packed;
 use antinode_telemetry::Cause;
 use cortex_m_semihosting::syscall;
 
-use crate::sampling::{Lapse, Ready, Source, is_at_rail_12};
-use crate::settings::HALF;
+use crate::sampling::{Lapse, Ready, Source, both, is_at_rail_12};
+use crate::settings::{DUAL_ADC_RAILS, HALF};
 
 /// Most bytes of the command line.
 const LINE: usize = 256;
@@ -166,7 +166,11 @@ impl Source for Replay {
         Lapse { cause, lost }
     }
 
-    fn is_at_rail(pair: Packed) -> bool {
+    fn rails(&self) -> [Packed; 2] {
+        both(DUAL_ADC_RAILS)
+    }
+
+    fn is_at_rail(&self, pair: Packed) -> bool {
         is_at_rail_12(pair)
     }
 }

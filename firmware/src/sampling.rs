@@ -43,8 +43,16 @@ pub trait Source {
     /// Stops, clears and starts sampling, and says what was lost since the last of [`Source::pairs`].
     fn restart(&mut self, cause: Cause) -> Lapse;
 
+    /// The least and the greatest code of both converters, as pairs.
+    fn rails(&self) -> [Self::Pair; 2];
+
     /// True for a pair with a sample at either end of the converter's range.
-    fn is_at_rail(pair: Self::Pair) -> bool;
+    fn is_at_rail(&self, pair: Self::Pair) -> bool;
+}
+
+/// The pairs with one code on both channels, of each code.
+pub fn both([low, high]: [i16; 2]) -> [Packed; 2] {
+    [low, high].map(|code| Packed(u32::from(code as u16) * 0x0001_0001))
 }
 
 /// True for a pair with a 12-bit code of 0 or 4095.

@@ -10,7 +10,7 @@ use firmware::{load, marks};
 #[entry]
 fn main() -> ! {
     static mut QUEUES: Queues<Arithmetic> = Queues::new();
-    load::run(QUEUES, false)
+    load::application(QUEUES)
 }
 
 #[panic_handler]

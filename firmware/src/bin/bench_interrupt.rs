@@ -1,16 +1,13 @@
-//! The interrupt half of the pipeline on half-buffers of codes; its queue is full, as nobody empties it.
+//! The interrupt half of the pipeline: half-buffers of codes become blocks, which are taken from its queue and thrown away.
 #![no_std]
 #![no_main]
 
 use cortex_m_rt::entry;
-use firmware::pipeline::Queues;
-use firmware::settings::Arithmetic;
 use firmware::{load, marks};
 
 #[entry]
 fn main() -> ! {
-    static mut QUEUES: Queues<Arithmetic> = Queues::new();
-    load::run(QUEUES, true)
+    load::interrupt_alone()
 }
 
 #[panic_handler]

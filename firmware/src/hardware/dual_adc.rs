@@ -19,7 +19,7 @@ use crate::hardware::pair_clock::{PairClock, Trigger};
 use crate::hardware::ring::{Memory, Origin, Ring};
 use crate::hardware::sampler::{Converter, Sampler};
 use crate::sampling::is_at_rail_12;
-use crate::settings::SAMPLE_RATE;
+use crate::settings::{DUAL_ADC_RAILS, SAMPLE_RATE};
 
 /// Ticks of TIM3 from trigger to trigger.
 const TICKS: u32 = APB1_TIMERS / SAMPLE_RATE;
@@ -106,6 +106,8 @@ impl DualAdc {
 }
 
 impl Converter for DualAdc {
+    const RAILS: [i16; 2] = DUAL_ADC_RAILS;
+
     #[allow(unsafe_code, reason = "the fields take any bits")]
     fn stop(&mut self, _: &mut Ring) {
         // SAFETY: EXTEN 0: no trigger is heard. CCR.MULTI 0 and DMA 0: nothing is fetched, and both converters forget their sequence.

@@ -5,7 +5,7 @@ use antinode_telemetry::Cause;
 
 use crate::hardware::pair_clock::PairClock;
 use crate::hardware::ring::Ring;
-use crate::sampling::{Lapse, Ready, Source};
+use crate::sampling::{Lapse, Ready, Source, both};
 use crate::settings::HALF;
 
 /// A converter that follows a timer.
@@ -19,6 +19,9 @@ pub trait Converter {
 
     /// True where it gave data that nobody fetched.
     fn has_overrun(&self) -> bool;
+
+    /// The least and the greatest code.
+    const RAILS: [i16; 2];
 
     /// True for a pair with a sample at either end of the range.
     fn is_at_rail(pair: Packed) -> bool;
@@ -99,7 +102,12 @@ impl<C: Converter> Source for Sampler<C> {
     }
 
     #[inline]
-    fn is_at_rail(pair: Packed) -> bool {
+    fn rails(&self) -> [Packed; 2] {
+        both(C::RAILS)
+    }
+
+    #[inline]
+    fn is_at_rail(&self, pair: Packed) -> bool {
         C::is_at_rail(pair)
     }
 }

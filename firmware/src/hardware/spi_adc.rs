@@ -159,6 +159,8 @@ impl SpiAdc {
 }
 
 impl Converter for SpiAdc {
+    const RAILS: [i16; 2] = AD7380_RAILS;
+
     fn stop(&mut self, _: &mut Ring) {
         // Between frames, so that the next one begins with A. DIER 0: no writes. CR2.RXDMAEN 0: no fetches.
         self.wait();

@@ -3,7 +3,7 @@
 use antinode::{Packed, Sample, SamplePair};
 use antinode_telemetry::{Cause, FrontEnd, Receiver, Report};
 use firmware::pipeline::Queues;
-use firmware::sampling::{Lapse, Ready, Source, is_at_rail_12};
+use firmware::sampling::{Lapse, Ready, Source, both, is_at_rail_12};
 use firmware::settings::{DUAL_ADC_RAILS, HALF, configuration};
 
 /// Codes from memory.
@@ -36,7 +36,11 @@ impl Source for Recorded<'_> {
         Lapse { cause, lost: 0 }
     }
 
-    fn is_at_rail(pair: Packed) -> bool {
+    fn rails(&self) -> [Packed; 2] {
+        both(DUAL_ADC_RAILS)
+    }
+
+    fn is_at_rail(&self, pair: Packed) -> bool {
         is_at_rail_12(pair)
     }
 }

@@ -1,4 +1,5 @@
-//! A recording as a source: 16-bit codes, S_C and S_D in turn, lowest byte first, read through semihosting, half a ring at a time.
+//! A recording as a source, read through semihosting, half a ring at a time: a WAV file of two channels of 16 bits, S_C left, at any
+//! sample rate; or else 12-bit codes as the STM32F405's converters give them, 16 bits each, S_C and S_D in turn, lowest byte first.
 //!
 //! For the emulator, and for bench work without a resonator. The command line of semihosting is the recording's name and, for tests,
 //! options that make things go wrong:
@@ -16,11 +17,12 @@
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use antinode::Packed;
-use antinode_telemetry::Cause;
+use antinode_telemetry::{Cause, Configuration, FrontEnd};
 use cortex_m_semihosting::syscall;
 
-use crate::sampling::{Lapse, Ready, Source, both, is_at_rail_12};
-use crate::settings::{DUAL_ADC_RAILS, HALF};
+use crate::sampling::{Lapse, Ready, Source, both, is_at_rail_12, is_at_rail_16};
+use crate::settings::{AD7380_RAILS, DUAL_ADC_RAILS, HALF, configuration};
+use crate::wav::{Wav, is_wav};
 
 /// Most bytes of the command line.
 const LINE: usize = 256;
@@ -100,6 +102,9 @@ pub struct Replay {
     file: usize,
     pairs: [Packed; HALF],
     length: usize,
+    /// Pairs that are still to be read.
+    left: u32,
+    wav: Option<Wav>,
     script: Script,
 }
 
@@ -109,20 +114,57 @@ impl Replay {
         let name = line.iter().position(|&byte| byte == 0)?;
         // SAFETY: the name and the zero behind it lie in `line`.
         let file = unsafe { syscall!(OPEN, line.as_ptr(), READ_BYTES, name) };
-        (file != usize::MAX).then_some(Self {
+        if file == usize::MAX {
+            return None;
+        }
+        let mut first = [0; 4];
+        let wav = if read_at(file, 0, &mut first) && is_wav(&first) {
+            Some(Wav::find(|at, buffer| read_at(file, at, buffer))?)
+        } else {
+            None
+        };
+        // SAFETY: plain numbers.
+        unsafe { syscall!(SEEK, file, wav.map_or(0, |wav| wav.start)) };
+        Some(Self {
             file,
             pairs: [Packed(0); HALF],
             length: 0,
+            left: wav.map_or(u32::MAX, |wav| wav.pairs),
+            wav,
             script,
         })
     }
 
+    /// What the device is set to for this recording.
+    pub fn configuration(&self) -> Configuration {
+        let mut configuration = configuration(FrontEnd::Synthetic, self.codes());
+        if let Some(wav) = self.wav {
+            configuration.settings.sample_rate = wav.sample_rate.into();
+        }
+        configuration
+    }
+
+    /// The least and the greatest code.
+    fn codes(&self) -> [i16; 2] {
+        if self.wav.is_some() { AD7380_RAILS } else { DUAL_ADC_RAILS }
+    }
+
     /// Reads up to `pairs` pairs.
     fn read(&mut self, pairs: usize) {
-        let bytes = 4 * pairs.min(HALF);
+        let bytes = 4 * pairs.min(HALF).min(self.left as usize);
         // SAFETY: the host writes at most `bytes` bytes, which the pairs have; a pair may have any bits.
         let missing = unsafe { syscall!(READ, self.file, self.pairs.as_mut_ptr(), bytes) };
         self.length = bytes.saturating_sub(missing) / 4;
+        self.left -= self.length as u32;
+    }
+}
+
+/// Fills a buffer from a place of a file on; false where it ends before.
+fn read_at(file: usize, at: u32, buffer: &mut [u8]) -> bool {
+    // SAFETY: the host writes at most as many bytes as the buffer has.
+    unsafe {
+        syscall!(SEEK, file, at) == 0
+            && syscall!(READ, file, buffer.as_mut_ptr(), buffer.len()) == 0
     }
 }
 
@@ -167,10 +209,13 @@ impl Source for Replay {
     }
 
     fn rails(&self) -> [Packed; 2] {
-        both(DUAL_ADC_RAILS)
+        both(self.codes())
     }
 
     fn is_at_rail(&self, pair: Packed) -> bool {
+        if self.wav.is_some() {
+            return is_at_rail_16(pair);
+        }
         is_at_rail_12(pair)
     }
 }

@@ -63,6 +63,14 @@ pub fn is_at_rail_12(pair: Packed) -> bool {
     next.wrapping_sub(0x0002_0002) & 0x8000_8000 != 0
 }
 
+/// True for a pair with a 16-bit code of −32 768 or 32 767.
+#[inline]
+pub fn is_at_rail_16(pair: Packed) -> bool {
+    [pair.0 as i16, (pair.0 >> 16) as i16]
+        .iter()
+        .any(|&code| code == i16::MIN || code == i16::MAX)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

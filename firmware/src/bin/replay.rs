@@ -10,14 +10,14 @@ use firmware::hardware::reset;
 
 #[rtic::app(device = stm32f4xx_hal::pac)]
 mod app {
-    use antinode_telemetry::{Cause, FrontEnd};
+    use antinode_telemetry::Cause;
     use firmware::gather::Gatherer;
     use firmware::hardware::{clock, line::{By, Line}, log, reset};
     use firmware::instrument::Instrument;
     use firmware::marks;
     use firmware::pipeline::Queues;
     use firmware::replay::{self, Replay, Script};
-    use firmware::settings::{Arithmetic, DUAL_ADC_RAILS, configuration};
+    use firmware::settings::Arithmetic;
     use stm32f4xx_hal::pac::Interrupt;
 
     #[shared]
@@ -41,19 +41,18 @@ mod app {
         let mut text = replay::line();
         let Some(mut script) = Script::read(&mut text) else {
             defmt::error!("the command line must be: RECORDING [OPTION=NUMBER[:NUMBER]]...");
-            marks::leave()
+            marks::fail()
         };
         if cause == Cause::Panic {
             script.panic = None;
         }
         let Some(source) = Replay::open(&text, script) else {
-            defmt::error!("the recording cannot be opened");
-            marks::leave()
+            defmt::error!("no recording, nor one of two channels of 16 bits");
+            marks::fail()
         };
-        let settings = configuration(FrontEnd::Synthetic, DUAL_ADC_RAILS);
-        let Ok(parts) = c.local.queues.split(settings, cause) else {
-            defmt::error!("the settings cannot be");
-            marks::leave()
+        let Ok(parts) = c.local.queues.split(source.configuration(), cause) else {
+            defmt::error!("the sample rate is beyond the settings' range");
+            marks::fail()
         };
         let line = Line::new(c.device.USART1, &c.device.RCC, parts.out, parts.bytes, By::Hand);
         let local = Local {

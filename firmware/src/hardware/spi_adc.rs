@@ -25,6 +25,7 @@ use crate::hardware::clock::{APB2, APB2_TIMERS, CORE};
 use crate::hardware::pair_clock::{PairClock, Trigger};
 use crate::hardware::ring::{Memory, Origin, Ring};
 use crate::hardware::sampler::{Converter, Sampler};
+use crate::sampling::is_at_rail_16;
 use crate::settings::{AD7380_RAILS, SAMPLE_RATE};
 
 /// Ticks of TIM1 from frame to frame.
@@ -190,9 +191,7 @@ impl Converter for SpiAdc {
 
     #[inline]
     fn is_at_rail(pair: Packed) -> bool {
-        [pair.0 as i16, (pair.0 >> 16) as i16]
-            .iter()
-            .any(|code| AD7380_RAILS.contains(code))
+        is_at_rail_16(pair)
     }
 }
 

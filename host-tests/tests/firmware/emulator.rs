@@ -93,14 +93,12 @@ impl Device {
             .current_dir(&folder)
             .args(["-machine", "netduinoplus2", "-display", "none", "-monitor", "none"])
             .args(["-serial", &format!("unix:{}", socket.display())])
-            .args(["-chardev", &format!("file,id=log,path={}", log.display())])
-            .args([
-                "-semihosting-config",
-                &format!("enable=on,target=native,chardev=log{args}"),
-            ])
+            .args(["-semihosting-config", &format!("enable=on,target=native{args}")])
             .arg("-kernel")
             .arg(images().join(image))
             .stdin(Stdio::null())
+            // Where semihosting writes the log.
+            .stdout(fs::File::create(&log).expect("it can be written"))
             .spawn()
             .expect("qemu-system-arm must be installed");
         let (line, _) = listener.accept().expect("QEMU opens the line");

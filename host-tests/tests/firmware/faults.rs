@@ -32,11 +32,11 @@ fn assert_right(estimates: &[Estimate]) {
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
 fn garbage_on_the_line() {
-    let recording = steady(300_000);
+    let recording = steady(1_000_000);
     let mut device = Device::start("replay", &recording, "");
     assert!(device.read_until(|reports| estimates(reports).len() > 10));
     let mut seed = 1u32;
-    for k in 0..64 {
+    for k in 0..16 {
         let mut noise = [0; 512];
         for byte in &mut noise {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -54,7 +54,7 @@ fn garbage_on_the_line() {
         .filter(|r| matches!(r, Report::Acknowledgement(a) if a.result.is_ok()));
     // The recording may end before the last of them.
     assert!(answered.count() >= 1);
-    assert!(counters(&reports).commands_damaged >= 64);
+    assert!(counters(&reports).commands_damaged >= 16);
 }
 
 #[test]

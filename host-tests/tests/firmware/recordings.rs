@@ -75,7 +75,7 @@ pub fn all() -> Vec<(&'static str, Vec<Packed>)> {
             second(
                 Wave { main_amplitude: 1950.0, ..WAVE },
                 Flaws {
-                    gain_ratio: 1.4,
+                    gain_ratio: 1.6,
                     clip_spans: vec![ClipSpan { from: 0.0, to: 0.5, level: 1800.0 }],
                     ..quiet()
                 },

@@ -2,6 +2,7 @@
 
 use antinode::{Estimate, Flags, Identifier, Packed};
 use antinode_telemetry::{Report, State};
+use firmware::sampling::is_at_rail_12;
 use firmware::settings::{DUAL_ADC_RAILS, RING, configuration};
 
 use crate::emulator::Device;
@@ -113,5 +114,8 @@ fn recordings_show_what_they_hold() {
     let Some(Report::Counters(counters)) = clipping.last() else {
         panic!("the counters come last");
     };
-    assert!(counters.saturated_pairs > 1000 && counters.saturated_blocks > 1000);
+    let (_, codes) = recordings::all().into_iter().find(|r| r.0 == "clipping").expect("there is one");
+    let at_rail = codes.iter().filter(|&&pair| is_at_rail_12(pair)).count();
+    assert!(at_rail > 1000 && counters.saturated_blocks > 1000, "{counters:?}");
+    assert_eq!(counters.saturated_pairs, at_rail as u64);
 }

@@ -6,6 +6,7 @@ use antinode_telemetry::Cause;
 use heapless::spsc::{Consumer, Producer};
 
 use crate::counts::Counts;
+use crate::methods::{Extra, Gathering, Tuning};
 use crate::sampling::{Lapse, Ready, Source};
 use crate::settings::{LONGEST_PERIOD, QUEUE, REQUESTS};
 
@@ -16,8 +17,8 @@ use crate::settings::{LONGEST_PERIOD, QUEUE, REQUESTS};
     reason = "nearly every item is a block; there is no heap"
 )]
 pub enum Item<S: Sample> {
-    /// The next block.
-    Block(Block<S>),
+    /// The next block, and what goes with it.
+    Block(Block<S>, Extra<S>),
     /// Sample pairs are missing before the next block.
     Lapse(Lapse),
     /// From here on blocks are those of a new search: the answer to the request of this number.
@@ -31,6 +32,8 @@ pub enum Request {
     Search(u8),
     /// Go on with other settings.
     Configure(u8, Settings),
+    /// Gather the methods' sums too, or no longer.
+    Tune(Option<Tuning>),
     /// Start sampling anew: no pair came for too long.
     Resample,
 }
@@ -66,7 +69,7 @@ impl<S: Sample> Outlet<'_, S> {
     }
 
     #[inline]
-    fn hand_over(&mut self, block: &Block<S>) {
+    fn hand_over(&mut self, block: &Block<S>, extra: Extra<S>) {
         if core::mem::take(&mut self.saturated) {
             self.counts.saturated_blocks.add(1);
         }
@@ -75,13 +78,13 @@ impl<S: Sample> Outlet<'_, S> {
             self.counts.blocks_dropped.add(1);
             return;
         }
-        self.put(block);
+        self.put(block, extra);
     }
 
     /// Copies a block into the queue, which has room: the queue's own check would have it copied twice.
     #[allow(unsafe_code, reason = "there must be room")]
     #[inline]
-    fn put(&mut self, block: &Block<S>) {
+    fn put(&mut self, block: &Block<S>, extra: Extra<S>) {
         // Part by part: of few words each, they go through registers, not through memcpy.
         let &Block {
             start,
@@ -96,7 +99,7 @@ impl<S: Sample> Outlet<'_, S> {
             watch,
         };
         // SAFETY: the caller has asked whether there is room, and nobody else fills it.
-        unsafe { self.items.enqueue_unchecked(Item::Block(block)) };
+        unsafe { self.items.enqueue_unchecked(Item::Block(block, extra)) };
     }
 
     /// Pays what is owed; false while there is no room for it.
@@ -141,6 +144,7 @@ impl<S: Sample> Outlet<'_, S> {
 /// Gathers blocks at sample rate. It never waits.
 pub struct Gatherer<'q, S: Sample> {
     front: Front<S, LONGEST_PERIOD>,
+    methods: Gathering<S>,
     requests: Consumer<'q, Request, REQUESTS>,
     outlet: Outlet<'q, S>,
 }
@@ -159,6 +163,7 @@ impl<'q, S: Sample> Gatherer<'q, S> {
     ) -> Result<Self, SettingsError> {
         Ok(Self {
             front: Front::new(settings)?,
+            methods: Gathering::new(),
             requests,
             outlet: Outlet {
                 items,
@@ -193,12 +198,15 @@ impl<'q, S: Sample> Gatherer<'q, S> {
             match request {
                 Request::Search(number) => {
                     self.front.search();
+                    self.methods.restart();
                     self.outlet.answer = Some(number);
                 }
                 Request::Configure(number, settings) => {
                     renew(&mut self.front, settings);
+                    self.methods.restart();
                     self.outlet.answer = Some(number);
                 }
+                Request::Tune(tuning) => self.methods.tune(tuning),
                 Request::Resample => {
                     let lapse = source.restart(Cause::Converter);
                     self.skip(lapse);
@@ -214,7 +222,12 @@ impl<'q, S: Sample> Gatherer<'q, S> {
     where
         R::Pair: SamplePair<S>,
     {
-        let Self { front, outlet, .. } = self;
+        let Self {
+            front,
+            methods,
+            outlet,
+            ..
+        } = self;
         let rails = source.rails().map(|pair| pair.pair()[0]);
         let mut rest = source.pairs();
         outlet.counts.pairs.add(rest.len() as u32);
@@ -222,6 +235,7 @@ impl<'q, S: Sample> Gatherer<'q, S> {
             let (taken, block) = front.push_slice(rest);
             let (done, after) = rest.split_at_checked(taken).unwrap_or((rest, &[]));
             rest = after;
+            let extra = methods.add(done, block);
             // A watched block tells by its extremes whether it has pairs at a rail: they are looked for only there.
             if block.is_none_or(|block| Outlet::may_be_saturated(block, rails)) {
                 outlet.saturate(done.iter().filter(|&&pair| source.is_at_rail(pair)).count());
@@ -237,7 +251,7 @@ impl<'q, S: Sample> Gatherer<'q, S> {
                 return;
             }
             if let Some(block) = block {
-                outlet.hand_over(block);
+                outlet.hand_over(block, extra);
             }
         }
     }
@@ -246,6 +260,7 @@ impl<'q, S: Sample> Gatherer<'q, S> {
     #[cold]
     fn skip(&mut self, lapse: Lapse) {
         self.front.skip(u64::from(lapse.lost));
+        self.methods.restart();
         self.outlet.owe(lapse);
     }
 }

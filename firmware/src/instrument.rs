@@ -1,17 +1,18 @@
 //! The thread half of the pipeline: blocks are solved and tracked, reports sent, commands obeyed.
 
-use antinode::{Sample, SettingsError, Tracker};
+use antinode::{Calibration, Estimate, Sample, SettingsError, Tracker};
 use antinode_telemetry::{
     Acknowledgement, Cause, Command, CommandError, CommandFrame, Configuration, Counters, Hello,
-    Report, State,
+    Methods, Report, State,
 };
 use heapless::spsc::{Consumer, Producer};
 
 use crate::counts::Counts;
 use crate::gather::{Item, Request};
 use crate::link::Link;
+use crate::methods::{AVAILABLE, History, Tuning};
 use crate::sampling::Lapse;
-use crate::settings::{COUNTERS_MS, QUEUE, REQUESTS, RING};
+use crate::settings::{COUNTERS_MS, OUTBOX, QUEUE, REQUESTS, RING};
 use crate::supervision::Liveness;
 
 /// What is worth a line in the log.
@@ -38,6 +39,8 @@ pub struct Instrument<'q, S: Sample> {
     counts: &'q Counts,
     link: Link<'q>,
     configuration: Configuration,
+    history: History<S>,
+    tuning: Option<Tuning>,
     /// Number of the last request, and whether its answer is still to come: blocks before it are of no use.
     number: u8,
     awaits: bool,
@@ -74,6 +77,8 @@ impl<'q, S: Sample> Instrument<'q, S> {
             counts,
             link,
             configuration,
+            history: History::new(),
+            tuning: None,
             number: 0,
             awaits: false,
             state: State::Started(cause),
@@ -119,8 +124,11 @@ impl<'q, S: Sample> Instrument<'q, S> {
         let mut estimate = None;
         match self.items.peek() {
             None => return false,
-            Some(Item::Block(block)) if !self.awaits => estimate = self.tracker.push(block),
-            Some(Item::Block(_)) => {}
+            Some(Item::Block(block, extra)) if !self.awaits => {
+                self.history.keep(extra);
+                estimate = self.tracker.push(block);
+            }
+            Some(Item::Block(..)) => {}
             Some(Item::Lapse(lapse)) => {
                 log(Event::Lapse(*lapse));
                 let restarted = State::SamplingRestarted(lapse.cause);
@@ -132,7 +140,11 @@ impl<'q, S: Sample> Instrument<'q, S> {
         self.items.dequeue();
         if let Some(estimate) = estimate {
             self.enter(State::Tracking, log);
+            let methods = self.methods(&estimate);
             self.link.send(Report::Estimate(estimate));
+            if let Some(methods) = methods {
+                self.link.send(Report::Methods(methods));
+            }
         }
         if self.tracker.has_lost() {
             self.tracker.forget();
@@ -140,6 +152,23 @@ impl<'q, S: Sample> Instrument<'q, S> {
             self.enter(State::Searching, log);
         }
         true
+    }
+
+    /// The methods over an estimate's window, where they are wanted and neither the line nor the blocks that wait are in a hurry.
+    fn methods(&mut self, estimate: &Estimate) -> Option<Methods> {
+        let rate = self.configuration.settings.sample_rate;
+        if !AVAILABLE || !self.configuration.methods {
+            return None;
+        }
+        let tuned = self.tuning.is_some_and(|tuning| tuning.serves(estimate, rate));
+        if !tuned && estimate.flags.is_empty() {
+            let tuning = Some(Tuning::of(estimate, rate));
+            if self.requests.enqueue(Request::Tune(tuning)).is_ok() {
+                self.tuning = tuning;
+            }
+        }
+        let hurry = self.items.len() > QUEUE / 2 || self.link.waiting() > OUTBOX / 2;
+        if hurry { None } else { self.history.compare(estimate, rate) }
     }
 
     /// Asks the interrupt; false where it has not worked off earlier requests.
@@ -184,11 +213,17 @@ impl<'q, S: Sample> Instrument<'q, S> {
         match command {
             Command::Get => self.hello(),
             Command::Restart => self.restart = true,
-            // The methods need sums that the front does not gather.
-            Command::SetMethods { on: true } => return Err(CommandError::Unsupported),
-            Command::SetMethods { on: false } => {}
+            Command::SetMethods { on } => {
+                self.check_methods(*on, &self.configuration.settings.calibration)?;
+                let request = Request::Tune(None);
+                self.requests.enqueue(request).map_err(|_| CommandError::Busy)?;
+                self.tuning = None;
+                self.configuration.methods = *on;
+                self.hello();
+            }
             Command::SetWindow { .. } | Command::SetHop { .. } | Command::SetCalibration(_) => {
                 let configuration = self.configuration.after(command, RING)?;
+                self.check_methods(configuration.methods, &configuration.settings.calibration)?;
                 let tracker = Tracker::new(configuration.settings)?;
                 if !self.request(|number| Request::Configure(number, configuration.settings)) {
                     return Err(CommandError::Busy);
@@ -197,6 +232,14 @@ impl<'q, S: Sample> Instrument<'q, S> {
                 self.configuration = configuration;
                 self.hello();
             }
+        }
+        Ok(())
+    }
+
+    /// The methods are to be built in, and know of no calibration.
+    fn check_methods(&self, on: bool, calibration: &Calibration) -> Result<(), CommandError> {
+        if on && !(AVAILABLE && *calibration == Calibration::IDEAL) {
+            return Err(CommandError::Unsupported);
         }
         Ok(())
     }

@@ -21,6 +21,7 @@
 //! | [`link`] | reports out, commands in, neither ever waited for |
 //! | [`pipeline`] | both halves and the queues between them, for images and tests |
 //! | [`supervision`] | whether the pipeline lives, and why the device started |
+//! | [`methods`] | the paper's four methods beside every estimate, with the feature `methods` |
 //! | `counts`, `wav` | the interrupt's counters; where a WAV file's samples lie |
 //! | `hardware` | clocks, converters, DMA, line, watchdog, log: registers by their names in RM0090 |
 //! | `replay`, `bench`, `load`, `codes`, `marks` | the emulator's source; what is measured, and between which marks |
@@ -35,6 +36,8 @@ pub mod counts;
 pub mod gather;
 pub mod instrument;
 pub mod link;
+#[cfg_attr(not(feature = "methods"), path = "no_methods.rs")]
+pub mod methods;
 pub mod pipeline;
 pub mod sampling;
 pub mod settings;

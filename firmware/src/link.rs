@@ -102,6 +102,11 @@ impl<'q> Link<'q> {
         self.put == self.sent.get()
     }
 
+    /// Bytes that wait for the line.
+    pub fn waiting(&self) -> usize {
+        self.put.wrapping_sub(self.sent.get()) as usize
+    }
+
     /// Reports that found no room.
     pub fn dropped(&self) -> u32 {
         self.dropped

@@ -7,6 +7,7 @@ mod commands;
 mod emulator;
 mod faults;
 mod image;
+mod methods;
 mod mirror;
 mod recordings;
 mod same;

@@ -160,15 +160,21 @@ impl<'q, S: Sample> Instrument<'q, S> {
         if !AVAILABLE || !self.configuration.methods {
             return None;
         }
-        let tuned = self.tuning.is_some_and(|tuning| tuning.serves(estimate, rate));
+        let tuned = self
+            .tuning
+            .is_some_and(|tuning| tuning.serves(estimate, rate));
         if !tuned && estimate.flags.is_empty() {
             let tuning = Some(Tuning::of(estimate, rate));
             if self.requests.enqueue(Request::Tune(tuning)).is_ok() {
                 self.tuning = tuning;
             }
         }
-        let hurry = self.items.len() > QUEUE / 2 || self.link.waiting() > OUTBOX / 2;
-        if hurry { None } else { self.history.compare(estimate, rate) }
+        let hurry = self.items.len() > QUEUE / 8 || self.link.waiting() > OUTBOX / 2;
+        if hurry {
+            None
+        } else {
+            self.history.compare(estimate, rate)
+        }
     }
 
     /// Asks the interrupt; false where it has not worked off earlier requests.
@@ -216,7 +222,9 @@ impl<'q, S: Sample> Instrument<'q, S> {
             Command::SetMethods { on } => {
                 self.check_methods(*on, &self.configuration.settings.calibration)?;
                 let request = Request::Tune(None);
-                self.requests.enqueue(request).map_err(|_| CommandError::Busy)?;
+                self.requests
+                    .enqueue(request)
+                    .map_err(|_| CommandError::Busy)?;
                 self.tuning = None;
                 self.configuration.methods = *on;
                 self.hello();

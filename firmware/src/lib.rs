@@ -49,10 +49,10 @@ pub mod bench;
 #[cfg(target_os = "none")]
 pub mod codes;
 #[cfg(target_os = "none")]
+pub mod hardware;
+#[cfg(target_os = "none")]
 pub mod load;
 #[cfg(target_os = "none")]
 pub mod marks;
-#[cfg(target_os = "none")]
-pub mod hardware;
 #[cfg(target_os = "none")]
 pub mod replay;

@@ -5,7 +5,7 @@
 use core::hint::black_box;
 
 use antinode::Packed;
-use antinode_telemetry::{Cause, FrontEnd};
+use antinode_telemetry::{Cause, Configuration, FrontEnd};
 use heapless::spsc::Queue;
 use stm32f4xx_hal::pac::Peripherals;
 
@@ -15,6 +15,7 @@ use crate::counts::Counts;
 use crate::gather::Gatherer;
 use crate::hardware::line::{By, Line};
 use crate::marks::{leave, mark_begin, mark_end};
+use crate::methods::AVAILABLE;
 use crate::pipeline::Queues;
 use crate::sampling::{Lapse, Ready, Source, both, is_at_rail_12};
 use crate::settings::{Arithmetic, DUAL_ADC_RAILS, HALF, configuration};
@@ -112,10 +113,13 @@ pub fn interrupt_alone() -> ! {
     })
 }
 
-/// The whole pipeline.
+/// The whole pipeline; with the feature `methods` they are on.
 pub fn application(queues: &'static mut Queues<Arithmetic>) -> ! {
     let mut source = Endless::new();
-    let configuration = configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS);
+    let configuration = Configuration {
+        methods: AVAILABLE,
+        ..configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS)
+    };
     let Ok(mut parts) = queues.split(configuration, Cause::PowerOn) else {
         leave()
     };

@@ -108,7 +108,9 @@ impl<S: Sample> Gathering<S> {
         let block = block?;
         if sums.is_none() {
             let end = block.start + u64::from(block.layout.length);
-            self.running = self.tuning.map(|tuning| Running::new(tuning, end, block.layout.length));
+            self.running = self
+                .tuning
+                .map(|tuning| Running::new(tuning, end, block.layout.length));
         }
         sums.filter(|sums| sums.block.start == block.start)
     }

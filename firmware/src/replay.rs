@@ -64,7 +64,10 @@ impl Script {
         if unsafe { syscall!(GET_CMDLINE, line.as_mut_ptr(), LINE) } != 0 {
             return None;
         }
-        let mut script = Self { slow: 1, ..Self::default() };
+        let mut script = Self {
+            slow: 1,
+            ..Self::default()
+        };
         let end = line.iter().position(|&byte| byte == 0)?;
         let text = core::str::from_utf8(line.get(..end)?).ok()?;
         let mut words = text.split_ascii_whitespace();
@@ -146,7 +149,11 @@ impl Replay {
 
     /// The least and the greatest code.
     fn codes(&self) -> [i16; 2] {
-        if self.wav.is_some() { AD7380_RAILS } else { DUAL_ADC_RAILS }
+        if self.wav.is_some() {
+            AD7380_RAILS
+        } else {
+            DUAL_ADC_RAILS
+        }
     }
 
     /// Reads up to `pairs` pairs.

@@ -110,7 +110,9 @@ unsafe impl defmt::Logger for Logger {
             state.restore = restore;
             state.at = CONTROL.write.load(Ordering::Relaxed);
             state.fits = true;
-            let State { encoder, at, fits, .. } = state;
+            let State {
+                encoder, at, fits, ..
+            } = state;
             encoder.start_frame(|bytes| stage(at, fits, bytes));
         }
     }
@@ -122,7 +124,9 @@ unsafe impl defmt::Logger for Logger {
         let state = unsafe { &mut *SHARED.0.get() };
         state.depth = state.depth.saturating_sub(1);
         if state.depth == 0 {
-            let State { encoder, at, fits, .. } = state;
+            let State {
+                encoder, at, fits, ..
+            } = state;
             encoder.end_frame(|bytes| stage(at, fits, bytes));
             if *fits {
                 CONTROL.write.store(*at, Ordering::Release);
@@ -134,7 +138,13 @@ unsafe impl defmt::Logger for Logger {
 
     unsafe fn write(bytes: &[u8]) {
         // SAFETY: within the critical section that `acquire` opened.
-        let State { encoder, depth, at, fits, .. } = unsafe { &mut *SHARED.0.get() };
+        let State {
+            encoder,
+            depth,
+            at,
+            fits,
+            ..
+        } = unsafe { &mut *SHARED.0.get() };
         if *depth == 1 {
             encoder.write(bytes, |bytes| stage(at, fits, bytes));
         }

@@ -117,7 +117,10 @@ mod tests {
 
     #[test]
     fn causes_of_resets() {
-        assert_eq!(cause(PORRSTF | BORRSTF | PINRSTF, Some(Cause::Panic)), Cause::PowerOn);
+        assert_eq!(
+            cause(PORRSTF | BORRSTF | PINRSTF, Some(Cause::Panic)),
+            Cause::PowerOn
+        );
         assert_eq!(cause(IWDGRSTF | PINRSTF, None), Cause::Watchdog);
         assert_eq!(cause(SFTRSTF | PINRSTF, Some(Cause::Panic)), Cause::Panic);
         assert_eq!(cause(SFTRSTF | PINRSTF, None), Cause::Unknown);

@@ -35,7 +35,10 @@ impl Wav {
                 b"fmt " => {
                     let [coding, _, channels, _] = word(start)?;
                     // 1: PCM; 0xFFFE: what the extension says, which for 16 bits is PCM.
-                    if !matches!(coding, 0x01 | 0xFE) || channels != 2 || word(start + 12)?[2..] != [16, 0] {
+                    if !matches!(coding, 0x01 | 0xFE)
+                        || channels != 2
+                        || word(start + 12)?[2..] != [16, 0]
+                    {
                         return None;
                     }
                     sample_rate = Some(u32::from_le_bytes(word(start + 4)?));
@@ -91,7 +94,12 @@ mod tests {
 
     #[test]
     fn other_samples_are_refused() {
-        for refused in [file(3, 2, 16), file(1, 1, 16), file(1, 2, 24), file(1, 2, 16)[..40].to_vec()] {
+        for refused in [
+            file(3, 2, 16),
+            file(1, 1, 16),
+            file(1, 2, 24),
+            file(1, 2, 16)[..40].to_vec(),
+        ] {
             assert_eq!(find(&refused), None);
         }
     }

@@ -12,7 +12,11 @@ use firmware::hardware::reset;
 mod app {
     use antinode_telemetry::Cause;
     use firmware::gather::Gatherer;
-    use firmware::hardware::{clock, line::{By, Line}, log, reset};
+    use firmware::hardware::{
+        clock,
+        line::{By, Line},
+        log, reset,
+    };
     use firmware::instrument::Instrument;
     use firmware::marks;
     use firmware::pipeline::Queues;
@@ -54,7 +58,13 @@ mod app {
             defmt::error!("the sample rate is beyond the settings' range");
             marks::fail()
         };
-        let line = Line::new(c.device.USART1, &c.device.RCC, parts.out, parts.bytes, By::Hand);
+        let line = Line::new(
+            c.device.USART1,
+            &c.device.RCC,
+            parts.out,
+            parts.bytes,
+            By::Hand,
+        );
         let local = Local {
             source,
             gatherer: parts.gatherer,

@@ -60,7 +60,10 @@ mod app {
 
         let mut rcc = device.RCC.constrain();
         let pins = device.GPIOA.split(&mut rcc);
-        let _ = (pins.pa9.into_alternate::<7>(), pins.pa10.into_alternate::<7>());
+        let _ = (
+            pins.pa9.into_alternate::<7>(),
+            pins.pa10.into_alternate::<7>(),
+        );
         let inputs = (pins.pa1.into_analog(), pins.pa2.into_analog());
 
         let settings = configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS);

@@ -17,10 +17,10 @@ mod app {
     use antinode::Packed;
     use antinode_telemetry::{Cause, FrontEnd};
     use firmware::gather::Gatherer;
-    use firmware::hardware::spi_adc::SpiAdc;
     use firmware::hardware::line::{By, Line};
     use firmware::hardware::ring::Memory;
     use firmware::hardware::sampler::Sampler;
+    use firmware::hardware::spi_adc::SpiAdc;
     use firmware::hardware::watchdog::Watchdog;
     use firmware::hardware::{clock, log, reset};
     use firmware::instrument::Instrument;
@@ -58,7 +58,10 @@ mod app {
 
         let mut rcc = device.RCC.constrain();
         let pins = device.GPIOA.split(&mut rcc);
-        let _ = (pins.pa9.into_alternate::<7>(), pins.pa10.into_alternate::<7>());
+        let _ = (
+            pins.pa9.into_alternate::<7>(),
+            pins.pa10.into_alternate::<7>(),
+        );
         let data = (
             pins.pa5.into_alternate::<5>(),
             pins.pa6.into_alternate::<5>(),

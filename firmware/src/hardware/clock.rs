@@ -23,7 +23,10 @@ const HSI_MHZ: u32 = 16;
 /// Looks at a flag before an oscillator is given up: a crystal takes some milliseconds.
 const PATIENCE: u32 = 1_000_000;
 
-const _: () = assert!(CRYSTAL_MHZ >= 4 && CRYSTAL_MHZ <= 26, "the crystal must have 4 to 26 MHz");
+const _: () = assert!(
+    CRYSTAL_MHZ >= 4 && CRYSTAL_MHZ <= 26,
+    "the crystal must have 4 to 26 MHz"
+);
 
 /// Starts the clocks; false where the crystal is dead: then they come from the chip's own oscillator, which serves the line only.
 pub fn start(rcc: &RCC, flash: &FLASH) -> bool {

@@ -31,9 +31,15 @@ const CONVERSION: u32 = (84 + 12) * (APB1_TIMERS / ADC_CLOCK);
 const QUIET: [u32; 2] = [CONVERSION + 40, TICKS.saturating_sub(84)];
 
 const _: () = {
-    assert!(APB1_TIMERS.is_multiple_of(SAMPLE_RATE), "TIM3 cannot divide its clock into this sample rate exactly");
+    assert!(
+        APB1_TIMERS.is_multiple_of(SAMPLE_RATE),
+        "TIM3 cannot divide its clock into this sample rate exactly"
+    );
     assert!(TICKS <= 1 << 16, "the sample rate is too low for TIM3");
-    assert!(QUIET[0] + 40 < QUIET[1], "a conversion takes too long for this sample rate");
+    assert!(
+        QUIET[0] + 40 < QUIET[1],
+        "a conversion takes too long for this sample rate"
+    );
 };
 
 /// The two converters and their trigger.
@@ -122,7 +128,8 @@ impl Converter for DualAdc {
     #[allow(unsafe_code, reason = "the fields take any bits")]
     fn arm(&mut self, _: &mut Ring) {
         // At most two periods, and for ever neither: a dead timer must not hang the interrupt.
-        let _ = (0..4 * TICKS).any(|_| (QUIET[0]..QUIET[1]).contains(&self.timer.cnt().read().bits()));
+        let _ =
+            (0..4 * TICKS).any(|_| (QUIET[0]..QUIET[1]).contains(&self.timer.cnt().read().bits()));
         // SR.OVR: forgotten, else DMA requests stay blocked.
         self.first.sr().modify(|_, w| w.ovr().clear_bit());
         self.second.sr().modify(|_, w| w.ovr().clear_bit());

@@ -21,10 +21,7 @@ const _: () = {
         "the baud rate is out of the USART's reach"
     );
     let error = (APB2 / DIVIDER).abs_diff(BAUD);
-    assert!(
-        error < BAUD / 100,
-        "the baud rate is more than 1 % off"
-    );
+    assert!(error < BAUD / 100, "the baud rate is more than 1 % off");
 };
 
 /// How bytes leave.

@@ -36,7 +36,11 @@ pub fn started(rcc: &RCC) -> (Cause, u32) {
         NOTE.get(i)
             .map_or(0, |word| word.swap(0, Ordering::Relaxed))
     });
-    let noted = if mark == MARK ^ first { numbered(first) } else { None };
+    let noted = if mark == MARK ^ first {
+        numbered(first)
+    } else {
+        None
+    };
     let csr = rcc.csr().read().bits();
     // RMVF: the flags add up over resets until they are removed.
     rcc.csr().modify(|_, w| w.rmvf().set_bit());
@@ -46,7 +50,10 @@ pub fn started(rcc: &RCC) -> (Cause, u32) {
 
 /// The panic handler: restarts the instrument, which then reports [`Cause::Panic`] and logs the line.
 pub fn panicked(info: &PanicInfo) -> ! {
-    restart(Cause::Panic, info.location().map_or(0, |place| place.line()))
+    restart(
+        Cause::Panic,
+        info.location().map_or(0, |place| place.line()),
+    )
 }
 
 /// The fault handler: restarts the instrument, which then reports [`Cause::HardFault`] and logs the address.

@@ -1,6 +1,9 @@
 //! The DMA's ring of packed pairs: stream 0 of DMA2 in circular mode, an interrupt at its half and at its end.
 
-#![allow(unsafe_code, reason = "addresses for the DMA, and memory that it writes")]
+#![allow(
+    unsafe_code,
+    reason = "addresses for the DMA, and memory that it writes"
+)]
 
 use core::sync::atomic::{Ordering, fence};
 
@@ -47,7 +50,11 @@ unsafe impl Send for Ring {}
 impl Ring {
     /// A stopped ring. DMA2's clock must be on.
     pub fn new(dma: DMA2, memory: &'static mut Memory, origin: Origin) -> Self {
-        Self { dma, memory, origin }
+        Self {
+            dma,
+            memory,
+            origin,
+        }
     }
 
     /// The controller, for the other streams.
@@ -62,7 +69,11 @@ impl Ring {
         stream.cr().modify(|_, w| w.en().clear_bit());
         let _ = (0..1000).any(|_| stream.cr().read().en().bit_is_clear());
         self.done();
-        let transfers = if self.origin.by_halves { 4 * HALF } else { 2 * HALF };
+        let transfers = if self.origin.by_halves {
+            4 * HALF
+        } else {
+            2 * HALF
+        };
         // SAFETY: source and target are a data register and memory that is the DMA's for ever, of as many bytes as there are transfers.
         unsafe {
             // PAR, M0AR: from the data register into the ring. NDTR: transfers a round.
@@ -114,6 +125,11 @@ impl Ring {
         fence(Ordering::Acquire);
         // SAFETY: within the memory; nobody but the DMA writes, to the other half. Were it to come round too early, the words read
         // would be valid but new, and `Source::is_intact` throws away what was made of them.
-        unsafe { core::slice::from_raw_parts(self.memory.cast::<Packed>().add(usize::from(second) * HALF), HALF) }
+        unsafe {
+            core::slice::from_raw_parts(
+                self.memory.cast::<Packed>().add(usize::from(second) * HALF),
+                HALF,
+            )
+        }
     }
 }

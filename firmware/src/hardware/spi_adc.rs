@@ -12,7 +12,10 @@
 //! comes first and so lies in the lower half of a word of memory: that is a [`Packed`] pair as it stands. Registers by their names in
 //! RM0090. A pair was sampled one frame before the one that carries it, so times are one sample period late.
 
-#![allow(unsafe_code, reason = "addresses for the DMA, and fields that take any bits")]
+#![allow(
+    unsafe_code,
+    reason = "addresses for the DMA, and fields that take any bits"
+)]
 
 use ad7380::{Ad7380, Config};
 use antinode::Packed;
@@ -35,16 +38,26 @@ const SCLK: u32 = APB2 / 8;
 /// When the two zeros go out, ticks after CS falls: the second waits in the SPI's buffer for the first to leave.
 const WRITES: [u32; 2] = [34, 134];
 /// When CS rises, in ticks: the clocks of a frame from the first write on, and 0.5 µs for the DMA.
-const RISES: u32 = WRITES[0] + ad7380::timing::FRAME_CLOCKS * (APB2_TIMERS / SCLK) + APB2_TIMERS / 2_000_000;
+const RISES: u32 =
+    WRITES[0] + ad7380::timing::FRAME_CLOCKS * (APB2_TIMERS / SCLK) + APB2_TIMERS / 2_000_000;
 /// When nothing is under way, in ticks.
 const QUIET: [u32; 2] = [RISES + 84, TICKS.saturating_sub(168)];
 
 const _: () = {
-    assert!(APB2_TIMERS.is_multiple_of(SAMPLE_RATE), "TIM1 cannot divide its clock into this sample rate exactly");
+    assert!(
+        APB2_TIMERS.is_multiple_of(SAMPLE_RATE),
+        "TIM1 cannot divide its clock into this sample rate exactly"
+    );
     assert!(TICKS <= 1 << 16, "the sample rate is too low for TIM1");
-    assert!(QUIET[0] + 84 < QUIET[1], "a frame takes too long for this sample rate");
+    assert!(
+        QUIET[0] + 84 < QUIET[1],
+        "a frame takes too long for this sample rate"
+    );
     match ad7380::timing::min_sclk_hz(SAMPLE_RATE) {
-        Some(least) => assert!(SCLK > least, "the SPI clock is too slow for this sample rate"),
+        Some(least) => assert!(
+            SCLK > least,
+            "the SPI clock is too slow for this sample rate"
+        ),
         None => panic!("the AD7380 has no such sample rate"),
     }
 };
@@ -121,7 +134,9 @@ impl SpiAdc {
         for stream in [dma.st(2), dma.st(6)] {
             // SAFETY: one half-word again and again from a static to the SPI's data register.
             unsafe {
-                stream.par().write(|w| w.bits(self.spi.dr().as_ptr() as u32));
+                stream
+                    .par()
+                    .write(|w| w.bits(self.spi.dr().as_ptr() as u32));
                 stream.m0ar().write(|w| w.bits(&raw const ZERO as u32));
                 stream.ndtr().write(|w| w.bits(1));
                 // DIR 1: to the peripheral. MSIZE, PSIZE 1: 16 bits. PL 2: after the words that come in.
@@ -155,7 +170,8 @@ impl SpiAdc {
 
     /// Waits for the time between two frames; not for ever.
     fn wait(&self) {
-        let _ = (0..4 * TICKS).any(|_| (QUIET[0]..QUIET[1]).contains(&self.timer.cnt().read().bits()));
+        let _ =
+            (0..4 * TICKS).any(|_| (QUIET[0]..QUIET[1]).contains(&self.timer.cnt().read().bits()));
     }
 }
 

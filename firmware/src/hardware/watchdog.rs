@@ -8,7 +8,10 @@ use crate::settings::WATCHDOG_MS;
 
 /// Ticks a millisecond: the 32 kHz oscillator over 32, within 47 %.
 const RELOAD: u16 = WATCHDOG_MS as u16;
-const _: () = assert!(WATCHDOG_MS > 0 && WATCHDOG_MS < 1 << 12, "the watchdog waits 1 to 4095 ms");
+const _: () = assert!(
+    WATCHDOG_MS > 0 && WATCHDOG_MS < 1 << 12,
+    "the watchdog waits 1 to 4095 ms"
+);
 
 /// The running watchdog.
 pub struct Watchdog(IWDG);

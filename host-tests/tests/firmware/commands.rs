@@ -53,7 +53,10 @@ fn settings_are_changed_or_refused() {
     device.send(&commands);
     let (reports, lost, _) = device.finish();
     assert_eq!(lost, 0);
-    let answers: Vec<_> = acknowledgements(&reports).iter().map(|a| a.result).collect();
+    let answers: Vec<_> = acknowledgements(&reports)
+        .iter()
+        .map(|a| a.result)
+        .collect();
     assert_eq!(answers, script.map(|(_, result)| result));
     assert!(estimates(&reports).iter().all(|e| e.samples > 300));
     // How the line's bytes fall into rounds decides where the first state comes; the rest is the same to the bit.
@@ -68,7 +71,10 @@ fn settings_are_changed_or_refused() {
         _ => None,
     };
     let last = reports.iter().filter_map(hello).next_back().expect("one");
-    assert_eq!((last.periods, last.hop, last.calibration), (20, Some(5), calibration));
+    assert_eq!(
+        (last.periods, last.hop, last.calibration),
+        (20, Some(5), calibration)
+    );
 }
 
 #[test]
@@ -80,7 +86,10 @@ fn the_window_changes_while_it_runs() {
     device.command(7, Command::SetWindow { periods: 20 });
     let (reports, lost, _) = device.finish();
     assert_eq!(lost, 0);
-    let answer = Acknowledgement { id: 7, result: Ok(()) };
+    let answer = Acknowledgement {
+        id: 7,
+        result: Ok(()),
+    };
     assert_eq!(acknowledgements(&reports), [answer]);
     let at = reports
         .iter()
@@ -91,7 +100,11 @@ fn the_window_changes_while_it_runs() {
     assert!(after.iter().all(|e| e.samples == 380) && after.len() > 100);
     // The count of pairs goes on.
     assert!(after[0].start > before[before.len() - 1].start);
-    assert!(after.iter().all(|e| e.flags.is_empty() && (e.angle - 0.4).abs() < 6.0 * f64::from(e.angle_std)));
+    assert!(
+        after
+            .iter()
+            .all(|e| e.flags.is_empty() && (e.angle - 0.4).abs() < 6.0 * f64::from(e.angle_std))
+    );
 }
 
 #[test]
@@ -102,7 +115,10 @@ fn a_restart_is_acknowledged_and_explained() {
     device.command(1, Command::Restart);
     let restarted = Report::State(State::Started(Cause::Command));
     assert!(device.read_until(|reports| reports.contains(&restarted)));
-    let answer = Acknowledgement { id: 1, result: Ok(()) };
+    let answer = Acknowledgement {
+        id: 1,
+        result: Ok(()),
+    };
     assert_eq!(acknowledgements(&device.reports), [answer]);
     assert!(estimates(&device.reports).is_empty());
     device.command(2, Command::Get);

@@ -45,7 +45,11 @@ fn build(features: &[&str], images: &[&str]) -> PathBuf {
     let copies = folder().join(features.join("+"));
     fs::create_dir_all(&copies).expect("it can be written");
     for image in images {
-        fs::copy(target.join(TARGET).join(PROFILE).join(image), copies.join(image)).expect("built");
+        fs::copy(
+            target.join(TARGET).join(PROFILE).join(image),
+            copies.join(image),
+        )
+        .expect("built");
     }
     copies
 }
@@ -93,9 +97,19 @@ impl Device {
             .collect();
         let child = Command::new("qemu-system-arm")
             .current_dir(&folder)
-            .args(["-machine", "netduinoplus2", "-display", "none", "-monitor", "none"])
+            .args([
+                "-machine",
+                "netduinoplus2",
+                "-display",
+                "none",
+                "-monitor",
+                "none",
+            ])
             .args(["-serial", &format!("unix:{}", socket.display())])
-            .args(["-semihosting-config", &format!("enable=on,target=native{args}")])
+            .args([
+                "-semihosting-config",
+                &format!("enable=on,target=native{args}"),
+            ])
             .arg("-kernel")
             .arg(images().join(image))
             .stdin(Stdio::null())
@@ -159,7 +173,11 @@ impl Device {
         assert!(status.success(), "QEMU says {status}");
         assert_eq!(self.receiver.damaged(), 0);
         let took = self.began.elapsed().as_secs_f64();
-        (std::mem::take(&mut self.reports), self.receiver.lost(), took)
+        (
+            std::mem::take(&mut self.reports),
+            self.receiver.lost(),
+            took,
+        )
     }
 }
 

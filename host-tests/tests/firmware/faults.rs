@@ -23,8 +23,18 @@ fn assert_right(estimates: &[Estimate]) {
     for e in estimates.iter().filter(|e| e.flags.is_empty()) {
         let near = |value: f64, truth: f64, std: f32| (value - truth).abs() < 6.0 * f64::from(std);
         assert!(near(e.angle, 0.4, e.angle_std), "{e:?}");
-        assert!(near(f64::from(e.main_amplitude), 1500.0, e.main_amplitude_std), "{e:?}");
-        assert!(near(f64::from(e.quadrature_amplitude), 80.0, e.quadrature_amplitude_std), "{e:?}");
+        assert!(
+            near(f64::from(e.main_amplitude), 1500.0, e.main_amplitude_std),
+            "{e:?}"
+        );
+        assert!(
+            near(
+                f64::from(e.quadrature_amplitude),
+                80.0,
+                e.quadrature_amplitude_std
+            ),
+            "{e:?}"
+        );
         assert!(near(e.frequency, 5332.0, e.frequency_std), "{e:?}");
     }
 }
@@ -48,7 +58,10 @@ fn garbage_on_the_line() {
     }
     let (reports, lost, _) = device.finish();
     assert_eq!(lost, 0);
-    assert_eq!(estimates(&reports), estimates(&mirror::reports::<i16>(&recording, &[], 1)));
+    assert_eq!(
+        estimates(&reports),
+        estimates(&mirror::reports::<i16>(&recording, &[], 1))
+    );
     let answered = reports
         .iter()
         .filter(|r| matches!(r, Report::Acknowledgement(a) if a.result.is_ok()));
@@ -86,25 +99,28 @@ fn a_reader_that_sleeps() {
     std::thread::sleep(std::time::Duration::from_secs(2));
     let (reports, lost, _) = device.finish();
     assert_eq!(lost, 0);
-    assert_eq!(estimates(&reports), estimates(&mirror::reports::<i16>(&recording, &[], 1)));
+    assert_eq!(
+        estimates(&reports),
+        estimates(&mirror::reports::<i16>(&recording, &[], 1))
+    );
 }
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
 fn a_main_loop_that_is_too_slow() {
     let recording = steady(300_000);
-    let (reports, lost, _) = Device::start("replay", &recording, "slow=11").finish();
+    let (reports, lost, _) = Device::start("replay", &recording, "slow=22").finish();
     assert_eq!(lost, 0);
     let last = counters(&reports);
-    // 11 halves are 74 blocks, of which the queue holds 15.
-    assert!(last.blocks_dropped > 10_000, "{last:?}");
+    // 22 halves are 148 blocks, of which the queue holds 63.
+    assert!(last.blocks_dropped > 5_000, "{last:?}");
     assert_eq!(last.pairs, 300_000);
     let first = reports
         .iter()
         .position(|r| matches!(r, Report::Counters(c) if c.blocks_dropped > 0))
         .expect("it is told");
     // It is told in the round in which it happens, not with the next second's counters.
-    assert!(estimates(&reports[..first]).len() < 4);
+    assert!(estimates(&reports[..first]).len() < 8);
     let estimates = estimates(&reports);
     assert!(estimates.len() > 100);
     assert_right(&estimates);
@@ -117,7 +133,10 @@ fn pairs_that_are_lost() {
     let (reports, lost, _) = Device::start("replay", &recording, "lapse=300:777").finish();
     assert_eq!(lost, 0);
     let counters = counters(&reports);
-    assert_eq!((counters.pairs_lost, counters.overruns, counters.restarts), (777, 1, 1));
+    assert_eq!(
+        (counters.pairs_lost, counters.overruns, counters.restarts),
+        (777, 1, 1)
+    );
     assert_eq!(counters.pairs + counters.pairs_lost, 100_000);
     let restarted = Report::State(State::SamplingRestarted(Cause::Overrun));
     assert_eq!(reports.iter().filter(|r| **r == restarted).count(), 1);
@@ -125,7 +144,11 @@ fn pairs_that_are_lost() {
     assert!(estimates.len() > 500);
     // Time goes on over the hole: no window claims to lie in it, and all others are right, phase and frequency among them.
     let hole = 300 * 128..300 * 128 + 777;
-    assert!(estimates.iter().all(|e| e.start + u64::from(e.samples) <= hole.start || e.start >= hole.end));
+    assert!(
+        estimates
+            .iter()
+            .all(|e| e.start + u64::from(e.samples) <= hole.start || e.start >= hole.end)
+    );
     assert_right(&estimates);
     assert!(estimates.iter().all(|e| e.flags.is_empty()));
 }
@@ -144,5 +167,8 @@ fn a_panic_restarts_the_instrument() {
     assert!(reports[..panicked].contains(&started(Cause::Unknown)));
     assert!(estimates(&reports[..panicked]).len() > 20);
     let after = estimates(&reports[panicked..]);
-    assert_eq!(after, estimates(&mirror::reports::<i16>(&recording, &[], 1)));
+    assert_eq!(
+        after,
+        estimates(&mirror::reports::<i16>(&recording, &[], 1))
+    );
 }

@@ -48,7 +48,10 @@ fn it_fits() {
         let flash = size(&[".vector_table", ".text", ".rodata", ".data", ".gnu.sgstubs"]);
         let ram = size(&[".data", ".bss", ".uninit"]);
         println!("{image}: {flash} bytes of flash, {ram} bytes of RAM without the stack");
-        assert!(flash > 10_000 && flash <= FLASH, "{image}: {flash} bytes of flash");
+        assert!(
+            flash > 10_000 && flash <= FLASH,
+            "{image}: {flash} bytes of flash"
+        );
         assert!(ram > 4_000 && ram <= RAM, "{image}: {ram} bytes of RAM");
     }
 }

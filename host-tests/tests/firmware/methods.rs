@@ -24,25 +24,50 @@ fn methods_come_with_their_windows() {
         let (reports, lost, took) = device.finish();
         assert_eq!(lost, 0, "{name}");
         let (windows, methods) = (estimates(&reports), methods(&reports));
-        println!("{name}: {} windows, {} methods, {} disagree, {took:.1} s", windows.len(), methods.len(),
-            methods.iter().filter(|m| m.disagree).count());
+        println!(
+            "{name}: {} windows, {} methods, {} disagree, {took:.1} s",
+            windows.len(),
+            methods.len(),
+            methods.iter().filter(|m| m.disagree).count()
+        );
         // All but those in which the sums were tuned to the wave.
-        assert!(methods.len() + 60 > windows.len(), "{name}: {} of {}", methods.len(), windows.len());
-        assert!(methods.iter().filter(|m| m.disagree).count() * 100 <= methods.len(), "{name}");
+        assert!(
+            methods.len() + 60 > windows.len(),
+            "{name}: {} of {}",
+            methods.len(),
+            windows.len()
+        );
+        assert!(
+            methods.iter().filter(|m| m.disagree).count() * 100 <= methods.len(),
+            "{name}"
+        );
         for m in &methods {
-            let e = windows.iter().find(|e| e.start == m.start).expect("its window");
+            let e = windows
+                .iter()
+                .find(|e| e.start == m.start)
+                .expect("its window");
             // The second and the fourth, 2 and 4, know of quadrature and need no fit of the window beyond their leakage.
             let size = f64::from(e.main_amplitude);
             for method in [&m.methods[1], &m.methods[3]] {
-                assert!((method.main_amplitude - size).abs() < 0.02 * size + 8.0 * f64::from(e.main_amplitude_std), "{name}: {m:?}, {e:?}");
-                assert!((method.angle - e.angle).abs() < 0.02 + 8.0 * f64::from(e.angle_std), "{name}: {m:?}, {e:?}");
+                assert!(
+                    (method.main_amplitude - size).abs()
+                        < 0.02 * size + 8.0 * f64::from(e.main_amplitude_std),
+                    "{name}: {m:?}, {e:?}"
+                );
+                assert!(
+                    (method.angle - e.angle).abs() < 0.02 + 8.0 * f64::from(e.angle_std),
+                    "{name}: {m:?}, {e:?}"
+                );
             }
             let mut ranks = m.methods.map(|method| method.rank);
             ranks.sort_unstable();
             assert_eq!(ranks, [1, 2, 3, 4], "{name}");
         }
         let host = mirror::reports::<i16>(&recording, &command, 1);
-        assert!(methods == self::methods(&host), "{name}: the emulator and the host differ");
+        assert!(
+            methods == self::methods(&host),
+            "{name}: the emulator and the host differ"
+        );
     }
 }
 

@@ -52,10 +52,46 @@ pub fn all() -> Vec<(&'static str, Vec<Packed>)> {
         channel: None,
     };
     vec![
-        ("clean", second(WAVE, Flaws { noise: 0.3, ..quiet() })),
-        ("noisy", second(WAVE, Flaws { noise: 150.0, ..quiet() })),
-        ("decaying", second(Wave { decay_rate: 2.0, ..WAVE }, quiet())),
-        ("precessing", second(Wave { angle_rate: 6.0, ..WAVE }, quiet())),
+        (
+            "clean",
+            second(
+                WAVE,
+                Flaws {
+                    noise: 0.3,
+                    ..quiet()
+                },
+            ),
+        ),
+        (
+            "noisy",
+            second(
+                WAVE,
+                Flaws {
+                    noise: 150.0,
+                    ..quiet()
+                },
+            ),
+        ),
+        (
+            "decaying",
+            second(
+                Wave {
+                    decay_rate: 2.0,
+                    ..WAVE
+                },
+                quiet(),
+            ),
+        ),
+        (
+            "precessing",
+            second(
+                Wave {
+                    angle_rate: 6.0,
+                    ..WAVE
+                },
+                quiet(),
+            ),
+        ),
         (
             "dropout",
             second(
@@ -65,7 +101,10 @@ pub fn all() -> Vec<(&'static str, Vec<Packed>)> {
                         dropout(0.3, 0.304, DropoutKind::Hold),
                         dropout(0.6, 0.65, DropoutKind::NoiseOnly),
                     ],
-                    lost: vec![Loss { at: 20_000, count: 7 }],
+                    lost: vec![Loss {
+                        at: 20_000,
+                        count: 7,
+                    }],
                     ..quiet()
                 },
             ),
@@ -73,10 +112,17 @@ pub fn all() -> Vec<(&'static str, Vec<Packed>)> {
         (
             "clipping",
             second(
-                Wave { main_amplitude: 1950.0, ..WAVE },
+                Wave {
+                    main_amplitude: 1950.0,
+                    ..WAVE
+                },
                 Flaws {
                     gain_ratio: 1.6,
-                    clip_spans: vec![ClipSpan { from: 0.0, to: 0.5, level: 1800.0 }],
+                    clip_spans: vec![ClipSpan {
+                        from: 0.0,
+                        to: 0.5,
+                        level: 1800.0,
+                    }],
                     ..quiet()
                 },
             ),

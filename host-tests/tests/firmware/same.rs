@@ -41,7 +41,10 @@ fn fixed_point_to_the_bit() {
             timeless(&reports) == timeless(&expected),
             "{name}: the emulator and the host differ"
         );
-        println!("{name}: {} estimates in {took:.2} s", estimates(&reports).len());
+        println!(
+            "{name}: {} estimates in {took:.2} s",
+            estimates(&reports).len()
+        );
     }
 }
 
@@ -73,16 +76,31 @@ fn f32_to_a_millionth() {
         let reports = estimates(&reports);
         assert_eq!(reports.len(), expected.len(), "{name}");
         for (got, expected) in reports.iter().zip(&expected) {
-            assert_eq!((got.start, got.flags), (expected.start, expected.flags), "{name}");
+            assert_eq!(
+                (got.start, got.flags),
+                (expected.start, expected.flags),
+                "{name}"
+            );
             let size = f64::from(expected.main_amplitude);
             for (got, expected, unit) in [
-                (f64::from(got.main_amplitude), f64::from(expected.main_amplitude), size),
-                (f64::from(got.quadrature_amplitude), f64::from(expected.quadrature_amplitude), size),
+                (
+                    f64::from(got.main_amplitude),
+                    f64::from(expected.main_amplitude),
+                    size,
+                ),
+                (
+                    f64::from(got.quadrature_amplitude),
+                    f64::from(expected.quadrature_amplitude),
+                    size,
+                ),
                 (got.angle, expected.angle, 1.0),
                 (f64::from(got.phase), f64::from(expected.phase), 1.0),
                 (got.frequency, expected.frequency, expected.frequency),
             ] {
-                assert!((got - expected).abs() <= 1e-6 * unit, "{name}: {got}, host {expected}");
+                assert!(
+                    (got - expected).abs() <= 1e-6 * unit,
+                    "{name}: {got}, host {expected}"
+                );
             }
         }
     }
@@ -93,7 +111,8 @@ fn f32_to_a_millionth() {
 fn recordings_show_what_they_hold() {
     let flagged = |name: &str| {
         let recording = recordings::all().into_iter().find(|r| r.0 == name);
-        let (reports, ..) = Device::start("replay", &recording.expect("there is one").1, "").finish();
+        let (reports, ..) =
+            Device::start("replay", &recording.expect("there is one").1, "").finish();
         reports
     };
     let with = |reports: &[Report], flag| {
@@ -106,16 +125,28 @@ fn recordings_show_what_they_hold() {
     // Held for 4 ms, and 50 ms without a wave: both are lost and found again.
     assert_eq!(with(&dropout, Flags::REACQUIRED), 2);
     assert!(with(&dropout, Flags::LOST) >= 1 && with(&dropout, Flags::MISFIT) >= 1);
-    let states: Vec<_> = dropout.iter().filter(|r| matches!(r, Report::State(_))).collect();
-    let (searching, tracking) = (Report::State(State::Searching), Report::State(State::Tracking));
+    let states: Vec<_> = dropout
+        .iter()
+        .filter(|r| matches!(r, Report::State(_)))
+        .collect();
+    let (searching, tracking) = (
+        Report::State(State::Searching),
+        Report::State(State::Tracking),
+    );
     assert_eq!(states[1..], [&searching, &tracking].repeat(3));
     let clipping = flagged("clipping");
     assert!(with(&clipping, Flags::CLIPPED) > 200);
     let Some(Report::Counters(counters)) = clipping.last() else {
         panic!("the counters come last");
     };
-    let (_, codes) = recordings::all().into_iter().find(|r| r.0 == "clipping").expect("there is one");
+    let (_, codes) = recordings::all()
+        .into_iter()
+        .find(|r| r.0 == "clipping")
+        .expect("there is one");
     let at_rail = codes.iter().filter(|&&pair| is_at_rail_12(pair)).count();
-    assert!(at_rail > 1000 && counters.saturated_blocks > 1000, "{counters:?}");
+    assert!(
+        at_rail > 1000 && counters.saturated_blocks > 1000,
+        "{counters:?}"
+    );
     assert_eq!(counters.saturated_pairs, at_rail as u64);
 }

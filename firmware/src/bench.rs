@@ -141,7 +141,7 @@ where
     let blocks: [_; 10] = core::array::from_fn(|_| next());
     mark_begin();
     for block in &blocks {
-        black_box(tracker.push(block));
+        black_box(&tracker.push(block));
     }
     mark_end();
     leave()

@@ -215,6 +215,8 @@ impl<'q, S: Sample> Instrument<'q, S> {
         result.is_ok()
     }
 
+    // A new tracker passes over its stack, which the main loop's need not hold.
+    #[inline(never)]
     fn obey(&mut self, command: &Command) -> Result<(), CommandError> {
         match command {
             Command::Get => self.hello(),

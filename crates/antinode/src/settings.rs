@@ -12,7 +12,8 @@ pub enum Detection {
     /// Formula (10): about three periods, any offset, 20 % noise and more.
     #[default]
     Difference,
-    /// Formula (9): about eleven periods, for signals with little noise.
+    /// Formula (9), of the feature `mean-return`: about eleven periods, for signals with little noise.
+    #[cfg(feature = "mean-return")]
     MeanReturn,
 }
 

@@ -18,10 +18,12 @@ fn pair(word: u32) -> [i16; 2] {
     [word as i16, (word >> 16) as i16]
 }
 
-/// The weights from sample `index` on, which is even: words of two cosines and of two sines.
+/// The weights of `count` samples from `index` on, which is even: words of two cosines and of two sines.
 #[inline(always)]
-fn weights(table: &[u32], index: usize) -> &[[u32; 2]] {
-    table.get(index..).unwrap_or(&[]).as_chunks().0
+fn weights(table: &[u32], index: usize, count: usize) -> &[u32] {
+    table
+        .get(index..index + ((count + 1) & !1))
+        .unwrap_or_default()
 }
 
 /// What stands for a sample of odd index alone: a pair of words, the first of zeros.
@@ -89,40 +91,37 @@ impl Sample for i16 {
     #[inline(always)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
-        pairs: &[P],
+        mut pairs: &[P],
         table: &[u32],
-        index: usize,
+        mut index: usize,
     ) {
-        let (first, pairs) = odd_first(pairs, index);
-        if let Some(first) = first {
-            arch::add_pairs(
-                sums,
-                &after_nothing(first.pair()),
-                weights(table, index & !1),
-            );
+        if let (Some(first), rest) = odd_first(pairs, index) {
+            let two = after_nothing(first.pair());
+            arch::add_pairs(sums, &two, weights(table, index & !1, 2));
+            (pairs, index) = (rest, index + 1);
         }
-        arch::add_pairs(sums, pairs, weights(table, (index + 1) & !1));
+        arch::add_pairs(sums, pairs, weights(table, index, pairs.len()));
     }
 
     #[inline(always)]
     fn watch_slice<P: SamplePair<Self>>(
         watch: &mut [ChannelWatch<Self>; 2],
-        pairs: &[P],
+        mut pairs: &[P],
         table: &[u32],
-        index: usize,
+        mut index: usize,
     ) {
-        let (first, pairs) = odd_first(pairs, index);
-        if let Some(first) = first {
+        if let (Some(first), rest) = odd_first(pairs, index) {
             let two = after_nothing(first.pair());
             let extremes = watch.map(|channel| [channel.low, channel.high]);
-            arch::watch_pairs(watch, &two, weights(table, index & !1));
+            arch::watch_pairs(watch, &two, weights(table, index & !1, 2));
             // The zero of nothing is no sample.
             for ((channel, [low, high]), sample) in watch.iter_mut().zip(extremes).zip(first.pair())
             {
                 (channel.low, channel.high) = (low.min(sample), high.max(sample));
             }
+            (pairs, index) = (rest, index + 1);
         }
-        arch::watch_pairs(watch, pairs, weights(table, (index + 1) & !1));
+        arch::watch_pairs(watch, pairs, weights(table, index, pairs.len()));
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! Arithmetic at sample rate in f32.
 
 use super::{Sample, SamplePair};
+use crate::arch;
 use crate::block::{ChannelSums, ChannelWatch, Runs};
 use crate::period::{LAGS, Lags};
 
@@ -39,20 +40,15 @@ impl Sample for f32 {
         }
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
         table: &[[f32; 2]],
         index: usize,
     ) {
-        let [mut c, mut d] = *sums;
-        for (pair, &weight) in pairs.iter().zip(table.get(index..).unwrap_or(&[])) {
-            let [on_c, on_d] = pair.pair();
-            c.add(on_c, weight);
-            d.add(on_d, weight);
-        }
-        *sums = [c, d];
+        let weights = table.get(index..index + pairs.len()).unwrap_or_default();
+        arch::add_floats(sums, pairs, weights);
     }
 
     #[inline(never)]
@@ -140,15 +136,6 @@ static RECIPROCALS: [f32; 33] = {
     }
     table
 };
-
-impl ChannelSums<f32> {
-    #[inline(always)]
-    fn add(&mut self, sample: f32, [cosine, sine]: [f32; 2]) {
-        self.cosine += sample * cosine;
-        self.sine += sample * sine;
-        self.sum += sample;
-    }
-}
 
 impl ChannelWatch<f32> {
     #[inline(always)]

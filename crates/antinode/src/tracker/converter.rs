@@ -20,15 +20,15 @@ pub(super) fn coding(settings: &Settings, noise: f32, half: f32) -> f32 {
 }
 
 /// Faults that single samples show, in a window of blocks of a wave of `period` samples.
-pub(super) fn sample_flags<'a>(
+pub(super) fn sample_flags(
     settings: &Settings,
-    blocks: impl Iterator<Item = &'a Seen> + Clone,
+    blocks: &[Seen],
     period: f32,
     wave: &Standing,
 ) -> Flags {
     let broken = !(wave.main + wave.quadrature).is_finite();
     let flags = Flags::empty().with_if(broken, Flags::NOT_FINITE.with(Flags::LOST));
-    let watched = blocks.filter_map(|block| block.watched.as_ref());
+    let watched = blocks.iter().filter_map(|block| block.watched.as_ref());
     let extremes = watched.map(|watched| &watched.extremes);
     if extremes.clone().next().is_none() {
         return flags;

@@ -12,7 +12,7 @@ use crate::settings::{LONGEST_PERIOD, QUEUE, REQUESTS};
 
 /// What the interrupt hands to the main loop.
 #[derive(Debug, Clone, Copy)]
-#[expect(
+#[allow(
     clippy::large_enum_variant,
     reason = "nearly every item is a block; there is no heap"
 )]

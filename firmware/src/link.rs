@@ -29,7 +29,7 @@ impl<'q> Outgoing<'q> {
     }
 
     /// The next run, if there is one.
-    pub fn next(&mut self) -> Option<Run<'q>> {
+    pub fn run(&mut self) -> Option<Run<'q>> {
         self.runs.read().ok()
     }
 

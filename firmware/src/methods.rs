@@ -82,6 +82,12 @@ pub struct Gathering<S: Sample> {
     running: Option<Running<S>>,
 }
 
+impl<S: Sample> Default for Gathering<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl<S: Sample> Gathering<S> {
     /// Gathers nothing until it is tuned.
     pub const fn new() -> Self {
@@ -145,6 +151,12 @@ impl<S: Sample> Running<S> {
 
 /// The sums of the last blocks, in the main loop.
 pub struct History<S: Sample>(Deque<BlockSums<S>, RING>);
+
+impl<S: Sample> Default for History<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
 
 impl<S: Sample> History<S> {
     /// Nothing kept yet.

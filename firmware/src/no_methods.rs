@@ -28,6 +28,12 @@ pub type Extra<S> = core::marker::PhantomData<S>;
 /// Gathers nothing.
 pub struct Gathering<S: Sample>(Extra<S>);
 
+impl<S: Sample> Default for Gathering<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl<S: Sample> Gathering<S> {
     /// Nothing.
     pub const fn new() -> Self {
@@ -49,6 +55,12 @@ impl<S: Sample> Gathering<S> {
 
 /// Keeps nothing.
 pub struct History<S: Sample>(Extra<S>);
+
+impl<S: Sample> Default for History<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
 
 impl<S: Sample> History<S> {
     /// Nothing.

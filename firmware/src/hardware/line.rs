@@ -96,7 +96,7 @@ impl Line {
         if !open {
             return;
         }
-        while let Some(run) = self.out.next() {
+        while let Some(run) = self.out.run() {
             if self.by == By::Dma {
                 send(&run, self.usart.dr().as_ptr() as u32);
                 self.under_way = Some(run);

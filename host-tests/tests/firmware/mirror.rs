@@ -75,7 +75,7 @@ where
         first = false;
         parts.instrument.poll(0, |_| {});
         let mut sent = Vec::new();
-        while let Some(run) = parts.out.next() {
+        while let Some(run) = parts.out.run() {
             sent.extend_from_slice(&run);
             parts.out.release(run);
         }

@@ -14,6 +14,14 @@ fn main() {
     }
     println!("cargo:rustc-link-search={}", out.display());
     println!("cargo:rerun-if-changed=../memory.x");
+    // On the host there is nothing to link but tests.
+    if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {
+        return;
+    }
     println!("cargo:rustc-link-arg-bins=-Tlink.x");
     println!("cargo:rustc-link-arg-bins=--nmagic");
+    // The benches log nothing.
+    for image in ["replay", "stm32f405", "stm32f405_ad7380"] {
+        println!("cargo:rustc-link-arg-bin={image}=-Tdefmt.x");
+    }
 }

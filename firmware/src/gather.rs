@@ -202,7 +202,8 @@ impl<'q, S: Sample> Gatherer<'q, S> {
                     self.outlet.answer = Some(number);
                 }
                 Request::Configure(number, settings) => {
-                    renew(&mut self.front, settings);
+                    // The main loop has checked them: an error, which never is, leaves the old ones.
+                    let _ = self.front.configure(settings);
                     self.methods.restart();
                     self.outlet.answer = Some(number);
                 }
@@ -262,16 +263,5 @@ impl<'q, S: Sample> Gatherer<'q, S> {
         self.front.skip(u64::from(lapse.lost));
         self.methods.restart();
         self.outlet.owe(lapse);
-    }
-}
-
-/// A new front in the place of the old one, which goes on with its count of pairs.
-#[inline(never)]
-fn renew<S: Sample>(front: &mut Front<S, LONGEST_PERIOD>, settings: Settings) {
-    let index = front.index();
-    // The main loop has checked them: an error, which never is, leaves the old ones.
-    if let Ok(new) = Front::new(settings) {
-        *front = new;
-        front.skip(index);
     }
 }

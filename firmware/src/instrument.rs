@@ -234,11 +234,11 @@ impl<'q, S: Sample> Instrument<'q, S> {
             Command::SetWindow { .. } | Command::SetHop { .. } | Command::SetCalibration(_) => {
                 let configuration = self.configuration.after(command, RING)?;
                 self.check_methods(configuration.methods, &configuration.settings.calibration)?;
-                let tracker = Tracker::new(configuration.settings)?;
+                configuration.settings.check(RING)?;
                 if !self.request(|number| Request::Configure(number, configuration.settings)) {
                     return Err(CommandError::Busy);
                 }
-                self.tracker = tracker;
+                self.tracker.configure(configuration.settings)?;
                 self.configuration = configuration;
                 self.hello();
             }

@@ -68,6 +68,25 @@ impl<S: Sample, const N: usize> Front<S, N> {
         })
     }
 
+    /// Searches anew with other settings, in place: a new front in this one's place would take its size in stack. The count of
+    /// sample pairs goes on.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Settings::check`]; nothing is changed then.
+    pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        settings.check(usize::from(u16::MAX))?;
+        if settings.detection == self.settings.detection {
+            self.detector.restart();
+        } else {
+            self.detector = Detector::new(settings.detection);
+        }
+        self.demodulator.set_watch(settings.watch);
+        self.settings = settings;
+        self.is_searching = true;
+        Ok(())
+    }
+
     /// Drops the period and searches anew.
     pub fn search(&mut self) {
         self.detector.restart();

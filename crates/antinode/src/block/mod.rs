@@ -132,6 +132,11 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         self.restart(start);
     }
 
+    /// Watches the samples or does not, from the next beginning on.
+    pub(crate) fn set_watch(&mut self, watch: bool) {
+        self.summing.block.watch = watch.then_some([ChannelWatch::empty(); 2]);
+    }
+
     /// Drops the block begun; the next one starts at sample pair `start` of the stream.
     pub(crate) fn restart(&mut self, start: u64) {
         self.held = 0;

@@ -74,6 +74,27 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         })
     }
 
+    /// Waits for its first block anew with other settings, in place: a new tracker in this one's place would take its size in stack.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Settings::check`]; nothing is changed then.
+    pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        settings.check(BLOCKS)?;
+        self.settings = settings;
+        self.sample_time = reciprocal(settings.sample_rate);
+        self.forget();
+        self.noise = Noise::default();
+        self.trend.clear();
+        self.last = None;
+        self.before = None;
+        self.angle = Angle::new(settings.start_angle);
+        self.lost = false;
+        self.ever = false;
+        self.broken = false;
+        Ok(())
+    }
+
     /// Takes a block; gives the estimate of the window that it completes.
     ///
     /// A block of another layout, or one that does not follow the last, starts a new window.

@@ -159,7 +159,7 @@ where
     gauge.finish()
 }
 
-/// The search for a period from cold to its end, again and again, one call a pair.
+/// The search for a period from cold to its end, again and again, from half-buffers.
 pub fn acquire<S: Sample>(name: &'static str) -> !
 where
     Packed: SamplePair<S>,
@@ -174,10 +174,11 @@ where
     mark_begin();
     apart(|| {
         while at < PAIRS {
-            let pairs = codes.slice(at, PAIRS - at);
+            let pairs = codes.slice(at, HALF_BUFFER.min(PAIRS - at));
             at += pairs.len();
-            for &pair in pairs {
-                black_box(front_push(&mut front, pair).is_some());
+            let mut taken = 0;
+            while let Some(rest) = pairs.get(taken..).filter(|rest| !rest.is_empty()) {
+                taken += search(&mut front, rest);
                 if !front.is_searching() {
                     front.search();
                 }
@@ -188,10 +189,13 @@ where
     gauge.finish()
 }
 
+/// Gives how many pairs the search took.
 #[inline(never)]
-fn front_push<S: Sample>(front: &mut Front<S, 200>, pair: Packed) -> Option<&antinode::Block<S>>
+fn search<S: Sample>(front: &mut Front<S, 200>, pairs: &[Packed]) -> usize
 where
     Packed: SamplePair<S>,
 {
-    front.push(pair)
+    let (taken, block) = front.push_slice(pairs);
+    black_box(block.is_some());
+    taken
 }

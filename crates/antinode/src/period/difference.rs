@@ -110,6 +110,10 @@ impl<S: Sample> Octave<S> {
         let mut greatest = if before < here { here } else { before };
         for (lag, &after) in (2u8..).zip(&levels[2..]) {
             if here < S::halved(greatest) && here <= before && here < after {
+                // The minimum lies within 0.6 of its lag: sooner than that the frame cannot hold enough of it.
+                if f32::from(lag) - 0.6 > self.count as f32 / HELD {
+                    return None;
+                }
                 return self.between(f32::from(lag), [before, here, after]);
             }
             if after > greatest {

@@ -9,6 +9,7 @@ use heapless::Deque;
 
 use crate::arch::square_root;
 use crate::block::{Block, Layout};
+use crate::calibration::Calibration;
 use crate::estimate::{Estimate, Flags};
 use crate::sample::Sample;
 use crate::settings::{Settings, SettingsError};
@@ -107,6 +108,18 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.model = None;
         self.ring.clear();
         self.failures = 0;
+    }
+
+    /// Changes the calibration: the next block starts a new first window, its angle continued.
+    pub fn calibrate(&mut self, calibration: Calibration) -> Result<(), SettingsError> {
+        let settings = Settings {
+            calibration,
+            ..self.settings
+        };
+        settings.check(BLOCKS)?;
+        self.settings = settings;
+        self.forget();
+        Ok(())
     }
 
     /// Starts a new window when a block does not continue the ring.

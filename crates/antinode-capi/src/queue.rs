@@ -1,0 +1,155 @@
+//! Finished blocks on their way from the interrupt to the thread: a ring for one producer and one consumer, without a lock.
+//!
+//! Loads and stores of words are all it needs, so it serves cores without exclusive access too (Cortex-M0).
+#![allow(
+    unsafe_code,
+    reason = "the two sides share slots; the counters say whose a slot is"
+)]
+
+use core::cell::UnsafeCell;
+use core::mem::MaybeUninit;
+use core::sync::atomic::{AtomicU32, Ordering};
+
+use antinode::{Block, Sample};
+
+use crate::capacity::ANTINODE_QUEUE_BLOCKS;
+
+/// A block, and the search that its wave was found by.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Entry<S: Sample> {
+    pub search: u32,
+    pub block: Block<S>,
+}
+
+/// Counters run freely; a slot is their value modulo the length.
+pub(crate) struct Queue<S: Sample> {
+    /// Entries ever put in; written by the producer only.
+    put: AtomicU32,
+    /// Entries ever taken out; written by the consumer only.
+    taken: AtomicU32,
+    slots: [UnsafeCell<MaybeUninit<Entry<S>>>; ANTINODE_QUEUE_BLOCKS],
+}
+
+const _: () = assert!(ANTINODE_QUEUE_BLOCKS.is_power_of_two());
+
+impl<S: Sample> Queue<S> {
+    /// An empty queue.
+    pub(crate) const fn new() -> Self {
+        Self {
+            put: AtomicU32::new(0),
+            taken: AtomicU32::new(0),
+            slots: [const { UnsafeCell::new(MaybeUninit::uninit()) }; ANTINODE_QUEUE_BLOCKS],
+        }
+    }
+
+    /// The slot of a counter's value.
+    #[inline]
+    fn slot(&self, counter: u32) -> *mut MaybeUninit<Entry<S>> {
+        self.slots[counter as usize % ANTINODE_QUEUE_BLOCKS].get()
+    }
+
+    /// How many entries wait.
+    #[inline]
+    pub(crate) fn len(&self) -> u32 {
+        let taken = self.taken.load(Ordering::Acquire);
+        self.put.load(Ordering::Acquire).wrapping_sub(taken)
+    }
+
+    /// Puts an entry in; false when the queue is full.
+    ///
+    /// # Safety
+    /// One caller at a time.
+    #[inline]
+    pub(crate) unsafe fn put(&self, entry: Entry<S>) -> bool {
+        let put = self.put.load(Ordering::Relaxed);
+        if put.wrapping_sub(self.taken.load(Ordering::Acquire)) >= ANTINODE_QUEUE_BLOCKS as u32 {
+            return false;
+        }
+        // SAFETY: the slot is free: the consumer has taken what was in it and reads it no more before `put` moves on.
+        unsafe { self.slot(put).write(MaybeUninit::new(entry)) };
+        self.put.store(put.wrapping_add(1), Ordering::Release);
+        true
+    }
+
+    /// Takes the oldest entry out.
+    ///
+    /// # Safety
+    /// One caller at a time, beside one caller of [`Queue::put`].
+    #[inline]
+    pub(crate) unsafe fn take(&self) -> Option<Entry<S>> {
+        let taken = self.taken.load(Ordering::Relaxed);
+        if taken == self.put.load(Ordering::Acquire) {
+            return None;
+        }
+        // SAFETY: the slot was written before `put` passed it, and the producer leaves it alone until `taken` has.
+        let entry = unsafe { self.slot(taken).read().assume_init() };
+        self.taken.store(taken.wrapping_add(1), Ordering::Release);
+        Some(entry)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use antinode::block::{Demodulator, Layout};
+    use antinode::phase::PhaseStep;
+
+    struct Shared(Queue<f32>);
+
+    // SAFETY: as the state of a C program that an interrupt and a thread share.
+    unsafe impl Sync for Shared {}
+
+    fn block(search: u32) -> Entry<f32> {
+        let layout = Layout::new::<f32>(PhaseStep::from_period(4.0), 1);
+        let block = Demodulator::<f32, 1>::new(layout, u64::from(search), false).push([0.0; 2]);
+        Entry {
+            search,
+            block: block.unwrap(),
+        }
+    }
+
+    #[test]
+    fn a_full_queue_refuses() {
+        let queue = Queue::new();
+        for i in 0..ANTINODE_QUEUE_BLOCKS as u32 {
+            assert_eq!(queue.len(), i);
+            // SAFETY: one thread.
+            assert!(unsafe { queue.put(block(i)) });
+        }
+        // SAFETY: one thread.
+        unsafe {
+            assert!(!queue.put(block(99)));
+            assert_eq!(queue.take().unwrap().search, 0);
+            assert!(queue.put(block(99)));
+        }
+    }
+
+    #[test]
+    fn two_threads_lose_nothing() {
+        const COUNT: u32 = 100_000;
+        let shared = Shared(Queue::new());
+        std::thread::scope(|scope| {
+            let shared = &shared;
+            scope.spawn(move || {
+                for i in 0..COUNT {
+                    let entry = block(i);
+                    // SAFETY: the only producer.
+                    while !unsafe { shared.0.put(entry) } {
+                        std::thread::yield_now();
+                    }
+                }
+            });
+            for i in 0..COUNT {
+                let entry = loop {
+                    // SAFETY: the only consumer.
+                    match unsafe { shared.0.take() } {
+                        Some(entry) => break entry,
+                        None => std::thread::yield_now(),
+                    }
+                };
+                assert_eq!((entry.search, entry.block.start), (i, u64::from(i)));
+            }
+        });
+        assert_eq!(shared.0.len(), 0);
+    }
+}

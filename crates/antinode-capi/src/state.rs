@@ -1,0 +1,241 @@
+//! What is inside an opaque state, and what its two sides do with it.
+#![allow(
+    unsafe_code,
+    reason = "each side hands its own contract on to the queue"
+)]
+
+use core::sync::atomic::{AtomicU32, Ordering};
+
+use antinode::{Calibration, Front, Sample, SamplePair, Settings, Tracker};
+
+use crate::capacity::{ANTINODE_LONGEST_PERIOD, RING_BLOCKS};
+use crate::estimate::Estimate;
+use crate::queue::{Entry, Queue};
+use crate::status::Status;
+
+/// An arithmetic that states can have.
+pub(crate) trait Arithmetic: Sample {
+    /// What the first word of an initialised state holds.
+    const MAGIC: u32;
+}
+
+impl Arithmetic for i16 {
+    const MAGIC: u32 = 0xa2_7e_16_f1;
+}
+
+impl Arithmetic for f32 {
+    const MAGIC: u32 = 0xa2_7e_32_f2;
+}
+
+/// All of a state. Its parts are borrowed one by one, never the whole.
+#[repr(C)]
+pub(crate) struct State<S: Sample> {
+    pub magic: AtomicU32,
+    pub shared: Shared<S>,
+    pub interrupt: Interrupt<S>,
+    pub thread: Thread,
+}
+
+/// What the two sides tell each other.
+pub(crate) struct Shared<S: Sample> {
+    queue: Queue<S>,
+    /// The search whose blocks the thread wants; it counts up when a wave is lost. Written by the thread.
+    wanted: AtomicU32,
+    /// 1 while a period is searched. Written by the interrupt.
+    searching: AtomicU32,
+    /// Blocks that found no place in the queue. Written by the interrupt.
+    dropped: AtomicU32,
+}
+
+/// What belongs to the interrupt alone.
+pub(crate) struct Interrupt<S: Sample> {
+    front: Front<S, ANTINODE_LONGEST_PERIOD>,
+    search: u32,
+}
+
+/// What belongs to the thread alone.
+pub(crate) struct Thread {
+    tracker: Tracker<RING_BLOCKS>,
+    pub settings: Settings,
+}
+
+/// How an identification fares, from counters that either side may read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(C)]
+pub struct Health {
+    /// 1 while a period is searched, 0 while blocks are gathered.
+    pub searching: u32,
+    /// Finished blocks that wait to be solved, 0 to ANTINODE_QUEUE_BLOCKS.
+    pub waiting: u32,
+    /// Finished blocks dropped since the start because the queue was full; it wraps.
+    pub dropped: u32,
+}
+
+impl<S: Sample> Shared<S> {
+    pub(crate) const fn new() -> Self {
+        Self {
+            queue: Queue::new(),
+            wanted: AtomicU32::new(0),
+            searching: AtomicU32::new(1),
+            dropped: AtomicU32::new(0),
+        }
+    }
+
+    pub(crate) fn health(&self) -> Health {
+        Health {
+            searching: self.searching.load(Ordering::Relaxed),
+            waiting: self.queue.len(),
+            dropped: self.dropped.load(Ordering::Relaxed),
+        }
+    }
+}
+
+impl<S: Sample> Interrupt<S> {
+    pub(crate) fn new(settings: Settings) -> Result<Self, Status> {
+        Ok(Self {
+            front: Front::new(settings)?,
+            search: 0,
+        })
+    }
+
+    /// Searches anew where the thread has asked for it.
+    #[inline]
+    fn obey(&mut self, shared: &Shared<S>) {
+        let wanted = shared.wanted.load(Ordering::Acquire);
+        if wanted != self.search {
+            self.search = wanted;
+            self.front.search();
+        }
+    }
+
+    /// Takes pairs up to the end of a block and queues it; gives how many it took.
+    ///
+    /// # Safety
+    /// One caller at a time.
+    #[inline]
+    pub(crate) unsafe fn push_some<P: SamplePair<S>>(
+        &mut self,
+        shared: &Shared<S>,
+        pairs: &[P],
+        status: &mut Status,
+    ) -> usize {
+        let (taken, block) = self.front.push_slice(pairs);
+        if let Some(block) = block {
+            let search = self.search;
+            // SAFETY: the caller is the only producer.
+            if unsafe { shared.queue.put(Entry { search, block }) } {
+                if *status == Status::Ok {
+                    *status = Status::Ready;
+                }
+            } else {
+                let dropped = shared.dropped.load(Ordering::Relaxed);
+                shared
+                    .dropped
+                    .store(dropped.wrapping_add(1), Ordering::Relaxed);
+                *status = Status::ErrorQueueFull;
+            }
+        }
+        taken
+    }
+
+    /// Takes all pairs and queues the blocks that they finish.
+    ///
+    /// # Safety
+    /// One caller at a time.
+    #[inline]
+    pub(crate) unsafe fn push<P: SamplePair<S>>(
+        &mut self,
+        shared: &Shared<S>,
+        mut pairs: &[P],
+    ) -> Status {
+        self.obey(shared);
+        let mut status = Status::Ok;
+        while !pairs.is_empty() {
+            // SAFETY: the caller's own contract.
+            let taken = unsafe { self.push_some(shared, pairs, &mut status) };
+            pairs = pairs.get(taken..).unwrap_or(&[]);
+        }
+        self.tell(shared);
+        status
+    }
+
+    #[inline]
+    pub(crate) fn tell(&self, shared: &Shared<S>) {
+        let searching = u32::from(self.front.is_searching());
+        shared.searching.store(searching, Ordering::Relaxed);
+    }
+
+    pub(crate) fn skip(&mut self, shared: &Shared<S>, count: u32) {
+        self.obey(shared);
+        self.front.skip(u64::from(count));
+        self.tell(shared);
+    }
+}
+
+impl Thread {
+    pub(crate) fn new(settings: Settings) -> Result<Self, Status> {
+        Ok(Self {
+            tracker: Tracker::new(settings)?,
+            settings,
+        })
+    }
+
+    /// Solves queued blocks up to the next estimate.
+    ///
+    /// # Safety
+    /// One caller at a time.
+    pub(crate) unsafe fn solve<S: Sample>(&mut self, shared: &Shared<S>) -> Option<Estimate> {
+        // SAFETY: the caller is the only consumer.
+        while let Some(entry) = unsafe { shared.queue.take() } {
+            if entry.search != shared.wanted.load(Ordering::Relaxed) {
+                // Gathered before the interrupt heard of the loss.
+                continue;
+            }
+            let estimate = self.tracker.push(&entry.block);
+            if self.tracker.has_lost() {
+                self.search(shared);
+            }
+            if let Some(estimate) = estimate {
+                return Some(estimate.into());
+            }
+        }
+        None
+    }
+
+    /// Drops the wave and has the interrupt search anew.
+    pub(crate) fn search<S: Sample>(&mut self, shared: &Shared<S>) {
+        self.tracker.forget();
+        let wanted = shared.wanted.load(Ordering::Relaxed).wrapping_add(1);
+        shared.wanted.store(wanted, Ordering::Release);
+    }
+
+    pub(crate) fn calibrate(&mut self, calibration: Calibration) -> Result<(), Status> {
+        self.tracker.calibrate(calibration)?;
+        self.settings.calibration = calibration;
+        Ok(())
+    }
+}
+
+/// Takes pairs up to the next estimate, in one thread; gives how many it took.
+///
+/// # Safety
+/// No other call of this state at the same time.
+pub(crate) unsafe fn identify<S: Sample, P: SamplePair<S>>(
+    (interrupt, thread, shared): (&mut Interrupt<S>, &mut Thread, &Shared<S>),
+    pairs: &[P],
+) -> (usize, Option<Estimate>) {
+    let mut taken = 0;
+    loop {
+        // SAFETY: the only consumer, by the contract.
+        if let Some(estimate) = unsafe { thread.solve(shared) } {
+            return (taken, Some(estimate));
+        }
+        let Some(rest) = pairs.get(taken..).filter(|rest| !rest.is_empty()) else {
+            return (taken, None);
+        };
+        interrupt.obey(shared);
+        // SAFETY: the only producer; the queue was just emptied, so it has a place.
+        taken += unsafe { interrupt.push_some(shared, rest, &mut Status::Ok) };
+        interrupt.tell(shared);
+    }
+}

@@ -90,6 +90,12 @@ fn status(result: Checked<Status>) -> Status {
 pub(crate) unsafe fn init<S: Arithmetic, O>(opaque: *mut O, settings: *const Settings) -> Status {
     status((|| {
         check(opaque)?;
+        // SAFETY: the memory is the caller's. Settings that are refused must not leave an older state behind.
+        unsafe {
+            (*opaque.cast::<State<S>>())
+                .magic
+                .store(0, Ordering::Release)
+        };
         check(settings)?;
         // SAFETY: looked at.
         let settings = unsafe { &*settings }.checked(RING_BLOCKS)?;

@@ -240,7 +240,7 @@ fn a_new_calibration_is_used_and_keeps_the_angle() {
             last.assume_init()
         };
         let wrong = run(&mut state, &pairs[..6_000]);
-        assert!((wrong.angle_rad - 0.35).abs() > 0.2);
+        assert!((wrong.angle_rad - 0.35).abs() > 0.1);
         let mut calibration = settings.calibration;
         calibration.gain_ratio = 0.0;
         assert_eq!(

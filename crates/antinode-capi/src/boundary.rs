@@ -111,7 +111,7 @@ pub(crate) unsafe fn reset<S: Arithmetic, O>(opaque: *mut O) -> Status {
     status(unsafe { open::<S, O>(opaque).and_then(|state| start(state, (*state).thread.settings)) })
 }
 
-/// Writes a state part by part, so that the stack never holds it whole.
+/// Writes a state part by part, each by a function of its own, so that the stack holds one part at a time.
 ///
 /// # Safety
 /// `state` points to memory for one that nobody else uses.
@@ -122,9 +122,9 @@ unsafe fn start<S: Arithmetic>(
     // SAFETY: the memory is there and aligned; what was in it needs no drop.
     unsafe {
         (&raw mut (*state).magic).write(0.into());
-        (&raw mut (*state).interrupt).write(Interrupt::new(settings)?);
-        (&raw mut (*state).thread).write(Thread::new(settings)?);
-        (&raw mut (*state).shared).write(Shared::new());
+        Shared::write(&raw mut (*state).shared);
+        Interrupt::write(&raw mut (*state).interrupt, settings)?;
+        Thread::write(&raw mut (*state).thread, settings)?;
         (*state).magic.store(S::MAGIC, Ordering::Release);
     }
     Ok(Status::Ok)

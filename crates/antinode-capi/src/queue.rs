@@ -33,7 +33,20 @@ pub(crate) struct Queue<S: Sample> {
 const _: () = assert!(ANTINODE_QUEUE_BLOCKS.is_power_of_two());
 
 impl<S: Sample> Queue<S> {
+    /// Writes an empty queue; the slots stay as they are.
+    ///
+    /// # Safety
+    /// `place` is writable and nobody else's.
+    pub(crate) unsafe fn write(place: *mut Self) {
+        // SAFETY: the caller's contract; a slot may hold anything.
+        unsafe {
+            (&raw mut (*place).put).write(AtomicU32::new(0));
+            (&raw mut (*place).taken).write(AtomicU32::new(0));
+        }
+    }
+
     /// An empty queue.
+    #[cfg(test)]
     pub(crate) const fn new() -> Self {
         Self {
             put: AtomicU32::new(0),

@@ -1,7 +1,7 @@
 //! What is inside an opaque state, and what its two sides do with it.
 #![allow(
     unsafe_code,
-    reason = "each side hands its own contract on to the queue"
+    reason = "parts are written in place, and each side hands its own contract on to the queue"
 )]
 
 use core::sync::atomic::{AtomicU32, Ordering};
@@ -72,12 +72,18 @@ pub struct Health {
 }
 
 impl<S: Sample> Shared<S> {
-    pub(crate) const fn new() -> Self {
-        Self {
-            queue: Queue::new(),
-            wanted: AtomicU32::new(0),
-            searching: AtomicU32::new(1),
-            dropped: AtomicU32::new(0),
+    /// Writes an empty queue and counters at rest.
+    ///
+    /// # Safety
+    /// `place` is writable and nobody else's.
+    #[inline(never)]
+    pub(crate) unsafe fn write(place: *mut Self) {
+        // SAFETY: the caller's contract; the queue's slots stay as they are.
+        unsafe {
+            Queue::write(&raw mut (*place).queue);
+            (&raw mut (*place).wanted).write(AtomicU32::new(0));
+            (&raw mut (*place).searching).write(AtomicU32::new(1));
+            (&raw mut (*place).dropped).write(AtomicU32::new(0));
         }
     }
 
@@ -91,11 +97,19 @@ impl<S: Sample> Shared<S> {
 }
 
 impl<S: Sample> Interrupt<S> {
-    pub(crate) fn new(settings: Settings) -> Result<Self, Status> {
-        Ok(Self {
-            front: Front::new(settings)?,
-            search: 0,
-        })
+    /// Writes a front that searches.
+    ///
+    /// # Safety
+    /// `place` is writable and nobody else's.
+    #[inline(never)]
+    pub(crate) unsafe fn write(place: *mut Self, settings: Settings) -> Result<(), Status> {
+        let front = Front::new(settings)?;
+        // SAFETY: the caller's contract.
+        unsafe {
+            (&raw mut (*place).front).write(front);
+            (&raw mut (*place).search).write(0);
+        }
+        Ok(())
     }
 
     /// Searches anew where the thread has asked for it.
@@ -173,11 +187,19 @@ impl<S: Sample> Interrupt<S> {
 }
 
 impl Thread {
-    pub(crate) fn new(settings: Settings) -> Result<Self, Status> {
-        Ok(Self {
-            tracker: Tracker::new(settings)?,
-            settings,
-        })
+    /// Writes a tracker that waits for its first block.
+    ///
+    /// # Safety
+    /// `place` is writable and nobody else's.
+    #[inline(never)]
+    pub(crate) unsafe fn write(place: *mut Self, settings: Settings) -> Result<(), Status> {
+        let tracker = Tracker::new(settings)?;
+        // SAFETY: the caller's contract.
+        unsafe {
+            (&raw mut (*place).tracker).write(tracker);
+            (&raw mut (*place).settings).write(settings);
+        }
+        Ok(())
     }
 
     /// Solves queued blocks up to the next estimate.

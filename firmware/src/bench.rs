@@ -38,7 +38,7 @@ where
             at += pairs.len();
             while !pairs.is_empty() {
                 let (taken, block) = demodulator.push_slice(pairs);
-                black_box(&block);
+                black_box(block);
                 pairs = pairs.get(taken..).unwrap_or(&[]);
             }
         }
@@ -61,11 +61,11 @@ where
     let mut run = |from: usize, to: usize| {
         let mut at = from;
         while at < to {
-            let pairs = codes.slice(at, to - at);
+            let pairs = codes.slice(at, HALF_BUFFER.min(to - at));
             at += pairs.len();
             for &pair in pairs {
                 if let Some(block) = push_one(&mut demodulator, pair) {
-                    black_box(&block);
+                    black_box(block);
                 }
             }
         }
@@ -82,7 +82,7 @@ where
 fn push_one<S: Sample>(
     demodulator: &mut Demodulator<S, 200>,
     pair: Packed,
-) -> Option<antinode::Block<S>>
+) -> Option<&antinode::Block<S>>
 where
     Packed: SamplePair<S>,
 {
@@ -131,7 +131,7 @@ where
         let (taken, block) = demodulator.push_slice(codes.slice(at, HALF_BUFFER));
         at += taken;
         if let Some(block) = block {
-            return block;
+            return *block;
         }
     };
     for _ in 0..100 {
@@ -173,7 +173,7 @@ where
 }
 
 #[inline(never)]
-fn front_push<S: Sample>(front: &mut Front<S, 200>, pair: Packed) -> Option<antinode::Block<S>>
+fn front_push<S: Sample>(front: &mut Front<S, 200>, pair: Packed) -> Option<&antinode::Block<S>>
 where
     Packed: SamplePair<S>,
 {

@@ -1,6 +1,6 @@
-//! Shared helpers of the host tests: the Cramér–Rao bound, an independent oracle, and streams through the core.
+//! Shared helpers of the host tests: scores against the Cramér–Rao bound, an independent oracle, and streams through the core.
 
-pub mod bound;
+pub mod codes;
 pub mod methods;
 pub mod oracle;
 pub mod printed;

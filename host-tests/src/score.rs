@@ -1,9 +1,8 @@
 //! Root mean squares of errors over the bound, and of what the core says its errors are.
 
 use antinode::Estimate;
-use antinode_sim::Wave;
+use antinode_sim::{Bound, Wave};
 
-use crate::bound::bound;
 use crate::{RATE, angle_error};
 
 /// Names of the four quantities, in the order of all arrays here.
@@ -25,8 +24,14 @@ pub struct Score {
 impl Score {
     /// Adds a window of a wave in white noise of `noise` rms a sample and channel.
     pub fn add(&mut self, estimate: &Estimate, wave: &Wave, noise: f64) {
-        let bound = bound(wave, estimate.samples, estimate.time, RATE);
-        let bounds = [bound.main, bound.quadrature, bound.angle, bound.frequency];
+        let bound = Bound::new(wave, estimate.samples, estimate.time, RATE)
+            .expect("a window of two periods or more determines the wave");
+        let bounds = [
+            bound.main_amplitude,
+            bound.quadrature_amplitude,
+            bound.angle,
+            bound.frequency,
+        ];
         let stated = stated(estimate);
         self.windows += 1.0;
         for (i, error) in errors(estimate, wave).into_iter().enumerate() {

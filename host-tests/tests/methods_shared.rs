@@ -136,7 +136,7 @@ fn streaming_sums_are_those_of_the_slice() {
         moment_sums.push(pair);
         delayed_sums.push(pair);
         if let Some(block) = demodulator.push(pair) {
-            blocks.push(block);
+            blocks.push(*block);
             moments = moments.with(&moment_sums.take());
             delayed = delayed.with(&delayed_sums.take());
         }

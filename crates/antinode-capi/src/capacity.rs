@@ -8,17 +8,17 @@ use crate::state::State;
 pub const ANTINODE_LONGEST_PERIOD: usize = 200;
 /// The most periods a window may have.
 pub const ANTINODE_MOST_PERIODS: usize = 50;
-/// Finished blocks that the queue holds: one block is about one period, so this many periods may pass between two calls of
-/// a `_solve` function.
+/// Finished blocks that the queue holds, the one being solved among them: one block is about one period, so nearly this many periods
+/// may pass between two calls of a `_solve` function.
 pub const ANTINODE_QUEUE_BLOCKS: usize = 16;
 
 /// Blocks of the ring that windows are cut from: a little more than the periods of a window.
 pub(crate) const RING_BLOCKS: usize = ANTINODE_MOST_PERIODS + 2;
 
 /// 64-bit words of an `antinode_fixed_t`.
-pub const ANTINODE_FIXED_WORDS: usize = 1008;
+pub const ANTINODE_FIXED_WORDS: usize = 960;
 /// 64-bit words of an `antinode_float_t`.
-pub const ANTINODE_FLOAT_WORDS: usize = 1208;
+pub const ANTINODE_FLOAT_WORDS: usize = 1240;
 
 /// State of an identification in fixed point, on `int16_t` codes. Opaque: only the functions `antinode_fixed_…` look inside.
 #[repr(C)]

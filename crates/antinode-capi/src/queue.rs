@@ -68,36 +68,40 @@ impl<S: Sample> Queue<S> {
         self.put.load(Ordering::Acquire).wrapping_sub(taken)
     }
 
-    /// Puts an entry in; false when the queue is full.
+    /// Puts a block in; false when the queue is full.
     ///
     /// # Safety
     /// One caller at a time.
     #[inline]
-    pub(crate) unsafe fn put(&self, entry: Entry<S>) -> bool {
+    pub(crate) unsafe fn put(&self, search: u32, block: &Block<S>) -> bool {
         let put = self.put.load(Ordering::Relaxed);
         if put.wrapping_sub(self.taken.load(Ordering::Acquire)) >= ANTINODE_QUEUE_BLOCKS as u32 {
             return false;
         }
-        // SAFETY: the slot is free: the consumer has taken what was in it and reads it no more before `put` moves on.
-        unsafe { self.slot(put).write(MaybeUninit::new(entry)) };
+        // SAFETY: the slot is free: the consumer has done with what was in it and reads it no more before `put` moves on.
+        unsafe {
+            let slot = self.slot(put).cast::<Entry<S>>();
+            (&raw mut (*slot).search).write(search);
+            (&raw mut (*slot).block).copy_from_nonoverlapping(block, 1);
+        }
         self.put.store(put.wrapping_add(1), Ordering::Release);
         true
     }
 
-    /// Takes the oldest entry out.
+    /// Looks at the oldest entry where it lies, by `look`, and frees its slot; `None` when there is none.
     ///
     /// # Safety
     /// One caller at a time, beside one caller of [`Queue::put`].
     #[inline]
-    pub(crate) unsafe fn take(&self) -> Option<Entry<S>> {
+    pub(crate) unsafe fn take<T>(&self, look: impl FnOnce(&Entry<S>) -> T) -> Option<T> {
         let taken = self.taken.load(Ordering::Relaxed);
         if taken == self.put.load(Ordering::Acquire) {
             return None;
         }
         // SAFETY: the slot was written before `put` passed it, and the producer leaves it alone until `taken` has.
-        let entry = unsafe { self.slot(taken).read().assume_init() };
+        let seen = look(unsafe { (*self.slot(taken)).assume_init_ref() });
         self.taken.store(taken.wrapping_add(1), Ordering::Release);
-        Some(entry)
+        Some(seen)
     }
 }
 
@@ -112,13 +116,11 @@ mod tests {
     // SAFETY: as the state of a C program that an interrupt and a thread share.
     unsafe impl Sync for Shared {}
 
-    fn block(search: u32) -> Entry<f32> {
+    /// A block that begins at `start`.
+    fn block(start: u32) -> Block<f32> {
         let layout = Layout::new::<f32>(PhaseStep::from_period(4.0), 1);
-        let block = Demodulator::<f32, 1>::new(layout, u64::from(search), false).push([0.0; 2]);
-        Entry {
-            search,
-            block: block.unwrap(),
-        }
+        let mut demodulator = Demodulator::<f32, 2>::new(layout, u64::from(start), false);
+        *demodulator.push([0.0; 2]).unwrap()
     }
 
     #[test]
@@ -127,13 +129,13 @@ mod tests {
         for i in 0..ANTINODE_QUEUE_BLOCKS as u32 {
             assert_eq!(queue.len(), i);
             // SAFETY: one thread.
-            assert!(unsafe { queue.put(block(i)) });
+            assert!(unsafe { queue.put(i, &block(i)) });
         }
         // SAFETY: one thread.
         unsafe {
-            assert!(!queue.put(block(99)));
-            assert_eq!(queue.take().unwrap().search, 0);
-            assert!(queue.put(block(99)));
+            assert!(!queue.put(99, &block(99)));
+            assert_eq!(queue.take(|entry| entry.search), Some(0));
+            assert!(queue.put(99, &block(99)));
         }
     }
 
@@ -145,9 +147,9 @@ mod tests {
             let shared = &shared;
             scope.spawn(move || {
                 for i in 0..COUNT {
-                    let entry = block(i);
+                    let block = block(i);
                     // SAFETY: the only producer.
-                    while !unsafe { shared.0.put(entry) } {
+                    while !unsafe { shared.0.put(i, &block) } {
                         std::thread::yield_now();
                     }
                 }
@@ -155,7 +157,7 @@ mod tests {
             for i in 0..COUNT {
                 let entry = loop {
                     // SAFETY: the only consumer.
-                    match unsafe { shared.0.take() } {
+                    match unsafe { shared.0.take(|entry| *entry) } {
                         Some(entry) => break entry,
                         None => std::thread::yield_now(),
                     }

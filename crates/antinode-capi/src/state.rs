@@ -135,9 +135,8 @@ impl<S: Sample> Interrupt<S> {
     ) -> usize {
         let (taken, block) = self.front.push_slice(pairs);
         if let Some(block) = block {
-            let search = self.search;
             // SAFETY: the caller is the only producer.
-            if unsafe { shared.queue.put(Entry { search, block }) } {
+            if unsafe { shared.queue.put(self.search, block) } {
                 if *status == Status::Ok {
                     *status = Status::Ready;
                 }
@@ -208,20 +207,24 @@ impl Thread {
     /// One caller at a time.
     pub(crate) unsafe fn solve<S: Sample>(&mut self, shared: &Shared<S>) -> Option<Estimate> {
         // SAFETY: the caller is the only consumer.
-        while let Some(entry) = unsafe { shared.queue.take() } {
-            if entry.search != shared.wanted.load(Ordering::Relaxed) {
-                // Gathered before the interrupt heard of the loss.
-                continue;
-            }
-            let estimate = self.tracker.push(&entry.block);
-            if self.tracker.has_lost() {
-                self.search(shared);
-            }
-            if let Some(estimate) = estimate {
-                return Some(estimate.into());
+        while let Some(estimate) = unsafe { shared.queue.take(|entry| self.push(shared, entry)) } {
+            if estimate.is_some() {
+                return estimate;
             }
         }
         None
+    }
+
+    fn push<S: Sample>(&mut self, shared: &Shared<S>, entry: &Entry<S>) -> Option<Estimate> {
+        if entry.search != shared.wanted.load(Ordering::Relaxed) {
+            // Gathered before the interrupt heard of the loss.
+            return None;
+        }
+        let estimate = self.tracker.push(&entry.block);
+        if self.tracker.has_lost() {
+            self.search(shared);
+        }
+        estimate.map(Estimate::from)
     }
 
     /// Drops the wave and has the interrupt search anew.

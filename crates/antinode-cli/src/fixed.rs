@@ -26,6 +26,19 @@ pub fn with_std_to(decimals: usize, value: f64, std: f64) -> String {
     }
 }
 
+/// A value to stand under [`with_std`], and by how many deviations it differs from the one there.
+pub fn with_sigmas(value: f64, std: f64, sigmas: f64) -> String {
+    let decimals = decimals(std);
+    let digits = usize::from(sigmas.abs() < 99.95);
+    // Beyond what the column holds only the size matters.
+    let sigmas = if sigmas.abs() < 9999.5 {
+        format!("{sigmas:+.digits$}σ")
+    } else {
+        format!("{sigmas:+.0e}σ")
+    };
+    format!("{value:>9.decimals$} {sigmas:<8}")
+}
+
 /// A value alone, to stand under [`with_std_to`].
 pub fn without_std(decimals: usize, value: f64) -> String {
     format!("{value:>9.decimals$}{:9}", "")
@@ -46,6 +59,13 @@ mod tests {
         assert_eq!(with_std(-5331.6715, 0.2695), " -5331.67 ±0.27   ");
         assert_eq!(with_std(1.0, 0.0101), "    1.000 ±0.010  ");
         assert_eq!(with_std(20_000.4, 321.0), "    20000 ±321    ");
+    }
+
+    #[test]
+    fn a_difference_in_deviations_stands_under_the_deviation() {
+        assert_eq!(with_sigmas(0.503_96, 4.5e-4, 7.83), "  0.50396 +7.8σ   ");
+        assert_eq!(with_sigmas(-0.025, 4.5e-4, -112.4), " -0.02500 -112σ   ");
+        assert_eq!(with_sigmas(0.5, 4.5e-7, 71_234.0), "0.50000000 +7e4σ   ");
     }
 
     #[test]

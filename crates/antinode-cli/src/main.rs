@@ -1,10 +1,13 @@
 //! The `antinode` command.
 
 mod demonstration;
+mod device;
 mod failure;
 mod fixed;
+mod ideal;
 mod identify;
 mod method_rows;
+mod method_table;
 mod methods;
 mod options;
 mod recording;
@@ -23,6 +26,8 @@ fn main() -> ExitCode {
         Some(Command::Identify(options)) => identify::run(&options),
         Some(Command::Simulate(options)) => simulate::run(&options),
         Some(Command::Study(options)) => study::run(&options),
+        Some(Command::Monitor(options)) => device::monitor::run(&options),
+        Some(Command::Send(options)) => device::command::run(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -3,19 +3,23 @@
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
-use antinode::Estimate;
 use antinode::methods::comparison::{Comparison, Reference, Sums, compare};
 use antinode::methods::{
     Delayed, Moments, Products, Shape, Wave, algorithm1, algorithm2, algorithm3, algorithm4,
     frequency, functional, phase,
 };
-use antinode::{Calibration, Pair};
+use antinode::{Calibration, Estimate, Flags, Pair};
 
-/// A window's methods, and the frequency of each by J → min(ω), Hz.
+use crate::ideal::Ideal;
+
+/// A window's methods.
 #[derive(Debug, Clone, Copy)]
 pub struct Methods {
     pub comparison: Comparison,
+    /// Of each by J → min(ω), Hz.
     pub frequencies: [f64; 4],
+    /// The frequencies less that of the exact solution, in its standard deviations.
+    pub frequency_differences: [f64; 4],
 }
 
 /// Keeps the samples that the next window may need.
@@ -51,8 +55,11 @@ impl History {
         self.start += excess as u64;
     }
 
-    /// All methods over the window of an estimate; `None` where its samples are not here.
+    /// All methods over the window of an estimate; `None` where it holds no wave, or its samples are not here.
     pub fn compare(&self, estimate: &Estimate) -> Option<Methods> {
+        if estimate.flags.contains(Flags::LOST) {
+            return None;
+        }
         let omega = TAU * estimate.frequency / self.sample_rate;
         let first = usize::try_from(estimate.start.checked_sub(self.start)?).ok()?;
         let from = first.saturating_sub(LEAD);
@@ -62,7 +69,9 @@ impl History {
             .range(from..end.min(self.pairs.len()))
             .copied()
             .collect();
-        let pairs = self.corrected(&raw, estimate, omega);
+        let ideal = Ideal::new(&self.calibration, omega, self.sample_rate);
+        // The estimate's offsets are those of the raw signals.
+        let pairs = ideal.pairs(&raw, estimate.offsets);
         let lead = first - from;
         let window = pairs.get(lead..)?;
         if window.len() < 4 || !omega.is_finite() {
@@ -74,11 +83,16 @@ impl History {
             delayed: Delayed::of(&pairs, lead, lag),
             products: Products::of(window, omega),
         };
-        let reference = Reference::of(estimate, self.sample_rate);
+        let reference = Reference {
+            noise: ideal.noise(f64::from(estimate.residual_rms).powi(2), lag),
+            ..Reference::of(estimate, self.sample_rate)
+        };
         let frequencies = self.frequencies(window, &sums, omega);
         Some(Methods {
             comparison: compare(&sums, &reference),
             frequencies,
+            frequency_differences: frequencies
+                .map(|f| (f - estimate.frequency) / f64::from(estimate.frequency_std)),
         })
     }
 
@@ -104,40 +118,5 @@ impl History {
             fixed(algorithm3::shape(moments, products.q())),
             search(&algorithm4::wave),
         ]
-    }
-
-    /// Centred samples of ideal pick-offs. The estimate's offsets are those of the raw signals.
-    fn corrected(&self, raw: &[Pair], estimate: &Estimate, omega: f64) -> Vec<Pair> {
-        let Calibration {
-            gain_ratio,
-            skew,
-            pick_off_angle,
-        } = self.calibration;
-        let (s, c) = (2.0 * pick_off_angle).sin_cos();
-        let centred: Vec<Pair> = raw
-            .iter()
-            .map(|p| [p[0] - estimate.offsets[0], p[1] - estimate.offsets[1]])
-            .collect();
-        // D was sampled `delay` later: what it showed earlier is exact between two samples of a sinusoid.
-        let delay = f64::from(skew) * self.sample_rate;
-        let neighbour = |k: usize| {
-            if delay >= 0.0 {
-                k.checked_sub(1)
-            } else {
-                Some(k + 1)
-            }
-        };
-        let own = ((omega * (1.0 - delay.abs())).sin() / omega.sin()) as f32;
-        let other = ((omega * delay.abs()).sin() / omega.sin()) as f32;
-        let earlier = |k: usize, d: f32| {
-            let beside = neighbour(k).and_then(|k| centred.get(k));
-            if delay == 0.0 {
-                d
-            } else {
-                beside.map_or(d, |p| own * d + other * p[1])
-            }
-        };
-        let ideal = |(k, p): (usize, &Pair)| [p[0], (earlier(k, p[1]) / gain_ratio + p[0] * s) / c];
-        centred.iter().enumerate().map(ideal).collect()
     }
 }

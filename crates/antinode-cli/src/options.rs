@@ -15,7 +15,9 @@ Examples:
   antinode identify --output csv a.wav b.npy > rows.csv
   antinode identify --rate 100000 --columns t,C,D log.csv
   recorder | antinode identify --raw i16 --rate 100000 -
-  antinode simulate -o ring.wav --noise 0.005 --decay-rate 0.5";
+  antinode simulate -o ring.wav --noise 0.005 --decay-rate 0.5
+  antinode monitor /dev/ttyACM0 --format csv > rows.csv
+  antinode command /dev/ttyACM0 window 20";
 
 /// The most periods a window may have; the ring of blocks holds two more.
 pub const MOST_PERIODS: u16 = 1022;
@@ -40,6 +42,14 @@ pub enum Command {
     Simulate(Box<super::simulate::Simulate>),
     /// Computes the paper's comparison of its four methods anew: figures, tables, and its conclusions checked.
     Study(super::study::Study),
+    /// Shows what a device reports over its serial port, live: estimates as rows, all else on standard error.
+    ///
+    /// Bytes may be damaged or missing: what is lost is counted, and told at the end. A device on a port is first asked for its configuration.
+    /// Ctrl-C ends it.
+    Monitor(super::device::monitor::Monitor),
+    /// Sends a command to a device over its serial port, and waits for its acknowledgement.
+    #[command(name = "command")]
+    Send(super::device::command::Options),
 }
 
 /// `antinode identify`.
@@ -65,6 +75,9 @@ pub struct Identify {
     #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
     pub output: Format,
     /// Which methods a row shows.
+    ///
+    /// With `all`, columns method1_… to method4_… follow in CSV and JSON lines; those that end in off_sigma are differences from the
+    /// exact solution in its standard deviations. Windows without a wave have none.
     #[arg(long, value_enum, default_value_t = Methods::Exact)]
     pub methods: Methods,
     /// Format of raw samples on standard input or in a file of another kind: little-endian, S_C and S_D in turn.

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::fixed::{heading, with_std};
 use crate::method_rows::{self, Columns};
+use crate::method_table;
 use crate::methods::Methods;
 use crate::options::Format;
 
@@ -140,6 +141,9 @@ impl<W: Write> Rows<W> {
             Sink::Table(out) => {
                 // A recording without a row gets no heading.
                 if self.count == 1 {
+                    if self.wide && self.tables == 0 {
+                        method_table::legend(out)?;
+                    }
                     if let Some(title) = self.title.take() {
                         writeln!(out, "{}{title}", if self.tables > 0 { "\n" } else { "" })?;
                     }
@@ -147,7 +151,9 @@ impl<W: Write> Rows<W> {
                     self.tables += 1;
                 }
                 table(out, estimate)?;
-                methods.map_or(Ok(()), |methods| method_rows::table(out, methods))
+                methods.map_or(Ok(()), |methods| {
+                    method_table::table(out, estimate, methods)
+                })
             }
             Sink::Csv(out) if self.wide => {
                 if !std::mem::replace(&mut self.headed, true) {
@@ -172,6 +178,14 @@ impl<W: Write> Rows<W> {
                 }
                 writeln!(out)
             }
+        }
+    }
+
+    /// Prints lines under the last row of a table; other formats have none.
+    pub fn under(&mut self, lines: &str) -> io::Result<()> {
+        match &mut self.sink {
+            Sink::Table(out) => out.write_all(lines.as_bytes()),
+            Sink::Csv(_) | Sink::Jsonl(_) => Ok(()),
         }
     }
 

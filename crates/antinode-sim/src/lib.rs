@@ -15,6 +15,7 @@
 //! * [`Flaws`] is everything between the resonator and the file: noise, offset, gain, skew, clipping, quantisation, lost
 //!   samples and so on. Its documentation gives the order in which they act.
 //! * [`Gyro`] is the stream of samples, an endless iterator of [`Pair`]; [`Gyro::codes`] gives the ADC's integers.
+//! * [`Bound`] is how well a window of the wave can be identified at all: the Cramér-Rao bound.
 //!
 //! # Reproducible
 //! The same wave, flaws, rate and seed give the same bits on every platform: the generator is PCG64-DXSM, every
@@ -36,6 +37,7 @@
 //! ```
 
 mod adc;
+mod bound;
 mod carrier;
 mod dropouts;
 mod error;
@@ -49,6 +51,7 @@ mod time;
 mod timed;
 mod wave;
 
+pub use bound::Bound;
 pub use error::Error;
 pub use flaws::Flaws;
 pub use gyro::{Codes, Gyro, Pair};

@@ -13,22 +13,16 @@
     allow(dead_code, reason = "the instructions take their place")
 )]
 pub mod portable {
+    use crate::block::{ChannelSums, ChannelWatch};
+    use crate::sample::SamplePair;
+
     /// `sum` + low·low + high·high of two words of signed halves, wrapping.
     #[inline(always)]
-    pub fn dual_multiply_add(a: u32, b: u32, sum: i32) -> i32 {
+    pub fn dual_multiply_add(a: u32, b: u32, sum: u32) -> u32 {
         let [a_low, a_high] = halves(a);
         let [b_low, b_high] = halves(b);
-        sum.wrapping_add(a_low * b_low)
-            .wrapping_add(a_high * b_high)
-    }
-
-    /// `sum` + low·low + high·high of two words of signed halves, in 64 bits.
-    #[inline(always)]
-    pub fn dual_multiply_add_long(a: u32, b: u32, sum: u64) -> u64 {
-        let [a_low, a_high] = halves(a);
-        let [b_low, b_high] = halves(b);
-        let products = i64::from(a_low * b_low) + i64::from(a_high * b_high);
-        sum.wrapping_add(products as u64)
+        sum.wrapping_add((a_low * b_low) as u32)
+            .wrapping_add((a_high * b_high) as u32)
     }
 
     /// Half the difference of each half, rounded down.
@@ -43,22 +37,56 @@ pub mod portable {
         both(a, b, |a, b| (a + b) >> 1)
     }
 
-    /// The greater of each half.
-    #[inline(always)]
-    pub fn greater(a: u32, b: u32) -> u32 {
-        both(a, b, i32::max)
-    }
-
-    /// The lesser of each half.
-    #[inline(always)]
-    pub fn lesser(a: u32, b: u32) -> u32 {
-        both(a, b, i32::min)
-    }
-
     /// The square root, correctly rounded; NaN below zero.
     #[inline(always)]
     pub fn square_root(x: f32) -> f32 {
         libm::sqrtf(x)
+    }
+
+    /// Adds pairs to the sums, from a sample of even index on: `weights` are words of two cosines and of two sines.
+    ///
+    /// As many pairs as there are weights for are taken.
+    #[inline(always)]
+    pub fn add_pairs<P: SamplePair<i16>>(
+        sums: &mut [ChannelSums<i16>; 2],
+        pairs: &[P],
+        weights: &[[u32; 2]],
+    ) {
+        let mut sums = sums.each_mut();
+        for ((pair, cosine), sine) in each(pairs, weights) {
+            for (sums, sample) in sums.iter_mut().zip(pair.pair()) {
+                let sample = i32::from(sample);
+                sums.cosine = sums.cosine.wrapping_add(sample * cosine);
+                sums.sine = sums.sine.wrapping_add(sample * sine);
+                sums.sum = sums.sum.wrapping_add(sample);
+            }
+        }
+    }
+
+    /// Watches pairs, as [`add_pairs`] adds them.
+    #[inline(always)]
+    pub fn watch_pairs<P: SamplePair<i16>>(
+        watch: &mut [ChannelWatch<i16>; 2],
+        pairs: &[P],
+        weights: &[[u32; 2]],
+    ) {
+        for ((pair, cosine), sine) in each(pairs, weights) {
+            for (watch, sample) in watch.iter_mut().zip(pair.pair()) {
+                let product = i32::from(sample);
+                watch.third_cosine = watch.third_cosine.wrapping_add(product * cosine);
+                watch.third_sine = watch.third_sine.wrapping_add(product * sine);
+                watch.low = watch.low.min(sample);
+                watch.high = watch.high.max(sample);
+            }
+        }
+    }
+
+    /// Pairs with a cosine and a sine for each.
+    #[inline(always)]
+    fn each<P: Copy>(pairs: &[P], weights: &[[u32; 2]]) -> impl Iterator<Item = ((P, i32), i32)> {
+        let cosines = weights.iter().flat_map(|&[cosine, _]| halves(cosine));
+        let sines = weights.iter().flat_map(|&[_, sine]| halves(sine));
+        pairs.iter().copied().zip(cosines).zip(sines)
     }
 
     fn halves(word: u32) -> [i32; 2] {
@@ -73,30 +101,20 @@ pub mod portable {
 
 #[cfg(has_dsp)]
 mod dsp {
-    use core::arch::asm;
+    use core::arch::{asm, naked_asm};
+
+    use crate::block::{ChannelSums, ChannelWatch};
+    use crate::sample::SamplePair;
 
     /// SMLAD.
     #[inline(always)]
-    pub fn dual_multiply_add(a: u32, b: u32, sum: i32) -> i32 {
-        let out;
+    pub fn dual_multiply_add(a: u32, b: u32, mut sum: u32) -> u32 {
         // SAFETY: reads and writes the named registers, and the flag Q.
         unsafe {
-            asm!("smlad {out}, {a}, {b}, {sum}", out = lateout(reg) out, a = in(reg) a, b = in(reg) b, sum = in(reg) sum,
+            asm!("smlad {sum}, {a}, {b}, {sum}", sum = inout(reg) sum, a = in(reg) a, b = in(reg) b,
                 options(pure, nomem, nostack));
         }
-        out
-    }
-
-    /// SMLALD.
-    #[inline(always)]
-    pub fn dual_multiply_add_long(a: u32, b: u32, sum: u64) -> u64 {
-        let (mut low, mut high) = (sum as u32, (sum >> 32) as u32);
-        // SAFETY: reads and writes the named registers only.
-        unsafe {
-            asm!("smlald {low}, {high}, {a}, {b}", low = inout(reg) low, high = inout(reg) high, a = in(reg) a, b = in(reg) b,
-                options(pure, nomem, nostack, preserves_flags));
-        }
-        u64::from(low) | u64::from(high) << 32
+        sum
     }
 
     /// SHSUB16.
@@ -123,28 +141,163 @@ mod dsp {
         out
     }
 
-    /// SSUB16 and SEL, which passes the flags GE from one to the other.
+    /// The portable kernel of the same name, at most 32 767 pairs in one call.
     #[inline(always)]
-    pub fn greater(a: u32, b: u32) -> u32 {
-        let out;
-        // SAFETY: reads and writes the named registers; `out` is written before the inputs are read last.
-        unsafe {
-            asm!("ssub16 {out}, {a}, {b}", "sel {out}, {a}, {b}", out = out(reg) out, a = in(reg) a, b = in(reg) b,
-                options(pure, nomem, nostack));
+    pub fn add_pairs<P: SamplePair<i16>>(
+        sums: &mut [ChannelSums<i16>; 2],
+        pairs: &[P],
+        weights: &[[u32; 2]],
+    ) {
+        const { assert!(size_of::<P>() == 4 && size_of::<[ChannelSums<i16>; 2]>() == 24) };
+        let count = pairs.len().min(2 * weights.len());
+        if count > 0 {
+            // SAFETY: `count` pairs are words of memory, half as many weights are there, and the sums are six words.
+            unsafe { add_words(sums, pairs.as_ptr().cast(), weights.as_ptr(), count) };
         }
-        out
     }
 
-    /// SSUB16 and SEL the other way.
+    /// The portable kernel of the same name.
     #[inline(always)]
-    pub fn lesser(a: u32, b: u32) -> u32 {
-        let out;
-        // SAFETY: as in `greater`.
-        unsafe {
-            asm!("ssub16 {out}, {a}, {b}", "sel {out}, {b}, {a}", out = out(reg) out, a = in(reg) a, b = in(reg) b,
-                options(pure, nomem, nostack));
+    pub fn watch_pairs<P: SamplePair<i16>>(
+        watch: &mut [ChannelWatch<i16>; 2],
+        pairs: &[P],
+        weights: &[[u32; 2]],
+    ) {
+        const { assert!(size_of::<P>() == 4 && size_of::<[ChannelWatch<i16>; 2]>() == 24) };
+        let count = pairs.len().min(2 * weights.len());
+        if count > 0 {
+            // SAFETY: `count` pairs are words of memory, half as many weights are there, and the watch is six words: two sums and
+            // the halves low and high, twice.
+            unsafe { watch_words(watch, pairs.as_ptr().cast(), weights.as_ptr(), count) };
         }
-        out
+    }
+
+    /// r0: six sums; r1: words of pairs, which need no alignment; r2: weights; r3: pairs, at least one.
+    ///
+    /// Two pairs are turned into a word of samples for each channel, and six SMLADs add them.
+    #[unsafe(naked)]
+    unsafe extern "C" fn add_words(
+        sums: *mut [ChannelSums<i16>; 2],
+        pairs: *const u32,
+        weights: *const [u32; 2],
+        count: usize,
+    ) {
+        naked_asm!(
+            ".macro ADD_TWO",
+            "ldr r11, [r1, #4]",
+            "ldr r10, [r1], #8",
+            "pkhbt r12, r10, r11, lsl #16",
+            "pkhtb r11, r11, r10, asr #16",
+            "ldrd r0, r10, [r2], #8",
+            "smlad r4, r12, r0, r4",
+            "smlad r7, r11, r0, r7",
+            "smlad r5, r12, r10, r5",
+            "smlad r8, r11, r10, r8",
+            "smlad r6, r12, lr, r6",
+            "smlad r9, r11, lr, r9",
+            ".endm",
+            "push {{r0, r4-r11, lr}}",
+            "ldmia r0, {{r4-r9}}",
+            "mov lr, #0x00010001",
+            "subs r3, #4",
+            "blo 2f",
+            "1:",
+            "ADD_TWO",
+            "ADD_TWO",
+            "subs r3, #4",
+            "bhs 1b",
+            "2:",
+            "adds r3, #4",
+            "cmp r3, #2",
+            "blo 3f",
+            "ADD_TWO",
+            "subs r3, #2",
+            "3:",
+            "cbz r3, 4f",
+            // A last pair alone: the other halves are zero.
+            "ldr r10, [r1]",
+            "ldrd r0, r11, [r2]",
+            "uxth r12, r10",
+            "lsrs r10, r10, #16",
+            "smlad r4, r12, r0, r4",
+            "smlad r7, r10, r0, r7",
+            "smlad r5, r12, r11, r5",
+            "smlad r8, r10, r11, r8",
+            "smlad r6, r12, lr, r6",
+            "smlad r9, r10, lr, r9",
+            "4:",
+            "ldr r0, [sp]",
+            "stmia r0, {{r4-r9}}",
+            "pop {{r0, r4-r11, pc}}",
+            ".purgem ADD_TWO",
+        )
+    }
+
+    /// As `add_words`, of a watch: four SMLADs, and extremes by SSUB16 with SEL.
+    #[unsafe(naked)]
+    unsafe extern "C" fn watch_words(
+        watch: *mut [ChannelWatch<i16>; 2],
+        pairs: *const u32,
+        weights: *const [u32; 2],
+        count: usize,
+    ) {
+        naked_asm!(
+            ".macro SEE most, least",
+            "ssub16 lr, r8, \\most",
+            "sel r8, r8, \\most",
+            "ssub16 lr, \\least, r9",
+            "sel r9, r9, \\least",
+            ".endm",
+            ".macro ADD c, d, cosine, sine",
+            "smlad r4, \\c, \\cosine, r4",
+            "smlad r6, \\d, \\cosine, r6",
+            "smlad r5, \\c, \\sine, r5",
+            "smlad r7, \\d, \\sine, r7",
+            ".endm",
+            "push {{r0, r4-r11, lr}}",
+            "ldmia r0, {{r4-r9}}",
+            // r6: extremes of C, r9: of D; made words of low and of high.
+            "mov r10, r6",
+            "mov r6, r7",
+            "mov r7, r8",
+            "pkhtb r8, r9, r10, asr #16",
+            "pkhbt r9, r10, r9, lsl #16",
+            "subs r3, #2",
+            "blo 2f",
+            "1:",
+            "ldr r11, [r1, #4]",
+            "ldr r10, [r1], #8",
+            "ssub16 r12, r10, r11",
+            "sel r0, r10, r11",
+            "sel r12, r11, r10",
+            "SEE r0, r12",
+            "pkhbt r12, r10, r11, lsl #16",
+            "pkhtb r11, r11, r10, asr #16",
+            "ldrd r0, r10, [r2], #8",
+            "ADD r12, r11, r0, r10",
+            "subs r3, #2",
+            "bhs 1b",
+            "2:",
+            "adds r3, #2",
+            "beq 3f",
+            "ldr r10, [r1]",
+            "SEE r10, r10",
+            "ldrd r0, r11, [r2]",
+            "uxth r12, r10",
+            "lsrs r10, r10, #16",
+            "ADD r12, r10, r0, r11",
+            "3:",
+            "pkhbt r10, r9, r8, lsl #16",
+            "pkhtb r9, r8, r9, asr #16",
+            "mov r8, r7",
+            "mov r7, r6",
+            "mov r6, r10",
+            "ldr r0, [sp]",
+            "stmia r0, {{r4-r9}}",
+            "pop {{r0, r4-r11, pc}}",
+            ".purgem SEE",
+            ".purgem ADD",
+        )
     }
 }
 
@@ -164,30 +317,14 @@ mod fpu {
 }
 
 #[cfg(has_dsp)]
-pub use dsp::{
-    dual_multiply_add, dual_multiply_add_long, greater, half_difference, half_sum, lesser,
-};
+pub use dsp::{add_pairs, dual_multiply_add, half_difference, half_sum, watch_pairs};
 #[cfg(not(has_dsp))]
-pub use portable::{
-    dual_multiply_add, dual_multiply_add_long, greater, half_difference, half_sum, lesser,
-};
+pub use portable::{add_pairs, dual_multiply_add, half_difference, half_sum, watch_pairs};
 
 #[cfg(has_vsqrt)]
 pub use fpu::square_root;
 #[cfg(not(has_vsqrt))]
 pub use portable::square_root;
-
-/// The low halves of two words, the first below: PKHBT.
-#[inline(always)]
-pub fn low_halves(first: u32, second: u32) -> u32 {
-    (first & 0xffff) | (second << 16)
-}
-
-/// The high halves of two words, the first below: PKHTB.
-#[inline(always)]
-pub fn high_halves(first: u32, second: u32) -> u32 {
-    (first >> 16) | (second & 0xffff_0000)
-}
 
 #[cfg(test)]
 mod tests {
@@ -200,13 +337,6 @@ mod tests {
         assert_eq!(half_difference(least, most), 0x8000_8000);
         assert_eq!(half_sum(least, least), least);
         assert_eq!(half_sum(0x0001_ffff, 0x0000_0000), 0x0000_ffff);
-        assert_eq!(greater(0x8000_7fff, 0x7fff_8000), most);
-        assert_eq!(lesser(0x8000_7fff, 0x7fff_8000), least);
-        assert_eq!(dual_multiply_add(least, least, -1), 0x7fff_ffff);
-        assert_eq!(dual_multiply_add_long(least, least, 5), 5 + (1 << 31));
-        assert_eq!(
-            dual_multiply_add_long(least, 0x0001_0001, 0),
-            (-65_536i64) as u64
-        );
+        assert_eq!(dual_multiply_add(least, least, 5), 5 + (1 << 31));
     }
 }

@@ -72,6 +72,11 @@ impl Flags {
     pub const fn bits(self) -> u16 {
         self.0
     }
+
+    /// The flags of [`Flags::bits`]; bits that are no flag are dropped.
+    pub const fn from_bits_truncate(bits: u16) -> Self {
+        Self(bits & ((1 << Self::NAMES.len()) - 1))
+    }
 }
 
 impl fmt::Display for Flags {
@@ -134,4 +139,21 @@ pub struct Estimate {
     pub residual_rms: f32,
     /// What is wrong; empty when clean.
     pub flags: Flags,
+}
+
+#[cfg(test)]
+mod tests {
+    use std::string::ToString;
+
+    use super::*;
+
+    #[test]
+    fn bits_give_their_flags_back() {
+        let flags = Flags::CLIPPED.with(Flags::NOT_FINITE);
+        assert_eq!(Flags::from_bits_truncate(flags.bits()), flags);
+        assert_eq!(flags.to_string(), "clipped+not_finite");
+        // Every bit that is kept has a name, and no other.
+        assert_eq!(Flags::from_bits_truncate(u16::MAX).bits(), 0x1ff);
+        assert!(Flags::from_bits_truncate(0xfe00).is_empty());
+    }
 }

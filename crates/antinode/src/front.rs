@@ -72,21 +72,37 @@ impl<S: Sample, const N: usize> Front<S, N> {
 
     /// Takes one sample pair; gives the block that it finished.
     #[inline]
-    pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<Block<S>> {
-        self.push_slice(&[pair]).1
+    pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<&Block<S>> {
+        if self.is_searching() {
+            self.search_slice(&[pair]);
+            return None;
+        }
+        let Stage::Gather(demodulator) = &mut self.stage else {
+            return None;
+        };
+        self.index += 1;
+        demodulator.push(pair)
     }
 
     /// Takes pairs from the start of a slice up to the end of a block; gives how many it took and the block if one is finished.
     ///
     /// Call it again with the rest until it has taken all: results are the same to the bit however a stream is cut.
     #[inline]
-    pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<Block<S>>) {
-        if let Stage::Gather(demodulator) = &mut self.stage {
-            let (taken, block) = demodulator.push_slice(pairs);
-            self.index += taken as u64;
-            return (taken, block);
+    pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
+        if !self.is_searching() {
+            return self.gather(pairs);
         }
         (self.search_slice(pairs), None)
+    }
+
+    #[inline]
+    fn gather<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
+        let Stage::Gather(demodulator) = &mut self.stage else {
+            return (0, None);
+        };
+        let (taken, block) = demodulator.push_slice(pairs);
+        self.index += taken as u64;
+        (taken, block)
     }
 
     /// Takes pairs until a period is found; gives how many.

@@ -40,7 +40,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
             let (count, block) = self.front.push_slice(rest);
             taken += count;
             if let Some(block) = block {
-                let estimate = self.tracker.push(&block);
+                let estimate = self.tracker.push(block);
                 if self.tracker.has_lost() {
                     self.front.search();
                     self.tracker.forget();

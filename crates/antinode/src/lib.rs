@@ -81,6 +81,7 @@ mod front;
 mod identifier;
 mod sample;
 mod settings;
+mod sum;
 mod tracker;
 mod wave;
 mod window;

@@ -20,7 +20,10 @@ pub struct PhaseStep(pub u32);
 impl Phase {
     /// The phase of an angle in radians. Valid within ±10⁴; f32 rounding grows with the angle.
     pub fn from_radians(radians: f32) -> Self {
-        Self((radians * (TURN / TAU)) as i64 as u32)
+        // Whole turns go first: what is left fits an i32 in half turns, in its doubled form.
+        let turns = radians * (1.0 / TAU);
+        let rest = turns - turns as i32 as f32;
+        Self(((rest * (0.5 * TURN)) as i32 as u32) << 1)
     }
 
     /// `exp(jφ)`: cosine and sine of this phase, each within 1.2·10⁻⁷ of the truth.

@@ -179,7 +179,7 @@ impl InputError {
     }
 
     /// What the system said about `file`, in the words of this tool.
-    pub(super) fn io(file: &str, fault: io::Error) -> Self {
+    pub fn io(file: &str, fault: io::Error) -> Self {
         let file = file.to_owned();
         match fault.kind() {
             io::ErrorKind::NotFound => Self::NotFound { file },

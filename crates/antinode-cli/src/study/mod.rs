@@ -1,6 +1,5 @@
 //! `antinode study`: the paper's comparison of its methods, computed anew, as figures and tables, with its conclusions checked.
 
-mod bound;
 mod conclusions;
 mod draw;
 mod evaluate;
@@ -15,17 +14,24 @@ mod tests;
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use antinode_sim::Wave;
 use clap::Args;
 
 use crate::failure::Failure;
 
+/// Under the help of the study.
+const FILES: &str = "\
+Files in the folder:
+  figure-1a.svg, .png ...  1: against periods, 2: against samples a period, 3: against noise
+  figure-1.csv ...         every point of every curve; value_is and x_is give the units";
+
 /// `antinode study`.
 #[derive(Debug, Args)]
+#[command(after_help = FILES)]
 pub struct Study {
-    /// The folder that figures and tables go to; it is made where it is missing.
+    /// The folder that figures and tables go to; it is made where it is missing. Files of an earlier study are written over.
     #[arg(long, default_value = "study", value_name = "DIR")]
     out: PathBuf,
     /// Runs a point of figure 3, at least 1.
@@ -41,15 +47,21 @@ const RATE: f64 = 100_000.0;
 
 /// Computes, draws, and tells what is confirmed.
 pub fn run(options: &Study) -> Result<(), Failure> {
+    let failed = |what: &Path, error: &dyn std::fmt::Display| {
+        Failure::Recording(format!("{}: cannot be written: {error}", what.display()))
+    };
+    // Before the work, not after it.
+    fs::create_dir_all(&options.out).map_err(|error| {
+        Failure::Recording(format!(
+            "{}: this folder cannot be made: {error}; give another --out",
+            options.out.display()
+        ))
+    })?;
     let wave = Wave::default();
     let first = noise_free::against_periods(&wave);
     let second = noise_free::against_samples(&wave);
     let third = noisy::against_noise(&wave, options.runs, options.seed);
 
-    let failed = |what: &std::path::Path, error: &dyn std::fmt::Display| {
-        Failure::Recording(format!("{}: cannot be written: {error}", what.display()))
-    };
-    fs::create_dir_all(&options.out).map_err(|error| failed(&options.out, &error))?;
     for figure in [&first, &second, &third] {
         let path = options.out.join(format!("figure-{}.csv", figure.number));
         table::write(&path, figure).map_err(|error| failed(&path, &error))?;

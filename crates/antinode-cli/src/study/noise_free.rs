@@ -3,7 +3,6 @@
 use antinode_sim::Wave;
 
 use super::RATE;
-use super::bound::{bound, centred_bound};
 use super::evaluate::{CURVES, errors};
 use super::figure::{Curve, Figure, Name, Panel};
 use super::samples::Samples;
@@ -71,8 +70,7 @@ fn figure(
     let mut deviation = Vec::new();
     for window in windows {
         let noise = BOUND_NOISE * wave.main_amplitude;
-        let bounds = [bound, centred_bound]
-            .map(|bound| bound(wave, window.count, window.rate).map(|x| x * noise));
+        let bounds = window.bounds(wave).map(|bound| bound.map(|x| x * noise));
         let errors = errors(&window, wave);
         for (i, panel) in panels.iter_mut().enumerate() {
             let values = errors

@@ -5,7 +5,6 @@ use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
 use super::RATE;
-use super::bound::{bound, centred_bound};
 use super::evaluate::{CURVES, errors};
 use super::figure::{Curve, Figure, Name, Panel};
 use super::samples::Samples;
@@ -79,11 +78,8 @@ pub fn against_noise(wave: &Wave, runs: u32, seed: u64) -> Figure {
     let levels: Vec<u32> = LEVELS.collect();
     let rms = rms(wave, 1, &levels, runs, seed);
     let percent = 100.0 / wave.main_amplitude;
-    let count = (RATE / wave.frequency).round() as usize;
-    let bounds = [
-        (Name::Bound, bound(wave, count, RATE)),
-        (Name::CentredBound, centred_bound(wave, count, RATE)),
-    ];
+    let [bound, centred] = Samples::simulate(wave, 1, RATE, 0.0, seed).bounds(wave);
+    let bounds = [(Name::Bound, bound), (Name::CentredBound, centred)];
     let kinds = [
         ('a', "main amplitude", "rms error, % of a_A", percent),
         ('b', "quadrature amplitude", "rms error, % of a_A", percent),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use antinode_sim::{Flaws, Gyro, Wave};
+use antinode_sim::{Bound, Flaws, Gyro, Wave};
 
 /// A window that starts at t = 0.
 #[derive(Debug, Clone)]
@@ -64,6 +64,22 @@ impl Samples {
     /// The window with all before it.
     pub fn with_lead(&self) -> &[[f32; 2]] {
         &self.pairs[..self.lead + self.count]
+    }
+
+    /// The Cramér–Rao bounds of a_A, a_B (in units of the noise), θ (degrees) and f (Hz) for noise of one, with unknown offsets and
+    /// of centred signals; NaN where the window does not determine the wave.
+    pub fn bounds(&self, wave: &Wave) -> [[f64; 4]; 2] {
+        let middle = 0.5 * (self.count as f64 - 1.0) / self.rate;
+        [Bound::new, Bound::centred].map(|bound| {
+            bound(wave, self.count as u32, middle, self.rate).map_or([f64::NAN; 4], |bound| {
+                [
+                    bound.main_amplitude,
+                    bound.quadrature_amplitude,
+                    bound.angle.to_degrees(),
+                    bound.frequency,
+                ]
+            })
+        })
     }
 
     /// By how much the window is longer than its periods, as a share of them.

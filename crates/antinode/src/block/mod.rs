@@ -8,9 +8,7 @@ mod layout;
 mod sums;
 
 pub use layout::Layout;
-pub use sums::{ChannelSums, ChannelWatch};
-
-use core::ops::Range;
+pub use sums::{ChannelSums, ChannelWatch, Runs};
 
 use crate::sample::{Sample, SamplePair};
 
@@ -30,32 +28,30 @@ pub struct Block<S: Sample> {
     pub watch: Option<[ChannelWatch<S>; 2]>,
 }
 
-/// The weights of a block's samples.
-#[derive(Debug, Clone)]
-struct Table<W, const N: usize> {
-    cosine: [W; N],
-    sine: [W; N],
-    third_cosine: [W; N],
-    third_sine: [W; N],
-}
+/// Pairs that single calls hold back: a slice of them costs far less than each by itself.
+const HELD: usize = 32;
 
-/// Part of a table; nothing where it lies outside, which it never does.
-#[inline(always)]
-fn part<'a, W>(weights: &'a [W], range: &Range<usize>) -> &'a [W] {
-    weights.get(range.clone()).unwrap_or(&[])
-}
-
-/// Gathers sample pairs into blocks of up to `N` pairs.
+/// Gathers sample pairs into blocks of up to `N` pairs. `N` is even.
 #[derive(Debug, Clone)]
 pub struct Demodulator<S: Sample, const N: usize> {
-    layout: Layout,
-    table: Table<S::Weight, N>,
-    /// How much of the table is there: it grows with the first block, so that no sample waits for all of it.
-    known: u16,
-    start: u64,
+    /// Pairs held back, and how many may be: they are summed together, at the latest when the block ends.
+    held: u16,
+    room: u16,
+    holding: [[S; 2]; HELD],
+    summing: Summing<S, N>,
+}
+
+/// The block in progress and its weights.
+#[derive(Debug, Clone)]
+#[repr(C)]
+struct Summing<S: Sample, const N: usize> {
+    /// Sample pairs in `block`; when it is full the next sample begins a new one.
     count: u16,
-    sums: [ChannelSums<S>; 2],
-    watch: Option<[ChannelWatch<S>; 2]>,
+    /// How much of the tables is there: they grow with the first block, so that no sample waits for all of them.
+    known: u16,
+    block: Block<S>,
+    table: [S::Weight; N],
+    third: [S::Weight; N],
 }
 
 impl<S: Sample, const N: usize> Demodulator<S, N> {
@@ -63,99 +59,135 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     ///
     /// A length beyond 1…`N` is brought into it; the scale is that of `S`.
     pub fn new(layout: Layout, start: u64, watch: bool) -> Self {
+        const { assert!(N.is_multiple_of(2), "weights stand in twos") };
         let length = layout.length.clamp(1, N.min(usize::from(u16::MAX)) as u16);
-        let none = [S::Weight::default(); N];
         Self {
-            layout: Layout::new::<S>(layout.step, length),
-            table: Table {
-                cosine: none,
-                sine: none,
-                third_cosine: none,
-                third_sine: none,
+            held: 0,
+            room: length.min(HELD as u16),
+            holding: [[S::EXTREMES[0]; 2]; HELD],
+            summing: Summing {
+                count: 0,
+                known: 0,
+                block: Block {
+                    start,
+                    layout: Layout::new::<S>(layout.step, length),
+                    sums: [ChannelSums::empty(); 2],
+                    watch: watch.then_some([ChannelWatch::empty(); 2]),
+                },
+                table: [S::Weight::default(); N],
+                third: [S::Weight::default(); N],
             },
-            known: 0,
-            start,
-            count: 0,
-            sums: [ChannelSums::empty(); 2],
-            watch: watch.then_some([ChannelWatch::empty(); 2]),
         }
     }
 
     /// Reference frequency, length and scale of the blocks.
     pub fn layout(&self) -> Layout {
-        self.layout
+        self.summing.block.layout
     }
 
     /// Takes one sample pair; gives the block that it finished.
     #[inline]
-    pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<Block<S>> {
-        self.push_slice(&[pair]).1
+    pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<&Block<S>> {
+        let held = self.held;
+        if let Some(place) = self.holding.get_mut(usize::from(held)) {
+            *place = pair.pair();
+        }
+        self.held = held + 1;
+        if held + 1 < self.room {
+            return None;
+        }
+        self.sum_held()
     }
 
     /// Takes the first pairs of a slice up to the end of the present block; gives how many it took and the block if it is finished.
     ///
     /// Call it again with the rest: the sums are the same to the bit however a stream is cut.
     #[inline]
-    pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<Block<S>>) {
-        let from = usize::from(self.count);
-        let open = usize::from(self.layout.length - self.count).min(pairs.len());
-        let to = from + open;
-        if usize::from(self.known) < to {
-            self.extend_table(to);
+    pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
+        if self.held > 0 {
+            self.sum_held();
         }
-        let table = &self.table;
-        let known = from..to;
-        let pairs = pairs.get(..open).unwrap_or(&[]);
-        let (cosine, sine) = (part(&table.cosine, &known), part(&table.sine, &known));
-        S::add(&mut self.sums, pairs, cosine, sine);
-        if let Some(watch) = &mut self.watch {
-            let cosine = part(&table.third_cosine, &known);
-            let sine = part(&table.third_sine, &known);
-            S::watch(watch, pairs, self.count, cosine, sine);
-        }
-        self.count += open as u16;
-        (open, self.finished())
+        let taken = self.summing.sum(pairs);
+        self.room = self.summing.left().min(HELD as u16);
+        (taken, self.summing.finished())
+    }
+
+    /// Sums the pairs held back.
+    #[inline(never)]
+    fn sum_held(&mut self) -> Option<&Block<S>> {
+        let held = self.holding.get(..usize::from(self.held));
+        self.summing.sum(held.unwrap_or(&[]));
+        self.held = 0;
+        self.room = self.summing.left().min(HELD as u16);
+        self.summing.finished()
     }
 
     /// Drops the block begun; the next one starts at sample pair `start` of the stream.
     pub(crate) fn restart(&mut self, start: u64) {
-        self.start = start;
+        self.held = 0;
+        self.summing.restart(start);
+        self.room = self.summing.left().min(HELD as u16);
+    }
+}
+
+impl<S: Sample, const N: usize> Summing<S, N> {
+    /// Takes pairs up to the end of the block; gives how many.
+    #[inline(always)]
+    fn sum<P: SamplePair<S>>(&mut self, pairs: &[P]) -> usize {
+        if self.finished().is_some() {
+            self.restart(self.block.start + u64::from(self.count));
+        }
+        let open = usize::from(self.left()).min(pairs.len());
+        let index = usize::from(self.count);
+        self.count += open as u16;
+        if self.count > self.known {
+            self.extend_table();
+        }
+        let pairs = pairs.get(..open).unwrap_or(&[]);
+        S::add_slice(&mut self.block.sums, pairs, &self.table, index);
+        if let Some(watch) = &mut self.block.watch {
+            S::watch_slice(watch, pairs, &self.third, index);
+        }
+        open
+    }
+
+    /// Pairs to the end of the block; of the next one when it is full.
+    #[inline(always)]
+    fn left(&self) -> u16 {
+        let length = self.block.layout.length;
+        match length - self.count {
+            0 => length,
+            left => left,
+        }
+    }
+
+    #[inline(always)]
+    fn finished(&self) -> Option<&Block<S>> {
+        (self.count == self.block.layout.length).then_some(&self.block)
+    }
+
+    #[inline(always)]
+    fn restart(&mut self, start: u64) {
         self.count = 0;
-        self.sums = [ChannelSums::empty(); 2];
-        if let Some(watch) = &mut self.watch {
+        let block = &mut self.block;
+        block.start = start;
+        block.sums = [ChannelSums::empty(); 2];
+        if let Some(watch) = &mut block.watch {
             *watch = [ChannelWatch::empty(); 2];
         }
     }
 
+    /// Makes the tables as long as the block so far.
     #[cold]
     #[inline(never)]
-    fn extend_table(&mut self, to: usize) {
-        let table = &mut self.table;
-        let entries = table.cosine.iter_mut().zip(&mut table.sine);
-        let thirds = table.third_cosine.iter_mut().zip(&mut table.third_sine);
-        let new = entries.zip(thirds).take(to).skip(usize::from(self.known));
-        for ((cosine, sine), (third_cosine, third_sine)) in new {
-            let reference = self.layout.reference(self.known);
-            *cosine = S::weight(reference.cosine);
-            *sine = S::weight(reference.sine);
-            *third_cosine = S::weight(reference.third_cosine);
-            *third_sine = S::weight(reference.third_sine);
-            self.known += 1;
+    fn extend_table(&mut self) {
+        for index in self.known..self.count {
+            let reference = self.block.layout.reference(index);
+            let index = usize::from(index);
+            S::set_weight(&mut self.table, index, [reference.cosine, reference.sine]);
+            let third = [reference.third_cosine, reference.third_sine];
+            S::set_weight(&mut self.third, index, third);
         }
-    }
-
-    #[inline]
-    fn finished(&mut self) -> Option<Block<S>> {
-        if self.count < self.layout.length {
-            return None;
-        }
-        let block = Block {
-            start: self.start,
-            layout: self.layout,
-            sums: self.sums,
-            watch: self.watch,
-        };
-        self.restart(self.start + u64::from(self.layout.length));
-        Some(block)
+        self.known = self.count;
     }
 }

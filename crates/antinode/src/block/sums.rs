@@ -7,6 +7,7 @@ use crate::sample::Sample;
 /// Bounds at full scale: in f32 each sum is at most `length` × the largest |sample|. Of `i16` codes, 32 768 × scale × length is at
 /// most 32 768 × 65 535 < 2³¹; of `i32` codes, 2³¹ × 32 767 × 65 535 < 2⁶².
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
 pub struct ChannelSums<S: Sample> {
     /// Σ S cos φ, the C sum of (24).
     pub cosine: S::Sum,
@@ -28,6 +29,7 @@ impl<S: Sample> ChannelSums<S> {
 
 /// What is watched of one pick-off over one block beside its sums: where clipping, nonlinearity and dead channels show.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
 pub struct ChannelWatch<S: Sample> {
     /// Σ S cos 3φ, as large as the sums of the carrier.
     pub third_cosine: S::Sum,
@@ -37,11 +39,17 @@ pub struct ChannelWatch<S: Sample> {
     pub low: S,
     /// The greatest sample.
     pub high: S,
-    /// Most samples in a row that were equal to `low`: one, unless the signal is cut off. Counted of f32 only, else 1: codes have
-    /// known rails.
-    pub low_run: u16,
-    /// Most samples in a row that were equal to `high`.
-    pub high_run: u16,
+    /// How long the signal stayed at its extremes; of f32 only: codes have known rails.
+    pub runs: S::Runs,
+}
+
+/// How long samples of f32 stayed at their extremes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Runs {
+    /// Most samples in a row that were equal to the least: one, unless the signal is cut off.
+    pub low: u16,
+    /// Most samples in a row that were equal to the greatest.
+    pub high: u16,
     /// The runs that go on at the last samples: their length, and the index after them.
     pub(crate) low_now: (u16, u16),
     pub(crate) high_now: (u16, u16),
@@ -55,10 +63,7 @@ impl<S: Sample> ChannelWatch<S> {
             third_sine: S::Sum::default(),
             low,
             high,
-            low_run: 1,
-            high_run: 1,
-            low_now: (0, 0),
-            high_now: (0, 0),
+            runs: S::Runs::default(),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! All four methods beside the exact solution: their differences, whom to trust, and whether something is wrong.
 
+use super::conditions;
+pub use super::conditions::{CONDITION, Conditions};
 use super::delayed::Delayed;
 use super::moments::Moments;
 use super::products::{Products, mean_harmonic};
@@ -14,6 +16,8 @@ pub const DISAGREEMENT: f64 = 6.0;
 
 /// The place of algorithm 1.
 const NO_QUADRATURE: usize = 0;
+/// The place of algorithm 2.
+const DELAY: usize = 1;
 /// The place of algorithm 3.
 const AXES: usize = 2;
 
@@ -28,6 +32,25 @@ pub struct Sums {
     pub products: Products,
 }
 
+/// White noise as a window's sums see it, input units squared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Noise {
+    /// ⟨n_C²⟩, ⟨n_D²⟩ and ⟨n_C n_D⟩.
+    pub moments: [f64; 3],
+    /// ⟨n_D(t) n_D(t − t₃)⟩: 0, but where S_D was made from samples that lie t₃ apart.
+    pub delayed: f64,
+}
+
+impl Noise {
+    /// Noise of one variance on both pick-offs, independent from sample to sample: what a converter gives.
+    pub fn alike(variance: f64) -> Self {
+        Self {
+            moments: [variance, variance, 0.0],
+            delayed: 0.0,
+        }
+    }
+}
+
 /// The exact solution that the methods are held against.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reference {
@@ -35,28 +58,29 @@ pub struct Reference {
     pub wave: Wave,
     /// Standard deviations of a_A and a_B, input units, and θ, rad; all > 0.
     pub deviations: [f64; 3],
-    /// Noise variance a sample and channel, input units squared.
-    pub noise: f64,
-    /// Standard deviation of `noise`, as a share of it.
+    /// Noise of the samples that the sums were taken of.
+    pub noise: Noise,
+    /// Standard deviation of a noise variance, as a share of it.
     pub noise_uncertainty: f64,
     /// How far the pattern turns in the window, rad.
     pub turn: f64,
     /// The share of its amplitude that the wave loses in the window.
     pub decay: f64,
+    /// Standard deviations of `turn` and `decay`: both are 0 where they are lost in these.
+    pub change_deviations: [f64; 2],
 }
 
 impl Reference {
-    /// The reference of an estimate at a sample rate in Hz.
+    /// The reference of an estimate at a sample rate in Hz, for sums of the samples as they came: a calibration that mixes or scales
+    /// samples changes [`Noise`] too.
     pub fn of(estimate: &Estimate, sample_rate: f64) -> Self {
         let omega = core::f64::consts::TAU * estimate.frequency / sample_rate;
         let samples = f64::from(estimate.samples);
+        let seconds = samples / sample_rate;
         // A rate that is lost in noise is none.
         let change = |rate: f32, deviation: f32| {
-            if rate.abs() > 3.0 * deviation {
-                f64::from(rate) * samples / sample_rate
-            } else {
-                0.0
-            }
+            let significant = rate.abs() > 3.0 * deviation;
+            f64::from(if significant { rate } else { 0.0 }) * seconds
         };
         let deviations = [
             estimate.main_amplitude_std,
@@ -77,10 +101,12 @@ impl Reference {
                 phase: f64::from(estimate.phase) + 0.5 * omega * (samples - 1.0),
             },
             deviations: deviations.map(|x| f64::from(x.max(f32::MIN_POSITIVE))),
-            noise: noise * noise,
+            noise: Noise::alike(noise * noise),
             noise_uncertainty: libm::sqrt(2.0 / (6.0 * blocks - 10.0)),
             turn: change(estimate.angle_rate, estimate.angle_rate_std),
             decay: change(estimate.decay_rate, estimate.decay_rate_std),
+            change_deviations: [estimate.angle_rate_std, estimate.decay_rate_std]
+                .map(|deviation| f64::from(deviation) * seconds),
         }
     }
 }
@@ -96,9 +122,9 @@ pub struct Method {
     pub differences: [f64; 3],
     /// What is left of them after what leakage and noise explain, in units of what may be left: beyond [`DISAGREEMENT`] the signal is not what the model says.
     pub unexplained: [f64; 3],
-    /// False where a condition of the paper for this method does not hold to within the noise.
-    pub conditions_hold: bool,
-    /// 1: to be trusted most. Methods whose conditions hold come first, and among equals the smaller J.
+    /// Which of the paper's conditions hold to within the noise.
+    pub conditions: Conditions,
+    /// 1: to be trusted most. Methods whose own conditions hold come first, (8) being one for all; among equals the smaller J.
     pub rank: u8,
 }
 
@@ -109,10 +135,16 @@ pub struct Comparison {
     pub methods: [Method; 4],
     /// Condition (8): |⟨e^{2jωt}⟩| over the window, 0 where it fits the period.
     pub leakage: f64,
-    /// (17): how far the whole-sample delay is from a quarter period, about cos ωt₃.
+    /// (17) at the whole-sample delay, as a share of ⟨S_C² + S_D²⟩: about cos ωt₃.
     pub imbalance: f64,
+    /// (17) at the fractional delay of a quarter period, less what the exact solution expects, in its own deviations.
+    pub imbalance_excess: f64,
     /// The monitor (20): Δφ_CD, rad.
+    ///
+    /// It is near 0 or π between the pick-offs' axes, passes ±π/2 on them, and tells of quadrature elsewhere.
     pub phase_difference: f64,
+    /// (20) less the phase difference of the exact solution, in its own deviations.
+    pub phase_excess: f64,
     /// True where methods part company beyond noise.
     pub disagree: bool,
 }
@@ -132,16 +164,21 @@ fn waves(sums: &Sums) -> [Wave; 4] {
     ]
 }
 
+/// What turning by `turn` rad, a loss of `decay`, and f32 rounding leave in a window's sums, as a share of them.
+pub(super) fn slow(turn: f64, decay: f64, leakage: f64) -> f64 {
+    let (turn, decay) = (2.0 * turn, decay);
+    // What leaks changes over the window at first order.
+    (turn * turn + decay * decay) / 12.0 + leakage * (turn.abs() + decay.abs()) + 1e-6
+}
+
 /// What the methods may differ by without a fault, beside `explained`: the exact solution's own deviations, how little the noise and
 /// its mean square over the window are known, and what turning, decay and f32 rounding leave.
 fn scatter(explained: &Shape, reference: &Reference, count: u32, leakage: f64) -> [f64; 3] {
     let square = reference.noise_uncertainty * reference.noise_uncertainty + 2.0 / f64::from(count);
-    let noise = reference.noise * libm::sqrt(square);
+    let [of_c, of_d, _] = reference.noise.moments;
+    let noise = of_c.max(of_d) * libm::sqrt(square);
     let size = reference.wave.shape.main_amplitude;
-    let slow = (4.0 * reference.turn * reference.turn + reference.decay * reference.decay) / 12.0;
-    // What leaks changes over the window at first order.
-    let leaking = leakage * (2.0 * reference.turn.abs() + reference.decay.abs());
-    let rest = slow + leaking + 1e-6;
+    let rest = slow(reference.turn, reference.decay, leakage);
     let [a, b, angle] = reference.deviations;
     let quadrature = explained.quadrature_amplitude.abs().max(b);
     let sum = |x: f64, y: f64, z: f64| libm::sqrt(x * x + y * y + z * z);
@@ -171,11 +208,12 @@ fn apart(a: &Shape, b: &Shape, unit: &[f64; 3]) -> [f64; 3] {
 pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
     let (omega, count) = (sums.products.omega, sums.products.count);
     let exact = &reference.wave;
-    let expected = waves(&Sums {
-        moments: Moments::expected(exact, omega, count, reference.noise, reference.turn),
-        delayed: Delayed::expected(exact, omega, count, sums.delayed.lag),
+    let expected_sums = Sums {
+        moments: Moments::expected(exact, omega, count, &reference.noise, reference.turn),
+        delayed: Delayed::expected(exact, omega, count, &reference.noise, sums.delayed.lag),
         products: Products::expected(exact, omega, count),
-    });
+    };
+    let expected = waves(&expected_sums);
     let [of_a, of_b, of_angle] = reference.deviations;
     let leakage = libm::sqrt(mean_harmonic(2, omega, count).norm_sqr());
     let imbalance = sums.delayed.imbalance(&sums.moments);
@@ -184,10 +222,16 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
         quadrature_amplitude: b,
         ..
     } = exact.shape;
-    // (8) for all; (12) leaves quadrature out.
-    let fits = 0.5 * a * leakage < of_a.max(0.5 * a * of_angle);
-    let pure = b.abs() < 2.0 * of_b;
-    let holds = [fits && pure, fits, fits, fits];
+    let window = 0.5 * a * leakage < of_a.max(0.5 * a * of_angle);
+    let [imbalance_excess, phase_excess] =
+        conditions::of_delay(sums, &expected_sums, reference, leakage);
+    let conditions = |i: usize| Conditions {
+        window,
+        no_quadrature: i != NO_QUADRATURE || b.abs() < 2.0 * of_b,
+        // Not a number fails.
+        delay: i != DELAY || imbalance_excess.abs() <= CONDITION,
+        monitor: i != DELAY || phase_excess.abs() <= CONDITION,
+    };
 
     let found = waves(sums);
     let mut methods = core::array::from_fn(|i| {
@@ -209,13 +253,14 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
             j: functional::squares(&wave, &sums.moments, &sums.products).max(0.0),
             differences: apart(&wave.shape, &exact.shape, &reference.deviations),
             unexplained: apart(&seen, &explained.shape, &unit),
-            conditions_hold: holds.get(i).copied().unwrap_or(false),
+            conditions: conditions(i),
             rank: 0,
         }
     });
-    let keys = methods.map(|method: Method| (!method.conditions_hold, method.j));
+    let key = |method: &Method| (!method.conditions.of_the_method_hold(), method.j);
+    let keys = methods.map(|method| key(&method));
     for (i, method) in methods.iter_mut().enumerate() {
-        let own = (!method.conditions_hold, method.j);
+        let own = key(method);
         let before = |(j, key): &(usize, (bool, f64))| *key < own || *key == own && *j < i;
         method.rank = 1 + keys.iter().copied().enumerate().filter(before).count() as u8;
     }
@@ -229,6 +274,8 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
         methods,
         leakage,
         imbalance,
+        imbalance_excess,
+        phase_excess,
         phase_difference: algorithm2::phase_difference(
             &sums.moments,
             sums.delayed.quarter(&sums.moments, omega),

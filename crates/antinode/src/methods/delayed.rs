@@ -1,8 +1,8 @@
 //! Products of the pick-offs with themselves a quarter of a period before: the sums of algorithm 2.
 
 use super::moments::Moments;
-use super::sum::Sum;
 use crate::block::Pair;
+use crate::sum::Sum;
 
 /// Delayed products of a window. Those of two windows with one lag add.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -2,6 +2,7 @@
 //!
 //! With these each method's own leakage and bias is known beforehand, so that it is not taken for a fault.
 
+use super::comparison::Noise;
 use super::delayed::Delayed;
 use super::moments::Moments;
 use super::products::{Products, mean_harmonic};
@@ -31,9 +32,9 @@ impl Means {
 }
 
 impl Moments {
-    /// Those of `wave` at `omega` rad a sample over `count` pairs, in noise of variance `noise` a sample, while the pattern turns by
-    /// `turn` rad from the first sample to the last: turning blurs the angle.
-    pub fn expected(wave: &Wave, omega: f64, count: u32, noise: f64, turn: f64) -> Self {
+    /// Those of `wave` at `omega` rad a sample over `count` pairs, in `noise`, while the pattern turns by `turn` rad from the first
+    /// sample to the last: turning blurs the angle.
+    pub fn expected(wave: &Wave, omega: f64, count: u32, noise: &Noise, turn: f64) -> Self {
         let means = Means::new(omega, count);
         let (u, v) = wave.quadratures();
         let n = f64::from(count);
@@ -49,9 +50,9 @@ impl Moments {
         let (half, difference) = (0.5 * (cc + dd), 0.5 * (cc - dd) * blur);
         Self {
             count,
-            cc: n * (half + difference + noise),
-            dd: n * (half - difference + noise),
-            cd: n * cd * blur,
+            cc: n * (half + difference + noise.moments[0]),
+            dd: n * (half - difference + noise.moments[1]),
+            cd: n * (cd * blur + noise.moments[2]),
         }
     }
 }
@@ -73,8 +74,8 @@ impl Products {
 }
 
 impl Delayed {
-    /// Those of `wave` over `count` pairs at a delay of `lag` samples, with samples before the window.
-    pub fn expected(wave: &Wave, omega: f64, count: u32, lag: u16) -> Self {
+    /// Those of `wave` over `count` pairs in `noise` at a delay of `lag` samples, with samples before the window.
+    pub fn expected(wave: &Wave, omega: f64, count: u32, noise: &Noise, lag: u16) -> Self {
         let means = Means::new(omega, count);
         let (u, v) = wave.quadratures();
         // u cos ω(t − t₃) + v sin ω(t − t₃) as x cos ωt + y sin ωt.
@@ -88,7 +89,7 @@ impl Delayed {
             count,
             cd: product(0, 1),
             cc: product(0, 0),
-            dd: product(1, 1),
+            dd: product(1, 1) + n * noise.delayed,
         }
     }
 }

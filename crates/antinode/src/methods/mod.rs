@@ -67,12 +67,12 @@ pub mod frequency;
 pub mod functional;
 pub mod phase;
 
+mod conditions;
 mod delayed;
 mod expected;
 mod moments;
 mod products;
 mod ratio;
-mod sum;
 mod wave;
 
 pub use delayed::{Delayed, DelayedSums};

@@ -1,7 +1,7 @@
 //! Second moments of the pick-offs over a window: the sums of algorithms 1, 2 and 3.
 
-use super::sum::Sum;
 use crate::block::Pair;
+use crate::sum::Sum;
 
 /// Second moments of a window. Those of two windows add.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -54,6 +54,13 @@ impl<S: Sample> Octave<S> {
         }
     }
 
+    fn restart(&mut self) {
+        self.count = 0;
+        self.differences = Lags::<S>::default();
+        self.last = (S::Square::default(), 1);
+        self.waiting = None;
+    }
+
     /// Takes a sample; gives the next octave's.
     #[inline(always)]
     fn push(&mut self, sample: [S; 2]) -> Option<[S; 2]> {
@@ -169,9 +176,17 @@ impl<S: Sample> DifferenceDetector<S> {
         }
     }
 
+    /// Forgets all samples.
+    pub fn restart(&mut self) {
+        self.candidate = None;
+        for octave in &mut self.octaves {
+            octave.restart();
+        }
+    }
+
     /// Takes a sample pair; gives the period in samples once it is sure.
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<f32> {
-        let mut next = Some(pair.pair());
+        let mut next = Some(pair.pair().map(S::search_form));
         let mut found = None;
         for (halvings, octave) in self.octaves.iter_mut().enumerate() {
             let Some(sample) = next else { break };

@@ -16,15 +16,19 @@ static RECIPROCALS: [u32; 33] = {
     table
 };
 
-/// Sums over `count` − lag pairs as means, the largest sum brought to 32 bits.
+/// Sums over `count` − lag pairs as means, with the last digits of small ones.
 #[inline(always)]
-pub(super) fn means(sums: &[u64; LAGS], count: usize) -> Levels {
+pub(super) fn means(sums: &[u32; LAGS], count: usize) -> Levels {
+    // The greatest sum is brought to the top, so that a mean keeps 24 bits and more.
     let used = sums.iter().fold(0, |all, &sum| all | sum);
-    let shift = 32u32.saturating_sub(used.leading_zeros());
+    let shift = used.leading_zeros();
+    let first = count.saturating_sub(LAGS);
     let mut means = [0; LAGS];
-    for ((lag, mean), &sum) in (1..).zip(&mut means).zip(sums) {
-        let reciprocal = RECIPROCALS.get(count - lag).copied().unwrap_or(0);
-        *mean = (((sum >> shift) as u32 as u64 * u64::from(reciprocal)) >> 32) as u32;
+    let Some(reciprocals) = RECIPROCALS.get(first..first + LAGS) else {
+        return means;
+    };
+    for ((mean, &sum), &reciprocal) in means.iter_mut().zip(sums).zip(reciprocals.iter().rev()) {
+        *mean = ((u64::from(sum << shift) * u64::from(reciprocal)) >> 32) as u32;
     }
     means
 }

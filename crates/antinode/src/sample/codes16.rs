@@ -6,9 +6,6 @@ use crate::arch;
 use crate::block::{ChannelSums, ChannelWatch};
 use crate::period::{LAGS, Lags};
 
-/// Both halves one: the weights of a plain sum.
-const ONES: u32 = 0x0001_0001;
-
 /// Two 16-bit halves as a word.
 #[inline(always)]
 fn word(pair: [i16; 2]) -> u32 {
@@ -21,40 +18,33 @@ fn pair(word: u32) -> [i16; 2] {
     [word as i16, (word >> 16) as i16]
 }
 
-/// What a pass over pairs does with two of them at once: a word of two samples for each pick-off, words of two weights.
+/// The weights from sample `index` on, which is even: words of two cosines and of two sines.
 #[inline(always)]
-fn by_two<P: SamplePair<i16>>(
-    pairs: &[P],
-    cosine: &[i16],
-    sine: &[i16],
-    mut each: impl FnMut([u32; 2], [u32; 2], u32, u32),
-) {
-    let ((pairs, last), (cosine, last_cosine), (sine, last_sine)) =
-        (pairs.as_chunks(), cosine.as_chunks(), sine.as_chunks());
-    for ((&[first, second], &cosine), &sine) in pairs.iter().zip(cosine).zip(sine) {
-        let pairs = [word(first.pair()), word(second.pair())];
-        let samples = [
-            arch::low_halves(pairs[0], pairs[1]),
-            arch::high_halves(pairs[0], pairs[1]),
-        ];
-        each(pairs, samples, word(cosine), word(sine));
-    }
-    for ((single, &cosine), &sine) in last.iter().zip(last_cosine).zip(last_sine) {
-        let single = single.pair();
-        let samples = single.map(|sample| word([sample, 0]));
-        each(
-            [word(single); 2],
-            samples,
-            word([cosine, 0]),
-            word([sine, 0]),
-        );
+fn weights(table: &[u32], index: usize) -> &[[u32; 2]] {
+    table.get(index..).unwrap_or(&[]).as_chunks().0
+}
+
+/// What stands for a sample of odd index alone: a pair of words, the first of zeros.
+#[inline(always)]
+fn after_nothing(pair: [i16; 2]) -> [[i16; 2]; 2] {
+    [[0; 2], pair]
+}
+
+/// Splits off the first pair where its index is odd: the kernels begin at even ones.
+#[inline(always)]
+fn odd_first<P>(pairs: &[P], index: usize) -> (Option<&P>, &[P]) {
+    match pairs {
+        [first, rest @ ..] if index % 2 == 1 => (Some(first), rest),
+        _ => (None, pairs),
     }
 }
 
 impl Sample for i16 {
     type Sum = i32;
-    type Weight = i16;
-    type Square = u64;
+    // Cosines of two samples in the even places, their sines in the odd ones.
+    type Weight = u32;
+    type Runs = ();
+    type Square = u32;
     type Level = u32;
 
     const EXTREMES: [Self; 2] = [i16::MIN, i16::MAX];
@@ -69,71 +59,93 @@ impl Sample for i16 {
         sum as f32
     }
 
+    #[inline(always)]
+    fn runs(_: &()) -> [u16; 2] {
+        [1; 2]
+    }
+
     fn scale(length: u16) -> u16 {
         // 32 768 · scale · length stays below 2³¹.
         (u16::MAX / length.max(1)).min(i16::MAX as u16)
     }
 
     #[inline(always)]
-    fn weight(value: f32) -> i16 {
-        value as i16
+    fn set_weight(table: &mut [u32], index: usize, weight: [f32; 2]) {
+        let [cosine, sine] = weight.map(|value| value as i16);
+        let place = table.get_mut(index & !1..);
+        if let Some([cosines, sines, ..]) = place {
+            let set = |word: u32, value: i16| {
+                let [low, high] = pair(word);
+                if index.is_multiple_of(2) {
+                    self::word([value, high])
+                } else {
+                    self::word([low, value])
+                }
+            };
+            (*cosines, *sines) = (set(*cosines, cosine), set(*sines, sine));
+        }
     }
 
     #[inline(always)]
-    fn add<P: SamplePair<Self>>(
+    fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
-        cosine: &[i16],
-        sine: &[i16],
+        table: &[u32],
+        index: usize,
     ) {
-        let [mut c, mut d] = *sums;
-        by_two(pairs, cosine, sine, |_, samples, cosine, sine| {
-            c.cosine = arch::dual_multiply_add(samples[0], cosine, c.cosine);
-            c.sine = arch::dual_multiply_add(samples[0], sine, c.sine);
-            c.sum = arch::dual_multiply_add(samples[0], ONES, c.sum);
-            d.cosine = arch::dual_multiply_add(samples[1], cosine, d.cosine);
-            d.sine = arch::dual_multiply_add(samples[1], sine, d.sine);
-            d.sum = arch::dual_multiply_add(samples[1], ONES, d.sum);
-        });
-        *sums = [c, d];
+        let (first, pairs) = odd_first(pairs, index);
+        if let Some(first) = first {
+            arch::add_pairs(
+                sums,
+                &after_nothing(first.pair()),
+                weights(table, index & !1),
+            );
+        }
+        arch::add_pairs(sums, pairs, weights(table, (index + 1) & !1));
     }
 
     #[inline(always)]
-    fn watch<P: SamplePair<Self>>(
+    fn watch_slice<P: SamplePair<Self>>(
         watch: &mut [ChannelWatch<Self>; 2],
         pairs: &[P],
-        _: u16,
-        third_cosine: &[i16],
-        third_sine: &[i16],
+        table: &[u32],
+        index: usize,
     ) {
-        let [mut c, mut d] = *watch;
-        let mut high = word([c.high, d.high]);
-        let mut low = word([c.low, d.low]);
-        by_two(
-            pairs,
-            third_cosine,
-            third_sine,
-            |pairs, samples, cosine, sine| {
-                c.third_cosine = arch::dual_multiply_add(samples[0], cosine, c.third_cosine);
-                c.third_sine = arch::dual_multiply_add(samples[0], sine, c.third_sine);
-                d.third_cosine = arch::dual_multiply_add(samples[1], cosine, d.third_cosine);
-                d.third_sine = arch::dual_multiply_add(samples[1], sine, d.third_sine);
-                high = arch::greater(arch::greater(high, pairs[0]), pairs[1]);
-                low = arch::lesser(arch::lesser(low, pairs[0]), pairs[1]);
-            },
-        );
-        [c.high, d.high] = pair(high);
-        [c.low, d.low] = pair(low);
-        *watch = [c, d];
+        let (first, pairs) = odd_first(pairs, index);
+        if let Some(first) = first {
+            let two = after_nothing(first.pair());
+            let extremes = watch.map(|channel| [channel.low, channel.high]);
+            arch::watch_pairs(watch, &two, weights(table, index & !1));
+            // The zero of nothing is no sample.
+            for ((channel, [low, high]), sample) in watch.iter_mut().zip(extremes).zip(first.pair())
+            {
+                (channel.low, channel.high) = (low.min(sample), high.max(sample));
+            }
+        }
+        arch::watch_pairs(watch, pairs, weights(table, (index + 1) & !1));
+    }
+
+    #[inline(always)]
+    fn search_form(self) -> Self {
+        self >> 2
     }
 
     #[inline(always)]
     fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]) {
-        // Halved, a difference of any two codes fits in 16 bits; 32 of 2³¹ fit in the sum.
         let pair = word(pair);
-        for (sum, &before) in sums.iter_mut().zip(before.iter().rev()) {
+        let add = |sum: &mut u32, before: [i16; 2]| {
+            // Of codes of 14 bits half a difference is below 2¹³: 31 squares of two stay below 2³².
             let half = arch::half_difference(pair, word(before));
-            *sum = arch::dual_multiply_add_long(half, half, *sum);
+            *sum = arch::dual_multiply_add(half, half, *sum);
+        };
+        if let Some(all) = before.last_chunk::<LAGS>() {
+            for lag in 0..LAGS {
+                add(&mut sums[lag], all[LAGS - 1 - lag]);
+            }
+        } else {
+            for (sum, &before) in sums.iter_mut().zip(before.iter().rev()) {
+                add(sum, before);
+            }
         }
     }
 
@@ -158,9 +170,7 @@ impl Sample for i16 {
     }
 
     #[inline(always)]
-    fn square_to_f32(square: u64) -> f32 {
+    fn square_to_f32(square: u32) -> f32 {
         4.0 * square as f32
     }
 }
-
-const _: () = assert!(LAGS < 16);

@@ -12,7 +12,8 @@ fn product(sample: i32, weight: i16) -> i64 {
 
 impl Sample for i32 {
     type Sum = i64;
-    type Weight = i16;
+    type Weight = [i16; 2];
+    type Runs = ();
     type Square = u64;
     type Level = u32;
 
@@ -28,47 +29,48 @@ impl Sample for i32 {
         sum as f32
     }
 
+    #[inline(always)]
+    fn runs(_: &()) -> [u16; 2] {
+        [1; 2]
+    }
+
     fn scale(_: u16) -> u16 {
         i16::MAX as u16
     }
 
     #[inline(always)]
-    fn weight(value: f32) -> i16 {
-        value as i16
+    fn set_weight(table: &mut [[i16; 2]], index: usize, weight: [f32; 2]) {
+        if let Some(entry) = table.get_mut(index) {
+            *entry = weight.map(|value| value as i16);
+        }
     }
 
-    #[inline(always)]
-    fn add<P: SamplePair<Self>>(
+    #[inline(never)]
+    fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
-        cosine: &[i16],
-        sine: &[i16],
+        table: &[[i16; 2]],
+        index: usize,
     ) {
         let [mut c, mut d] = *sums;
-        for ((pair, &cosine), &sine) in pairs.iter().zip(cosine).zip(sine) {
-            let pair = pair.pair();
-            c.cosine += product(pair[0], cosine);
-            c.sine += product(pair[0], sine);
-            c.sum += i64::from(pair[0]);
-            d.cosine += product(pair[1], cosine);
-            d.sine += product(pair[1], sine);
-            d.sum += i64::from(pair[1]);
+        for (pair, &weight) in pairs.iter().zip(table.get(index..).unwrap_or(&[])) {
+            let [on_c, on_d] = pair.pair();
+            c.add(on_c, weight);
+            d.add(on_d, weight);
         }
         *sums = [c, d];
     }
 
-    #[inline(always)]
-    fn watch<P: SamplePair<Self>>(
+    #[inline(never)]
+    fn watch_slice<P: SamplePair<Self>>(
         watch: &mut [ChannelWatch<Self>; 2],
         pairs: &[P],
-        _: u16,
-        third_cosine: &[i16],
-        third_sine: &[i16],
+        table: &[[i16; 2]],
+        index: usize,
     ) {
         let [mut c, mut d] = *watch;
-        for ((pair, &cosine), &sine) in pairs.iter().zip(third_cosine).zip(third_sine) {
-            let pair = pair.pair();
-            for (channel, sample) in [&mut c, &mut d].into_iter().zip(pair) {
+        for (pair, &[cosine, sine]) in pairs.iter().zip(table.get(index..).unwrap_or(&[])) {
+            for (channel, sample) in [&mut c, &mut d].into_iter().zip(pair.pair()) {
                 channel.third_cosine += product(sample, cosine);
                 channel.third_sine += product(sample, sine);
                 channel.high = channel.high.max(sample);
@@ -76,6 +78,11 @@ impl Sample for i32 {
             }
         }
         *watch = [c, d];
+    }
+
+    #[inline(always)]
+    fn search_form(self) -> Self {
+        self
     }
 
     #[inline(always)]
@@ -99,7 +106,10 @@ impl Sample for i32 {
 
     #[inline(always)]
     fn means(sums: &Lags<Self>, count: usize) -> Levels {
-        codes::means(sums, count)
+        // The 32 highest bits that any of the sums uses.
+        let used = sums.iter().fold(0, |all, &sum| all | sum);
+        let shift = 32u32.saturating_sub(used.leading_zeros());
+        codes::means(&sums.map(|sum| (sum >> shift) as u32), count)
     }
 
     #[inline(always)]
@@ -115,5 +125,14 @@ impl Sample for i32 {
     #[inline(always)]
     fn square_to_f32(square: u64) -> f32 {
         128.0 * square as f32
+    }
+}
+
+impl ChannelSums<i32> {
+    #[inline(always)]
+    fn add(&mut self, sample: i32, [cosine, sine]: [i16; 2]) {
+        self.cosine += product(sample, cosine);
+        self.sine += product(sample, sine);
+        self.sum += i64::from(sample);
     }
 }

@@ -1,12 +1,13 @@
 //! Arithmetic at sample rate in f32.
 
 use super::{Sample, SamplePair};
-use crate::block::{ChannelSums, ChannelWatch};
+use crate::block::{ChannelSums, ChannelWatch, Runs};
 use crate::period::{LAGS, Lags};
 
 impl Sample for f32 {
     type Sum = f32;
-    type Weight = f32;
+    type Weight = [f32; 2];
+    type Runs = Runs;
     type Square = f32;
     type Level = f32;
 
@@ -22,46 +23,48 @@ impl Sample for f32 {
         sum
     }
 
+    #[inline(always)]
+    fn runs(runs: &Runs) -> [u16; 2] {
+        [runs.low, runs.high]
+    }
+
     fn scale(_: u16) -> u16 {
         0
     }
 
     #[inline(always)]
-    fn weight(value: f32) -> f32 {
-        value
+    fn set_weight(table: &mut [[f32; 2]], index: usize, weight: [f32; 2]) {
+        if let Some(entry) = table.get_mut(index) {
+            *entry = weight;
+        }
     }
 
-    #[inline(always)]
-    fn add<P: SamplePair<Self>>(
+    #[inline(never)]
+    fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
-        cosine: &[f32],
-        sine: &[f32],
+        table: &[[f32; 2]],
+        index: usize,
     ) {
         let [mut c, mut d] = *sums;
-        for ((pair, &cosine), &sine) in pairs.iter().zip(cosine).zip(sine) {
-            let pair = pair.pair();
-            c.cosine += pair[0] * cosine;
-            c.sine += pair[0] * sine;
-            c.sum += pair[0];
-            d.cosine += pair[1] * cosine;
-            d.sine += pair[1] * sine;
-            d.sum += pair[1];
+        for (pair, &weight) in pairs.iter().zip(table.get(index..).unwrap_or(&[])) {
+            let [on_c, on_d] = pair.pair();
+            c.add(on_c, weight);
+            d.add(on_d, weight);
         }
         *sums = [c, d];
     }
 
-    #[inline(always)]
-    fn watch<P: SamplePair<Self>>(
+    #[inline(never)]
+    fn watch_slice<P: SamplePair<Self>>(
         watch: &mut [ChannelWatch<Self>; 2],
         pairs: &[P],
-        index: u16,
-        third_cosine: &[f32],
-        third_sine: &[f32],
+        table: &[[f32; 2]],
+        index: usize,
     ) {
         let [mut c, mut d] = *watch;
-        let thirds = third_cosine.iter().zip(third_sine);
-        for ((pair, (&cosine, &sine)), index) in pairs.iter().zip(thirds).zip(index..) {
+        let table = table.get(index..).unwrap_or(&[]);
+        for ((pair, &[cosine, sine]), index) in pairs.iter().zip(table).zip(index as u16..) {
             let pair = pair.pair();
             c.third_cosine += pair[0] * cosine;
             c.third_sine += pair[0] * sine;
@@ -74,10 +77,24 @@ impl Sample for f32 {
     }
 
     #[inline(always)]
+    fn search_form(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
     fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]) {
-        for (sum, before) in sums.iter_mut().zip(before.iter().rev()) {
+        let add = |sum: &mut f32, before: [f32; 2]| {
             let (c, d) = (pair[0] - before[0], pair[1] - before[1]);
             *sum += c * c + d * d;
+        };
+        if let Some(all) = before.last_chunk::<LAGS>() {
+            for lag in 0..LAGS {
+                add(&mut sums[lag], all[LAGS - 1 - lag]);
+            }
+        } else {
+            for (sum, &before) in sums.iter_mut().zip(before.iter().rev()) {
+                add(sum, before);
+            }
         }
     }
 
@@ -88,9 +105,11 @@ impl Sample for f32 {
 
     #[inline(always)]
     fn means(sums: &Lags<Self>, count: usize) -> [f32; LAGS] {
+        let first = count.saturating_sub(LAGS);
+        let reciprocals = RECIPROCALS.get(first..first + LAGS).unwrap_or(&[]);
         let mut means = *sums;
-        for (lag, mean) in (1..).zip(&mut means) {
-            *mean *= RECIPROCALS.get(count - lag).copied().unwrap_or(0.0);
+        for (mean, reciprocal) in means.iter_mut().zip(reciprocals.iter().rev()) {
+            *mean *= reciprocal;
         }
         means
     }
@@ -122,18 +141,27 @@ static RECIPROCALS: [f32; 33] = {
     table
 };
 
+impl ChannelSums<f32> {
+    #[inline(always)]
+    fn add(&mut self, sample: f32, [cosine, sine]: [f32; 2]) {
+        self.cosine += sample * cosine;
+        self.sine += sample * sine;
+        self.sum += sample;
+    }
+}
+
 impl ChannelWatch<f32> {
     #[inline(always)]
     fn see(&mut self, sample: f32, index: u16) {
         // Few samples of a block are an extreme so far: only those cost more than two comparisons.
         if sample >= self.high {
-            (self.high_run, self.high_now) =
-                run(sample > self.high, self.high_run, self.high_now, index);
+            let runs = &mut self.runs;
+            (runs.high, runs.high_now) = run(sample > self.high, runs.high, runs.high_now, index);
             self.high = sample;
         }
         if sample <= self.low {
-            (self.low_run, self.low_now) =
-                run(sample < self.low, self.low_run, self.low_now, index);
+            let runs = &mut self.runs;
+            (runs.low, runs.low_now) = run(sample < self.low, runs.low, runs.low_now, index);
             self.low = sample;
         }
     }

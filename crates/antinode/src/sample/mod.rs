@@ -12,6 +12,16 @@ use crate::period::{LAGS, Lags};
 
 mod sealed {
     pub trait Sealed {}
+    // Of 16-bit codes a pair is a word of memory: the kernels of `arch` rest on it.
+    pub trait Pair {}
+    impl Pair for super::Packed {}
+    impl<S: Sealed> Pair for [S; 2] {}
+    impl Pair for [u16; 2] {}
+    impl Pair for [i8; 2] {}
+    #[cfg(feature = "fixed")]
+    impl Pair for [fixed::types::I1F15; 2] {}
+    #[cfg(feature = "fixed")]
+    impl Pair for [fixed::types::I1F31; 2] {}
     impl Sealed for f32 {}
     impl Sealed for i16 {}
     impl Sealed for i32 {}
@@ -30,8 +40,10 @@ mod sealed {
 pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     /// A running sum of weighted samples.
     type Sum: Copy + Debug + PartialEq + Default + Send;
-    /// The reference at one sample of a block.
+    /// The reference at one sample of a block: cosine and sine.
     type Weight: Copy + Debug + Default + Send;
+    /// What is kept of runs of equal samples.
+    type Runs: Copy + Debug + PartialEq + Default + Send;
     /// A running sum of squared differences.
     type Square: Copy + Debug + Default + Send;
     /// A mean squared difference, to be compared with others.
@@ -46,29 +58,34 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     /// The weight that stands for one in a block of `length`: the largest whose sums cannot overflow; 0 for weights not rounded.
     #[doc(hidden)]
     fn scale(length: u16) -> u16;
-    /// A weight from its value in f32, which is a whole number where there is a scale.
+    /// Puts the weights of sample `index` into a table, from cosine and sine in f32: whole numbers where there is a scale.
     #[doc(hidden)]
-    fn weight(value: f32) -> Self::Weight;
-    /// Adds pairs to the carrier's sums, each with its weights.
+    fn set_weight(table: &mut [Self::Weight], index: usize, weight: [f32; 2]);
+    /// Adds pairs, the first of which is sample `index` of its block, to the carrier's sums.
     #[doc(hidden)]
-    fn add<P: SamplePair<Self>>(
+    fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
-        cosine: &[Self::Weight],
-        sine: &[Self::Weight],
+        table: &[Self::Weight],
+        index: usize,
     );
-    /// Watches pairs, the first of which has `index` in its block.
+    /// Watches pairs, the first of which is sample `index` of its block.
     #[doc(hidden)]
-    fn watch<P: SamplePair<Self>>(
+    fn watch_slice<P: SamplePair<Self>>(
         watch: &mut [ChannelWatch<Self>; 2],
         pairs: &[P],
-        index: u16,
-        third_cosine: &[Self::Weight],
-        third_sine: &[Self::Weight],
+        table: &[Self::Weight],
+        index: usize,
     );
+    /// The longest runs at the extremes, low and high: 1 where they are not counted.
+    #[doc(hidden)]
+    fn runs(runs: &Self::Runs) -> [u16; 2];
     /// Less than every sample, and more than every sample: extremes of none.
     #[doc(hidden)]
     const EXTREMES: [Self; 2];
+    /// The sample as the search for a period takes it: of 16-bit codes, less two bits.
+    #[doc(hidden)]
+    fn search_form(self) -> Self;
     /// Adds the squared differences of a pair from those before it, the last first.
     #[doc(hidden)]
     fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]);
@@ -97,8 +114,8 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
 /// | `i16` | `[i16; 2]`, `[I1F15; 2]`, [`Packed`] |
 /// | `i32` | `[i32; 2]`, `[i16; 2]`, `[u16; 2]`, `[I1F31; 2]`, [`Packed`] |
 ///
-/// `I1F15` and `I1F31` are those of the crate `fixed`, with the feature of that name; a unit of the estimates is then 2⁻¹⁵ or 2⁻³¹.
-pub trait SamplePair<S>: Copy {
+/// No other type can be one. `I1F15` and `I1F31` are those of the crate `fixed`, with the feature of that name; a unit of the estimates is then 2⁻¹⁵ or 2⁻³¹.
+pub trait SamplePair<S>: Copy + sealed::Pair {
     /// S_C and S_D.
     fn pair(self) -> [S; 2];
 }

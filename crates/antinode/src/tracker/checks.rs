@@ -48,9 +48,18 @@ impl Noise {
         self.refused = 0;
     }
 
-    /// How far a variance of `freedom` may exceed the one remembered.
-    fn limit(&self, freedom: f32) -> f32 {
-        self.variance * spread(freedom, self.freedom).max(4.0)
+    /// True when a variance of `freedom` exceeds the one remembered, and a floor.
+    fn is_exceeded(&self, variance: f32, freedom: f32, floor: f32) -> bool {
+        // The exact limit is looked at only where the least one is passed.
+        let beyond = variance - floor;
+        self.freedom > 0.0
+            && beyond > 4.0 * self.variance
+            && beyond > spread(freedom, self.freedom) * self.variance
+    }
+
+    /// The variance remembered; 0 when none is.
+    pub(crate) fn variance(&self) -> f32 {
+        self.variance
     }
 }
 
@@ -84,12 +93,12 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
     flags = flags.with_if(!significant, Flags::LOST);
 
     // White noise is the same about the carrier and about its third harmonic.
-    let coloured = variance
-        > COLOUR.max(spread(remains.freedom, remains.third_freedom)) * remains.third_noise
-            + 4.0 * floor
-        && remains.third_freedom >= 12.0;
+    let beyond = variance - 4.0 * floor;
+    let coloured = remains.third_freedom >= 12.0
+        && beyond > COLOUR * remains.third_noise
+        && beyond > spread(remains.freedom, remains.third_freedom) * remains.third_noise;
     let known = noise.freedom > 0.0;
-    let louder = known && variance > noise.limit(remains.freedom) + floor;
+    let louder = noise.is_exceeded(variance, remains.freedom, floor);
     // One block out of line with all others: a step, a spike or a short dropout.
     let others = if known && noise.freedom > 3.0 * remains.freedom {
         noise.variance

@@ -37,8 +37,12 @@ pub(super) fn sample_flags<'a>(
     let mut high = [f32::NEG_INFINITY; 2];
     for block in extremes.clone() {
         for i in 0..2 {
-            low[i] = low[i].min(block[i].low);
-            high[i] = high[i].max(block[i].high);
+            if block[i].low < low[i] {
+                low[i] = block[i].low;
+            }
+            if block[i].high > high[i] {
+                high[i] = block[i].high;
+            }
         }
     }
     // Where no rail is known, samples that stay at the extreme for longer than a crest does show one.

@@ -14,7 +14,7 @@ use crate::estimate::{Estimate, Flags};
 use crate::sample::Sample;
 use crate::settings::{Settings, SettingsError};
 use crate::wave::{Angle, Standing, wrap};
-use crate::window::{CARRIER_REACH, Fit, Model, Seen, solve};
+use crate::window::{Blocks, CARRIER_REACH, Fit, Last, Model, Seen, Start, solve};
 use checks::Noise;
 use record::Record;
 use trend::Trend;
@@ -40,6 +40,8 @@ pub struct Tracker<const BLOCKS: usize> {
     wanted: u16,
     noise: Noise,
     trend: Trend,
+    /// The last fit, and where its window ended.
+    last: Option<(Last, u64)>,
     /// The last clean window.
     before: Option<Record>,
     /// The angle of the last window that had one: continuity is kept over faults.
@@ -65,6 +67,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             wanted: 0,
             noise: Noise::default(),
             trend: Trend::new(),
+            last: None,
             before: None,
             angle: Angle::new(settings.start_angle),
             lost: false,
@@ -80,16 +83,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     pub fn push<S: Sample>(&mut self, block: &Block<S>) -> Option<Estimate> {
         self.follow(block.layout, block.start);
         self.end = block.start + u64::from(block.layout.length);
-        let seen = self.model.as_ref()?.see(block);
-        self.gather(seen)
-    }
-
-    /// Takes a block into the ring, and solves the window that it completes.
-    fn gather(&mut self, seen: Seen) -> Option<Estimate> {
         if self.ring.len() >= usize::from(self.count) || self.ring.is_full() {
             self.ring.pop_front();
         }
-        self.ring.push_back(seen).ok()?;
+        let model = self.model.as_ref()?;
+        self.ring.push_back(model.see(block)).ok()?;
         self.wanted = self.wanted.saturating_sub(1);
         if self.wanted > 0 || self.ring.len() < usize::from(self.count) {
             return None;
@@ -145,6 +143,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.noise = Noise::default();
             self.trend.clear();
             self.before = None;
+            self.last = None;
             self.lost = self.ever;
             self.failures = 0;
         }
@@ -152,6 +151,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Solves the window that the ring holds.
+    #[inline(never)]
     fn estimate(&mut self) -> Option<Estimate> {
         let fit = self.fit()?;
         let model = self.model.as_ref()?;
@@ -206,6 +206,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             Flags::DEAD_CHANNEL,
         );
         self.promise(&mut record, &wave, half);
+        self.last = fit.settled.then(|| (fit.last(), self.end));
 
         if flags.contains(Flags::LOST) {
             self.failures = self.failures.saturating_add(1);
@@ -256,12 +257,28 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             }
         };
         let (older, newer) = self.ring.as_slices();
-        let blocks = older.iter().chain(newer);
-        let fit = solve(model, blocks.clone(), self.count, carrier, uncertainty);
+        let blocks = Blocks {
+            parts: [older, newer],
+        };
+        let start = match &self.last {
+            Some((last, end)) if uncertainty == 0.0 => {
+                let half_samples = 2 * self.end.wrapping_sub(*end);
+                Start::after(model, last, half_samples, self.noise.variance())
+            }
+            _ => Start::default(),
+        };
+        let fit = solve(model, blocks, self.count, carrier, uncertainty, start);
         if fit.settled || uncertainty > 0.0 {
             return Some(fit);
         }
-        Some(solve(model, blocks, self.count, carrier, rough))
+        Some(solve(
+            model,
+            blocks,
+            self.count,
+            carrier,
+            rough,
+            Start::default(),
+        ))
     }
 
     /// Takes the share of a turning pattern out of the frequency, with what the angles of the windows before promise.

@@ -5,9 +5,7 @@
 
 use heapless::Deque;
 
-use crate::arch::square_root;
 use crate::wave::Angle;
-use crate::window::Normal;
 
 /// Windows kept.
 const KEPT: usize = 5;
@@ -64,32 +62,27 @@ impl Trend {
     /// The rate at the middle of a window, from its own angle and the angles before: constant through three points, linear in time
     /// through more. With none before, the pattern is taken to stand still until a window shows that it does not.
     pub(crate) fn rate(&self, middle: u64, samples: u32, angle: Angle, variance: f32) -> Rate {
-        let mut normal = Normal::ZERO;
-        let mut rhs = [0.0; 5];
-        let mut used = 0;
-        let window = samples as f32;
-        let earlier = self
-            .points
-            .iter()
-            .filter(|point| point.middle + 2 * u64::from(samples) <= middle)
-            .map(|p| {
-                (
-                    -0.5 * (middle - p.middle) as f32 / window,
-                    p.angle.less(angle),
-                    p.variance,
-                )
-            });
-        for (time, angle, variance) in earlier.chain(core::iter::once((0.0, 0.0, variance))) {
-            let weight = 1.0 / square_root(variance.max(1e-18));
-            let curve = if self.points.len() >= 3 {
-                weight * time * time
-            } else {
-                0.0
-            };
-            let row = [weight, weight * time, curve, 0.0, 0.0];
-            normal.add(&row);
-            for (sum, value) in rhs.iter_mut().zip(row) {
-                *sum += value * weight * angle;
+        // Sums of weight·timeⁿ and of weight·timeⁿ·angle; the window itself is at time and angle 0.
+        let own = 1.0 / variance.max(1e-18);
+        let mut powers = [own, 0.0, 0.0, 0.0, 0.0];
+        let mut values = [0.0; 3];
+        let per_window = 0.5 / samples as f32;
+        let mut used = 1;
+        for point in &self.points {
+            // Not overlapping, and so near that 32 bits hold it.
+            let passed = middle.saturating_sub(point.middle).min(u64::from(u32::MAX)) as u32;
+            if passed < 2 * samples {
+                continue;
+            }
+            let time = -(passed as f32) * per_window;
+            let angle = point.angle.less(angle);
+            let mut weight = 1.0 / point.variance.max(1e-18);
+            for n in 0..5 {
+                powers[n] += weight;
+                if let Some(value) = values.get_mut(n) {
+                    *value += weight * angle;
+                }
+                weight *= time;
             }
             used += 1;
         }
@@ -99,9 +92,26 @@ impl Trend {
                 variance: 0.0,
             };
         }
-        normal.factorise();
-        let value = normal.solve(rhs)[1] / window;
-        let variance = normal.solve([0.0, 1.0, 0.0, 0.0, 0.0])[1] / (window * window);
-        Rate { value, variance }
+        let [s0, s1, s2, s3, s4] = powers;
+        let [v0, v1, v2] = values;
+        // The curve is taken out of level and rate where there are points for it, then the level out of the rate.
+        let bent = if self.points.len() >= 3 && s4 > 0.0 {
+            1.0 / s4
+        } else {
+            0.0
+        };
+        let (level, mixed, rate) = (
+            s0 - s2 * s2 * bent,
+            s1 - s2 * s3 * bent,
+            s2 - s3 * s3 * bent,
+        );
+        let (level_value, rate_value) = (v0 - s2 * v2 * bent, v1 - s3 * v2 * bent);
+        let known = rate - mixed * mixed / level;
+        let value = (rate_value - mixed * level_value / level) / known;
+        let window = samples as f32;
+        Rate {
+            value: value / window,
+            variance: 1.0 / (known * window * window),
+        }
     }
 }

@@ -2,11 +2,10 @@
 
 use num_complex::Complex32;
 
-use super::fit::Prediction;
+use super::fit::{Blocks, Prediction};
 use super::model::Model;
 use super::response::Response;
-use super::seen::Seen;
-use super::waves::{Course, Gains, Mixing, Waves};
+use super::waves::{Course, Gains, Here, Mixing, Waves};
 
 /// The residual of a fit, in several views. Squares are in input units squared.
 #[derive(Debug, Clone, Copy, Default)]
@@ -33,72 +32,71 @@ impl Remains {
 }
 
 /// Passes once more over the blocks of a window, with its final waves and offsets.
-pub(super) fn examine<'a>(
+#[inline(never)]
+pub(super) fn examine(
     model: &Model,
-    blocks: impl Iterator<Item = &'a Seen>,
+    blocks: Blocks<'_>,
     waves: &Waves,
-    offset: [f32; 2],
+    offsets: [f32; 2],
 ) -> Remains {
     let response = &model.response;
     let mixing = Mixing::new(model, waves);
-    let predictions: [(Prediction, Third); 2] = core::array::from_fn(|i| {
-        (
-            Prediction::new(model, &mixing, i, offset[i]),
-            Third::new(model, &mixing, i, offset[i]),
-        )
-    });
+    let predictions = Prediction::new(model, &mixing, offsets);
+    let thirds = Third::new(model, &mixing, offsets);
     let mut course = Course::new(model, waves);
     let mut steps = Steps::new(model.blocks, response);
-    let mut remains = Remains {
-        freedom: model.freedom(),
-        ..Remains::default()
-    };
-    let mut third_power = 0.0;
-    for block in blocks {
+    let (mut residual, mut worst_block, mut worst_step) = (0.0, 0.0, 0.0);
+    let (mut third, mut third_power, mut watched) = ([Complex32::ZERO; 2], 0.0, 0u16);
+    for block in blocks.iter() {
         let here = course.next();
         let back = here.unit.conj();
-        let back_third = back * back * back;
-        let mut along = [Complex32::ZERO; 2];
-        let mut power = 0.0;
-        for channel in 0..2 {
-            let (prediction, third) = &predictions[channel];
-            let rest = prediction.rest(&block.whitened[channel], &here);
-            power += rest.mean * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
-            along[channel] = Complex32::new(
+        let along = |channel: usize| {
+            let rest = predictions[channel].rest(&block.whitened[channel], &here);
+            let power = rest.mean * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
+            let along = Complex32::new(
                 response.mean.level * rest.mean + response.even.level * rest.even,
                 response.odd.level * rest.odd,
-            ) * back;
-            if let Some(watched) = &block.watched {
-                let seen = watched.third[channel];
-                let harmonic = Complex32::new(
-                    seen.re - third.offset - third.cosine.of(&here),
-                    third.sine.of(&here) - seen.im,
-                );
-                remains.third[channel] += harmonic * back_third;
-                third_power += harmonic.norm_sqr();
-                remains.third_freedom += 2.0;
-            }
+            );
+            (power, along * back)
+        };
+        let (c, d) = (along(0), along(1));
+        let power = c.0 + d.0;
+        residual += power;
+        if power > worst_block {
+            worst_block = power;
         }
-        remains.residual += power;
-        remains.worst_block = if power > remains.worst_block {
-            power
-        } else {
-            remains.worst_block
-        };
-        let step = steps.add(here.u, along);
-        remains.step = if step > remains.step {
-            step
-        } else {
-            remains.step
-        };
+        let step = steps.add(here.u, [c.1, d.1]);
+        if step > worst_step {
+            worst_step = step;
+        }
+        if let Some(seen) = &block.watched {
+            let back_third = back * back * back;
+            let rest = |channel: usize| thirds[channel].rest(seen.third[channel], &here);
+            let (c, d) = (rest(0), rest(1));
+            third[0] += c * back_third;
+            third[1] += d * back_third;
+            third_power += c.norm_sqr() + d.norm_sqr();
+            watched += 1;
+        }
     }
-    let (count, length) = (f32::from(model.blocks), f32::from(model.layout.length));
-    let coherent = (remains.third[0].norm_sqr() + remains.third[1].norm_sqr()) / count;
-    remains.third_freedom = (remains.third_freedom - 4.0).max(0.0);
-    remains.third_noise =
-        (third_power - coherent).max(0.0) / (0.5 * length * remains.third_freedom.max(1.0));
-    remains.third = remains.third.map(|sum| sum * (2.0 / (count * length)));
-    remains
+    let length = f32::from(model.layout.length);
+    let count = f32::from(watched.max(1));
+    let coherent = (third[0].norm_sqr() + third[1].norm_sqr()) / count;
+    let third_freedom = 4.0 * f32::from(watched.saturating_sub(1));
+    let incoherent = if third_power > coherent {
+        third_power - coherent
+    } else {
+        0.0
+    };
+    Remains {
+        residual,
+        freedom: model.freedom(),
+        worst_block,
+        step: worst_step,
+        third: third.map(|sum| sum * (2.0 / (count * length))),
+        third_noise: incoherent / (0.5 * length * third_freedom.max(1.0)),
+        third_freedom,
+    }
 }
 
 /// Predicts the third-harmonic sums of one pick-off: what the wave itself puts there in blocks that do not fit its period.
@@ -109,13 +107,34 @@ struct Third {
 }
 
 impl Third {
-    fn new(model: &Model, mixing: &Mixing, channel: usize, offset: f32) -> Self {
+    fn new(model: &Model, mixing: &Mixing, offsets: [f32; 2]) -> [Self; 2] {
         let response = &model.response;
-        Self {
-            cosine: mixing.even(channel, &response.third_even),
-            sine: mixing.odd(channel, &response.third_odd),
-            offset: response.third_offset * offset,
-        }
+        let [cosine_c, cosine_d] = mixing.even(&response.third_even);
+        let [sine_c, sine_d] = mixing.odd(&response.third_odd);
+        let [offset_c, offset_d] = offsets.map(|offset| response.third_offset * offset);
+        [
+            Self {
+                cosine: cosine_c,
+                sine: sine_c,
+                offset: offset_c,
+            },
+            Self {
+                cosine: cosine_d,
+                sine: sine_d,
+                offset: offset_d,
+            },
+        ]
+    }
+}
+
+impl Third {
+    /// The sums less what is predicted here: Σ S e^(−3jφ).
+    #[inline(always)]
+    fn rest(&self, seen: Complex32, here: &Here) -> Complex32 {
+        Complex32::new(
+            seen.re - self.offset - self.cosine.of(here),
+            self.sine.of(here) - seen.im,
+        )
     }
 }
 
@@ -123,9 +142,9 @@ impl Third {
 struct Steps {
     /// Mean weight of z in a block, over all phases of the carrier.
     weight: f32,
-    blocks: f32,
-    /// Σu² over the window, u being the blocks' middles.
-    spread: f32,
+    /// 1/Σu² over the window, u being the blocks' middles; and one over the blocks.
+    per_spread: f32,
+    per_block: f32,
     count: f32,
     time: f32,
     sum: [Complex32; 2],
@@ -137,8 +156,8 @@ impl Steps {
         let blocks = f32::from(blocks);
         Self {
             weight: 0.5 * levels.iter().map(|level| level * level).sum::<f32>(),
-            blocks,
-            spread: (blocks - 1.0 / blocks) / 3.0,
+            per_spread: 3.0 / (blocks - 1.0 / blocks),
+            per_block: 1.0 / blocks,
             count: 0.0,
             time: 0.0,
             sum: [Complex32::ZERO; 2],
@@ -153,8 +172,8 @@ impl Steps {
         self.sum[1] += along[1];
         // A step is known by what of it is neither constant nor slope.
         let room = self.count
-            - self.count * self.count / self.blocks
-            - self.time * self.time / self.spread;
+            - self.count * self.count * self.per_block
+            - self.time * self.time * self.per_spread;
         let power = self.sum[0].norm_sqr() + self.sum[1].norm_sqr();
         if room > 0.2 {
             power / (self.weight * room)

@@ -19,14 +19,18 @@ use crate::phase::PhaseStep;
 pub(crate) const CARRIER_REACH: f32 = 0.05;
 /// A fit that still moves by more than this share of the wave has found nothing.
 const NEAR: f32 = 0.01;
-/// A step below this share of the wave leaves the next one below rounding: it is of second order.
-const SETTLED: f32 = 1e-4;
+/// Below this share of the wave the next step is rounding.
+const SETTLED: f32 = 1e-8;
+/// Below this share of the scatter's variance the next step does not matter.
+const NEGLIGIBLE: f32 = 0.1;
 /// Steps at most.
 const STEPS: usize = 6;
 
 /// What a fit found.
 #[derive(Debug, Clone)]
 pub(crate) struct Fit {
+    /// What the waves' phases are counted from.
+    pub carrier: PhaseStep,
     pub waves: Waves,
     pub offsets: [f32; 2],
     /// What the waves leave unexplained.
@@ -36,6 +40,15 @@ pub(crate) struct Fit {
 }
 
 impl Fit {
+    /// What the next fit may begin with.
+    pub(crate) fn last(&self) -> Last {
+        Last {
+            carrier: self.carrier,
+            waves: self.waves,
+            offsets: self.offsets,
+        }
+    }
+
     /// |z|² of each (ideal) pick-off.
     pub(crate) fn channel_power(&self) -> [f32; 2] {
         let [plus, minus] = self.waves.value;
@@ -55,14 +68,27 @@ pub(super) struct Prediction {
 }
 
 impl Prediction {
-    pub(super) fn new(model: &Model, mixing: &Mixing, channel: usize, offset: f32) -> Self {
+    /// For both pick-offs.
+    pub(super) fn new(model: &Model, mixing: &Mixing, offsets: [f32; 2]) -> [Self; 2] {
         let response = &model.response;
-        Self {
-            mean: mixing.even(channel, &response.mean),
-            even: mixing.even(channel, &response.even),
-            odd: mixing.odd(channel, &response.odd),
-            offset: response.offset * offset,
-        }
+        let [mean_c, mean_d] = mixing.even(&response.mean);
+        let [even_c, even_d] = mixing.even(&response.even);
+        let [odd_c, odd_d] = mixing.odd(&response.odd);
+        let [offset_c, offset_d] = offsets.map(|offset| response.offset * offset);
+        [
+            Self {
+                mean: mean_c,
+                even: even_c,
+                odd: odd_c,
+                offset: offset_c,
+            },
+            Self {
+                mean: mean_d,
+                even: even_d,
+                odd: odd_d,
+                offset: offset_d,
+            },
+        ]
     }
 
     /// The sums less what is predicted here.
@@ -76,22 +102,47 @@ impl Prediction {
     }
 }
 
+/// A run of blocks in the ring.
+#[derive(Clone, Copy)]
+pub(crate) struct Blocks<'a> {
+    /// The older and the newer part of the ring.
+    pub parts: [&'a [Seen]; 2],
+}
+
+impl<'a> Blocks<'a> {
+    pub(super) fn iter(&self) -> impl Iterator<Item = &'a Seen> + use<'a> {
+        let [older, newer] = self.parts;
+        older.iter().chain(newer)
+    }
+
+    /// The `count` blocks after the first `skipped`.
+    fn part(&self, skipped: usize, count: usize) -> Self {
+        let [older, newer] = self.parts;
+        let cut = |part: &'a [Seen], from: usize, to: usize| {
+            part.get(from.min(part.len())..to.min(part.len()))
+                .unwrap_or(&[])
+        };
+        let (from, to, split) = (skipped, skipped + count, older.len());
+        Self {
+            parts: [
+                cut(older, from, to),
+                cut(newer, from.saturating_sub(split), to.saturating_sub(split)),
+            ],
+        }
+    }
+}
+
 /// One pass over the blocks: the gradient of both pick-offs' parameters.
-fn gradient<'a>(
-    model: &Model,
-    blocks: impl Iterator<Item = &'a Seen>,
-    waves: &Waves,
-    offset: [f32; 2],
-) -> [Row; 2] {
+#[inline(never)]
+fn gradient(model: &Model, blocks: Blocks<'_>, waves: &Waves, offsets: [f32; 2]) -> [Row; 2] {
     let response = &model.response;
     let mixing = Mixing::new(model, waves);
-    let predictions: [Prediction; 2] =
-        core::array::from_fn(|i| Prediction::new(model, &mixing, i, offset[i]));
+    let predictions = Prediction::new(model, &mixing, offsets);
     let mut course = Course::new(model, waves);
     let mut level = [Complex32::ZERO; 2];
     let mut slope = [Complex32::ZERO; 2];
     let mut mean = [0.0; 2];
-    for block in blocks {
+    for block in blocks.iter() {
         let here = course.next();
         let back = here.unit.conj();
         for channel in 0..2 {
@@ -123,14 +174,58 @@ fn gradient<'a>(
     })
 }
 
+/// What is kept of a fit to begin the next one.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Last {
+    carrier: PhaseStep,
+    waves: Waves,
+    offsets: [f32; 2],
+}
+
+/// Where a fit begins.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Start {
+    parameters: Parameters,
+    /// True when the parameters are those that the window before promises.
+    is_promised: bool,
+    /// Variance of the noise a sample, where it is known.
+    noise: f32,
+}
+
+impl Start {
+    /// Where the waves of `last` will be `half_samples` later; nothing promised where that is too far.
+    pub(crate) fn after(model: &Model, last: &Last, half_samples: u64, noise: f32) -> Self {
+        let later = 0.5 * half_samples.min(1 << 24) as u32 as f32;
+        if later > 3.0 * model.half() || last.carrier != model.carrier {
+            return Self::default();
+        }
+        let turn = model.carrier.after_half_samples(half_samples as i64).unit();
+        let [z, slope] = last.waves.parameters(model, later, turn);
+        Self {
+            parameters: Parameters {
+                z,
+                slope,
+                offset: last.offsets,
+            },
+            is_promised: true,
+            noise,
+        }
+    }
+}
+
 impl Model {
     /// Fits `blocks`, which are as many as the model was built for.
-    fn fit<'a>(&self, blocks: impl Iterator<Item = &'a Seen> + Clone) -> Fit {
-        let mut parameters = Parameters::default();
-        let mut waves = Waves::default();
+    #[inline(never)]
+    fn fit(&self, blocks: Blocks<'_>, start: &Start) -> Fit {
+        let mut parameters = start.parameters;
+        let mut waves = if start.is_promised {
+            Waves::new(self, &parameters)
+        } else {
+            Waves::default()
+        };
         let mut settled = false;
         for step in 0..STEPS {
-            let gradient = gradient(self, blocks.clone(), &waves, parameters.offset);
+            let gradient = gradient(self, blocks, &waves, parameters.offset);
             let mut moved = 0.0;
             let mut total = 0.0;
             for (channel, gradient) in gradient.into_iter().enumerate() {
@@ -144,13 +239,17 @@ impl Model {
                 total += parameters.z[channel].norm_sqr();
             }
             waves = Waves::new(self, &parameters);
-            settled = step > 0 && moved <= NEAR * NEAR * total;
-            if settled && moved <= SETTLED * SETTLED * total {
+            settled = (step > 0 || start.is_promised) && moved <= NEAR * NEAR * total;
+            // What a step leaves is its product with what is not linear: the step itself and the course.
+            let left = moved * (moved + waves.reach() * total);
+            let scatter = NEGLIGIBLE * start.noise * self.covariance[0][0];
+            if settled && left <= total * (SETTLED * SETTLED * total + scatter) {
                 break;
             }
         }
         let remains = examine(self, blocks, &waves, parameters.offset);
         Fit {
+            carrier: self.carrier,
             waves,
             offsets: parameters.offset,
             remains,
@@ -162,12 +261,13 @@ impl Model {
 /// Solves a run of blocks from a carrier known to `uncertainty` rad a sample.
 ///
 /// A carrier too rough for the whole window is first refined in its middle: a single jump to a long window would slip a turn.
-pub(crate) fn solve<'a>(
+pub(crate) fn solve(
     model: &mut Model,
-    blocks: impl Iterator<Item = &'a Seen> + Clone,
+    blocks: Blocks<'_>,
     count: u16,
     mut carrier: PhaseStep,
     mut uncertainty: f32,
+    start: Start,
 ) -> Fit {
     let length = f32::from(model.layout.length);
     let shortest = count
@@ -183,10 +283,14 @@ pub(crate) fn solve<'a>(
     };
     let mut span = reach(uncertainty);
     let mut moves = 0;
+    let before = model.carrier;
     loop {
         model.retune(carrier, span);
         let skipped = usize::from((count - span) / 2);
-        let fit = model.fit(blocks.clone().skip(skipped).take(usize::from(span)));
+        let part = blocks.part(skipped, usize::from(span));
+        let is_first = moves == 0 && span == count && carrier == before;
+        let start = if is_first { start } else { Start::default() };
+        let fit = model.fit(part, &start);
         let drift = fit.waves.drift();
         if span == count && (drift.abs() <= CARRIER_REACH || moves >= 4) {
             return fit;
@@ -194,7 +298,7 @@ pub(crate) fn solve<'a>(
         if drift.abs() > 1.5 || !drift.is_finite() {
             // The wave is nowhere near: the caller sees a fit that did not settle.
             model.retune(carrier, count);
-            let fit = model.fit(blocks.clone().take(usize::from(count)));
+            let fit = model.fit(blocks.part(0, usize::from(count)), &Start::default());
             return Fit {
                 settled: false,
                 ..fit

@@ -8,7 +8,7 @@ mod response;
 mod seen;
 mod waves;
 
-pub(crate) use fit::{CARRIER_REACH, Fit, solve};
+pub(crate) use fit::{Blocks, CARRIER_REACH, Fit, Last, Start, solve};
 pub(crate) use model::Model;
 pub(crate) use normal::Normal;
 pub(crate) use seen::{Extremes, Seen};

@@ -6,6 +6,7 @@
 use crate::arch::square_root;
 use crate::block::Layout;
 use crate::phase::PhaseStep;
+use crate::sum::Sum;
 
 /// Turns the three correlated sums of a block into independent numbers of equal noise: the noise of one sample.
 ///
@@ -47,29 +48,6 @@ pub(crate) struct Response {
     pub third_even: Answer,
     pub third_odd: Answer,
     pub third_offset: f32,
-}
-
-/// A sum that keeps what each addition rounds off (Neumaier).
-#[derive(Clone, Copy, Default)]
-struct Sum {
-    value: f32,
-    lost: f32,
-}
-
-impl Sum {
-    fn add(&mut self, term: f32) {
-        let sum = self.value + term;
-        self.lost += if self.value.abs() >= term.abs() {
-            (self.value - sum) + term
-        } else {
-            (term - sum) + self.value
-        };
-        self.value = sum;
-    }
-
-    fn get(self) -> f32 {
-        self.value + self.lost
-    }
 }
 
 impl Basis {

@@ -33,6 +33,7 @@ pub(crate) struct Extremes {
 
 impl Model {
     /// Takes a block into a window.
+    #[inline(always)]
     pub(crate) fn see<S: Sample>(&self, block: &Block<S>) -> Seen {
         let unit = 1.0 / self.layout.one();
         let watched = |channel: &ChannelWatch<S>| {
@@ -40,11 +41,12 @@ impl Model {
                 S::sum_to_f32(channel.third_cosine),
                 S::sum_to_f32(channel.third_sine),
             );
+            let [low_run, high_run] = S::runs(&channel.runs);
             let extremes = Extremes {
                 low: channel.low.to_f32(),
                 high: channel.high.to_f32(),
-                low_run: channel.low_run,
-                high_run: channel.high_run,
+                low_run,
+                high_run,
             };
             (third * unit, extremes)
         };

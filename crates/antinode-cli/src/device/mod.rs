@@ -1,0 +1,10 @@
+//! A gyro controller at the other end of a serial line.
+
+pub mod command;
+pub mod monitor;
+mod port;
+mod source;
+mod told;
+
+/// Bits a second where none are asked for: ST-LINK's virtual port and every USB bridge have it, and it carries 800 estimates a second.
+const BAUD: u32 = 921_600;

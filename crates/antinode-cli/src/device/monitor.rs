@@ -1,0 +1,191 @@
+//! `antinode monitor`: what a device reports, as it comes.
+
+use std::io::{self, BufWriter, Write};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use antinode_telemetry::{Command, CommandFrame, Damage, MAX_FRAME, Receiver, Report, frame};
+use clap::Args;
+
+use super::source::{Input, Source};
+use super::{BAUD, told};
+use crate::failure::Failure;
+use crate::options::Format;
+use crate::rows::Rows;
+
+/// `antinode monitor`.
+#[derive(Debug, Args)]
+pub struct Monitor {
+    /// A serial port, a file of bytes recorded from one, or `-` for standard input.
+    #[arg(value_name = "PORT|FILE|-")]
+    pub source: PathBuf,
+    /// How estimates are printed; the columns are those of `identify`.
+    #[arg(long, visible_alias = "output", value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
+    pub format: Format,
+    /// Speed of the port, baud (bits a second; 8N1). Files and standard input have none.
+    #[arg(long, default_value_t = BAUD, value_name = "BAUD", value_parser = clap::value_parser!(u32).range(1..))]
+    pub baud: u32,
+}
+
+/// The id of the Get that greets a device.
+const GREETING: u16 = 0;
+
+/// Damage is told this often at the most: at a wrong baud rate nothing else comes.
+const DAMAGE_TOLD: Duration = Duration::from_secs(1);
+
+/// Prints what a device reports until its bytes end or the user interrupts.
+pub fn run(options: &Monitor) -> Result<(), Failure> {
+    let mut greeting = [0; MAX_FRAME];
+    let get = CommandFrame {
+        id: GREETING,
+        command: Command::Get,
+    };
+    let greeting = frame(&get, &mut greeting).unwrap_or(&[]);
+    let source = Source::open(&options.source, options.baud, greeting)?;
+    let out = BufWriter::new(io::stdout().lock());
+    let mut screen = Screen {
+        rows: Rows::new(out, options.format, false),
+        name: source.name,
+        receiver: Receiver::new(),
+        estimates: 0,
+        bytes: 0,
+        damage: None,
+        told: Instant::now(),
+    };
+    let begin = Instant::now();
+    let result = follow(&source.input, &mut screen);
+    screen.end(begin.elapsed());
+    result?;
+    if screen.receiver.reports() > 0 {
+        return Ok(());
+    }
+    let Screen { name, bytes, .. } = screen;
+    if bytes == 0 {
+        return Err(Failure::Recording(format!(
+            "{name}: not one byte came; check that the device runs and is wired, or that its bytes were saved or sent"
+        )));
+    }
+    Err(Failure::Recording(format!(
+        "{name}: no telemetry in {bytes} bytes; check --baud (it was {}), the wiring, and that firmware and command \
+         speak the same protocol version",
+        options.baud
+    )))
+}
+
+/// Takes bytes until they end.
+fn follow(
+    input: &std::sync::mpsc::Receiver<Input>,
+    screen: &mut Screen<impl Write>,
+) -> Result<(), Failure> {
+    // The reader always tells its end; without a reader there is nothing more either.
+    for input in input {
+        match input {
+            Input::Bytes(bytes) => screen.take(&bytes)?,
+            Input::End | Input::Interrupted => break,
+            Input::Fault(error) => {
+                return Err(Failure::Recording(format!(
+                    "{}: it cannot be read any more: {error}; check that the device is plugged in",
+                    screen.name
+                )));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What the user sees.
+struct Screen<W: Write> {
+    rows: Rows<W>,
+    name: String,
+    receiver: Receiver,
+    estimates: u64,
+    bytes: u64,
+    /// Damage that is not told yet: how often, and the last.
+    damage: Option<(u64, Damage)>,
+    /// When damage was told last.
+    told: Instant,
+}
+
+impl<W: Write> Screen<W> {
+    fn take(&mut self, bytes: &[u8]) -> Result<(), Failure> {
+        self.bytes += bytes.len() as u64;
+        for &byte in bytes {
+            let lost = self.receiver.lost();
+            match self.receiver.push(byte) {
+                None => {}
+                Some(Err(damage)) => {
+                    self.damaged(damage);
+                    if self.told.elapsed() >= DAMAGE_TOLD {
+                        self.tell_damage();
+                    }
+                }
+                Some(Ok(report)) => {
+                    self.tell_damage();
+                    let lost = self.receiver.lost() - lost;
+                    if lost > 0 {
+                        eprintln!("lost: {lost} before this report");
+                    }
+                    self.show(report)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn show(&mut self, report: Report) -> Result<(), Failure> {
+        match report {
+            Report::Estimate(estimate) => {
+                self.estimates += 1;
+                self.rows.print(&self.name, &estimate, None)?;
+                self.rows.flush()?;
+            }
+            // Other formats have rows for estimates alone.
+            Report::Methods(methods) => {
+                self.rows.under(&told::methods(&methods))?;
+                self.rows.flush()?;
+            }
+            Report::Hello(hello) => eprintln!("device: {}", told::hello(&hello)),
+            Report::State(state) => eprintln!("state: {state}"),
+            Report::Counters(counters) => eprintln!("counters: {}", told::counters(&counters)),
+            Report::Acknowledgement(answer) if answer.id == GREETING => {}
+            Report::Acknowledgement(answer) => match answer.result {
+                Ok(()) => eprintln!("command {}: done", answer.id),
+                Err(error) => eprintln!("command {}: refused: {error}", answer.id),
+            },
+        }
+        Ok(())
+    }
+
+    fn damaged(&mut self, damage: Damage) {
+        let before = self.damage.map_or(0, |(count, _)| count);
+        self.damage = Some((before + 1, damage));
+    }
+
+    fn tell_damage(&mut self) {
+        match self.damage.take() {
+            None => return,
+            Some((1, damage)) => eprintln!("damaged: {damage}"),
+            Some((count, damage)) => eprintln!("damaged: {count} times, the last: {damage}"),
+        }
+        self.told = Instant::now();
+    }
+
+    /// What remains to be told once all has come.
+    fn end(&mut self, time: Duration) {
+        if let Some(damage) = self.receiver.finish() {
+            self.damaged(damage);
+        }
+        self.tell_damage();
+        let reports = self.receiver.reports();
+        eprintln!(
+            "{}: {} estimates and {} other reports; {} lost, {} damaged; {} bytes in {:.1} s",
+            self.name,
+            self.estimates,
+            reports - self.estimates,
+            self.receiver.lost(),
+            self.receiver.damaged(),
+            self.bytes,
+            time.as_secs_f64(),
+        );
+    }
+}

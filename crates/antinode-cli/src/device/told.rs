@@ -1,0 +1,98 @@
+//! What a device tells, in words.
+
+use antinode::Detection;
+use antinode_telemetry::{Configuration, Counters, FrontEnd, Hello, Methods};
+
+/// Who the device is and what it is set to, in one line.
+pub fn hello(hello: &Hello) -> String {
+    let Configuration {
+        settings: s,
+        front_end,
+        methods,
+    } = &hello.configuration;
+    let c = &s.calibration;
+    let hop = match s.hop {
+        None => "no hop".to_owned(),
+        Some(blocks) => format!("hop {blocks} blocks"),
+    };
+    let level = |name, value: Option<f32>| value.map_or(String::new(), |x| format!(", {name} {x}"));
+    format!(
+        "firmware {}, protocol {}, {}, {} Hz, window {} periods, {hop}, methods {}, gain ratio {}, skew {} ns, \
+         pick-off angle {} rad, start angle {} rad{}{}{}{}",
+        hello.firmware,
+        hello.protocol,
+        source(*front_end),
+        s.sample_rate,
+        s.periods,
+        if *methods { "on" } else { "off" },
+        c.gain_ratio,
+        c.skew * 1e9,
+        c.pick_off_angle,
+        s.start_angle,
+        s.rails.map_or(String::new(), |[low, high]| format!(
+            ", rails {low} and {high}"
+        )),
+        level("resolution", s.resolution),
+        match s.detection {
+            Detection::Difference => "",
+            Detection::MeanReturn => ", detector mean-return",
+        },
+        if s.watch { "" } else { ", samples not watched" },
+    )
+}
+
+fn source(front_end: FrontEnd) -> &'static str {
+    match front_end {
+        FrontEnd::DualAdc => "dual ADC",
+        FrontEnd::SequencedAdc => "ADC in sequence",
+        FrontEnd::Spi => "external converter on SPI",
+        FrontEnd::Sai => "external converter on SAI",
+        FrontEnd::Dfsdm => "DFSDM",
+        FrontEnd::Synthetic => "synthetic wave",
+    }
+}
+
+/// What happened, in one line: counts of trouble only where there was some.
+pub fn counters(c: &Counters) -> String {
+    let mut line = format!(
+        "up {:.1} s, {} sample pairs",
+        c.uptime_ms as f64 * 1e-3,
+        c.pairs
+    );
+    let troubles = [
+        (c.pairs_lost, "pairs lost"),
+        (c.saturated_pairs, "saturated pairs"),
+        (c.saturated_blocks.into(), "saturated blocks"),
+        (c.overruns.into(), "ADC overruns"),
+        (c.blocks_dropped.into(), "blocks dropped"),
+        (c.reports_dropped.into(), "reports dropped"),
+        (c.commands_damaged.into(), "commands damaged"),
+        (c.restarts.into(), "restarts"),
+    ];
+    for (count, name) in troubles.into_iter().filter(|(count, _)| *count > 0) {
+        line += &format!(", {count} {name}");
+    }
+    line
+}
+
+/// The methods as lines under their window's row.
+pub fn methods(methods: &Methods) -> String {
+    let mut lines = String::new();
+    for (i, m) in methods.methods.iter().enumerate() {
+        lines += &format!(
+            "{:>10} {:>9.6}{:9} {:>9.6}{:9} {:>9.5}{:9} rank {}\n",
+            format!("method {}", i + 1),
+            m.main_amplitude,
+            "",
+            m.quadrature_amplitude,
+            "",
+            m.angle.to_degrees(),
+            "",
+            m.rank,
+        );
+    }
+    if methods.disagree {
+        lines += "  warning: the methods disagree beyond noise: the signal is not one steady wave in white noise\n";
+    }
+    lines
+}

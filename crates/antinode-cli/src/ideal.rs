@@ -1,0 +1,197 @@
+//! Samples as ideal pick-offs would have given them, and what that makes of their noise.
+
+use antinode::methods::comparison::Noise;
+use antinode::{Calibration, Pair};
+
+/// Undoes a calibration's flaws at a frequency, sample by sample.
+#[derive(Debug, Clone, Copy)]
+pub struct Ideal {
+    /// By how many samples D is late.
+    delay: f64,
+    /// rad a sample.
+    omega: f64,
+    gain_ratio: f64,
+    /// Share of S_C in the S_D of an ideal pick-off, and the factor of all.
+    across: f64,
+    factor: f64,
+}
+
+/// A sample's neighbour.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Side {
+    Before,
+    After,
+}
+
+impl Ideal {
+    /// For a wave at `omega` rad a sample, at a sample rate in Hz.
+    pub fn new(calibration: &Calibration, omega: f64, sample_rate: f64) -> Self {
+        let (sine, cosine) = (2.0 * f64::from(calibration.pick_off_angle)).sin_cos();
+        Self {
+            delay: f64::from(calibration.skew) * sample_rate,
+            omega,
+            gain_ratio: calibration.gain_ratio.into(),
+            across: sine,
+            factor: 1.0 / cosine,
+        }
+    }
+
+    /// The neighbour that D is looked for beside.
+    fn side(&self) -> Side {
+        if self.delay >= 0.0 {
+            Side::Before
+        } else {
+            Side::After
+        }
+    }
+
+    /// What D showed `delay` earlier, as shares of a sample and its neighbour: exact for a sinusoid, on either side.
+    fn shares(&self, side: Side) -> [f64; 2] {
+        let delay = if side == Side::Before {
+            self.delay
+        } else {
+            -self.delay
+        };
+        [1.0 - delay, delay].map(|samples| (self.omega * samples).sin() / self.omega.sin())
+    }
+
+    /// The pairs with `offsets` of the raw signals taken off, (4), and made ideal.
+    pub fn pairs(&self, raw: &[Pair], offsets: [f32; 2]) -> Vec<Pair> {
+        let d = |k: usize| raw.get(k).map(|pair| f64::from(pair[1] - offsets[1]));
+        let beside = |k: usize, side| match side {
+            Side::Before => k.checked_sub(1).and_then(d),
+            Side::After => d(k + 1),
+        };
+        let near = self.side();
+        // At an end the other side must do.
+        let far = if near == Side::Before {
+            Side::After
+        } else {
+            Side::Before
+        };
+        let earlier = |k: usize, own: f64| {
+            let mut sides = [near, far].into_iter();
+            let found = sides.find_map(|side| Some((self.shares(side), beside(k, side)?)));
+            match found {
+                Some(([share, of_other], other)) if self.delay != 0.0 => {
+                    share * own + of_other * other
+                }
+                _ => own,
+            }
+        };
+        let ideal = |(k, pair): (usize, &Pair)| {
+            let c = pair[0] - offsets[0];
+            let d = earlier(k, f64::from(pair[1] - offsets[1]));
+            let ideal = (d / self.gain_ratio + f64::from(c) * self.across) * self.factor;
+            [c, ideal as f32]
+        };
+        raw.iter().enumerate().map(ideal).collect()
+    }
+
+    /// White noise of `variance` a sample in the raw pairs, as it is in the ideal ones; `lag` is that of the delayed sums.
+    pub fn noise(&self, variance: f64, lag: u16) -> Noise {
+        let [own, other] = self
+            .shares(self.side())
+            .map(|share| share / self.gain_ratio);
+        let square = self.factor * self.factor;
+        Noise {
+            moments: [
+                variance,
+                variance * (own * own + other * other + self.across * self.across) * square,
+                variance * self.across * self.factor,
+            ],
+            delayed: if lag == 1 {
+                variance * own * other * square
+            } else {
+                0.0
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use antinode_sim::{Flaws, Gyro, Wave};
+
+    use super::*;
+
+    const RATE: f64 = 1e5;
+
+    fn calibration(skew: f32) -> Calibration {
+        Calibration {
+            gain_ratio: 1.3,
+            skew,
+            pick_off_angle: 0.1,
+        }
+    }
+
+    #[test]
+    fn flaws_are_undone() {
+        let wave = Wave::default();
+        let omega = std::f64::consts::TAU * wave.frequency / RATE;
+        for skew in [0.0, 3e-6, -7e-6, 1.4e-5] {
+            let flaws = Flaws {
+                gain_ratio: f64::from(1.3f32),
+                skew: skew.into(),
+                pick_off_error: f64::from(0.1f32),
+                offset_d: 0.25,
+                ..Flaws::default()
+            };
+            let raw: Vec<Pair> = Gyro::new(wave, flaws, RATE, 1)
+                .expect("a valid gyro")
+                .take(60)
+                .map(|pair| [pair.c as f32, pair.d as f32])
+                .collect();
+            let ideal = Ideal::new(&calibration(skew), omega, RATE).pairs(&raw, [0.0, 0.25]);
+            assert_eq!(ideal.len(), raw.len());
+            for (k, pair) in ideal.iter().enumerate() {
+                let (c, d) = wave.pick_offs(k as f64 / RATE);
+                assert!((f64::from(pair[0]) - c).abs() < 1e-6, "{skew} {k}");
+                assert!((f64::from(pair[1]) - d).abs() < 3e-6, "{skew} {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn noise_is_what_it_becomes() {
+        let wave = Wave {
+            main_amplitude: 1e-9,
+            quadrature_amplitude: 0.0,
+            ..Wave::default()
+        };
+        let flaws = Flaws {
+            noise: 0.1,
+            ..Flaws::default()
+        };
+        let raw: Vec<Pair> = Gyro::new(wave, flaws, RATE, 1)
+            .expect("a valid gyro")
+            .take(400_000)
+            .map(|pair| [pair.c as f32, pair.d as f32])
+            .collect();
+        let ideal = Ideal::new(&calibration(4e-6), 1.3, RATE);
+        let pairs = ideal.pairs(&raw, [0.0; 2]);
+        let mean = |product: &dyn Fn(&[Pair]) -> f32| {
+            pairs
+                .windows(2)
+                .map(|two| f64::from(product(two)))
+                .sum::<f64>()
+                / pairs.len() as f64
+        };
+        let found = [
+            mean(&|two| two[1][0] * two[1][0]),
+            mean(&|two| two[1][1] * two[1][1]),
+            mean(&|two| two[1][0] * two[1][1]),
+            mean(&|two| two[1][1] * two[0][1]),
+        ];
+        let noise = ideal.noise(0.01, 1);
+        let told = [
+            noise.moments[0],
+            noise.moments[1],
+            noise.moments[2],
+            noise.delayed,
+        ];
+        for (found, told) in found.into_iter().zip(told) {
+            assert!((found - told).abs() < 6e-5, "{found} {told}");
+        }
+    }
+}

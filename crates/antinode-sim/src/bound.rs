@@ -1,0 +1,166 @@
+//! The Cramér-Rao bound: what no unbiased identification of a window can beat.
+
+use std::f64::consts::TAU;
+
+use libm::{sincos, sqrt};
+use nalgebra::SMatrix;
+
+use crate::wave::Wave;
+
+/// Least standard deviations that an unbiased estimate from one window can have, in white noise of one a sample and channel.
+///
+/// They grow in proportion to the noise: for noise of sigma rms, multiply each by sigma. The Fisher information of (1)-(3) is
+/// summed over the window's samples and inverted, so that the bound holds for any window, short ones too. An estimate with a bias
+/// may scatter less.
+///
+/// ```
+/// use antinode_sim::{Bound, Wave};
+///
+/// // Ten periods of the paper's wave at 100 kS/s: sqrt(2/n) for the amplitudes.
+/// let wave = Wave::default();
+/// let bound = Bound::new(&wave, 188, 0.1, 100_000.0).expect("ten periods determine a wave");
+/// assert!((bound.main_amplitude / (2.0f64 / 188.0).sqrt() - 1.0).abs() < 0.01);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bound {
+    /// Of a_A, in units of the noise.
+    pub main_amplitude: f64,
+    /// Of a_B, in units of the noise.
+    pub quadrature_amplitude: f64,
+    /// Of theta, rad for noise of one.
+    pub angle: f64,
+    /// Of f, Hz for noise of one.
+    pub frequency: f64,
+}
+
+impl Bound {
+    /// The bound for `samples` sample pairs at `sample_rate` Hz about the time `middle` (s), with a_A, a_B, theta, omega, alpha and the
+    /// offsets of both channels unknown, and constant over the window as `wave` has them at `middle`.
+    ///
+    /// `None` where the samples do not determine all seven: fewer than four, less than about half a period, or a_A = |a_B|.
+    pub fn new(wave: &Wave, samples: u32, middle: f64, sample_rate: f64) -> Option<Self> {
+        Self::of(
+            fisher(wave, samples, middle, sample_rate),
+            samples,
+            sample_rate,
+        )
+    }
+
+    /// The same for centred signals, (4): no offsets, five unknowns.
+    pub fn centred(wave: &Wave, samples: u32, middle: f64, sample_rate: f64) -> Option<Self> {
+        let fisher = fisher(wave, samples, middle, sample_rate).fixed_resize::<5, 5>(0.0);
+        Self::of(fisher, samples, sample_rate)
+    }
+
+    fn of<const N: usize>(
+        fisher: SMatrix<f64, N, N>,
+        samples: u32,
+        sample_rate: f64,
+    ) -> Option<Self> {
+        let factor = fisher.cholesky()?;
+        // A pivot that is only the rounding of its diagonal: two unknowns that the window cannot tell apart.
+        let determined = |i: usize| factor.l_dirty()[(i, i)].powi(2) > 1e-12 * fisher[(i, i)];
+        if !(0..N).all(determined) {
+            return None;
+        }
+        let covariance = factor.inverse();
+        let deviation = |i: usize| sqrt(covariance[(i, i)]);
+        Some(Self {
+            main_amplitude: deviation(0),
+            quadrature_amplitude: deviation(1),
+            angle: deviation(2),
+            frequency: deviation(3) * sample_rate / (TAU * f64::from(samples)),
+        })
+    }
+}
+
+/// The Fisher matrix for noise of one: a_A, a_B, theta, omega (rad a window), alpha at the middle, offsets.
+fn fisher(wave: &Wave, samples: u32, middle: f64, sample_rate: f64) -> SMatrix<f64, 7, 7> {
+    let truth = wave.at(middle);
+    let omega = TAU * truth.frequency / sample_rate;
+    let (a, b) = (truth.main_amplitude, truth.quadrature_amplitude);
+    let (s2, c2) = sincos(2.0 * truth.angle);
+    let n = f64::from(samples);
+    let mut fisher = SMatrix::<f64, 7, 7>::zeros();
+    for k in 0..samples {
+        let t = f64::from(k) - 0.5 * (n - 1.0);
+        let (s, c) = sincos(omega * t - truth.phase);
+        // Derivatives of (1)-(3): by tau and theta, then by each unknown. A window long keeps the matrix well scaled.
+        let c_tau = -a * s * c2 - b * c * s2;
+        let d_tau = -a * s * s2 + b * c * c2;
+        let c_angle = -2.0 * (a * c * s2 + b * s * c2);
+        let d_angle = 2.0 * (a * c * c2 - b * s * s2);
+        let share = t / n;
+        for row in [
+            [c * c2, -s * s2, c_angle, share * c_tau, -c_tau, 1.0, 0.0],
+            [c * s2, s * c2, d_angle, share * d_tau, -d_tau, 0.0, 1.0],
+        ] {
+            let row = SMatrix::<f64, 1, 7>::from_row_slice(&row);
+            fisher += row.transpose() * row;
+        }
+    }
+    fisher
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_windows_have_the_closed_forms() {
+        let wave = Wave::default();
+        let (n, rate) = (18_755, 100_000.0);
+        let samples = f64::from(n);
+        let power = wave.main_amplitude.powi(2) + wave.quadrature_amplitude.powi(2);
+        let difference = wave.main_amplitude.powi(2) - wave.quadrature_amplitude.powi(2);
+        let closed = [
+            (2.0 / samples).sqrt(),
+            (2.0 / samples).sqrt(),
+            (power / (2.0 * samples)).sqrt() / difference,
+            (24.0 / (power * samples)).sqrt() * rate / (TAU * samples),
+        ];
+        for bound in [Bound::new, Bound::centred] {
+            let bound = bound(&wave, n, 0.7, rate).expect("a thousand periods determine it");
+            let found = [
+                bound.main_amplitude,
+                bound.quadrature_amplitude,
+                bound.angle,
+                bound.frequency,
+            ];
+            for (found, closed) in found.iter().zip(closed) {
+                assert!((found / closed - 1.0).abs() < 2e-3, "{found} {closed}");
+            }
+        }
+    }
+
+    #[test]
+    fn unknown_offsets_cost_in_short_windows() {
+        let wave = Wave::default();
+        let ratio = |n| {
+            let [full, centred] = [Bound::new, Bound::centred].map(|bound| {
+                bound(&wave, n, 0.0, 100_000.0)
+                    .expect("determined")
+                    .frequency
+            });
+            full / centred
+        };
+        assert!(ratio(19) > 1.2 && ratio(188) < 1.02 && ratio(188) >= 1.0);
+    }
+
+    #[test]
+    fn what_a_window_does_not_determine_has_no_bound() {
+        let wave = Wave::default();
+        for samples in [0, 1, 2, 3] {
+            assert_eq!(
+                Bound::new(&wave, samples, 0.0, 100_000.0),
+                None,
+                "{samples}"
+            );
+        }
+        let circular = Wave {
+            quadrature_amplitude: 2.0,
+            ..wave
+        };
+        assert_eq!(Bound::new(&circular, 188, 0.0, 100_000.0), None);
+    }
+}

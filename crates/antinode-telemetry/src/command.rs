@@ -1,0 +1,63 @@
+//! What the PC asks of the device.
+
+use core::fmt;
+
+use antinode::{Calibration, SettingsError};
+use serde::{Deserialize, Serialize};
+
+use crate::remote;
+
+/// What the PC asks of the device.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Command {
+    /// Send a [`Hello`](crate::Hello).
+    Get,
+    /// Change the window's length.
+    SetWindow {
+        /// Periods a window, 2 to the device's ring of blocks less 2.
+        periods: u16,
+    },
+    /// Change the step from window to window.
+    SetHop {
+        /// Blocks from the start of one window to that of the next, at least 1; `None`: windows follow each other.
+        blocks: Option<u16>,
+    },
+    /// Change the correction of the pick-offs; its ranges are those of [`Calibration`].
+    SetCalibration(#[serde(with = "remote::CalibrationFields")] Calibration),
+    /// Compute and send the paper's methods beside every estimate, or no longer.
+    SetMethods {
+        /// True: send them.
+        on: bool,
+    },
+    /// Reset the device, once the command is acknowledged.
+    Restart,
+}
+
+/// Why the device refused a command; nothing was changed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum CommandError {
+    /// A value that cannot be; the error names what could.
+    Settings(#[serde(with = "remote::SettingsErrorNames")] SettingsError),
+    /// This firmware was built without what is asked.
+    Unsupported,
+    /// Another change is under way: ask again in a moment.
+    Busy,
+}
+
+impl From<SettingsError> for CommandError {
+    fn from(error: SettingsError) -> Self {
+        Self::Settings(error)
+    }
+}
+
+impl fmt::Display for CommandError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Settings(error) => error.fmt(f),
+            Self::Unsupported => f.write_str("this firmware was built without it"),
+            Self::Busy => f.write_str("another change is under way: ask again in a moment"),
+        }
+    }
+}
+
+impl core::error::Error for CommandError {}

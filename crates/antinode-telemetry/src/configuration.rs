@@ -1,0 +1,122 @@
+//! What the device is set to.
+
+use antinode::Settings;
+use serde::{Deserialize, Serialize};
+
+use crate::command::{Command, CommandError};
+use crate::remote;
+
+/// Where the device's samples come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum FrontEnd {
+    /// Two converters of the microcontroller that sample both pick-offs at once.
+    DualAdc,
+    /// One converter of the microcontroller that samples the pick-offs in turn: the calibration's skew is not 0.
+    SequencedAdc,
+    /// An external converter on SPI.
+    Spi,
+    /// An external converter or codec on I²S or SAI.
+    Sai,
+    /// Sigma-delta modulators behind the microcontroller's own filters (DFSDM).
+    Dfsdm,
+    /// A wave computed on the device itself: no converter is read.
+    Synthetic,
+}
+
+/// What the device is set to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Configuration {
+    /// The identification's settings; those that the device was built with and those that commands changed.
+    #[serde(with = "remote::SettingsFields")]
+    pub settings: Settings,
+    /// Where its samples come from.
+    pub front_end: FrontEnd,
+    /// True where it sends [`Report::Methods`](crate::Report::Methods) too.
+    pub methods: bool,
+}
+
+impl Configuration {
+    /// A configuration without the paper's methods.
+    pub const fn new(settings: Settings, front_end: FrontEnd) -> Self {
+        Self {
+            settings,
+            front_end,
+            methods: false,
+        }
+    }
+
+    /// This configuration after a command, checked for a ring of `blocks`; the same where a command changes none.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Settings`] names the value that cannot be, and what could.
+    pub fn after(self, command: &Command, blocks: usize) -> Result<Self, CommandError> {
+        let mut new = self;
+        match *command {
+            Command::SetWindow { periods } => new.settings.periods = periods,
+            Command::SetHop { blocks } => new.settings.hop = blocks,
+            Command::SetCalibration(calibration) => new.settings.calibration = calibration,
+            Command::SetMethods { on } => new.methods = on,
+            Command::Get | Command::Restart => {}
+        }
+        new.settings.check(blocks)?;
+        Ok(new)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use antinode::{Calibration, SettingsError};
+
+    use super::*;
+
+    const PLAIN: Configuration = Configuration::new(Settings::new(1e5), FrontEnd::DualAdc);
+
+    #[test]
+    fn commands_change_what_they_name() {
+        let calibration = Calibration {
+            gain_ratio: 1.1,
+            skew: 1e-6,
+            pick_off_angle: -0.01,
+        };
+        let commands = [
+            Command::SetWindow { periods: 20 },
+            Command::SetHop { blocks: Some(5) },
+            Command::SetCalibration(calibration),
+            Command::SetMethods { on: true },
+            Command::Get,
+            Command::Restart,
+        ];
+        let new = commands
+            .iter()
+            .fold(PLAIN, |c, command| c.after(command, 64).expect("it can be"));
+        assert_eq!(
+            new,
+            Configuration {
+                settings: Settings {
+                    periods: 20,
+                    hop: Some(5),
+                    calibration,
+                    ..PLAIN.settings
+                },
+                methods: true,
+                ..PLAIN
+            }
+        );
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused() {
+        assert_eq!(
+            PLAIN.after(&Command::SetWindow { periods: 63 }, 64),
+            Err(CommandError::Settings(SettingsError::PeriodsTooMany {
+                periods: 63,
+                most: 62
+            }))
+        );
+        assert_eq!(
+            PLAIN.after(&Command::SetHop { blocks: Some(0) }, 64),
+            Err(CommandError::Settings(SettingsError::Hop))
+        );
+    }
+}

@@ -1,0 +1,117 @@
+//! Bytes to messages, whatever the bytes.
+
+use core::fmt;
+use core::marker::PhantomData;
+
+use cobs::{DecodeResult, DecoderState};
+
+use crate::PROTOCOL_VERSION;
+use crate::frame::{CRC, Frame, MAX_PAYLOAD};
+
+/// Why bytes between two delimiters were dropped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Damage {
+    /// More bytes than any frame has.
+    TooLong,
+    /// Bytes are missing, or it never was a frame.
+    Framing,
+    /// The checksum does not fit.
+    Checksum,
+    /// A sound frame of another protocol version, or of the other direction; this is its header.
+    Header(u8),
+    /// A sound frame whose content this version does not know.
+    Content,
+}
+
+impl fmt::Display for Damage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::TooLong => f.write_str("longer than any frame"),
+            Self::Framing => f.write_str("cut, or no frame"),
+            Self::Checksum => f.write_str("the checksum does not fit"),
+            Self::Header(header) if header / 2 == PROTOCOL_VERSION => {
+                f.write_str("a frame of the other direction: an echo on the line")
+            }
+            Self::Header(header) => write!(
+                f,
+                "a frame of protocol version {}, where {PROTOCOL_VERSION} is spoken here",
+                header / 2
+            ),
+            Self::Content => f.write_str("sound, but with content that is not known here"),
+        }
+    }
+}
+
+impl core::error::Error for Damage {}
+
+/// Takes bytes as they come and gives messages: [`ReportFrame`](crate::ReportFrame)s on the PC,
+/// [`CommandFrame`](crate::CommandFrame)s on the device.
+///
+/// It may start in the middle of a frame, and never panics.
+#[derive(Debug)]
+pub struct Decoder<M> {
+    state: DecoderState,
+    payload: heapless::Vec<u8, MAX_PAYLOAD>,
+    /// True while the present frame exceeds `payload`.
+    too_long: bool,
+    message: PhantomData<M>,
+}
+
+impl<M: Frame> Decoder<M> {
+    /// A decoder that has seen nothing.
+    pub const fn new() -> Self {
+        Self {
+            state: DecoderState::Idle,
+            payload: heapless::Vec::new(),
+            too_long: false,
+            message: PhantomData,
+        }
+    }
+
+    /// Takes one byte; gives the message that it completes, or the damage that it ends.
+    ///
+    /// Any run of bytes between two zeros gives exactly one of them; zeros that follow each other give nothing.
+    pub fn push(&mut self, byte: u8) -> Option<Result<M, Damage>> {
+        let result = match self.state.feed(byte) {
+            Ok(DecodeResult::NoData) => return None,
+            Ok(DecodeResult::DataContinue(data)) => {
+                self.too_long |= self.payload.push(data).is_err();
+                return None;
+            }
+            _ if self.too_long => Err(Damage::TooLong),
+            Ok(DecodeResult::DataComplete) => message(&self.payload),
+            Err(_) => Err(Damage::Framing),
+        };
+        self.payload.clear();
+        self.too_long = false;
+        Some(result)
+    }
+
+    /// Ends a stream; gives the damage where it ends within a frame.
+    pub fn finish(&mut self) -> Option<Damage> {
+        // A zero ends whatever has begun; nothing that had no zero of its own is whole.
+        self.push(0)
+            .map(|result| result.err().unwrap_or(Damage::Framing))
+    }
+}
+
+impl<M: Frame> Default for Decoder<M> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+fn message<M: Frame>(payload: &[u8]) -> Result<M, Damage> {
+    let (content, checksum) = payload.split_last_chunk().ok_or(Damage::Framing)?;
+    if CRC.checksum(content) != u32::from_le_bytes(*checksum) {
+        return Err(Damage::Checksum);
+    }
+    let (&header, body) = content.split_first().ok_or(Damage::Framing)?;
+    if header != M::HEADER {
+        return Err(Damage::Header(header));
+    }
+    match postcard::take_from_bytes(body) {
+        Ok((message, [])) => Ok(message),
+        _ => Err(Damage::Content),
+    }
+}

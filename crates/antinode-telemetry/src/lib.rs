@@ -1,0 +1,92 @@
+//! The serial protocol between a gyro controller that runs [`antinode`] and a PC: reports one way, commands the other.
+//!
+//! # On the wire
+//!
+//! | part | bytes | what it is |
+//! |---|---|---|
+//! | `00` | 1 | delimiter: whatever noise came before ends here |
+//! | COBS code | 1 (2 beyond 254 bytes) | [Consistent Overhead Byte Stuffing](https://doi.org/10.1109/90.769765) takes the zeros out of what follows |
+//! | header | 1 | 2 × [`PROTOCOL_VERSION`], plus 1 in a command |
+//! | number | 1 to 3 | a report's running number, or a command's id |
+//! | body | | [`Report`] or [`Command`] in [postcard's format](https://postcard.jamesmunns.com/wire-format) |
+//! | CRC | 4 | CRC-32 of header, number and body, that of Ethernet and zlib, lowest byte first |
+//! | `00` | 1 | delimiter |
+//!
+//! At these lengths the CRC finds every error of up to four bits and every burst of up to 32. A frame that is cut, too long, damaged
+//! or no frame at all is dropped and told as [`Damage`]; the next delimiter starts afresh, so noise costs the frames that it touches
+//! and no other. Floating-point values travel bit by bit.
+//!
+//! An estimate takes at most [`MAX_FRAME`] bytes, about 110. At 921 600 baud, 8N1, a line carries 92 160 bytes and so some 800
+//! estimates a second: windows of ten periods at 5.3 kHz are 530. Methods beside every estimate double that.
+//!
+//! # Who says what
+//!
+//! * The device sends [`Report::Hello`] at its start as number 0, on [`Command::Get`], and after each change of its configuration.
+//! * The device answers every command by [`Report::Acknowledgement`] with the command's id: after the Hello where it sends one, before
+//!   it restarts where it is to restart.
+//! * All else is sent when it happens; [`Report::Counters`] about once a second.
+//!
+//! # Example
+//!
+//! The device numbers its reports with a [`Reporter`] and takes commands with a [`Decoder`], byte by byte as the USART gives them:
+//!
+//! ```
+//! use antinode_telemetry::*;
+//!
+//! let mut configuration = Configuration::new(antinode::Settings::new(100_000.0), FrontEnd::DualAdc);
+//! let mut reporter = Reporter::new();
+//! let mut buffer = [0; MAX_FRAME];
+//! let hello = reporter.frame(Report::Hello(Hello::new("0.1.0", configuration)), &mut buffer)?;
+//! // Hand `hello` to the DMA of the USART.
+//! let mut wire = hello.to_vec(); // Here: to a vector.
+//!
+//! # let mut request = [0; MAX_FRAME];
+//! # let received = frame(&CommandFrame { id: 7, command: Command::SetWindow { periods: 20 } }, &mut request)?;
+//! let mut commands = Decoder::<CommandFrame>::new();
+//! let mut damaged = 0;
+//! for &byte in received {
+//!     match commands.push(byte) {
+//!         None => {}
+//!         Some(Err(_)) => damaged += 1,
+//!         Some(Ok(CommandFrame { id, command })) => {
+//!             // A ring of 64 blocks.
+//!             let result = configuration.after(&command, 64).map(|new| configuration = new);
+//!             let report = Report::Acknowledgement(Acknowledgement { id, result });
+//!             wire.extend(reporter.frame(report, &mut buffer)?);
+//!         }
+//!     }
+//! }
+//! assert_eq!(configuration.settings.periods, 20);
+//!
+//! // The PC reads with a `Receiver`, which counts what is lost.
+//! let mut receiver = Receiver::new();
+//! let reports: Vec<_> = wire.iter().filter_map(|&byte| receiver.push(byte)).collect();
+//! assert!(matches!(reports[0], Ok(Report::Hello(_))));
+//! assert_eq!(reports[1], Ok(Report::Acknowledgement(Acknowledgement { id: 7, result: Ok(()) })));
+//! assert_eq!((receiver.lost(), receiver.damaged(), damaged), (0, 0, 0));
+//! # Ok::<(), BufferTooSmall>(())
+//! ```
+#![no_std]
+#![forbid(unsafe_code)]
+
+mod command;
+mod configuration;
+mod decoder;
+mod frame;
+mod link;
+mod remote;
+mod report;
+
+pub use command::{Command, CommandError};
+pub use configuration::{Configuration, FrontEnd};
+pub use decoder::{Damage, Decoder};
+pub use frame::{BufferTooSmall, CommandFrame, Frame, ReportFrame, frame};
+pub use link::{Receiver, Reporter};
+pub use report::FIRMWARE_BYTES;
+pub use report::{Acknowledgement, Cause, Counters, Hello, MethodValues, Methods, Report, State};
+
+/// Version of the protocol. It is in every frame, and changes with every change of a message.
+pub const PROTOCOL_VERSION: u8 = 1;
+
+/// Most bytes of a frame on the wire, delimiters included.
+pub const MAX_FRAME: usize = frame::MAX_PAYLOAD + 3;

@@ -1,0 +1,227 @@
+//! What the device tells the PC.
+
+use core::fmt;
+
+use antinode::Estimate;
+use antinode::methods::comparison::Comparison;
+use serde::{Deserialize, Serialize};
+
+use crate::PROTOCOL_VERSION;
+use crate::command::CommandError;
+use crate::configuration::Configuration;
+use crate::remote;
+
+/// What the device tells the PC.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Report {
+    /// Who it is and what it is set to.
+    Hello(Hello),
+    /// The wave over one window, to the bit as the core gave it.
+    Estimate(#[serde(with = "remote::EstimateFields")] Estimate),
+    /// It does something else from now on.
+    State(State),
+    /// What happened since its start.
+    Counters(Counters),
+    /// The answer to a command.
+    Acknowledgement(Acknowledgement),
+    /// The paper's methods over the window of the last estimate.
+    Methods(Methods),
+}
+
+impl From<Estimate> for Report {
+    fn from(estimate: Estimate) -> Self {
+        Self::Estimate(estimate)
+    }
+}
+
+impl TryFrom<Report> for Estimate {
+    type Error = Report;
+
+    /// The estimate; the report itself where it is another one.
+    fn try_from(report: Report) -> Result<Self, Report> {
+        match report {
+            Report::Estimate(estimate) => Ok(estimate),
+            other => Err(other),
+        }
+    }
+}
+
+/// Most bytes of the firmware's version in a [`Hello`].
+pub const FIRMWARE_BYTES: usize = 24;
+
+/// Who the device is and what it is set to.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Hello {
+    /// [`PROTOCOL_VERSION`] of the device.
+    pub protocol: u8,
+    /// Version of its firmware, such as `0.1.0`.
+    pub firmware: heapless::String<FIRMWARE_BYTES>,
+    /// What it is set to.
+    pub configuration: Configuration,
+}
+
+impl Hello {
+    /// A Hello of this protocol; of `firmware` it keeps the characters that fit.
+    pub fn new(firmware: &str, configuration: Configuration) -> Self {
+        let mut kept = heapless::String::new();
+        for character in firmware.chars() {
+            if kept.push(character).is_err() {
+                break;
+            }
+        }
+        Self {
+            protocol: PROTOCOL_VERSION,
+            firmware: kept,
+            configuration,
+        }
+    }
+}
+
+/// What the device does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum State {
+    /// The device has started; the cause is that of its reset.
+    Started(Cause),
+    /// It looks for a wave.
+    Searching,
+    /// It follows a wave.
+    Tracking,
+    /// Sampling was stopped and started anew: the time of estimates begins at 0 again.
+    SamplingRestarted(Cause),
+    /// It does not sample any more.
+    Fault(Cause),
+}
+
+/// Why the device restarted or stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Cause {
+    /// Power came on.
+    PowerOn,
+    /// The supply dipped below its limit.
+    BrownOut,
+    /// The reset pin was pulled.
+    ResetPin,
+    /// A command or a new configuration asked for it.
+    Command,
+    /// The watchdog was not fed in time.
+    Watchdog,
+    /// The firmware panicked.
+    Panic,
+    /// The processor took a fault, such as an access to no memory.
+    HardFault,
+    /// The converter overran: samples were not fetched in time.
+    Overrun,
+    /// The DMA reported an error of transfer.
+    Dma,
+    /// The converter does not answer, or not at its rate.
+    Converter,
+    /// The crystal failed.
+    Clock,
+    /// None of these.
+    Unknown,
+}
+
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Started(cause) => write!(f, "started: {cause}"),
+            Self::Searching => f.write_str("searching for a wave"),
+            Self::Tracking => f.write_str("tracking a wave"),
+            Self::SamplingRestarted(cause) => write!(f, "sampling restarted: {cause}"),
+            Self::Fault(cause) => write!(f, "fault: {cause}"),
+        }
+    }
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::PowerOn => "power on",
+            Self::BrownOut => "brown-out",
+            Self::ResetPin => "reset pin",
+            Self::Command => "command",
+            Self::Watchdog => "watchdog",
+            Self::Panic => "panic",
+            Self::HardFault => "hard fault",
+            Self::Overrun => "overrun",
+            Self::Dma => "DMA error",
+            Self::Converter => "converter",
+            Self::Clock => "clock",
+            Self::Unknown => "unknown cause",
+        })
+    }
+}
+
+/// What happened since the device's start. Counts wrap.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Counters {
+    /// Time since its start, ms.
+    pub uptime_ms: u64,
+    /// Sample pairs taken.
+    pub pairs: u64,
+    /// Sample pairs that were lost.
+    pub pairs_lost: u64,
+    /// Sample pairs with a sample at the converter's rail.
+    pub saturated_pairs: u64,
+    /// Blocks with a sample at the converter's rail.
+    pub saturated_blocks: u32,
+    /// Times that the converter overran.
+    pub overruns: u32,
+    /// Blocks that found the queue to the tracker full.
+    pub blocks_dropped: u32,
+    /// Reports that found the queue to the USART full; their numbers are missing.
+    pub reports_dropped: u32,
+    /// Command frames that were damaged.
+    pub commands_damaged: u32,
+    /// Times that sampling was started anew.
+    pub restarts: u32,
+}
+
+/// The answer to a command.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Acknowledgement {
+    /// The command's id.
+    pub id: u16,
+    /// Done, or why not.
+    pub result: Result<(), CommandError>,
+}
+
+/// What one of the paper's methods found; amplitudes in input units.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct MethodValues {
+    /// a_A, ≥ 0.
+    pub main_amplitude: f64,
+    /// a_B, signed.
+    pub quadrature_amplitude: f64,
+    /// θ_A, rad, nearest to the estimate's.
+    pub angle: f64,
+    /// 1 to 4; 1: to be trusted most.
+    pub rank: u8,
+}
+
+/// The paper's methods over one window.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Methods {
+    /// Index in the stream of the window's first sample pair: that of its [`Estimate`].
+    pub start: u64,
+    /// Algorithms 1 to 4.
+    pub methods: [MethodValues; 4],
+    /// True where they part company beyond noise: the signal is not one steady wave in white noise.
+    pub disagree: bool,
+}
+
+impl Methods {
+    /// The values of a comparison over the window that starts at `start`.
+    pub fn new(start: u64, comparison: &Comparison) -> Self {
+        Self {
+            start,
+            methods: comparison.methods.map(|method| MethodValues {
+                main_amplitude: method.wave.shape.main_amplitude,
+                quadrature_amplitude: method.wave.shape.quadrature_amplitude,
+                angle: method.wave.shape.angle,
+                rank: method.rank,
+            }),
+            disagree: comparison.disagree,
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! The paper's conditions for its methods, each held against what white noise may do to it in a window.
+
+use core::fmt;
+
+use super::comparison::{Reference, Sums, slow};
+use super::moments::Moments;
+
+/// (17) and (20) fail beyond this many of their deviations.
+pub const CONDITION: f64 = 3.0;
+
+/// Which conditions hold for a method; one that the paper does not ask of the method holds.
+///
+/// [`Display`](fmt::Display) gives the formulas of those that fail, joined by `+`: `(8)+(17)`; nothing where all hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Conditions {
+    /// (8), asked of all: the window fits the period so well that what leaks, |⟨e^{2jωt}⟩|·a_A/2, is below the deviation of a_A, or of θ.
+    pub window: bool,
+    /// (12), asked of algorithm 1: |a_B| is below two of its deviations.
+    pub no_quadrature: bool,
+    /// (17), asked of algorithm 2: ⟨S(t) S(t − t₃)⟩ vanishes at a quarter period.
+    pub delay: bool,
+    /// (20), asked of algorithm 2: the phase difference of the pick-offs is that of the exact solution.
+    pub monitor: bool,
+}
+
+impl Conditions {
+    /// True where all hold.
+    pub fn hold(self) -> bool {
+        self.window && self.of_the_method_hold()
+    }
+
+    /// True where all hold that not all methods share: these decide the rank before J does.
+    pub fn of_the_method_hold(self) -> bool {
+        self.no_quadrature && self.delay && self.monitor
+    }
+}
+
+impl fmt::Display for Conditions {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut join = "";
+        for (holds, formula) in [
+            (self.window, "(8)"),
+            (self.no_quadrature, "(12)"),
+            (self.delay, "(17)"),
+            (self.monitor, "(20)"),
+        ] {
+            if !holds {
+                f.write_str(join)?;
+                f.write_str(formula)?;
+                join = "+";
+            }
+        }
+        Ok(())
+    }
+}
+
+/// (17) and (20) less what the exact solution expects of them, each in its own deviations.
+///
+/// Both rest on the delayed sums, and on noise that a quarter period makes independent: hum, a second tone or coloured noise shows
+/// in (17) on a pick-off itself, in (20) between the two. The grid's part of the delay is known and taken out.
+pub(super) fn of_delay(
+    found: &Sums,
+    expected: &Sums,
+    reference: &Reference,
+    leakage: f64,
+) -> [f64; 2] {
+    let Sums {
+        moments,
+        delayed,
+        products,
+        ..
+    } = found;
+    let (count, lag) = (f64::from(delayed.count), f64::from(delayed.lag));
+    let (sine, cosine) = libm::sincos(products.omega * lag);
+    let [noise_c, noise_d, _] = reference.noise.moments;
+    // The exact fit leaves its residual no part along the wave, but where the delay reaches over the window's ends.
+    let (cc, dd, _) = expected.moments.means();
+    let ends = 2.0 * lag / (count * count);
+    let (c, d) = ((cc - noise_c).max(0.0), (dd - noise_d).max(0.0));
+    let squares = (noise_c * noise_c + noise_d * noise_d) / count;
+    let level = reference.noise_uncertainty * (noise_c + noise_d);
+    let of_power = level * level + 2.0 * squares;
+    let own = ends * (noise_c * c + noise_d * d) + squares + cosine * cosine * of_power;
+    let between = ends * noise_d * c + (1.0 + cosine * cosine) * noise_c * noise_d / count;
+    // A rate that is lost in noise may be as large as its deviation. Turning and decay go on during the delay.
+    let [of_turn, of_decay] = reference.change_deviations;
+    let (turn, decay) = (
+        libm::hypot(reference.turn, of_turn),
+        libm::hypot(reference.decay, of_decay),
+    );
+    let during = (2.0 * turn + decay) * lag / count * cosine.abs();
+    let rest = (c + d) * (slow(turn, decay, leakage) + during);
+    let deviation = |variance: f64| libm::sqrt(variance + rest * rest) / sine.abs();
+
+    let at_quarter = |sums: &Sums| {
+        let sum = (sums.delayed.cc + sums.delayed.dd) / f64::from(sums.delayed.count);
+        (sum - sums.moments.power() * cosine) / sine
+    };
+    let delay = (at_quarter(found) - at_quarter(expected)) / deviation(own);
+
+    let vector = |sums: &Sums, moments: &Moments| {
+        let (_, _, cd) = moments.means();
+        (cd, sums.delayed.quarter(moments, products.omega))
+    };
+    let (x, y) = vector(found, moments);
+    let (u, v) = vector(expected, &expected.moments);
+    // The angle between the two times their size: on a pick-off's axis without quadrature Δφ itself has no meaning.
+    let turn = libm::atan2(y * u - x * v, x * u + y * v);
+    [delay, turn * libm::sqrt(u * u + v * v) / deviation(between)]
+}

@@ -1,0 +1,63 @@
+//! Streams of converter codes through the core, in any of its arithmetics.
+
+use antinode::{Estimate, Identifier, Sample, SamplePair, Settings};
+use antinode_sim::{Flaws, Gyro, Wave};
+
+use crate::RATE;
+
+/// A wave brought to `share` of a converter's full scale, and the flaws that make its samples codes of `bits`.
+pub fn converted(wave: &Wave, flaws: &Flaws, bits: u32, share: f64) -> (Wave, Flaws) {
+    let full_scale = f64::from(bits - 1).exp2();
+    let scale = share * full_scale / wave.main_amplitude;
+    (
+        Wave {
+            main_amplitude: wave.main_amplitude * scale,
+            quadrature_amplitude: wave.quadrature_amplitude * scale,
+            ..*wave
+        },
+        Flaws {
+            noise: flaws.noise * scale,
+            offset_c: flaws.offset_c * scale,
+            offset_d: flaws.offset_d * scale,
+            bits: Some(bits),
+            full_scale,
+            ..flaws.clone()
+        },
+    )
+}
+
+/// Settings for codes of `bits`, windows of `periods`.
+pub fn settings(bits: u32, periods: u16) -> Settings {
+    let full_scale = f64::from(bits - 1).exp2() as f32;
+    Settings {
+        periods,
+        rails: Some([-full_scale, full_scale - 1.0]),
+        resolution: Some(1.0),
+        ..Settings::new(RATE)
+    }
+}
+
+/// The codes of a gyro whose converter's step is one.
+pub fn codes(wave: Wave, flaws: &Flaws, samples: usize, seed: u64) -> Vec<[i32; 2]> {
+    let gyro = Gyro::new(wave, flaws.clone(), RATE, seed).expect("the test's gyro is valid");
+    gyro.take(samples)
+        .map(|pair| [pair.c as i32, pair.d as i32])
+        .collect()
+}
+
+/// Runs codes through the core in the arithmetic of `S`, from cold; gives every estimate.
+pub fn identify<S: Sample>(
+    codes: &[[i32; 2]],
+    settings: Settings,
+    sample: impl Fn(i32) -> S,
+) -> Vec<Estimate>
+where
+    [S; 2]: SamplePair<S>,
+{
+    let mut core =
+        Box::new(Identifier::<S, 256, 256>::new(settings).expect("the test's settings are valid"));
+    codes
+        .iter()
+        .filter_map(|pair| core.push(pair.map(&sample)))
+        .collect()
+}

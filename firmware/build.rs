@@ -8,6 +8,8 @@ fn main() {
     fs::write(out.join("memory.x"), include_str!("../memory.x")).expect("OUT_DIR can be written");
     println!("cargo:rustc-link-search={}", out.display());
     println!("cargo:rerun-if-changed=../memory.x");
-    println!("cargo:rustc-link-arg-bins=-Tlink.x");
-    println!("cargo:rustc-link-arg-bins=--nmagic");
+    for kind in ["bins", "examples"] {
+        println!("cargo:rustc-link-arg-{kind}=-Tlink.x");
+        println!("cargo:rustc-link-arg-{kind}=--nmagic");
+    }
 }

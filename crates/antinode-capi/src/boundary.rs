@@ -4,6 +4,7 @@
     reason = "pointers from C; this, the queue and the exported names are all there is"
 )]
 
+use core::mem::MaybeUninit;
 use core::sync::atomic::Ordering;
 
 use antinode::SamplePair;
@@ -11,7 +12,7 @@ use antinode::SamplePair;
 use crate::capacity::RING_BLOCKS;
 use crate::estimate::Estimate;
 use crate::settings::{Calibration, Settings};
-use crate::state::{Arithmetic, Health, Interrupt, Shared, State, Thread, identify};
+use crate::state::{AT_ONCE, Arithmetic, Health, Interrupt, Shared, State, Thread, identify};
 use crate::status::Status;
 
 type Checked<T> = Result<T, Status>;
@@ -135,7 +136,7 @@ unsafe fn start<S: Arithmetic>(
 #[inline]
 pub(crate) unsafe fn push<S: Arithmetic, O>(opaque: *mut O, pair: [S; 2]) -> Status {
     // SAFETY: the caller's contract.
-    status(unsafe { interrupt(opaque).map(|(side, shared)| side.push(shared, &[pair])) })
+    status(unsafe { interrupt(opaque).map(|(side, shared)| side.push_one(shared, pair)) })
 }
 
 /// # Safety
@@ -161,8 +162,6 @@ pub(crate) unsafe fn push_separate<S: Arithmetic, O>(
     d: *const S,
     count: usize,
 ) -> Status {
-    /// Pairs put together at a time, on the stack.
-    const AT_ONCE: usize = 32;
     status((|| {
         // SAFETY: the caller's contract.
         let (side, shared) = unsafe { interrupt::<S, O>(opaque)? };
@@ -170,12 +169,18 @@ pub(crate) unsafe fn push_separate<S: Arithmetic, O>(
         let (c, d) = unsafe { (slice(c, count)?, slice(d, count)?) };
         let mut all = Status::Ok;
         for (c, d) in c.chunks(AT_ONCE).zip(d.chunks(AT_ONCE)) {
-            let mut pairs = [[S::EXTREMES[0]; 2]; AT_ONCE];
+            let mut pairs = [const { MaybeUninit::uninit() }; AT_ONCE];
             for (pair, (&c, &d)) in pairs.iter_mut().zip(c.iter().zip(d)) {
-                *pair = [c, d];
+                pair.write([c, d]);
             }
-            // SAFETY: the caller's contract.
-            let one = unsafe { side.push(shared, pairs.get(..c.len()).unwrap_or(&[])) };
+            // SAFETY: as many were just written (a chunk has at most AT_ONCE), and the caller's contract.
+            let one = unsafe {
+                let first = pairs.as_ptr().cast::<[S; 2]>();
+                side.push(
+                    shared,
+                    core::slice::from_raw_parts(first, c.len().min(d.len())),
+                )
+            };
             if one == Status::ErrorQueueFull || all == Status::Ok {
                 all = one;
             }

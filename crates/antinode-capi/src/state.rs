@@ -6,7 +6,7 @@
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
-use antinode::{Calibration, Front, Sample, SamplePair, Settings, Tracker};
+use antinode::{Block, Calibration, Front, Sample, SamplePair, Settings, Tracker};
 
 use crate::capacity::{ANTINODE_LONGEST_PERIOD, RING_BLOCKS};
 use crate::estimate::Estimate;
@@ -35,6 +35,9 @@ pub(crate) struct State<S: Sample> {
     pub interrupt: Interrupt<S>,
     pub thread: Thread,
 }
+
+/// Pairs that are put into one form at a time, on the stack.
+pub(crate) const AT_ONCE: usize = 64;
 
 /// What the two sides tell each other.
 pub(crate) struct Shared<S: Sample> {
@@ -87,6 +90,22 @@ impl<S: Sample> Shared<S> {
         }
     }
 
+    /// Queues a finished block, or counts it as dropped.
+    ///
+    /// # Safety
+    /// One caller at a time, the interrupt.
+    #[inline]
+    unsafe fn queue_block(&self, search: u32, block: &Block<S>) -> Status {
+        // SAFETY: the caller is the only producer.
+        if unsafe { self.queue.put(search, block) } {
+            return Status::Ready;
+        }
+        let dropped = self.dropped.load(Ordering::Relaxed);
+        self.dropped
+            .store(dropped.wrapping_add(1), Ordering::Relaxed);
+        Status::ErrorQueueFull
+    }
+
     pub(crate) fn health(&self) -> Health {
         Health {
             searching: self.searching.load(Ordering::Relaxed),
@@ -122,40 +141,30 @@ impl<S: Sample> Interrupt<S> {
         }
     }
 
-    /// Takes pairs up to the end of a block and queues it; gives how many it took.
+    /// Takes one pair and queues the block that it finishes.
     ///
     /// # Safety
     /// One caller at a time.
     #[inline]
-    pub(crate) unsafe fn push_some<P: SamplePair<S>>(
-        &mut self,
-        shared: &Shared<S>,
-        pairs: &[P],
-        status: &mut Status,
-    ) -> usize {
-        let (taken, block) = self.front.push_slice(pairs);
-        if let Some(block) = block {
-            // SAFETY: the caller is the only producer.
-            if unsafe { shared.queue.put(self.search, block) } {
-                if *status == Status::Ok {
-                    *status = Status::Ready;
-                }
-            } else {
-                let dropped = shared.dropped.load(Ordering::Relaxed);
-                shared
-                    .dropped
-                    .store(dropped.wrapping_add(1), Ordering::Relaxed);
-                *status = Status::ErrorQueueFull;
-            }
+    pub(crate) unsafe fn push_one(&mut self, shared: &Shared<S>, pair: [S; 2]) -> Status {
+        self.obey(shared);
+        if self.front.is_searching() {
+            search(&mut self.front, &[pair]);
+            self.tell(shared);
+            return Status::Ok;
         }
-        taken
+        match self.front.push(pair) {
+            // SAFETY: the caller is the only producer.
+            Some(block) => unsafe { shared.queue_block(self.search, block) },
+            None => Status::Ok,
+        }
     }
 
-    /// Takes all pairs and queues the blocks that they finish.
+    /// Takes all pairs and queues the blocks that they finish. One piece of code for each form of pairs, with the sums inlined in it.
     ///
     /// # Safety
     /// One caller at a time.
-    #[inline]
+    #[inline(never)]
     pub(crate) unsafe fn push<P: SamplePair<S>>(
         &mut self,
         shared: &Shared<S>,
@@ -164,12 +173,34 @@ impl<S: Sample> Interrupt<S> {
         self.obey(shared);
         let mut status = Status::Ok;
         while !pairs.is_empty() {
-            // SAFETY: the caller's own contract.
-            let taken = unsafe { self.push_some(shared, pairs, &mut status) };
+            let (taken, block) = if self.front.is_searching() {
+                (self.search_some(pairs), None)
+            } else {
+                self.front.push_slice(pairs)
+            };
+            if let Some(block) = block {
+                // SAFETY: the caller is the only producer.
+                let one = unsafe { shared.queue_block(self.search, block) };
+                if status != Status::ErrorQueueFull {
+                    status = one;
+                }
+            }
             pairs = pairs.get(taken..).unwrap_or(&[]);
         }
         self.tell(shared);
         status
+    }
+
+    /// Searches a period in the first pairs; gives how many it took. Apart, so that pairs of a known period do not pay for it.
+    #[inline(never)]
+    fn search_some<P: SamplePair<S>>(&mut self, pairs: &[P]) -> usize {
+        let mut buffer = [[S::EXTREMES[0]; 2]; AT_ONCE];
+        let mut count = 0;
+        for (place, pair) in buffer.iter_mut().zip(pairs) {
+            *place = pair.pair();
+            count += 1;
+        }
+        search(&mut self.front, buffer.get(..count).unwrap_or(&[]))
     }
 
     #[inline]
@@ -183,6 +214,19 @@ impl<S: Sample> Interrupt<S> {
         self.front.skip(u64::from(count));
         self.tell(shared);
     }
+}
+
+/// Searches a period in pairs; gives how many it took. One piece of code for every form of pairs, and apart from the sums.
+#[inline(never)]
+fn search<S: Sample>(front: &mut Front<S, ANTINODE_LONGEST_PERIOD>, pairs: &[[S; 2]]) -> usize {
+    for (before, &pair) in pairs.iter().enumerate() {
+        // No block can be finished by it.
+        front.push(pair);
+        if !front.is_searching() {
+            return before + 1;
+        }
+    }
+    pairs.len()
 }
 
 impl Thread {
@@ -245,22 +289,25 @@ impl Thread {
 ///
 /// # Safety
 /// No other call of this state at the same time.
-pub(crate) unsafe fn identify<S: Sample, P: SamplePair<S>>(
+pub(crate) unsafe fn identify<S: Sample>(
     (interrupt, thread, shared): (&mut Interrupt<S>, &mut Thread, &Shared<S>),
-    pairs: &[P],
+    pairs: &[[S; 2]],
 ) -> (usize, Option<Estimate>) {
-    let mut taken = 0;
-    loop {
-        // SAFETY: the only consumer, by the contract.
-        if let Some(estimate) = unsafe { thread.solve(shared) } {
-            return (taken, Some(estimate));
-        }
-        let Some(rest) = pairs.get(taken..).filter(|rest| !rest.is_empty()) else {
-            return (taken, None);
-        };
-        interrupt.obey(shared);
-        // SAFETY: the only producer; the queue was just emptied, so it has a place.
-        taken += unsafe { interrupt.push_some(shared, rest, &mut Status::Ok) };
-        interrupt.tell(shared);
+    // SAFETY: the only consumer, by the contract.
+    if let Some(estimate) = unsafe { thread.solve(shared) } {
+        return (0, Some(estimate));
     }
+    for (before, &pair) in pairs.iter().enumerate() {
+        // SAFETY: the only producer and the only consumer; the queue is empty, so it has a place.
+        let estimate = unsafe {
+            match interrupt.push_one(shared, pair) {
+                Status::Ready => thread.solve(shared),
+                _ => None,
+            }
+        };
+        if estimate.is_some() {
+            return (before + 1, estimate);
+        }
+    }
+    (pairs.len(), None)
 }

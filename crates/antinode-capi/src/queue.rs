@@ -68,6 +68,12 @@ impl<S: Sample> Queue<S> {
         self.put.load(Ordering::Acquire).wrapping_sub(taken)
     }
 
+    /// Entries ever put in; it wraps. For the producer.
+    #[inline]
+    pub(crate) fn count(&self) -> u32 {
+        self.put.load(Ordering::Relaxed)
+    }
+
     /// Puts a block in; false when the queue is full.
     ///
     /// # Safety

@@ -95,15 +95,32 @@ impl<S: Sample> Shared<S> {
     /// # Safety
     /// One caller at a time, the interrupt.
     #[inline]
-    unsafe fn queue_block(&self, search: u32, block: &Block<S>) -> Status {
+    unsafe fn queue_block(&self, search: u32, block: &Block<S>) {
         // SAFETY: the caller is the only producer.
-        if unsafe { self.queue.put(search, block) } {
-            return Status::Ready;
+        if !unsafe { self.queue.put(search, block) } {
+            let dropped = self.dropped.load(Ordering::Relaxed);
+            self.dropped
+                .store(dropped.wrapping_add(1), Ordering::Relaxed);
         }
-        let dropped = self.dropped.load(Ordering::Relaxed);
-        self.dropped
-            .store(dropped.wrapping_add(1), Ordering::Relaxed);
-        Status::ErrorQueueFull
+    }
+
+    /// Blocks ever queued and ever dropped, as the interrupt knows them.
+    #[inline]
+    fn counts(&self) -> [u32; 2] {
+        [self.queue.count(), self.dropped.load(Ordering::Relaxed)]
+    }
+
+    /// What the interrupt answers when the counts were these before.
+    #[inline]
+    fn status_since(&self, before: [u32; 2]) -> Status {
+        let [queued, dropped] = self.counts();
+        if dropped != before[1] {
+            Status::ErrorQueueFull
+        } else if queued != before[0] {
+            Status::Ready
+        } else {
+            Status::Ok
+        }
     }
 
     pub(crate) fn health(&self) -> Health {
@@ -134,11 +151,20 @@ impl<S: Sample> Interrupt<S> {
     /// Searches anew where the thread has asked for it.
     #[inline]
     fn obey(&mut self, shared: &Shared<S>) {
-        let wanted = shared.wanted.load(Ordering::Acquire);
+        // The number is all that is told: nothing else of the thread's is looked at.
+        let wanted = shared.wanted.load(Ordering::Relaxed);
         if wanted != self.search {
-            self.search = wanted;
-            self.front.search();
+            self.search_anew(shared, wanted);
         }
+    }
+
+    /// Rare, and a front on the stack is large: no interrupt reserves that stack for nothing.
+    #[cold]
+    #[inline(never)]
+    fn search_anew(&mut self, shared: &Shared<S>, wanted: u32) {
+        self.search = wanted;
+        self.front.search();
+        self.tell(shared);
     }
 
     /// Takes one pair and queues the block that it finishes.
@@ -149,15 +175,16 @@ impl<S: Sample> Interrupt<S> {
     pub(crate) unsafe fn push_one(&mut self, shared: &Shared<S>, pair: [S; 2]) -> Status {
         self.obey(shared);
         if self.front.is_searching() {
-            search(&mut self.front, &[pair]);
-            self.tell(shared);
+            self.search_some(shared, &[pair]);
             return Status::Ok;
         }
-        match self.front.push(pair) {
-            // SAFETY: the caller is the only producer.
-            Some(block) => unsafe { shared.queue_block(self.search, block) },
-            None => Status::Ok,
-        }
+        let Some(block) = self.front.push(pair) else {
+            return Status::Ok;
+        };
+        let before = shared.counts();
+        // SAFETY: the caller is the only producer.
+        unsafe { shared.queue_block(self.search, block) };
+        shared.status_since(before)
     }
 
     /// Takes all pairs and queues the blocks that they finish. One piece of code for each form of pairs, with the sums inlined in it.
@@ -171,40 +198,37 @@ impl<S: Sample> Interrupt<S> {
         mut pairs: &[P],
     ) -> Status {
         self.obey(shared);
-        let mut status = Status::Ok;
+        let before = shared.counts();
         while !pairs.is_empty() {
             let (taken, block) = if self.front.is_searching() {
-                (self.search_some(pairs), None)
+                (self.search_some(shared, pairs), None)
             } else {
                 self.front.push_slice(pairs)
             };
             if let Some(block) = block {
                 // SAFETY: the caller is the only producer.
-                let one = unsafe { shared.queue_block(self.search, block) };
-                if status != Status::ErrorQueueFull {
-                    status = one;
-                }
+                unsafe { shared.queue_block(self.search, block) };
             }
             pairs = pairs.get(taken..).unwrap_or(&[]);
         }
-        self.tell(shared);
-        status
+        shared.status_since(before)
     }
 
     /// Searches a period in the first pairs; gives how many it took. Apart, so that pairs of a known period do not pay for it.
     #[inline(never)]
-    fn search_some<P: SamplePair<S>>(&mut self, pairs: &[P]) -> usize {
+    fn search_some<P: SamplePair<S>>(&mut self, shared: &Shared<S>, pairs: &[P]) -> usize {
         let mut buffer = [[S::EXTREMES[0]; 2]; AT_ONCE];
         let mut count = 0;
         for (place, pair) in buffer.iter_mut().zip(pairs) {
             *place = pair.pair();
             count += 1;
         }
-        search(&mut self.front, buffer.get(..count).unwrap_or(&[]))
+        let taken = search(&mut self.front, buffer.get(..count).unwrap_or(&[]));
+        self.tell(shared);
+        taken
     }
 
-    #[inline]
-    pub(crate) fn tell(&self, shared: &Shared<S>) {
+    fn tell(&self, shared: &Shared<S>) {
         let searching = u32::from(self.front.is_searching());
         shared.searching.store(searching, Ordering::Relaxed);
     }
@@ -212,7 +236,6 @@ impl<S: Sample> Interrupt<S> {
     pub(crate) fn skip(&mut self, shared: &Shared<S>, count: u32) {
         self.obey(shared);
         self.front.skip(u64::from(count));
-        self.tell(shared);
     }
 }
 
@@ -275,7 +298,7 @@ impl Thread {
     pub(crate) fn search<S: Sample>(&mut self, shared: &Shared<S>) {
         self.tracker.forget();
         let wanted = shared.wanted.load(Ordering::Relaxed).wrapping_add(1);
-        shared.wanted.store(wanted, Ordering::Release);
+        shared.wanted.store(wanted, Ordering::Relaxed);
     }
 
     pub(crate) fn calibrate(&mut self, calibration: Calibration) -> Result<(), Status> {

@@ -11,8 +11,9 @@ use antinode::SamplePair;
 
 use crate::capacity::RING_BLOCKS;
 use crate::estimate::Estimate;
+use crate::interrupt::{AT_ONCE, Interrupt};
 use crate::settings::{Calibration, Settings};
-use crate::state::{AT_ONCE, Arithmetic, Health, Interrupt, Shared, State, Thread, identify};
+use crate::state::{Arithmetic, Health, Shared, State, Thread, identify};
 use crate::status::Status;
 
 type Checked<T> = Result<T, Status>;

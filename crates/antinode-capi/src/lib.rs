@@ -17,6 +17,7 @@ mod capacity;
 mod estimate;
 mod fixed;
 mod float;
+mod interrupt;
 mod queue;
 mod settings;
 mod state;

@@ -6,10 +6,11 @@
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
-use antinode::{Block, Calibration, Front, Sample, SamplePair, Settings, Tracker};
+use antinode::{Block, Calibration, Sample, Settings, Tracker};
 
-use crate::capacity::{ANTINODE_LONGEST_PERIOD, RING_BLOCKS};
+use crate::capacity::RING_BLOCKS;
 use crate::estimate::Estimate;
+use crate::interrupt::Interrupt;
 use crate::queue::{Entry, Queue};
 use crate::status::Status;
 
@@ -36,24 +37,15 @@ pub(crate) struct State<S: Sample> {
     pub thread: Thread,
 }
 
-/// Pairs that are put into one form at a time, on the stack.
-pub(crate) const AT_ONCE: usize = 64;
-
 /// What the two sides tell each other.
 pub(crate) struct Shared<S: Sample> {
     queue: Queue<S>,
     /// The search whose blocks the thread wants; it counts up when a wave is lost. Written by the thread.
-    wanted: AtomicU32,
+    pub wanted: AtomicU32,
     /// 1 while a period is searched. Written by the interrupt.
-    searching: AtomicU32,
+    pub searching: AtomicU32,
     /// Blocks that found no place in the queue. Written by the interrupt.
-    dropped: AtomicU32,
-}
-
-/// What belongs to the interrupt alone.
-pub(crate) struct Interrupt<S: Sample> {
-    front: Front<S, ANTINODE_LONGEST_PERIOD>,
-    search: u32,
+    pub dropped: AtomicU32,
 }
 
 /// What belongs to the thread alone.
@@ -95,7 +87,7 @@ impl<S: Sample> Shared<S> {
     /// # Safety
     /// One caller at a time, the interrupt.
     #[inline]
-    unsafe fn queue_block(&self, search: u32, block: &Block<S>) {
+    pub(crate) unsafe fn queue_block(&self, search: u32, block: &Block<S>) {
         // SAFETY: the caller is the only producer.
         if !unsafe { self.queue.put(search, block) } {
             let dropped = self.dropped.load(Ordering::Relaxed);
@@ -106,13 +98,13 @@ impl<S: Sample> Shared<S> {
 
     /// Blocks ever queued and ever dropped, as the interrupt knows them.
     #[inline]
-    fn counts(&self) -> [u32; 2] {
+    pub(crate) fn counts(&self) -> [u32; 2] {
         [self.queue.count(), self.dropped.load(Ordering::Relaxed)]
     }
 
     /// What the interrupt answers when the counts were these before.
     #[inline]
-    fn status_since(&self, before: [u32; 2]) -> Status {
+    pub(crate) fn status_since(&self, before: [u32; 2]) -> Status {
         let [queued, dropped] = self.counts();
         if dropped != before[1] {
             Status::ErrorQueueFull
@@ -130,126 +122,6 @@ impl<S: Sample> Shared<S> {
             dropped: self.dropped.load(Ordering::Relaxed),
         }
     }
-}
-
-impl<S: Sample> Interrupt<S> {
-    /// Writes a front that searches.
-    ///
-    /// # Safety
-    /// `place` is writable and nobody else's.
-    #[inline(never)]
-    pub(crate) unsafe fn write(place: *mut Self, settings: Settings) -> Result<(), Status> {
-        let front = Front::new(settings)?;
-        // SAFETY: the caller's contract.
-        unsafe {
-            (&raw mut (*place).front).write(front);
-            (&raw mut (*place).search).write(0);
-        }
-        Ok(())
-    }
-
-    /// Searches anew where the thread has asked for it.
-    #[inline]
-    fn obey(&mut self, shared: &Shared<S>) {
-        // The number is all that is told: nothing else of the thread's is looked at.
-        let wanted = shared.wanted.load(Ordering::Relaxed);
-        if wanted != self.search {
-            self.search_anew(shared, wanted);
-        }
-    }
-
-    /// Rare, and a front on the stack is large: no interrupt reserves that stack for nothing.
-    #[cold]
-    #[inline(never)]
-    fn search_anew(&mut self, shared: &Shared<S>, wanted: u32) {
-        self.search = wanted;
-        self.front.search();
-        self.tell(shared);
-    }
-
-    /// Takes one pair and queues the block that it finishes.
-    ///
-    /// # Safety
-    /// One caller at a time.
-    #[inline]
-    pub(crate) unsafe fn push_one(&mut self, shared: &Shared<S>, pair: [S; 2]) -> Status {
-        self.obey(shared);
-        if self.front.is_searching() {
-            self.search_some(shared, &[pair]);
-            return Status::Ok;
-        }
-        let Some(block) = self.front.push(pair) else {
-            return Status::Ok;
-        };
-        let before = shared.counts();
-        // SAFETY: the caller is the only producer.
-        unsafe { shared.queue_block(self.search, block) };
-        shared.status_since(before)
-    }
-
-    /// Takes all pairs and queues the blocks that they finish. One piece of code for each form of pairs, with the sums inlined in it.
-    ///
-    /// # Safety
-    /// One caller at a time.
-    #[inline(never)]
-    pub(crate) unsafe fn push<P: SamplePair<S>>(
-        &mut self,
-        shared: &Shared<S>,
-        mut pairs: &[P],
-    ) -> Status {
-        self.obey(shared);
-        let before = shared.counts();
-        while !pairs.is_empty() {
-            let (taken, block) = if self.front.is_searching() {
-                (self.search_some(shared, pairs), None)
-            } else {
-                self.front.push_slice(pairs)
-            };
-            if let Some(block) = block {
-                // SAFETY: the caller is the only producer.
-                unsafe { shared.queue_block(self.search, block) };
-            }
-            pairs = pairs.get(taken..).unwrap_or(&[]);
-        }
-        shared.status_since(before)
-    }
-
-    /// Searches a period in the first pairs; gives how many it took. Apart, so that pairs of a known period do not pay for it.
-    #[inline(never)]
-    fn search_some<P: SamplePair<S>>(&mut self, shared: &Shared<S>, pairs: &[P]) -> usize {
-        let mut buffer = [[S::EXTREMES[0]; 2]; AT_ONCE];
-        let mut count = 0;
-        for (place, pair) in buffer.iter_mut().zip(pairs) {
-            *place = pair.pair();
-            count += 1;
-        }
-        let taken = search(&mut self.front, buffer.get(..count).unwrap_or(&[]));
-        self.tell(shared);
-        taken
-    }
-
-    fn tell(&self, shared: &Shared<S>) {
-        let searching = u32::from(self.front.is_searching());
-        shared.searching.store(searching, Ordering::Relaxed);
-    }
-
-    pub(crate) fn skip(&mut self, shared: &Shared<S>, count: u32) {
-        self.obey(shared);
-        self.front.skip(u64::from(count));
-    }
-}
-
-/// Searches a period in pairs; gives how many it took. One piece of code for every form of pairs, and apart from the sums.
-#[inline(never)]
-fn search<S: Sample>(front: &mut Front<S, ANTINODE_LONGEST_PERIOD>, pairs: &[[S; 2]]) -> usize {
-    for (before, &pair) in pairs.iter().enumerate() {
-        // No block can be finished by it.
-        front.push(pair);
-        if !front.is_searching() {
-            return before + 1;
-        }
-    }
-    pairs.len()
 }
 
 impl Thread {

@@ -1,4 +1,4 @@
-//! The kernels that the bench images measure, each between the marks over [`PAIRS`] sample pairs.
+//! The kernels that the bench images measure, each between the marks over [`PAIRS`] sample pairs. `name` is the image's.
 //!
 //! Samples arrive as packed codes; slices are half-buffers of 128 pairs. `S` decides the arithmetic: `i16` or `f32`.
 
@@ -9,12 +9,13 @@ use antinode::phase::PhaseStep;
 use antinode::{Front, Identifier, Packed, Sample, SamplePair, Settings, Tracker};
 
 use crate::codes::{Codes, PERIOD};
+use crate::gauge::{Gauge, apart};
 use crate::marks::{leave, mark_begin, mark_end};
 
 /// Sample pairs that a bench works through.
 pub const PAIRS: usize = 16_384;
 /// Pairs of a half-buffer.
-const HALF_BUFFER: usize = 128;
+pub(crate) const HALF_BUFFER: usize = 128;
 
 fn demodulator<S: Sample>(watch: bool) -> Demodulator<S, 200> {
     Demodulator::new(
@@ -25,7 +26,7 @@ fn demodulator<S: Sample>(watch: bool) -> Demodulator<S, 200> {
 }
 
 /// Block sums from half-buffers, with or without the watch.
-pub fn block<S: Sample>(watch: bool) -> !
+pub fn block<S: Sample>(name: &'static str, watch: bool) -> !
 where
     Packed: SamplePair<S>,
 {
@@ -43,16 +44,18 @@ where
             }
         }
     };
+    let mut gauge = Gauge::new(name, PAIRS, size_of::<Demodulator<S, 200>>());
     // The first block makes the table.
     run(0, 100);
+    gauge.start();
     mark_begin();
-    run(100, 100 + PAIRS);
+    apart(|| run(100, 100 + PAIRS));
     mark_end();
-    leave()
+    gauge.finish()
 }
 
 /// Block sums from one call a pair, without the watch.
-pub fn push<S: Sample>() -> !
+pub fn push<S: Sample>(name: &'static str) -> !
 where
     Packed: SamplePair<S>,
 {
@@ -70,11 +73,13 @@ where
             }
         }
     };
+    let mut gauge = Gauge::new(name, PAIRS, size_of::<Demodulator<S, 200>>());
     run(0, 100);
+    gauge.start();
     mark_begin();
-    run(100, 100 + PAIRS);
+    apart(|| run(100, 100 + PAIRS));
     mark_end();
-    leave()
+    gauge.finish()
 }
 
 /// One call a pair, as from an interrupt: not inlined into the loop.
@@ -90,7 +95,7 @@ where
 }
 
 /// Everything, with the watch: samples, blocks, and a solved, tracked window every 10 periods.
-pub fn pipeline<S: Sample>() -> !
+pub fn pipeline<S: Sample>(name: &'static str) -> !
 where
     Packed: SamplePair<S>,
 {
@@ -108,16 +113,18 @@ where
             });
         }
     };
+    let mut gauge = Gauge::new(name, PAIRS, size_of::<Identifier<S, 200, 16>>());
     // From cold to a tracked wave before the marks.
     run(0, 2_000);
+    gauge.start();
     mark_begin();
-    run(2_000, 2_000 + PAIRS);
+    apart(|| run(2_000, 2_000 + PAIRS));
     mark_end();
-    leave()
+    gauge.finish()
 }
 
-/// The solution alone, in thread context: as many windows as blocks of [`PAIRS`] pairs make; a window every 10 blocks.
-pub fn solution<S: Sample>() -> !
+/// The solution of one window of 10 blocks alone, in thread context.
+pub fn solution<S: Sample>(name: &'static str) -> !
 where
     Packed: SamplePair<S>,
 {
@@ -134,21 +141,26 @@ where
             return *block;
         }
     };
+    // Of the tracker alone, from its first window on.
+    let mut gauge = Gauge::new(name, 1, size_of::<Tracker<16>>());
     for _ in 0..100 {
         let block = next();
         black_box(tracker.push(&block));
     }
     let blocks: [_; 10] = core::array::from_fn(|_| next());
+    gauge.start();
     mark_begin();
-    for block in &blocks {
-        black_box(tracker.push(block));
-    }
+    apart(|| {
+        for block in &blocks {
+            black_box(&tracker.push(block));
+        }
+    });
     mark_end();
-    leave()
+    gauge.finish()
 }
 
 /// The search for a period from cold to its end, again and again, one call a pair.
-pub fn acquire<S: Sample>() -> !
+pub fn acquire<S: Sample>(name: &'static str) -> !
 where
     Packed: SamplePair<S>,
 {
@@ -156,20 +168,24 @@ where
     let Ok(mut front) = Front::<S, 200>::new(Settings::new(100_000.0)) else {
         leave()
     };
+    let mut gauge = Gauge::new(name, PAIRS, size_of::<Front<S, 200>>());
     let mut at = 0;
+    gauge.start();
     mark_begin();
-    while at < PAIRS {
-        let pairs = codes.slice(at, PAIRS - at);
-        at += pairs.len();
-        for &pair in pairs {
-            black_box(front_push(&mut front, pair).is_some());
-            if !front.is_searching() {
-                front.search();
+    apart(|| {
+        while at < PAIRS {
+            let pairs = codes.slice(at, PAIRS - at);
+            at += pairs.len();
+            for &pair in pairs {
+                black_box(front_push(&mut front, pair).is_some());
+                if !front.is_searching() {
+                    front.search();
+                }
             }
         }
-    }
+    });
     mark_end();
-    leave()
+    gauge.finish()
 }
 
 #[inline(never)]

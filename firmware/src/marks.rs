@@ -19,9 +19,16 @@ pub extern "C" fn mark_end() {
     core::hint::black_box(2);
 }
 
-/// Leaves the emulator.
+/// Leaves the emulator with success.
 pub fn leave() -> ! {
     loop {
         debug::exit(debug::EXIT_SUCCESS);
+    }
+}
+
+/// Leaves the emulator with failure.
+pub fn fail() -> ! {
+    loop {
+        debug::exit(debug::EXIT_FAILURE);
     }
 }

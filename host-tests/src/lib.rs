@@ -5,6 +5,7 @@ pub mod methods;
 pub mod oracle;
 pub mod printed;
 pub mod score;
+pub mod table;
 
 use antinode::Estimate;
 use antinode::Identifier;

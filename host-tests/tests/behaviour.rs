@@ -1,6 +1,6 @@
 //! What users lean on: the same results however a stream is cut, calibration, continuity of the angle, gaps, overlap, settings.
 
-use antinode::{Calibration, Detection, Estimate, Settings, SettingsError, Tracker};
+use antinode::{Calibration, Detection, Estimate, Front, Settings, SettingsError, Tracker};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 use host_tests::score::{errors, stated};
 use host_tests::{Core, RATE, angle_error, identify, windows};
@@ -361,4 +361,45 @@ fn the_angle_runs_on_over_gaps_in_which_it_turns_far() {
         let expected = 5.0 * (pair[1].time - pair[0].time);
         assert!((turned - expected).abs() < 0.01, "{turned} {expected}");
     }
+}
+
+#[test]
+fn other_settings_in_place_do_what_a_new_start_does() {
+    let wave = random_wave(7, 5332.0, 0.4);
+    let flaws = Flaws {
+        noise: 0.01,
+        ..Flaws::default()
+    };
+    let pairs = stream(wave, flaws, 8000, 7);
+    let run = |front: &mut Front<f32, 200>, tracker: &mut Tracker<40>| {
+        let mut rest = pairs.as_slice();
+        let mut found = Vec::new();
+        while !rest.is_empty() {
+            let (taken, block) = front.push_slice(rest);
+            rest = &rest[taken..];
+            let estimate = block.and_then(|block| tracker.push(block));
+            found.extend(estimate.map(|e| (e.main_amplitude, e.angle, e.frequency, e.flags)));
+        }
+        found
+    };
+    let second = Settings {
+        hop: Some(3),
+        watch: false,
+        detection: Detection::MeanReturn,
+        start_angle: 3.0,
+        ..windows(12)
+    };
+    let (mut front, mut tracker) = (
+        Front::new(windows(5)).unwrap(),
+        Tracker::new(windows(5)).unwrap(),
+    );
+    let first = run(&mut front, &mut tracker);
+    assert!(front.configure(windows(1)).is_err() && tracker.configure(windows(1)).is_err());
+    front.configure(second).unwrap();
+    tracker.configure(second).unwrap();
+    let changed = run(&mut front, &mut tracker);
+    assert_eq!(front.index(), 16_000);
+    let (mut front, mut tracker) = (Front::new(second).unwrap(), Tracker::new(second).unwrap());
+    assert_eq!(run(&mut front, &mut tracker), changed);
+    assert!(first.len() > 60 && changed.len() > 100);
 }

@@ -112,6 +112,51 @@ fn the_exact_solution_has_no_leakage_and_takes_offsets() {
 }
 
 #[test]
+fn sums_of_codes_are_exact_at_full_scale() {
+    // Offsets that a sixteenth of a code holds, at the far end of the range: every product is as large as it can be.
+    let offsets = [32_767.0f32, -32_768.0];
+    let codes: Vec<[i16; 2]> = (0..40_000u32)
+        .map(|k| {
+            let k = k.wrapping_mul(2_654_435_761);
+            [
+                -32_768 + (k >> 20) as i16 / 4,
+                32_767 - (k >> 19 & 1023) as i16,
+            ]
+        })
+        .collect();
+    let centred = |pair: [i16; 2]| [f64::from(pair[0]) - 32_767.0, f64::from(pair[1]) + 32_768.0];
+    let (mut moments, mut delayed) = (
+        MomentSums::<i16>::new(offsets),
+        DelayedSums::<50, i16>::new(5, offsets),
+    );
+    let (mut cut_moments, mut cut_delayed) = (moments.clone(), delayed.clone());
+    moments.extend(&codes);
+    delayed.extend(&codes);
+    for part in codes.chunks(37) {
+        cut_moments.extend(part);
+        cut_delayed.extend(part);
+    }
+    let (moments, delayed) = (moments.take(), delayed.take());
+    assert_eq!(moments, cut_moments.take());
+    assert_eq!(delayed, cut_delayed.take());
+    let sum = |of: &dyn Fn([f64; 2]) -> f64| codes.iter().map(|&p| of(centred(p))).sum::<f64>();
+    assert_eq!(moments.cc, sum(&|[c, _]| c * c));
+    assert_eq!(moments.dd, sum(&|[_, d]| d * d));
+    assert_eq!(moments.cd, sum(&|[c, d]| c * d));
+    let pairs = || {
+        codes
+            .iter()
+            .skip(5)
+            .zip(&codes)
+            .map(|(&a, &b)| (centred(a), centred(b)))
+    };
+    assert_eq!(delayed.cd, pairs().map(|(a, b)| a[0] * b[1]).sum::<f64>());
+    assert_eq!(delayed.cc, pairs().map(|(a, b)| a[0] * b[0]).sum::<f64>());
+    assert_eq!(delayed.dd, pairs().map(|(a, b)| a[1] * b[1]).sum::<f64>());
+    assert!(moments.cc > 40_000.0 * 4.0e9);
+}
+
+#[test]
 fn streaming_sums_are_those_of_the_slice() {
     let wave = Wave::default();
     let (offsets, length) = ([0.4f32, -0.2f32], 19u16);

@@ -16,9 +16,9 @@ pub const ANTINODE_QUEUE_BLOCKS: usize = 16;
 pub(crate) const RING_BLOCKS: usize = ANTINODE_MOST_PERIODS + 2;
 
 /// 64-bit words of an `antinode_fixed_t`.
-pub const ANTINODE_FIXED_WORDS: usize = 960;
+pub const ANTINODE_FIXED_WORDS: usize = 1152;
 /// 64-bit words of an `antinode_float_t`.
-pub const ANTINODE_FLOAT_WORDS: usize = 1240;
+pub const ANTINODE_FLOAT_WORDS: usize = 1560;
 
 /// State of an identification in fixed point, on `int16_t` codes. Opaque: only the functions `antinode_fixed_…` look inside.
 #[repr(C)]

@@ -13,6 +13,9 @@ use crate::{MAX_FRAME, PROTOCOL_VERSION};
 /// Most bytes of header, number, body and checksum.
 pub(crate) const MAX_PAYLOAD: usize = 120;
 
+/// Bytes of the checksum.
+const CHECKSUM: usize = 4;
+
 pub(crate) static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
 mod sealed {
@@ -75,10 +78,14 @@ impl core::error::Error for BufferTooSmall {}
 ///
 /// [`BufferTooSmall`]: never with [`MAX_FRAME`] bytes.
 pub fn frame<'a, M: Frame>(message: &M, buffer: &'a mut [u8]) -> Result<&'a [u8], BufferTooSmall> {
-    // postcard could write COBS straight into the buffer, but its indexing links panics in.
+    // postcard could add the checksum and write COBS straight into the buffer, but byte by byte, and its indexing links panics in.
     let mut payload = [0; MAX_PAYLOAD];
-    let payload = postcard::to_slice_crc32(&(M::HEADER, message), &mut payload, CRC.digest())
-        .map_err(|_| BufferTooSmall)?;
+    let message = postcard::to_slice(&(M::HEADER, message), &mut payload);
+    let length = message.map_err(|_| BufferTooSmall)?.len();
+    let (message, rest) = payload.split_at_mut_checked(length).ok_or(BufferTooSmall)?;
+    let checksum = rest.first_chunk_mut().ok_or(BufferTooSmall)?;
+    *checksum = CRC.checksum(message).to_le_bytes();
+    let payload = payload.get(..length + CHECKSUM).ok_or(BufferTooSmall)?;
     let (first, rest) = buffer.split_first_mut().ok_or(BufferTooSmall)?;
     *first = 0;
     let length = cobs::try_encode(payload, rest).map_err(|_| BufferTooSmall)?;

@@ -16,6 +16,11 @@ impl Reporter {
         Self { next: 0 }
     }
 
+    /// Spends the next report's number on one that finds no room to be sent: so the PC learns of it.
+    pub fn skip(&mut self) {
+        self.next = self.next.wrapping_add(1);
+    }
+
     /// Writes the next report as a frame into the start of `buffer`; gives the bytes to send.
     ///
     /// Its number is spent even where the frame then finds no room to be sent: so the PC learns of it.

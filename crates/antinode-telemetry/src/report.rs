@@ -86,7 +86,7 @@ pub enum State {
     Searching,
     /// It follows a wave.
     Tracking,
-    /// Sampling was stopped and started anew: the time of estimates begins at 0 again.
+    /// Sampling was stopped and started anew; the time of estimates goes on over the pairs lost, which [`Counters`] tell.
     SamplingRestarted(Cause),
     /// It does not sample any more.
     Fault(Cause),

@@ -43,14 +43,14 @@ pub mod portable {
         libm::sqrtf(x)
     }
 
-    /// Adds pairs to the sums, from a sample of even index on: `weights` are words of two cosines and of two sines.
+    /// Adds pairs to the sums, from a sample of even index on: `weights` are words of two cosines and of two sines in turn.
     ///
-    /// As many pairs as there are weights for are taken.
+    /// None is taken where there are weights for fewer.
     #[inline(always)]
     pub fn add_pairs<P: SamplePair<i16>>(
         sums: &mut [ChannelSums<i16>; 2],
         pairs: &[P],
-        weights: &[[u32; 2]],
+        weights: &[u32],
     ) {
         let mut sums = sums.each_mut();
         for ((pair, cosine), sine) in each(pairs, weights) {
@@ -68,7 +68,7 @@ pub mod portable {
     pub fn watch_pairs<P: SamplePair<i16>>(
         watch: &mut [ChannelWatch<i16>; 2],
         pairs: &[P],
-        weights: &[[u32; 2]],
+        weights: &[u32],
     ) {
         for ((pair, cosine), sine) in each(pairs, weights) {
             for (watch, sample) in watch.iter_mut().zip(pair.pair()) {
@@ -81,10 +81,41 @@ pub mod portable {
         }
     }
 
+    /// Adds pairs in f32 to the sums, each product rounded before it is added: `weights` are cosine and sine of each.
+    ///
+    /// None is taken where there are weights for fewer.
+    #[inline(always)]
+    pub fn add_floats<P: SamplePair<f32>>(
+        sums: &mut [ChannelSums<f32>; 2],
+        pairs: &[P],
+        weights: &[[f32; 2]],
+    ) {
+        if weights.len() < pairs.len() {
+            return;
+        }
+        let mut now = *sums;
+        for (pair, [cosine, sine]) in pairs.iter().zip(weights) {
+            for (sums, sample) in now.iter_mut().zip(pair.pair()) {
+                sums.cosine += sample * cosine;
+                sums.sine += sample * sine;
+                sums.sum += sample;
+            }
+        }
+        *sums = now;
+    }
+
     /// Pairs with a cosine and a sine for each.
     #[inline(always)]
-    fn each<P: Copy>(pairs: &[P], weights: &[[u32; 2]]) -> impl Iterator<Item = ((P, i32), i32)> {
-        let cosines = weights.iter().flat_map(|&[cosine, _]| halves(cosine));
+    fn each<P: Copy>(pairs: &[P], weights: &[u32]) -> impl Iterator<Item = ((P, i32), i32)> {
+        let pairs = if pairs.len() > weights.len() {
+            &[]
+        } else {
+            pairs
+        };
+        let weights = weights.as_chunks().0;
+        let cosines = weights
+            .iter()
+            .flat_map(|&[cosine, _]: &[u32; 2]| halves(cosine));
         let sines = weights.iter().flat_map(|&[_, sine]| halves(sine));
         pairs.iter().copied().zip(cosines).zip(sines)
     }
@@ -141,17 +172,17 @@ mod dsp {
         out
     }
 
-    /// The portable kernel of the same name, at most 32 767 pairs in one call.
+    /// The portable kernel of the same name.
     #[inline(always)]
     pub fn add_pairs<P: SamplePair<i16>>(
         sums: &mut [ChannelSums<i16>; 2],
         pairs: &[P],
-        weights: &[[u32; 2]],
+        weights: &[u32],
     ) {
         const { assert!(size_of::<P>() == 4 && size_of::<[ChannelSums<i16>; 2]>() == 24) };
-        let count = pairs.len().min(2 * weights.len());
-        if count > 0 {
-            // SAFETY: `count` pairs are words of memory, half as many weights are there, and the sums are six words.
+        let count = pairs.len();
+        if count > 0 && count <= weights.len() {
+            // SAFETY: `count` pairs are words of memory, as many words of weights are there, and the sums are six words.
             unsafe { add_words(sums, pairs.as_ptr().cast(), weights.as_ptr(), count) };
         }
     }
@@ -161,31 +192,31 @@ mod dsp {
     pub fn watch_pairs<P: SamplePair<i16>>(
         watch: &mut [ChannelWatch<i16>; 2],
         pairs: &[P],
-        weights: &[[u32; 2]],
+        weights: &[u32],
     ) {
         const { assert!(size_of::<P>() == 4 && size_of::<[ChannelWatch<i16>; 2]>() == 24) };
-        let count = pairs.len().min(2 * weights.len());
-        if count > 0 {
-            // SAFETY: `count` pairs are words of memory, half as many weights are there, and the watch is six words: two sums and
-            // the halves low and high, twice.
+        let count = pairs.len();
+        if count > 0 && count <= weights.len() {
+            // SAFETY: `count` pairs are words of memory, as many words of weights are there, and the watch is six words: two sums
+            // and the halves low and high, twice.
             unsafe { watch_words(watch, pairs.as_ptr().cast(), weights.as_ptr(), count) };
         }
     }
 
-    /// r0: six sums; r1: words of pairs, which need no alignment; r2: weights; r3: pairs, at least one.
+    /// r0: six sums; r1: words of pairs; r2: weights, an even number; r3: pairs, at least one.
     ///
-    /// Two pairs are turned into a word of samples for each channel, and six SMLADs add them.
+    /// Two pairs are turned into a word of samples for each channel, and six SMLADs add them. Pairs of halves need no alignment:
+    /// only where they have it are they loaded by LDM.
     #[unsafe(naked)]
     unsafe extern "C" fn add_words(
         sums: *mut [ChannelSums<i16>; 2],
         pairs: *const u32,
-        weights: *const [u32; 2],
+        weights: *const u32,
         count: usize,
     ) {
         naked_asm!(
+            // Two pairs in r10 and r11.
             ".macro ADD_TWO",
-            "ldr r11, [r1, #4]",
-            "ldr r10, [r1], #8",
             "pkhbt r12, r10, r11, lsl #16",
             "pkhtb r11, r11, r10, asr #16",
             "ldrd r0, r10, [r2], #8",
@@ -196,24 +227,31 @@ mod dsp {
             "smlad r6, r12, lr, r6",
             "smlad r9, r11, lr, r9",
             ".endm",
+            ".macro LOAD_ANY",
+            "ldr r11, [r1, #4]",
+            "ldr r10, [r1], #8",
+            ".endm",
             "push {{r0, r4-r11, lr}}",
             "ldmia r0, {{r4-r9}}",
             "mov lr, #0x00010001",
             "subs r3, #4",
             "blo 2f",
+            "tst r1, #3",
+            "bne 6f",
             "1:",
+            "ldmia r1!, {{r10, r11}}",
             "ADD_TWO",
+            "ldmia r1!, {{r10, r11}}",
             "ADD_TWO",
             "subs r3, #4",
             "bhs 1b",
             "2:",
-            "adds r3, #4",
-            "cmp r3, #2",
-            "blo 3f",
+            "lsls r3, r3, #31",
+            "bcc 3f",
+            "LOAD_ANY",
             "ADD_TWO",
-            "subs r3, #2",
             "3:",
-            "cbz r3, 4f",
+            "bpl 4f",
             // A last pair alone: the other halves are zero.
             "ldr r10, [r1]",
             "ldrd r0, r11, [r2]",
@@ -226,10 +264,19 @@ mod dsp {
             "smlad r6, r12, lr, r6",
             "smlad r9, r10, lr, r9",
             "4:",
-            "ldr r0, [sp]",
+            "pop {{r0}}",
             "stmia r0, {{r4-r9}}",
-            "pop {{r0, r4-r11, pc}}",
+            "pop {{r4-r11, pc}}",
+            "6:",
+            "LOAD_ANY",
+            "ADD_TWO",
+            "LOAD_ANY",
+            "ADD_TWO",
+            "subs r3, #4",
+            "bhs 6b",
+            "b 2b",
             ".purgem ADD_TWO",
+            ".purgem LOAD_ANY",
         )
     }
 
@@ -238,7 +285,7 @@ mod dsp {
     unsafe extern "C" fn watch_words(
         watch: *mut [ChannelWatch<i16>; 2],
         pairs: *const u32,
-        weights: *const [u32; 2],
+        weights: *const u32,
         count: usize,
     ) {
         naked_asm!(
@@ -303,6 +350,11 @@ mod dsp {
 
 #[cfg(has_vsqrt)]
 mod fpu {
+    use core::arch::naked_asm;
+
+    use crate::block::ChannelSums;
+    use crate::sample::{Form, SamplePair};
+
     /// VSQRT.
     #[inline(always)]
     pub fn square_root(x: f32) -> f32 {
@@ -314,6 +366,140 @@ mod fpu {
         }
         f32::from_bits(bits)
     }
+
+    /// The portable kernel of the same name.
+    #[inline(always)]
+    pub fn add_floats<P: SamplePair<f32>>(
+        sums: &mut [ChannelSums<f32>; 2],
+        pairs: &[P],
+        weights: &[[f32; 2]],
+    ) {
+        const { assert!(size_of::<[ChannelSums<f32>; 2]>() == 24) };
+        let count = pairs.len();
+        if count == 0 || count > weights.len() {
+            return;
+        }
+        let (from, by) = (pairs.as_ptr(), weights.as_ptr());
+        match P::FORM {
+            // SAFETY: `count` pairs are words of memory, as many weights are there, and the sums are six words.
+            Form::Codes => unsafe { add_codes(sums, from.cast(), by, count) },
+            // SAFETY: as above, and a pair is two words.
+            Form::Floats => unsafe { add_pairs(sums, from.cast(), by, count) },
+            Form::Other => super::portable::add_floats(sums, pairs, weights),
+        }
+    }
+
+    /// r0: six sums; r1: words of two codes, which need no alignment; r2: weights; r3: pairs, at least one.
+    #[unsafe(naked)]
+    unsafe extern "C" fn add_codes(
+        sums: *mut [ChannelSums<f32>; 2],
+        pairs: *const u32,
+        weights: *const [f32; 2],
+        count: usize,
+    ) {
+        naked_asm!(
+            ".fpu fpv4-sp-d16",
+            ".macro ADD cosine, sine, c, d",
+            "vmul.f32 s14, \\c, \\cosine",
+            "vmul.f32 s15, \\c, \\sine",
+            "vadd.f32 s0, s0, s14",
+            "vmul.f32 s14, \\d, \\cosine",
+            "vadd.f32 s1, s1, s15",
+            "vmul.f32 s15, \\d, \\sine",
+            "vadd.f32 s2, s2, \\c",
+            "vadd.f32 s3, s3, s14",
+            "vadd.f32 s4, s4, s15",
+            "vadd.f32 s5, s5, \\d",
+            ".endm",
+            ".macro LOAD c, d, word, high",
+            "asr \\high, \\word, #16",
+            "vmov \\c, \\d, \\word, \\high",
+            // Of 16 bits: it takes the low half of the register as it is.
+            "vcvt.f32.s16 \\c, \\c, #0",
+            "vcvt.f32.s16 \\d, \\d, #0",
+            ".endm",
+            ".macro ADD_TWO",
+            "ldr r5, [r1, #4]",
+            "ldr r4, [r1], #8",
+            "LOAD s6, s7, r4, r12",
+            "LOAD s8, s9, r5, r12",
+            "vldmia r2!, {{s10-s13}}",
+            "ADD s10, s11, s6, s7",
+            "ADD s12, s13, s8, s9",
+            ".endm",
+            "push {{r4, r5}}",
+            "vldmia r0, {{s0-s5}}",
+            "subs r3, #4",
+            "blo 2f",
+            "1:",
+            "ADD_TWO",
+            "ADD_TWO",
+            "subs r3, #4",
+            "bhs 1b",
+            "2:",
+            "lsls r3, r3, #31",
+            "bcc 3f",
+            "ADD_TWO",
+            "3:",
+            "cbz r3, 4f",
+            "ldr r4, [r1]",
+            "LOAD s6, s7, r4, r12",
+            "vldmia r2!, {{s10-s11}}",
+            "ADD s10, s11, s6, s7",
+            "4:",
+            "vstmia r0, {{s0-s5}}",
+            "pop {{r4, r5}}",
+            "bx lr",
+            ".purgem ADD",
+            ".purgem LOAD",
+            ".purgem ADD_TWO",
+        )
+    }
+
+    /// As `add_codes`, of pairs of f32.
+    #[unsafe(naked)]
+    unsafe extern "C" fn add_pairs(
+        sums: *mut [ChannelSums<f32>; 2],
+        pairs: *const [f32; 2],
+        weights: *const [f32; 2],
+        count: usize,
+    ) {
+        naked_asm!(
+            ".fpu fpv4-sp-d16",
+            ".macro ADD cosine, sine, c, d",
+            "vmul.f32 s14, \\c, \\cosine",
+            "vmul.f32 s15, \\c, \\sine",
+            "vadd.f32 s0, s0, s14",
+            "vmul.f32 s14, \\d, \\cosine",
+            "vadd.f32 s1, s1, s15",
+            "vmul.f32 s15, \\d, \\sine",
+            "vadd.f32 s2, s2, \\c",
+            "vadd.f32 s3, s3, s14",
+            "vadd.f32 s4, s4, s15",
+            "vadd.f32 s5, s5, \\d",
+            ".endm",
+            "vldmia r0, {{s0-s5}}",
+            "subs r3, #2",
+            "blo 2f",
+            "1:",
+            "vldmia r1!, {{s6-s9}}",
+            "vldmia r2!, {{s10-s13}}",
+            "ADD s10, s11, s6, s7",
+            "ADD s12, s13, s8, s9",
+            "subs r3, #2",
+            "bhs 1b",
+            "2:",
+            "lsls r3, r3, #31",
+            "beq 3f",
+            "vldmia r1!, {{s6-s7}}",
+            "vldmia r2!, {{s10-s11}}",
+            "ADD s10, s11, s6, s7",
+            "3:",
+            "vstmia r0, {{s0-s5}}",
+            "bx lr",
+            ".purgem ADD",
+        )
+    }
 }
 
 #[cfg(has_dsp)]
@@ -322,9 +508,9 @@ pub use dsp::{add_pairs, dual_multiply_add, half_difference, half_sum, watch_pai
 pub use portable::{add_pairs, dual_multiply_add, half_difference, half_sum, watch_pairs};
 
 #[cfg(has_vsqrt)]
-pub use fpu::square_root;
+pub use fpu::{add_floats, square_root};
 #[cfg(not(has_vsqrt))]
-pub use portable::square_root;
+pub use portable::{add_floats, square_root};
 
 #[cfg(test)]
 mod tests {

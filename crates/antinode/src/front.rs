@@ -1,20 +1,45 @@
 //! Samples become blocks, from cold: the period is searched, then blocks are gathered. This is what runs in an interrupt.
 
-use crate::block::{Block, Demodulator};
-use crate::period::{DifferenceDetector, MeanReturnDetector};
+use crate::block::{Block, Demodulator, Layout};
+use crate::period::DifferenceDetector;
+#[cfg(feature = "mean-return")]
+use crate::period::MeanReturnDetector;
 use crate::sample::{Sample, SamplePair};
 use crate::settings::{Detection, Settings, SettingsError};
 
-/// What the front is doing with samples.
+/// What searches for the period.
 #[derive(Debug, Clone)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "the stages share one place on purpose: there is no heap"
-)]
-enum Stage<S: Sample, const N: usize> {
+enum Detector<S: Sample> {
     Difference(DifferenceDetector<S>),
+    #[cfg(feature = "mean-return")]
     MeanReturn(MeanReturnDetector),
-    Gather(Demodulator<S, N>),
+}
+
+impl<S: Sample> Detector<S> {
+    fn new(detection: Detection) -> Self {
+        match detection {
+            Detection::Difference => Self::Difference(DifferenceDetector::new()),
+            #[cfg(feature = "mean-return")]
+            Detection::MeanReturn => Self::MeanReturn(MeanReturnDetector::new()),
+        }
+    }
+
+    fn restart(&mut self) {
+        match self {
+            Self::Difference(detector) => detector.restart(),
+            #[cfg(feature = "mean-return")]
+            Self::MeanReturn(detector) => *detector = MeanReturnDetector::new(),
+        }
+    }
+
+    #[inline(always)]
+    fn push(&mut self, pair: impl SamplePair<S>) -> Option<f32> {
+        match self {
+            Self::Difference(detector) => detector.push(pair),
+            #[cfg(feature = "mean-return")]
+            Self::MeanReturn(detector) => detector.push(pair.pair().map(S::to_f32)),
+        }
+    }
 }
 
 /// The sample-rate half of an identification on samples of type `S`, for blocks of up to `N` sample pairs; `N` bounds the period
@@ -22,7 +47,10 @@ enum Stage<S: Sample, const N: usize> {
 #[derive(Debug, Clone)]
 pub struct Front<S: Sample, const N: usize> {
     settings: Settings,
-    stage: Stage<S, N>,
+    // Side by side: to build one in the other's place would be the longest call of all.
+    detector: Detector<S>,
+    demodulator: Demodulator<S, N>,
+    is_searching: bool,
     /// Index in the stream of the next sample pair.
     index: u64,
 }
@@ -33,26 +61,41 @@ impl<S: Sample, const N: usize> Front<S, N> {
         settings.check(usize::from(u16::MAX))?;
         Ok(Self {
             settings,
-            stage: Self::cold(&settings),
+            detector: Detector::new(settings.detection),
+            demodulator: Demodulator::new(Layout::NONE, 0, settings.watch),
+            is_searching: true,
             index: 0,
         })
     }
 
-    fn cold(settings: &Settings) -> Stage<S, N> {
-        match settings.detection {
-            Detection::Difference => Stage::Difference(DifferenceDetector::new()),
-            Detection::MeanReturn => Stage::MeanReturn(MeanReturnDetector::new()),
+    /// Searches anew with other settings, in place: a new front in this one's place would take its size in stack. The count of
+    /// sample pairs goes on.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Settings::check`]; nothing is changed then.
+    pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        settings.check(usize::from(u16::MAX))?;
+        if settings.detection == self.settings.detection {
+            self.detector.restart();
+        } else {
+            self.detector = Detector::new(settings.detection);
         }
+        self.demodulator.set_watch(settings.watch);
+        self.settings = settings;
+        self.is_searching = true;
+        Ok(())
     }
 
     /// Drops the period and searches anew.
     pub fn search(&mut self) {
-        self.stage = Self::cold(&self.settings);
+        self.detector.restart();
+        self.is_searching = true;
     }
 
     /// True while a period is searched.
     pub fn is_searching(&self) -> bool {
-        !matches!(self.stage, Stage::Gather(_))
+        self.is_searching
     }
 
     /// Index in the stream of the next sample pair.
@@ -63,25 +106,22 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Tells that `count` sample pairs were lost before the next one: the block that they would have been part of is dropped.
     pub fn skip(&mut self, count: u64) {
         self.index += count;
-        if let Stage::Gather(demodulator) = &mut self.stage {
-            demodulator.restart(self.index);
-        } else {
+        if self.is_searching {
             self.search();
+        } else {
+            self.demodulator.restart(self.index);
         }
     }
 
     /// Takes one sample pair; gives the block that it finished.
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<&Block<S>> {
-        if self.is_searching() {
+        if self.is_searching {
             self.search_slice(&[pair]);
             return None;
         }
-        let Stage::Gather(demodulator) = &mut self.stage else {
-            return None;
-        };
         self.index += 1;
-        demodulator.push(pair)
+        self.demodulator.push(pair)
     }
 
     /// Takes pairs from the start of a slice up to the end of a block; gives how many it took and the block if one is finished.
@@ -89,38 +129,26 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Call it again with the rest until it has taken all: results are the same to the bit however a stream is cut.
     #[inline]
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
-        if !self.is_searching() {
-            return self.gather(pairs);
+        if self.is_searching {
+            return (self.search_slice(pairs), None);
         }
-        (self.search_slice(pairs), None)
-    }
-
-    #[inline]
-    fn gather<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
-        let Stage::Gather(demodulator) = &mut self.stage else {
-            return (0, None);
-        };
-        let (taken, block) = demodulator.push_slice(pairs);
+        let (taken, block) = self.demodulator.push_slice(pairs);
         self.index += taken as u64;
         (taken, block)
     }
 
     /// Takes pairs until a period is found; gives how many.
+    #[inline(never)]
     fn search_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> usize {
         for (taken, &pair) in pairs.iter().enumerate() {
             self.index += 1;
-            let found = match &mut self.stage {
-                Stage::Difference(detector) => detector.push(pair),
-                Stage::MeanReturn(detector) => detector.push(pair.pair().map(S::to_f32)),
-                Stage::Gather(_) => None,
-            };
-            if let Some(period) = found {
+            if let Some(period) = self.detector.push(pair) {
                 let layout = self.settings.layout(period);
                 if usize::from(layout.length) <= N {
-                    self.stage =
-                        Stage::Gather(Demodulator::new(layout, self.index, self.settings.watch));
+                    self.demodulator.begin(layout, self.index);
+                    self.is_searching = false;
                 } else {
-                    self.search();
+                    self.detector.restart();
                 }
                 return taken + 1;
             }

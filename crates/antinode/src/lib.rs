@@ -91,6 +91,9 @@ pub use calibration::Calibration;
 pub use estimate::{Estimate, Flags};
 pub use front::Front;
 pub use identifier::Identifier;
+// The image `check_arch` compiles `arch` by itself, and needs the name.
+#[doc(hidden)]
+pub use sample::Form;
 pub use sample::{Packed, Sample, SamplePair};
 pub use settings::{Detection, Settings, SettingsError};
 pub use tracker::Tracker;

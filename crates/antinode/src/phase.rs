@@ -95,7 +95,7 @@ impl PhaseStep {
     /// The frequency in Hz at a sample rate in Hz, plus `offset` radians a sample, at full resolution.
     pub fn hertz(self, offset: f32, sample_rate: f64) -> f64 {
         let turns = f64::from(self.0) / 4_294_967_296.0;
-        (turns + f64::from(offset) / core::f64::consts::TAU) * sample_rate
+        (turns + f64::from(offset) * (1.0 / core::f64::consts::TAU)) * sample_rate
     }
 
     /// This step moved by `offset` radians a sample, to within half a unit and f32 rounding of the offset.

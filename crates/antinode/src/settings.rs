@@ -12,14 +12,15 @@ pub enum Detection {
     /// Formula (10): about three periods, any offset, 20 % noise and more.
     #[default]
     Difference,
-    /// Formula (9): about eleven periods, for signals with little noise.
+    /// Formula (9), of the feature `mean-return`: about eleven periods, for signals with little noise.
+    #[cfg(feature = "mean-return")]
     MeanReturn,
 }
 
 /// Settings of an identification. Start from [`Settings::new`] and change what differs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Sample rate in Hz, > 0.
+    /// Sample rate in Hz, 10⁻³ to 10¹².
     pub sample_rate: f64,
     /// Length of a window in periods, 2 to what the ring of blocks holds (about one block a period; see [`Settings::layout`]).
     pub periods: u16,
@@ -46,7 +47,7 @@ pub struct Settings {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum SettingsError {
-    /// The sample rate is not a positive number.
+    /// The sample rate is not a number from 10⁻³ to 10¹² Hz.
     SampleRate(f64),
     /// Fewer than 2 periods a window.
     PeriodsTooFew(u16),
@@ -77,7 +78,10 @@ impl fmt::Display for SettingsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::SampleRate(rate) => {
-                write!(f, "sample rate {rate} Hz: it must be a positive number")
+                write!(
+                    f,
+                    "sample rate {rate} Hz: it must be a number from 0.001 to 1e12"
+                )
             }
             Self::PeriodsTooFew(n) => write!(f, "{n} periods a window: it takes at least 2"),
             Self::PeriodsTooMany { periods, most } => {
@@ -140,7 +144,7 @@ impl Settings {
         let within = |x: f32, least: f32, most: f32| x >= least && x <= most;
         let most = blocks.saturating_sub(2).min(60_000) as u16;
         let c = &self.calibration;
-        if !(self.sample_rate > 0.0 && self.sample_rate.is_finite()) {
+        if !(1e-3..=1e12).contains(&self.sample_rate) {
             Err(SettingsError::SampleRate(self.sample_rate))
         } else if self.periods < 2 {
             Err(SettingsError::PeriodsTooFew(self.periods))

@@ -5,7 +5,7 @@
 /// Its error is below 2⁻²³ of the mean |term| a term and does not grow with the count, where a plain f32 sum of n terms loses
 /// n·2⁻²⁴ of itself. It overflows where a plain sum would: beyond 3·10³⁸.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Sum {
+pub struct Sum {
     total: f32,
     /// What `total` has beyond the true sum.
     excess: f32,

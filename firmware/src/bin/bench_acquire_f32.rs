@@ -7,7 +7,7 @@ use firmware::{bench, marks};
 
 #[entry]
 fn main() -> ! {
-    bench::acquire::<f32>()
+    bench::acquire::<f32>(env!("CARGO_BIN_NAME"))
 }
 
 #[panic_handler]

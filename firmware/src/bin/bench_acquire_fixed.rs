@@ -7,7 +7,7 @@ use firmware::{bench, marks};
 
 #[entry]
 fn main() -> ! {
-    bench::acquire::<i16>()
+    bench::acquire::<i16>(env!("CARGO_BIN_NAME"))
 }
 
 #[panic_handler]

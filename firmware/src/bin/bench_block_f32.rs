@@ -7,7 +7,7 @@ use firmware::{bench, marks};
 
 #[entry]
 fn main() -> ! {
-    bench::block::<f32>(false)
+    bench::block::<f32>(env!("CARGO_BIN_NAME"), false)
 }
 
 #[panic_handler]

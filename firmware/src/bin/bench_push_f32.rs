@@ -7,7 +7,7 @@ use firmware::{bench, marks};
 
 #[entry]
 fn main() -> ! {
-    bench::push::<f32>()
+    bench::push::<f32>(env!("CARGO_BIN_NAME"))
 }
 
 #[panic_handler]

@@ -7,7 +7,7 @@ use firmware::{bench, marks};
 
 #[entry]
 fn main() -> ! {
-    bench::push::<i16>()
+    bench::push::<i16>(env!("CARGO_BIN_NAME"))
 }
 
 #[panic_handler]

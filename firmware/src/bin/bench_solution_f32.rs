@@ -7,7 +7,7 @@ use firmware::{bench, marks};
 
 #[entry]
 fn main() -> ! {
-    bench::solution::<f32>()
+    bench::solution::<f32>(env!("CARGO_BIN_NAME"))
 }
 
 #[panic_handler]

@@ -7,7 +7,7 @@ use firmware::{bench, marks};
 
 #[entry]
 fn main() -> ! {
-    bench::solution::<i16>()
+    bench::solution::<i16>(env!("CARGO_BIN_NAME"))
 }
 
 #[panic_handler]

@@ -7,7 +7,7 @@ use firmware::{bench, marks};
 
 #[entry]
 fn main() -> ! {
-    bench::block::<f32>(true)
+    bench::block::<f32>(env!("CARGO_BIN_NAME"), true)
 }
 
 #[panic_handler]

@@ -7,7 +7,7 @@ use firmware::{bench, marks};
 
 #[entry]
 fn main() -> ! {
-    bench::block::<i16>(true)
+    bench::block::<i16>(env!("CARGO_BIN_NAME"), true)
 }
 
 #[panic_handler]

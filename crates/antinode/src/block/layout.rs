@@ -24,6 +24,13 @@ pub(crate) struct Reference {
 }
 
 impl Layout {
+    /// That of a demodulator which has not begun.
+    pub(crate) const NONE: Self = Self {
+        step: PhaseStep(0),
+        length: 1,
+        scale: 0,
+    };
+
     /// The layout of blocks of `length` pairs of samples of type `S`.
     pub fn new<S: Sample>(step: PhaseStep, length: u16) -> Self {
         Self {

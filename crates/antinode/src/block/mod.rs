@@ -45,10 +45,10 @@ pub struct Demodulator<S: Sample, const N: usize> {
 #[derive(Debug, Clone)]
 #[repr(C)]
 struct Summing<S: Sample, const N: usize> {
-    /// Sample pairs in `block`; when it is full the next sample begins a new one.
-    count: u16,
-    /// How much of the tables is there: they grow with the first block, so that no sample waits for all of them.
-    known: u16,
+    /// Sample pairs that `block` still wants; when it is full the next sample begins a new one.
+    left: u16,
+    /// How much of the tables is missing: they grow with the first block, so that no sample waits for all of them.
+    unknown: u16,
     block: Block<S>,
     table: [S::Weight; N],
     third: [S::Weight; N],
@@ -60,24 +60,25 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     /// A length beyond 1…`N` is brought into it; the scale is that of `S`.
     pub fn new(layout: Layout, start: u64, watch: bool) -> Self {
         const { assert!(N.is_multiple_of(2), "weights stand in twos") };
-        let length = layout.length.clamp(1, N.min(usize::from(u16::MAX)) as u16);
-        Self {
+        let mut demodulator = Self {
             held: 0,
-            room: length.min(HELD as u16),
+            room: 0,
             holding: [[S::EXTREMES[0]; 2]; HELD],
             summing: Summing {
-                count: 0,
-                known: 0,
+                left: 0,
+                unknown: 0,
                 block: Block {
-                    start,
-                    layout: Layout::new::<S>(layout.step, length),
+                    start: 0,
+                    layout,
                     sums: [ChannelSums::empty(); 2],
                     watch: watch.then_some([ChannelWatch::empty(); 2]),
                 },
                 table: [S::Weight::default(); N],
                 third: [S::Weight::default(); N],
             },
-        }
+        };
+        demodulator.begin(layout, start);
+        demodulator
     }
 
     /// Reference frequency, length and scale of the blocks.
@@ -108,7 +109,8 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
             self.sum_held();
         }
         let taken = self.summing.sum(pairs);
-        self.room = self.summing.left().min(HELD as u16);
+        // The next single pair is not held back: by then there is room.
+        self.room = 0;
         (taken, self.summing.finished())
     }
 
@@ -122,11 +124,24 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         self.summing.finished()
     }
 
+    /// Begins anew, with blocks of another layout from sample pair `start` of the stream on.
+    pub(crate) fn begin(&mut self, layout: Layout, start: u64) {
+        let length = layout.length.clamp(1, N.min(usize::from(u16::MAX)) as u16);
+        self.summing.block.layout = Layout::new::<S>(layout.step, length);
+        self.summing.unknown = length;
+        self.restart(start);
+    }
+
+    /// Watches the samples or does not, from the next beginning on.
+    pub(crate) fn set_watch(&mut self, watch: bool) {
+        self.summing.block.watch = watch.then_some([ChannelWatch::empty(); 2]);
+    }
+
     /// Drops the block begun; the next one starts at sample pair `start` of the stream.
     pub(crate) fn restart(&mut self, start: u64) {
         self.held = 0;
         self.summing.restart(start);
-        self.room = self.summing.left().min(HELD as u16);
+        self.room = self.summing.left.min(HELD as u16);
     }
 }
 
@@ -134,42 +149,42 @@ impl<S: Sample, const N: usize> Summing<S, N> {
     /// Takes pairs up to the end of the block; gives how many.
     #[inline(always)]
     fn sum<P: SamplePair<S>>(&mut self, pairs: &[P]) -> usize {
-        if self.finished().is_some() {
-            self.restart(self.block.start + u64::from(self.count));
+        let length = self.block.layout.length;
+        if self.left == 0 {
+            self.restart(self.block.start + u64::from(length));
         }
-        let open = usize::from(self.left()).min(pairs.len());
-        let index = usize::from(self.count);
-        self.count += open as u16;
-        if self.count > self.known {
+        let index = length - self.left;
+        let pairs = pairs.get(..usize::from(self.left)).unwrap_or(pairs);
+        self.left -= pairs.len() as u16;
+        if self.unknown > self.left {
             self.extend_table();
         }
-        let pairs = pairs.get(..open).unwrap_or(&[]);
+        let index = usize::from(index);
         S::add_slice(&mut self.block.sums, pairs, &self.table, index);
         if let Some(watch) = &mut self.block.watch {
             S::watch_slice(watch, pairs, &self.third, index);
         }
-        open
+        pairs.len()
     }
 
     /// Pairs to the end of the block; of the next one when it is full.
     #[inline(always)]
     fn left(&self) -> u16 {
-        let length = self.block.layout.length;
-        match length - self.count {
-            0 => length,
+        match self.left {
+            0 => self.block.layout.length,
             left => left,
         }
     }
 
     #[inline(always)]
     fn finished(&self) -> Option<&Block<S>> {
-        (self.count == self.block.layout.length).then_some(&self.block)
+        (self.left == 0).then_some(&self.block)
     }
 
     #[inline(always)]
     fn restart(&mut self, start: u64) {
-        self.count = 0;
         let block = &mut self.block;
+        self.left = block.layout.length;
         block.start = start;
         block.sums = [ChannelSums::empty(); 2];
         if let Some(watch) = &mut block.watch {
@@ -181,13 +196,14 @@ impl<S: Sample, const N: usize> Summing<S, N> {
     #[cold]
     #[inline(never)]
     fn extend_table(&mut self) {
-        for index in self.known..self.count {
+        let length = self.block.layout.length;
+        for index in length - self.unknown..length - self.left {
             let reference = self.block.layout.reference(index);
             let index = usize::from(index);
             S::set_weight(&mut self.table, index, [reference.cosine, reference.sine]);
             let third = [reference.third_cosine, reference.third_sine];
             S::set_weight(&mut self.third, index, third);
         }
-        self.known = self.count;
+        self.unknown = self.left;
     }
 }

@@ -1,8 +1,8 @@
 //! Products of the pick-offs with themselves a quarter of a period before: the sums of algorithm 2.
 
-use super::moments::Moments;
+use super::moments::{Moments, centred};
 use crate::block::Pair;
-use crate::sum::Sum;
+use crate::sample::{Sample, SamplePair};
 
 /// Delayed products of a window. Those of two windows with one lag add.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -26,17 +26,14 @@ impl Delayed {
         let from = start.max(shift);
         let now = pairs.get(from..).unwrap_or(&[]);
         let before = pairs.get(from - shift..).unwrap_or(&[]);
-        let mut sums = [Sum::default(); 3];
-        let mut count = 0;
-        for (now, before) in now.iter().zip(before) {
-            add(&mut sums, *now, *before);
-            count += 1;
+        let mut sums = Default::default();
+        for (&now, &before) in now.iter().zip(before) {
+            add::<f32>(&mut sums, now, before);
         }
-        Self::new(lag, count, sums)
+        Self::new(lag, now.len() as u32, f32::products(sums))
     }
 
-    fn new(lag: u16, count: u32, sums: [Sum; 3]) -> Self {
-        let [cd, cc, dd] = sums.map(Sum::value);
+    fn new(lag: u16, count: u32, [cd, cc, dd]: [f64; 3]) -> Self {
         Self {
             lag,
             count,
@@ -79,47 +76,46 @@ impl Delayed {
 }
 
 #[inline(always)]
-fn add(sums: &mut [Sum; 3], now: Pair, before: Pair) {
-    let [cd, cc, dd] = sums;
-    cd.add(now[0] * before[1]);
-    cc.add(now[0] * before[0]);
-    dd.add(now[1] * before[1]);
+fn add<S: Sample>(sums: &mut S::Products, now: [S::Centred; 2], before: [S::Centred; 2]) {
+    let [c, d] = now;
+    S::add_products(sums, [[c, before[1]], [c, before[0]], [d, before[1]]]);
 }
 
-/// Gathers [`Delayed`] at sample rate: 3 multiplications and 14 additions a pair, and a delay line of up to `LAGS` pairs.
+/// Gathers [`Delayed`] at sample rate: as much work as [`MomentSums`](super::MomentSums), and a delay line of up to `LAGS` pairs.
 ///
 /// A quarter of the longest period, 200 samples, takes 50.
 #[derive(Debug, Clone)]
-pub struct DelayedSums<const LAGS: usize> {
-    offsets: [f32; 2],
+pub struct DelayedSums<const LAGS: usize, S: Sample = f32> {
+    offsets: [S::Centred; 2],
     lag: u16,
-    line: [Pair; LAGS],
+    line: [[S::Centred; 2]; LAGS],
     /// Place in the line of the oldest pair.
     place: u16,
     /// Pairs in the line, up to the lag.
     filled: u16,
     count: u32,
-    sums: [Sum; 3],
+    sums: S::Products,
 }
 
-impl<const LAGS: usize> DelayedSums<LAGS> {
-    /// Empty sums at a lag in samples, brought into 1…`LAGS`; `offsets` of S_C and S_D are taken off every sample, (4).
+impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
+    /// Empty sums at a lag in samples, brought into 1…`LAGS`; `offsets` of S_C and S_D, in input units, are taken off every sample,
+    /// (4).
     pub fn new(lag: u16, offsets: [f32; 2]) -> Self {
         Self {
-            offsets,
+            offsets: offsets.map(S::offset),
             lag: lag.min(LAGS as u16).max(1),
-            line: [[0.0; 2]; LAGS],
+            line: [Default::default(); LAGS],
             place: 0,
             filled: 0,
             count: 0,
-            sums: [Sum::default(); 3],
+            sums: S::Products::default(),
         }
     }
 
     /// Adds a sample pair. The first pairs of a stream, up to the lag, only fill the line.
     #[inline]
-    pub fn push(&mut self, pair: Pair) {
-        let now = [pair[0] - self.offsets[0], pair[1] - self.offsets[1]];
+    pub fn push(&mut self, pair: impl SamplePair<S>) {
+        let now = centred(pair, self.offsets);
         let Some(slot) = self.line.get_mut(usize::from(self.place)) else {
             return;
         };
@@ -132,53 +128,37 @@ impl<const LAGS: usize> DelayedSums<LAGS> {
             self.filled += 1;
             return;
         }
-        add(&mut self.sums, now, before);
+        add::<S>(&mut self.sums, now, before);
         self.count += 1;
     }
 
-    /// Adds the pairs of a slice, to the bit as [`push`](Self::push) would: the sums stay in registers.
+    /// Adds the pairs of a slice, to the bit as [`push`](Self::push) would: beyond its first pairs it is its own delay line.
     #[inline]
-    pub fn extend(&mut self, mut pairs: &[Pair]) {
-        let offsets = self.offsets;
-        while !pairs.is_empty() {
-            if self.filled < self.lag {
-                let Some((first, rest)) = pairs.split_first() else {
-                    return;
-                };
-                self.push(*first);
-                pairs = rest;
-                continue;
-            }
-            // As far as the line's end, or the slice's.
-            let place = usize::from(self.place);
-            let open = usize::from(self.lag).saturating_sub(place).min(pairs.len());
-            let (Some(line), Some((taken, rest))) = (
-                self.line.get_mut(place..place + open),
-                pairs.split_at_checked(open),
-            ) else {
-                return;
-            };
-            let mut sums = self.sums;
-            for (slot, pair) in line.iter_mut().zip(taken) {
-                let now = [pair[0] - offsets[0], pair[1] - offsets[1]];
-                add(&mut sums, now, core::mem::replace(slot, now));
-            }
-            self.sums = sums;
-            self.count += open as u32;
-            self.place += open as u16;
-            if self.place == self.lag {
-                self.place = 0;
-            }
-            pairs = rest;
+    pub fn extend<P: SamplePair<S>>(&mut self, pairs: &[P]) {
+        let lag = usize::from(self.lag);
+        let (first, rest) = pairs.split_at_checked(lag).unwrap_or((pairs, &[]));
+        for &pair in first {
+            self.push(pair);
         }
+        if rest.is_empty() {
+            return;
+        }
+        let (offsets, mut sums) = (self.offsets, self.sums);
+        for (&now, &before) in rest.iter().zip(pairs) {
+            add::<S>(&mut sums, centred(now, offsets), centred(before, offsets));
+        }
+        self.sums = sums;
+        self.count += rest.len() as u32;
+        for (slot, &pair) in self.line.iter_mut().zip(pairs.iter().skip(rest.len())) {
+            *slot = centred(pair, offsets);
+        }
+        self.place = 0;
     }
 
     /// The products since the last call; the sums start anew, the line goes on.
     pub fn take(&mut self) -> Delayed {
-        let delayed = Delayed::new(self.lag, self.count, self.sums);
-        self.count = 0;
-        self.sums = [Sum::default(); 3];
-        delayed
+        let sums = S::products(core::mem::take(&mut self.sums));
+        Delayed::new(self.lag, core::mem::take(&mut self.count), sums)
     }
 
     /// Tells that samples are missing before the next pair: the line is filled anew.

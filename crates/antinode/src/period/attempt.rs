@@ -26,15 +26,24 @@ pub(super) enum Verdict {
 }
 
 impl<S: Sample> Attempt<S> {
-    /// An attempt at a wave of `period` samples in the first `length` of `frame`.
-    pub(super) fn new(frame: &[[S; 2]; FRAME], length: usize, period: f32) -> Self {
+    /// An attempt at nothing.
+    pub(super) fn new() -> Self {
         Self {
-            frame: *frame,
-            length,
+            frame: [[S::EXTREMES[0]; 2]; FRAME],
+            length: 0,
             seen: 0,
-            trial: Trial::new(period, length),
+            trial: Trial::new(4.0, 0),
             doubt: None,
         }
+    }
+
+    /// Begins an attempt at a wave of `period` samples in the first `length` of `frame`.
+    pub(super) fn begin(&mut self, frame: &[[S; 2]; FRAME], length: usize, period: f32) {
+        self.frame = *frame;
+        self.length = length;
+        self.seen = 0;
+        self.trial = Trial::new(period, length);
+        self.doubt = None;
     }
 
     /// Goes on by a few samples.

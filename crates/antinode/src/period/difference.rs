@@ -23,8 +23,9 @@ const FOUND: core::ops::RangeInclusive<f32> = 3.5..=9.6;
 const STRANGER: f32 = 0.4;
 /// Periods that a frame must hold before it is tried.
 const HELD: f32 = 2.5;
-/// Samples of a frame before its D(T) is looked at.
+/// Samples of a frame before its D(T) is looked at, and while it is looked at with every second one; later with every fourth.
 const LEAST: usize = 12;
+const OFTEN: usize = 22;
 
 /// D(1)…D(10), not yet divided by the count of pairs in each.
 pub(crate) type Lags<S> = [<S as Sample>::Square; LAGS];
@@ -94,12 +95,16 @@ impl<S: Sample> Octave<S> {
         0.25 * S::square_to_f32(sum) / count as f32
     }
 
-    /// The first minimum of D(T) after its first maximum, between samples, where the frame is long enough for it.
+    /// True when enough samples are new to look at D(T).
     #[inline(always)]
+    fn is_due(&self) -> bool {
+        self.count >= LEAST
+            && (self.count.is_multiple_of(4) || self.count.is_multiple_of(2) && self.count <= OFTEN)
+    }
+
+    /// The first minimum of D(T) after its first maximum, between samples, where the frame is long enough for it.
+    #[inline(never)]
     fn period(&self) -> Option<f32> {
-        if self.count < LEAST || self.count % 2 == 1 {
-            return None;
-        }
         let levels = S::means(&self.differences, self.count);
         let [mut before, mut here, ..] = levels;
         let mut greatest = if before < here { here } else { before };
@@ -131,6 +136,7 @@ impl<S: Sample> Octave<S> {
 /// A frame under trial, and what it was found under.
 #[derive(Debug, Clone)]
 struct Candidate<S: Sample> {
+    is_open: bool,
     attempt: Attempt<S>,
     halvings: usize,
     /// Power that the octaves below lost.
@@ -164,7 +170,7 @@ impl<S: Sample> Candidate<S> {
 #[derive(Debug, Clone)]
 pub struct DifferenceDetector<S: Sample> {
     octaves: [Octave<S>; OCTAVES],
-    candidate: Option<Candidate<S>>,
+    candidate: Candidate<S>,
 }
 
 impl<S: Sample> DifferenceDetector<S> {
@@ -172,13 +178,18 @@ impl<S: Sample> DifferenceDetector<S> {
     pub fn new() -> Self {
         Self {
             octaves: core::array::from_fn(|_| Octave::new()),
-            candidate: None,
+            candidate: Candidate {
+                is_open: false,
+                attempt: Attempt::new(),
+                halvings: 0,
+                lost: 0.0,
+            },
         }
     }
 
     /// Forgets all samples.
     pub fn restart(&mut self) {
-        self.candidate = None;
+        self.candidate.is_open = false;
         for octave in &mut self.octaves {
             octave.restart();
         }
@@ -191,25 +202,29 @@ impl<S: Sample> DifferenceDetector<S> {
         for (halvings, octave) in self.octaves.iter_mut().enumerate() {
             let Some(sample) = next else { break };
             next = octave.push(sample);
-            if self.candidate.is_none() && found.is_none() {
+            if octave.is_due() && !self.candidate.is_open && found.is_none() {
                 found = octave.period().map(|period| (halvings, period));
             }
         }
         if let Some((halvings, period)) = found {
             self.propose(halvings, period);
         }
-        self.attempt()
+        if self.candidate.is_open {
+            return self.attempt();
+        }
+        None
     }
 
-    /// Goes on with the trial of the candidate, if there is one.
+    /// Goes on with the trial of the candidate.
+    #[inline(never)]
     fn attempt(&mut self) -> Option<f32> {
-        let candidate = self.candidate.as_mut()?;
+        let candidate = &mut self.candidate;
         let period = match candidate.attempt.advance() {
             Verdict::Open => return None,
             Verdict::Refused => None,
             Verdict::Accepted(fitted) => candidate.accept(fitted.period, fitted.power),
         };
-        self.candidate = None;
+        candidate.is_open = false;
         period
     }
 
@@ -218,11 +233,13 @@ impl<S: Sample> DifferenceDetector<S> {
     fn propose(&mut self, halvings: usize, period: f32) {
         let below = self.octaves.iter().take(halvings);
         let lost = below.map(Octave::lost).sum();
-        self.candidate = self.octaves.get(halvings).map(|octave| Candidate {
-            attempt: Attempt::new(&octave.frame, octave.count, period),
-            halvings,
-            lost,
-        });
+        if let Some(octave) = self.octaves.get(halvings) {
+            let candidate = &mut self.candidate;
+            candidate.attempt.begin(&octave.frame, octave.count, period);
+            candidate.halvings = halvings;
+            candidate.lost = lost;
+            candidate.is_open = true;
+        }
     }
 }
 

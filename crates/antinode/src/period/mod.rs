@@ -3,10 +3,12 @@
 mod attempt;
 mod confirm;
 mod difference;
+#[cfg(feature = "mean-return")]
 mod mean_return;
 
 pub use difference::DifferenceDetector;
 pub(crate) use difference::{LAGS, Lags};
+#[cfg(feature = "mean-return")]
 pub use mean_return::MeanReturnDetector;
 
 /// Periods found, in samples: 4 to 200 and a little more.

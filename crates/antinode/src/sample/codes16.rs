@@ -6,6 +6,9 @@ use crate::arch;
 use crate::block::{ChannelSums, ChannelWatch};
 use crate::period::{LAGS, Lags};
 
+/// Centred codes in units of one code.
+const SIXTEENTHS: f32 = 16.0;
+
 /// Two 16-bit halves as a word.
 #[inline(always)]
 fn word(pair: [i16; 2]) -> u32 {
@@ -18,10 +21,12 @@ fn pair(word: u32) -> [i16; 2] {
     [word as i16, (word >> 16) as i16]
 }
 
-/// The weights from sample `index` on, which is even: words of two cosines and of two sines.
+/// The weights of `count` samples from `index` on, which is even: words of two cosines and of two sines.
 #[inline(always)]
-fn weights(table: &[u32], index: usize) -> &[[u32; 2]] {
-    table.get(index..).unwrap_or(&[]).as_chunks().0
+fn weights(table: &[u32], index: usize, count: usize) -> &[u32] {
+    table
+        .get(index..index + ((count + 1) & !1))
+        .unwrap_or_default()
 }
 
 /// What stands for a sample of odd index alone: a pair of words, the first of zeros.
@@ -45,6 +50,9 @@ impl Sample for i16 {
     type Weight = u32;
     type Runs = ();
     type Square = u32;
+    // Codes and offsets in sixteenths: below 2²⁰, so that 2²³ products stay below 2⁶³.
+    type Centred = i32;
+    type Products = [i64; 3];
     type Level = u32;
 
     const EXTREMES: [Self; 2] = [i16::MIN, i16::MAX];
@@ -89,40 +97,59 @@ impl Sample for i16 {
     #[inline(always)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
-        pairs: &[P],
+        mut pairs: &[P],
         table: &[u32],
-        index: usize,
+        mut index: usize,
     ) {
-        let (first, pairs) = odd_first(pairs, index);
-        if let Some(first) = first {
-            arch::add_pairs(
-                sums,
-                &after_nothing(first.pair()),
-                weights(table, index & !1),
-            );
+        if let (Some(first), rest) = odd_first(pairs, index) {
+            let two = after_nothing(first.pair());
+            arch::add_pairs(sums, &two, weights(table, index & !1, 2));
+            (pairs, index) = (rest, index + 1);
         }
-        arch::add_pairs(sums, pairs, weights(table, (index + 1) & !1));
+        arch::add_pairs(sums, pairs, weights(table, index, pairs.len()));
     }
 
     #[inline(always)]
     fn watch_slice<P: SamplePair<Self>>(
         watch: &mut [ChannelWatch<Self>; 2],
-        pairs: &[P],
+        mut pairs: &[P],
         table: &[u32],
-        index: usize,
+        mut index: usize,
     ) {
-        let (first, pairs) = odd_first(pairs, index);
-        if let Some(first) = first {
+        if let (Some(first), rest) = odd_first(pairs, index) {
             let two = after_nothing(first.pair());
             let extremes = watch.map(|channel| [channel.low, channel.high]);
-            arch::watch_pairs(watch, &two, weights(table, index & !1));
+            arch::watch_pairs(watch, &two, weights(table, index & !1, 2));
             // The zero of nothing is no sample.
             for ((channel, [low, high]), sample) in watch.iter_mut().zip(extremes).zip(first.pair())
             {
                 (channel.low, channel.high) = (low.min(sample), high.max(sample));
             }
+            (pairs, index) = (rest, index + 1);
         }
-        arch::watch_pairs(watch, pairs, weights(table, (index + 1) & !1));
+        arch::watch_pairs(watch, pairs, weights(table, index, pairs.len()));
+    }
+
+    #[inline(always)]
+    fn offset(offset: f32) -> i32 {
+        libm::roundf(offset.clamp(-32_768.0, 32_767.0) * SIXTEENTHS) as i32
+    }
+
+    #[inline(always)]
+    fn centred(self, offset: i32) -> i32 {
+        (i32::from(self) << 4) - offset
+    }
+
+    #[inline(always)]
+    fn add_products(sums: &mut [i64; 3], factors: [[i32; 2]; 3]) {
+        for (sum, [a, b]) in sums.iter_mut().zip(factors) {
+            *sum = sum.wrapping_add(i64::from(a) * i64::from(b));
+        }
+    }
+
+    fn products(sums: [i64; 3]) -> [f64; 3] {
+        let unit = 1.0 / f64::from(SIXTEENTHS * SIXTEENTHS);
+        sums.map(|sum| sum as f64 * unit)
     }
 
     #[inline(always)]

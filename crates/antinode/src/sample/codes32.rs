@@ -4,6 +4,7 @@ use super::codes::{self, Levels};
 use super::{Sample, SamplePair};
 use crate::block::{ChannelSums, ChannelWatch};
 use crate::period::Lags;
+use crate::sum::Sum;
 
 #[inline(always)]
 fn product(sample: i32, weight: i16) -> i64 {
@@ -15,6 +16,8 @@ impl Sample for i32 {
     type Weight = [i16; 2];
     type Runs = ();
     type Square = u64;
+    type Centred = f32;
+    type Products = [Sum; 3];
     type Level = u32;
 
     const EXTREMES: [Self; 2] = [i32::MIN, i32::MAX];
@@ -78,6 +81,27 @@ impl Sample for i32 {
             }
         }
         *watch = [c, d];
+    }
+
+    #[inline(always)]
+    fn offset(offset: f32) -> f32 {
+        offset
+    }
+
+    #[inline(always)]
+    fn centred(self, offset: f32) -> f32 {
+        self as f32 - offset
+    }
+
+    #[inline(always)]
+    fn add_products(sums: &mut [Sum; 3], factors: [[f32; 2]; 3]) {
+        for (sum, [a, b]) in sums.iter_mut().zip(factors) {
+            sum.add(a * b);
+        }
+    }
+
+    fn products(sums: [Sum; 3]) -> [f64; 3] {
+        sums.map(Sum::value)
     }
 
     #[inline(always)]

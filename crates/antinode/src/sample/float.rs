@@ -1,14 +1,18 @@
 //! Arithmetic at sample rate in f32.
 
 use super::{Sample, SamplePair};
+use crate::arch;
 use crate::block::{ChannelSums, ChannelWatch, Runs};
 use crate::period::{LAGS, Lags};
+use crate::sum::Sum;
 
 impl Sample for f32 {
     type Sum = f32;
     type Weight = [f32; 2];
     type Runs = Runs;
     type Square = f32;
+    type Centred = f32;
+    type Products = [Sum; 3];
     type Level = f32;
 
     const EXTREMES: [Self; 2] = [f32::NEG_INFINITY, f32::INFINITY];
@@ -39,20 +43,15 @@ impl Sample for f32 {
         }
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
         table: &[[f32; 2]],
         index: usize,
     ) {
-        let [mut c, mut d] = *sums;
-        for (pair, &weight) in pairs.iter().zip(table.get(index..).unwrap_or(&[])) {
-            let [on_c, on_d] = pair.pair();
-            c.add(on_c, weight);
-            d.add(on_d, weight);
-        }
-        *sums = [c, d];
+        let weights = table.get(index..index + pairs.len()).unwrap_or_default();
+        arch::add_floats(sums, pairs, weights);
     }
 
     #[inline(never)]
@@ -74,6 +73,27 @@ impl Sample for f32 {
             d.see(pair[1], index);
         }
         *watch = [c, d];
+    }
+
+    #[inline(always)]
+    fn offset(offset: f32) -> f32 {
+        offset
+    }
+
+    #[inline(always)]
+    fn centred(self, offset: f32) -> f32 {
+        self - offset
+    }
+
+    #[inline(always)]
+    fn add_products(sums: &mut [Sum; 3], factors: [[f32; 2]; 3]) {
+        for (sum, [a, b]) in sums.iter_mut().zip(factors) {
+            sum.add(a * b);
+        }
+    }
+
+    fn products(sums: [Sum; 3]) -> [f64; 3] {
+        sums.map(Sum::value)
     }
 
     #[inline(always)]
@@ -140,15 +160,6 @@ static RECIPROCALS: [f32; 33] = {
     }
     table
 };
-
-impl ChannelSums<f32> {
-    #[inline(always)]
-    fn add(&mut self, sample: f32, [cosine, sine]: [f32; 2]) {
-        self.cosine += sample * cosine;
-        self.sine += sample * sine;
-        self.sum += sample;
-    }
-}
 
 impl ChannelWatch<f32> {
     #[inline(always)]

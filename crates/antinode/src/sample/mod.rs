@@ -11,20 +11,53 @@ use crate::block::{ChannelSums, ChannelWatch};
 use crate::period::{LAGS, Lags};
 
 mod sealed {
-    pub trait Sealed {}
-    // Of 16-bit codes a pair is a word of memory: the kernels of `arch` rest on it.
-    pub trait Pair {}
-    impl Pair for super::Packed {}
-    impl<S: Sealed> Pair for [S; 2] {}
-    impl Pair for [u16; 2] {}
-    impl Pair for [i8; 2] {}
+    pub trait Sealed {
+        /// Of a pair of these.
+        const FORM: super::Form;
+    }
+    pub trait Pair {
+        const FORM: super::Form;
+    }
+    impl Pair for super::Packed {
+        const FORM: super::Form = super::Form::Codes;
+    }
+    impl<S: Sealed> Pair for [S; 2] {
+        const FORM: super::Form = S::FORM;
+    }
+    impl Pair for [u16; 2] {
+        const FORM: super::Form = super::Form::Other;
+    }
+    impl Pair for [i8; 2] {
+        const FORM: super::Form = super::Form::Other;
+    }
     #[cfg(feature = "fixed")]
-    impl Pair for [fixed::types::I1F15; 2] {}
+    impl Pair for [fixed::types::I1F15; 2] {
+        const FORM: super::Form = super::Form::Codes;
+    }
     #[cfg(feature = "fixed")]
-    impl Pair for [fixed::types::I1F31; 2] {}
-    impl Sealed for f32 {}
-    impl Sealed for i16 {}
-    impl Sealed for i32 {}
+    impl Pair for [fixed::types::I1F31; 2] {
+        const FORM: super::Form = super::Form::Other;
+    }
+    impl Sealed for f32 {
+        const FORM: super::Form = super::Form::Floats;
+    }
+    impl Sealed for i16 {
+        const FORM: super::Form = super::Form::Codes;
+    }
+    impl Sealed for i32 {
+        const FORM: super::Form = super::Form::Other;
+    }
+}
+
+/// What a pair is in memory: the kernels of `arch` rest on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[doc(hidden)]
+pub enum Form {
+    /// Two signed halves of a little-endian word.
+    Codes,
+    /// Two f32.
+    Floats,
+    Other,
 }
 
 /// A sample of a pick-off as the core takes it; it decides the arithmetic at sample rate.
@@ -46,6 +79,10 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     type Runs: Copy + Debug + PartialEq + Default + Send;
     /// A running sum of squared differences.
     type Square: Copy + Debug + Default + Send;
+    /// A sample less its offset, as the sums of products take it.
+    type Centred: Copy + Debug + Default + Send;
+    /// Three running sums of products.
+    type Products: Copy + Debug + Default + Send;
     /// A mean squared difference, to be compared with others.
     type Level: Copy + Debug + PartialOrd + Send;
 
@@ -62,6 +99,8 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     #[doc(hidden)]
     fn set_weight(table: &mut [Self::Weight], index: usize, weight: [f32; 2]);
     /// Adds pairs, the first of which is sample `index` of its block, to the carrier's sums.
+    ///
+    /// Nothing is added where the table is too short.
     #[doc(hidden)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
@@ -83,6 +122,18 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     /// Less than every sample, and more than every sample: extremes of none.
     #[doc(hidden)]
     const EXTREMES: [Self; 2];
+    /// An offset in input units, to be taken off by [`centred`](Self::centred).
+    #[doc(hidden)]
+    fn offset(offset: f32) -> Self::Centred;
+    /// The sample less an offset.
+    #[doc(hidden)]
+    fn centred(self, offset: Self::Centred) -> Self::Centred;
+    /// Adds products of two.
+    #[doc(hidden)]
+    fn add_products(sums: &mut Self::Products, factors: [[Self::Centred; 2]; 3]);
+    /// The sums in input units squared.
+    #[doc(hidden)]
+    fn products(sums: Self::Products) -> [f64; 3];
     /// The sample as the search for a period takes it: of 16-bit codes, less two bits.
     #[doc(hidden)]
     fn search_form(self) -> Self;

@@ -20,49 +20,53 @@ pub(super) fn coding(settings: &Settings, noise: f32, half: f32) -> f32 {
 }
 
 /// Faults that single samples show, in a window of blocks of a wave of `period` samples.
-pub(super) fn sample_flags<'a>(
+pub(super) fn sample_flags(
     settings: &Settings,
-    blocks: impl Iterator<Item = &'a Seen> + Clone,
+    blocks: &[Seen],
     period: f32,
     wave: &Standing,
 ) -> Flags {
     let broken = !(wave.main + wave.quadrature).is_finite();
     let flags = Flags::empty().with_if(broken, Flags::NOT_FINITE.with(Flags::LOST));
-    let watched = blocks.filter_map(|block| block.watched.as_ref());
-    let extremes = watched.map(|watched| &watched.extremes);
-    if extremes.clone().next().is_none() {
-        return flags;
-    }
     let mut low = [f32::INFINITY; 2];
     let mut high = [f32::NEG_INFINITY; 2];
-    for block in extremes.clone() {
-        for i in 0..2 {
-            if block[i].low < low[i] {
-                low[i] = block[i].low;
-            }
-            if block[i].high > high[i] {
-                high[i] = block[i].high;
-            }
+    let mut longest = 0;
+    for watched in blocks.iter().filter_map(|block| block.watched.as_ref()) {
+        for (i, extremes) in watched.extremes.iter().enumerate() {
+            low[i] = least(extremes.low, low[i]);
+            high[i] = -least(-extremes.high, -high[i]);
+            longest = longest.max(extremes.low_run.max(extremes.high_run));
         }
+    }
+    if longest == 0 {
+        return flags;
     }
     // Where no rail is known, samples that stay at the extreme for longer than a crest does show one.
     let crest = (period / 16.0).max(2.0) as u16;
     let fine = wave.main > 100.0 * settings.resolution.unwrap_or(0.0);
-    let flat = |block: &[Extremes; 2]| {
-        (0..2).any(|i| {
-            let seen = &block[i];
-            let wide = fine && high[i] - low[i] > wave.main;
-            let above = seen.high == high[i] && seen.high_run > crest;
-            let below = seen.low == low[i] && seen.low_run > crest;
-            wide && (above || below)
+    let flat = |block: &Seen| {
+        block.watched.as_ref().is_some_and(|watched| {
+            (0..2).any(|i| {
+                let seen: &Extremes = &watched.extremes[i];
+                let wide = fine && high[i] - low[i] > wave.main;
+                let above = seen.high == high[i] && seen.high_run > crest;
+                let below = seen.low == low[i] && seen.low_run > crest;
+                wide && (above || below)
+            })
         })
     };
     let clipped = match settings.rails {
         Some([least, most]) => (0..2).any(|i| high[i] >= most || low[i] <= least),
-        None => extremes.clone().any(flat),
+        None => longest > crest && blocks.iter().any(flat),
     };
     let dead = (0..2).any(|i| low[i] == high[i]);
     flags
         .with_if(clipped, Flags::CLIPPED)
         .with_if(dead, Flags::DEAD_CHANNEL)
+}
+
+/// The lesser of two numbers; the second where one is not a number.
+#[inline(always)]
+fn least(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
 }

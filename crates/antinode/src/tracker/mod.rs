@@ -5,8 +5,6 @@ mod converter;
 mod record;
 mod trend;
 
-use heapless::Deque;
-
 use crate::arch::square_root;
 use crate::block::{Block, Layout};
 use crate::calibration::Calibration;
@@ -14,7 +12,7 @@ use crate::estimate::{Estimate, Flags};
 use crate::sample::Sample;
 use crate::settings::{Settings, SettingsError};
 use crate::wave::{Angle, Standing, wrap};
-use crate::window::{Blocks, CARRIER_REACH, Fit, Last, Model, Seen, Start, solve};
+use crate::window::{CARRIER_REACH, Fit, Gathered, Last, Model, Start, solve};
 use checks::Noise;
 use record::Record;
 use trend::Trend;
@@ -30,14 +28,14 @@ const GIVE_UP: u8 = 2;
 #[derive(Debug, Clone)]
 pub struct Tracker<const BLOCKS: usize> {
     settings: Settings,
-    ring: Deque<Seen, BLOCKS>,
-    /// Index in the stream of the sample pair after the ring's last block.
+    /// One over the sample rate, s.
+    sample_time: f64,
+    gathered: Gathered<BLOCKS>,
+    /// Index in the stream of the sample pair after the last block.
     end: u64,
     model: Option<Model>,
     /// Blocks a window.
     count: u16,
-    /// Blocks until the next window ends.
-    wanted: u16,
     noise: Noise,
     trend: Trend,
     /// The last fit, and where its window ended.
@@ -60,11 +58,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         settings.check(BLOCKS)?;
         Ok(Self {
             settings,
-            ring: Deque::new(),
+            sample_time: reciprocal(settings.sample_rate),
+            gathered: Gathered::new(),
             end: 0,
             model: None,
             count: 0,
-            wanted: 0,
             noise: Noise::default(),
             trend: Trend::new(),
             last: None,
@@ -77,23 +75,42 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         })
     }
 
+    /// Waits for its first block anew with other settings, in place: a new tracker in this one's place would take its size in stack.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Settings::check`]; nothing is changed then.
+    pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        settings.check(BLOCKS)?;
+        self.settings = settings;
+        self.sample_time = reciprocal(settings.sample_rate);
+        self.forget();
+        self.noise = Noise::default();
+        self.trend.clear();
+        self.last = None;
+        self.before = None;
+        self.angle = Angle::new(settings.start_angle);
+        self.lost = false;
+        self.ever = false;
+        self.broken = false;
+        Ok(())
+    }
+
     /// Takes a block; gives the estimate of the window that it completes.
     ///
     /// A block of another layout, or one that does not follow the last, starts a new window.
     pub fn push<S: Sample>(&mut self, block: &Block<S>) -> Option<Estimate> {
         self.follow(block.layout, block.start);
         self.end = block.start + u64::from(block.layout.length);
-        if self.ring.len() >= usize::from(self.count) || self.ring.is_full() {
-            self.ring.pop_front();
-        }
         let model = self.model.as_ref()?;
-        self.ring.push_back(model.see(block)).ok()?;
-        self.wanted = self.wanted.saturating_sub(1);
-        if self.wanted > 0 || self.ring.len() < usize::from(self.count) {
+        model.see(block, self.gathered.next()?);
+        if self.gathered.blocks().len() < usize::from(self.count) {
             return None;
         }
-        self.wanted = self.settings.hop.unwrap_or(self.count);
-        self.estimate()
+        let estimate = self.estimate();
+        self.gathered
+            .advance(self.settings.hop.unwrap_or(self.count));
+        estimate
     }
 
     /// True when the wave has been lost for so long that a new period must be searched.
@@ -104,7 +121,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Drops the wave, but not its angle: the next block starts a new search's first window.
     pub fn forget(&mut self) {
         self.model = None;
-        self.ring.clear();
+        self.gathered.clear();
         self.failures = 0;
     }
 
@@ -120,16 +137,16 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         Ok(())
     }
 
-    /// Starts a new window when a block does not continue the ring.
+    /// Starts a new window when a block does not continue those gathered.
     fn follow(&mut self, layout: Layout, start: u64) {
         let same = self
             .model
             .as_ref()
             .is_some_and(|model| model.layout == layout);
-        if same && (self.ring.is_empty() || self.end == start) {
+        if same && (self.gathered.is_new() || self.end == start) {
             return;
         }
-        self.ring.clear();
+        self.gathered.clear();
         if !same {
             let settings = &self.settings;
             self.count = settings.blocks(layout).clamp(1, BLOCKS as u16);
@@ -147,10 +164,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.lost = self.ever;
             self.failures = 0;
         }
-        self.wanted = self.count;
     }
 
-    /// Solves the window that the ring holds.
+    /// Solves the window gathered.
     #[inline(never)]
     fn estimate(&mut self) -> Option<Estimate> {
         let fit = self.fit()?;
@@ -183,11 +199,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let (angle, quarters) = expected.nearest(wave.angle);
         let phase = wrap(wave.phase + (quarters & 1) as f32 * core::f32::consts::PI);
 
-        let (older, newer) = self.ring.as_slices();
         let mut flags = checks::within(&fit, &wave, coding, &mut self.noise);
         flags = flags.with(converter::sample_flags(
             &self.settings,
-            older.iter().chain(newer),
+            self.gathered.blocks(),
             model.layout.step.period(),
             &wave,
         ));
@@ -221,7 +236,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.failures = self.failures.saturating_add(1);
         }
         self.remember(record, flags, between);
-        Some(record.estimate(self.settings.sample_rate, flags))
+        Some(record.estimate(self.settings.sample_rate, self.sample_time, flags))
     }
 
     /// True when a pick-off that showed the wave in the last clean window shows none now.
@@ -256,10 +271,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
                 )
             }
         };
-        let (older, newer) = self.ring.as_slices();
-        let blocks = Blocks {
-            parts: [older, newer],
-        };
+        let blocks = self.gathered.blocks();
         let start = match &self.last {
             Some((last, end)) if uncertainty == 0.0 => {
                 let half_samples = 2 * self.end.wrapping_sub(*end);
@@ -267,18 +279,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             }
             _ => Start::default(),
         };
-        let fit = solve(model, blocks, self.count, carrier, uncertainty, start);
+        let fit = solve(model, blocks, carrier, uncertainty, start);
         if fit.settled || uncertainty > 0.0 {
             return Some(fit);
         }
-        Some(solve(
-            model,
-            blocks,
-            self.count,
-            carrier,
-            rough,
-            Start::default(),
-        ))
+        Some(solve(model, blocks, carrier, rough, Start::default()))
     }
 
     /// Takes the share of a turning pattern out of the frequency, with what the angles of the windows before promise.
@@ -331,4 +336,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
         self.before = Some(record);
     }
+}
+
+/// 1/x to within two units of the last place, for x that f32 can hold: by Newton's steps, as a division in f64 is a kilobyte of code on
+/// a core without one.
+fn reciprocal(x: f64) -> f64 {
+    let rough = f64::from(1.0 / x as f32);
+    (0..2).fold(rough, |rough, _| rough * (2.0 - x * rough))
 }

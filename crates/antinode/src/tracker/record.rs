@@ -82,14 +82,14 @@ impl Record {
         }
     }
 
-    /// The window as it is reported.
-    pub(crate) fn estimate(&self, sample_rate: f64, flags: Flags) -> Estimate {
+    /// The window as it is reported. `sample_time` is one over the sample rate.
+    pub(crate) fn estimate(&self, sample_rate: f64, sample_time: f64, flags: Flags) -> Estimate {
         let rate = sample_rate as f32;
         let root = square_root;
         Estimate {
             start: (self.middle + 1 - u64::from(self.samples)) / 2,
             samples: self.samples,
-            time: 0.5 * self.middle as f64 / sample_rate,
+            time: 0.5 * self.middle as f64 * sample_time,
             main_amplitude: self.main,
             quadrature_amplitude: self.quadrature,
             angle: self.angle.radians(),

@@ -3,8 +3,6 @@
 //! With a quadrature wave a turning pattern shifts the apparent frequency, so a window that must find θ̇ and f together knows f up
 //! to (a_A² + a_B²)/(a_A² − a_B²) times worse than the bound. The angles of the windows before know θ̇ far better than one window.
 
-use heapless::Deque;
-
 use crate::wave::Angle;
 
 /// Windows kept.
@@ -25,38 +23,54 @@ struct Point {
     variance: f32,
 }
 
-/// Angles of the last clean windows that do not overlap.
+/// Angles of the last clean windows that do not overlap, the oldest first.
 #[derive(Debug, Clone)]
 pub(crate) struct Trend {
-    points: Deque<Point, KEPT>,
+    points: [Point; KEPT],
+    length: usize,
 }
 
 impl Trend {
     pub(crate) const fn new() -> Self {
         Self {
-            points: Deque::new(),
+            points: [Point {
+                middle: 0,
+                angle: Angle {
+                    quarters: 0,
+                    rest: 0.0,
+                },
+                variance: 0.0,
+            }; KEPT],
+            length: 0,
         }
     }
 
     pub(crate) fn clear(&mut self) {
-        self.points.clear();
+        self.length = 0;
     }
 
     /// Keeps a clean window of `samples`, unless it overlaps the last one kept.
     pub(crate) fn keep(&mut self, middle: u64, samples: u32, angle: Angle, variance: f32) {
         let overlaps = |last: &Point| middle < last.middle + 2 * u64::from(samples);
-        if self.points.back().is_some_and(overlaps) {
+        if self.known().last().is_some_and(overlaps) {
             return;
         }
-        if self.points.is_full() {
-            self.points.pop_front();
+        if self.length == KEPT {
+            self.points.copy_within(1.., 0);
+            self.length -= 1;
         }
-        // Never full here.
-        let _ = self.points.push_back(Point {
-            middle,
-            angle,
-            variance,
-        });
+        if let Some(place) = self.points.get_mut(self.length) {
+            *place = Point {
+                middle,
+                angle,
+                variance,
+            };
+            self.length += 1;
+        }
+    }
+
+    fn known(&self) -> &[Point] {
+        self.points.get(..self.length).unwrap_or(&self.points)
     }
 
     /// The rate at the middle of a window, from its own angle and the angles before: constant through three points, linear in time
@@ -68,7 +82,7 @@ impl Trend {
         let mut values = [0.0; 3];
         let per_window = 0.5 / samples as f32;
         let mut used = 1;
-        for point in &self.points {
+        for point in self.known() {
             // Not overlapping, and so near that 32 bits hold it.
             let passed = middle.saturating_sub(point.middle).min(u64::from(u32::MAX)) as u32;
             if passed < 2 * samples {
@@ -77,8 +91,8 @@ impl Trend {
             let time = -(passed as f32) * per_window;
             let angle = point.angle.less(angle);
             let mut weight = 1.0 / point.variance.max(1e-18);
-            for n in 0..5 {
-                powers[n] += weight;
+            for (n, power) in powers.iter_mut().enumerate() {
+                *power += weight;
                 if let Some(value) = values.get_mut(n) {
                     *value += weight * angle;
                 }
@@ -95,7 +109,7 @@ impl Trend {
         let [s0, s1, s2, s3, s4] = powers;
         let [v0, v1, v2] = values;
         // The curve is taken out of level and rate where there are points for it, then the level out of the rate.
-        let bent = if self.points.len() >= 3 && s4 > 0.0 {
+        let bent = if self.length >= 3 && s4 > 0.0 {
             1.0 / s4
         } else {
             0.0

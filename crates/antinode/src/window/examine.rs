@@ -2,10 +2,13 @@
 
 use num_complex::Complex32;
 
-use super::fit::{Blocks, Prediction};
+use super::course::{CHUNK, Chunk, Course, Here};
 use super::model::Model;
+use super::prediction::{Mixing, Prediction};
 use super::response::Response;
-use super::waves::{Course, Gains, Here, Mixing, Waves};
+use super::seen::Seen;
+use super::third::Thirds;
+use super::waves::Waves;
 
 /// The residual of a fit, in several views. Squares are in input units squared.
 #[derive(Debug, Clone, Copy, Default)]
@@ -35,107 +38,90 @@ impl Remains {
 #[inline(never)]
 pub(super) fn examine(
     model: &Model,
-    blocks: Blocks<'_>,
+    blocks: &[Seen],
     waves: &Waves,
     offsets: [f32; 2],
+    here: &mut Chunk,
 ) -> Remains {
-    let response = &model.response;
     let mixing = Mixing::new(model, waves);
     let predictions = Prediction::new(model, &mixing, offsets);
-    let thirds = Third::new(model, &mixing, offsets);
+    let is_watched = blocks.first().is_some_and(|block| block.watched.is_some());
+    let mut thirds = is_watched.then(|| Thirds::new(model, &mixing, offsets));
     let mut course = Course::new(model, waves);
-    let mut steps = Steps::new(model.blocks, response);
+    let mut steps = Steps::new(model.blocks, &model.response);
     let (mut residual, mut worst_block, mut worst_step) = (0.0, 0.0, 0.0);
-    let (mut third, mut third_power, mut watched) = ([Complex32::ZERO; 2], 0.0, 0u16);
-    for block in blocks.iter() {
-        let here = course.next();
-        let back = here.unit.conj();
-        let along = |channel: usize| {
-            let rest = predictions[channel].rest(&block.whitened[channel], &here);
-            let power = rest.mean * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
-            let along = Complex32::new(
-                response.mean.level * rest.mean + response.even.level * rest.even,
-                response.odd.level * rest.odd,
-            );
-            (power, along * back)
-        };
-        let (c, d) = (along(0), along(1));
-        let power = c.0 + d.0;
-        residual += power;
-        if power > worst_block {
-            worst_block = power;
+    let mut sums = [Complex32::ZERO; 2];
+    for chunk in blocks.chunks(CHUNK) {
+        let here = here.get_mut(..chunk.len()).unwrap_or_default();
+        course.next(here);
+        let mut rests = [Rest::default(); CHUNK];
+        for (channel, prediction) in predictions.iter().enumerate() {
+            let sum = &mut sums[channel];
+            rest(model, prediction, channel, chunk, here, sum, &mut rests);
         }
-        let step = steps.add(here.u, [c.1, d.1]);
-        if step > worst_step {
-            worst_step = step;
+        for (rest, here) in rests.iter().zip(&*here) {
+            residual += rest.power;
+            if rest.power > worst_block {
+                worst_block = rest.power;
+            }
+            let step = steps.explained(here.u, rest.run);
+            if step > worst_step {
+                worst_step = step;
+            }
         }
-        if let Some(seen) = &block.watched {
-            let back_third = back * back * back;
-            let rest = |channel: usize| thirds[channel].rest(seen.third[channel], &here);
-            let (c, d) = (rest(0), rest(1));
-            third[0] += c * back_third;
-            third[1] += d * back_third;
-            third_power += c.norm_sqr() + d.norm_sqr();
-            watched += 1;
+        if let Some(thirds) = &mut thirds {
+            thirds.add(chunk, here);
         }
     }
-    let length = f32::from(model.layout.length);
-    let count = f32::from(watched.max(1));
-    let coherent = (third[0].norm_sqr() + third[1].norm_sqr()) / count;
-    let third_freedom = 4.0 * f32::from(watched.saturating_sub(1));
-    let incoherent = if third_power > coherent {
-        third_power - coherent
-    } else {
-        0.0
-    };
-    Remains {
+    let mut remains = Remains {
         residual,
         freedom: model.freedom(),
         worst_block,
         step: worst_step,
-        third: third.map(|sum| sum * (2.0 / (count * length))),
-        third_noise: incoherent / (0.5 * length * third_freedom.max(1.0)),
-        third_freedom,
+        ..Remains::default()
+    };
+    if let Some(thirds) = thirds {
+        thirds.conclude(&mut remains, f32::from(model.layout.length));
     }
+    remains
 }
 
-/// Predicts the third-harmonic sums of one pick-off: what the wave itself puts there in blocks that do not fit its period.
-struct Third {
-    cosine: Gains,
-    sine: Gains,
-    offset: f32,
+/// What a block leaves, of both pick-offs.
+#[derive(Debug, Clone, Copy, Default)]
+struct Rest {
+    /// Sum of the squares.
+    power: f32,
+    /// The squared sums, from the first block to this one, of what is left along z.
+    run: f32,
 }
 
-impl Third {
-    fn new(model: &Model, mixing: &Mixing, offsets: [f32; 2]) -> [Self; 2] {
-        let response = &model.response;
-        let [cosine_c, cosine_d] = mixing.even(&response.third_even);
-        let [sine_c, sine_d] = mixing.odd(&response.third_odd);
-        let [offset_c, offset_d] = offsets.map(|offset| response.third_offset * offset);
-        [
-            Self {
-                cosine: cosine_c,
-                sine: sine_c,
-                offset: offset_c,
-            },
-            Self {
-                cosine: cosine_d,
-                sine: sine_d,
-                offset: offset_d,
-            },
-        ]
+/// Adds what one pick-off leaves of a run of blocks: one at a time, so that its constants stay in registers.
+#[inline(never)]
+fn rest(
+    model: &Model,
+    prediction: &Prediction,
+    channel: usize,
+    blocks: &[Seen],
+    here: &[Here],
+    sum: &mut Complex32,
+    rests: &mut [Rest],
+) {
+    let Response {
+        mean, even, odd, ..
+    } = model.response;
+    let prediction = *prediction;
+    let mut run = *sum;
+    for ((block, here), out) in blocks.iter().zip(here).zip(rests) {
+        let rest = prediction.rest(&block.whitened[channel & 1], here);
+        out.power += rest.mean * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
+        let along = Complex32::new(
+            mean.level * rest.mean + even.level * rest.even,
+            odd.level * rest.odd,
+        );
+        run += along * here.unit.conj();
+        out.run += run.norm_sqr();
     }
-}
-
-impl Third {
-    /// The sums less what is predicted here: Σ S e^(−3jφ).
-    #[inline(always)]
-    fn rest(&self, seen: Complex32, here: &Here) -> Complex32 {
-        Complex32::new(
-            seen.re - self.offset - self.cosine.of(here),
-            self.sine.of(here) - seen.im,
-        )
-    }
+    *sum = run;
 }
 
 /// Looks for a step of the phasors between two blocks: the sum of the residuals so far, against what noise would make it.
@@ -147,7 +133,6 @@ struct Steps {
     per_block: f32,
     count: f32,
     time: f32,
-    sum: [Complex32; 2],
 }
 
 impl Steps {
@@ -160,23 +145,19 @@ impl Steps {
             per_block: 1.0 / blocks,
             count: 0.0,
             time: 0.0,
-            sum: [Complex32::ZERO; 2],
         }
     }
 
-    /// Takes the next block's residual along z; gives what a step after it would explain.
-    fn add(&mut self, u: f32, along: [Complex32; 2]) -> f32 {
+    /// Goes on to the next block, at time `u`; gives what a step after it would explain, from the squared run of the residuals.
+    fn explained(&mut self, u: f32, run: f32) -> f32 {
         self.count += 1.0;
         self.time += u;
-        self.sum[0] += along[0];
-        self.sum[1] += along[1];
         // A step is known by what of it is neither constant nor slope.
         let room = self.count
             - self.count * self.count * self.per_block
             - self.time * self.time * self.per_spread;
-        let power = self.sum[0].norm_sqr() + self.sum[1].norm_sqr();
         if room > 0.2 {
-            power / (self.weight * room)
+            run / (self.weight * room)
         } else {
             0.0
         }

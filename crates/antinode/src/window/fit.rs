@@ -6,12 +6,12 @@
 
 use num_complex::Complex32;
 
+use super::course::{CHUNK, Here};
 use super::examine::{Remains, examine};
+use super::gradient::gradient;
 use super::model::Model;
-use super::normal::Row;
-use super::response::Whitened;
 use super::seen::Seen;
-use super::waves::{Course, Gains, Here, Mixing, Parameters, Waves};
+use super::waves::{Parameters, Waves};
 use crate::arch::square_root;
 use crate::phase::PhaseStep;
 
@@ -59,121 +59,6 @@ impl Fit {
     }
 }
 
-/// Predicts the whitened sums of one pick-off.
-pub(super) struct Prediction {
-    mean: Gains,
-    even: Gains,
-    odd: Gains,
-    offset: f32,
-}
-
-impl Prediction {
-    /// For both pick-offs.
-    pub(super) fn new(model: &Model, mixing: &Mixing, offsets: [f32; 2]) -> [Self; 2] {
-        let response = &model.response;
-        let [mean_c, mean_d] = mixing.even(&response.mean);
-        let [even_c, even_d] = mixing.even(&response.even);
-        let [odd_c, odd_d] = mixing.odd(&response.odd);
-        let [offset_c, offset_d] = offsets.map(|offset| response.offset * offset);
-        [
-            Self {
-                mean: mean_c,
-                even: even_c,
-                odd: odd_c,
-                offset: offset_c,
-            },
-            Self {
-                mean: mean_d,
-                even: even_d,
-                odd: odd_d,
-                offset: offset_d,
-            },
-        ]
-    }
-
-    /// The sums less what is predicted here.
-    #[inline(always)]
-    pub(super) fn rest(&self, seen: &Whitened, here: &Here) -> Whitened {
-        Whitened {
-            mean: seen.mean - self.offset - self.mean.of(here),
-            even: seen.even - self.even.of(here),
-            odd: seen.odd - self.odd.of(here),
-        }
-    }
-}
-
-/// A run of blocks in the ring.
-#[derive(Clone, Copy)]
-pub(crate) struct Blocks<'a> {
-    /// The older and the newer part of the ring.
-    pub parts: [&'a [Seen]; 2],
-}
-
-impl<'a> Blocks<'a> {
-    pub(super) fn iter(&self) -> impl Iterator<Item = &'a Seen> + use<'a> {
-        let [older, newer] = self.parts;
-        older.iter().chain(newer)
-    }
-
-    /// The `count` blocks after the first `skipped`.
-    fn part(&self, skipped: usize, count: usize) -> Self {
-        let [older, newer] = self.parts;
-        let cut = |part: &'a [Seen], from: usize, to: usize| {
-            part.get(from.min(part.len())..to.min(part.len()))
-                .unwrap_or(&[])
-        };
-        let (from, to, split) = (skipped, skipped + count, older.len());
-        Self {
-            parts: [
-                cut(older, from, to),
-                cut(newer, from.saturating_sub(split), to.saturating_sub(split)),
-            ],
-        }
-    }
-}
-
-/// One pass over the blocks: the gradient of both pick-offs' parameters.
-#[inline(never)]
-fn gradient(model: &Model, blocks: Blocks<'_>, waves: &Waves, offsets: [f32; 2]) -> [Row; 2] {
-    let response = &model.response;
-    let mixing = Mixing::new(model, waves);
-    let predictions = Prediction::new(model, &mixing, offsets);
-    let mut course = Course::new(model, waves);
-    let mut level = [Complex32::ZERO; 2];
-    let mut slope = [Complex32::ZERO; 2];
-    let mut mean = [0.0; 2];
-    for block in blocks.iter() {
-        let here = course.next();
-        let back = here.unit.conj();
-        for channel in 0..2 {
-            let rest = predictions[channel].rest(&block.whitened[channel], &here);
-            let along = Complex32::new(
-                response.mean.level * rest.mean + response.even.level * rest.even,
-                response.odd.level * rest.odd,
-            ) * back;
-            let across = Complex32::new(
-                response.odd.slope * rest.odd,
-                response.mean.slope * rest.mean + response.even.slope * rest.even,
-            ) * back;
-            level[channel] += along;
-            // The block's own extent; scaled to half windows below.
-            slope[channel] += along * (here.u * model.half()) + across;
-            mean[channel] += rest.mean;
-        }
-    }
-    let per_sample = 1.0 / model.half();
-    core::array::from_fn(|i| {
-        let slope = slope[i] * per_sample;
-        [
-            level[i].re,
-            level[i].im,
-            slope.re,
-            slope.im,
-            response.offset * mean[i],
-        ]
-    })
-}
-
 /// What is kept of a fit to begin the next one.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Last {
@@ -216,7 +101,7 @@ impl Start {
 impl Model {
     /// Fits `blocks`, which are as many as the model was built for.
     #[inline(never)]
-    fn fit(&self, blocks: Blocks<'_>, start: &Start) -> Fit {
+    fn fit(&self, blocks: &[Seen], start: &Start) -> Fit {
         let mut parameters = start.parameters;
         let mut waves = if start.is_promised {
             Waves::new(self, &parameters)
@@ -224,8 +109,9 @@ impl Model {
             Waves::default()
         };
         let mut settled = false;
+        let mut here = [Here::default(); CHUNK];
         for step in 0..STEPS {
-            let gradient = gradient(self, blocks, &waves, parameters.offset);
+            let gradient = gradient(self, blocks, &waves, parameters.offset, &mut here);
             let mut moved = 0.0;
             let mut total = 0.0;
             for (channel, gradient) in gradient.into_iter().enumerate() {
@@ -247,7 +133,7 @@ impl Model {
                 break;
             }
         }
-        let remains = examine(self, blocks, &waves, parameters.offset);
+        let remains = examine(self, blocks, &waves, parameters.offset, &mut here);
         Fit {
             carrier: self.carrier,
             waves,
@@ -263,12 +149,12 @@ impl Model {
 /// A carrier too rough for the whole window is first refined in its middle: a single jump to a long window would slip a turn.
 pub(crate) fn solve(
     model: &mut Model,
-    blocks: Blocks<'_>,
-    count: u16,
+    blocks: &[Seen],
     mut carrier: PhaseStep,
     mut uncertainty: f32,
     start: Start,
 ) -> Fit {
+    let count = blocks.len() as u16;
     let length = f32::from(model.layout.length);
     let shortest = count
         .min((2.5 * carrier.period() / length) as u16 + 1)
@@ -287,7 +173,9 @@ pub(crate) fn solve(
     loop {
         model.retune(carrier, span);
         let skipped = usize::from((count - span) / 2);
-        let part = blocks.part(skipped, usize::from(span));
+        let part = blocks
+            .get(skipped..skipped + usize::from(span))
+            .unwrap_or(blocks);
         let is_first = moves == 0 && span == count && carrier == before;
         let start = if is_first { start } else { Start::default() };
         let fit = model.fit(part, &start);
@@ -298,7 +186,7 @@ pub(crate) fn solve(
         if drift.abs() > 1.5 || !drift.is_finite() {
             // The wave is nowhere near: the caller sees a fit that did not settle.
             model.retune(carrier, count);
-            let fit = model.fit(blocks.part(0, usize::from(count)), &Start::default());
+            let fit = model.fit(blocks, &Start::default());
             return Fit {
                 settled: false,
                 ..fit

@@ -1,14 +1,20 @@
 //! Block sums become a window's waves.
 
+mod course;
 mod examine;
 mod fit;
+mod gathered;
+mod gradient;
 mod model;
 mod normal;
+mod prediction;
 mod response;
 mod seen;
+mod third;
 mod waves;
 
-pub(crate) use fit::{Blocks, CARRIER_REACH, Fit, Last, Start, solve};
+pub(crate) use fit::{CARRIER_REACH, Fit, Last, Start, solve};
+pub(crate) use gathered::Gathered;
 pub(crate) use model::Model;
 pub(crate) use normal::Normal;
 pub(crate) use seen::{Extremes, Seen};

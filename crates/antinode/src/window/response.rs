@@ -17,6 +17,8 @@ pub(crate) struct Basis {
     cosine: f32,
     cosine_mean: f32,
     sine: f32,
+    /// One over the layout's scale.
+    pub unit: f32,
     /// How many of the three a block resolves: 1 for a block of one sample, else 2 or 3.
     pub rank: u8,
 }
@@ -81,6 +83,7 @@ impl Basis {
             cosine,
             cosine_mean,
             sine,
+            unit: 1.0 / layout.one(),
             rank: 1 + u8::from(cosine > 0.0) + u8::from(sine > 0.0),
         }
     }

@@ -31,40 +31,55 @@ pub(crate) struct Extremes {
     pub high_run: u16,
 }
 
+impl Seen {
+    pub(super) const EMPTY: Self = Self {
+        whitened: [Whitened {
+            mean: 0.0,
+            even: 0.0,
+            odd: 0.0,
+        }; 2],
+        watched: None,
+    };
+}
+
 impl Model {
     /// Takes a block into a window.
-    #[inline(always)]
-    pub(crate) fn see<S: Sample>(&self, block: &Block<S>) -> Seen {
-        let unit = 1.0 / self.layout.one();
-        let watched = |channel: &ChannelWatch<S>| {
-            let third = Complex32::new(
-                S::sum_to_f32(channel.third_cosine),
-                S::sum_to_f32(channel.third_sine),
+    #[inline]
+    pub(crate) fn see<S: Sample>(&self, block: &Block<S>, seen: &mut Seen) {
+        for (seen, sums) in seen.whitened.iter_mut().zip(&block.sums) {
+            *seen = self.basis.whiten(
+                S::sum_to_f32(sums.cosine),
+                S::sum_to_f32(sums.sine),
+                S::sum_to_f32(sums.sum),
             );
-            let [low_run, high_run] = S::runs(&channel.runs);
-            let extremes = Extremes {
-                low: channel.low.to_f32(),
-                high: channel.high.to_f32(),
-                low_run,
-                high_run,
-            };
-            (third * unit, extremes)
-        };
-        Seen {
-            whitened: block.sums.map(|sums| {
-                self.basis.whiten(
-                    S::sum_to_f32(sums.cosine),
-                    S::sum_to_f32(sums.sine),
-                    S::sum_to_f32(sums.sum),
-                )
-            }),
-            watched: block.watch.as_ref().map(|[c, d]| {
-                let (c, d) = (watched(c), watched(d));
-                Watched {
-                    third: [c.0, d.0],
-                    extremes: [c.1, d.1],
-                }
-            }),
         }
+        let Some([c, d]) = &block.watch else {
+            seen.watched = None;
+            return;
+        };
+        seen.watched = Some(Watched {
+            third: [self.third(c), self.third(d)],
+            extremes: [extremes(c), extremes(d)],
+        });
+    }
+
+    #[inline(always)]
+    fn third<S: Sample>(&self, watch: &ChannelWatch<S>) -> Complex32 {
+        let sum = Complex32::new(
+            S::sum_to_f32(watch.third_cosine),
+            S::sum_to_f32(watch.third_sine),
+        );
+        sum * self.basis.unit
+    }
+}
+
+#[inline(always)]
+fn extremes<S: Sample>(watch: &ChannelWatch<S>) -> Extremes {
+    let [low_run, high_run] = S::runs(&watch.runs);
+    Extremes {
+        low: watch.low.to_f32(),
+        high: watch.high.to_f32(),
+        low_run,
+        high_run,
     }
 }

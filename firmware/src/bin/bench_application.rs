@@ -1,0 +1,19 @@
+//! The whole pipeline on half-buffers of codes: interrupt, main loop, reports to the line.
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use firmware::pipeline::Queues;
+use firmware::settings::Arithmetic;
+use firmware::{load, marks};
+
+#[entry]
+fn main() -> ! {
+    static mut QUEUES: Queues<Arithmetic> = Queues::new();
+    load::application(env!("CARGO_BIN_NAME"), QUEUES)
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo) -> ! {
+    marks::leave()
+}

@@ -1,0 +1,259 @@
+//! Proves on the target that every kernel of the core in instructions of its own gives what its portable twin gives, bit for bit:
+//! over extremes and random words. Leaves with success or failure and names the kernel that differs.
+#![no_std]
+#![no_main]
+
+// The core's own file: the module is none of its public parts.
+#[allow(
+    dead_code,
+    reason = "what a kernel is built from is not called by itself"
+)]
+#[path = "../../../crates/antinode/src/arch.rs"]
+mod arch;
+// Where that file looks for them.
+mod block {
+    pub use antinode::block::{ChannelSums, ChannelWatch};
+}
+mod sample {
+    pub use antinode::{Form, SamplePair};
+}
+
+use antinode::SamplePair;
+use arch::portable;
+use block::{ChannelSums, ChannelWatch};
+use cortex_m_rt::entry;
+use firmware::line::Line;
+use firmware::marks;
+
+#[cfg(not(all(has_dsp, has_vsqrt)))]
+compile_error!("without the instructions there is nothing to compare with the twins");
+
+/// Random words for each kernel on single words.
+const WORDS: u32 = 100_000;
+/// Slices for each kernel on slices, of up to [`LONGEST`] pairs.
+const SLICES: u32 = 4_000;
+const LONGEST: usize = 64;
+/// Halves where something may overflow or change its sign.
+const HALVES: [u16; 8] = [0, 1, 2, 0x7ffe, 0x7fff, 0x8000, 0x8001, 0xffff];
+/// Zeros, subnormals, the ends of the range, what is not a number.
+const FLOATS: [u32; 12] = [
+    0,
+    0x8000_0000,
+    1,
+    0x007f_ffff,
+    0x0080_0000,
+    0x3f80_0000,
+    0x3f7f_ffff,
+    0x7f7f_ffff,
+    0x7f80_0000,
+    0xff80_0000,
+    0x7fc0_0000,
+    0xbf80_0000,
+];
+
+/// A seeded sequence of words: xorshift, G. Marsaglia, 2003, DOI 10.18637/jss.v008.i14.
+struct Random(u32);
+
+impl Random {
+    fn word(&mut self) -> u32 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 17;
+        self.0 ^= self.0 << 5;
+        self.0
+    }
+
+    /// A word, one time in four of extremes.
+    fn rough_word(&mut self) -> u32 {
+        let word = self.word();
+        if self.word() & 3 == 0 {
+            u32::from(extreme(word)) | u32::from(extreme(word >> 8)) << 16
+        } else {
+            word
+        }
+    }
+
+    fn sums(&mut self) -> [ChannelSums<i16>; 2] {
+        core::array::from_fn(|_| ChannelSums {
+            cosine: self.rough_word() as i32,
+            sine: self.rough_word() as i32,
+            sum: self.rough_word() as i32,
+        })
+    }
+
+    fn watch(&mut self) -> [ChannelWatch<i16>; 2] {
+        core::array::from_fn(|_| ChannelWatch {
+            third_cosine: self.rough_word() as i32,
+            third_sine: self.rough_word() as i32,
+            low: self.rough_word() as i16,
+            high: self.rough_word() as i16,
+            runs: (),
+        })
+    }
+}
+
+fn extreme(choice: u32) -> u16 {
+    HALVES
+        .get(choice as usize % HALVES.len())
+        .map_or(0, |&half| half)
+}
+
+/// Kernels on two words: all extremes, then random ones.
+fn on_words(random: &mut Random, agrees: impl Fn(u32, u32, u32) -> bool) -> bool {
+    let extremes = || {
+        HALVES
+            .iter()
+            .flat_map(|&low| HALVES.map(|high| u32::from(low) | u32::from(high) << 16))
+    };
+    extremes().all(|a| extremes().all(|b| agrees(a, b, a ^ b)))
+        && (0..WORDS).all(|_| {
+            agrees(
+                random.rough_word(),
+                random.rough_word(),
+                random.rough_word(),
+            )
+        })
+}
+
+/// Kernels on slices: of every length and alignment, with weights for all pairs, or for fewer.
+fn on_slices(
+    random: &mut Random,
+    mut agrees: impl FnMut(&mut Random, &[[i16; 2]], &[u32]) -> bool,
+) -> bool {
+    let mut pairs = [[0; 2]; LONGEST + 1];
+    let mut weights = [0; LONGEST];
+    (0..SLICES).all(|_| {
+        for pair in &mut pairs {
+            let word = random.rough_word();
+            *pair = [word as i16, (word >> 16) as i16];
+        }
+        for weight in &mut weights {
+            *weight = random.rough_word();
+        }
+        let length = random.word() as usize % (LONGEST + 1);
+        let known = 2 * (random.word() as usize % (LONGEST / 2 + 1));
+        let enough = length.next_multiple_of(2);
+        let known = if random.word() & 3 == 0 {
+            known
+        } else {
+            enough
+        };
+        // Pairs need not begin at a word.
+        let odd = random.word() as usize & 1;
+        let halves = pairs.as_flattened().get(odd..).unwrap_or(&[]);
+        match (halves.as_chunks().0.get(..length), weights.get(..known)) {
+            (Some(pairs), Some(weights)) => agrees(random, pairs, weights),
+            _ => false,
+        }
+    })
+}
+
+/// The instruction's result, and the twin's.
+fn same_root(bits: u32) -> bool {
+    let x = f32::from_bits(bits);
+    let (root, twin) = (arch::square_root(x), portable::square_root(x));
+    // What a NaN carries is left open by IEEE 754.
+    root.to_bits() == twin.to_bits() || root.is_nan() && twin.is_nan()
+}
+
+fn add(random: &mut Random, pairs: &[impl SamplePair<i16>], weights: &[u32]) -> bool {
+    let mut sums = random.sums();
+    let mut twin = sums;
+    arch::add_pairs(&mut sums, pairs, weights);
+    portable::add_pairs(&mut twin, pairs, weights);
+    sums == twin
+}
+
+/// Sums of codes and of floats: products and sums rounded one by one.
+fn add_floats(random: &mut Random, codes: &[[i16; 2]], weights: &[u32]) -> bool {
+    let small = |word: u32| word as i32 as f32 / 2_147_483_648.0;
+    let mut factors = [[0.0; 2]; LONGEST];
+    for (factor, &word) in factors.iter_mut().zip(weights) {
+        *factor = [small(word), small(word.rotate_left(16))];
+    }
+    let mut floats = [[0.0; 2]; LONGEST];
+    for (float, code) in floats.iter_mut().zip(codes) {
+        *float = code.map(|code| small(random.word()) * f32::from(code));
+    }
+    let sums = random.sums().map(|sums| ChannelSums::<f32> {
+        cosine: small(sums.cosine as u32),
+        sine: small(sums.sine as u32),
+        sum: small(sums.sum as u32),
+    });
+    let factors = factors.get(..weights.len()).unwrap_or(&[]);
+    let floats = floats.get(..codes.len()).unwrap_or(&[]);
+    same_floats(sums, codes, factors) && same_floats(sums, floats, factors)
+}
+
+fn same_floats(
+    sums: [ChannelSums<f32>; 2],
+    pairs: &[impl SamplePair<f32>],
+    weights: &[[f32; 2]],
+) -> bool {
+    let (mut sums, mut twin) = (sums, sums);
+    arch::add_floats(&mut sums, pairs, weights);
+    portable::add_floats(&mut twin, pairs, weights);
+    let bits = |sums: [ChannelSums<f32>; 2]| {
+        sums.map(|sums| [sums.cosine, sums.sine, sums.sum].map(f32::to_bits))
+    };
+    bits(sums) == bits(twin)
+}
+
+fn watch(random: &mut Random, pairs: &[impl SamplePair<i16>], weights: &[u32]) -> bool {
+    let mut watch = random.watch();
+    let mut twin = watch;
+    arch::watch_pairs(&mut watch, pairs, weights);
+    portable::watch_pairs(&mut twin, pairs, weights);
+    watch == twin
+}
+
+#[entry]
+fn main() -> ! {
+    let random = &mut Random(0x1234_5678);
+    let checks = [
+        (
+            "dual_multiply_add",
+            on_words(random, |a, b, sum| {
+                arch::dual_multiply_add(a, b, sum) == portable::dual_multiply_add(a, b, sum)
+            }),
+        ),
+        (
+            "half_difference",
+            on_words(random, |a, b, _| {
+                arch::half_difference(a, b) == portable::half_difference(a, b)
+            }),
+        ),
+        (
+            "half_sum",
+            on_words(random, |a, b, _| {
+                arch::half_sum(a, b) == portable::half_sum(a, b)
+            }),
+        ),
+        (
+            "square_root",
+            FLOATS.iter().all(|&bits| same_root(bits))
+                && (0..WORDS).all(|_| same_root(random.word())),
+        ),
+        ("add_pairs", on_slices(random, add)),
+        ("add_floats", on_slices(random, add_floats)),
+        ("watch_pairs", on_slices(random, watch)),
+    ];
+    let mut good = true;
+    for (kernel, agrees) in checks {
+        let mut line = Line::new();
+        line.text("check_arch ");
+        line.text(kernel);
+        line.text(if agrees {
+            ": as its twin"
+        } else {
+            ": NOT as its portable twin"
+        });
+        line.print();
+        good &= agrees;
+    }
+    if good { marks::leave() } else { marks::fail() }
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo) -> ! {
+    marks::fail()
+}

@@ -1,0 +1,166 @@
+//! The same instrument with an AD7380 for the converters. Pins and ranges: `firmware/docs/wiring.md`.
+#![no_std]
+#![no_main]
+
+use core::panic::PanicInfo;
+
+use antinode_telemetry::Cause;
+use cortex_m_rt::{ExceptionFrame, exception};
+use firmware::hardware::reset;
+
+// Not in the library: an image has one logger, and `replay` has another.
+#[path = "../rtt.rs"]
+mod rtt;
+
+#[rtic::app(device = stm32f4xx_hal::pac)]
+mod app {
+    use antinode::Packed;
+    use antinode_telemetry::{Cause, FrontEnd};
+    use firmware::gather::Gatherer;
+    use firmware::hardware::line::{By, Line};
+    use firmware::hardware::ring::Memory;
+    use firmware::hardware::sampler::Sampler;
+    use firmware::hardware::spi_adc::SpiAdc;
+    use firmware::hardware::watchdog::Watchdog;
+    use firmware::hardware::{clock, log, reset};
+    use firmware::instrument::Instrument;
+    use firmware::pipeline::Queues;
+    use firmware::settings::{AD7380_RAILS, Arithmetic, HALF, configuration};
+    use stm32f4xx_hal::pac::Interrupt;
+    use stm32f4xx_hal::prelude::*;
+
+    #[shared]
+    struct Shared {
+        #[lock_free]
+        line: Line,
+    }
+
+    #[local]
+    struct Local {
+        /// `None` where there is no clock or no converter to sample by.
+        source: Option<Sampler<SpiAdc>>,
+        gatherer: Gatherer<'static, Arithmetic>,
+        instrument: Instrument<'static, Arithmetic>,
+        watchdog: Watchdog,
+    }
+
+    #[init(local = [
+        queues: Queues<Arithmetic> = Queues::new(),
+        memory: Memory = [[Packed(0); HALF]; 2],
+    ])]
+    fn init(c: init::Context) -> (Shared, Local) {
+        let device = c.device;
+        let watchdog = Watchdog::start(device.IWDG);
+        let (cause, place) = reset::started(&device.RCC);
+        log::started(cause, place);
+        let crystal = clock::start(&device.RCC, &device.FLASH);
+        clock::start_tick(c.core.SYST);
+
+        let mut rcc = device.RCC.constrain();
+        let pins = device.GPIOA.split(&mut rcc);
+        let _ = (
+            pins.pa9.into_alternate::<7>(),
+            pins.pa10.into_alternate::<7>(),
+        );
+        let data = (
+            pins.pa5.into_alternate::<5>(),
+            pins.pa6.into_alternate::<5>(),
+            pins.pa7.into_alternate::<5>(),
+        );
+        let cs = pins.pa8.into_push_pull_output();
+
+        let settings = configuration(FrontEnd::Spi, AD7380_RAILS);
+        let Ok(mut parts) = c.local.queues.split(settings, cause) else {
+            // The host's tests check the settings.
+            reset::restart(Cause::Unknown, line!())
+        };
+        let line = Line::new(device.USART1, &rcc, parts.out, parts.bytes, By::Dma);
+        let started = if crystal {
+            SpiAdc::start(
+                device.SPI1,
+                (device.TIM1, device.TIM2),
+                (device.DMA2, c.local.memory),
+                data,
+                cs,
+                &rcc,
+            )
+            .map_err(|_| Cause::Converter)
+        } else {
+            Err(Cause::Clock)
+        };
+        if let Err(cause) = started {
+            // Nothing feeds the watchdog then: it tries again from the start.
+            parts.instrument.fault(cause, log::event);
+        }
+        let local = Local {
+            source: started.ok(),
+            gatherer: parts.gatherer,
+            instrument: parts.instrument,
+            watchdog,
+        };
+        (Shared { line }, local)
+    }
+
+    #[idle(local = [instrument, watchdog])]
+    fn idle(c: idle::Context) -> ! {
+        let instrument = c.local.instrument;
+        loop {
+            if instrument.poll(clock::now(), log::event) {
+                c.local.watchdog.feed();
+            }
+            rtic::pend(Interrupt::USART1);
+            if instrument.asks_for_source() {
+                rtic::pend(Interrupt::DMA2_STREAM0);
+            }
+            if instrument.wants_restart() {
+                // The last bytes are still in the USART.
+                cortex_m::asm::delay(clock::CORE / 1000);
+                reset::restart(Cause::Command, 0);
+            }
+            cortex_m::asm::wfi();
+        }
+    }
+
+    /// Half of the ring is full.
+    #[task(binds = DMA2_STREAM0, priority = 3, local = [source, gatherer])]
+    fn samples(c: samples::Context) {
+        if let Some(source) = c.local.source {
+            c.local.gatherer.serve(source);
+        }
+    }
+
+    /// A byte has arrived, or the main loop has some to send.
+    #[task(binds = USART1, priority = 2, shared = [line])]
+    fn line(c: line::Context) {
+        c.shared.line.serve(true);
+    }
+
+    /// A run of bytes has left.
+    #[task(binds = DMA2_STREAM7, priority = 2, shared = [line])]
+    fn sent(c: sent::Context) {
+        c.shared.line.serve(true);
+    }
+
+    #[task(binds = SysTick, priority = 1)]
+    fn tick(_: tick::Context) {
+        clock::tick();
+    }
+}
+
+#[panic_handler]
+fn panic(info: &PanicInfo) -> ! {
+    reset::panicked(info)
+}
+
+#[allow(unsafe_code, reason = "cortex-m-rt declares this handler unsafe")]
+#[exception]
+unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
+    reset::faulted(frame)
+}
+
+/// The clock security system: the crystal has stopped.
+#[allow(unsafe_code, reason = "cortex-m-rt declares this handler unsafe")]
+#[exception]
+unsafe fn NonMaskableInt() -> ! {
+    reset::restart(Cause::Clock, 0)
+}

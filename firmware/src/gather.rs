@@ -1,0 +1,267 @@
+//! The interrupt half of the pipeline: a source's pairs become blocks in a queue.
+
+use antinode::block::ChannelWatch;
+use antinode::{Block, Front, Sample, SamplePair, Settings, SettingsError};
+use antinode_telemetry::Cause;
+use heapless::spsc::{Consumer, Producer};
+
+use crate::counts::Counts;
+use crate::methods::{Extra, Gathering, Tuning};
+use crate::sampling::{Lapse, Ready, Source};
+use crate::settings::{LONGEST_PERIOD, QUEUE, REQUESTS};
+
+/// What the interrupt hands to the main loop.
+#[derive(Debug, Clone, Copy)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "nearly every item is a block; there is no heap"
+)]
+pub enum Item<S: Sample> {
+    /// The next block, and what goes with it.
+    Block(Block<S>, Extra<S>),
+    /// Sample pairs are missing before the next block.
+    Lapse(Lapse),
+    /// From here on blocks are those of a new search: the answer to the request of this number.
+    Searching(u8),
+}
+
+/// What the main loop asks of the interrupt, with a number that the answer repeats.
+#[derive(Debug, Clone, Copy)]
+pub enum Request {
+    /// Search for a period anew.
+    Search(u8),
+    /// Go on with other settings.
+    Configure(u8, Settings),
+    /// Gather the methods' sums too, or no longer.
+    Tune(Option<Tuning>),
+    /// Start sampling anew: no pair came for too long.
+    Resample,
+}
+
+/// The queue to the main loop, and what is owed to it.
+struct Outlet<'q, S: Sample> {
+    items: Producer<'q, Item<S>, QUEUE>,
+    counts: &'q Counts,
+    /// What found no room in the queue yet: it goes before any block.
+    lapse: Option<Lapse>,
+    answer: Option<u8>,
+    /// True where the block begun has a pair at a rail.
+    saturated: bool,
+}
+
+impl<S: Sample> Outlet<'_, S> {
+    /// False where no sample of the block can be at a rail, the converter's least or greatest code.
+    #[inline]
+    fn may_be_saturated(block: &Block<S>, [low, high]: [S; 2]) -> bool {
+        let watched = |[c, d]: &[ChannelWatch<S>; 2]| {
+            c.low == low || d.low == low || c.high == high || d.high == high
+        };
+        block.watch.as_ref().is_none_or(watched)
+    }
+
+    #[cold]
+    fn saturate(&mut self, pairs: usize) {
+        if pairs == 0 {
+            return;
+        }
+        self.counts.saturated_pairs.add(pairs as u32);
+        self.saturated = true;
+    }
+
+    #[inline]
+    fn hand_over(&mut self, block: &Block<S>, extra: Extra<S>) {
+        if core::mem::take(&mut self.saturated) {
+            self.counts.saturated_blocks.add(1);
+        }
+        // The tracker sees the hole by the next block's start, and begins a new window after it.
+        if !self.pay() || !self.items.ready() {
+            self.counts.blocks_dropped.add(1);
+            return;
+        }
+        self.put(block, extra);
+    }
+
+    /// Copies a block into the queue, which has room: the queue's own check would have it copied twice.
+    #[allow(unsafe_code, reason = "there must be room")]
+    #[inline]
+    fn put(&mut self, block: &Block<S>, extra: Extra<S>) {
+        // Part by part: of few words each, they go through registers, not through memcpy.
+        let &Block {
+            start,
+            layout,
+            sums,
+            watch,
+        } = block;
+        let block = Block {
+            start,
+            layout,
+            sums,
+            watch,
+        };
+        // SAFETY: the caller has asked whether there is room, and nobody else fills it.
+        unsafe { self.items.enqueue_unchecked(Item::Block(block, extra)) };
+    }
+
+    /// Pays what is owed; false while there is no room for it.
+    #[inline]
+    fn pay(&mut self) -> bool {
+        (self.lapse.is_none() && self.answer.is_none()) || self.pay_out()
+    }
+
+    #[cold]
+    fn pay_out(&mut self) -> bool {
+        if let Some(lapse) = self.lapse {
+            if self.items.enqueue(Item::Lapse(lapse)).is_err() {
+                return false;
+            }
+            self.lapse = None;
+        }
+        if let Some(number) = self.answer {
+            if self.items.enqueue(Item::Searching(number)).is_err() {
+                return false;
+            }
+            self.answer = None;
+        }
+        true
+    }
+
+    fn owe(&mut self, lapse: Lapse) {
+        self.saturated = false;
+        self.counts.pairs_lost.add(lapse.lost);
+        self.counts.restarts.add(1);
+        if lapse.cause == Cause::Overrun {
+            self.counts.overruns.add(1);
+        }
+        let before = self.lapse.map_or(0, |owed| owed.lost);
+        self.lapse = Some(Lapse {
+            lost: lapse.lost.wrapping_add(before),
+            ..lapse
+        });
+        self.pay();
+    }
+}
+
+/// Gathers blocks at sample rate. It never waits.
+pub struct Gatherer<'q, S: Sample> {
+    front: Front<S, LONGEST_PERIOD>,
+    methods: Gathering<S>,
+    requests: Consumer<'q, Request, REQUESTS>,
+    outlet: Outlet<'q, S>,
+}
+
+impl<'q, S: Sample> Gatherer<'q, S> {
+    /// A gatherer that searches for a period.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Settings::check`].
+    pub fn new(
+        settings: Settings,
+        items: Producer<'q, Item<S>, QUEUE>,
+        requests: Consumer<'q, Request, REQUESTS>,
+        counts: &'q Counts,
+    ) -> Result<Self, SettingsError> {
+        Ok(Self {
+            front: Front::new(settings)?,
+            methods: Gathering::new(),
+            requests,
+            outlet: Outlet {
+                items,
+                counts,
+                lapse: None,
+                answer: None,
+                saturated: false,
+            },
+        })
+    }
+
+    /// Serves the source's interrupt: obeys requests, then takes what the source has.
+    #[inline]
+    pub fn serve<R: Source>(&mut self, source: &mut R)
+    where
+        R::Pair: SamplePair<S>,
+    {
+        if self.requests.ready() {
+            self.obey(source);
+        }
+        match source.next() {
+            Ready::Nothing => {}
+            Ready::Pairs => self.gather(source),
+            Ready::Lapse(lapse) => self.skip(lapse),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn obey<R: Source>(&mut self, source: &mut R) {
+        while let Some(request) = self.requests.dequeue() {
+            match request {
+                Request::Search(number) => {
+                    self.front.search();
+                    self.methods.restart();
+                    self.outlet.answer = Some(number);
+                }
+                Request::Configure(number, settings) => {
+                    // The main loop has checked them: an error, which never is, leaves the old ones.
+                    let _ = self.front.configure(settings);
+                    self.methods.restart();
+                    self.outlet.answer = Some(number);
+                }
+                Request::Tune(tuning) => self.methods.tune(tuning),
+                Request::Resample => {
+                    let lapse = source.restart(Cause::Converter);
+                    self.skip(lapse);
+                }
+            }
+            self.outlet.saturated = false;
+        }
+    }
+
+    // Not inlined, and nor is what follows: its stack need not hold that of the requests too.
+    #[inline(never)]
+    fn gather<R: Source>(&mut self, source: &mut R)
+    where
+        R::Pair: SamplePair<S>,
+    {
+        let Self {
+            front,
+            methods,
+            outlet,
+            ..
+        } = self;
+        let rails = source.rails().map(|pair| pair.pair()[0]);
+        let mut rest = source.pairs();
+        outlet.counts.pairs.add(rest.len() as u32);
+        while !rest.is_empty() {
+            let (taken, block) = front.push_slice(rest);
+            let (done, after) = rest.split_at_checked(taken).unwrap_or((rest, &[]));
+            rest = after;
+            let extra = methods.add(done, block);
+            // A watched block tells by its extremes whether it has pairs at a rail: they are looked for only there.
+            if block.is_none_or(|block| Outlet::may_be_saturated(block, rails)) {
+                outlet.saturate(done.iter().filter(|&&pair| source.is_at_rail(pair)).count());
+            }
+            // Asked before the block is handed over: what was overwritten meanwhile must not be taken for a wave.
+            if !source.is_intact() {
+                let left = rest.len() as u32;
+                let lapse = source.restart(Cause::Overrun);
+                self.skip(Lapse {
+                    lost: lapse.lost.wrapping_add(left),
+                    ..lapse
+                });
+                return;
+            }
+            if let Some(block) = block {
+                outlet.hand_over(block, extra);
+            }
+        }
+    }
+
+    /// Goes on after missing pairs, in the same count of pairs.
+    #[cold]
+    fn skip(&mut self, lapse: Lapse) {
+        self.front.skip(u64::from(lapse.lost));
+        self.methods.restart();
+        self.outlet.owe(lapse);
+    }
+}

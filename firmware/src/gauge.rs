@@ -1,0 +1,163 @@
+//! What an image measures of itself and prints as its last act: instructions or cycles, state, stack.
+//!
+//! On hardware the core's cycle counter counts. An emulator has none: there the system timer runs on the clock of the emulated
+//! instructions.
+
+#![allow(
+    unsafe_code,
+    reason = "paints the free stack, and looks at it afterwards"
+)]
+
+use core::ptr::{read_volatile, write_volatile};
+
+use cortex_m::Peripherals;
+use cortex_m::peripheral::syst::SystClkSource;
+use cortex_m::peripheral::{DWT, SYST};
+use cortex_m::register::msp;
+
+use crate::line::Line;
+use crate::marks::leave;
+
+/// What no frame is likely to leave in a word.
+const PAINT: u32 = 0x5aa5_c33c;
+/// More than the frame of the function that paints: the least depth that is seen.
+const FRAME: u32 = 48;
+/// Counts of the system timer.
+const TIMER: u32 = 1 << 24;
+/// `-M netduinoplus2 -icount shift=0` takes 1 ns an instruction and has a clock of 168 MHz: 21 counts are 125 instructions.
+const INSTRUCTIONS: u32 = 125;
+const COUNTS: u32 = 21;
+
+unsafe extern "C" {
+    /// The lowest address that the stack may grow to: the linker's.
+    static mut _stack_end: u32;
+}
+
+/// A measurement of one kernel.
+pub struct Gauge {
+    name: &'static str,
+    units: u32,
+    state: usize,
+    /// Stack pointer of the bench.
+    base: u32,
+    peripherals: Option<Peripherals>,
+    began: u32,
+    counts_cycles: bool,
+}
+
+impl Gauge {
+    /// Paints the stack that is free; the deepest place that loses its paint from here on is the kernel's worst stack.
+    ///
+    /// `name`: of the image. `units`: what the count is for, sample pairs or windows. `state`: bytes that the kernel keeps from
+    /// call to call.
+    #[inline(always)]
+    pub fn new(name: &'static str, units: usize, state: usize) -> Self {
+        // Inlined: the pointer is the bench's own, and the kernel's frames begin below it.
+        let base = msp::read();
+        paint();
+        let mut peripherals = Peripherals::take();
+        Self {
+            name,
+            units: units as u32,
+            state,
+            base,
+            counts_cycles: peripherals.as_mut().is_some_and(start_counters),
+            peripherals,
+            began: 0,
+        }
+    }
+
+    /// Begins to count: to be followed by `mark_begin`.
+    #[inline(always)]
+    pub fn start(&mut self) {
+        self.began = self.count();
+    }
+
+    /// Prints what was measured, after `mark_end`, and leaves.
+    #[inline(always)]
+    pub fn finish(self) -> ! {
+        let ended = self.count();
+        // Before any larger frame, such as that of the report, spoils the paint.
+        let depth = self.base.saturating_sub(deepest(self.base));
+        self.report(ended, depth)
+    }
+
+    #[inline(never)]
+    fn report(mut self, ended: u32, depth: u32) -> ! {
+        let wrapped = self
+            .peripherals
+            .as_mut()
+            .is_none_or(|p| p.SYST.has_wrapped());
+        let mut line = Line::new();
+        line.text(self.name);
+        if self.counts_cycles {
+            line.field("cycles", ended.wrapping_sub(self.began));
+        } else if wrapped {
+            // More than 10⁸ instructions: no number rather than a wrong one.
+            line.text(" too long for the timer");
+        } else {
+            // The timer counts down. The product fits: 2²⁴ × 125 < 2³¹.
+            let counts = self.began.wrapping_sub(ended) % TIMER;
+            line.field("instructions", counts * INSTRUCTIONS / COUNTS);
+        }
+        line.field("units", self.units);
+        line.field("state", self.state as u32);
+        line.field("stack", depth);
+        line.print();
+        leave()
+    }
+
+    #[inline(always)]
+    fn count(&self) -> u32 {
+        if self.counts_cycles {
+            DWT::cycle_count()
+        } else {
+            SYST::get_current()
+        }
+    }
+}
+
+/// The work in a frame of its own, so that its stack is seen.
+#[inline(never)]
+pub fn apart<R>(work: impl FnOnce() -> R) -> R {
+    work()
+}
+
+/// Starts both counters; true where the one of cycles counts.
+fn start_counters(peripherals: &mut Peripherals) -> bool {
+    peripherals.DCB.enable_trace();
+    peripherals.DWT.enable_cycle_counter();
+    let timer = &mut peripherals.SYST;
+    timer.set_clock_source(SystClkSource::Core);
+    timer.set_reload(TIMER - 1);
+    timer.clear_current();
+    timer.enable_counter();
+    let before = DWT::cycle_count();
+    cortex_m::asm::delay(100);
+    // The flag tells of the first reload too: it is read away.
+    timer.has_wrapped();
+    DWT::cycle_count() != before
+}
+
+#[inline(never)]
+fn paint() {
+    let mut word = &raw mut _stack_end;
+    // What is above is not free, nor is this frame: the pointer may be read before the frame is made.
+    let end = msp::read().saturating_sub(FRAME);
+    while (word as u32) < end {
+        // SAFETY: a word of RAM between what is linked and the stack pointer belongs to nobody, and no interrupt is enabled.
+        unsafe { write_volatile(word, PAINT) };
+        word = word.wrapping_add(1);
+    }
+}
+
+/// The lowest word below `base` that lost its paint, or never had any.
+#[inline(never)]
+fn deepest(base: u32) -> u32 {
+    let mut word = &raw const _stack_end;
+    // SAFETY: words of RAM below the stack pointer of the bench.
+    while (word as u32) < base && unsafe { read_volatile(word) } == PAINT {
+        word = word.wrapping_add(1);
+    }
+    word as u32
+}

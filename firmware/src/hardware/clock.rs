@@ -1,0 +1,86 @@
+//! The clocks: 168 MHz from the crystal, and milliseconds since the start.
+//!
+//! Not by the hardware layer's `freeze`: that searches the PLL's factors at run time, can panic, and waits for a dead crystal for ever.
+
+use core::sync::atomic::{AtomicU32, Ordering};
+
+use cortex_m::peripheral::{SYST, syst::SystClkSource};
+use stm32f4xx_hal::pac::{FLASH, RCC};
+
+use crate::settings::CRYSTAL_MHZ;
+
+/// Core clock, Hz.
+pub const CORE: u32 = 168_000_000;
+/// Clock of the peripherals on APB2, Hz: converters, USART1, SPI1.
+pub const APB2: u32 = CORE / 2;
+/// Clock of the timers on APB1, Hz: twice the bus.
+pub const APB1_TIMERS: u32 = CORE / 2;
+/// Clock of the timers on APB2, Hz: twice the bus.
+pub const APB2_TIMERS: u32 = CORE;
+
+/// Frequency of the chip's own oscillator, MHz, within a percent.
+const HSI_MHZ: u32 = 16;
+/// Looks at a flag before an oscillator is given up: a crystal takes some milliseconds.
+const PATIENCE: u32 = 1_000_000;
+
+const _: () = assert!(
+    CRYSTAL_MHZ >= 4 && CRYSTAL_MHZ <= 26,
+    "the crystal must have 4 to 26 MHz"
+);
+
+/// Starts the clocks; false where the crystal is dead: then they come from the chip's own oscillator, which serves the line only.
+pub fn start(rcc: &RCC, flash: &FLASH) -> bool {
+    // CR.HSEON: the crystal's oscillator.
+    rcc.cr().modify(|_, w| w.hseon().set_bit());
+    let crystal = (0..PATIENCE).any(|_| rcc.cr().read().hserdy().bit_is_set());
+    let source = if crystal { CRYSTAL_MHZ } else { HSI_MHZ };
+    // PLLCFGR: 1 MHz into the PLL, 336 MHz in it, 168 MHz out of P, 48 MHz out of Q. PLLP 0 stands for 2.
+    let crystal_bit = u32::from(crystal) << 22;
+    set(7 << 24 | crystal_bit | 336 << 6 | source, rcc);
+    // ACR: five wait states at 168 MHz and 3.3 V, hidden by prefetch and both caches.
+    flash.acr().modify(|_, w| {
+        w.latency().ws5();
+        w.prften().set_bit();
+        w.icen().set_bit();
+        w.dcen().set_bit()
+    });
+    // CFGR: APB1 at 42 MHz, APB2 at 84 MHz, their most.
+    rcc.cfgr().modify(|_, w| w.ppre1().div4().ppre2().div2());
+    // CR.PLLON, then CFGR.SW: on to the PLL once it has locked.
+    rcc.cr().modify(|_, w| w.pllon().set_bit());
+    let locked = (0..PATIENCE).any(|_| rcc.cr().read().pllrdy().bit_is_set());
+    if locked {
+        rcc.cfgr().modify(|_, w| w.sw().pll());
+    }
+    // CR.CSSON: should the crystal stop, an NMI says so.
+    rcc.cr().modify(|_, w| w.csson().bit(crystal));
+    crystal && locked
+}
+
+#[allow(unsafe_code, reason = "the register takes any bits")]
+fn set(pllcfgr: u32, rcc: &RCC) {
+    // SAFETY: the PLL is off after a reset, and the factors are within the limits of RM0090, 7.3.2.
+    rcc.pllcfgr().write(|w| unsafe { w.bits(pllcfgr) });
+}
+
+static MILLISECONDS: AtomicU32 = AtomicU32::new(0);
+
+/// Starts the tick of a millisecond.
+pub fn start_tick(mut systick: SYST) {
+    systick.set_clock_source(SystClkSource::Core);
+    systick.set_reload(CORE / 1000 - 1);
+    systick.clear_current();
+    systick.enable_counter();
+    systick.enable_interrupt();
+}
+
+/// The tick's interrupt.
+pub fn tick() {
+    let now = MILLISECONDS.load(Ordering::Relaxed);
+    MILLISECONDS.store(now.wrapping_add(1), Ordering::Relaxed);
+}
+
+/// Milliseconds since the start; they wrap.
+pub fn now() -> u32 {
+    MILLISECONDS.load(Ordering::Relaxed)
+}

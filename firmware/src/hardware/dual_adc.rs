@@ -1,0 +1,161 @@
+//! Both pick-offs into the chip's own converters: S_C on PA1 into ADC1, S_D on PA2 into ADC2, sampled at the same instant.
+//!
+//! Registers by their names in RM0090, chapter 13. TIM3's update is the trigger: in dual regular simultaneous mode ADC1's trigger
+//! starts ADC2 as well, and both results leave as one word of the common data register.
+//!
+//! # Skew
+//!
+//! Both sample-and-holds open by one and the same edge of the converters' clock. What is left between the channels is the mismatch of
+//! two apertures on one chip, well below a nanosecond, and that of the two anti-alias filters, which is the greater: two RC filters of 100 kHz
+//! whose time constants differ by 2 % delay a 5 kHz wave by 1.6 µs ± 16 ns each, and 32 ns are 1 mrad of its phase.
+//! [`Calibration::skew`](antinode::Calibration) takes the difference out: a wave with a known angle, or the same signal at both inputs, shows it.
+
+use antinode::Packed;
+use stm32f4xx_hal::gpio::{Analog, PA1, PA2};
+use stm32f4xx_hal::pac::{ADC_COMMON, ADC1, ADC2, DMA2, RCC, TIM2, TIM3};
+
+use crate::hardware::clock::{APB1_TIMERS, APB2};
+use crate::hardware::pair_clock::{PairClock, Trigger};
+use crate::hardware::ring::{Memory, Origin, Ring};
+use crate::hardware::sampler::{Converter, Sampler};
+use crate::sampling::is_at_rail_12;
+use crate::settings::{DUAL_ADC_RAILS, SAMPLE_RATE};
+
+/// Ticks of TIM3 from trigger to trigger.
+const TICKS: u32 = APB1_TIMERS / SAMPLE_RATE;
+/// The converters' clock, Hz: at most 36 MHz.
+const ADC_CLOCK: u32 = APB2 / 4;
+/// A conversion: 84 cycles of sampling, enough for a source of 90 kΩ, and 12 for the 12 bits.
+const CONVERSION: u32 = (84 + 12) * (APB1_TIMERS / ADC_CLOCK);
+/// When nothing is under way, in ticks after a trigger: the conversion has ended, and the next trigger is a microsecond away.
+const QUIET: [u32; 2] = [CONVERSION + 40, TICKS.saturating_sub(84)];
+
+const _: () = {
+    assert!(
+        APB1_TIMERS.is_multiple_of(SAMPLE_RATE),
+        "TIM3 cannot divide its clock into this sample rate exactly"
+    );
+    assert!(TICKS <= 1 << 16, "the sample rate is too low for TIM3");
+    assert!(
+        QUIET[0] + 40 < QUIET[1],
+        "a conversion takes too long for this sample rate"
+    );
+};
+
+/// The two converters and their trigger.
+pub struct DualAdc {
+    first: ADC1,
+    second: ADC2,
+    common: ADC_COMMON,
+    timer: TIM3,
+}
+
+/// The pins, as inputs to the converters.
+pub type Pins = (PA1<Analog>, PA2<Analog>);
+
+impl DualAdc {
+    /// Starts sampling into `memory`.
+    pub fn start(
+        (first, second, common): (ADC1, ADC2, ADC_COMMON),
+        (timer, counter): (TIM3, TIM2),
+        (dma, memory): (DMA2, &'static mut Memory),
+        _: Pins,
+        rcc: &RCC,
+    ) -> Sampler<Self> {
+        // AHB1ENR, APB1ENR, APB2ENR: the clocks of all of them.
+        rcc.ahb1enr().modify(|_, w| w.dma2en().set_bit());
+        rcc.apb1enr().modify(|_, w| w.tim3en().set_bit());
+        rcc.apb2enr()
+            .modify(|_, w| w.adc1en().set_bit().adc2en().set_bit());
+        let register = common.cdr().as_ptr() as u32;
+        let adc = Self {
+            first,
+            second,
+            common,
+            timer,
+        };
+        adc.configure();
+        let clock = PairClock::new(counter, rcc, Trigger::Tim3);
+        // CR1.CEN: the triggers begin.
+        adc.timer.cr1().write(|w| w.cen().set_bit());
+        let origin = Origin {
+            register,
+            channel: 0,
+            by_halves: false,
+        };
+        Sampler::new(adc, Ring::new(dma, memory, origin), clock)
+    }
+
+    #[allow(unsafe_code, reason = "the fields take any bits")]
+    fn configure(&self) {
+        // SAFETY: each value is one that RM0090 lists for its field.
+        unsafe {
+            // CCR.ADCPRE 1: APB2 over 4.
+            self.common.ccr().modify(|_, w| w.adcpre().bits(0b01));
+            // CR2.ADON: on, and three microseconds to settle.
+            self.first.cr2().write(|w| w.adon().set_bit());
+            self.second.cr2().write(|w| w.adon().set_bit());
+            cortex_m::asm::delay(3 * 168);
+            // SMPR2.SMP 4: 84 cycles, the same for both as the mode demands. SQR3.SQ1: the one channel; SQR1.L 0: no other.
+            self.first.smpr2().modify(|_, w| w.smp1().bits(0b100));
+            self.second.smpr2().modify(|_, w| w.smp2().bits(0b100));
+            self.first.sqr3().write(|w| w.sq1().bits(1));
+            self.second.sqr3().write(|w| w.sq1().bits(2));
+            // CR1.OVRIE: an interrupt where a result is not fetched before the next.
+            self.first.cr1().write(|w| w.ovrie().set_bit());
+            self.second.cr1().write(|w| w.ovrie().set_bit());
+            // ARR: the period. CR2.MMS 2: the update is TIM3's TRGO.
+            self.timer.arr().write(|w| w.bits(TICKS - 1));
+            self.timer.cr2().write(|w| w.mms().bits(0b010));
+        }
+    }
+}
+
+impl Converter for DualAdc {
+    const RAILS: [i16; 2] = DUAL_ADC_RAILS;
+
+    #[allow(unsafe_code, reason = "the fields take any bits")]
+    fn stop(&mut self, _: &mut Ring) {
+        // SAFETY: EXTEN 0: no trigger is heard. CCR.MULTI 0 and DMA 0: nothing is fetched, and both converters forget their sequence.
+        unsafe {
+            self.first.cr2().modify(|_, w| w.exten().bits(0b00));
+            self.common
+                .ccr()
+                .modify(|_, w| w.multi().bits(0).dma().bits(0).dds().clear_bit());
+        }
+    }
+
+    #[allow(unsafe_code, reason = "the fields take any bits")]
+    fn arm(&mut self, _: &mut Ring) {
+        // At most two periods, and for ever neither: a dead timer must not hang the interrupt.
+        let _ =
+            (0..4 * TICKS).any(|_| (QUIET[0]..QUIET[1]).contains(&self.timer.cnt().read().bits()));
+        // SR.OVR: forgotten, else DMA requests stay blocked.
+        self.first.sr().modify(|_, w| w.ovr().clear_bit());
+        self.second.sr().modify(|_, w| w.ovr().clear_bit());
+        // SAFETY: each value is one that RM0090 lists for its field.
+        unsafe {
+            // CCR.MULTI 6: regular simultaneous mode. DMA 2: one word a pair, ADC2 in its upper half. DDS: requests go on after the
+            // DMA's last transfer, for it is circular.
+            self.common
+                .ccr()
+                .modify(|_, w| w.multi().bits(0b00110).dma().bits(0b10).dds().set_bit());
+            // CR2.EXTSEL 8: TIM3's TRGO. EXTEN 1: its rising edge. ADC2 has none of its own: ADC1 starts it.
+            self.first
+                .cr2()
+                .modify(|_, w| w.extsel().bits(0b1000).exten().bits(0b01));
+        }
+    }
+
+    #[inline]
+    fn has_overrun(&self) -> bool {
+        // CSR.OVR1, OVR2: the flags of both converters.
+        let status = self.common.csr().read();
+        status.ovr1().bit_is_set() || status.ovr2().bit_is_set()
+    }
+
+    #[inline]
+    fn is_at_rail(pair: Packed) -> bool {
+        is_at_rail_12(pair)
+    }
+}

@@ -1,0 +1,162 @@
+//! The serial line: USART1, TX on PA9, RX on PA10, 8N1. Runs of bytes leave by DMA, bytes arrive by an interrupt each.
+
+#![allow(
+    unsafe_code,
+    reason = "addresses for the DMA, and registers that take any bits"
+)]
+
+use heapless::spsc::Producer;
+use stm32f4xx_hal::pac::{DMA2, RCC, USART1};
+
+use crate::hardware::clock::APB2;
+use crate::link::{Outgoing, Run};
+use crate::settings::{BAUD, INBOX};
+
+/// BRR: the divider in sixteenths of 16 samples a bit, that is APB2's clock over the baud rate, rounded.
+const DIVIDER: u32 = (APB2 + BAUD / 2) / BAUD;
+
+const _: () = {
+    assert!(
+        DIVIDER >= 16 && DIVIDER < 1 << 16,
+        "the baud rate is out of the USART's reach"
+    );
+    let error = (APB2 / DIVIDER).abs_diff(BAUD);
+    assert!(error < BAUD / 100, "the baud rate is more than 1 % off");
+};
+
+/// How bytes leave.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum By {
+    /// Stream 7 of DMA2.
+    Dma,
+    /// One after the other: the emulator has no DMA, and its USART takes a byte at once.
+    Hand,
+}
+
+/// The line's end of both queues.
+pub struct Line {
+    usart: USART1,
+    out: Outgoing<'static>,
+    bytes: Producer<'static, u8, INBOX>,
+    by: By,
+    /// What the DMA is sending.
+    under_way: Option<Run<'static>>,
+}
+
+impl Line {
+    /// Starts the line; the pins must be set to their alternate function 7.
+    pub fn new(
+        usart: USART1,
+        rcc: &RCC,
+        out: Outgoing<'static>,
+        bytes: Producer<'static, u8, INBOX>,
+        by: By,
+    ) -> Self {
+        // APB2ENR.USART1EN, AHB1ENR.DMA2EN: their clocks.
+        rcc.apb2enr().modify(|_, w| w.usart1en().set_bit());
+        rcc.ahb1enr().modify(|_, w| w.dma2en().set_bit());
+        // SAFETY: the USART is off, and the divider within its 16 bits.
+        usart.brr().write(|w| unsafe { w.bits(DIVIDER as u16) });
+        // CR3.DMAT: it asks the DMA for bytes.
+        usart.cr3().write(|w| w.dmat().bit(by == By::Dma));
+        // CR1: on, both ways, an interrupt for each byte that arrives.
+        usart.cr1().write(|w| {
+            w.ue().set_bit();
+            w.te().set_bit();
+            w.re().set_bit();
+            w.rxneie().set_bit()
+        });
+        Self {
+            usart,
+            out,
+            bytes,
+            by,
+            under_way: None,
+        }
+    }
+
+    /// Serves the line's interrupts, of which the main loop pends one when there may be bytes to send; `open` false holds them back.
+    pub fn serve(&mut self, open: bool) {
+        // SR.RXNE: a byte is there. Reading SR and then DR clears an overrun (ORE) too; the frame's checksum misses the byte.
+        let status = self.usart.sr().read();
+        if status.rxne().bit_is_set() || status.ore().bit_is_set() {
+            let byte = self.usart.dr().read().bits() as u8;
+            if status.rxne().bit_is_set() {
+                // A full queue drops the byte, which its frame's checksum misses as well.
+                let _ = self.bytes.enqueue(byte);
+            }
+        }
+        if let Some(run) = self.under_way.take() {
+            if !sent() {
+                self.under_way = Some(run);
+                return;
+            }
+            self.out.release(run);
+        }
+        if !open {
+            return;
+        }
+        while let Some(run) = self.out.run() {
+            if self.by == By::Dma {
+                send(&run, self.usart.dr().as_ptr() as u32);
+                self.under_way = Some(run);
+                return;
+            }
+            for &byte in run.iter() {
+                self.usart.dr().write(|w| w.dr().set(u16::from(byte)));
+            }
+            self.out.release(run);
+        }
+    }
+}
+
+/// The controller, of which stream 7 is the line's.
+fn dma() -> DMA2 {
+    // SAFETY: nothing else touches stream 7, HISR, nor by HIFCR's write-one-to-clear bits the flags of stream 7.
+    unsafe { DMA2::steal() }
+}
+
+/// True once the stream has ended, by its last byte or by an error; clears its flags.
+fn sent() -> bool {
+    let dma = dma();
+    let status = dma.hisr().read();
+    let ended = status.tcif7().bit_is_set() || status.teif7().bit_is_set();
+    if ended {
+        clear(&dma);
+    }
+    ended
+}
+
+/// HIFCR: forgets what stream 7 has done.
+fn clear(dma: &DMA2) {
+    dma.hifcr().write(|w| {
+        w.ctcif7().set_bit();
+        w.chtif7().set_bit();
+        w.cteif7().set_bit();
+        w.cdmeif7().set_bit();
+        w.cfeif7().set_bit()
+    });
+}
+
+/// Starts stream 7 on a run.
+fn send(run: &Run<'static>, register: u32) {
+    let dma = dma();
+    clear(&dma);
+    let stream = dma.st(7);
+    // SAFETY: the run's bytes stay where they are until it is released, which is after the stream has ended.
+    unsafe {
+        // PAR, M0AR, NDTR: from the run to the USART's data register.
+        stream.par().write(|w| w.bits(register));
+        stream.m0ar().write(|w| w.bits(run.as_ptr() as u32));
+        stream.ndtr().write(|w| w.bits(run.len() as u32));
+        // CHSEL 4: USART1_TX. DIR 1: to the peripheral. MINC: along the run, byte by byte. TCIE, TEIE: interrupts at the end. EN: on.
+        stream.cr().write(|w| {
+            w.chsel().bits(4);
+            w.dir().bits(0b01);
+            w.minc().set_bit();
+            w.tcie().set_bit();
+            w.teie().set_bit();
+            w.en().set_bit()
+        });
+    }
+}

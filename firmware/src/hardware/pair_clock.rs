@@ -1,0 +1,37 @@
+//! TIM2 counts the sampling timer's triggers: how many pairs there should be, whatever became of them.
+
+use stm32f4xx_hal::pac::{RCC, TIM2};
+
+/// The timer whose update is the sampling trigger, as TIM2's internal trigger input (RM0090, table 97).
+#[derive(Debug, Clone, Copy)]
+pub enum Trigger {
+    /// ITR0.
+    Tim1 = 0,
+    /// ITR2.
+    Tim3 = 2,
+}
+
+/// The count of triggers, in 32 bits, which wrap.
+pub struct PairClock(TIM2);
+
+impl PairClock {
+    /// Starts to count.
+    #[allow(unsafe_code, reason = "the fields take any bits")]
+    pub fn new(timer: TIM2, rcc: &RCC, trigger: Trigger) -> Self {
+        // APB1ENR.TIM2EN: its clock.
+        rcc.apb1enr().modify(|_, w| w.tim2en().set_bit());
+        // SAFETY: SMCR.TS is the trigger's number, and SMS 7 external clock mode 1: each trigger counts.
+        timer
+            .smcr()
+            .write(|w| unsafe { w.ts().bits(trigger as u8).sms().bits(7) });
+        // CR1.CEN: on. ARR is all ones after a reset.
+        timer.cr1().write(|w| w.cen().set_bit());
+        Self(timer)
+    }
+
+    /// Triggers so far.
+    #[inline]
+    pub fn now(&self) -> u32 {
+        self.0.cnt().read().bits()
+    }
+}

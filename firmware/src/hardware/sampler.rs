@@ -1,0 +1,113 @@
+//! A converter that is triggered by a timer and fetched by the DMA, as a source of pairs.
+
+use antinode::Packed;
+use antinode_telemetry::Cause;
+
+use crate::hardware::pair_clock::PairClock;
+use crate::hardware::ring::Ring;
+use crate::sampling::{Lapse, Ready, Source, both};
+use crate::settings::HALF;
+
+/// A converter that follows a timer.
+pub trait Converter {
+    /// Makes it give no more data.
+    fn stop(&mut self, ring: &mut Ring);
+
+    /// Makes it give data from the next trigger on, after the ring was started. It returns between that trigger and the one before,
+    /// well away from both, so that the count of triggers tells which pair comes first.
+    fn arm(&mut self, ring: &mut Ring);
+
+    /// True where it gave data that nobody fetched.
+    fn has_overrun(&self) -> bool;
+
+    /// The least and the greatest code.
+    const RAILS: [i16; 2];
+
+    /// True for a pair with a sample at either end of the range.
+    fn is_at_rail(pair: Packed) -> bool;
+}
+
+/// The source: a converter, the ring that it fills, and the count of its triggers.
+pub struct Sampler<C: Converter> {
+    converter: C,
+    ring: Ring,
+    clock: PairClock,
+    /// The count of triggers at the end of what was handed out.
+    taken: u32,
+    /// The half that was handed out last.
+    second: bool,
+}
+
+impl<C: Converter> Sampler<C> {
+    /// Starts sampling.
+    pub fn new(mut converter: C, mut ring: Ring, clock: PairClock) -> Self {
+        ring.restart();
+        converter.arm(&mut ring);
+        let taken = clock.now();
+        Self {
+            converter,
+            ring,
+            clock,
+            taken,
+            second: true,
+        }
+    }
+}
+
+impl<C: Converter> Source for Sampler<C> {
+    type Pair = Packed;
+
+    #[inline]
+    fn next(&mut self) -> Ready {
+        let done = self.ring.done();
+        if done.error {
+            return Ready::Lapse(self.restart(Cause::Dma));
+        }
+        if self.converter.has_overrun() {
+            return Ready::Lapse(self.restart(Cause::Overrun));
+        }
+        // The halves take turns: neither twice, nor both at once.
+        match (done.first, done.second) {
+            (false, false) => Ready::Nothing,
+            (first, second) if first != second && second != self.second => {
+                self.second = second;
+                self.taken = self.taken.wrapping_add(HALF as u32);
+                Ready::Pairs
+            }
+            _ => Ready::Lapse(self.restart(Cause::Overrun)),
+        }
+    }
+
+    #[inline]
+    fn pairs(&self) -> &[Packed] {
+        self.ring.half(self.second)
+    }
+
+    #[inline]
+    fn is_intact(&self) -> bool {
+        // The other half holds the pairs after those handed out: one trigger more, and the DMA may come round.
+        self.clock.now().wrapping_sub(self.taken) <= HALF as u32
+    }
+
+    #[cold]
+    fn restart(&mut self, cause: Cause) -> Lapse {
+        self.converter.stop(&mut self.ring);
+        self.ring.restart();
+        self.converter.arm(&mut self.ring);
+        let now = self.clock.now();
+        let lost = now.wrapping_sub(self.taken);
+        self.taken = now;
+        self.second = true;
+        Lapse { cause, lost }
+    }
+
+    #[inline]
+    fn rails(&self) -> [Packed; 2] {
+        both(C::RAILS)
+    }
+
+    #[inline]
+    fn is_at_rail(&self, pair: Packed) -> bool {
+        C::is_at_rail(pair)
+    }
+}

@@ -1,0 +1,287 @@
+//! Both pick-offs into an AD7380 on SPI1: S_C at its input A, S_D at B, 16 bits each, sampled at the falling edge of CS.
+//!
+//! | pin | | |
+//! |---|---|---|
+//! | PA5 | SPI1_SCK | 10.5 MHz |
+//! | PA6 | SPI1_MISO | the chip's SDOA |
+//! | PA7 | SPI1_MOSI | the chip's SDI |
+//! | PA8 | TIM1_CH1 | the chip's CS |
+//!
+//! The driver configures the chip over SPI by software. Then TIM1 drives CS without jitter, two of its compare events have the DMA
+//! write a zero each to SPI1 (32 clocks, of which the chip makes a pair), and a third stream takes the two words that come back. A
+//! comes first and so lies in the lower half of a word of memory: that is a [`Packed`] pair as it stands. Registers by their names in
+//! RM0090. A pair was sampled one frame before the one that carries it, so times are one sample period late.
+
+#![allow(
+    unsafe_code,
+    reason = "addresses for the DMA, and fields that take any bits"
+)]
+
+use ad7380::{Ad7380, Config};
+use antinode::Packed;
+use embedded_hal::delay::DelayNs;
+use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
+use stm32f4xx_hal::gpio::{Alternate, Output, PA5, PA6, PA7, PA8};
+use stm32f4xx_hal::pac::{DMA2, RCC, SPI1, TIM1, TIM2};
+
+use crate::hardware::clock::{APB2, APB2_TIMERS, CORE};
+use crate::hardware::pair_clock::{PairClock, Trigger};
+use crate::hardware::ring::{Memory, Origin, Ring};
+use crate::hardware::sampler::{Converter, Sampler};
+use crate::sampling::is_at_rail_16;
+use crate::settings::{AD7380_RAILS, SAMPLE_RATE};
+
+/// Ticks of TIM1 from frame to frame.
+const TICKS: u32 = APB2_TIMERS / SAMPLE_RATE;
+/// SPI clock, Hz: the chip's registers are sure up to about that.
+const SCLK: u32 = APB2 / 8;
+/// When the two zeros go out, ticks after CS falls: the second waits in the SPI's buffer for the first to leave.
+const WRITES: [u32; 2] = [34, 134];
+/// When CS rises, in ticks: the clocks of a frame from the first write on, and 0.5 µs for the DMA.
+const RISES: u32 =
+    WRITES[0] + ad7380::timing::FRAME_CLOCKS * (APB2_TIMERS / SCLK) + APB2_TIMERS / 2_000_000;
+/// When nothing is under way, in ticks.
+const QUIET: [u32; 2] = [RISES + 84, TICKS.saturating_sub(168)];
+
+const _: () = {
+    assert!(
+        APB2_TIMERS.is_multiple_of(SAMPLE_RATE),
+        "TIM1 cannot divide its clock into this sample rate exactly"
+    );
+    assert!(TICKS <= 1 << 16, "the sample rate is too low for TIM1");
+    assert!(
+        QUIET[0] + 84 < QUIET[1],
+        "a frame takes too long for this sample rate"
+    );
+    match ad7380::timing::min_sclk_hz(SAMPLE_RATE) {
+        Some(least) => assert!(
+            SCLK > least,
+            "the SPI clock is too slow for this sample rate"
+        ),
+        None => panic!("the AD7380 has no such sample rate"),
+    }
+};
+
+/// What the DMA sends: the chip's no-operation.
+static ZERO: u16 = 0;
+
+/// The SPI's data pins.
+pub type Pins = (PA5<Alternate<5>>, PA6<Alternate<5>>, PA7<Alternate<5>>);
+
+/// The SPI, its frames' timer, and the chip behind them.
+pub struct SpiAdc {
+    spi: SPI1,
+    timer: TIM1,
+}
+
+/// The AD7380 does not answer, or not as it was told.
+pub type StartError = ad7380::Error<ErrorKind>;
+
+impl SpiAdc {
+    /// Configures the chip and starts sampling into `memory`.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Ad7380::new`].
+    pub fn start(
+        spi: SPI1,
+        (timer, counter): (TIM1, TIM2),
+        (dma, memory): (DMA2, &'static mut Memory),
+        _: Pins,
+        mut cs: PA8<Output>,
+        rcc: &RCC,
+    ) -> Result<Sampler<Self>, StartError> {
+        // AHB1ENR, APB2ENR: the clocks of all of them.
+        rcc.ahb1enr().modify(|_, w| w.dma2en().set_bit());
+        rcc.apb2enr()
+            .modify(|_, w| w.spi1en().set_bit().tim1en().set_bit());
+        cs.set_high();
+        // CR1: master, CPOL 1 and CPHA 0 (the chip's mode 2), BR 2: APB2 over 8. SSM, SSI: CS is ours. DFF 0: bytes.
+        spi.cr1().write(|w| {
+            w.mstr().set_bit();
+            w.cpol().set_bit();
+            unsafe { w.br().bits(0b010) };
+            w.ssm().set_bit();
+            w.ssi().set_bit();
+            w.spe().set_bit()
+        });
+        let device = Device {
+            spi: &spi,
+            cs: &mut cs,
+        };
+        Ad7380::new(device, &mut Delay, Config::default())?;
+        let adc = Self { spi, timer };
+        adc.configure(&dma);
+        let _: PA8<Alternate<1>> = cs.into_alternate();
+        let clock = PairClock::new(counter, rcc, Trigger::Tim1);
+        // CR1.CEN: the frames begin.
+        adc.timer.cr1().write(|w| w.cen().set_bit());
+        let origin = Origin {
+            register: adc.spi.dr().as_ptr() as u32,
+            channel: 3,
+            by_halves: true,
+        };
+        Ok(Sampler::new(adc, Ring::new(dma, memory, origin), clock))
+    }
+
+    fn configure(&self, dma: &DMA2) {
+        // CR1.DFF: words of 16 bits; it may change while SPE is off.
+        self.spi.cr1().modify(|_, w| w.spe().clear_bit());
+        self.spi
+            .cr1()
+            .modify(|_, w| w.dff().set_bit().spe().set_bit());
+        // Streams 2 and 6, channel 6: TIM1's compare events 2 and 3 (RM0090, table 43).
+        for stream in [dma.st(2), dma.st(6)] {
+            // SAFETY: one half-word again and again from a static to the SPI's data register.
+            unsafe {
+                stream
+                    .par()
+                    .write(|w| w.bits(self.spi.dr().as_ptr() as u32));
+                stream.m0ar().write(|w| w.bits(&raw const ZERO as u32));
+                stream.ndtr().write(|w| w.bits(1));
+                // DIR 1: to the peripheral. MSIZE, PSIZE 1: 16 bits. PL 2: after the words that come in.
+                stream.cr().write(|w| {
+                    w.chsel().bits(6);
+                    w.pl().bits(0b10);
+                    w.msize().bits(0b01);
+                    w.psize().bits(0b01);
+                    w.circ().set_bit();
+                    w.dir().bits(0b01)
+                });
+            }
+            stream.cr().modify(|_, w| w.en().set_bit());
+        }
+        let timer = &self.timer;
+        // SAFETY: each value is one that RM0090 lists for its field.
+        unsafe {
+            // ARR: the period. CCR1: CS rises. CCR2, CCR3: the writes.
+            timer.arr().write(|w| w.bits(TICKS - 1));
+            timer.ccr1().write(|w| w.bits(RISES));
+            timer.ccr2().write(|w| w.bits(WRITES[0]));
+            timer.ccr3().write(|w| w.bits(WRITES[1]));
+            // CCMR1.OC1M 7: PWM mode 2, low until CCR1, high after. CCER.CC1E and BDTR.MOE: out to the pin.
+            timer.ccmr1_output().write(|w| w.oc1m().bits(0b111));
+            timer.ccer().write(|w| w.cc1e().set_bit());
+            timer.bdtr().write(|w| w.moe().set_bit());
+            // CR2.MMS 2: the update, where CS falls, is TIM1's TRGO.
+            timer.cr2().write(|w| w.mms().bits(0b010));
+        }
+    }
+
+    /// Waits for the time between two frames; not for ever.
+    fn wait(&self) {
+        let _ =
+            (0..4 * TICKS).any(|_| (QUIET[0]..QUIET[1]).contains(&self.timer.cnt().read().bits()));
+    }
+}
+
+impl Converter for SpiAdc {
+    const RAILS: [i16; 2] = AD7380_RAILS;
+
+    fn stop(&mut self, _: &mut Ring) {
+        // Between frames, so that the next one begins with A. DIER 0: no writes. CR2.RXDMAEN 0: no fetches.
+        self.wait();
+        self.timer
+            .dier()
+            .modify(|_, w| w.cc2de().clear_bit().cc3de().clear_bit());
+        self.spi.cr2().modify(|_, w| w.rxdmaen().clear_bit());
+    }
+
+    fn arm(&mut self, _: &mut Ring) {
+        self.wait();
+        // Reading DR and then SR empties the buffer and clears SR.OVR.
+        for _ in 0..2 {
+            let _ = self.spi.dr().read();
+            let _ = self.spi.sr().read();
+        }
+        self.spi.cr2().modify(|_, w| w.rxdmaen().set_bit());
+        self.timer
+            .dier()
+            .modify(|_, w| w.cc2de().set_bit().cc3de().set_bit());
+    }
+
+    #[inline]
+    fn has_overrun(&self) -> bool {
+        self.spi.sr().read().ovr().bit_is_set()
+    }
+
+    #[inline]
+    fn is_at_rail(pair: Packed) -> bool {
+        is_at_rail_16(pair)
+    }
+}
+
+/// The chip on its bus, by software: for its configuration.
+struct Device<'a> {
+    spi: &'a SPI1,
+    cs: &'a mut PA8<Output>,
+}
+
+impl Device<'_> {
+    fn exchange(&mut self, byte: u8) -> Result<u8, ErrorKind> {
+        // DR takes a byte only by an access of its own width where DFF is 0: its upper half is ignored.
+        self.spi.dr().write(|w| w.dr().set(u16::from(byte)));
+        // SR.RXNE: the byte that came meanwhile. A frame takes 130 cycles; a dead bus must not hang the start.
+        if (0..CORE / 1_000_000).any(|_| self.spi.sr().read().rxne().bit_is_set()) {
+            Ok(self.spi.dr().read().dr().bits() as u8)
+        } else {
+            Err(ErrorKind::Other)
+        }
+    }
+}
+
+impl ErrorType for Device<'_> {
+    type Error = ErrorKind;
+}
+
+impl SpiDevice for Device<'_> {
+    fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), ErrorKind> {
+        self.cs.set_low();
+        let run = || {
+            for operation in operations {
+                match operation {
+                    Operation::Read(bytes) => {
+                        for byte in bytes.iter_mut() {
+                            *byte = self.exchange(0)?;
+                        }
+                    }
+                    Operation::Write(bytes) => {
+                        for &byte in bytes.iter() {
+                            self.exchange(byte)?;
+                        }
+                    }
+                    Operation::TransferInPlace(bytes) => {
+                        for byte in bytes.iter_mut() {
+                            *byte = self.exchange(*byte)?;
+                        }
+                    }
+                    Operation::Transfer(read, write) => {
+                        for i in 0..read.len().max(write.len()) {
+                            let got = self.exchange(write.get(i).copied().unwrap_or(0))?;
+                            if let Some(byte) = read.get_mut(i) {
+                                *byte = got;
+                            }
+                        }
+                    }
+                    Operation::DelayNs(ns) => Delay.delay_ns(*ns),
+                }
+            }
+            Ok(())
+        };
+        let result = run();
+        self.cs.set_high();
+        // CS is high for 10 ns at least.
+        cortex_m::asm::delay(8);
+        result
+    }
+}
+
+/// Waits by counting cycles.
+struct Delay;
+
+impl DelayNs for Delay {
+    fn delay_ns(&mut self, ns: u32) {
+        let cycles = u64::from(ns) * u64::from(CORE / 1_000_000) / 1000;
+        cortex_m::asm::delay((cycles as u32).saturating_add(1));
+    }
+}

@@ -1,0 +1,41 @@
+//! The independent watchdog: it has an oscillator of its own and cannot be stopped.
+
+#![allow(unsafe_code, reason = "the registers take any bits")]
+
+use stm32f4xx_hal::pac::IWDG;
+
+use crate::settings::WATCHDOG_MS;
+
+/// Ticks a millisecond: the 32 kHz oscillator over 32, within 47 %.
+const RELOAD: u16 = WATCHDOG_MS as u16;
+const _: () = assert!(
+    WATCHDOG_MS > 0 && WATCHDOG_MS < 1 << 12,
+    "the watchdog waits 1 to 4095 ms"
+);
+
+/// The running watchdog.
+pub struct Watchdog(IWDG);
+
+impl Watchdog {
+    /// Starts it.
+    pub fn start(iwdg: IWDG) -> Self {
+        // SAFETY: keys and values are those of RM0090, 21.4.
+        unsafe {
+            // KR 0xCCCC starts it, 0x5555 opens PR and RLR, 0xAAAA loads the counter.
+            iwdg.kr().write(|w| w.bits(0xCCCC));
+            iwdg.kr().write(|w| w.bits(0x5555));
+            // PR 3: over 32.
+            iwdg.pr().write(|w| w.bits(3));
+            iwdg.rlr().write(|w| w.bits(RELOAD));
+        }
+        let mut watchdog = Self(iwdg);
+        watchdog.feed();
+        watchdog
+    }
+
+    /// Gives another [`WATCHDOG_MS`]; only a live pipeline may.
+    pub fn feed(&mut self) {
+        // SAFETY: the key that loads the counter.
+        self.0.kr().write(|w| unsafe { w.bits(0xAAAA) });
+    }
+}

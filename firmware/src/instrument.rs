@@ -1,0 +1,304 @@
+//! The thread half of the pipeline: blocks are solved and tracked, reports sent, commands obeyed.
+
+use antinode::{Calibration, Estimate, Sample, SettingsError, Tracker};
+use antinode_telemetry::{
+    Acknowledgement, Cause, Command, CommandError, CommandFrame, Configuration, Counters, Hello,
+    Methods, Report, State,
+};
+use heapless::spsc::{Consumer, Producer};
+
+use crate::counts::Counts;
+use crate::gather::{Item, Request};
+use crate::link::Link;
+use crate::methods::{AVAILABLE, History, Tuning};
+use crate::sampling::Lapse;
+use crate::settings::{COUNTERS_MS, OUTBOX, QUEUE, REQUESTS, RING};
+use crate::supervision::Liveness;
+
+/// What is worth a line in the log.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Event {
+    /// The device does something else from now on.
+    State(State),
+    /// Sample pairs are missing.
+    Lapse(Lapse),
+    /// A command was answered.
+    Answered {
+        /// Its id.
+        id: u16,
+        /// True where it was done.
+        done: bool,
+    },
+}
+
+/// Solves, tracks and reports.
+pub struct Instrument<'q, S: Sample> {
+    tracker: Tracker<RING>,
+    items: Consumer<'q, Item<S>, QUEUE>,
+    requests: Producer<'q, Request, REQUESTS>,
+    counts: &'q Counts,
+    link: Link<'q>,
+    configuration: Configuration,
+    history: History<S>,
+    tuning: Option<Tuning>,
+    /// Number of the last request, and whether its answer is still to come: blocks before it are of no use.
+    number: u8,
+    awaits: bool,
+    state: State,
+    restart: bool,
+    /// True where the source's interrupt must be called: it will not come by itself.
+    asks: bool,
+    answered: u32,
+    liveness: Liveness,
+    counters: Counters,
+    /// When the counters were last reported, ms.
+    reported: u32,
+    now: u32,
+}
+
+impl<'q, S: Sample> Instrument<'q, S> {
+    /// An instrument that has seen nothing; it says hello, and why it has started.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`antinode::Settings::check`] for [`RING`].
+    pub fn new(
+        configuration: Configuration,
+        items: Consumer<'q, Item<S>, QUEUE>,
+        requests: Producer<'q, Request, REQUESTS>,
+        counts: &'q Counts,
+        link: Link<'q>,
+        cause: Cause,
+    ) -> Result<Self, SettingsError> {
+        let mut instrument = Self {
+            tracker: Tracker::new(configuration.settings)?,
+            items,
+            requests,
+            counts,
+            link,
+            configuration,
+            history: History::new(),
+            tuning: None,
+            number: 0,
+            awaits: false,
+            state: State::Started(cause),
+            restart: false,
+            asks: false,
+            answered: 0,
+            liveness: Liveness::new(),
+            counters: Counters::default(),
+            reported: 0,
+            now: 0,
+        };
+        instrument.hello();
+        instrument.link.send(Report::State(State::Started(cause)));
+        Ok(instrument)
+    }
+
+    /// One round of the main loop at `now`, ms since the start: everything that waits is worked off.
+    ///
+    /// True when the pipeline is alive: pairs arrive and this loop turns.
+    pub fn poll(&mut self, now: u32, mut log: impl FnMut(Event)) -> bool {
+        let passed = now.wrapping_sub(self.now);
+        self.counters.uptime_ms += u64::from(passed);
+        self.now = now;
+        while let Some(frame) = self.link.command() {
+            let done = self.answer(frame);
+            log(Event::Answered { id: frame.id, done });
+        }
+        while self.take(&mut log) {}
+        if matches!(self.state, State::Started(_)) {
+            self.enter(State::Searching, &mut log);
+        }
+        let fresh = self.update();
+        if fresh || now.wrapping_sub(self.reported) >= COUNTERS_MS {
+            self.report_counters();
+        }
+        let alive = self.liveness.sees(self.counts.pairs.get());
+        self.asks = self.liveness.stalled(now) && self.requests.enqueue(Request::Resample).is_ok();
+        alive
+    }
+
+    /// Takes the next item; false where there is none.
+    fn take(&mut self, log: &mut impl FnMut(Event)) -> bool {
+        let mut estimate = None;
+        match self.items.peek() {
+            None => return false,
+            Some(Item::Block(block, extra)) if !self.awaits => {
+                self.history.keep(extra);
+                estimate = self.tracker.push(block);
+            }
+            Some(Item::Block(..)) => {}
+            Some(Item::Lapse(lapse)) => {
+                log(Event::Lapse(*lapse));
+                let restarted = State::SamplingRestarted(lapse.cause);
+                self.link.send(Report::State(restarted));
+            }
+            Some(Item::Searching(number)) => self.awaits &= *number != self.number,
+        }
+        // Only now: a block is read where it lies.
+        self.items.dequeue();
+        if let Some(estimate) = estimate {
+            self.enter(State::Tracking, log);
+            let methods = self.methods(&estimate);
+            self.link.send(Report::Estimate(estimate));
+            if let Some(methods) = methods {
+                self.link.send(Report::Methods(methods));
+            }
+        }
+        if self.tracker.has_lost() {
+            self.tracker.forget();
+            self.request(Request::Search);
+            self.enter(State::Searching, log);
+        }
+        true
+    }
+
+    /// The methods over an estimate's window, where they are wanted and neither the line nor the blocks that wait are in a hurry.
+    fn methods(&mut self, estimate: &Estimate) -> Option<Methods> {
+        let rate = self.configuration.settings.sample_rate;
+        if !AVAILABLE || !self.configuration.methods {
+            return None;
+        }
+        let tuned = self
+            .tuning
+            .is_some_and(|tuning| tuning.serves(estimate, rate));
+        if !tuned && estimate.flags.is_empty() {
+            let tuning = Some(Tuning::of(estimate, rate));
+            if self.requests.enqueue(Request::Tune(tuning)).is_ok() {
+                self.tuning = tuning;
+            }
+        }
+        let hurry = self.items.len() > QUEUE / 8 || self.link.waiting() > OUTBOX / 2;
+        if hurry {
+            None
+        } else {
+            self.history.compare(estimate, rate)
+        }
+    }
+
+    /// Asks the interrupt; false where it has not worked off earlier requests.
+    fn request(&mut self, request: impl FnOnce(u8) -> Request) -> bool {
+        let number = self.number.wrapping_add(1);
+        let taken = self.requests.enqueue(request(number)).is_ok();
+        if taken {
+            self.number = number;
+            self.awaits = true;
+        }
+        taken
+    }
+
+    fn enter(&mut self, state: State, log: &mut impl FnMut(Event)) {
+        if self.state != state {
+            self.state = state;
+            self.link.send(Report::State(state));
+            log(Event::State(state));
+        }
+    }
+
+    /// Says that the device does not sample, and why.
+    pub fn fault(&mut self, cause: Cause, mut log: impl FnMut(Event)) {
+        self.enter(State::Fault(cause), &mut log);
+    }
+
+    fn hello(&mut self) {
+        let hello = Hello::new(env!("CARGO_PKG_VERSION"), self.configuration);
+        self.link.send(Report::Hello(hello));
+    }
+
+    /// Obeys a command and acknowledges it; true where it was done.
+    fn answer(&mut self, CommandFrame { id, command }: CommandFrame) -> bool {
+        let result = self.obey(&command);
+        let acknowledgement = Acknowledgement { id, result };
+        self.link.send(Report::Acknowledgement(acknowledgement));
+        self.answered = self.answered.wrapping_add(1);
+        result.is_ok()
+    }
+
+    // A new tracker passes over its stack, which the main loop's need not hold.
+    #[inline(never)]
+    fn obey(&mut self, command: &Command) -> Result<(), CommandError> {
+        match command {
+            Command::Get => self.hello(),
+            Command::Restart => self.restart = true,
+            Command::SetMethods { on } => {
+                self.check_methods(*on, &self.configuration.settings.calibration)?;
+                let request = Request::Tune(None);
+                self.requests
+                    .enqueue(request)
+                    .map_err(|_| CommandError::Busy)?;
+                self.tuning = None;
+                self.configuration.methods = *on;
+                self.hello();
+            }
+            Command::SetWindow { .. } | Command::SetHop { .. } | Command::SetCalibration(_) => {
+                let configuration = self.configuration.after(command, RING)?;
+                self.check_methods(configuration.methods, &configuration.settings.calibration)?;
+                configuration.settings.check(RING)?;
+                if !self.request(|number| Request::Configure(number, configuration.settings)) {
+                    return Err(CommandError::Busy);
+                }
+                self.tracker.configure(configuration.settings)?;
+                self.configuration = configuration;
+                self.hello();
+            }
+        }
+        Ok(())
+    }
+
+    /// The methods are to be built in, and know of no calibration.
+    fn check_methods(&self, on: bool, calibration: &Calibration) -> Result<(), CommandError> {
+        if on && !(AVAILABLE && *calibration == Calibration::IDEAL) {
+            return Err(CommandError::Unsupported);
+        }
+        Ok(())
+    }
+
+    /// Brings the counters up to date; true where something went wrong that they must tell at once.
+    fn update(&mut self) -> bool {
+        let (counts, c) = (self.counts, &mut self.counters);
+        let before = *c;
+        // The interrupt counts in 32 bits, which wrap: the difference does not.
+        for (total, count) in [
+            (&mut c.pairs, &counts.pairs),
+            (&mut c.pairs_lost, &counts.pairs_lost),
+            (&mut c.saturated_pairs, &counts.saturated_pairs),
+        ] {
+            *total += u64::from(count.get().wrapping_sub(*total as u32));
+        }
+        c.saturated_blocks = counts.saturated_blocks.get();
+        c.overruns = counts.overruns.get();
+        c.blocks_dropped = counts.blocks_dropped.get();
+        c.restarts = counts.restarts.get();
+        c.commands_damaged = self.link.damaged();
+        c.reports_dropped = self.link.dropped();
+        c.blocks_dropped != before.blocks_dropped || c.restarts != before.restarts
+    }
+
+    /// Sends the counters as they are.
+    pub fn report_counters(&mut self) {
+        self.update();
+        self.link.send(Report::Counters(self.counters));
+        self.reported = self.now;
+    }
+
+    /// True once a command asked for a restart and its acknowledgement was sent.
+    pub fn wants_restart(&self) -> bool {
+        self.restart && self.link.is_empty()
+    }
+
+    /// True where the source's interrupt must be pended, because no pairs have come for too long.
+    pub fn asks_for_source(&self) -> bool {
+        self.asks
+    }
+
+    /// True when all reports were sent.
+    pub fn is_flushed(&self) -> bool {
+        self.link.is_empty()
+    }
+
+    /// Commands answered so far.
+    pub fn answered(&self) -> u32 {
+        self.answered
+    }
+}

@@ -1,0 +1,64 @@
+//! A line of text for the debugger or the emulator, put together without `core::fmt`, which would link panics in.
+
+use cortex_m_semihosting::hio;
+
+/// A line of up to 128 bytes; what goes beyond is left out.
+pub struct Line {
+    bytes: [u8; 128],
+    length: usize,
+}
+
+impl Line {
+    /// Nothing yet.
+    pub const fn new() -> Self {
+        Self {
+            bytes: [0; 128],
+            length: 0,
+        }
+    }
+
+    /// Adds text.
+    pub fn text(&mut self, text: &str) {
+        for &byte in text.as_bytes() {
+            if let Some(place) = self.bytes.get_mut(self.length) {
+                *place = byte;
+                self.length += 1;
+            }
+        }
+    }
+
+    /// Adds a number in decimal.
+    pub fn number(&mut self, number: u32) {
+        if number >= 10 {
+            self.number(number / 10);
+        }
+        let digit = b'0' + (number % 10) as u8;
+        if let Some(place) = self.bytes.get_mut(self.length) {
+            *place = digit;
+            self.length += 1;
+        }
+    }
+
+    /// Adds ` name=number`.
+    pub fn field(&mut self, name: &str, number: u32) {
+        self.text(" ");
+        self.text(name);
+        self.text("=");
+        self.number(number);
+    }
+
+    /// Ends the line and hands it to the host.
+    pub fn print(mut self) {
+        self.text("\n");
+        if let (Ok(mut host), Some(bytes)) = (hio::hstdout(), self.bytes.get(..self.length)) {
+            // Nobody is there to be told where the host does not listen.
+            let _ = host.write_all(bytes);
+        }
+    }
+}
+
+impl Default for Line {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,143 @@
+//! What the pipeline costs: its interrupt fed with half-buffers of codes, alone and with the main loop, between the marks.
+
+#![allow(unsafe_code, reason = "the bench takes the USART for itself")]
+
+use core::hint::black_box;
+
+use antinode::Packed;
+use antinode_telemetry::{Cause, Configuration, FrontEnd};
+use heapless::spsc::Queue;
+use stm32f4xx_hal::pac::Peripherals;
+
+use crate::bench::PAIRS;
+use crate::codes::Codes;
+use crate::counts::Counts;
+use crate::gather::Gatherer;
+use crate::gauge::Gauge;
+use crate::hardware::line::{By, Line};
+use crate::marks::{leave, mark_begin, mark_end};
+use crate::methods::AVAILABLE;
+use crate::pipeline::Queues;
+use crate::sampling::{Lapse, Ready, Source, both, is_at_rail_12};
+use crate::settings::{Arithmetic, DUAL_ADC_RAILS, HALF, configuration};
+
+/// Pairs in the ring of codes.
+const RING: usize = 1406;
+
+/// Codes without end, half a ring of the DMA at a time.
+struct Endless {
+    ring: [Packed; RING],
+    from: usize,
+    to: usize,
+    /// Pairs given out.
+    total: usize,
+}
+
+impl Endless {
+    fn new() -> Self {
+        let codes = Codes::new();
+        let mut ring = [Packed(0); RING];
+        for (to, from) in ring.iter_mut().zip(codes.slice(0, RING)) {
+            // About the middle of twelve bits, as the converters give them.
+            let unipolar = |code: u32| u32::from((code as u16).wrapping_add(2048));
+            *to = Packed(unipolar(from.0) | unipolar(from.0 >> 16) << 16);
+        }
+        Self {
+            ring,
+            from: 0,
+            to: 0,
+            total: 0,
+        }
+    }
+}
+
+impl Source for Endless {
+    type Pair = Packed;
+
+    fn next(&mut self) -> Ready {
+        self.from = self.to % RING;
+        self.to = (self.from + HALF).min(RING);
+        self.total += self.to - self.from;
+        Ready::Pairs
+    }
+
+    fn pairs(&self) -> &[Packed] {
+        self.ring.get(self.from..self.to).unwrap_or(&[])
+    }
+
+    fn is_intact(&self) -> bool {
+        black_box(true)
+    }
+
+    fn restart(&mut self, cause: Cause) -> Lapse {
+        Lapse { cause, lost: 0 }
+    }
+
+    fn rails(&self) -> [Packed; 2] {
+        both(DUAL_ADC_RAILS)
+    }
+
+    fn is_at_rail(&self, pair: Packed) -> bool {
+        is_at_rail_12(pair)
+    }
+}
+
+/// The interrupt's work, not inlined, as a handler is not.
+#[inline(never)]
+fn interrupt(gatherer: &mut Gatherer<'_, Arithmetic>, source: &mut Endless) {
+    gatherer.serve(source);
+}
+
+/// [`PAIRS`] pairs between the marks, after a tenth of a second from cold.
+fn measure(name: &'static str, state: usize, mut half: impl FnMut() -> usize) -> ! {
+    let mut gauge = Gauge::new(name, PAIRS, state);
+    while half() < 10_000 {}
+    gauge.start();
+    mark_begin();
+    while half() < 10_000 + PAIRS {}
+    mark_end();
+    gauge.finish()
+}
+
+/// The interrupt, and a main loop that only takes the blocks from the queue.
+pub fn interrupt_alone(name: &'static str) -> ! {
+    let mut source = Endless::new();
+    let (mut items, mut requests, counts) = (Queue::new(), Queue::new(), Counts::new());
+    let (sender, mut blocks) = items.split();
+    let (_, asked) = requests.split();
+    let settings = configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS).settings;
+    let Ok(mut gatherer) = Gatherer::<Arithmetic>::new(settings, sender, asked, &counts) else {
+        leave()
+    };
+    let state = size_of_val(&gatherer);
+    measure(name, state, || {
+        interrupt(&mut gatherer, &mut source);
+        while blocks.dequeue().is_some() {}
+        source.total
+    })
+}
+
+/// The whole pipeline; with the feature `methods` they are on.
+pub fn application(name: &'static str, queues: &'static mut Queues<Arithmetic>) -> ! {
+    let mut source = Endless::new();
+    let configuration = Configuration {
+        methods: AVAILABLE,
+        ..configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS)
+    };
+    let Ok(mut parts) = queues.split(configuration, Cause::PowerOn) else {
+        leave()
+    };
+    // SAFETY: nobody else uses the peripherals.
+    let device = unsafe { Peripherals::steal() };
+    let parts_size = size_of_val(&parts);
+    let mut line = Line::new(device.USART1, &device.RCC, parts.out, parts.bytes, By::Hand);
+    let mut now = 0;
+    let state = size_of::<Queues<Arithmetic>>() + parts_size + size_of_val(&line);
+    measure(name, state, || {
+        interrupt(&mut parts.gatherer, &mut source);
+        now += 1;
+        black_box(parts.instrument.poll(now, |_| {}));
+        line.serve(true);
+        source.total
+    })
+}

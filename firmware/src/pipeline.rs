@@ -1,0 +1,76 @@
+//! Both halves of the pipeline and what lies between them, for every image and for the tests.
+
+use antinode::{Sample, SettingsError};
+use antinode_telemetry::{Cause, Configuration};
+use heapless::spsc::{Producer, Queue};
+
+use crate::counts::{Count, Counts};
+use crate::gather::{Gatherer, Item, Request};
+use crate::instrument::Instrument;
+use crate::link::{Link, Outbox, Outgoing};
+use crate::settings::{INBOX, QUEUE, REQUESTS};
+
+/// The queues between the contexts; each image has one, in a static.
+pub struct Queues<S: Sample> {
+    items: Queue<Item<S>, QUEUE>,
+    requests: Queue<Request, REQUESTS>,
+    out: Outbox,
+    sent: Count,
+    bytes: Queue<u8, INBOX>,
+    counts: Counts,
+}
+
+/// The parts, each for one context.
+pub struct Parts<'q, S: Sample> {
+    /// For the source's interrupt.
+    pub gatherer: Gatherer<'q, S>,
+    /// For the main loop.
+    pub instrument: Instrument<'q, S>,
+    /// For the line's interrupt: bytes to send.
+    pub out: Outgoing<'q>,
+    /// For the line's interrupt: bytes received.
+    pub bytes: Producer<'q, u8, INBOX>,
+}
+
+impl<S: Sample> Queues<S> {
+    /// Empty queues.
+    pub const fn new() -> Self {
+        Self {
+            items: Queue::new(),
+            requests: Queue::new(),
+            out: Outbox::new(),
+            sent: Count::new(),
+            bytes: Queue::new(),
+            counts: Counts::new(),
+        }
+    }
+
+    /// The parts of a pipeline that starts for `cause`.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`antinode::Settings::check`].
+    pub fn split(
+        &mut self,
+        configuration: Configuration,
+        cause: Cause,
+    ) -> Result<Parts<'_, S>, SettingsError> {
+        let (items, taken) = self.items.split();
+        let (requests, asked) = self.requests.split();
+        let (bytes, received) = self.bytes.split();
+        let link = Link::new(&self.out, &self.sent, received);
+        let counts = &self.counts;
+        Ok(Parts {
+            gatherer: Gatherer::new(configuration.settings, items, asked, counts)?,
+            instrument: Instrument::new(configuration, taken, requests, counts, link, cause)?,
+            out: Outgoing::new(&self.out, &self.sent),
+            bytes,
+        })
+    }
+}
+
+impl<S: Sample> Default for Queues<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}

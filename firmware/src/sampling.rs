@@ -1,0 +1,87 @@
+//! The seam between converters and the pipeline: embedded-hal 1.0 has no trait for a converter, so this one is ours.
+
+use antinode::Packed;
+use antinode_telemetry::Cause;
+
+/// Samples are missing: they were not fetched in time, or the converter stopped. Sampling goes on already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Lapse {
+    /// Why.
+    pub cause: Cause,
+    /// Sample pairs that are missing between the last one handed out and the next one.
+    pub lost: u32,
+}
+
+/// What a source's interrupt was about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ready {
+    /// Nothing yet.
+    Nothing,
+    /// The next pairs of the stream are in [`Source::pairs`].
+    Pairs,
+    /// Pairs are missing.
+    Lapse(Lapse),
+}
+
+/// A source of simultaneous sample pairs, in blocks, at a steady rate. All of it is called from the source's own interrupt.
+///
+/// What can go wrong is told: an overrun or a stopped converter as a [`Lapse`] with the number of pairs lost, pairs overwritten while
+/// they were read by [`Source::is_intact`], saturation by [`Source::is_at_rail`].
+pub trait Source {
+    /// A sample pair as the converter leaves it, S_C first.
+    type Pair: Copy;
+
+    /// Acknowledges the interrupt and says what there is. After a lapse it has already started sampling anew.
+    fn next(&mut self) -> Ready;
+
+    /// The pairs that the last [`Ready::Pairs`] announced.
+    fn pairs(&self) -> &[Self::Pair];
+
+    /// True while the converter has not begun to overwrite [`Source::pairs`]: to be asked after they were read.
+    fn is_intact(&self) -> bool;
+
+    /// Stops, clears and starts sampling, and says what was lost since the last of [`Source::pairs`].
+    fn restart(&mut self, cause: Cause) -> Lapse;
+
+    /// The least and the greatest code of both converters, as pairs.
+    fn rails(&self) -> [Self::Pair; 2];
+
+    /// True for a pair with a sample at either end of the converter's range.
+    fn is_at_rail(&self, pair: Self::Pair) -> bool;
+}
+
+/// The pairs with one code on both channels, of each code.
+pub fn both([low, high]: [i16; 2]) -> [Packed; 2] {
+    [low, high].map(|code| Packed(u32::from(code as u16) * 0x0001_0001))
+}
+
+/// True for a pair with a 12-bit code of 0 or 4095.
+#[inline]
+pub fn is_at_rail_12(pair: Packed) -> bool {
+    // One more, modulo 4096: 4095 becomes 0, and 0 becomes 1. A borrow comes out of the lower half only where that one is below 2.
+    let next = pair.0.wrapping_add(0x0001_0001) & 0x0FFF_0FFF;
+    next.wrapping_sub(0x0002_0002) & 0x8000_8000 != 0
+}
+
+/// True for a pair with a 16-bit code of −32 768 or 32 767.
+#[inline]
+pub fn is_at_rail_16(pair: Packed) -> bool {
+    [pair.0 as i16, (pair.0 >> 16) as i16]
+        .iter()
+        .any(|&code| code == i16::MIN || code == i16::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rails_are_the_first_and_the_last_code() {
+        for (code, at_rail) in (0..4096).map(|code| (code, code == 0 || code == 4095)) {
+            for other in [1, 2, 3, 2048, 4094] {
+                assert_eq!(is_at_rail_12(Packed(code << 16 | other)), at_rail);
+                assert_eq!(is_at_rail_12(Packed(other << 16 | code)), at_rail);
+            }
+        }
+    }
+}

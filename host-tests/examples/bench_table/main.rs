@@ -1,0 +1,104 @@
+//! Builds the bench images of `firmware`, runs each in QEMU, prints what it costs as a table, and compares that with
+//! `firmware/BENCHES.md`: `cargo bench-table`, or `cargo bench-table --bless` to write that file anew.
+//!
+//! Cycles come from a program that the environment variable `ANTINODE_CYCLES` names. It is called with `ELF --units N --json` and
+//! prints a JSON object whose member `cycles` is a number: cycles a unit between the calls of `mark_begin` and `mark_end`, N units
+//! in all. Without it the committed cycles stand there with a star, where the instructions are still the same.
+
+mod image;
+
+use std::path::Path;
+use std::process::ExitCode;
+use std::{env, fs};
+
+use host_tests::table::{NOTHING, Row, Table};
+
+use image::Image;
+
+/// Before the table in the file.
+const HEAD: &str = "\
+# What the core costs on a Cortex-M4F
+
+Written by `cargo bench-table --bless`; `cargo bench-table` fails where a cost is more than 3 % above this table.
+
+Instructions and cycles are of one sample pair, or of one window of 10 periods. *of idsp's*: instructions over those of the same four
+sums of the same codes with the crate idsp. Cycles: by the core's timing table, without wait states of the flash; a star marks
+those of an earlier run. Flash: bytes of the image beyond those of `nothing`, which has codes, marks and report alone. State: bytes
+kept from call to call. Stack: bytes at the deepest below the caller, from the first sample on, the state not among them.
+
+";
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(faults) => {
+            for fault in faults {
+                eprintln!("error: {fault}");
+            }
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), Vec<String>> {
+    let bless = match env::args().skip(1).collect::<Vec<_>>().as_slice() {
+        [] => false,
+        [option] if option == "--bless" => true,
+        _ => return Err(vec!["usage: cargo bench-table [--bless]".into()]),
+    };
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let file = root.join("firmware/BENCHES.md");
+    let committed = Table::parse(&fs::read_to_string(&file).unwrap_or_default());
+    let mut table = measure(&root).map_err(|fault| vec![fault])?;
+    table.fill_cycles(&committed);
+    print!("{table}");
+    for kind in ["fixed", "f32"] {
+        let row = |kernel| table.row(&format!("{kernel}_{kind}"));
+        let (Some(beside), Some(alone)) = (row("methods"), row("block")) else {
+            continue;
+        };
+        let ratio = beside.instructions / alone.instructions;
+        println!(
+            "\nThe sums of all four methods beside the demodulator, {kind}: {ratio:.2} times the demodulator alone."
+        );
+    }
+    if bless {
+        return fs::write(&file, format!("{HEAD}{table}"))
+            .map_err(|fault| vec![format!("{}: {fault}", file.display())]);
+    }
+    let mut faults = table.worse_than(&committed);
+    if faults.is_empty() {
+        return Ok(());
+    }
+    faults.push("where this is meant to be so: cargo bench-table --bless".into());
+    Err(faults)
+}
+
+/// Measures all images.
+fn measure(root: &Path) -> Result<Table, String> {
+    let images = image::build(root)?;
+    let nothing = images
+        .iter()
+        .find(|image| image.kernel == NOTHING)
+        .ok_or("there is no image bench_nothing")?
+        .flash()?;
+    let row = |image: &Image| {
+        let flash = image.flash()?;
+        let report = image.run()?;
+        Ok(Row {
+            kernel: image.kernel.clone(),
+            unit: if report.units == 1 { "window" } else { "pair" }.into(),
+            instructions: f64::from(report.instructions) / f64::from(report.units),
+            cycles: image.cycles(report.units)?,
+            earlier: false,
+            flash: if image.kernel == NOTHING {
+                flash
+            } else {
+                flash.saturating_sub(nothing)
+            },
+            state: report.state,
+            stack: report.stack,
+        })
+    };
+    images.iter().map(row).collect::<Result<_, _>>().map(Table)
+}

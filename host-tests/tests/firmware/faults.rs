@@ -1,0 +1,174 @@
+//! What goes wrong is counted and told, and nothing wrong goes by without a flag.
+
+use antinode::{Estimate, Packed};
+use antinode_telemetry::{Cause, Command, Counters, Report, State};
+
+use crate::emulator::Device;
+use crate::same::estimates;
+use crate::{mirror, recordings};
+
+fn steady(pairs: usize) -> Vec<Packed> {
+    recordings::codes(recordings::WAVE, recordings::quiet(), pairs)
+}
+
+fn counters(reports: &[Report]) -> Counters {
+    match reports.last() {
+        Some(Report::Counters(counters)) => *counters,
+        other => panic!("the counters come last, not {other:?}"),
+    }
+}
+
+/// Every window without a flag tells the truth.
+fn assert_right(estimates: &[Estimate]) {
+    for e in estimates.iter().filter(|e| e.flags.is_empty()) {
+        let near = |value: f64, truth: f64, std: f32| (value - truth).abs() < 6.0 * f64::from(std);
+        assert!(near(e.angle, 0.4, e.angle_std), "{e:?}");
+        assert!(
+            near(f64::from(e.main_amplitude), 1500.0, e.main_amplitude_std),
+            "{e:?}"
+        );
+        assert!(
+            near(
+                f64::from(e.quadrature_amplitude),
+                80.0,
+                e.quadrature_amplitude_std
+            ),
+            "{e:?}"
+        );
+        assert!(near(e.frequency, 5332.0, e.frequency_std), "{e:?}");
+    }
+}
+
+#[test]
+#[ignore = "needs the ARM target and QEMU"]
+fn garbage_on_the_line() {
+    let recording = steady(1_000_000);
+    let mut device = Device::start("replay", &recording, "");
+    assert!(device.read_until(|reports| estimates(reports).len() > 10));
+    let mut seed = 1u32;
+    for k in 0..16 {
+        let mut noise = [0; 512];
+        for byte in &mut noise {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            *byte = (seed >> 24) as u8;
+        }
+        device.send(&noise);
+        device.send(&[0]);
+        device.command(k, Command::Get);
+    }
+    let (reports, lost, _) = device.finish();
+    assert_eq!(lost, 0);
+    assert_eq!(
+        estimates(&reports),
+        estimates(&mirror::reports::<i16>(&recording, &[], 1))
+    );
+    let answered = reports
+        .iter()
+        .filter(|r| matches!(r, Report::Acknowledgement(a) if a.result.is_ok()));
+    // The recording may end before the last of them.
+    assert!(answered.count() >= 1);
+    assert!(counters(&reports).commands_damaged >= 16);
+}
+
+#[test]
+#[ignore = "needs the ARM target and QEMU"]
+fn a_reader_that_stops_reading() {
+    let recording = steady(100_000);
+    let (reports, lost, _) = Device::start("replay", &recording, "shut=200:500").finish();
+    let counters = counters(&reports);
+    assert_eq!(counters.pairs, 100_000);
+    assert_eq!(counters.blocks_dropped, 0);
+    assert_eq!(u64::from(counters.reports_dropped), lost);
+    assert!(lost > 100);
+    let (got, expected) = (
+        estimates(&reports),
+        estimates(&mirror::reports::<i16>(&recording, &[], 1)),
+    );
+    // What does arrive is what would have arrived, to the last window.
+    assert!(got.iter().all(|e| expected.contains(e)));
+    assert_eq!(got.last(), expected.last());
+    assert!(got.len() as u64 + lost >= expected.len() as u64);
+}
+
+#[test]
+#[ignore = "needs the ARM target and QEMU"]
+fn a_reader_that_sleeps() {
+    let recording = steady(300_000);
+    let mut device = Device::start("replay", &recording, "");
+    assert!(device.read_until(|reports| estimates(reports).len() > 10));
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    let (reports, lost, _) = device.finish();
+    assert_eq!(lost, 0);
+    assert_eq!(
+        estimates(&reports),
+        estimates(&mirror::reports::<i16>(&recording, &[], 1))
+    );
+}
+
+#[test]
+#[ignore = "needs the ARM target and QEMU"]
+fn a_main_loop_that_is_too_slow() {
+    let recording = steady(300_000);
+    let (reports, lost, _) = Device::start("replay", &recording, "slow=22").finish();
+    assert_eq!(lost, 0);
+    let last = counters(&reports);
+    // 22 halves are 148 blocks, of which the queue holds 63.
+    assert!(last.blocks_dropped > 5_000, "{last:?}");
+    assert_eq!(last.pairs, 300_000);
+    let first = reports
+        .iter()
+        .position(|r| matches!(r, Report::Counters(c) if c.blocks_dropped > 0))
+        .expect("it is told");
+    // It is told in the round in which it happens, not with the next second's counters.
+    assert!(estimates(&reports[..first]).len() < 8);
+    let estimates = estimates(&reports);
+    assert!(estimates.len() > 100);
+    assert_right(&estimates);
+}
+
+#[test]
+#[ignore = "needs the ARM target and QEMU"]
+fn pairs_that_are_lost() {
+    let recording = steady(100_000);
+    let (reports, lost, _) = Device::start("replay", &recording, "lapse=300:777").finish();
+    assert_eq!(lost, 0);
+    let counters = counters(&reports);
+    assert_eq!(
+        (counters.pairs_lost, counters.overruns, counters.restarts),
+        (777, 1, 1)
+    );
+    assert_eq!(counters.pairs + counters.pairs_lost, 100_000);
+    let restarted = Report::State(State::SamplingRestarted(Cause::Overrun));
+    assert_eq!(reports.iter().filter(|r| **r == restarted).count(), 1);
+    let estimates = estimates(&reports);
+    assert!(estimates.len() > 500);
+    // Time goes on over the hole: no window claims to lie in it, and all others are right, phase and frequency among them.
+    let hole = 300 * 128..300 * 128 + 777;
+    assert!(
+        estimates
+            .iter()
+            .all(|e| e.start + u64::from(e.samples) <= hole.start || e.start >= hole.end)
+    );
+    assert_right(&estimates);
+    assert!(estimates.iter().all(|e| e.flags.is_empty()));
+}
+
+#[test]
+#[ignore = "needs the ARM target and QEMU"]
+fn a_panic_restarts_the_instrument() {
+    let recording = steady(50_000);
+    let (reports, _, _) = Device::start("replay", &recording, "panic=100").finish();
+    let started = |cause| Report::State(State::Started(cause));
+    let panicked = reports
+        .iter()
+        .position(|r| *r == started(Cause::Panic))
+        .expect("it says so");
+    assert!(matches!(reports[panicked - 1], Report::Hello(_)));
+    assert!(reports[..panicked].contains(&started(Cause::Unknown)));
+    assert!(estimates(&reports[..panicked]).len() > 20);
+    let after = estimates(&reports[panicked..]);
+    assert_eq!(
+        after,
+        estimates(&mirror::reports::<i16>(&recording, &[], 1))
+    );
+}

@@ -1,0 +1,57 @@
+//! What the images are made of.
+
+use std::process::Command;
+
+use crate::emulator::images;
+
+/// Most bytes of flash, two thirds of which are the core's: it may only fall. And of RAM, with all buffers.
+const FLASH: u64 = 68 * 1024;
+const RAM: u64 = 16 * 1024;
+
+fn output(tool: &str, args: &[&str], image: &str) -> String {
+    let output = Command::new(tool)
+        .args(args)
+        .arg(images().join(image))
+        .output()
+        .expect("binutils are installed");
+    assert!(output.status.success(), "{tool} on {image}");
+    String::from_utf8(output.stdout).expect("plain text")
+}
+
+#[test]
+#[ignore = "needs the ARM target"]
+fn nothing_panics() {
+    for image in ["stm32f405", "stm32f405_ad7380"] {
+        let symbols = output("nm", &["-C"], image);
+        assert!(symbols.contains("_SEGGER_RTT"), "no symbols to look at");
+        let panics: Vec<_> = symbols
+            .lines()
+            .filter(|line| line.contains("panicking") || line.contains("unwrap_failed"))
+            .collect();
+        assert!(panics.is_empty(), "{image} links panics in: {panics:#?}");
+    }
+}
+
+#[test]
+#[ignore = "needs the ARM target"]
+fn it_fits() {
+    for image in ["stm32f405", "stm32f405_ad7380"] {
+        let sections = output("size", &["-A", "-d"], image);
+        let size = |names: &[&str]| -> u64 {
+            let of = |line: &str| {
+                let mut words = line.split_ascii_whitespace();
+                let wanted = words.next().is_some_and(|name| names.contains(&name));
+                words.next().filter(|_| wanted)?.parse::<u64>().ok()
+            };
+            sections.lines().filter_map(of).sum::<u64>()
+        };
+        let flash = size(&[".vector_table", ".text", ".rodata", ".data", ".gnu.sgstubs"]);
+        let ram = size(&[".data", ".bss", ".uninit"]);
+        println!("{image}: {flash} bytes of flash, {ram} bytes of RAM without the stack");
+        assert!(
+            flash > 10_000 && flash <= FLASH,
+            "{image}: {flash} bytes of flash"
+        );
+        assert!(ram > 4_000 && ram <= RAM, "{image}: {ram} bytes of RAM");
+    }
+}

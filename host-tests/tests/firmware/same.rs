@@ -1,0 +1,152 @@
+//! The same codes give the same telemetry in the emulator and on the host.
+
+use antinode::{Estimate, Flags, Identifier, Packed};
+use antinode_telemetry::{Report, State};
+use firmware::sampling::is_at_rail_12;
+use firmware::settings::{DUAL_ADC_RAILS, RING, configuration};
+
+use crate::emulator::Device;
+use crate::{mirror, recordings};
+
+/// All but the counters, whose time is that of the emulator, as bits.
+pub fn timeless(reports: &[Report]) -> Vec<Vec<u8>> {
+    reports
+        .iter()
+        .filter(|report| !matches!(report, Report::Counters(_)))
+        .map(|report| {
+            let mut buffer = [0; antinode_telemetry::MAX_FRAME];
+            let mut reporter = antinode_telemetry::Reporter::new();
+            let frame = reporter.frame(report.clone(), &mut buffer);
+            frame.expect("it fits").to_vec()
+        })
+        .collect()
+}
+
+/// The estimates among reports.
+pub fn estimates(reports: &[Report]) -> Vec<Estimate> {
+    let found = |report: &Report| Estimate::try_from(report.clone()).ok();
+    reports.iter().filter_map(found).collect()
+}
+
+#[test]
+#[ignore = "needs the ARM target and QEMU"]
+fn fixed_point_to_the_bit() {
+    for (name, recording) in recordings::all() {
+        let (reports, lost, took) = Device::start("replay", &recording, "").finish();
+        let expected = mirror::reports::<i16>(&recording, &[], 1);
+        assert_eq!(lost, 0, "{name}");
+        assert!(took < 30.0, "{name}: a second took {took} s");
+        assert!(estimates(&reports).len() > 400, "{name}");
+        assert!(
+            timeless(&reports) == timeless(&expected),
+            "{name}: the emulator and the host differ"
+        );
+        println!(
+            "{name}: {} estimates in {took:.2} s",
+            estimates(&reports).len()
+        );
+    }
+}
+
+#[test]
+#[ignore = "needs the ARM target and QEMU"]
+fn the_pipeline_gives_what_the_core_gives() {
+    for (name, recording) in recordings::all().into_iter().take(4) {
+        let (reports, ..) = Device::start("replay", &recording, "").finish();
+        assert_eq!(estimates(&reports), core(&recording), "{name}");
+    }
+}
+
+/// The core in one thread.
+fn core(recording: &[Packed]) -> Vec<Estimate> {
+    let front_end = antinode_telemetry::FrontEnd::Synthetic;
+    let settings = configuration(front_end, DUAL_ADC_RAILS).settings;
+    let mut core = Identifier::<i16, 200, RING>::new(settings).expect("the settings can be");
+    let mut estimates = Vec::new();
+    core.extend(recording, |estimate| estimates.push(estimate));
+    estimates
+}
+
+#[test]
+#[ignore = "needs the ARM target and QEMU"]
+fn f32_to_a_millionth() {
+    for (name, recording) in recordings::all() {
+        let (reports, ..) = Device::start("replay_f32", &recording, "").finish();
+        let expected = estimates(&mirror::reports::<f32>(&recording, &[], 1));
+        let reports = estimates(&reports);
+        assert_eq!(reports.len(), expected.len(), "{name}");
+        for (got, expected) in reports.iter().zip(&expected) {
+            assert_eq!(
+                (got.start, got.flags),
+                (expected.start, expected.flags),
+                "{name}"
+            );
+            let size = f64::from(expected.main_amplitude);
+            for (got, expected, unit) in [
+                (
+                    f64::from(got.main_amplitude),
+                    f64::from(expected.main_amplitude),
+                    size,
+                ),
+                (
+                    f64::from(got.quadrature_amplitude),
+                    f64::from(expected.quadrature_amplitude),
+                    size,
+                ),
+                (got.angle, expected.angle, 1.0),
+                (f64::from(got.phase), f64::from(expected.phase), 1.0),
+                (got.frequency, expected.frequency, expected.frequency),
+            ] {
+                assert!(
+                    (got - expected).abs() <= 1e-6 * unit,
+                    "{name}: {got}, host {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+#[ignore = "needs the ARM target and QEMU"]
+fn recordings_show_what_they_hold() {
+    let flagged = |name: &str| {
+        let recording = recordings::all().into_iter().find(|r| r.0 == name);
+        let (reports, ..) =
+            Device::start("replay", &recording.expect("there is one").1, "").finish();
+        reports
+    };
+    let with = |reports: &[Report], flag| {
+        let estimates = estimates(reports);
+        estimates.iter().filter(|e| e.flags.contains(flag)).count()
+    };
+    let clean = flagged("clean");
+    assert!(estimates(&clean).iter().all(|e| e.flags.is_empty()));
+    let dropout = flagged("dropout");
+    // Held for 4 ms, and 50 ms without a wave: both are lost and found again.
+    assert_eq!(with(&dropout, Flags::REACQUIRED), 2);
+    assert!(with(&dropout, Flags::LOST) >= 1 && with(&dropout, Flags::MISFIT) >= 1);
+    let states: Vec<_> = dropout
+        .iter()
+        .filter(|r| matches!(r, Report::State(_)))
+        .collect();
+    let (searching, tracking) = (
+        Report::State(State::Searching),
+        Report::State(State::Tracking),
+    );
+    assert_eq!(states[1..], [&searching, &tracking].repeat(3));
+    let clipping = flagged("clipping");
+    assert!(with(&clipping, Flags::CLIPPED) > 200);
+    let Some(Report::Counters(counters)) = clipping.last() else {
+        panic!("the counters come last");
+    };
+    let (_, codes) = recordings::all()
+        .into_iter()
+        .find(|r| r.0 == "clipping")
+        .expect("there is one");
+    let at_rail = codes.iter().filter(|&&pair| is_at_rail_12(pair)).count();
+    assert!(
+        at_rail > 1000 && counters.saturated_blocks > 1000,
+        "{counters:?}"
+    );
+    assert_eq!(counters.saturated_pairs, at_rail as u64);
+}

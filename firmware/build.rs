@@ -18,8 +18,10 @@ fn main() {
     if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {
         return;
     }
-    println!("cargo:rustc-link-arg-bins=-Tlink.x");
-    println!("cargo:rustc-link-arg-bins=--nmagic");
+    for kind in ["bins", "examples"] {
+        println!("cargo:rustc-link-arg-{kind}=-Tlink.x");
+        println!("cargo:rustc-link-arg-{kind}=--nmagic");
+    }
     // The benches log nothing.
     for image in ["replay", "stm32f405", "stm32f405_ad7380"] {
         println!("cargo:rustc-link-arg-bin={image}=-Tdefmt.x");

@@ -7,6 +7,7 @@ mod trend;
 
 use crate::arch::square_root;
 use crate::block::{Block, Layout};
+use crate::calibration::Calibration;
 use crate::estimate::{Estimate, Flags};
 use crate::sample::Sample;
 use crate::settings::{Settings, SettingsError};
@@ -122,6 +123,18 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.model = None;
         self.gathered.clear();
         self.failures = 0;
+    }
+
+    /// Changes the calibration: the next block starts a new first window, its angle continued.
+    pub fn calibrate(&mut self, calibration: Calibration) -> Result<(), SettingsError> {
+        let settings = Settings {
+            calibration,
+            ..self.settings
+        };
+        settings.check(BLOCKS)?;
+        self.settings = settings;
+        self.forget();
+        Ok(())
     }
 
     /// Starts a new window when a block does not continue those gathered.

@@ -1,0 +1,29 @@
+/* Vector table and reset: the FPU on where there is one, then newlib's own start, which leaves through semihosting after main. */
+#include <stdint.h>
+
+extern uint32_t stack_top[];
+void _start(void);
+void reset(void);
+
+void reset(void)
+{
+#if defined(__ARM_FP)
+    *(volatile uint32_t *)0xE000ED88u |= 0xFu << 20; /* CPACR: full access to CP10 and CP11 */
+    __asm volatile("dsb\n isb");
+#endif
+    _start();
+}
+
+static void stop(void)
+{
+    for (;;)
+        ;
+}
+
+__attribute__((section(".vectors"), used)) static const struct {
+    uint32_t *stack;
+    void (*handlers[15])(void);
+} vectors = {
+    stack_top,
+    {reset, stop, stop, stop, stop, stop, stop, stop, stop, stop, stop, stop, stop, stop, stop},
+};

@@ -1,0 +1,369 @@
+/*
+ * antinode: the standing wave of a hemispherical resonator gyro, window by window, from its two pick-offs sampled together.
+ * Apache-2.0 or MIT. Made by cbindgen from crates/antinode-capi; do not edit.
+ *
+ *     static antinode_fixed_t gyro;                                     // 9 KiB; or antinode_float_t, 12.2 KiB
+ *
+ *     antinode_settings_t settings = antinode_settings_default(100e3);  // before the interrupt is enabled
+ *     antinode_status_t status = antinode_fixed_init(&gyro, &settings); // below 0: antinode_status_string(status)
+ *
+ *     antinode_fixed_push_block_packed(&gyro, half_buffer, 128);        // in the interrupt of the converter's DMA
+ *
+ *     antinode_estimate_t estimate;                                     // in the thread, again and again
+ *     while (antinode_fixed_solve(&gyro, &estimate) == ANTINODE_ESTIMATE)
+ *         use(&estimate);
+ *
+ * Samples: S_C and S_D of pick-offs 45 degrees apart; the unit of amplitudes, offsets and residuals is that of the samples.
+ *
+ * Memory: a state is the caller's, static or on a stack; there is no heap, no global and no callback. Zeroed memory is not an
+ * initialised state. A state may be copied or moved while nobody uses it.
+ *
+ * Concurrency, without a lock:
+ *  - Interrupt side: _push, _push_block*, _skip. One of them at a time; they take finished blocks to a queue inside the state.
+ *  - Thread side: _solve, _search, _set_calibration. One of them at a time. They take blocks from the queue.
+ *  - One call of each side may be under way at once: the interrupt may break into the thread anywhere, or run on another core that
+ *    shares coherent memory.
+ *  - _health and the functions without a state may be called from anywhere at any time.
+ *  - _init, _reset and _identify use both sides: nothing else of that state may be under way.
+ *  - States are independent of each other.
+ *
+ * Errors: a NULL or misaligned pointer, a state that was not initialised and a value out of range give a status below 0, and
+ * nothing is done. A pointer that is neither must point to what its type says; a state must be changed by these functions only.
+ * Any sample is valid, NaN too. No function panics, aborts or blocks.
+ */
+
+
+#ifndef ANTINODE_H
+#define ANTINODE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+// The longest period, sample pairs.
+#define ANTINODE_LONGEST_PERIOD 200
+
+// The most periods a window may have.
+#define ANTINODE_MOST_PERIODS 50
+
+// Finished blocks that the queue holds, the one being solved among them: one block is about one period, so nearly this many periods
+// may pass between two calls of a `_solve` function.
+#define ANTINODE_QUEUE_BLOCKS 16
+
+// 64-bit words of an `antinode_fixed_t`.
+#define ANTINODE_FIXED_WORDS 1152
+
+// 64-bit words of an `antinode_float_t`.
+#define ANTINODE_FLOAT_WORDS 1560
+
+// Samples at the converter's rail, or the third harmonic that a limiter leaves: amplitudes are wrong.
+#define ANTINODE_FLAG_CLIPPED 1
+
+// No significant wave: nothing in the estimate is meant.
+#define ANTINODE_FLAG_LOST 2
+
+// The phase does not continue that of the window before: samples are missing between or within them.
+#define ANTINODE_FLAG_PHASE_JUMP 4
+
+// Amplitude, angle or offset stepped between the window before and this one.
+#define ANTINODE_FLAG_STEP 8
+
+// Main and quadrature amplitude are about equal: the pattern is circular and the angle has no meaning.
+#define ANTINODE_FLAG_CIRCULAR 16
+
+// The samples are not one wave with steady rates plus noise: a step, a dropout, a second tone within the window.
+#define ANTINODE_FLAG_MISFIT 32
+
+// A pick-off gave one and the same value, or lost its wave while the other kept it.
+#define ANTINODE_FLAG_DEAD_CHANNEL 64
+
+// First window after the wave was lost: the angle is known modulo pi/2 only.
+#define ANTINODE_FLAG_REACQUIRED 128
+
+// A sample that is not a number.
+#define ANTINODE_FLAG_NOT_FINITE 256
+
+// The period is found by the squared difference, in about three periods, at any offset, at 20 % noise and more.
+#define ANTINODE_DETECTION_DIFFERENCE 0
+
+// The period is found by the return of the running sum, in about eleven periods, for signals with little noise.
+#define ANTINODE_DETECTION_MEAN_RETURN 1
+
+// The version of this header: major x 65536 + minor x 256 + patch.
+#define ANTINODE_VERSION 256
+
+// What a function answers: below zero nothing was done, except where it says so.
+enum antinode_status_t
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // Done.
+    ANTINODE_OK = 0,
+    // Done, and finished blocks wait for a `_solve` function.
+    ANTINODE_READY = 1,
+    // Done, and an estimate was written.
+    ANTINODE_ESTIMATE = 2,
+    // A pointer is NULL.
+    ANTINODE_ERROR_NULL = -1,
+    // A pointer is not aligned as its type demands.
+    ANTINODE_ERROR_ALIGNMENT = -2,
+    // The state was never initialised, or is one of the other arithmetic.
+    ANTINODE_ERROR_NOT_INITIALISED = -3,
+    // An array would be larger than the address space.
+    ANTINODE_ERROR_COUNT = -4,
+    // The pairs were taken, but the queue was full and at least one finished block was dropped: call `_solve` more often.
+    ANTINODE_ERROR_QUEUE_FULL = -5,
+    // `sample_rate_hz` is not within 1 to 1e10.
+    ANTINODE_ERROR_SAMPLE_RATE = -10,
+    // `periods` is not within 2 to ANTINODE_MOST_PERIODS.
+    ANTINODE_ERROR_PERIODS = -11,
+    // `hop_blocks` is not within 0 to 65535.
+    ANTINODE_ERROR_HOP = -12,
+    // `start_angle_rad` is not within +-10000.
+    ANTINODE_ERROR_START_ANGLE = -13,
+    // `rail_low` is not below `rail_high`.
+    ANTINODE_ERROR_RAILS = -14,
+    // `resolution` is neither 0 nor a positive number.
+    ANTINODE_ERROR_RESOLUTION = -15,
+    // `detection` is not one of ANTINODE_DETECTION_*.
+    ANTINODE_ERROR_DETECTION = -16,
+    // `watch` is neither 0 nor 1.
+    ANTINODE_ERROR_WATCH = -17,
+    // `gain_ratio` is not within 0.1 to 10.
+    ANTINODE_ERROR_GAIN_RATIO = -18,
+    // `skew_s` is not within +-0.001.
+    ANTINODE_ERROR_SKEW = -19,
+    // `pick_off_angle_rad` is not within +-0.3.
+    ANTINODE_ERROR_PICK_OFF_ANGLE = -20,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum antinode_status_t antinode_status_t;
+#else
+typedef int32_t antinode_status_t;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// State of an identification in fixed point, on `int16_t` codes. Opaque: only the functions `antinode_fixed_*` look inside.
+typedef struct {
+    uint64_t words[ANTINODE_FIXED_WORDS];
+} antinode_fixed_t;
+
+// How pick-off D differs from an ideal one that stands 45 degrees from C, has C's gain and is sampled with C.
+typedef struct {
+    // Gain of channel D over that of channel C. 0.1 to 10; 1 is ideal.
+    float gain_ratio;
+    // How much later than C channel D is sampled, s. Within +-0.001 and +- a quarter period; 0 is ideal.
+    float skew_s;
+    // Pick-off D stands at 45 degrees plus this angle from C, rad. Within +-0.3; 0 is ideal.
+    float pick_off_angle_rad;
+} antinode_calibration_t;
+
+// Settings of an identification. Start from antinode_settings_default() and change what differs.
+typedef struct {
+    // Sample rate, Hz. 1 to 1e10.
+    double sample_rate_hz;
+    // Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10.
+    uint32_t periods;
+    // Blocks from the start of one window to the start of the next; a block is a period, or a tenth of a window of less than ten
+    // periods. 1 to 65535; 0, the default: windows follow each other without gap or overlap.
+    uint32_t hop_blocks;
+    // The first window's angle is chosen within pi/4 of this one, rad. Within +-10000; default pi/4, which puts it in 0 to pi/2.
+    float start_angle_rad;
+    // The least sample that the converter gives, input units: at or below it a window is flagged as clipped. Default 0.
+    float rail_low;
+    // The greatest sample that the converter gives, input units, above `rail_low`. Both 0, the default: not known.
+    float rail_high;
+    // Step between neighbouring codes of the converter, input units, > 0: its share counts in the standard deviations. 0, the
+    // default: not known.
+    float resolution;
+    // How the period is found: ANTINODE_DETECTION_DIFFERENCE, the default, or ANTINODE_DETECTION_MEAN_RETURN.
+    uint32_t detection;
+    // 1, the default: the third harmonic and the extremes of the samples are watched, which ANTINODE_FLAG_CLIPPED and
+    // ANTINODE_FLAG_DEAD_CHANNEL need. 0: not, which about halves the work at sample rate.
+    uint32_t watch;
+    // How the pick-offs differ from ideal ones. Default: not at all.
+    antinode_calibration_t calibration;
+} antinode_settings_t;
+
+// The wave over one window, at the window's middle. Each `_std` is one standard deviation.
+typedef struct {
+    // Index in the stream of the window's first sample pair.
+    uint64_t start;
+    // Time of the window's middle, s from the stream's first sample.
+    double time_s;
+    // Pattern angle theta, rad, continuous from window to window from the chosen start.
+    double angle_rad;
+    // Resonant frequency f, Hz.
+    double frequency_hz;
+    // Sample pairs in the window.
+    uint32_t samples;
+    // What is wrong: a sum of ANTINODE_FLAG_* bits; 0 when clean.
+    uint32_t flags;
+    // Amplitude a_A of the main standing wave, > 0, input units.
+    float main_amplitude;
+    // Amplitude a_B of the quadrature wave, signed, at most a_A, input units.
+    float quadrature_amplitude;
+    // Phase alpha, rad, -pi to pi: the main wave is a_A cos(2pif*(t - time_s) - alpha).
+    float phase_rad;
+    // Precession of the pattern dtheta/dt, rad/s, from this window alone.
+    float angle_rate_rad_s;
+    // Decay rate -(da_A/dt)/a_A, 1/s: positive while the wave decays.
+    float decay_rate_s;
+    // Offset of S_C, input units.
+    float offset_c;
+    // Offset of S_D, input units.
+    float offset_d;
+    // Standard deviation of a_A, input units.
+    float main_amplitude_std;
+    // Standard deviation of a_B, input units.
+    float quadrature_amplitude_std;
+    // Standard deviation of theta, rad.
+    float angle_std_rad;
+    // Standard deviation of alpha, rad.
+    float phase_std_rad;
+    // Standard deviation of f, Hz.
+    float frequency_std_hz;
+    // Standard deviation of dtheta/dt, rad/s.
+    float angle_rate_std_rad_s;
+    // Standard deviation of the decay rate, 1/s.
+    float decay_rate_std_s;
+    // Rms of what the wave does not explain, a sample and channel, input units: the noise when it is white.
+    float residual_rms;
+    // Always 0: the struct ends at a multiple of eight bytes on every machine.
+    uint32_t reserved;
+} antinode_estimate_t;
+
+// How an identification fares, from counters that either side may read.
+typedef struct {
+    // 1 while a period is searched, 0 while blocks are gathered.
+    uint32_t searching;
+    // Finished blocks that wait to be solved, 0 to ANTINODE_QUEUE_BLOCKS.
+    uint32_t waiting;
+    // Finished blocks dropped since the start because the queue was full; it wraps.
+    uint32_t dropped;
+} antinode_health_t;
+
+// State of an identification in single precision. Opaque: only the functions `antinode_float_*` look inside.
+typedef struct {
+    uint64_t words[ANTINODE_FLOAT_WORDS];
+} antinode_float_t;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+// Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised.
+// Before anything else; neither side may run.
+antinode_status_t antinode_fixed_init(antinode_fixed_t *state, const antinode_settings_t *settings);
+
+// Makes a state as it was after its initialisation, with its present calibration. Neither side may run.
+antinode_status_t antinode_fixed_reset(antinode_fixed_t *state);
+
+// Interrupt side. Takes one sample pair, converter codes. ANTINODE_OK; ANTINODE_READY when it finished a block;
+// ANTINODE_ERROR_QUEUE_FULL when that block had to be dropped.
+antinode_status_t antinode_fixed_push(antinode_fixed_t *state, int16_t c, int16_t d);
+
+// Interrupt side. Takes `count` sample pairs from two arrays, converter codes. Answers as antinode_fixed_push().
+antinode_status_t antinode_fixed_push_block(antinode_fixed_t *state, const int16_t *c, const int16_t *d, size_t count);
+
+// Interrupt side. Takes `count` sample pairs from one array of 2 x `count` samples, C and D in turn, converter codes. Answers as
+// antinode_fixed_push().
+antinode_status_t antinode_fixed_push_block_interleaved(antinode_fixed_t *state, const int16_t *samples, size_t count);
+
+// Interrupt side. Takes `count` sample pairs of two's complement codes, C in the low half of a word and D in the high half, as a
+// dual converter's DMA leaves them. Answers as antinode_fixed_push().
+antinode_status_t antinode_fixed_push_block_packed(antinode_fixed_t *state, const uint32_t *words, size_t count);
+
+// Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is
+// dropped, and time goes on.
+antinode_status_t antinode_fixed_skip(antinode_fixed_t *state, uint32_t count);
+
+// Thread side. Solves finished blocks up to the next estimate: ANTINODE_ESTIMATE when one was written, and then there may be
+// more; ANTINODE_OK when no block is left, and then `estimate` is as it was. A lost wave is searched anew by itself.
+antinode_status_t antinode_fixed_solve(antinode_fixed_t *state, antinode_estimate_t *estimate);
+
+// Thread side. Drops the wave and searches anew; the angle goes on from the last one, modulo pi/2.
+antinode_status_t antinode_fixed_search(antinode_fixed_t *state);
+
+// Thread side. Changes the calibration, from the next block on; the window begun is dropped, and the next is flagged
+// ANTINODE_FLAG_REACQUIRED. A calibration out of range changes nothing.
+antinode_status_t antinode_fixed_set_calibration(antinode_fixed_t *state, const antinode_calibration_t *calibration);
+
+// Either side. Tells how the identification fares.
+antinode_status_t antinode_fixed_health(const antinode_fixed_t *state, antinode_health_t *health);
+
+// Both sides in one call, where there is no interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a
+// window, and writes how many to `taken`. ANTINODE_ESTIMATE when a window ended and its estimate was written; ANTINODE_OK when all
+// `count` pairs were taken without one. Call it again with the rest.
+antinode_status_t antinode_fixed_identify(antinode_fixed_t *state,
+                                          const int16_t *samples,
+                                          size_t count,
+                                          size_t *taken,
+                                          antinode_estimate_t *estimate);
+
+// Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised.
+// Before anything else; neither side may run.
+antinode_status_t antinode_float_init(antinode_float_t *state, const antinode_settings_t *settings);
+
+// Makes a state as it was after its initialisation, with its present calibration. Neither side may run.
+antinode_status_t antinode_float_reset(antinode_float_t *state);
+
+// Interrupt side. Takes one sample pair, in any unit. ANTINODE_OK; ANTINODE_READY when it finished a block;
+// ANTINODE_ERROR_QUEUE_FULL when that block had to be dropped.
+antinode_status_t antinode_float_push(antinode_float_t *state, float c, float d);
+
+// Interrupt side. Takes `count` sample pairs from two arrays, in any unit. Answers as antinode_float_push().
+antinode_status_t antinode_float_push_block(antinode_float_t *state, const float *c, const float *d, size_t count);
+
+// Interrupt side. Takes `count` sample pairs from one array of 2 x `count` samples, C and D in turn, in any unit. Answers as
+// antinode_float_push().
+antinode_status_t antinode_float_push_block_interleaved(antinode_float_t *state, const float *samples, size_t count);
+
+// Interrupt side. Takes `count` sample pairs of two's complement codes, C in the low half of a word and D in the high half, as a
+// dual converter's DMA leaves them. Answers as antinode_float_push().
+antinode_status_t antinode_float_push_block_packed(antinode_float_t *state, const uint32_t *words, size_t count);
+
+// Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is
+// dropped, and time goes on.
+antinode_status_t antinode_float_skip(antinode_float_t *state, uint32_t count);
+
+// Thread side. Solves finished blocks up to the next estimate: ANTINODE_ESTIMATE when one was written, and then there may be
+// more; ANTINODE_OK when no block is left, and then `estimate` is as it was. A lost wave is searched anew by itself.
+antinode_status_t antinode_float_solve(antinode_float_t *state, antinode_estimate_t *estimate);
+
+// Thread side. Drops the wave and searches anew; the angle goes on from the last one, modulo pi/2.
+antinode_status_t antinode_float_search(antinode_float_t *state);
+
+// Thread side. Changes the calibration, from the next block on; the window begun is dropped, and the next is flagged
+// ANTINODE_FLAG_REACQUIRED. A calibration out of range changes nothing.
+antinode_status_t antinode_float_set_calibration(antinode_float_t *state, const antinode_calibration_t *calibration);
+
+// Either side. Tells how the identification fares.
+antinode_status_t antinode_float_health(const antinode_float_t *state, antinode_health_t *health);
+
+// Both sides in one call, where there is no interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a
+// window, and writes how many to `taken`. ANTINODE_ESTIMATE when a window ended and its estimate was written; ANTINODE_OK when all
+// `count` pairs were taken without one. Call it again with the rest.
+antinode_status_t antinode_float_identify(antinode_float_t *state,
+                                          const float *samples,
+                                          size_t count,
+                                          size_t *taken,
+                                          antinode_estimate_t *estimate);
+
+// Settings with every default: windows of 10 periods that follow each other, ideal pick-offs, no known rails, everything watched.
+// The sample rate is checked by the `_init` functions. May be called from anywhere.
+antinode_settings_t antinode_settings_default(double sample_rate_hz);
+
+// What a status means, in English; never NULL. Takes any number. May be called from anywhere.
+const char *antinode_status_string(int32_t status);
+
+// The version of the library that is linked: must equal ANTINODE_VERSION, or header and library are not of one kind and sizes
+// may differ. May be called from anywhere.
+uint32_t antinode_version(void);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* ANTINODE_H */

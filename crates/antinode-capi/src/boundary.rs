@@ -1,0 +1,297 @@
+//! Where C's pointers become references: each is looked at before, and each side of a state gets its own part only.
+#![allow(
+    unsafe_code,
+    reason = "pointers from C; this, the queue and the exported names are all there is"
+)]
+
+use core::mem::MaybeUninit;
+use core::sync::atomic::Ordering;
+
+use antinode::SamplePair;
+
+use crate::capacity::RING_BLOCKS;
+use crate::estimate::Estimate;
+use crate::interrupt::{AT_ONCE, Interrupt};
+use crate::settings::{Calibration, Settings};
+use crate::state::{Arithmetic, Health, Shared, State, Thread, identify};
+use crate::status::Status;
+
+type Checked<T> = Result<T, Status>;
+
+/// Looks at a pointer.
+#[inline]
+fn check<T>(pointer: *const T) -> Checked<()> {
+    if pointer.is_null() {
+        Err(Status::ErrorNull)
+    } else if !pointer.is_aligned() {
+        Err(Status::ErrorAlignment)
+    } else {
+        Ok(())
+    }
+}
+
+/// The inside of an initialised state.
+///
+/// # Safety
+/// `opaque` is NULL, misaligned, or points to a whole state of the caller's.
+#[inline]
+unsafe fn open<S: Arithmetic, O>(opaque: *mut O) -> Checked<*mut State<S>> {
+    check(opaque)?;
+    let state = opaque.cast::<State<S>>();
+    // SAFETY: the memory is the caller's and large enough; any bits are a number. No order is needed: by the contract an
+    // initialisation is over before any other call begins.
+    let magic = unsafe { (*state).magic.load(Ordering::Relaxed) };
+    if magic == S::MAGIC {
+        Ok(state)
+    } else {
+        Err(Status::ErrorNotInitialised)
+    }
+}
+
+/// The interrupt's part.
+///
+/// # Safety
+/// As [`open`]; no other call of the interrupt's side is under way.
+#[inline]
+unsafe fn interrupt<'a, S: Arithmetic, O>(
+    opaque: *mut O,
+) -> Checked<(&'a mut Interrupt<S>, &'a Shared<S>)> {
+    // SAFETY: initialised, and this part has one user.
+    unsafe { open(opaque).map(|state| (&mut (*state).interrupt, &(*state).shared)) }
+}
+
+/// The thread's part.
+///
+/// # Safety
+/// As [`open`]; no other call of the thread's side is under way.
+#[inline]
+unsafe fn thread<'a, S: Arithmetic, O>(opaque: *mut O) -> Checked<(&'a mut Thread, &'a Shared<S>)> {
+    // SAFETY: initialised, and this part has one user.
+    unsafe { open(opaque).map(|state| (&mut (*state).thread, &(*state).shared)) }
+}
+
+/// An array of `count` elements.
+///
+/// # Safety
+/// `first` is NULL, misaligned, or points to `count` elements.
+#[inline]
+unsafe fn slice<'a, T>(first: *const T, count: usize) -> Checked<&'a [T]> {
+    check(first)?;
+    if count > isize::MAX as usize / size_of::<T>().max(1) {
+        return Err(Status::ErrorCount);
+    }
+    // SAFETY: aligned, there, and no larger than an object may be.
+    Ok(unsafe { core::slice::from_raw_parts(first, count) })
+}
+
+fn status(result: Checked<Status>) -> Status {
+    result.unwrap_or_else(|error| error)
+}
+
+/// # Safety
+/// `opaque` as in [`open`], `settings` NULL, misaligned or there; nobody else uses the state.
+pub(crate) unsafe fn init<S: Arithmetic, O>(opaque: *mut O, settings: *const Settings) -> Status {
+    status((|| {
+        check(opaque)?;
+        // SAFETY: the memory is the caller's. Settings that are refused must not leave an older state behind.
+        unsafe {
+            (*opaque.cast::<State<S>>())
+                .magic
+                .store(0, Ordering::Release)
+        };
+        check(settings)?;
+        // SAFETY: looked at.
+        let settings = unsafe { &*settings }.checked(RING_BLOCKS)?;
+        // SAFETY: the caller's contract.
+        unsafe { start::<S>(opaque.cast(), settings) }
+    })())
+}
+
+/// # Safety
+/// As [`init`].
+pub(crate) unsafe fn reset<S: Arithmetic, O>(opaque: *mut O) -> Status {
+    // SAFETY: the caller's contract.
+    status(unsafe { open::<S, O>(opaque).and_then(|state| start(state, (*state).thread.settings)) })
+}
+
+/// Writes a state part by part, each by a function of its own, so that the stack holds one part at a time.
+///
+/// # Safety
+/// `state` points to memory for one that nobody else uses.
+unsafe fn start<S: Arithmetic>(
+    state: *mut State<S>,
+    settings: antinode::Settings,
+) -> Checked<Status> {
+    // SAFETY: the memory is there and aligned; what was in it needs no drop.
+    unsafe {
+        (&raw mut (*state).magic).write(0.into());
+        Shared::write(&raw mut (*state).shared);
+        Interrupt::write(&raw mut (*state).interrupt, settings)?;
+        Thread::write(&raw mut (*state).thread, settings)?;
+        (*state).magic.store(S::MAGIC, Ordering::Release);
+    }
+    Ok(Status::Ok)
+}
+
+/// # Safety
+/// As [`interrupt`].
+#[inline]
+pub(crate) unsafe fn push<S: Arithmetic, O>(opaque: *mut O, pair: [S; 2]) -> Status {
+    // SAFETY: the caller's contract.
+    status(unsafe { interrupt(opaque).map(|(side, shared)| side.push_one(shared, pair)) })
+}
+
+/// # Safety
+/// As [`interrupt`] and [`slice`].
+#[inline]
+pub(crate) unsafe fn push_pairs<S: Arithmetic, O, P: SamplePair<S>>(
+    opaque: *mut O,
+    pairs: *const P,
+    count: usize,
+) -> Status {
+    // SAFETY: the caller's contract.
+    status(unsafe {
+        interrupt::<S, O>(opaque)
+            .and_then(|(side, shared)| Ok(side.push(shared, slice(pairs, count)?)))
+    })
+}
+
+/// # Safety
+/// As [`interrupt`] and [`slice`], for both arrays.
+pub(crate) unsafe fn push_separate<S: Arithmetic, O>(
+    opaque: *mut O,
+    c: *const S,
+    d: *const S,
+    count: usize,
+) -> Status {
+    status((|| {
+        // SAFETY: the caller's contract.
+        let (side, shared) = unsafe { interrupt::<S, O>(opaque)? };
+        // SAFETY: the caller's contract.
+        let (c, d) = unsafe { (slice(c, count)?, slice(d, count)?) };
+        let mut all = Status::Ok;
+        for (c, d) in c.chunks(AT_ONCE).zip(d.chunks(AT_ONCE)) {
+            let mut pairs = [const { MaybeUninit::uninit() }; AT_ONCE];
+            for (pair, (&c, &d)) in pairs.iter_mut().zip(c.iter().zip(d)) {
+                pair.write([c, d]);
+            }
+            // SAFETY: as many were just written (a chunk has at most AT_ONCE), and the caller's contract.
+            let one = unsafe {
+                let first = pairs.as_ptr().cast::<[S; 2]>();
+                side.push(
+                    shared,
+                    core::slice::from_raw_parts(first, c.len().min(d.len())),
+                )
+            };
+            if one == Status::ErrorQueueFull || all == Status::Ok {
+                all = one;
+            }
+        }
+        Ok(all)
+    })())
+}
+
+/// # Safety
+/// As [`interrupt`].
+pub(crate) unsafe fn skip<S: Arithmetic, O>(opaque: *mut O, count: u32) -> Status {
+    // SAFETY: the caller's contract.
+    status(unsafe { interrupt::<S, O>(opaque) }.map(|(side, shared)| {
+        side.skip(shared, count);
+        Status::Ok
+    }))
+}
+
+/// # Safety
+/// As [`thread`]; `estimate` NULL, misaligned or writable.
+pub(crate) unsafe fn solve<S: Arithmetic, O>(opaque: *mut O, estimate: *mut Estimate) -> Status {
+    status((|| {
+        // SAFETY: the caller's contract.
+        let (side, shared) = unsafe { thread::<S, O>(opaque)? };
+        check(estimate)?;
+        // SAFETY: the caller's contract.
+        Ok(match unsafe { side.solve(shared) } {
+            Some(found) => {
+                // SAFETY: looked at.
+                unsafe { estimate.write(found) };
+                Status::Estimate
+            }
+            None => Status::Ok,
+        })
+    })())
+}
+
+/// # Safety
+/// As [`thread`].
+pub(crate) unsafe fn search<S: Arithmetic, O>(opaque: *mut O) -> Status {
+    // SAFETY: the caller's contract.
+    status(unsafe { thread::<S, O>(opaque) }.map(|(side, shared)| {
+        side.search(shared);
+        Status::Ok
+    }))
+}
+
+/// # Safety
+/// As [`thread`]; `calibration` NULL, misaligned or there.
+pub(crate) unsafe fn calibrate<S: Arithmetic, O>(
+    opaque: *mut O,
+    calibration: *const Calibration,
+) -> Status {
+    status((|| {
+        // SAFETY: the caller's contract.
+        let (side, _) = unsafe { thread::<S, O>(opaque)? };
+        check(calibration)?;
+        // SAFETY: looked at.
+        side.calibrate(unsafe { *calibration }.into())?;
+        Ok(Status::Ok)
+    })())
+}
+
+/// # Safety
+/// As [`open`]; `health` NULL, misaligned or writable.
+pub(crate) unsafe fn health<S: Arithmetic, O>(opaque: *const O, health: *mut Health) -> Status {
+    status((|| {
+        // SAFETY: the caller's contract; only atomic counters are read.
+        let state = unsafe { open::<S, O>(opaque.cast_mut())? };
+        check(health)?;
+        // SAFETY: looked at, both.
+        unsafe { health.write((*state).shared.health()) };
+        Ok(Status::Ok)
+    })())
+}
+
+/// # Safety
+/// As [`interrupt`], [`thread`] and [`slice`]; `taken` and `estimate` NULL, misaligned or writable.
+pub(crate) unsafe fn identify_pairs<S: Arithmetic, O>(
+    opaque: *mut O,
+    pairs: *const [S; 2],
+    count: usize,
+    taken: *mut usize,
+    estimate: *mut Estimate,
+) -> Status {
+    status((|| {
+        // SAFETY: the caller's contract.
+        let state = unsafe { open::<S, O>(opaque)? };
+        // SAFETY: the caller's contract.
+        let pairs = unsafe { slice(pairs, count)? };
+        check(taken)?;
+        check(estimate)?;
+        // SAFETY: all three are parts of one initialised state that nobody else uses.
+        let (count, found) = unsafe {
+            let state = &mut *state;
+            identify(
+                (&mut state.interrupt, &mut state.thread, &state.shared),
+                pairs,
+            )
+        };
+        // SAFETY: looked at.
+        unsafe { taken.write(count) };
+        Ok(match found {
+            Some(found) => {
+                // SAFETY: looked at.
+                unsafe { estimate.write(found) };
+                Status::Estimate
+            }
+            None => Status::Ok,
+        })
+    })())
+}

@@ -1,0 +1,55 @@
+//! How much a state can hold, and so its size. All capacities are chosen here; the header follows.
+
+use core::mem::{align_of, size_of};
+
+use crate::state::State;
+
+/// The longest period, sample pairs.
+pub const ANTINODE_LONGEST_PERIOD: usize = 200;
+/// The most periods a window may have.
+pub const ANTINODE_MOST_PERIODS: usize = 50;
+/// Finished blocks that the queue holds, the one being solved among them: one block is about one period, so nearly this many periods
+/// may pass between two calls of a `_solve` function.
+pub const ANTINODE_QUEUE_BLOCKS: usize = 16;
+
+/// Blocks of the ring that windows are cut from: a little more than the periods of a window.
+pub(crate) const RING_BLOCKS: usize = ANTINODE_MOST_PERIODS + 2;
+
+/// 64-bit words of an `antinode_fixed_t`.
+pub const ANTINODE_FIXED_WORDS: usize = 1152;
+/// 64-bit words of an `antinode_float_t`.
+pub const ANTINODE_FLOAT_WORDS: usize = 1560;
+
+/// State of an identification in fixed point, on `int16_t` codes. Opaque: only the functions `antinode_fixed_…` look inside.
+#[repr(C)]
+pub struct Fixed {
+    words: [u64; ANTINODE_FIXED_WORDS],
+}
+
+/// State of an identification in single precision. Opaque: only the functions `antinode_float_…` look inside.
+#[repr(C)]
+pub struct Float {
+    words: [u64; ANTINODE_FLOAT_WORDS],
+}
+
+impl Fixed {
+    /// As a C program's `static antinode_fixed_t state;`: not initialised.
+    pub const ZERO: Self = Self {
+        words: [0; ANTINODE_FIXED_WORDS],
+    };
+}
+
+impl Float {
+    /// As a C program's `static antinode_float_t state;`: not initialised.
+    pub const ZERO: Self = Self {
+        words: [0; ANTINODE_FLOAT_WORDS],
+    };
+}
+
+/// True when `Opaque` can hold `Inside`.
+const fn holds<Opaque, Inside>() -> bool {
+    size_of::<Inside>() <= size_of::<Opaque>() && align_of::<Inside>() <= align_of::<Opaque>()
+}
+
+const _: () = assert!(holds::<Fixed, State<i16>>(), "raise ANTINODE_FIXED_WORDS");
+const _: () = assert!(holds::<Float, State<f32>>(), "raise ANTINODE_FLOAT_WORDS");

@@ -1,0 +1,126 @@
+//! The functions of `antinode_fixed_t`.
+//!
+//! What a caller owes all of them is said at the head of the header: a pointer that is neither NULL nor misaligned points to what
+//! its type says, and the two sides of a state have one caller each.
+#![allow(
+    unsafe_code,
+    unsafe_op_in_unsafe_fn,
+    clippy::missing_safety_doc,
+    reason = "exported names; each hands its arguments and its caller's contract on to `boundary`"
+)]
+
+use crate::boundary;
+use crate::capacity::Fixed;
+use crate::estimate::Estimate;
+use crate::settings::{Calibration, Settings};
+use crate::state::Health;
+use crate::status::Status;
+
+/// Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised.
+/// Before anything else; neither side may run.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn antinode_fixed_init(
+    state: *mut Fixed,
+    settings: *const Settings,
+) -> Status {
+    boundary::init::<i16, _>(state, settings)
+}
+
+/// Makes a state as it was after its initialisation, with its present calibration. Neither side may run.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn antinode_fixed_reset(state: *mut Fixed) -> Status {
+    boundary::reset::<i16, _>(state)
+}
+
+/// Interrupt side. Takes one sample pair, converter codes. ANTINODE_OK; ANTINODE_READY when it finished a block;
+/// ANTINODE_ERROR_QUEUE_FULL when that block had to be dropped.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn antinode_fixed_push(state: *mut Fixed, c: i16, d: i16) -> Status {
+    boundary::push(state, [c, d])
+}
+
+/// Interrupt side. Takes `count` sample pairs from two arrays, converter codes. Answers as antinode_fixed_push().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn antinode_fixed_push_block(
+    state: *mut Fixed,
+    c: *const i16,
+    d: *const i16,
+    count: usize,
+) -> Status {
+    boundary::push_separate(state, c, d, count)
+}
+
+/// Interrupt side. Takes `count` sample pairs from one array of 2 × `count` samples, C and D in turn, converter codes. Answers as
+/// antinode_fixed_push().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn antinode_fixed_push_block_interleaved(
+    state: *mut Fixed,
+    samples: *const i16,
+    count: usize,
+) -> Status {
+    boundary::push_pairs::<i16, _, _>(state, samples.cast::<[i16; 2]>(), count)
+}
+
+/// Interrupt side. Takes `count` sample pairs of two's complement codes, C in the low half of a word and D in the high half, as a
+/// dual converter's DMA leaves them. Answers as antinode_fixed_push().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn antinode_fixed_push_block_packed(
+    state: *mut Fixed,
+    words: *const u32,
+    count: usize,
+) -> Status {
+    boundary::push_pairs::<i16, _, _>(state, words.cast::<antinode::Packed>(), count)
+}
+
+/// Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is
+/// dropped, and time goes on.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn antinode_fixed_skip(state: *mut Fixed, count: u32) -> Status {
+    boundary::skip::<i16, _>(state, count)
+}
+
+/// Thread side. Solves finished blocks up to the next estimate: ANTINODE_ESTIMATE when one was written, and then there may be
+/// more; ANTINODE_OK when no block is left, and then `estimate` is as it was. A lost wave is searched anew by itself.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn antinode_fixed_solve(
+    state: *mut Fixed,
+    estimate: *mut Estimate,
+) -> Status {
+    boundary::solve::<i16, _>(state, estimate)
+}
+
+/// Thread side. Drops the wave and searches anew; the angle goes on from the last one, modulo π/2.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn antinode_fixed_search(state: *mut Fixed) -> Status {
+    boundary::search::<i16, _>(state)
+}
+
+/// Thread side. Changes the calibration, from the next block on; the window begun is dropped, and the next is flagged
+/// ANTINODE_FLAG_REACQUIRED. A calibration out of range changes nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn antinode_fixed_set_calibration(
+    state: *mut Fixed,
+    calibration: *const Calibration,
+) -> Status {
+    boundary::calibrate::<i16, _>(state, calibration)
+}
+
+/// Either side. Tells how the identification fares.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn antinode_fixed_health(state: *const Fixed, health: *mut Health) -> Status {
+    boundary::health::<i16, _>(state, health)
+}
+
+/// Both sides in one call, where there is no interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a
+/// window, and writes how many to `taken`. ANTINODE_ESTIMATE when a window ended and its estimate was written; ANTINODE_OK when all
+/// `count` pairs were taken without one. Call it again with the rest.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn antinode_fixed_identify(
+    state: *mut Fixed,
+    samples: *const i16,
+    count: usize,
+    taken: *mut usize,
+    estimate: *mut Estimate,
+) -> Status {
+    boundary::identify_pairs(state, samples.cast::<[i16; 2]>(), count, taken, estimate)
+}

@@ -1,0 +1,142 @@
+//! The interrupt's side of a state: samples become queued blocks.
+#![allow(
+    unsafe_code,
+    reason = "the front is written in place, and the caller's contract is handed on to the queue"
+)]
+
+use core::sync::atomic::Ordering;
+
+use antinode::{Front, Sample, SamplePair, Settings};
+
+use crate::capacity::ANTINODE_LONGEST_PERIOD;
+use crate::state::Shared;
+use crate::status::Status;
+
+/// Pairs that are put into one form at a time, on the stack.
+pub(crate) const AT_ONCE: usize = 64;
+
+/// What belongs to the interrupt alone.
+pub(crate) struct Interrupt<S: Sample> {
+    front: Front<S, ANTINODE_LONGEST_PERIOD>,
+    search: u32,
+}
+
+impl<S: Sample> Interrupt<S> {
+    /// Writes a front that searches.
+    ///
+    /// # Safety
+    /// `place` is writable and nobody else's.
+    #[inline(never)]
+    pub(crate) unsafe fn write(place: *mut Self, settings: Settings) -> Result<(), Status> {
+        let front = Front::new(settings)?;
+        // SAFETY: the caller's contract.
+        unsafe {
+            (&raw mut (*place).front).write(front);
+            (&raw mut (*place).search).write(0);
+        }
+        Ok(())
+    }
+
+    /// Searches anew where the thread has asked for it.
+    #[inline]
+    fn obey(&mut self, shared: &Shared<S>) {
+        // The number is all that is told: nothing else of the thread's is looked at.
+        let wanted = shared.wanted.load(Ordering::Relaxed);
+        if wanted != self.search {
+            self.search_anew(shared, wanted);
+        }
+    }
+
+    /// Rare, and a front on the stack is large: no interrupt reserves that stack for nothing.
+    #[cold]
+    #[inline(never)]
+    fn search_anew(&mut self, shared: &Shared<S>, wanted: u32) {
+        self.search = wanted;
+        self.front.search();
+        self.tell(shared);
+    }
+
+    /// Takes one pair and queues the block that it finishes.
+    ///
+    /// # Safety
+    /// One caller at a time.
+    #[inline]
+    pub(crate) unsafe fn push_one(&mut self, shared: &Shared<S>, pair: [S; 2]) -> Status {
+        self.obey(shared);
+        if self.front.is_searching() {
+            self.search_some(shared, &[pair]);
+            return Status::Ok;
+        }
+        let Some(block) = self.front.push(pair) else {
+            return Status::Ok;
+        };
+        let before = shared.counts();
+        // SAFETY: the caller is the only producer.
+        unsafe { shared.queue_block(self.search, block) };
+        shared.status_since(before)
+    }
+
+    /// Takes all pairs and queues the blocks that they finish. One piece of code for each form of pairs, with the sums inlined in it.
+    ///
+    /// # Safety
+    /// One caller at a time.
+    #[inline(never)]
+    pub(crate) unsafe fn push<P: SamplePair<S>>(
+        &mut self,
+        shared: &Shared<S>,
+        mut pairs: &[P],
+    ) -> Status {
+        self.obey(shared);
+        let before = shared.counts();
+        while !pairs.is_empty() {
+            let (taken, block) = if self.front.is_searching() {
+                (self.search_some(shared, pairs), None)
+            } else {
+                self.front.push_slice(pairs)
+            };
+            if let Some(block) = block {
+                // SAFETY: the caller is the only producer.
+                unsafe { shared.queue_block(self.search, block) };
+            }
+            pairs = pairs.get(taken..).unwrap_or(&[]);
+        }
+        shared.status_since(before)
+    }
+
+    /// Searches a period in the first pairs; gives how many it took. Apart, so that pairs of a known period do not pay for it.
+    #[inline(never)]
+    fn search_some<P: SamplePair<S>>(&mut self, shared: &Shared<S>, pairs: &[P]) -> usize {
+        let mut buffer = [[S::EXTREMES[0]; 2]; AT_ONCE];
+        let mut count = 0;
+        for (place, pair) in buffer.iter_mut().zip(pairs) {
+            *place = pair.pair();
+            count += 1;
+        }
+        let taken = search(&mut self.front, buffer.get(..count).unwrap_or(&[]));
+        self.tell(shared);
+        taken
+    }
+
+    fn tell(&self, shared: &Shared<S>) {
+        let searching = u32::from(self.front.is_searching());
+        shared.searching.store(searching, Ordering::Relaxed);
+    }
+
+    pub(crate) fn skip(&mut self, shared: &Shared<S>, count: u32) {
+        self.obey(shared);
+        self.front.skip(u64::from(count));
+    }
+}
+
+/// Searches a period in pairs; gives how many it took. One piece of code for every form of pairs, and apart from the sums.
+#[inline(never)]
+fn search<S: Sample>(front: &mut Front<S, ANTINODE_LONGEST_PERIOD>, pairs: &[[S; 2]]) -> usize {
+    for (before, &pair) in pairs.iter().enumerate() {
+        // No block can be finished by it.
+        front.push(pair);
+        if !front.is_searching() {
+            return before + 1;
+        }
+    }
+    pairs.len()
+}

@@ -1,0 +1,184 @@
+//! Finished blocks on their way from the interrupt to the thread: a ring for one producer and one consumer, without a lock.
+//!
+//! Loads and stores of words are all it needs, so it serves cores without exclusive access too (Cortex-M0).
+#![allow(
+    unsafe_code,
+    reason = "the two sides share slots; the counters say whose a slot is"
+)]
+
+use core::cell::UnsafeCell;
+use core::mem::MaybeUninit;
+use core::sync::atomic::{AtomicU32, Ordering};
+
+use antinode::{Block, Sample};
+
+use crate::capacity::ANTINODE_QUEUE_BLOCKS;
+
+/// A block, and the search that its wave was found by.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Entry<S: Sample> {
+    pub search: u32,
+    pub block: Block<S>,
+}
+
+/// Counters run freely; a slot is their value modulo the length.
+pub(crate) struct Queue<S: Sample> {
+    /// Entries ever put in; written by the producer only.
+    put: AtomicU32,
+    /// Entries ever taken out; written by the consumer only.
+    taken: AtomicU32,
+    slots: [UnsafeCell<MaybeUninit<Entry<S>>>; ANTINODE_QUEUE_BLOCKS],
+}
+
+const _: () = assert!(ANTINODE_QUEUE_BLOCKS.is_power_of_two());
+
+impl<S: Sample> Queue<S> {
+    /// Writes an empty queue; the slots stay as they are.
+    ///
+    /// # Safety
+    /// `place` is writable and nobody else's.
+    pub(crate) unsafe fn write(place: *mut Self) {
+        // SAFETY: the caller's contract; a slot may hold anything.
+        unsafe {
+            (&raw mut (*place).put).write(AtomicU32::new(0));
+            (&raw mut (*place).taken).write(AtomicU32::new(0));
+        }
+    }
+
+    /// An empty queue.
+    #[cfg(test)]
+    pub(crate) const fn new() -> Self {
+        Self {
+            put: AtomicU32::new(0),
+            taken: AtomicU32::new(0),
+            slots: [const { UnsafeCell::new(MaybeUninit::uninit()) }; ANTINODE_QUEUE_BLOCKS],
+        }
+    }
+
+    /// The slot of a counter's value.
+    #[inline]
+    fn slot(&self, counter: u32) -> *mut MaybeUninit<Entry<S>> {
+        self.slots[counter as usize % ANTINODE_QUEUE_BLOCKS].get()
+    }
+
+    /// How many entries wait.
+    #[inline]
+    pub(crate) fn len(&self) -> u32 {
+        let taken = self.taken.load(Ordering::Acquire);
+        self.put.load(Ordering::Acquire).wrapping_sub(taken)
+    }
+
+    /// Entries ever put in; it wraps. For the producer.
+    #[inline]
+    pub(crate) fn count(&self) -> u32 {
+        self.put.load(Ordering::Relaxed)
+    }
+
+    /// Puts a block in; false when the queue is full.
+    ///
+    /// # Safety
+    /// One caller at a time.
+    #[inline]
+    pub(crate) unsafe fn put(&self, search: u32, block: &Block<S>) -> bool {
+        let put = self.put.load(Ordering::Relaxed);
+        if put.wrapping_sub(self.taken.load(Ordering::Acquire)) >= ANTINODE_QUEUE_BLOCKS as u32 {
+            return false;
+        }
+        // SAFETY: the slot is free: the consumer has done with what was in it and reads it no more before `put` moves on.
+        unsafe {
+            let slot = self.slot(put).cast::<Entry<S>>();
+            (&raw mut (*slot).search).write(search);
+            // Field by field: each is moved in registers, while a whole block would be a call of memcpy.
+            let place = &raw mut (*slot).block;
+            (&raw mut (*place).start).write(block.start);
+            (&raw mut (*place).layout).write(block.layout);
+            (&raw mut (*place).sums).write(block.sums);
+            (&raw mut (*place).watch).write(block.watch);
+        }
+        self.put.store(put.wrapping_add(1), Ordering::Release);
+        true
+    }
+
+    /// Looks at the oldest entry where it lies, by `look`, and frees its slot; `None` when there is none.
+    ///
+    /// # Safety
+    /// One caller at a time, beside one caller of [`Queue::put`].
+    #[inline]
+    pub(crate) unsafe fn take<T>(&self, look: impl FnOnce(&Entry<S>) -> T) -> Option<T> {
+        let taken = self.taken.load(Ordering::Relaxed);
+        if taken == self.put.load(Ordering::Acquire) {
+            return None;
+        }
+        // SAFETY: the slot was written before `put` passed it, and the producer leaves it alone until `taken` has.
+        let seen = look(unsafe { (*self.slot(taken)).assume_init_ref() });
+        self.taken.store(taken.wrapping_add(1), Ordering::Release);
+        Some(seen)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use antinode::block::{Demodulator, Layout};
+    use antinode::phase::PhaseStep;
+
+    struct Shared(Queue<f32>);
+
+    // SAFETY: as the state of a C program that an interrupt and a thread share.
+    unsafe impl Sync for Shared {}
+
+    /// A block that begins at `start`.
+    fn block(start: u32) -> Block<f32> {
+        let layout = Layout::new::<f32>(PhaseStep::from_period(4.0), 1);
+        let mut demodulator = Demodulator::<f32, 2>::new(layout, u64::from(start), false);
+        *demodulator.push([0.0; 2]).unwrap()
+    }
+
+    #[test]
+    fn a_full_queue_refuses() {
+        let queue = Queue::new();
+        for i in 0..ANTINODE_QUEUE_BLOCKS as u32 {
+            assert_eq!(queue.len(), i);
+            // SAFETY: one thread.
+            assert!(unsafe { queue.put(i, &block(i)) });
+        }
+        // SAFETY: one thread.
+        unsafe {
+            assert!(!queue.put(99, &block(99)));
+            assert_eq!(queue.take(|entry| entry.search), Some(0));
+            assert!(queue.put(99, &block(99)));
+        }
+    }
+
+    #[test]
+    fn two_threads_lose_nothing() {
+        const COUNT: u32 = 100_000;
+        let shared = Shared(Queue::new());
+        std::thread::scope(|scope| {
+            let shared = &shared;
+            scope.spawn(move || {
+                for i in 0..COUNT {
+                    let block = block(i);
+                    // SAFETY: the only producer.
+                    while !unsafe { shared.0.put(i, &block) } {
+                        std::thread::yield_now();
+                    }
+                }
+            });
+            // Counted, not asserted: a consumer that stopped would leave the producer waiting for ever.
+            let mut wrong = 0;
+            for i in 0..COUNT {
+                let entry = loop {
+                    // SAFETY: the only consumer.
+                    match unsafe { shared.0.take(|entry| *entry) } {
+                        Some(entry) => break entry,
+                        None => std::thread::yield_now(),
+                    }
+                };
+                wrong += u32::from((entry.search, entry.block.start) != (i, u64::from(i)));
+            }
+            assert_eq!(wrong, 0);
+        });
+        assert_eq!(shared.0.len(), 0);
+    }
+}

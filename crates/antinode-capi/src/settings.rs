@@ -1,0 +1,120 @@
+//! The settings as a C struct, and what becomes of them.
+
+use antinode as core_crate;
+use core_crate::Calibration as CoreCalibration;
+
+use crate::status::Status;
+
+/// The period is found by the squared difference, in about three periods, at any offset, at 20 % noise and more.
+pub const ANTINODE_DETECTION_DIFFERENCE: u32 = 0;
+/// The period is found by the return of the running sum, in about eleven periods, for signals with little noise.
+pub const ANTINODE_DETECTION_MEAN_RETURN: u32 = 1;
+
+/// How pick-off D differs from an ideal one that stands 45° from C, has C's gain and is sampled with C.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct Calibration {
+    /// Gain of channel D over that of channel C. 0.1 to 10; 1 is ideal.
+    pub gain_ratio: f32,
+    /// How much later than C channel D is sampled, s. Within ±0.001 and ± a quarter period; 0 is ideal.
+    pub skew_s: f32,
+    /// Pick-off D stands at 45° plus this angle from C, rad. Within ±0.3; 0 is ideal.
+    pub pick_off_angle_rad: f32,
+}
+
+/// Settings of an identification. Start from antinode_settings_default() and change what differs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct Settings {
+    /// Sample rate, Hz. 1 to 1e10.
+    pub sample_rate_hz: f64,
+    /// Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10.
+    pub periods: u32,
+    /// Blocks from the start of one window to the start of the next; a block is a period, or a tenth of a window of less than ten
+    /// periods. 1 to 65535; 0, the default: windows follow each other without gap or overlap.
+    pub hop_blocks: u32,
+    /// The first window's angle is chosen within π/4 of this one, rad. Within ±10000; default π/4, which puts it in 0…π/2.
+    pub start_angle_rad: f32,
+    /// The least sample that the converter gives, input units: at or below it a window is flagged as clipped. Default 0.
+    pub rail_low: f32,
+    /// The greatest sample that the converter gives, input units, above `rail_low`. Both 0, the default: not known.
+    pub rail_high: f32,
+    /// Step between neighbouring codes of the converter, input units, > 0: its share counts in the standard deviations. 0, the
+    /// default: not known.
+    pub resolution: f32,
+    /// How the period is found: ANTINODE_DETECTION_DIFFERENCE, the default, or ANTINODE_DETECTION_MEAN_RETURN.
+    pub detection: u32,
+    /// 1, the default: the third harmonic and the extremes of the samples are watched, which ANTINODE_FLAG_CLIPPED and
+    /// ANTINODE_FLAG_DEAD_CHANNEL need. 0: not, which about halves the work at sample rate.
+    pub watch: u32,
+    /// How the pick-offs differ from ideal ones. Default: not at all.
+    pub calibration: Calibration,
+}
+
+/// Settings with every default: windows of 10 periods that follow each other, ideal pick-offs, no known rails, everything watched.
+/// The sample rate is checked by the `_init` functions. May be called from anywhere.
+#[allow(unsafe_code, reason = "`no_mangle` is an unsafe attribute")]
+#[unsafe(no_mangle)]
+pub extern "C" fn antinode_settings_default(sample_rate_hz: f64) -> Settings {
+    let plain = core_crate::Settings::new(sample_rate_hz);
+    Settings {
+        sample_rate_hz,
+        periods: u32::from(plain.periods),
+        hop_blocks: 0,
+        start_angle_rad: plain.start_angle,
+        rail_low: 0.0,
+        rail_high: 0.0,
+        resolution: 0.0,
+        detection: ANTINODE_DETECTION_DIFFERENCE,
+        watch: u32::from(plain.watch),
+        calibration: Calibration {
+            gain_ratio: plain.calibration.gain_ratio,
+            skew_s: plain.calibration.skew,
+            pick_off_angle_rad: plain.calibration.pick_off_angle,
+        },
+    }
+}
+
+impl From<Calibration> for CoreCalibration {
+    fn from(calibration: Calibration) -> Self {
+        Self {
+            gain_ratio: calibration.gain_ratio,
+            skew: calibration.skew_s,
+            pick_off_angle: calibration.pick_off_angle_rad,
+        }
+    }
+}
+
+impl Settings {
+    /// The core's settings, checked for a ring of `blocks`.
+    pub(crate) fn checked(&self, blocks: usize) -> Result<core_crate::Settings, Status> {
+        if !(1.0..=1e10).contains(&self.sample_rate_hz) {
+            return Err(Status::ErrorSampleRate);
+        }
+        let settings = core_crate::Settings {
+            periods: u16::try_from(self.periods).map_err(|_| Status::ErrorPeriods)?,
+            hop: match u16::try_from(self.hop_blocks).map_err(|_| Status::ErrorHop)? {
+                0 => None,
+                hop => Some(hop),
+            },
+            start_angle: self.start_angle_rad,
+            rails: (self.rail_low != 0.0 || self.rail_high != 0.0)
+                .then_some([self.rail_low, self.rail_high]),
+            resolution: (self.resolution != 0.0).then_some(self.resolution),
+            detection: match self.detection {
+                ANTINODE_DETECTION_DIFFERENCE => core_crate::Detection::Difference,
+                ANTINODE_DETECTION_MEAN_RETURN => core_crate::Detection::MeanReturn,
+                _ => return Err(Status::ErrorDetection),
+            },
+            watch: match self.watch {
+                0 => false,
+                1 => true,
+                _ => return Err(Status::ErrorWatch),
+            },
+            calibration: self.calibration.into(),
+            ..core_crate::Settings::new(self.sample_rate_hz)
+        };
+        settings.check(blocks)?;
+        Ok(settings)
+    }
+}

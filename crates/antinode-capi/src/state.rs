@@ -1,0 +1,208 @@
+//! What is inside an opaque state, and what its two sides do with it.
+#![allow(
+    unsafe_code,
+    reason = "parts are written in place, and each side hands its own contract on to the queue"
+)]
+
+use core::sync::atomic::{AtomicU32, Ordering};
+
+use antinode::{Block, Calibration, Sample, Settings, Tracker};
+
+use crate::capacity::RING_BLOCKS;
+use crate::estimate::Estimate;
+use crate::interrupt::Interrupt;
+use crate::queue::{Entry, Queue};
+use crate::status::Status;
+
+/// An arithmetic that states can have.
+pub(crate) trait Arithmetic: Sample {
+    /// What the first word of an initialised state holds.
+    const MAGIC: u32;
+}
+
+impl Arithmetic for i16 {
+    const MAGIC: u32 = 0xa2_7e_16_f1;
+}
+
+impl Arithmetic for f32 {
+    const MAGIC: u32 = 0xa2_7e_32_f2;
+}
+
+/// All of a state. Its parts are borrowed one by one, never the whole.
+#[repr(C)]
+pub(crate) struct State<S: Sample> {
+    pub magic: AtomicU32,
+    pub shared: Shared<S>,
+    pub interrupt: Interrupt<S>,
+    pub thread: Thread,
+}
+
+/// What the two sides tell each other.
+pub(crate) struct Shared<S: Sample> {
+    queue: Queue<S>,
+    /// The search whose blocks the thread wants; it counts up when a wave is lost. Written by the thread.
+    pub wanted: AtomicU32,
+    /// 1 while a period is searched. Written by the interrupt.
+    pub searching: AtomicU32,
+    /// Blocks that found no place in the queue. Written by the interrupt.
+    pub dropped: AtomicU32,
+}
+
+/// What belongs to the thread alone.
+pub(crate) struct Thread {
+    tracker: Tracker<RING_BLOCKS>,
+    pub settings: Settings,
+}
+
+/// How an identification fares, from counters that either side may read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(C)]
+pub struct Health {
+    /// 1 while a period is searched, 0 while blocks are gathered.
+    pub searching: u32,
+    /// Finished blocks that wait to be solved, 0 to ANTINODE_QUEUE_BLOCKS.
+    pub waiting: u32,
+    /// Finished blocks dropped since the start because the queue was full; it wraps.
+    pub dropped: u32,
+}
+
+impl<S: Sample> Shared<S> {
+    /// Writes an empty queue and counters at rest.
+    ///
+    /// # Safety
+    /// `place` is writable and nobody else's.
+    #[inline(never)]
+    pub(crate) unsafe fn write(place: *mut Self) {
+        // SAFETY: the caller's contract; the queue's slots stay as they are.
+        unsafe {
+            Queue::write(&raw mut (*place).queue);
+            (&raw mut (*place).wanted).write(AtomicU32::new(0));
+            (&raw mut (*place).searching).write(AtomicU32::new(1));
+            (&raw mut (*place).dropped).write(AtomicU32::new(0));
+        }
+    }
+
+    /// Queues a finished block, or counts it as dropped.
+    ///
+    /// # Safety
+    /// One caller at a time, the interrupt.
+    #[inline]
+    pub(crate) unsafe fn queue_block(&self, search: u32, block: &Block<S>) {
+        // SAFETY: the caller is the only producer.
+        if !unsafe { self.queue.put(search, block) } {
+            let dropped = self.dropped.load(Ordering::Relaxed);
+            self.dropped
+                .store(dropped.wrapping_add(1), Ordering::Relaxed);
+        }
+    }
+
+    /// Blocks ever queued and ever dropped, as the interrupt knows them.
+    #[inline]
+    pub(crate) fn counts(&self) -> [u32; 2] {
+        [self.queue.count(), self.dropped.load(Ordering::Relaxed)]
+    }
+
+    /// What the interrupt answers when the counts were these before.
+    #[inline]
+    pub(crate) fn status_since(&self, before: [u32; 2]) -> Status {
+        let [queued, dropped] = self.counts();
+        if dropped != before[1] {
+            Status::ErrorQueueFull
+        } else if queued != before[0] {
+            Status::Ready
+        } else {
+            Status::Ok
+        }
+    }
+
+    pub(crate) fn health(&self) -> Health {
+        Health {
+            searching: self.searching.load(Ordering::Relaxed),
+            waiting: self.queue.len(),
+            dropped: self.dropped.load(Ordering::Relaxed),
+        }
+    }
+}
+
+impl Thread {
+    /// Writes a tracker that waits for its first block.
+    ///
+    /// # Safety
+    /// `place` is writable and nobody else's.
+    #[inline(never)]
+    pub(crate) unsafe fn write(place: *mut Self, settings: Settings) -> Result<(), Status> {
+        let tracker = Tracker::new(settings)?;
+        // SAFETY: the caller's contract.
+        unsafe {
+            (&raw mut (*place).tracker).write(tracker);
+            (&raw mut (*place).settings).write(settings);
+        }
+        Ok(())
+    }
+
+    /// Solves queued blocks up to the next estimate.
+    ///
+    /// # Safety
+    /// One caller at a time.
+    pub(crate) unsafe fn solve<S: Sample>(&mut self, shared: &Shared<S>) -> Option<Estimate> {
+        // SAFETY: the caller is the only consumer.
+        while let Some(estimate) = unsafe { shared.queue.take(|entry| self.push(shared, entry)) } {
+            if estimate.is_some() {
+                return estimate;
+            }
+        }
+        None
+    }
+
+    fn push<S: Sample>(&mut self, shared: &Shared<S>, entry: &Entry<S>) -> Option<Estimate> {
+        if entry.search != shared.wanted.load(Ordering::Relaxed) {
+            // Gathered before the interrupt heard of the loss.
+            return None;
+        }
+        let estimate = self.tracker.push(&entry.block);
+        if self.tracker.has_lost() {
+            self.search(shared);
+        }
+        estimate.map(Estimate::from)
+    }
+
+    /// Drops the wave and has the interrupt search anew.
+    pub(crate) fn search<S: Sample>(&mut self, shared: &Shared<S>) {
+        self.tracker.forget();
+        let wanted = shared.wanted.load(Ordering::Relaxed).wrapping_add(1);
+        shared.wanted.store(wanted, Ordering::Relaxed);
+    }
+
+    pub(crate) fn calibrate(&mut self, calibration: Calibration) -> Result<(), Status> {
+        self.tracker.calibrate(calibration)?;
+        self.settings.calibration = calibration;
+        Ok(())
+    }
+}
+
+/// Takes pairs up to the next estimate, in one thread; gives how many it took.
+///
+/// # Safety
+/// No other call of this state at the same time.
+pub(crate) unsafe fn identify<S: Sample>(
+    (interrupt, thread, shared): (&mut Interrupt<S>, &mut Thread, &Shared<S>),
+    pairs: &[[S; 2]],
+) -> (usize, Option<Estimate>) {
+    // SAFETY: the only consumer, by the contract.
+    if let Some(estimate) = unsafe { thread.solve(shared) } {
+        return (0, Some(estimate));
+    }
+    for (before, &pair) in pairs.iter().enumerate() {
+        // SAFETY: the only producer and the only consumer; the queue is empty, so it has a place.
+        let estimate = unsafe {
+            match interrupt.push_one(shared, pair) {
+                Status::Ready => thread.solve(shared),
+                _ => None,
+            }
+        };
+        if estimate.is_some() {
+            return (before + 1, estimate);
+        }
+    }
+    (pairs.len(), None)
+}

@@ -1,0 +1,87 @@
+/*
+ * What the _push_block functions cost on a Cortex-M4: instructions per sample pair, from half-buffers of a tracked wave, blocks queued
+ * and the queue emptied by _solve, which is not counted. firmware/examples/push_block.rs is the same in Rust.
+ *
+ * In QEMU with -icount shift=0,align=off,sleep=off every instruction takes 1 ns, and SysTick counts the 168 MHz of the core.
+ */
+#include <stdio.h>
+
+#include "antinode.h"
+
+#if defined(FLOAT)
+typedef float sample_t;
+typedef antinode_float_t state_t;
+#define CALL(name) antinode_float_##name
+#define NAME "float"
+#else
+typedef int16_t sample_t;
+typedef antinode_fixed_t state_t;
+#define CALL(name) antinode_fixed_##name
+#define NAME "fixed"
+#endif
+
+enum { RING = 1406, HALF_BUFFER = 128, FIRST = 2000, PAIRS = 16384 };
+enum form { PACKED, INTERLEAVED, SEPARATE };
+
+#define SYSTICK ((volatile uint32_t *)0xE000E010u)
+static uint32_t now(void) { return SYSTICK[2]; }
+
+extern const uint32_t _binary_codes_bin_start[RING];
+
+static state_t gyro;
+static sample_t interleaved[2 * RING], c[RING], d[RING];
+
+/* Ticks that pushing took, of pairs `at` to `to` of the endless stream. */
+static uint32_t run(enum form form, uint32_t at, uint32_t to)
+{
+    uint32_t ticks = 0;
+    antinode_estimate_t estimate;
+    while (at < to) {
+        const uint32_t from = at % RING;
+        uint32_t count = to - at < HALF_BUFFER ? to - at : HALF_BUFFER;
+        uint32_t begin;
+        if (count > RING - from)
+            count = RING - from;
+        begin = now();
+        if (form == PACKED)
+            CALL(push_block_packed)(&gyro, _binary_codes_bin_start + from, count);
+        else if (form == INTERLEAVED)
+            CALL(push_block_interleaved)(&gyro, interleaved + 2 * from, count);
+        else
+            CALL(push_block)(&gyro, c + from, d + from, count);
+        ticks += (begin - now()) & 0xffffffu;
+        while (CALL(solve)(&gyro, &estimate) == ANTINODE_ESTIMATE)
+            ;
+        at += count;
+    }
+    return ticks;
+}
+
+int main(void)
+{
+    static const char *const names[] = {"packed", "interleaved", "separate"};
+    int i, watch;
+
+    for (i = 0; i < RING; i++) {
+        const uint32_t word = _binary_codes_bin_start[i];
+        c[i] = interleaved[2 * i] = (int16_t)(uint16_t)word;
+        d[i] = interleaved[2 * i + 1] = (int16_t)(uint16_t)(word >> 16);
+    }
+    SYSTICK[1] = 0xffffffu;
+    SYSTICK[2] = 0;
+    SYSTICK[0] = 5; /* on, at the core's clock */
+    for (watch = 0; watch < 2; watch++) {
+        for (i = 0; i < 3; i++) {
+            antinode_settings_t settings = antinode_settings_default(100e3);
+            uint32_t thousandths;
+            settings.watch = (uint32_t)watch;
+            if (CALL(init)(&gyro, &settings) != ANTINODE_OK)
+                return 1;
+            run((enum form)i, 0, FIRST);
+            thousandths = (uint32_t)((uint64_t)run((enum form)i, FIRST, FIRST + PAIRS) * 1000000 / 168 / PAIRS);
+            printf("%s %s %s %lu.%03lu\n", NAME, watch ? "watch" : "plain", names[i], (unsigned long)thousandths / 1000,
+                   (unsigned long)thousandths % 1000);
+        }
+    }
+    return 0;
+}

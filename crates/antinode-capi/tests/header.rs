@@ -1,0 +1,48 @@
+//! The committed header is what the pinned cbindgen makes of the sources.
+
+use std::path::Path;
+
+#[test]
+fn the_committed_header_is_that_of_the_sources() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut text = Vec::new();
+    cbindgen::generate(here)
+        .expect("the sources can be read")
+        .write(&mut text);
+    let text = in_c(String::from_utf8(text).expect("the header is text"));
+    assert!(
+        text.is_ascii(),
+        "a comment has a letter that `in_c` does not know"
+    );
+    let path = here.join("include/antinode.h");
+    if std::env::var_os("ANTINODE_BLESS").is_some() {
+        std::fs::write(&path, &text).expect("the header can be written");
+    }
+    let committed = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        committed == text,
+        "{} is not that of the sources: ANTINODE_BLESS=1 cargo test -p antinode-capi --test header",
+        path.display()
+    );
+}
+
+/// Constants by their names in C, and letters that every C compiler reads.
+fn in_c(text: String) -> String {
+    let spellings = [
+        ("ANTINODE_STATUS_T_", "ANTINODE_"),
+        ("ANTINODE_FLAG_…", "ANTINODE_FLAG_*"),
+        ("ANTINODE_DETECTION_…", "ANTINODE_DETECTION_*"),
+        ("0…π/2", "0 to pi/2"),
+        ("…", "*"),
+        ("±", "+-"),
+        ("×", "x"),
+        ("·", "*"),
+        ("−", "-"),
+        ("°", " degrees"),
+        ("π", "pi"),
+        ("θ", "theta"),
+        ("α", "alpha"),
+    ];
+    let spelled = |text: String, (from, to): &(&str, &str)| text.replace(from, to);
+    spellings.iter().fold(text, spelled)
+}

@@ -79,6 +79,7 @@ mod calibration;
 mod estimate;
 mod front;
 mod identifier;
+mod order;
 mod sample;
 mod settings;
 mod sum;

@@ -8,6 +8,7 @@ use core::f32::consts::{FRAC_PI_2, PI, TAU};
 use num_complex::Complex32;
 
 use crate::arch::square_root;
+use crate::order::{greater, lesser};
 use crate::window::{Fit, Model};
 
 /// The standing wave at the middle of a window, with its rates per half window, and variances for the fit's own noise.
@@ -68,6 +69,7 @@ impl Standing {
         let [plus_change, minus_change] = fit.waves.change;
         let size = |z: Complex32| square_root(z.norm_sqr());
         let arg = |z: Complex32| libm::atan2f(z.im, z.re);
+        let (plus_angle, minus_angle) = (arg(plus), arg(minus));
         let (p, m) = (size(plus), size(minus));
         let along = |z: Complex32, size: f32| {
             if size > 0.0 { z / size } else { Complex32::ONE }
@@ -75,7 +77,7 @@ impl Standing {
         let (e_plus, e_minus) = (along(plus, p), along(minus, m));
         // Where the phase of a wave moves: across it, and the more the smaller it is.
         let across = |e: Complex32, size: f32| {
-            let size = size.max(1e-12 * (p + m)).max(f32::MIN_POSITIVE);
+            let size = greater(greater(size, 1e-12 * (p + m)), f32::MIN_POSITIVE);
             Complex32::new(-e.im, e.re) / size
         };
         // The component of a change along e or f: how the size and the phase of a wave move.
@@ -105,13 +107,13 @@ impl Standing {
         Self {
             main: 0.5 * (p + m),
             quadrature: 0.5 * (p - m),
-            angle: 0.25 * (arg(plus) - arg(minus)),
-            phase: -0.5 * (arg(plus) + arg(minus)),
+            angle: 0.25 * (plus_angle - minus_angle),
+            phase: -0.5 * (plus_angle + minus_angle),
             drift: 0.5 * (plus_turn + minus_turn),
             turning: 0.25 * (plus_turn - minus_turn),
             main_change: 0.5 * (plus_growth + minus_growth),
             quadrature_change: 0.5 * (plus_growth - minus_growth),
-            lesser: p.min(m),
+            lesser: lesser(p, m),
             lesser_variance: level(&least),
             main_variance: level(&sum),
             quadrature_variance: level(&difference),

@@ -7,6 +7,7 @@ use num_complex::Complex32;
 use super::record::Record;
 use crate::arch::square_root;
 use crate::estimate::Flags;
+use crate::order::{greater, lesser};
 use crate::wave::{Standing, wrap};
 use crate::window::Fit;
 
@@ -43,7 +44,7 @@ impl Noise {
 
     /// Takes the noise of a window that is otherwise clean.
     fn learn(&mut self, variance: f32, freedom: f32) {
-        self.freedom = (self.freedom + freedom).min(Self::MEMORY * freedom);
+        self.freedom = lesser(self.freedom + freedom, Self::MEMORY * freedom);
         self.variance += (variance - self.variance) * freedom / self.freedom;
         self.refused = 0;
     }
@@ -68,9 +69,10 @@ pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -
     let remains = &fit.remains;
     let samples = f32::from(blocks) * f32::from(length);
     let explained = 0.5 * samples * (wave.main * wave.main + wave.quadrature * wave.quadrature);
-    let strange = remains
-        .residual
-        .max(remains.third_noise * remains.third_freedom);
+    let strange = greater(
+        remains.residual,
+        remains.third_noise * remains.third_freedom,
+    );
     !is_significant(wave) || strange > STRANGER * explained
 }
 
@@ -103,13 +105,13 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
     let others = if known && noise.freedom > 3.0 * remains.freedom {
         noise.variance
     } else {
-        (remains.residual - remains.worst_block).max(0.0) / (remains.freedom - 6.0).max(1.0)
+        greater(remains.residual - remains.worst_block, 0.0) / greater(remains.freedom - 6.0, 1.0)
     };
     let outlier = remains.freedom > 20.0
         && remains.worst_block > 60.0 * others * (1.0 + 20.0 / remains.freedom) + 6.0 * floor;
     // A step within the window, or any course that bends: chi-square of 4 degrees at each of its places, or its ratio to the
     // rest where the noise is not yet known.
-    let rest = (remains.residual - remains.step).max(0.0) / (remains.freedom - 4.0).max(1.0);
+    let rest = greater(remains.residual - remains.step, 0.0) / greater(remains.freedom - 4.0, 1.0);
     let level = if known { noise.variance } else { rest };
     let limit = 56.0 * (1.0 + 40.0 / (noise.freedom + remains.freedom));
     let stepped = remains.freedom > 20.0
@@ -118,11 +120,13 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
     flags = flags.with_if(misfit, Flags::MISFIT);
 
     let harmonic = remains.third.iter().map(Complex32::norm_sqr).sum::<f32>();
-    let harmonic_noise = remains.third_noise.max(variance.min(noise.variance));
+    let harmonic_noise = greater(remains.third_noise, lesser(variance, noise.variance));
     let limit = SIGMAS
-        * square_root(wave.main_variance / variance.max(f32::MIN_POSITIVE) * 1.2 * harmonic_noise)
+        * square_root(
+            wave.main_variance / greater(variance, f32::MIN_POSITIVE) * 1.2 * harmonic_noise,
+        )
         + HARMONIC_FLOOR * wave.main
-        + SIGMAS * square_root(coding * wave.main_variance / variance.max(f32::MIN_POSITIVE));
+        + SIGMAS * square_root(coding * wave.main_variance / greater(variance, f32::MIN_POSITIVE));
     flags = flags.with_if(
         harmonic > limit * limit && remains.third_freedom >= 12.0,
         Flags::CLIPPED,

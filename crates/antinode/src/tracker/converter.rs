@@ -1,6 +1,7 @@
 //! What the converter does to a window: its steps, its rails, and channels that stand still.
 
 use crate::estimate::Flags;
+use crate::order::{greater, lesser};
 use crate::settings::Settings;
 use crate::wave::Standing;
 use crate::window::{Extremes, Seen};
@@ -14,9 +15,9 @@ pub(super) fn coding(settings: &Settings, noise: f32, half: f32) -> f32 {
     };
     let square = step * step;
     // The steps' own noise does not break up anything.
-    let apart = (noise - square / 12.0).max(0.0);
+    let apart = greater(noise - square / 12.0, 0.0);
     let repeated = 0.09 * square * libm::expf(-39.5 * apart / square);
-    (square / 12.0 - noise).max(0.0) + repeated * half
+    greater(square / 12.0 - noise, 0.0) + repeated * half
 }
 
 /// Faults that single samples show, in a window of blocks of a wave of `period` samples.
@@ -33,8 +34,8 @@ pub(super) fn sample_flags(
     let mut longest = 0;
     for watched in blocks.iter().filter_map(|block| block.watched.as_ref()) {
         for (i, extremes) in watched.extremes.iter().enumerate() {
-            low[i] = least(extremes.low, low[i]);
-            high[i] = -least(-extremes.high, -high[i]);
+            low[i] = lesser(extremes.low, low[i]);
+            high[i] = greater(extremes.high, high[i]);
             longest = longest.max(extremes.low_run.max(extremes.high_run));
         }
     }
@@ -42,7 +43,7 @@ pub(super) fn sample_flags(
         return flags;
     }
     // Where no rail is known, samples that stay at the extreme for longer than a crest does show one.
-    let crest = (period / 16.0).max(2.0) as u16;
+    let crest = greater(period / 16.0, 2.0) as u16;
     let fine = wave.main > 100.0 * settings.resolution.unwrap_or(0.0);
     let flat = |block: &Seen| {
         block.watched.as_ref().is_some_and(|watched| {
@@ -63,10 +64,4 @@ pub(super) fn sample_flags(
     flags
         .with_if(clipped, Flags::CLIPPED)
         .with_if(dead, Flags::DEAD_CHANNEL)
-}
-
-/// The lesser of two numbers; the second where one is not a number.
-#[inline(always)]
-fn least(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
 }

@@ -148,22 +148,29 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
         self.gathered.clear();
         if !same {
-            let settings = &self.settings;
-            self.count = settings.blocks(layout).clamp(1, BLOCKS as u16);
-            self.model = Some(Model::new(
-                layout,
-                layout.step,
-                self.count,
-                settings.calibration,
-                settings.sample_rate as f32,
-            ));
-            self.noise = Noise::default();
-            self.trend.clear();
-            self.before = None;
-            self.last = None;
-            self.lost = self.ever;
-            self.failures = 0;
+            self.begin(layout);
         }
+    }
+
+    /// Begins with blocks of another layout.
+    #[cold]
+    #[inline(never)]
+    fn begin(&mut self, layout: Layout) {
+        let settings = &self.settings;
+        self.count = settings.blocks(layout).clamp(1, BLOCKS as u16);
+        self.model = Some(Model::new(
+            layout,
+            layout.step,
+            self.count,
+            settings.calibration,
+            settings.sample_rate as f32,
+        ));
+        self.noise = Noise::default();
+        self.trend.clear();
+        self.before = None;
+        self.last = None;
+        self.lost = self.ever;
+        self.failures = 0;
     }
 
     /// Solves the window gathered.

@@ -2,6 +2,7 @@
 
 use crate::arch::square_root;
 use crate::estimate::{Estimate, Flags};
+use crate::order::greater;
 use crate::phase::PhaseStep;
 use crate::wave::{Angle, Standing};
 use crate::window::{Fit, Model};
@@ -75,7 +76,7 @@ impl Record {
             quadrature_rate: wave.quadrature_change / half,
             quadrature_rate_variance: wave.quadrature_change_variance / squared,
             channel_power: fit.channel_power(),
-            channel_variance: noise * model.covariance[0][0].max(model.covariance[1][1]),
+            channel_variance: noise * greater(model.covariance[0][0], model.covariance[1][1]),
             offsets: fit.offsets,
             // A short window knows its offset worse than the mean of its samples.
             offset_variance: 2.0 * noise / half,

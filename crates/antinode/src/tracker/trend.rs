@@ -3,6 +3,7 @@
 //! With a quadrature wave a turning pattern shifts the apparent frequency, so a window that must find θ̇ and f together knows f up
 //! to (a_A² + a_B²)/(a_A² − a_B²) times worse than the bound. The angles of the windows before know θ̇ far better than one window.
 
+use crate::order::greater;
 use crate::wave::Angle;
 
 /// Windows kept.
@@ -77,7 +78,7 @@ impl Trend {
     /// through more. With none before, the pattern is taken to stand still until a window shows that it does not.
     pub(crate) fn rate(&self, middle: u64, samples: u32, angle: Angle, variance: f32) -> Rate {
         // Sums of weight·timeⁿ and of weight·timeⁿ·angle; the window itself is at time and angle 0.
-        let own = 1.0 / variance.max(1e-18);
+        let own = 1.0 / greater(variance, 1e-18);
         let mut powers = [own, 0.0, 0.0, 0.0, 0.0];
         let mut values = [0.0; 3];
         let per_window = 0.5 / samples as f32;
@@ -90,7 +91,7 @@ impl Trend {
             }
             let time = -(passed as f32) * per_window;
             let angle = point.angle.less(angle);
-            let mut weight = 1.0 / point.variance.max(1e-18);
+            let mut weight = 1.0 / greater(point.variance, 1e-18);
             for (n, power) in powers.iter_mut().enumerate() {
                 *power += weight;
                 if let Some(value) = values.get_mut(n) {

@@ -6,6 +6,7 @@ use super::normal::{Normal, PARAMETERS, Row};
 use super::response::{Basis, Response};
 use crate::block::Layout;
 use crate::calibration::{Calibration, Correction};
+use crate::order::greater;
 use crate::phase::{Phase, PhaseStep};
 
 /// A window of blocks about a carrier, and its factorised normal equations.
@@ -72,7 +73,10 @@ impl Model {
 
     /// Degrees of freedom that the residual of both pick-offs has.
     pub(super) fn freedom(&self) -> f32 {
-        2.0 * (f32::from(self.basis.rank) * f32::from(self.blocks) - PARAMETERS as f32).max(0.5)
+        2.0 * greater(
+            f32::from(self.basis.rank) * f32::from(self.blocks) - PARAMETERS as f32,
+            0.5,
+        )
     }
 
     /// Blocks, twice, from the middle of the window to that of block `index`.

@@ -7,6 +7,7 @@ use super::examine::Remains;
 use super::model::Model;
 use super::prediction::{Gains, Mixing};
 use super::seen::Seen;
+use crate::order::greater;
 
 /// Gathers the third-harmonic sums of the blocks, turned back by the carrier.
 pub(super) struct Thirds {
@@ -57,7 +58,7 @@ impl Thirds {
         };
         let freedom = 4.0 * f32::from(self.watched.saturating_sub(1));
         remains.third = self.sum.map(|sum| sum * (2.0 / (count * length)));
-        remains.third_noise = incoherent / (0.5 * length * freedom.max(1.0));
+        remains.third_noise = incoherent / (0.5 * length * greater(freedom, 1.0));
         remains.third_freedom = freedom;
     }
 }

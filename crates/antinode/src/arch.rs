@@ -37,6 +37,24 @@ pub mod portable {
         both(a, b, |a, b| (a + b) >> 1)
     }
 
+    /// The difference of each half, limited to 16 bits.
+    #[inline(always)]
+    pub fn limited_difference(a: u32, b: u32) -> u32 {
+        both(a, b, |a, b| (a - b).clamp(-32_768, 32_767))
+    }
+
+    /// Adds low·low, high·high and low·high of two words of signed halves to three sums, wrapping.
+    #[inline(always)]
+    pub fn add_products(sums: [i64; 3], a: u32, b: u32) -> [i64; 3] {
+        let ([a_low, a_high], [b_low, b_high]) = (halves(a), halves(b));
+        let add = |sum: i64, product: i32| sum.wrapping_add(i64::from(product));
+        [
+            add(sums[0], a_low * b_low),
+            add(sums[1], a_high * b_high),
+            add(sums[2], a_low * b_high),
+        ]
+    }
+
     /// The square root, correctly rounded; NaN below zero.
     #[inline(always)]
     pub fn square_root(x: f32) -> f32 {
@@ -155,6 +173,33 @@ mod dsp {
         // SAFETY: reads and writes the named registers only.
         unsafe {
             asm!("shsub16 {out}, {a}, {b}", out = lateout(reg) out, a = in(reg) a, b = in(reg) b,
+                options(pure, nomem, nostack, preserves_flags));
+        }
+        out
+    }
+
+    /// SMLALBB, SMLALTT and SMLALBT.
+    #[inline(always)]
+    pub fn add_products(sums: [i64; 3], a: u32, b: u32) -> [i64; 3] {
+        let mut low = sums.map(|sum| sum as u32);
+        let mut high = sums.map(|sum| (sum >> 32) as u32);
+        // SAFETY: reads and writes the named registers only.
+        unsafe {
+            asm!("smlalbb {l0}, {h0}, {a}, {b}", "smlaltt {l1}, {h1}, {a}, {b}", "smlalbt {l2}, {h2}, {a}, {b}",
+                l0 = inout(reg) low[0], h0 = inout(reg) high[0], l1 = inout(reg) low[1], h1 = inout(reg) high[1],
+                l2 = inout(reg) low[2], h2 = inout(reg) high[2], a = in(reg) a, b = in(reg) b,
+                options(pure, nomem, nostack, preserves_flags));
+        }
+        core::array::from_fn(|i| ((u64::from(high[i]) << 32) | u64::from(low[i])) as i64)
+    }
+
+    /// QSUB16.
+    #[inline(always)]
+    pub fn limited_difference(a: u32, b: u32) -> u32 {
+        let out;
+        // SAFETY: reads and writes the named registers only.
+        unsafe {
+            asm!("qsub16 {out}, {a}, {b}", out = lateout(reg) out, a = in(reg) a, b = in(reg) b,
                 options(pure, nomem, nostack, preserves_flags));
         }
         out
@@ -503,9 +548,15 @@ mod fpu {
 }
 
 #[cfg(has_dsp)]
-pub use dsp::{add_pairs, dual_multiply_add, half_difference, half_sum, watch_pairs};
+pub use dsp::{
+    add_pairs, add_products, dual_multiply_add, half_difference, half_sum, limited_difference,
+    watch_pairs,
+};
 #[cfg(not(has_dsp))]
-pub use portable::{add_pairs, dual_multiply_add, half_difference, half_sum, watch_pairs};
+pub use portable::{
+    add_pairs, add_products, dual_multiply_add, half_difference, half_sum, limited_difference,
+    watch_pairs,
+};
 
 #[cfg(has_vsqrt)]
 pub use fpu::{add_floats, square_root};
@@ -522,7 +573,17 @@ mod tests {
         assert_eq!(half_difference(most, least), 0x7fff_7fff);
         assert_eq!(half_difference(least, most), 0x8000_8000);
         assert_eq!(half_sum(least, least), least);
+        assert_eq!(limited_difference(most, least), most);
+        assert_eq!(limited_difference(least, 0x0001_ffff), 0x8000_8001);
         assert_eq!(half_sum(0x0001_ffff, 0x0000_0000), 0x0000_ffff);
         assert_eq!(dual_multiply_add(least, least, 5), 5 + (1 << 31));
+        assert_eq!(
+            add_products([1, i64::MAX, -1], least, 0x7fff_8000),
+            [
+                1 + (1 << 30),
+                i64::MAX - 32_768 * 32_767,
+                -1 - 32_768 * 32_767
+            ]
+        );
     }
 }

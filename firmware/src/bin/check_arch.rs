@@ -229,6 +229,20 @@ fn main() -> ! {
             }),
         ),
         (
+            "limited_difference",
+            on_words(random, |a, b, _| {
+                arch::limited_difference(a, b) == portable::limited_difference(a, b)
+            }),
+        ),
+        (
+            "add_products",
+            on_words(random, |a, b, sum| {
+                let sum = (i64::from(sum) << 31) ^ i64::from(a as i32);
+                let sums = [sum, !sum, i64::from(sum as i32)];
+                arch::add_products(sums, a, b) == portable::add_products(sums, a, b)
+            }),
+        ),
+        (
             "square_root",
             FLOATS.iter().all(|&bits| same_root(bits))
                 && (0..WORDS).all(|_| same_root(random.word())),

@@ -1,6 +1,6 @@
 //! Products of the pick-offs with themselves a quarter of a period before: the sums of algorithm 2.
 
-use super::moments::{Moments, centred};
+use super::moments::Moments;
 use crate::block::Pair;
 use crate::sample::{Sample, SamplePair};
 
@@ -28,12 +28,12 @@ impl Delayed {
         let before = pairs.get(from - shift..).unwrap_or(&[]);
         let mut sums = Default::default();
         for (&now, &before) in now.iter().zip(before) {
-            add::<f32>(&mut sums, now, before);
+            f32::add_products(&mut sums, now, before);
         }
         Self::new(lag, now.len() as u32, f32::products(sums))
     }
 
-    fn new(lag: u16, count: u32, [cd, cc, dd]: [f64; 3]) -> Self {
+    fn new(lag: u16, count: u32, [cc, dd, cd]: [f64; 3]) -> Self {
         Self {
             lag,
             count,
@@ -75,20 +75,14 @@ impl Delayed {
     }
 }
 
-#[inline(always)]
-fn add<S: Sample>(sums: &mut S::Products, now: [S::Centred; 2], before: [S::Centred; 2]) {
-    let [c, d] = now;
-    S::add_products(sums, [[c, before[1]], [c, before[0]], [d, before[1]]]);
-}
-
 /// Gathers [`Delayed`] at sample rate: as much work as [`MomentSums`](super::MomentSums), and a delay line of up to `LAGS` pairs.
 ///
 /// A quarter of the longest period, 200 samples, takes 50.
 #[derive(Debug, Clone)]
 pub struct DelayedSums<const LAGS: usize, S: Sample = f32> {
-    offsets: [S::Centred; 2],
+    offsets: S::Centred,
     lag: u16,
-    line: [[S::Centred; 2]; LAGS],
+    line: [S::Centred; LAGS],
     /// Place in the line of the oldest pair.
     place: u16,
     /// Pairs in the line, up to the lag.
@@ -102,9 +96,9 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
     /// (4).
     pub fn new(lag: u16, offsets: [f32; 2]) -> Self {
         Self {
-            offsets: offsets.map(S::offset),
+            offsets: S::offsets(offsets),
             lag: lag.min(LAGS as u16).max(1),
-            line: [Default::default(); LAGS],
+            line: [S::Centred::default(); LAGS],
             place: 0,
             filled: 0,
             count: 0,
@@ -115,7 +109,7 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
     /// Adds a sample pair. The first pairs of a stream, up to the lag, only fill the line.
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) {
-        let now = centred(pair, self.offsets);
+        let now = S::centred(pair.pair(), self.offsets);
         let Some(slot) = self.line.get_mut(usize::from(self.place)) else {
             return;
         };
@@ -128,7 +122,7 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
             self.filled += 1;
             return;
         }
-        add::<S>(&mut self.sums, now, before);
+        S::add_products(&mut self.sums, now, before);
         self.count += 1;
     }
 
@@ -145,12 +139,17 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
         }
         let (offsets, mut sums) = (self.offsets, self.sums);
         for (&now, &before) in rest.iter().zip(pairs) {
-            add::<S>(&mut sums, centred(now, offsets), centred(before, offsets));
+            let (now, before) = (now.pair(), before.pair());
+            S::add_products(
+                &mut sums,
+                S::centred(now, offsets),
+                S::centred(before, offsets),
+            );
         }
         self.sums = sums;
         self.count += rest.len() as u32;
         for (slot, &pair) in self.line.iter_mut().zip(pairs.iter().skip(rest.len())) {
-            *slot = centred(pair, offsets);
+            *slot = S::centred(pair.pair(), offsets);
         }
         self.place = 0;
     }

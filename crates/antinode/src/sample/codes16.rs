@@ -6,9 +6,6 @@ use crate::arch;
 use crate::block::{ChannelSums, ChannelWatch};
 use crate::period::{LAGS, Lags};
 
-/// Centred codes in units of one code.
-const SIXTEENTHS: f32 = 16.0;
-
 /// Two 16-bit halves as a word.
 #[inline(always)]
 fn word(pair: [i16; 2]) -> u32 {
@@ -50,8 +47,8 @@ impl Sample for i16 {
     type Weight = u32;
     type Runs = ();
     type Square = u32;
-    // Codes and offsets in sixteenths: below 2²⁰, so that 2²³ products stay below 2⁶³.
-    type Centred = i32;
+    // A word of two. Products are at most 2³⁰: 2³³ of them stay below 2⁶³.
+    type Centred = u32;
     type Products = [i64; 3];
     type Level = u32;
 
@@ -131,25 +128,22 @@ impl Sample for i16 {
     }
 
     #[inline(always)]
-    fn offset(offset: f32) -> i32 {
-        libm::roundf(offset.clamp(-32_768.0, 32_767.0) * SIXTEENTHS) as i32
+    fn offsets(offsets: [f32; 2]) -> u32 {
+        word(offsets.map(|offset| libm::roundf(offset) as i16))
     }
 
     #[inline(always)]
-    fn centred(self, offset: i32) -> i32 {
-        (i32::from(self) << 4) - offset
+    fn centred(pair: [Self; 2], offsets: u32) -> u32 {
+        arch::limited_difference(word(pair), offsets)
     }
 
     #[inline(always)]
-    fn add_products(sums: &mut [i64; 3], factors: [[i32; 2]; 3]) {
-        for (sum, [a, b]) in sums.iter_mut().zip(factors) {
-            *sum = sum.wrapping_add(i64::from(a) * i64::from(b));
-        }
+    fn add_products(sums: &mut [i64; 3], now: u32, before: u32) {
+        *sums = arch::add_products(*sums, now, before);
     }
 
     fn products(sums: [i64; 3]) -> [f64; 3] {
-        let unit = 1.0 / f64::from(SIXTEENTHS * SIXTEENTHS);
-        sums.map(|sum| sum as f64 * unit)
+        sums.map(|sum| sum as f64)
     }
 
     #[inline(always)]

@@ -11,7 +11,7 @@ impl Sample for f32 {
     type Weight = [f32; 2];
     type Runs = Runs;
     type Square = f32;
-    type Centred = f32;
+    type Centred = [f32; 2];
     type Products = [Sum; 3];
     type Level = f32;
 
@@ -76,20 +76,20 @@ impl Sample for f32 {
     }
 
     #[inline(always)]
-    fn offset(offset: f32) -> f32 {
-        offset
+    fn offsets(offsets: [f32; 2]) -> [f32; 2] {
+        offsets
     }
 
     #[inline(always)]
-    fn centred(self, offset: f32) -> f32 {
-        self - offset
+    fn centred(pair: [Self; 2], offsets: [f32; 2]) -> [f32; 2] {
+        [pair[0] - offsets[0], pair[1] - offsets[1]]
     }
 
     #[inline(always)]
-    fn add_products(sums: &mut [Sum; 3], factors: [[f32; 2]; 3]) {
-        for (sum, [a, b]) in sums.iter_mut().zip(factors) {
-            sum.add(a * b);
-        }
+    fn add_products(sums: &mut [Sum; 3], [c, d]: [f32; 2], before: [f32; 2]) {
+        sums[0].add(c * before[0]);
+        sums[1].add(d * before[1]);
+        sums[2].add(c * before[1]);
     }
 
     fn products(sums: [Sum; 3]) -> [f64; 3] {

@@ -79,7 +79,7 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     type Runs: Copy + Debug + PartialEq + Default + Send;
     /// A running sum of squared differences.
     type Square: Copy + Debug + Default + Send;
-    /// A sample less its offset, as the sums of products take it.
+    /// A pair less its offsets, as the sums of products take it.
     type Centred: Copy + Debug + Default + Send;
     /// Three running sums of products.
     type Products: Copy + Debug + Default + Send;
@@ -122,15 +122,15 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     /// Less than every sample, and more than every sample: extremes of none.
     #[doc(hidden)]
     const EXTREMES: [Self; 2];
-    /// An offset in input units, to be taken off by [`centred`](Self::centred).
+    /// Offsets in input units, to be taken off by [`centred`](Self::centred).
     #[doc(hidden)]
-    fn offset(offset: f32) -> Self::Centred;
-    /// The sample less an offset.
+    fn offsets(offsets: [f32; 2]) -> Self::Centred;
+    /// A pair less its offsets.
     #[doc(hidden)]
-    fn centred(self, offset: Self::Centred) -> Self::Centred;
-    /// Adds products of two.
+    fn centred(pair: [Self; 2], offsets: Self::Centred) -> Self::Centred;
+    /// Adds the products of C with C, D with D and C with D of a pair and one before it, or itself.
     #[doc(hidden)]
-    fn add_products(sums: &mut Self::Products, factors: [[Self::Centred; 2]; 3]);
+    fn add_products(sums: &mut Self::Products, now: Self::Centred, before: Self::Centred);
     /// The sums in input units squared.
     #[doc(hidden)]
     fn products(sums: Self::Products) -> [f64; 3];

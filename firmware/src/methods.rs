@@ -71,8 +71,8 @@ pub type Extra<S> = Option<BlockSums<S>>;
 /// The sums under way.
 struct Running<S: Sample> {
     tuning: Tuning,
-    moments: MomentSums,
-    delayed: DelayedSums<{ LONGEST_PERIOD / 4 }>,
+    moments: MomentSums<S>,
+    delayed: DelayedSums<{ LONGEST_PERIOD / 4 }, S>,
     demodulator: Demodulator<S, LONGEST_PERIOD>,
 }
 
@@ -133,11 +133,8 @@ impl<S: Sample> Running<S> {
     }
 
     fn add<P: SamplePair<S>>(&mut self, pairs: &[P]) -> Extra<S> {
-        for &pair in pairs {
-            let pair = pair.pair().map(S::to_f32);
-            self.moments.push(pair);
-            self.delayed.push(pair);
-        }
+        self.moments.extend(pairs);
+        self.delayed.extend(pairs);
         // Both begin and end blocks together.
         let (_, block) = self.demodulator.push_slice(pairs);
         block.map(|&block| BlockSums {

@@ -79,12 +79,19 @@ impl<S: Sample, const N: usize> Front<S, N> {
         if settings.detection == self.settings.detection {
             self.detector.restart();
         } else {
-            self.detector = Detector::new(settings.detection);
+            self.replace_detector(settings.detection);
         }
         self.demodulator.set_watch(settings.watch);
         self.settings = settings;
         self.is_searching = true;
         Ok(())
+    }
+
+    /// Apart from the rest: only here a detector is on the stack.
+    #[cold]
+    #[inline(never)]
+    fn replace_detector(&mut self, detection: Detection) {
+        self.detector = Detector::new(detection);
     }
 
     /// Drops the period and searches anew.

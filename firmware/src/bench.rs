@@ -14,6 +14,8 @@ use crate::marks::{leave, mark_begin, mark_end};
 
 /// Sample pairs that a bench works through.
 pub const PAIRS: usize = 16_384;
+/// Calls of which the longest is looked for.
+const LONGEST_OF: usize = 2_000;
 /// Pairs of a half-buffer.
 pub(crate) const HALF_BUFFER: usize = 128;
 
@@ -198,4 +200,49 @@ where
     let (taken, block) = front.push_slice(pairs);
     black_box(block.is_some());
     taken
+}
+
+/// The longest single call in an interrupt that hands over one pair at a time, from cold through the search into the tracking.
+pub fn longest<S: Sample>(name: &'static str) -> !
+where
+    Packed: SamplePair<S>,
+{
+    let codes = Codes::new();
+    let settings = Settings::new(100_000.0);
+    let Ok(mut front) = Front::<S, 200>::new(settings) else {
+        leave()
+    };
+    let mut gauge = Gauge::new(name, 1, size_of::<Front<S, 200>>());
+    // Which call it is: they are the same in every run.
+    let (mut longest, mut at) = (0, 0);
+    for index in 0..LONGEST_OF {
+        if let [pair] = *codes.slice(index, 1) {
+            let lap = gauge.lap(|| push_front(&mut front, pair));
+            if lap > longest {
+                (longest, at) = (lap, index);
+            }
+        }
+    }
+    if front.is_searching() || front.configure(settings).is_err() {
+        leave()
+    }
+    for index in 0..at {
+        if let [pair] = *codes.slice(index, 1) {
+            push_front(&mut front, pair);
+        }
+    }
+    let [pair] = *codes.slice(at, 1) else { leave() };
+    gauge.start();
+    mark_begin();
+    push_front(&mut front, pair);
+    mark_end();
+    gauge.finish()
+}
+
+#[inline(never)]
+fn push_front<S: Sample>(front: &mut Front<S, 200>, pair: Packed)
+where
+    Packed: SamplePair<S>,
+{
+    black_box(front.push(pair).is_some());
 }

@@ -73,6 +73,19 @@ impl Gauge {
         self.began = self.count();
     }
 
+    /// How long `work` takes, in counts of whatever counts: to be compared with another.
+    #[inline(always)]
+    pub fn lap(&self, work: impl FnOnce()) -> u32 {
+        let before = self.count();
+        work();
+        let after = self.count();
+        if self.counts_cycles {
+            after.wrapping_sub(before)
+        } else {
+            before.wrapping_sub(after) % TIMER
+        }
+    }
+
     /// Prints what was measured, after `mark_end`, and leaves.
     #[inline(always)]
     pub fn finish(self) -> ! {

@@ -13,6 +13,7 @@
 //! | `bench_block_*`, `bench_watch_*` | codes in memory: block sums from half-buffers, without and with the watch |
 //! | `bench_push_*` | block sums from one call a pair |
 //! | `bench_acquire_*` | the search for a period |
+//! | `bench_longest_*` | the longest call that takes one pair, of searching and of tracking |
 //! | `bench_solution_*` | the solution of one window |
 //! | `bench_pipeline_*` | the whole core |
 //! | `bench_methods_fixed`, `_f32` | block sums with the sums of the paper's four methods beside them |

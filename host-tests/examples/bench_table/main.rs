@@ -21,7 +21,7 @@ const HEAD: &str = "\
 
 Written by `cargo bench-table --bless`; `cargo bench-table` fails where a cost is more than 3 % above this table.
 
-Instructions and cycles are of one sample pair, or of one window of 10 periods. *of idsp's*: instructions over those of the same four
+Instructions and cycles are of one sample pair, of one window of 10 periods, or of the longest call that takes one pair. *of idsp's*: instructions over those of the same four
 sums of the same codes with the crate idsp. Cycles: by the core's timing table, without wait states of the flash; a star marks
 those of an earlier run. Flash: bytes of the image beyond those of `nothing`, which has codes, marks and report alone. State: bytes
 kept from call to call. Stack: bytes at the deepest below the caller, from the first sample on, the state not among them.
@@ -91,7 +91,12 @@ fn measure(root: &Path) -> Result<Table, String> {
         let report = image.run()?;
         Ok(Row {
             kernel: image.kernel.clone(),
-            unit: if report.units == 1 { "window" } else { "pair" }.into(),
+            unit: match report.units {
+                1 if image.kernel.starts_with("longest") => "call",
+                1 => "window",
+                _ => "pair",
+            }
+            .into(),
             instructions: f64::from(report.instructions) / f64::from(report.units),
             cycles: image.cycles(report.units)?,
             earlier: false,

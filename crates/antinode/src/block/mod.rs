@@ -120,7 +120,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         let held = self.holding.get(..usize::from(self.held));
         self.summing.sum(held.unwrap_or(&[]));
         self.held = 0;
-        self.room = self.summing.left().min(HELD as u16);
+        self.room = self.summing.room();
         self.summing.finished()
     }
 
@@ -141,7 +141,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     pub(crate) fn restart(&mut self, start: u64) {
         self.held = 0;
         self.summing.restart(start);
-        self.room = self.summing.left.min(HELD as u16);
+        self.room = self.summing.room();
     }
 }
 
@@ -167,13 +167,22 @@ impl<S: Sample, const N: usize> Summing<S, N> {
         pairs.len()
     }
 
-    /// Pairs to the end of the block; of the next one when it is full.
+    /// Pairs that may be held back, so that no call takes long: one while the table grows, and never beyond the end of the block.
     #[inline(always)]
-    fn left(&self) -> u16 {
-        match self.left {
+    fn room(&self) -> u16 {
+        if self.unknown > 0 {
+            return 1;
+        }
+        let left = match self.left {
             0 => self.block.layout.length,
             left => left,
-        }
+        };
+        let most = if self.block.watch.is_some() {
+            S::WATCHED_AT_ONCE
+        } else {
+            HELD as u16
+        };
+        left.min(most)
     }
 
     #[inline(always)]

@@ -52,6 +52,7 @@ impl Sample for i16 {
     type Products = [i64; 3];
     type Level = u32;
 
+    const WATCHED_AT_ONCE: u16 = 32;
     const EXTREMES: [Self; 2] = [i16::MIN, i16::MAX];
 
     #[inline(always)]

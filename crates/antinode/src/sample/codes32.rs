@@ -20,6 +20,7 @@ impl Sample for i32 {
     type Products = [Sum; 3];
     type Level = u32;
 
+    const WATCHED_AT_ONCE: u16 = 14;
     const EXTREMES: [Self; 2] = [i32::MIN, i32::MAX];
 
     #[inline(always)]

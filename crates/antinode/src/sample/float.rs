@@ -15,6 +15,7 @@ impl Sample for f32 {
     type Products = [Sum; 3];
     type Level = f32;
 
+    const WATCHED_AT_ONCE: u16 = 14;
     const EXTREMES: [Self; 2] = [f32::NEG_INFINITY, f32::INFINITY];
 
     #[inline(always)]

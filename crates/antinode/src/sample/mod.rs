@@ -119,6 +119,9 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     /// The longest runs at the extremes, low and high: 1 where they are not counted.
     #[doc(hidden)]
     fn runs(runs: &Self::Runs) -> [u16; 2];
+    /// Single pairs that are summed and watched together, at most 32: no more than fit between two samples of a fast converter.
+    #[doc(hidden)]
+    const WATCHED_AT_ONCE: u16;
     /// Less than every sample, and more than every sample: extremes of none.
     #[doc(hidden)]
     const EXTREMES: [Self; 2];

@@ -27,6 +27,7 @@ impl Phase {
     }
 
     /// `exp(jφ)`: cosine and sine of this phase, each within 1.2·10⁻⁷ of the truth.
+    #[inline(never)]
     pub fn unit(self) -> Complex32 {
         // The nearest quarter turn is taken off, so that the polynomials see |x| ≤ π/4.
         let quarter = self.0.wrapping_add(1 << 29) >> 30;

@@ -57,11 +57,6 @@ impl Noise {
             && beyond > 4.0 * self.variance
             && beyond > spread(freedom, self.freedom) * self.variance
     }
-
-    /// The variance remembered; 0 when none is.
-    pub(crate) fn variance(&self) -> f32 {
-        self.variance
-    }
 }
 
 /// True when the first window after a search holds no wave, or as much else beside it: two tones, say.

@@ -12,7 +12,7 @@ use crate::estimate::{Estimate, Flags};
 use crate::sample::Sample;
 use crate::settings::{Settings, SettingsError};
 use crate::wave::{Angle, Standing, wrap};
-use crate::window::{CARRIER_REACH, Fit, Gathered, Last, Model, Start, solve};
+use crate::window::{CARRIER_REACH, Fit, Gathered, Model, solve};
 use checks::Noise;
 use record::Record;
 use trend::Trend;
@@ -38,8 +38,6 @@ pub struct Tracker<const BLOCKS: usize> {
     count: u16,
     noise: Noise,
     trend: Trend,
-    /// The last fit, and where its window ended.
-    last: Option<(Last, u64)>,
     /// The last clean window.
     before: Option<Record>,
     /// The angle of the last window that had one: continuity is kept over faults.
@@ -65,7 +63,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             count: 0,
             noise: Noise::default(),
             trend: Trend::new(),
-            last: None,
             before: None,
             angle: Angle::new(settings.start_angle),
             lost: false,
@@ -87,7 +84,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.forget();
         self.noise = Noise::default();
         self.trend.clear();
-        self.last = None;
         self.before = None;
         self.angle = Angle::new(settings.start_angle);
         self.lost = false;
@@ -168,7 +164,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.noise = Noise::default();
         self.trend.clear();
         self.before = None;
-        self.last = None;
         self.lost = self.ever;
         self.failures = 0;
     }
@@ -228,7 +223,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             Flags::DEAD_CHANNEL,
         );
         self.promise(&mut record, &wave, half);
-        self.last = fit.settled.then(|| (fit.last(), self.end));
 
         if flags.contains(Flags::LOST) {
             self.failures = self.failures.saturating_add(1);
@@ -279,18 +273,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             }
         };
         let blocks = self.gathered.blocks();
-        let start = match &self.last {
-            Some((last, end)) if uncertainty == 0.0 => {
-                let half_samples = 2 * self.end.wrapping_sub(*end);
-                Start::after(model, last, half_samples, self.noise.variance())
-            }
-            _ => Start::default(),
-        };
-        let fit = solve(model, blocks, carrier, uncertainty, start);
+        let fit = solve(model, blocks, carrier, uncertainty);
         if fit.settled || uncertainty > 0.0 {
             return Some(fit);
         }
-        Some(solve(model, blocks, carrier, rough, Start::default()))
+        Some(solve(model, blocks, carrier, rough))
     }
 
     /// Takes the share of a turning pattern out of the frequency, with what the angles of the windows before promise.

@@ -4,8 +4,9 @@ use num_complex::Complex32;
 
 use super::model::Model;
 use super::waves::Waves;
+use crate::phase::Phase;
 
-/// Blocks from one exact exponential to the next; between them a recursion, whose rounding grows by 6·10⁻⁸ a block.
+/// Blocks from one exact exponential to the next; between them a recursion.
 pub(super) const CHUNK: usize = 10;
 
 /// One block's phasors.
@@ -19,35 +20,92 @@ pub(super) struct Here {
     pub waves: [Complex32; 2],
 }
 
-/// The phasors of up to [`CHUNK`] blocks.
-pub(super) type Chunk = [Here; CHUNK];
+/// The carrier in the middle of the blocks of a window.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Carrier<'a> {
+    model: &'a Model,
+    /// What a block adds to the time.
+    pub advance: f32,
+    /// What a block does to the carrier.
+    pub turn: Turn,
+    index: u16,
+}
+
+impl<'a> Carrier<'a> {
+    pub(super) fn new(model: &'a Model) -> Self {
+        let block = 2 * i64::from(model.layout.length);
+        Self {
+            model,
+            advance: 2.0 / f32::from(model.blocks),
+            turn: Turn::by(model.carrier.after_half_samples(block)),
+            index: 0,
+        }
+    }
+
+    /// Time and carrier of the next block, exactly; the next call's is `blocks` further on.
+    pub(super) fn next(&mut self, blocks: usize) -> (f32, Complex32) {
+        let index = self.index;
+        self.index += blocks as u16;
+        (self.model.time(index), self.model.phase(index).unit())
+    }
+}
+
+/// A factor near 1, j, −1 or −j, and what it is beyond that: its own rounding, the same at every block, is then no bias.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turn {
+    whole: Complex32,
+    beyond: Complex32,
+}
+
+impl Turn {
+    fn by(Phase(phase): Phase) -> Self {
+        let whole = phase.wrapping_add(1 << 29) & (3 << 30);
+        let rest = phase.wrapping_sub(whole);
+        let whole = Phase(whole).unit();
+        // 1 − cos x = 2 sin² ½x keeps its digits.
+        let half = Phase((rest as i32 >> 1) as u32).unit().im;
+        Self {
+            whole,
+            beyond: whole * Complex32::new(-2.0 * half * half, Phase(rest).unit().im),
+        }
+    }
+
+    /// This factor times 1 + `growth`.
+    fn grown(self, growth: Complex32) -> Self {
+        Self {
+            beyond: self.apply(growth) + self.beyond,
+            ..self
+        }
+    }
+
+    /// The factor as one number.
+    pub(super) fn rounded(self) -> Complex32 {
+        self.whole + self.beyond
+    }
+
+    /// Multiplies by the factor.
+    #[inline(always)]
+    fn apply(self, z: Complex32) -> Complex32 {
+        z * self.whole + z * self.beyond
+    }
+}
 
 /// Walks through the blocks of a window.
 pub(super) struct Course<'a> {
-    model: &'a Model,
+    carrier: Carrier<'a>,
     waves: &'a Waves,
-    /// What a block adds to the phase and the logarithm of each wave, as a factor.
-    factor: [Complex32; 2],
-    turn: Complex32,
-    /// Time between two blocks.
-    advance: f32,
-    index: u16,
+    /// What a block does to each wave.
+    turns: [Turn; 2],
 }
 
 impl<'a> Course<'a> {
     pub(super) fn new(model: &'a Model, waves: &'a Waves) -> Self {
-        let turn = model
-            .carrier
-            .after_half_samples(2 * i64::from(model.layout.length))
-            .unit();
-        let advance = 2.0 / f32::from(model.blocks);
+        let carrier = Carrier::new(model);
+        let turn = |slope: Complex32| carrier.turn.grown(growth(slope * carrier.advance));
         Self {
-            model,
+            carrier,
             waves,
-            factor: waves.slope.map(|slope| exponential(slope * advance) * turn),
-            turn,
-            advance,
-            index: 0,
+            turns: waves.slope.map(turn),
         }
     }
 
@@ -55,12 +113,13 @@ impl<'a> Course<'a> {
     #[inline(never)]
     pub(super) fn next(&mut self, here: &mut [Here]) {
         let waves = self.waves;
-        let mut u = self.model.time(self.index);
-        let mut unit = self.model.phase(self.index).unit();
-        let at = |w: usize| waves.value[w & 1] * exponential(waves.slope[w & 1] * u) * unit;
+        let Carrier { advance, turn, .. } = self.carrier;
+        let (mut u, mut unit) = self.carrier.next(CHUNK);
+        // Only residuals are turned by it: they have no digits to lose.
+        let turn = turn.rounded();
+        let at = |w: usize| waves.value[w & 1] * (growth(waves.slope[w & 1] * u) + 1.0) * unit;
         let mut running = [at(0), at(1)];
         let is_bent = waves.rest != [Complex32::ZERO; 2];
-        self.index += here.len() as u16;
         for here in here {
             *here = Here {
                 u,
@@ -71,16 +130,19 @@ impl<'a> Course<'a> {
                 here.waves[0] += waves.rest[0] * unit * u;
                 here.waves[1] += waves.rest[1] * unit * u;
             }
-            u += self.advance;
-            unit *= self.turn;
-            running = [running[0] * self.factor[0], running[1] * self.factor[1]];
+            u += advance;
+            unit *= turn;
+            running = [
+                self.turns[0].apply(running[0]),
+                self.turns[1].apply(running[1]),
+            ];
         }
     }
 }
 
-/// e^x for |x| up to 1: within 3·10⁻⁶ there, and 10⁻⁸ up to 0.5.
-pub(super) fn exponential(x: Complex32) -> Complex32 {
-    const INVERSE: [f32; 8] = [
+/// e^x − 1 for |x| up to 1: within 3·10⁻⁶ there, and 10⁻⁸ up to 0.5.
+fn growth(x: Complex32) -> Complex32 {
+    const INVERSE: [f32; 7] = [
         1.0 / 8.0,
         1.0 / 7.0,
         1.0 / 6.0,
@@ -88,12 +150,12 @@ pub(super) fn exponential(x: Complex32) -> Complex32 {
         1.0 / 4.0,
         1.0 / 3.0,
         1.0 / 2.0,
-        1.0,
     ];
-    // Four terms leave 3·10⁻⁹ here.
+    // Three terms leave 3·10⁻⁹ here.
     let small = x.norm_sqr() < 0.05 * 0.05;
     let terms = if small { &INVERSE[4..] } else { &INVERSE[..] };
-    terms
+    let series = terms
         .iter()
-        .fold(Complex32::ONE, |sum, &inverse| sum * x * inverse + 1.0)
+        .fold(Complex32::ONE, |sum, &inverse| sum * x * inverse + 1.0);
+    series * x
 }

@@ -2,13 +2,15 @@
 
 use num_complex::Complex32;
 
-use super::course::{CHUNK, Chunk, Course, Here};
+use super::course::{CHUNK, Course, Here};
+use super::gradient::Gradient;
 use super::model::Model;
 use super::prediction::{Mixing, Prediction};
 use super::response::Response;
 use super::seen::Seen;
 use super::third::Thirds;
 use super::waves::Waves;
+use crate::order::greater;
 
 /// The residual of a fit, in several views. Squares are in input units squared.
 #[derive(Debug, Clone, Copy, Default)]
@@ -34,56 +36,45 @@ impl Remains {
     }
 }
 
-/// Passes once more over the blocks of a window, with its final waves and offsets.
+/// Passes over the blocks of a window with the waves and offsets found: what they leave, and which way they must still move.
 #[inline(never)]
 pub(super) fn examine(
     model: &Model,
     blocks: &[Seen],
     waves: &Waves,
     offsets: [f32; 2],
-    here: &mut Chunk,
-) -> Remains {
+    remains: &mut Remains,
+) -> [Gradient; 2] {
     let mixing = Mixing::new(model, waves);
     let predictions = Prediction::new(model, &mixing, offsets);
     let is_watched = blocks.first().is_some_and(|block| block.watched.is_some());
     let mut thirds = is_watched.then(|| Thirds::new(model, &mixing, offsets));
     let mut course = Course::new(model, waves);
-    let mut steps = Steps::new(model.blocks, &model.response);
-    let (mut residual, mut worst_block, mut worst_step) = (0.0, 0.0, 0.0);
-    let mut sums = [Complex32::ZERO; 2];
+    let mut views = Views::new(model.blocks);
+    let mut gradients = [Gradient::default(); 2];
+    let mut here = [Here::default(); CHUNK];
     for chunk in blocks.chunks(CHUNK) {
         let here = here.get_mut(..chunk.len()).unwrap_or_default();
         course.next(here);
         let mut rests = [Rest::default(); CHUNK];
         for (channel, prediction) in predictions.iter().enumerate() {
-            let sum = &mut sums[channel];
-            rest(model, prediction, channel, chunk, here, sum, &mut rests);
+            let gradient = &mut gradients[channel];
+            rest(
+                model, prediction, channel, chunk, here, gradient, &mut rests,
+            );
         }
         for (rest, here) in rests.iter().zip(&*here) {
-            residual += rest.power;
-            if rest.power > worst_block {
-                worst_block = rest.power;
-            }
-            let step = steps.explained(here.u, rest.run);
-            if step > worst_step {
-                worst_step = step;
-            }
+            views.take(rest, here.u);
         }
         if let Some(thirds) = &mut thirds {
             thirds.add(chunk, here);
         }
     }
-    let mut remains = Remains {
-        residual,
-        freedom: model.freedom(),
-        worst_block,
-        step: worst_step,
-        ..Remains::default()
-    };
+    views.conclude(model, remains);
     if let Some(thirds) = thirds {
-        thirds.conclude(&mut remains, f32::from(model.layout.length));
+        thirds.conclude(remains, f32::from(model.layout.length));
     }
-    remains
+    gradients
 }
 
 /// What a block leaves, of both pick-offs.
@@ -95,7 +86,7 @@ struct Rest {
     run: f32,
 }
 
-/// Adds what one pick-off leaves of a run of blocks: one at a time, so that its constants stay in registers.
+/// Takes what one pick-off leaves of a run of blocks: one at a time, so that its constants stay in registers.
 #[inline(never)]
 fn rest(
     model: &Model,
@@ -103,31 +94,29 @@ fn rest(
     channel: usize,
     blocks: &[Seen],
     here: &[Here],
-    sum: &mut Complex32,
+    gradient: &mut Gradient,
     rests: &mut [Rest],
 ) {
-    let Response {
-        mean, even, odd, ..
-    } = model.response;
-    let prediction = *prediction;
-    let mut run = *sum;
+    let half = model.half();
+    let (response, prediction) = (model.response, *prediction);
+    let mut sums = *gradient;
     for ((block, here), out) in blocks.iter().zip(here).zip(rests) {
         let rest = prediction.rest(&block.whitened[channel & 1], here);
+        sums.take(&response, &rest, here.u * half, here.unit);
         out.power += rest.mean * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
-        let along = Complex32::new(
-            mean.level * rest.mean + even.level * rest.even,
-            odd.level * rest.odd,
-        );
-        run += along * here.unit.conj();
-        out.run += run.norm_sqr();
+        out.run += sums.level.norm_sqr();
     }
-    *sum = run;
+    *gradient = sums;
 }
 
-/// Looks for a step of the phasors between two blocks: the sum of the residuals so far, against what noise would make it.
-struct Steps {
-    /// Mean weight of z in a block, over all phases of the carrier.
-    weight: f32,
+/// The residual as a whole, by blocks, and as a step of the phasors between two blocks.
+#[derive(Default)]
+struct Views {
+    residual: f32,
+    worst_block: f32,
+    /// The sum of the residuals up to a block, squared, and what noise would make it: where it is most beyond.
+    run: f32,
+    room: f32,
     /// 1/Σu² over the window, u being the blocks' middles; and one over the blocks.
     per_spread: f32,
     per_block: f32,
@@ -135,31 +124,43 @@ struct Steps {
     time: f32,
 }
 
-impl Steps {
-    fn new(blocks: u16, response: &Response) -> Self {
-        let levels = [response.mean, response.even, response.odd].map(|answer| answer.level);
+impl Views {
+    fn new(blocks: u16) -> Self {
         let blocks = f32::from(blocks);
         Self {
-            weight: 0.5 * levels.iter().map(|level| level * level).sum::<f32>(),
+            room: 1.0,
             per_spread: 3.0 / (blocks - 1.0 / blocks),
             per_block: 1.0 / blocks,
-            count: 0.0,
-            time: 0.0,
+            ..Self::default()
         }
     }
 
-    /// Goes on to the next block, at time `u`; gives what a step after it would explain, from the squared run of the residuals.
-    fn explained(&mut self, u: f32, run: f32) -> f32 {
+    /// Takes the next block, at time `u`.
+    #[inline(always)]
+    fn take(&mut self, rest: &Rest, u: f32) {
+        self.residual += rest.power;
+        self.worst_block = greater(rest.power, self.worst_block);
         self.count += 1.0;
         self.time += u;
         // A step is known by what of it is neither constant nor slope.
         let room = self.count
             - self.count * self.count * self.per_block
             - self.time * self.time * self.per_spread;
-        if room > 0.2 {
-            run / (self.weight * room)
-        } else {
-            0.0
+        if room > 0.2 && rest.run * self.room > self.run * room {
+            (self.run, self.room) = (rest.run, room);
         }
+    }
+
+    fn conclude(&self, model: &Model, remains: &mut Remains) {
+        let Response {
+            mean, even, odd, ..
+        } = &model.response;
+        // Mean weight of z in a block, over all phases of the carrier.
+        let weight =
+            0.5 * (mean.level * mean.level + even.level * even.level + odd.level * odd.level);
+        remains.residual = self.residual;
+        remains.freedom = model.freedom();
+        remains.worst_block = self.worst_block;
+        remains.step = self.run / (weight * self.room);
     }
 }

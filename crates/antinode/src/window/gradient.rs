@@ -1,89 +1,79 @@
-//! One pass over a window's blocks: which way its parameters must move.
+//! The right-hand sides of the normal equations, of the sums themselves or of what is left of them.
 
 use num_complex::Complex32;
 
-use super::course::{CHUNK, Chunk, Course, Here};
+use super::course::{CHUNK, Carrier};
 use super::model::Model;
 use super::normal::Row;
-use super::prediction::{Mixing, Prediction};
-use super::response::Response;
+use super::response::{Response, Whitened};
 use super::seen::Seen;
-use super::waves::Waves;
 
-/// The gradient of both pick-offs' parameters.
-#[inline(never)]
-pub(super) fn gradient(
-    model: &Model,
-    blocks: &[Seen],
-    waves: &Waves,
-    offsets: [f32; 2],
-    here: &mut Chunk,
-) -> [Row; 2] {
-    let mixing = Mixing::new(model, waves);
-    let predictions = Prediction::new(model, &mixing, offsets);
-    let mut course = Course::new(model, waves);
-    let mut gathered = [Gathered::default(); 2];
-    for chunk in blocks.chunks(CHUNK) {
-        let here = here.get_mut(..chunk.len()).unwrap_or_default();
-        course.next(here);
-        for (channel, prediction) in predictions.iter().enumerate() {
-            gathered[channel].add(model, prediction, channel, chunk, here);
-        }
-    }
-    let per_sample = 1.0 / model.half();
-    gathered.map(|gathered| {
-        let slope = gathered.slope * per_sample;
-        [
-            gathered.level.re,
-            gathered.level.im,
-            slope.re,
-            slope.im,
-            model.response.offset * gathered.mean,
-        ]
-    })
-}
-
-/// The sums that make the gradient of one pick-off.
+/// The sums that make the right-hand side of one pick-off.
 #[derive(Debug, Clone, Copy, Default)]
-struct Gathered {
-    level: Complex32,
+pub(super) struct Gradient {
+    /// Along z, block for block.
+    pub level: Complex32,
+    /// Along z′ a sample.
     slope: Complex32,
     mean: f32,
 }
 
-impl Gathered {
-    /// Takes a run of blocks of one pick-off: one at a time, so that its constants stay in registers.
-    #[inline(never)]
-    fn add(
+impl Gradient {
+    /// Takes a block whose middle lies `time` samples from that of the window, where the carrier is `unit`.
+    #[inline(always)]
+    pub(super) fn take(
         &mut self,
-        model: &Model,
-        prediction: &Prediction,
-        channel: usize,
-        blocks: &[Seen],
-        here: &[Here],
+        response: &Response,
+        sums: &Whitened,
+        time: f32,
+        unit: Complex32,
     ) {
         let Response {
             mean, even, odd, ..
-        } = model.response;
-        let half = model.half();
-        let prediction = *prediction;
-        let mut sums = *self;
-        for (block, here) in blocks.iter().zip(here) {
-            let rest = prediction.rest(&block.whitened[channel & 1], here);
-            let back = here.unit.conj();
-            let along = Complex32::new(
-                mean.level * rest.mean + even.level * rest.even,
-                odd.level * rest.odd,
-            );
-            let across = Complex32::new(
-                odd.slope * rest.odd,
-                mean.slope * rest.mean + even.slope * rest.even,
-            );
-            sums.level += along * back;
-            // The block's own extent; scaled to half windows at the end.
-            sums.slope += (along * (here.u * half) + across) * back;
-            sums.mean += rest.mean;
-        }
-        *self = sums;
+        } = response;
+        let along = Complex32::new(
+            mean.level * sums.mean + even.level * sums.even,
+            odd.level * sums.odd,
+        );
+        let across = Complex32::new(
+            odd.slope * sums.odd,
+            mean.slope * sums.mean + even.slope * sums.even,
+        );
+        let back = unit.conj();
+        let level = along * back;
+        self.level += level;
+        self.slope += (along * time + across) * back;
+        self.mean += sums.mean;
     }
+
+    /// The right-hand side, its slope scaled to half windows.
+    pub(super) fn row(&self, model: &Model) -> Row {
+        let slope = self.slope / model.half();
+        [
+            self.level.re,
+            self.level.im,
+            slope.re,
+            slope.im,
+            model.response.offset * self.mean,
+        ]
+    }
+}
+
+/// The right-hand sides of both pick-offs' sums, nothing taken off them.
+#[inline(never)]
+pub(super) fn of_sums(model: &Model, blocks: &[Seen]) -> [Gradient; 2] {
+    let mut gradients = [Gradient::default(); 2];
+    let mut carrier = Carrier::new(model);
+    let (half, turn) = (model.half(), carrier.turn.rounded());
+    for chunk in blocks.chunks(CHUNK) {
+        let (mut u, mut unit) = carrier.next(CHUNK);
+        for block in chunk {
+            for (gradient, sums) in gradients.iter_mut().zip(&block.whitened) {
+                gradient.take(&model.response, sums, u * half, unit);
+            }
+            u += carrier.advance;
+            unit *= turn;
+        }
+    }
+    gradients
 }

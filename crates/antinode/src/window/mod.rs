@@ -13,7 +13,7 @@ mod seen;
 mod third;
 mod waves;
 
-pub(crate) use fit::{CARRIER_REACH, Fit, Last, Start, solve};
+pub(crate) use fit::{CARRIER_REACH, Fit, solve};
 pub(crate) use gathered::Gathered;
 pub(crate) use model::Model;
 pub(crate) use normal::Normal;

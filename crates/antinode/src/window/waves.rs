@@ -3,7 +3,7 @@
 
 use num_complex::Complex32;
 
-use super::course::exponential;
+use super::gradient::Gradient;
 use super::model::Model;
 
 /// The raw parameters of both pick-offs, as they stand in the normal equations.
@@ -12,6 +12,37 @@ pub(super) struct Parameters {
     pub z: [Complex32; 2],
     pub slope: [Complex32; 2],
     pub offset: [f32; 2],
+}
+
+/// How far the parameters were moved.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Step {
+    /// Σ|Δz|² + Σ|Δz′|² and Σ|z|².
+    pub moved: f32,
+    pub size: f32,
+    /// By how much the residual's sum of squares is less at the new place.
+    pub explained: f32,
+}
+
+impl Parameters {
+    /// Moves to where the gradients vanish, but for what is not linear.
+    #[inline(never)]
+    pub(super) fn add(&mut self, model: &Model, gradients: &[Gradient; 2]) -> Step {
+        let mut step = Step::default();
+        for (channel, gradient) in gradients.iter().enumerate() {
+            let row = gradient.row(model);
+            let change = model.normal.solve(row);
+            let z = Complex32::new(change[0], change[1]);
+            let slope = Complex32::new(change[2], change[3]);
+            self.z[channel] += z;
+            self.slope[channel] += slope;
+            self.offset[channel] += change[4];
+            step.moved += z.norm_sqr() + slope.norm_sqr();
+            step.size += self.z[channel].norm_sqr();
+            step.explained += row.iter().zip(&change).map(|(a, b)| a * b).sum::<f32>();
+        }
+        step
+    }
 }
 
 /// The travelling waves at the middle of a window, and their courses.
@@ -63,44 +94,6 @@ impl Waves {
             slope,
             rest,
         }
-    }
-
-    /// The raw parameters that these waves have `later` samples on, had they kept their course.
-    pub(super) fn parameters(
-        &self,
-        model: &Model,
-        later: f32,
-        turn: Complex32,
-    ) -> [[Complex32; 2]; 2] {
-        let correction = &model.correction;
-        let half = model.half();
-        let windows = later / half;
-        let grown = |w: usize| {
-            let ahead = exponential(self.slope[w & 1] * windows);
-            (self.value[w & 1] * ahead + self.rest[w & 1] * windows) * turn
-        };
-        let grown = [grown(0), grown(1)];
-        let slope = |w: usize| {
-            if self.slope[w & 1] == Complex32::ZERO {
-                self.rest[w & 1] * turn
-            } else {
-                grown[w & 1] * self.slope[w & 1]
-            }
-        };
-        let slope = [slope(0), slope(1)];
-        let pick_offs = |[plus, minus]: [Complex32; 2]| {
-            let apart = (plus - minus) * 0.5;
-            correction.distort([(plus + minus) * 0.5, Complex32::new(apart.im, -apart.re)])
-        };
-        let (mut z, slope) = (pick_offs(grown), pick_offs(slope));
-        z[1] += slope[1] * (correction.delay / half);
-        [z, slope]
-    }
-
-    /// The greatest |z′/z|² of the waves, a half window.
-    pub(super) fn reach(&self) -> f32 {
-        let [plus, minus] = self.slope.map(|slope| slope.norm_sqr());
-        if plus > minus { plus } else { minus }
     }
 
     /// |z₊|² + |z₋|².

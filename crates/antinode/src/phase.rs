@@ -93,10 +93,9 @@ impl PhaseStep {
         self.0 as f32 * (TAU / TURN)
     }
 
-    /// The frequency in Hz at a sample rate in Hz, plus `offset` radians a sample, at full resolution.
-    pub fn hertz(self, offset: f32, sample_rate: f64) -> f64 {
-        let turns = f64::from(self.0) / 4_294_967_296.0;
-        (turns + f64::from(offset) * (1.0 / core::f64::consts::TAU)) * sample_rate
+    /// The frequency in Hz plus `offset` radians a sample, at full resolution; `unit` is that of a step of one in Hz: sample rate · 2⁻³².
+    pub fn hertz(self, offset: f32, unit: f64) -> f64 {
+        (f64::from(self.0) + f64::from(offset) * (4_294_967_296.0 / core::f64::consts::TAU)) * unit
     }
 
     /// This step moved by `offset` radians a sample, to within half a unit and f32 rounding of the offset.
@@ -150,14 +149,15 @@ mod tests {
     #[test]
     fn a_shift_moves_the_frequency_and_hertz_keeps_its_digits() {
         let step = PhaseStep::from_period(18.75);
+        let unit = 1e5 / 4_294_967_296.0;
         for offset in [1e-3f32, -2.5e-4, 3e-9, -0.01] {
-            let moved = step.shifted(offset).hertz(0.0, 1e5) - step.hertz(0.0, 1e5);
+            let moved = step.shifted(offset).hertz(0.0, unit) - step.hertz(0.0, unit);
             let wanted = f64::from(offset) / core::f64::consts::TAU * 1e5;
             assert!(
                 (moved - wanted).abs() < 1.3e-5 + 1e-7 * wanted.abs(),
                 "{moved} {wanted}"
             );
-            let added = step.hertz(offset, 1e5) - step.hertz(0.0, 1e5);
+            let added = step.hertz(offset, unit) - step.hertz(0.0, unit);
             assert!(
                 (added - wanted).abs() < 1e-11 + 1e-9 * wanted.abs(),
                 "{added} {wanted}"

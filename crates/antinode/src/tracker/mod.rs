@@ -14,7 +14,7 @@ use crate::settings::{Settings, SettingsError};
 use crate::wave::{Angle, Standing, wrap};
 use crate::window::{CARRIER_REACH, Fit, Gathered, Model, solve};
 use checks::Noise;
-use record::Record;
+use record::{Record, Units};
 use trend::Trend;
 
 /// How far the detector's frequency may be off, as a share of it.
@@ -28,8 +28,7 @@ const GIVE_UP: u8 = 2;
 #[derive(Debug, Clone)]
 pub struct Tracker<const BLOCKS: usize> {
     settings: Settings,
-    /// One over the sample rate, s.
-    sample_time: f64,
+    units: Units,
     gathered: Gathered<BLOCKS>,
     /// Index in the stream of the sample pair after the last block.
     end: u64,
@@ -56,7 +55,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         settings.check(BLOCKS)?;
         Ok(Self {
             settings,
-            sample_time: reciprocal(settings.sample_rate),
+            units: Units::at(settings.sample_rate),
             gathered: Gathered::new(),
             end: 0,
             model: None,
@@ -80,7 +79,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check(BLOCKS)?;
         self.settings = settings;
-        self.sample_time = reciprocal(settings.sample_rate);
+        self.units = Units::at(settings.sample_rate);
         self.forget();
         self.noise = Noise::default();
         self.trend.clear();
@@ -173,7 +172,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     fn estimate(&mut self) -> Option<Estimate> {
         let fit = self.fit()?;
         let model = self.model.as_ref()?;
-        let half = model.half();
+        let half = model.half;
         let noise = fit.remains.variance();
         // Rounding of f32 sums is an error too, where there is no other, and part of it does not average.
         let size = fit.offsets[0].abs() + fit.offsets[1].abs() + square_root(fit.waves.power());
@@ -237,7 +236,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.failures = self.failures.saturating_add(1);
         }
         self.remember(record, flags, between);
-        Some(record.estimate(self.settings.sample_rate, self.sample_time, flags))
+        Some(record.estimate(&self.units, flags))
     }
 
     /// True when a pick-off that showed the wave in the last clean window shows none now.
@@ -330,11 +329,4 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
         self.before = Some(record);
     }
-}
-
-/// 1/x to within two units of the last place, for x that f32 can hold: by Newton's steps, as a division in f64 is a kilobyte of code on
-/// a core without one.
-fn reciprocal(x: f64) -> f64 {
-    let rough = f64::from(1.0 / x as f32);
-    (0..2).fold(rough, |rough, _| rough * (2.0 - x * rough))
 }

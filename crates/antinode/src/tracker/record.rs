@@ -7,6 +7,30 @@ use crate::phase::PhaseStep;
 use crate::wave::{Angle, Standing};
 use crate::window::{Fit, Model};
 
+/// What turns samples into seconds and Hz, made once: f64 is slow on a core without it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Units {
+    /// In Hz.
+    sample_rate: f32,
+    /// Half a sample, s.
+    half_sample: f64,
+    /// A phase step of one, Hz.
+    step: f64,
+}
+
+impl Units {
+    pub(crate) fn at(sample_rate: f64) -> Self {
+        // By Newton's steps, to within two units of the last place: a division in f64 is a kilobyte of code there.
+        let rough = f64::from(1.0 / sample_rate as f32);
+        let newton = |x: f64| x * (2.0 - sample_rate * x);
+        Self {
+            sample_rate: sample_rate as f32,
+            half_sample: 0.5 * newton(newton(rough)),
+            step: sample_rate * (1.0 / 4_294_967_296.0),
+        }
+    }
+}
+
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Record {
     /// Middle of the window, half samples from the start of the stream.
@@ -52,7 +76,7 @@ impl Record {
         angle: Angle,
         phase: f32,
     ) -> Self {
-        let half = model.half();
+        let half = model.half;
         let squared = half * half;
         Self {
             middle,
@@ -83,19 +107,19 @@ impl Record {
         }
     }
 
-    /// The window as it is reported. `sample_time` is one over the sample rate.
-    pub(crate) fn estimate(&self, sample_rate: f64, sample_time: f64, flags: Flags) -> Estimate {
-        let rate = sample_rate as f32;
+    /// The window as it is reported.
+    pub(crate) fn estimate(&self, units: &Units, flags: Flags) -> Estimate {
+        let rate = units.sample_rate;
         let root = square_root;
         Estimate {
             start: (self.middle + 1 - u64::from(self.samples)) / 2,
             samples: self.samples,
-            time: 0.5 * self.middle as f64 * sample_time,
+            time: self.middle as f64 * units.half_sample,
             main_amplitude: self.main,
             quadrature_amplitude: self.quadrature,
             angle: self.angle.radians(),
             phase: self.phase,
-            frequency: self.carrier.hertz(self.drift, sample_rate),
+            frequency: self.carrier.hertz(self.drift, units.step),
             angle_rate: self.turning * rate,
             decay_rate: -self.main_rate / self.main * rate,
             offsets: self.offsets,

@@ -21,7 +21,8 @@ struct Point {
     /// Middle of the window, half samples.
     middle: u64,
     angle: Angle,
-    variance: f32,
+    /// One over the variance.
+    weight: f32,
 }
 
 /// Angles of the last clean windows that do not overlap, the oldest first.
@@ -40,7 +41,7 @@ impl Trend {
                     quarters: 0,
                     rest: 0.0,
                 },
-                variance: 0.0,
+                weight: 0.0,
             }; KEPT],
             length: 0,
         }
@@ -64,7 +65,7 @@ impl Trend {
             *place = Point {
                 middle,
                 angle,
-                variance,
+                weight: weight(variance),
             };
             self.length += 1;
         }
@@ -78,7 +79,7 @@ impl Trend {
     /// through more. With none before, the pattern is taken to stand still until a window shows that it does not.
     pub(crate) fn rate(&self, middle: u64, samples: u32, angle: Angle, variance: f32) -> Rate {
         // Sums of weight·timeⁿ and of weight·timeⁿ·angle; the window itself is at time and angle 0.
-        let own = 1.0 / greater(variance, 1e-18);
+        let own = weight(variance);
         let mut powers = [own, 0.0, 0.0, 0.0, 0.0];
         let mut values = [0.0; 3];
         let per_window = 0.5 / samples as f32;
@@ -91,7 +92,7 @@ impl Trend {
             }
             let time = -(passed as f32) * per_window;
             let angle = point.angle.less(angle);
-            let mut weight = 1.0 / greater(point.variance, 1e-18);
+            let mut weight = point.weight;
             for (n, power) in powers.iter_mut().enumerate() {
                 *power += weight;
                 if let Some(value) = values.get_mut(n) {
@@ -129,4 +130,8 @@ impl Trend {
             variance: 1.0 / (known * window * window),
         }
     }
+}
+
+fn weight(variance: f32) -> f32 {
+    1.0 / greater(variance, 1e-18)
 }

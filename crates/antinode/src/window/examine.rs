@@ -97,8 +97,7 @@ fn rest(
     gradient: &mut Gradient,
     rests: &mut [Rest],
 ) {
-    let half = model.half();
-    let (response, prediction) = (model.response, *prediction);
+    let (half, response, prediction) = (model.half, model.response, *prediction);
     let mut sums = *gradient;
     for ((block, here), out) in blocks.iter().zip(here).zip(rests) {
         let rest = prediction.rest(&block.whitened[channel & 1], here);

@@ -2,7 +2,8 @@
 //!
 //! Each pick-off is Re(z(t)·e^{jωt}) + d with a slowly changing z. About a carrier near ω it has five linear parameters, z, z′ and
 //! d at the middle of the window, and both pick-offs share one 5×5 matrix that does not depend on the data. What is not linear,
-//! the exponential course of the two travelling waves, is predicted exactly and fitted by Gauss–Newton steps on the rest.
+//! the exponential course of the two travelling waves, is predicted exactly and fitted by Gauss–Newton steps on the rest: the
+//! linear solution comes first, and a wave that holds still leaves one step to do, in the pass that looks at its residual anyway.
 
 use super::examine::{Remains, examine};
 use super::gradient;
@@ -25,7 +26,7 @@ const NEGLIGIBLE: f32 = 0.1;
 const STEPS: usize = 6;
 
 /// What a fit found.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Fit {
     pub waves: Waves,
     pub offsets: [f32; 2],
@@ -49,15 +50,11 @@ impl Fit {
 impl Model {
     /// Fits `blocks`, which are as many as the model was built for.
     #[inline(never)]
-    fn fit(&self, blocks: &[Seen]) -> Fit {
+    fn fit(&self, blocks: &[Seen], fit: &mut Fit) {
         let mut parameters = Parameters::default();
         parameters.add(self, &gradient::of_sums(self, blocks));
-        let mut fit = Fit {
-            waves: Waves::new(self, &parameters),
-            offsets: parameters.offset,
-            remains: Remains::default(),
-            settled: false,
-        };
+        fit.waves = Waves::new(self, &parameters);
+        fit.offsets = parameters.offset;
         for _ in 0..STEPS {
             let gradients = examine(self, blocks, &fit.waves, fit.offsets, &mut fit.remains);
             let step = parameters.add(self, &gradients);
@@ -72,7 +69,6 @@ impl Model {
                 break;
             }
         }
-        fit
     }
 }
 
@@ -100,13 +96,14 @@ pub(crate) fn solve(
     };
     let mut span = reach(uncertainty);
     let mut moves = 0;
+    let mut fit = Fit::default();
     loop {
         model.retune(carrier, span);
         let skipped = usize::from((count - span) / 2);
         let part = blocks
             .get(skipped..skipped + usize::from(span))
             .unwrap_or(blocks);
-        let fit = model.fit(part);
+        model.fit(part, &mut fit);
         let drift = fit.waves.drift();
         if span == count && (drift.abs() <= CARRIER_REACH || moves >= 4) {
             return fit;
@@ -114,13 +111,11 @@ pub(crate) fn solve(
         if drift.abs() > 1.5 || !drift.is_finite() {
             // The wave is nowhere near: the caller sees a fit that did not settle.
             model.retune(carrier, count);
-            let fit = model.fit(blocks);
-            return Fit {
-                settled: false,
-                ..fit
-            };
+            model.fit(blocks, &mut fit);
+            fit.settled = false;
+            return fit;
         }
-        let half = model.half();
+        let half = model.half;
         carrier = carrier.shifted(drift / half);
         if span == count {
             moves += 1;

@@ -48,7 +48,7 @@ impl Gradient {
 
     /// The right-hand side, its slope scaled to half windows.
     pub(super) fn row(&self, model: &Model) -> Row {
-        let slope = self.slope / model.half();
+        let slope = self.slope * model.per_half;
         [
             self.level.re,
             self.level.im,
@@ -64,7 +64,7 @@ impl Gradient {
 pub(super) fn of_sums(model: &Model, blocks: &[Seen]) -> [Gradient; 2] {
     let mut gradients = [Gradient::default(); 2];
     let mut carrier = Carrier::new(model);
-    let (half, turn) = (model.half(), carrier.turn.rounded());
+    let (half, turn) = (model.half, carrier.turn.rounded());
     for chunk in blocks.chunks(CHUNK) {
         let (mut u, mut unit) = carrier.next(CHUNK);
         for block in chunk {

@@ -9,7 +9,7 @@ use crate::calibration::{Calibration, Correction};
 use crate::order::greater;
 use crate::phase::{Phase, PhaseStep};
 
-/// A window of blocks about a carrier, and its factorised normal equations.
+/// A window of blocks about a carrier, and what its samples would not change.
 #[derive(Debug, Clone)]
 pub(crate) struct Model {
     pub layout: Layout,
@@ -19,11 +19,13 @@ pub(crate) struct Model {
     sample_rate: f32,
     pub(super) basis: Basis,
     pub(super) response: Response,
-    pub(super) normal: Normal,
+    /// Half the window, in samples, and one over it.
+    pub half: f32,
+    pub(super) per_half: f32,
     /// Correction of the pick-offs at the carrier.
     pub correction: Correction,
-    /// Covariance of (Re z, Im z, Re z′, Im z′) for noise of one a sample.
-    pub covariance: [[f32; 4]; 4],
+    /// Inverse of the normal matrix: covariance of (Re z, Im z, Re z′, Im z′, d) for noise of one a sample.
+    pub covariance: [Row; PARAMETERS],
 }
 
 impl Model {
@@ -43,9 +45,10 @@ impl Model {
             sample_rate,
             response: Response::new(layout, &basis, carrier),
             basis,
-            normal: Normal::ZERO,
+            half: 0.0,
+            per_half: 0.0,
             correction: calibration.at(1.0 / carrier.period(), sample_rate),
-            covariance: [[0.0; 4]; 4],
+            covariance: [[0.0; PARAMETERS]; PARAMETERS],
         };
         model.build();
         model
@@ -64,11 +67,6 @@ impl Model {
         }
         self.blocks = blocks;
         self.build();
-    }
-
-    /// Half the window, in samples.
-    pub(crate) fn half(&self) -> f32 {
-        0.5 * f32::from(self.blocks) * f32::from(self.layout.length)
     }
 
     /// Degrees of freedom that the residual of both pick-offs has.
@@ -100,7 +98,7 @@ impl Model {
     /// The design rows of a block, for its mean, even and odd sums.
     fn rows(&self, u: f32, unit: Complex32) -> [Row; 3] {
         let (c, s) = (unit.re, unit.im);
-        let per_sample = 1.0 / self.half();
+        let per_sample = self.per_half;
         let even = |level: f32, slope: f32, offset: f32| {
             let (l, k) = (level * u, slope * per_sample);
             [level * c, -level * s, l * c + k * s, k * c - l * s, offset]
@@ -121,6 +119,8 @@ impl Model {
     }
 
     fn build(&mut self) {
+        self.half = 0.5 * f32::from(self.blocks) * f32::from(self.layout.length);
+        self.per_half = 1.0 / self.half;
         let mut normal = Normal::ZERO;
         for index in 0..self.blocks {
             for row in &self.rows(self.time(index), self.phase(index).unit()) {
@@ -129,10 +129,9 @@ impl Model {
         }
         normal.factorise();
         for (i, row) in self.covariance.iter_mut().enumerate() {
-            let unit = core::array::from_fn(|j| f32::from(i == j));
-            let [a, b, c, d, _] = normal.solve(unit);
-            *row = [a, b, c, d];
+            let mut unit = [0.0; PARAMETERS];
+            unit[i] = 1.0;
+            *row = normal.solve(unit);
         }
-        self.normal = normal;
     }
 }

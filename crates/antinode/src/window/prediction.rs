@@ -32,8 +32,7 @@ pub(super) struct Mixing {
 
 impl Mixing {
     pub(super) fn new(model: &Model, waves: &Waves) -> Self {
-        let per_sample = 1.0 / model.half();
-        let slope = waves.slope.map(|slope| slope * per_sample);
+        let slope = waves.slope.map(|slope| slope * model.per_half);
         let mut factors = [[Complex32::ZERO; 2]; 2];
         for (w, side) in [1.0, -1.0].into_iter().enumerate() {
             let ideal = [Complex32::new(0.5, 0.0), Complex32::new(0.0, -0.5 * side)];

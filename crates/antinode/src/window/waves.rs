@@ -5,6 +5,7 @@ use num_complex::Complex32;
 
 use super::gradient::Gradient;
 use super::model::Model;
+use super::normal::PARAMETERS;
 
 /// The raw parameters of both pick-offs, as they stand in the normal equations.
 #[derive(Debug, Clone, Copy, Default)]
@@ -28,10 +29,16 @@ impl Parameters {
     /// Moves to where the gradients vanish, but for what is not linear.
     #[inline(never)]
     pub(super) fn add(&mut self, model: &Model, gradients: &[Gradient; 2]) -> Step {
+        let rows = gradients.each_ref().map(|gradient| gradient.row(model));
+        let mut changes = [[0.0; PARAMETERS]; 2];
+        for (i, covariance) in model.covariance.iter().enumerate() {
+            for (j, entry) in covariance.iter().enumerate() {
+                changes[0][i] += entry * rows[0][j];
+                changes[1][i] += entry * rows[1][j];
+            }
+        }
         let mut step = Step::default();
-        for (channel, gradient) in gradients.iter().enumerate() {
-            let row = gradient.row(model);
-            let change = model.normal.solve(row);
+        for (channel, (row, change)) in rows.iter().zip(&changes).enumerate() {
             let z = Complex32::new(change[0], change[1]);
             let slope = Complex32::new(change[2], change[3]);
             self.z[channel] += z;
@@ -39,7 +46,7 @@ impl Parameters {
             self.offset[channel] += change[4];
             step.moved += z.norm_sqr() + slope.norm_sqr();
             step.size += self.z[channel].norm_sqr();
-            step.explained += row.iter().zip(&change).map(|(a, b)| a * b).sum::<f32>();
+            step.explained += row.iter().zip(change).map(|(a, b)| a * b).sum::<f32>();
         }
         step
     }
@@ -69,7 +76,7 @@ impl Waves {
         };
         // Channel D was sampled later: what it saw lies that much further along its course.
         let [c, d] = parameters.z;
-        let d = d - parameters.slope[1] * (correction.delay / model.half());
+        let d = d - parameters.slope[1] * (correction.delay * model.per_half);
         let value = travelling([c, d]);
         let change = travelling(parameters.slope);
         let slope = core::array::from_fn(|w| {

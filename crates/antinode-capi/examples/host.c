@@ -65,8 +65,8 @@ static void print_flags(uint32_t flags)
 
 static void print_row(const antinode_estimate_t *e, const char *name)
 {
-    printf("%.17g,%lu,%.9g,%.9g,%.17g,%.9g,%.17g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,", e->time_s, (unsigned long)e->samples,
-           (double)e->main_amplitude, (double)e->quadrature_amplitude, round(e->angle_rad * 1e9) / 1e9, (double)e->phase_rad,
+    printf("%.17g,%lu,%.9g,%.9g,%.17g,%.9g,%.17g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,", round(e->time_s * 1e12) / 1e12,
+           (unsigned long)e->samples, (double)e->main_amplitude, (double)e->quadrature_amplitude, round(e->angle_rad * 1e9) / 1e9, (double)e->phase_rad,
            round(e->frequency_hz * 1e9) / 1e9, (double)e->angle_rate_rad_s, (double)e->decay_rate_s,
            (double)e->main_amplitude_std, (double)e->quadrature_amplitude_std, (double)e->angle_std_rad,
            (double)e->frequency_std_hz, (double)e->residual_rms);

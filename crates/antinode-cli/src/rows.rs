@@ -39,10 +39,11 @@ struct Row<'a> {
 
 impl<'a> Row<'a> {
     fn new(file: &'a str, flags: &'a str, e: &Estimate) -> Self {
-        // Nine decimals are beyond every bound; more would be digits of nothing.
+        // Nine decimals are beyond every bound, and twelve beyond every clock; more would be digits of nothing.
         let nine = |x: f64| (x * 1e9).round() / 1e9;
+        let twelve = |x: f64| (x * 1e12).round() / 1e12;
         Self {
-            time_s: e.time,
+            time_s: twelve(e.time),
             samples: e.samples,
             main_amplitude: e.main_amplitude,
             quadrature_amplitude: e.quadrature_amplitude,

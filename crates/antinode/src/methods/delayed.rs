@@ -138,13 +138,21 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
             return;
         }
         let (offsets, mut sums) = (self.offsets, self.sums);
-        for (&now, &before) in rest.iter().zip(pairs) {
-            let (now, before) = (now.pair(), before.pair());
-            S::add_products(
-                &mut sums,
-                S::centred(now, offsets),
-                S::centred(before, offsets),
-            );
+        let mut add = |now: P, before: P| {
+            let [now, before] = [now, before].map(|pair| S::centred(pair.pair(), offsets));
+            S::add_products(&mut sums, now, before);
+        };
+        // In fours: the loop itself costs as much as a pair.
+        let (now, now_rest) = rest.as_chunks::<4>();
+        let (before, _) = pairs.as_chunks::<4>();
+        for (now, before) in now.iter().zip(before) {
+            for (&now, &before) in now.iter().zip(before) {
+                add(now, before);
+            }
+        }
+        let before = pairs.iter().skip(rest.len() - now_rest.len());
+        for (&now, &before) in now_rest.iter().zip(before) {
+            add(now, before);
         }
         self.sums = sums;
         self.count += rest.len() as u32;

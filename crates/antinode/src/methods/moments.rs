@@ -85,10 +85,16 @@ impl<S: Sample> MomentSums<S> {
     #[inline]
     pub fn extend<P: SamplePair<S>>(&mut self, pairs: &[P]) {
         let (offsets, mut sums) = (self.offsets, self.sums);
-        for &pair in pairs {
+        let mut add = |pair: P| {
             let pair = S::centred(pair.pair(), offsets);
             S::add_products(&mut sums, pair, pair);
+        };
+        // In fours: the loop itself costs as much as a pair.
+        let (fours, rest) = pairs.as_chunks::<4>();
+        for &four in fours {
+            four.into_iter().for_each(&mut add);
         }
+        rest.iter().copied().for_each(add);
         self.sums = sums;
         self.count += pairs.len() as u32;
     }

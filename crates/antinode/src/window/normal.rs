@@ -24,7 +24,7 @@ impl Normal {
     }
 
     /// Adds the square of one design row.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn add(&mut self, row: &Row) {
         for (i, (entries, &left)) in self.entries.iter_mut().zip(row).enumerate() {
             for (entry, &right) in entries.iter_mut().zip(row).take(i + 1) {

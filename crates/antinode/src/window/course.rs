@@ -160,3 +160,59 @@ fn growth(x: Complex32) -> Complex32 {
         .fold(Complex32::ONE, |sum, &inverse| sum * x * inverse + 1.0);
     series * x
 }
+
+#[cfg(test)]
+mod tests {
+    use num_complex::Complex64;
+
+    use super::*;
+    use crate::block::Layout;
+    use crate::calibration::Calibration;
+    use crate::phase::PhaseStep;
+
+    #[test]
+    fn a_chunk_keeps_its_digits_whatever_a_block_turns() {
+        let mut seed = 1u32;
+        let mut random = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / 8_388_608.0 - 1.0
+        };
+        // A fifth, a quarter, half of a period and all of it; a third is the furthest from a whole number of quarters.
+        for (length, limit) in [
+            (4u16, 1.5e-7),
+            (5, 1.5e-7),
+            (9, 1.5e-7),
+            (19, 1.5e-7),
+            (6, 2.4e-7),
+        ] {
+            let mut squares = 0.0;
+            for _ in 0..1000 {
+                let carrier = PhaseStep::from_period(18.75 + 0.5 * random());
+                let layout = Layout::new::<f32>(carrier, length);
+                let model = Model::new(layout, carrier, CHUNK as u16, Calibration::IDEAL, 1e5);
+                let value = Complex32::new(random(), random());
+                let slope = Complex32::new(1e-3 * random(), 0.05 * random());
+                let waves = Waves {
+                    value: [value; 2],
+                    slope: [slope; 2],
+                    ..Waves::default()
+                };
+                let mut here = [Here::default(); CHUNK];
+                Course::new(&model, &waves).next(&mut here);
+                // The last block is the worst.
+                let u = 1.0 - 1.0 / CHUNK as f64;
+                let samples = f64::from(length) * 0.5 * (CHUNK - 1) as f64;
+                let turns = f64::from(carrier.0) / 4_294_967_296.0 * samples;
+                let phase = core::f64::consts::TAU * turns + u * f64::from(slope.im);
+                let (sine, cosine) = libm::sincos(phase);
+                let long = |z: Complex32| Complex64::new(f64::from(z.re), f64::from(z.im));
+                let grown = Complex64::new(cosine, sine) * libm::exp(u * f64::from(slope.re));
+                let truth = long(value) * grown;
+                let error = long(here[CHUNK - 1].waves[0]) - truth;
+                squares += error.norm_sqr() / truth.norm_sqr();
+            }
+            let error = libm::sqrt(squares / 1000.0);
+            assert!(error < limit, "blocks of {length}: {error:e}");
+        }
+    }
+}

@@ -8,7 +8,7 @@
     dead_code,
     reason = "what a kernel is built from is not called by itself"
 )]
-#[path = "../../../crates/antinode/src/arch.rs"]
+#[path = "../../../crates/antinode/src/arch/mod.rs"]
 mod arch;
 // Where that file looks for them.
 mod block {

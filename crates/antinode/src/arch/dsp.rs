@@ -73,12 +73,12 @@ pub fn add_pairs<P: SamplePair<i16>>(
     sums: &mut [ChannelSums<i16>; 2],
     pairs: &[P],
     weights: &[u32],
+    index: u16,
 ) {
     const { assert!(size_of::<P>() == 4 && size_of::<[ChannelSums<i16>; 2]>() == 24) };
-    let count = pairs.len();
-    if count > 0 && count <= weights.len() {
-        // SAFETY: `count` pairs are words of memory, as many words of weights are there, and the sums are six words.
-        unsafe { add_words(sums, pairs.as_ptr().cast(), weights.as_ptr(), count) };
+    if let Some(place) = place(pairs.len(), weights.len(), index) {
+        // SAFETY: the pairs are words of memory, weights for them are there, and the sums are six words.
+        unsafe { add_words(sums, pairs.as_ptr().cast(), weights.as_ptr(), place) };
     }
 }
 
@@ -88,90 +88,110 @@ pub fn watch_pairs<P: SamplePair<i16>>(
     watch: &mut [ChannelWatch<i16>; 2],
     pairs: &[P],
     weights: &[u32],
+    index: u16,
 ) {
     const { assert!(size_of::<P>() == 4 && size_of::<[ChannelWatch<i16>; 2]>() == 24) };
-    let count = pairs.len();
-    if count > 0 && count <= weights.len() {
-        // SAFETY: `count` pairs are words of memory, as many words of weights are there, and the watch is six words: two sums
-        // and the halves low and high, twice.
-        unsafe { watch_words(watch, pairs.as_ptr().cast(), weights.as_ptr(), count) };
+    if let Some(place) = place(pairs.len(), weights.len(), index) {
+        // SAFETY: the pairs are words of memory, weights for them are there, and the watch is six words: two sums and the halves
+        // low and high, twice.
+        unsafe { watch_words(watch, pairs.as_ptr().cast(), weights.as_ptr(), place) };
     }
 }
 
-/// r0: six sums; r1: words of pairs; r2: weights, an even number; r3: pairs, at least one.
+/// The count of pairs in the low half and the index of the first in the high half, where there are pairs and weights for all.
+#[inline(always)]
+fn place(count: usize, weights: usize, index: u16) -> Option<u32> {
+    let is_within = usize::from(index) + count <= weights & !1 && count <= usize::from(u16::MAX);
+    (is_within && count > 0).then_some(count as u32 | u32::from(index) << 16)
+}
+
+/// r0: six sums; r1: words of pairs, which need no alignment; r2: the block's weights; r3: what `place` gives.
 ///
-/// Two pairs are turned into a word of samples for each channel, and six SMLADs add them. Pairs of halves need no alignment:
-/// only where they have it are they loaded by LDM.
+/// Two pairs are turned into a word of samples for each channel, and six SMLADs add them.
 #[unsafe(naked)]
 unsafe extern "C" fn add_words(
     sums: *mut [ChannelSums<i16>; 2],
     pairs: *const u32,
     weights: *const u32,
-    count: usize,
+    place: u32,
 ) {
     naked_asm!(
-        // Two pairs in r10 and r11.
+        // Samples of C in r12, of D in \\d, with their cosines in r0 and their sines in \\sine.
+        ".macro ADD d, sine",
+        "smlad r4, r12, r0, r4",
+        "smlad r7, \\d, r0, r7",
+        "smlad r5, r12, \\sine, r5",
+        "smlad r8, \\d, \\sine, r8",
+        "smlad r6, r12, lr, r6",
+        "smlad r9, \\d, lr, r9",
+        ".endm",
         ".macro ADD_TWO",
+        "ldr r11, [r1, #4]",
+        "ldr r10, [r1], #8",
         "pkhbt r12, r10, r11, lsl #16",
         "pkhtb r11, r11, r10, asr #16",
         "ldrd r0, r10, [r2], #8",
-        "smlad r4, r12, r0, r4",
-        "smlad r7, r11, r0, r7",
-        "smlad r5, r12, r10, r5",
-        "smlad r8, r11, r10, r8",
-        "smlad r6, r12, lr, r6",
-        "smlad r9, r11, lr, r9",
-        ".endm",
-        ".macro LOAD_ANY",
-        "ldr r11, [r1, #4]",
-        "ldr r10, [r1], #8",
+        "ADD r11, r10",
         ".endm",
         "push {{r0, r4-r11, lr}}",
-        "ldmia r0, {{r4-r9}}",
         "mov lr, #0x00010001",
-        "subs r3, #4",
-        "blo 2f",
-        "tst r1, #3",
+        "lsrs r12, r3, #16",
+        "uxth r3, r3",
         "bne 6f",
+        // The block begins.
+        "movs r4, #0",
+        "movs r5, #0",
+        "movs r6, #0",
+        "movs r7, #0",
+        "mov r8, r4",
+        "mov r9, r4",
         "1:",
-        "ldmia r1!, {{r10, r11}}",
-        "ADD_TWO",
-        "ldmia r1!, {{r10, r11}}",
-        "ADD_TWO",
-        "subs r3, #4",
-        "bhs 1b",
+        "subs r3, #8",
+        "blo 3f",
         "2:",
-        "lsls r3, r3, #31",
-        "bcc 3f",
-        "LOAD_ANY",
         "ADD_TWO",
+        "ADD_TWO",
+        "ADD_TWO",
+        "ADD_TWO",
+        "subs r3, #8",
+        "bhs 2b",
+        // Four are left where C, two where N.
         "3:",
-        "bpl 4f",
-        // A last pair alone: the other halves are zero.
+        "lsls r3, r3, #30",
+        "bcc 4f",
+        "ADD_TWO",
+        "ADD_TWO",
+        "4:",
+        "bpl 5f",
+        "ADD_TWO",
+        "5:",
+        "lsls r3, r3, #1",
+        "bpl 5f",
+        // A last pair alone: the high halves are zero.
         "ldr r10, [r1]",
         "ldrd r0, r11, [r2]",
         "uxth r12, r10",
         "lsrs r10, r10, #16",
-        "smlad r4, r12, r0, r4",
-        "smlad r7, r10, r0, r7",
-        "smlad r5, r12, r11, r5",
-        "smlad r8, r10, r11, r8",
-        "smlad r6, r12, lr, r6",
-        "smlad r9, r10, lr, r9",
-        "4:",
+        "ADD r10, r11",
+        "5:",
         "pop {{r0}}",
         "stmia r0, {{r4-r9}}",
         "pop {{r4-r11, pc}}",
         "6:",
-        "LOAD_ANY",
-        "ADD_TWO",
-        "LOAD_ANY",
-        "ADD_TWO",
-        "subs r3, #4",
-        "bhs 6b",
-        "b 2b",
+        "ldmia r0, {{r4-r9}}",
+        "lsrs r12, r12, #1",
+        "add r2, r2, r12, lsl #3",
+        "bcc 1b",
+        // A first pair of odd index: the low halves are zero.
+        "ldr r10, [r1], #4",
+        "ldrd r0, r11, [r2], #8",
+        "lsls r12, r10, #16",
+        "bfc r10, #0, #16",
+        "ADD r10, r11",
+        "subs r3, #1",
+        "b 1b",
+        ".purgem ADD",
         ".purgem ADD_TWO",
-        ".purgem LOAD_ANY",
     )
 }
 
@@ -181,7 +201,7 @@ unsafe extern "C" fn watch_words(
     watch: *mut [ChannelWatch<i16>; 2],
     pairs: *const u32,
     weights: *const u32,
-    count: usize,
+    place: u32,
 ) {
     naked_asm!(
         ".macro SEE most, least",
@@ -196,17 +216,7 @@ unsafe extern "C" fn watch_words(
         "smlad r5, \\c, \\sine, r5",
         "smlad r7, \\d, \\sine, r7",
         ".endm",
-        "push {{r0, r4-r11, lr}}",
-        "ldmia r0, {{r4-r9}}",
-        // r6: extremes of C, r9: of D; made words of low and of high.
-        "mov r10, r6",
-        "mov r6, r7",
-        "mov r7, r8",
-        "pkhtb r8, r9, r10, asr #16",
-        "pkhbt r9, r10, r9, lsl #16",
-        "subs r3, #2",
-        "blo 2f",
-        "1:",
+        ".macro WATCH_TWO",
         "ldr r11, [r1, #4]",
         "ldr r10, [r1], #8",
         "ssub16 r12, r10, r11",
@@ -217,27 +227,70 @@ unsafe extern "C" fn watch_words(
         "pkhtb r11, r11, r10, asr #16",
         "ldrd r0, r10, [r2], #8",
         "ADD r12, r11, r0, r10",
-        "subs r3, #2",
-        "bhs 1b",
+        ".endm",
+        "push {{r0, r4-r11, lr}}",
+        "lsrs r12, r3, #16",
+        "uxth r3, r3",
+        "bne 6f",
+        // The block begins.
+        "movs r4, #0",
+        "movs r5, #0",
+        "movs r6, #0",
+        "movs r7, #0",
+        "mov r8, #0x80008000",
+        "mvn r9, r8",
+        "1:",
+        "subs r3, #4",
+        "blo 3f",
         "2:",
-        "adds r3, #2",
-        "beq 3f",
+        "WATCH_TWO",
+        "WATCH_TWO",
+        "subs r3, #4",
+        "bhs 2b",
+        // Two are left where C, one where N.
+        "3:",
+        "lsls r3, r3, #31",
+        "bcc 4f",
+        "WATCH_TWO",
+        "4:",
+        "bpl 5f",
         "ldr r10, [r1]",
         "SEE r10, r10",
         "ldrd r0, r11, [r2]",
         "uxth r12, r10",
         "lsrs r10, r10, #16",
         "ADD r12, r10, r0, r11",
-        "3:",
+        "5:",
+        "pop {{r0}}",
         "pkhbt r10, r9, r8, lsl #16",
         "pkhtb r9, r8, r9, asr #16",
         "mov r8, r7",
         "mov r7, r6",
         "mov r6, r10",
-        "ldr r0, [sp]",
         "stmia r0, {{r4-r9}}",
-        "pop {{r0, r4-r11, pc}}",
+        "pop {{r4-r11, pc}}",
+        "6:",
+        "ldmia r0, {{r4-r9}}",
+        // r6: extremes of C, r9: of D; made words of low and of high.
+        "mov r10, r6",
+        "mov r6, r7",
+        "mov r7, r8",
+        "pkhtb r8, r9, r10, asr #16",
+        "pkhbt r9, r10, r9, lsl #16",
+        "lsrs r12, r12, #1",
+        "add r2, r2, r12, lsl #3",
+        "bcc 1b",
+        // A first pair of odd index.
+        "ldr r10, [r1], #4",
+        "SEE r10, r10",
+        "ldrd r0, r11, [r2], #8",
+        "lsls r12, r10, #16",
+        "bfc r10, #0, #16",
+        "ADD r12, r10, r0, r11",
+        "subs r3, #1",
+        "b 1b",
         ".purgem SEE",
         ".purgem ADD",
+        ".purgem WATCH_TWO",
     )
 }

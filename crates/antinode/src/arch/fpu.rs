@@ -23,19 +23,26 @@ pub fn add_floats<P: SamplePair<f32>>(
     sums: &mut [ChannelSums<f32>; 2],
     pairs: &[P],
     weights: &[[f32; 2]],
+    index: u16,
 ) {
     const { assert!(size_of::<[ChannelSums<f32>; 2]>() == 24) };
     let count = pairs.len();
-    if count == 0 || count > weights.len() {
+    let Some(by) = weights.get(usize::from(index)..) else {
+        return;
+    };
+    if count == 0 || count > by.len() {
         return;
     }
-    let (from, by) = (pairs.as_ptr(), weights.as_ptr());
+    if index == 0 {
+        *sums = [ChannelSums::empty(); 2];
+    }
+    let (from, by) = (pairs.as_ptr(), by.as_ptr());
     match P::FORM {
         // SAFETY: `count` pairs are words of memory, as many weights are there, and the sums are six words.
         Form::Codes => unsafe { add_codes(sums, from.cast(), by, count) },
         // SAFETY: as above, and a pair is two words.
         Form::Floats => unsafe { add_pairs(sums, from.cast(), by, count) },
-        Form::Other => super::portable::add_floats(sums, pairs, weights),
+        Form::Other => super::portable::add_floats(sums, pairs, weights, index),
     }
 }
 

@@ -48,17 +48,24 @@ pub fn square_root(x: f32) -> f32 {
     libm::sqrtf(x)
 }
 
-/// Adds pairs to the sums, from a sample of even index on: `weights` are words of two cosines and of two sines in turn.
+/// Adds pairs to the sums, of which the first is sample `index` of its block: at 0 the sums begin anew. `weights` are the whole
+/// block's, words of two cosines and of two sines in turn.
 ///
-/// None is taken where there are weights for fewer.
+/// Nothing is done without pairs, or where there are weights for fewer.
 #[inline(always)]
 pub fn add_pairs<P: SamplePair<i16>>(
     sums: &mut [ChannelSums<i16>; 2],
     pairs: &[P],
     weights: &[u32],
+    index: u16,
 ) {
-    let mut sums = sums.each_mut();
-    for ((pair, cosine), sine) in each(pairs, weights) {
+    let Some(weighted) = weighted(pairs, weights, index) else {
+        return;
+    };
+    if index == 0 {
+        *sums = [ChannelSums::empty(); 2];
+    }
+    for (pair, [cosine, sine]) in weighted {
         for (sums, sample) in sums.iter_mut().zip(pair.pair()) {
             let sample = i32::from(sample);
             sums.cosine = sums.cosine.wrapping_add(sample * cosine);
@@ -74,8 +81,15 @@ pub fn watch_pairs<P: SamplePair<i16>>(
     watch: &mut [ChannelWatch<i16>; 2],
     pairs: &[P],
     weights: &[u32],
+    index: u16,
 ) {
-    for ((pair, cosine), sine) in each(pairs, weights) {
+    let Some(weighted) = weighted(pairs, weights, index) else {
+        return;
+    };
+    if index == 0 {
+        *watch = [ChannelWatch::empty(); 2];
+    }
+    for (pair, [cosine, sine]) in weighted {
         for (watch, sample) in watch.iter_mut().zip(pair.pair()) {
             let product = i32::from(sample);
             watch.third_cosine = watch.third_cosine.wrapping_add(product * cosine);
@@ -86,19 +100,24 @@ pub fn watch_pairs<P: SamplePair<i16>>(
     }
 }
 
-/// Adds pairs in f32 to the sums, each product rounded before it is added: `weights` are cosine and sine of each.
-///
-/// None is taken where there are weights for fewer.
+/// As [`add_pairs`] in f32, each product rounded before it is added: `weights` are cosine and sine of each sample of the block.
 #[inline(always)]
 pub fn add_floats<P: SamplePair<f32>>(
     sums: &mut [ChannelSums<f32>; 2],
     pairs: &[P],
     weights: &[[f32; 2]],
+    index: u16,
 ) {
-    if weights.len() < pairs.len() {
+    let index = usize::from(index);
+    let weights = weights.get(index..index + pairs.len());
+    let Some(weights) = weights.filter(|weights| !weights.is_empty()) else {
         return;
-    }
-    let mut now = *sums;
+    };
+    let mut now = if index == 0 {
+        [ChannelSums::empty(); 2]
+    } else {
+        *sums
+    };
     for (pair, [cosine, sine]) in pairs.iter().zip(weights) {
         for (sums, sample) in now.iter_mut().zip(pair.pair()) {
             sums.cosine += sample * cosine;
@@ -109,20 +128,23 @@ pub fn add_floats<P: SamplePair<f32>>(
     *sums = now;
 }
 
-/// Pairs with a cosine and a sine for each.
+/// Pairs with a cosine and a sine for each, where there are pairs and weights for all.
 #[inline(always)]
-fn each<P: Copy>(pairs: &[P], weights: &[u32]) -> impl Iterator<Item = ((P, i32), i32)> {
-    let pairs = if pairs.len() > weights.len() {
-        &[]
-    } else {
-        pairs
-    };
-    let weights = weights.as_chunks().0;
-    let cosines = weights
-        .iter()
-        .flat_map(|&[cosine, _]: &[u32; 2]| halves(cosine));
-    let sines = weights.iter().flat_map(|&[_, sine]| halves(sine));
-    pairs.iter().copied().zip(cosines).zip(sines)
+fn weighted<P: Copy>(
+    pairs: &[P],
+    weights: &[u32],
+    index: u16,
+) -> Option<impl Iterator<Item = (P, [i32; 2])>> {
+    let (twos, odd) = (usize::from(index / 2), usize::from(index % 2));
+    let weights = weights.as_chunks().0.get(twos..)?;
+    if pairs.is_empty() || odd + pairs.len() > 2 * weights.len() {
+        return None;
+    }
+    let each = weights.iter().flat_map(|&[cosines, sines]| {
+        let ([c0, c1], [s0, s1]) = (halves(cosines), halves(sines));
+        [[c0, s0], [c1, s1]]
+    });
+    Some(pairs.iter().copied().zip(each.skip(odd)))
 }
 
 fn halves(word: u32) -> [i32; 2] {

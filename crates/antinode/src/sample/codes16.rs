@@ -18,29 +18,6 @@ fn pair(word: u32) -> [i16; 2] {
     [word as i16, (word >> 16) as i16]
 }
 
-/// The weights of `count` samples from `index` on, which is even: words of two cosines and of two sines.
-#[inline(always)]
-fn weights(table: &[u32], index: usize, count: usize) -> &[u32] {
-    table
-        .get(index..index + ((count + 1) & !1))
-        .unwrap_or_default()
-}
-
-/// What stands for a sample of odd index alone: a pair of words, the first of zeros.
-#[inline(always)]
-fn after_nothing(pair: [i16; 2]) -> [[i16; 2]; 2] {
-    [[0; 2], pair]
-}
-
-/// Splits off the first pair where its index is odd: the kernels begin at even ones.
-#[inline(always)]
-fn odd_first<P>(pairs: &[P], index: usize) -> (Option<&P>, &[P]) {
-    match pairs {
-        [first, rest @ ..] if index % 2 == 1 => (Some(first), rest),
-        _ => (None, pairs),
-    }
-}
-
 impl Sample for i16 {
     type Sum = i32;
     // Cosines of two samples in the even places, their sines in the odd ones.
@@ -95,37 +72,21 @@ impl Sample for i16 {
     #[inline(always)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
-        mut pairs: &[P],
+        pairs: &[P],
         table: &[u32],
-        mut index: usize,
+        index: u16,
     ) {
-        if let (Some(first), rest) = odd_first(pairs, index) {
-            let two = after_nothing(first.pair());
-            arch::add_pairs(sums, &two, weights(table, index & !1, 2));
-            (pairs, index) = (rest, index + 1);
-        }
-        arch::add_pairs(sums, pairs, weights(table, index, pairs.len()));
+        arch::add_pairs(sums, pairs, table, index);
     }
 
     #[inline(always)]
     fn watch_slice<P: SamplePair<Self>>(
         watch: &mut [ChannelWatch<Self>; 2],
-        mut pairs: &[P],
+        pairs: &[P],
         table: &[u32],
-        mut index: usize,
+        index: u16,
     ) {
-        if let (Some(first), rest) = odd_first(pairs, index) {
-            let two = after_nothing(first.pair());
-            let extremes = watch.map(|channel| [channel.low, channel.high]);
-            arch::watch_pairs(watch, &two, weights(table, index & !1, 2));
-            // The zero of nothing is no sample.
-            for ((channel, [low, high]), sample) in watch.iter_mut().zip(extremes).zip(first.pair())
-            {
-                (channel.low, channel.high) = (low.min(sample), high.max(sample));
-            }
-            (pairs, index) = (rest, index + 1);
-        }
-        arch::watch_pairs(watch, pairs, weights(table, index, pairs.len()));
+        arch::watch_pairs(watch, pairs, table, index);
     }
 
     #[inline(always)]

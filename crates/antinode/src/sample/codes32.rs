@@ -54,10 +54,17 @@ impl Sample for i32 {
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
         table: &[[i16; 2]],
-        index: usize,
+        index: u16,
     ) {
-        let [mut c, mut d] = *sums;
-        for (pair, &weight) in pairs.iter().zip(table.get(index..).unwrap_or(&[])) {
+        let [mut c, mut d] = if index == 0 {
+            [ChannelSums::empty(); 2]
+        } else {
+            *sums
+        };
+        for (pair, &weight) in pairs
+            .iter()
+            .zip(table.get(usize::from(index)..).unwrap_or(&[]))
+        {
             let [on_c, on_d] = pair.pair();
             c.add(on_c, weight);
             d.add(on_d, weight);
@@ -70,10 +77,17 @@ impl Sample for i32 {
         watch: &mut [ChannelWatch<Self>; 2],
         pairs: &[P],
         table: &[[i16; 2]],
-        index: usize,
+        index: u16,
     ) {
-        let [mut c, mut d] = *watch;
-        for (pair, &[cosine, sine]) in pairs.iter().zip(table.get(index..).unwrap_or(&[])) {
+        let [mut c, mut d] = if index == 0 {
+            [ChannelWatch::empty(); 2]
+        } else {
+            *watch
+        };
+        for (pair, &[cosine, sine]) in pairs
+            .iter()
+            .zip(table.get(usize::from(index)..).unwrap_or(&[]))
+        {
             for (channel, sample) in [&mut c, &mut d].into_iter().zip(pair.pair()) {
                 channel.third_cosine += product(sample, cosine);
                 channel.third_sine += product(sample, sine);

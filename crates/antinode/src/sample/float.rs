@@ -49,10 +49,9 @@ impl Sample for f32 {
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
         table: &[[f32; 2]],
-        index: usize,
+        index: u16,
     ) {
-        let weights = table.get(index..index + pairs.len()).unwrap_or_default();
-        arch::add_floats(sums, pairs, weights);
+        arch::add_floats(sums, pairs, table, index);
     }
 
     #[inline(never)]
@@ -60,11 +59,15 @@ impl Sample for f32 {
         watch: &mut [ChannelWatch<Self>; 2],
         pairs: &[P],
         table: &[[f32; 2]],
-        index: usize,
+        index: u16,
     ) {
-        let [mut c, mut d] = *watch;
-        let table = table.get(index..).unwrap_or(&[]);
-        for ((pair, &[cosine, sine]), index) in pairs.iter().zip(table).zip(index as u16..) {
+        let [mut c, mut d] = if index == 0 {
+            [ChannelWatch::empty(); 2]
+        } else {
+            *watch
+        };
+        let table = table.get(usize::from(index)..).unwrap_or(&[]);
+        for ((pair, &[cosine, sine]), index) in pairs.iter().zip(table).zip(index..) {
             let pair = pair.pair();
             c.third_cosine += pair[0] * cosine;
             c.third_sine += pair[0] * sine;

@@ -98,23 +98,23 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     /// Puts the weights of sample `index` into a table, from cosine and sine in f32: whole numbers where there is a scale.
     #[doc(hidden)]
     fn set_weight(table: &mut [Self::Weight], index: usize, weight: [f32; 2]);
-    /// Adds pairs, the first of which is sample `index` of its block, to the carrier's sums.
+    /// Adds pairs, the first of which is sample `index` of its block, to the carrier's sums, which begin anew at 0.
     ///
-    /// Nothing is added where the table is too short.
+    /// Nothing is done without pairs, or where the table is too short.
     #[doc(hidden)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
         table: &[Self::Weight],
-        index: usize,
+        index: u16,
     );
-    /// Watches pairs, the first of which is sample `index` of its block.
+    /// Watches pairs, as [`add_slice`](Self::add_slice) adds them.
     #[doc(hidden)]
     fn watch_slice<P: SamplePair<Self>>(
         watch: &mut [ChannelWatch<Self>; 2],
         pairs: &[P],
         table: &[Self::Weight],
-        index: usize,
+        index: u16,
     );
     /// The longest runs at the extremes, low and high: 1 where they are not counted.
     #[doc(hidden)]

@@ -1,10 +1,10 @@
 //! Arithmetic at sample rate on 16-bit codes: two products an instruction where the core has them, sums in 32 bits.
 
-use super::codes::{self, Levels};
+use super::codes;
 use super::{Sample, SamplePair};
 use crate::arch;
 use crate::block::{ChannelSums, ChannelWatch};
-use crate::period::{LAGS, Lags};
+use crate::period::Lags;
 
 /// Two 16-bit halves as a word.
 #[inline(always)]
@@ -114,22 +114,12 @@ impl Sample for i16 {
     }
 
     #[inline(always)]
-    fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]) {
-        let pair = word(pair);
-        let add = |sum: &mut u32, before: [i16; 2]| {
+    fn add_differences(sums: &mut Lags<Self>, pairs: [[Self; 2]; 2], before: &[[Self; 2]]) {
+        super::lag_by_lag::<Self>(sums, pairs, before, |sum, now, before| {
             // Of codes of 14 bits half a difference is below 2¹³: 31 squares of two stay below 2³².
-            let half = arch::half_difference(pair, word(before));
+            let half = arch::half_difference(word(now), word(before));
             *sum = arch::dual_multiply_add(half, half, *sum);
-        };
-        if let Some(all) = before.last_chunk::<LAGS>() {
-            for lag in 0..LAGS {
-                add(&mut sums[lag], all[LAGS - 1 - lag]);
-            }
-        } else {
-            for (sum, &before) in sums.iter_mut().zip(before.iter().rev()) {
-                add(sum, before);
-            }
-        }
+        });
     }
 
     #[inline(always)]
@@ -138,8 +128,13 @@ impl Sample for i16 {
     }
 
     #[inline(always)]
-    fn means(sums: &Lags<Self>, count: usize) -> Levels {
-        codes::means(sums, count)
+    fn shift(sums: &Lags<Self>) -> u32 {
+        codes::shift(sums)
+    }
+
+    #[inline(always)]
+    fn level(sum: u32, shift: u32, count: usize) -> u32 {
+        codes::mean(sum, shift, count)
     }
 
     #[inline(always)]

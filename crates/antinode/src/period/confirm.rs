@@ -29,9 +29,8 @@ pub(crate) struct Trial {
 #[derive(Debug, Clone, Copy)]
 struct Sums {
     row: Row,
-    /// Squares and products of columns: (0,0), (0,3), (3,3), (0,4), (3,4); then (1,1), (1,2), (2,2).
+    /// Squares and products of the even columns: (0,0), (0,3), (3,3), (0,4), (3,4). Those of the odd ones follow from them.
     even: [f32; 5],
-    odd: [f32; 3],
     gradient: [[f32; 5]; 2],
     square: f32,
 }
@@ -41,14 +40,10 @@ impl Sums {
     #[inline(always)]
     fn add(&mut self, rows: f32, sum: Pair, difference: Pair) {
         let [c, s, uc, us] = self.row.next();
-        // Weighted once: the products of a row count for all its samples.
-        let [wc, ws, wuc, wus] = [c, s, uc, us].map(|column| rows * column);
-        let even = [wc * c, wc * us, wus * us, wc, wus];
-        let odd = [ws * s, ws * uc, wuc * uc];
+        // The products of a row count for all its samples.
+        let (all_c, all_us) = (rows * c, rows * us);
+        let even = [all_c * c, all_c * us, all_us * us, all_c, all_us];
         for (sum, value) in self.even.iter_mut().zip(even) {
-            *sum += value;
-        }
-        for (sum, value) in self.odd.iter_mut().zip(odd) {
             *sum += value;
         }
         for ((gradient, sum), difference) in self.gradient.iter_mut().zip(sum).zip(difference) {
@@ -115,7 +110,6 @@ impl Trial {
             sums: Sums {
                 row: Row::new(step, length),
                 even: [0.0; 5],
-                odd: [0.0; 3],
                 gradient: [[0.0; 5]; 2],
                 square: 0.0,
             },
@@ -153,13 +147,15 @@ impl Trial {
     /// The normal equations.
     fn normal(&self) -> Normal {
         let [cc, cus, usus, c1, us1] = self.sums.even;
-        let [ss, suc, ucuc] = self.sums.odd;
+        // cos² + sin² is one, and u² adds up to (n² − 1)/3n.
+        let n = self.length as f32;
+        let (ss, suc, ucuc) = (n - cc, cus, (n - 1.0 / n) / 3.0 - usus);
         let mut normal = Normal::from_lower([
             [cc, 0.0, 0.0, 0.0, 0.0],
             [0.0, ss, 0.0, 0.0, 0.0],
             [0.0, suc, ucuc, 0.0, 0.0],
             [cus, 0.0, 0.0, usus, 0.0],
-            [c1, 0.0, 0.0, us1, self.length as f32],
+            [c1, 0.0, 0.0, us1, n],
         ]);
         normal.factorise();
         normal

@@ -151,18 +151,19 @@ impl<S: Sample, const N: usize> Summing<S, N> {
     /// and its watch.
     #[inline(always)]
     fn sum<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, bool) {
-        let length = self.block.layout.length;
-        let mut index = self.count;
+        let length = usize::from(self.block.layout.length);
+        let mut index = usize::from(self.count);
         if index >= length {
-            self.block.start += u64::from(length);
+            self.block.start += length as u64;
             index = 0;
         }
-        let pairs = pairs.get(..usize::from(length - index)).unwrap_or(pairs);
-        let count = index + pairs.len() as u16;
-        self.count = count;
-        if self.known < count {
+        let pairs = pairs.get(..length - index).unwrap_or(pairs);
+        let count = index + pairs.len();
+        self.count = count as u16;
+        if usize::from(self.known) < count {
             self.extend_table();
         }
+        let index = index as u16;
         S::add_slice(&mut self.block.sums, pairs, &self.table, index);
         if let Some(watch) = &mut self.block.watch {
             S::watch_slice(watch, pairs, &self.third, index);

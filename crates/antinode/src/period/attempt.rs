@@ -53,7 +53,8 @@ impl<S: Sample> Attempt<S> {
         match &mut self.doubt {
             None => {
                 // From both ends at once: of the two halves, what comes next.
-                let (first, last) = self.frame.split_at(self.length / 2);
+                let halves = self.frame.split_at_checked(self.length / 2);
+                let (first, last) = halves.unwrap_or((&[], &[]));
                 let first = first.get(from / 2..self.seen / 2).unwrap_or(&[]);
                 let last = last.get(..(self.length - from) / 2).unwrap_or(&[]);
                 let ends = first.iter().zip(last.iter().rev());

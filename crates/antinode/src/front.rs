@@ -147,9 +147,9 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Takes pairs until a period is found; gives how many.
     #[inline(never)]
     fn search_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> usize {
-        for (taken, &pair) in pairs.iter().enumerate() {
-            self.index += 1;
+        for (taken, &pair) in (1..).zip(pairs) {
             if let Some(period) = self.detector.push(pair) {
+                self.index += taken as u64;
                 let layout = self.settings.layout(period);
                 if usize::from(layout.length) <= N {
                     self.demodulator.begin(layout, self.index);
@@ -157,9 +157,10 @@ impl<S: Sample, const N: usize> Front<S, N> {
                 } else {
                     self.detector.restart();
                 }
-                return taken + 1;
+                return taken;
             }
         }
+        self.index += pairs.len() as u64;
         pairs.len()
     }
 }

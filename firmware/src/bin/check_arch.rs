@@ -8,7 +8,7 @@
     dead_code,
     reason = "what a kernel is built from is not called by itself"
 )]
-#[path = "../../../crates/antinode/src/arch.rs"]
+#[path = "../../../crates/antinode/src/arch/mod.rs"]
 mod arch;
 // Where that file looks for them.
 mod block {
@@ -114,13 +114,13 @@ fn on_words(random: &mut Random, agrees: impl Fn(u32, u32, u32) -> bool) -> bool
         })
 }
 
-/// Kernels on slices: of every length and alignment, with weights for all pairs, or for fewer.
+/// Kernels on slices: of every length, alignment and place in a block, with weights for all pairs, or for fewer.
 fn on_slices(
     random: &mut Random,
-    mut agrees: impl FnMut(&mut Random, &[[i16; 2]], &[u32]) -> bool,
+    mut agrees: impl FnMut(&mut Random, &[[i16; 2]], &[u32], u16) -> bool,
 ) -> bool {
     let mut pairs = [[0; 2]; LONGEST + 1];
-    let mut weights = [0; LONGEST];
+    let mut weights = [0; 2 * LONGEST];
     (0..SLICES).all(|_| {
         for pair in &mut pairs {
             let word = random.rough_word();
@@ -130,8 +130,11 @@ fn on_slices(
             *weight = random.rough_word();
         }
         let length = random.word() as usize % (LONGEST + 1);
-        let known = 2 * (random.word() as usize % (LONGEST / 2 + 1));
-        let enough = length.next_multiple_of(2);
+        // A block begins one time in four.
+        let index = random.word() % LONGEST as u32;
+        let index = if random.word() & 3 == 0 { 0 } else { index };
+        let known = 2 * (random.word() as usize % (LONGEST + 1));
+        let enough = (index as usize + length).next_multiple_of(2);
         let known = if random.word() & 3 == 0 {
             known
         } else {
@@ -141,7 +144,7 @@ fn on_slices(
         let odd = random.word() as usize & 1;
         let halves = pairs.as_flattened().get(odd..).unwrap_or(&[]);
         match (halves.as_chunks().0.get(..length), weights.get(..known)) {
-            (Some(pairs), Some(weights)) => agrees(random, pairs, weights),
+            (Some(pairs), Some(weights)) => agrees(random, pairs, weights, index as u16),
             _ => false,
         }
     })
@@ -155,18 +158,18 @@ fn same_root(bits: u32) -> bool {
     root.to_bits() == twin.to_bits() || root.is_nan() && twin.is_nan()
 }
 
-fn add(random: &mut Random, pairs: &[impl SamplePair<i16>], weights: &[u32]) -> bool {
+fn add(random: &mut Random, pairs: &[impl SamplePair<i16>], weights: &[u32], index: u16) -> bool {
     let mut sums = random.sums();
     let mut twin = sums;
-    arch::add_pairs(&mut sums, pairs, weights);
-    portable::add_pairs(&mut twin, pairs, weights);
+    arch::add_pairs(&mut sums, pairs, weights, index);
+    portable::add_pairs(&mut twin, pairs, weights, index);
     sums == twin
 }
 
 /// Sums of codes and of floats: products and sums rounded one by one.
-fn add_floats(random: &mut Random, codes: &[[i16; 2]], weights: &[u32]) -> bool {
+fn add_floats(random: &mut Random, codes: &[[i16; 2]], weights: &[u32], index: u16) -> bool {
     let small = |word: u32| word as i32 as f32 / 2_147_483_648.0;
-    let mut factors = [[0.0; 2]; LONGEST];
+    let mut factors = [[0.0; 2]; 2 * LONGEST];
     for (factor, &word) in factors.iter_mut().zip(weights) {
         *factor = [small(word), small(word.rotate_left(16))];
     }
@@ -181,28 +184,29 @@ fn add_floats(random: &mut Random, codes: &[[i16; 2]], weights: &[u32]) -> bool 
     });
     let factors = factors.get(..weights.len()).unwrap_or(&[]);
     let floats = floats.get(..codes.len()).unwrap_or(&[]);
-    same_floats(sums, codes, factors) && same_floats(sums, floats, factors)
+    same_floats(sums, codes, factors, index) && same_floats(sums, floats, factors, index)
 }
 
 fn same_floats(
     sums: [ChannelSums<f32>; 2],
     pairs: &[impl SamplePair<f32>],
     weights: &[[f32; 2]],
+    index: u16,
 ) -> bool {
     let (mut sums, mut twin) = (sums, sums);
-    arch::add_floats(&mut sums, pairs, weights);
-    portable::add_floats(&mut twin, pairs, weights);
+    arch::add_floats(&mut sums, pairs, weights, index);
+    portable::add_floats(&mut twin, pairs, weights, index);
     let bits = |sums: [ChannelSums<f32>; 2]| {
         sums.map(|sums| [sums.cosine, sums.sine, sums.sum].map(f32::to_bits))
     };
     bits(sums) == bits(twin)
 }
 
-fn watch(random: &mut Random, pairs: &[impl SamplePair<i16>], weights: &[u32]) -> bool {
+fn watch(random: &mut Random, pairs: &[impl SamplePair<i16>], weights: &[u32], index: u16) -> bool {
     let mut watch = random.watch();
     let mut twin = watch;
-    arch::watch_pairs(&mut watch, pairs, weights);
-    portable::watch_pairs(&mut twin, pairs, weights);
+    arch::watch_pairs(&mut watch, pairs, weights, index);
+    portable::watch_pairs(&mut twin, pairs, weights, index);
     watch == twin
 }
 

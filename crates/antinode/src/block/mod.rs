@@ -45,10 +45,10 @@ pub struct Demodulator<S: Sample, const N: usize> {
 #[derive(Debug, Clone)]
 #[repr(C)]
 struct Summing<S: Sample, const N: usize> {
-    /// Sample pairs that `block` still wants; when it is full the next sample begins a new one.
-    left: u16,
-    /// How much of the tables is missing: they grow with the first block, so that no sample waits for all of them.
-    unknown: u16,
+    /// Sample pairs that `block` has; when it is full the next one begins a new block.
+    count: u16,
+    /// How much of the tables is made: they grow with the first block, so that no sample waits for all of them.
+    known: u16,
     block: Block<S>,
     table: [S::Weight; N],
     third: [S::Weight; N],
@@ -65,8 +65,8 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
             room: 0,
             holding: [[S::EXTREMES[0]; 2]; HELD],
             summing: Summing {
-                left: 0,
-                unknown: 0,
+                count: 0,
+                known: 0,
                 block: Block {
                     start: 0,
                     layout,
@@ -105,30 +105,30 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     /// Call it again with the rest: the sums are the same to the bit however a stream is cut.
     #[inline]
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
-        if self.held > 0 {
+        // While slices come nothing is held back. The next single pair is not either: by then there is room.
+        if self.room > 0 {
             self.sum_held();
+            self.room = 0;
         }
-        let taken = self.summing.sum(pairs);
-        // The next single pair is not held back: by then there is room.
-        self.room = 0;
-        (taken, self.summing.finished())
+        let (taken, is_full) = self.summing.sum(pairs);
+        (taken, is_full.then_some(&self.summing.block))
     }
 
     /// Sums the pairs held back.
     #[inline(never)]
     fn sum_held(&mut self) -> Option<&Block<S>> {
         let held = self.holding.get(..usize::from(self.held));
-        self.summing.sum(held.unwrap_or(&[]));
         self.held = 0;
+        let (_, is_full) = self.summing.sum(held.unwrap_or(&[]));
         self.room = self.summing.room();
-        self.summing.finished()
+        is_full.then_some(&self.summing.block)
     }
 
     /// Begins anew, with blocks of another layout from sample pair `start` of the stream on.
     pub(crate) fn begin(&mut self, layout: Layout, start: u64) {
         let length = layout.length.clamp(1, N.min(usize::from(u16::MAX)) as u16);
         self.summing.block.layout = Layout::new::<S>(layout.step, length);
-        self.summing.unknown = length;
+        self.summing.known = 0;
         self.restart(start);
     }
 
@@ -140,42 +140,48 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     /// Drops the block begun; the next one starts at sample pair `start` of the stream.
     pub(crate) fn restart(&mut self, start: u64) {
         self.held = 0;
-        self.summing.restart(start);
+        self.summing.block.start = start;
+        self.summing.count = 0;
         self.room = self.summing.room();
     }
 }
 
 impl<S: Sample, const N: usize> Summing<S, N> {
-    /// Takes pairs up to the end of the block; gives how many.
+    /// Takes pairs up to the end of the block; gives how many, and whether the block is full. The first of a block begins its sums
+    /// and its watch.
     #[inline(always)]
-    fn sum<P: SamplePair<S>>(&mut self, pairs: &[P]) -> usize {
-        let length = self.block.layout.length;
-        if self.left == 0 {
-            self.restart(self.block.start + u64::from(length));
+    fn sum<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, bool) {
+        let length = usize::from(self.block.layout.length);
+        let mut index = usize::from(self.count);
+        if index >= length {
+            self.block.start += length as u64;
+            index = 0;
         }
-        let index = length - self.left;
-        let pairs = pairs.get(..usize::from(self.left)).unwrap_or(pairs);
-        self.left -= pairs.len() as u16;
-        if self.unknown > self.left {
+        let pairs = pairs.get(..length - index).unwrap_or(pairs);
+        let count = index + pairs.len();
+        self.count = count as u16;
+        if usize::from(self.known) < count {
             self.extend_table();
         }
-        let index = usize::from(index);
+        let index = index as u16;
         S::add_slice(&mut self.block.sums, pairs, &self.table, index);
         if let Some(watch) = &mut self.block.watch {
             S::watch_slice(watch, pairs, &self.third, index);
         }
-        pairs.len()
+        (pairs.len(), count == length)
     }
 
     /// Pairs that may be held back, so that no call takes long: one while the table grows, and never beyond the end of the block.
     #[inline(always)]
     fn room(&self) -> u16 {
-        if self.unknown > 0 {
+        let length = self.block.layout.length;
+        if self.known < length {
             return 1;
         }
-        let left = match self.left {
-            0 => self.block.layout.length,
-            left => left,
+        let left = if self.count < length {
+            length - self.count
+        } else {
+            length
         };
         let most = if self.block.watch.is_some() {
             S::WATCHED_AT_ONCE
@@ -185,34 +191,17 @@ impl<S: Sample, const N: usize> Summing<S, N> {
         left.min(most)
     }
 
-    #[inline(always)]
-    fn finished(&self) -> Option<&Block<S>> {
-        (self.left == 0).then_some(&self.block)
-    }
-
-    #[inline(always)]
-    fn restart(&mut self, start: u64) {
-        let block = &mut self.block;
-        self.left = block.layout.length;
-        block.start = start;
-        block.sums = [ChannelSums::empty(); 2];
-        if let Some(watch) = &mut block.watch {
-            *watch = [ChannelWatch::empty(); 2];
-        }
-    }
-
     /// Makes the tables as long as the block so far.
     #[cold]
     #[inline(never)]
     fn extend_table(&mut self) {
-        let length = self.block.layout.length;
-        for index in length - self.unknown..length - self.left {
+        for index in self.known..self.count {
             let reference = self.block.layout.reference(index);
             let index = usize::from(index);
             S::set_weight(&mut self.table, index, [reference.cosine, reference.sine]);
             let third = [reference.third_cosine, reference.third_sine];
             S::set_weight(&mut self.third, index, third);
         }
-        self.unknown = self.left;
+        self.known = self.count;
     }
 }

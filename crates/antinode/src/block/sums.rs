@@ -18,7 +18,8 @@ pub struct ChannelSums<S: Sample> {
 }
 
 impl<S: Sample> ChannelSums<S> {
-    pub(crate) fn empty() -> Self {
+    /// The sums of no samples.
+    pub fn empty() -> Self {
         Self {
             cosine: S::Sum::default(),
             sine: S::Sum::default(),
@@ -56,7 +57,8 @@ pub struct Runs {
 }
 
 impl<S: Sample> ChannelWatch<S> {
-    pub(crate) fn empty() -> Self {
+    /// The watch of no samples.
+    pub fn empty() -> Self {
         let [high, low] = S::EXTREMES;
         Self {
             third_cosine: S::Sum::default(),

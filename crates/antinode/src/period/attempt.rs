@@ -4,7 +4,7 @@ use super::confirm::{Fitted, Rests, Trial};
 use super::difference::FRAME;
 use crate::sample::Sample;
 
-/// Samples tried in one call.
+/// Samples tried in one call, an even number.
 const STRIDE: usize = 16;
 
 /// A copy of a frame under trial, which the stream meanwhile overwrites.
@@ -37,7 +37,7 @@ impl<S: Sample> Attempt<S> {
         }
     }
 
-    /// Begins an attempt at a wave of `period` samples in the first `length` of `frame`.
+    /// Begins an attempt at a wave of `period` samples in the first `length` of `frame`, an even number.
     pub(super) fn begin(&mut self, frame: &[[S; 2]; FRAME], length: usize, period: f32) {
         self.frame = *frame;
         self.length = length;
@@ -48,34 +48,50 @@ impl<S: Sample> Attempt<S> {
 
     /// Goes on by a few samples.
     pub(super) fn advance(&mut self) -> Verdict {
-        let to = (self.seen + STRIDE).min(self.length);
-        let samples = self.frame.get(self.seen..to).unwrap_or(&[]);
-        for pair in samples {
-            let pair = pair.map(S::to_f32);
-            match &mut self.doubt {
-                None => {
-                    self.trial.push(pair);
-                }
-                Some((_, rests)) => rests.push(pair),
-            }
-        }
-        self.seen = to;
-        if self.seen < self.length {
-            return Verdict::Open;
-        }
-        match self.doubt.take() {
-            None => match self.trial.fitted() {
-                None => Verdict::Refused,
-                Some(fitted) if fitted.is_doubtful => {
-                    self.seen = 0;
-                    let rests = self.trial.again(&fitted);
-                    self.doubt = Some((fitted, rests));
+        let from = self.seen;
+        self.seen = (from + STRIDE).min(self.length);
+        match &mut self.doubt {
+            None => {
+                // From both ends at once: of the two halves, what comes next.
+                let halves = self.frame.split_at_checked(self.length / 2);
+                let (first, last) = halves.unwrap_or((&[], &[]));
+                let first = first.get(from / 2..self.seen / 2).unwrap_or(&[]);
+                let last = last.get(..(self.length - from) / 2).unwrap_or(&[]);
+                let ends = first.iter().zip(last.iter().rev());
+                let ends = ends.map(|(&a, &b)| [a.map(S::to_f32), b.map(S::to_f32)]);
+                self.trial.push_ends(ends);
+                if self.trial.is_whole() {
+                    self.judge()
+                } else {
                     Verdict::Open
                 }
-                Some(fitted) => Verdict::Accepted(fitted),
-            },
-            Some((fitted, rests)) if rests.are_noise() => Verdict::Accepted(fitted),
-            Some(_) => Verdict::Refused,
+            }
+            Some((fitted, rests)) => {
+                for pair in self.frame.get(from..self.seen).unwrap_or(&[]) {
+                    rests.push(pair.map(S::to_f32));
+                }
+                if self.seen < self.length {
+                    Verdict::Open
+                } else if rests.are_noise() {
+                    Verdict::Accepted(fitted.clone())
+                } else {
+                    Verdict::Refused
+                }
+            }
+        }
+    }
+
+    /// What the fit says.
+    fn judge(&mut self) -> Verdict {
+        match self.trial.fitted() {
+            None => Verdict::Refused,
+            Some(fitted) if fitted.is_doubtful => {
+                self.seen = 0;
+                let rests = self.trial.again(&fitted);
+                self.doubt = Some((fitted, rests));
+                Verdict::Open
+            }
+            Some(fitted) => Verdict::Accepted(fitted),
         }
     }
 }

@@ -15,18 +15,45 @@ const TONE: f32 = 2e-3;
 
 /// A wave, its slope and an offset, fitted to a stretch of samples of known length.
 ///
-/// About the middle of the stretch the design is (cos φ, −sin φ, u cos φ, −u sin φ, 1): its even and odd columns do not mix.
+/// About the middle of the stretch the design is (cos φ, −sin φ, u cos φ, −u sin φ, 1): its even and odd columns do not mix, and
+/// samples as far before the middle as after it need its row once.
 #[derive(Debug, Clone)]
 pub(crate) struct Trial {
     step: PhaseStep,
     length: usize,
     count: usize,
+    sums: Sums,
+}
+
+/// What a trial adds up.
+#[derive(Debug, Clone, Copy)]
+struct Sums {
     row: Row,
-    /// Squares and products of columns: (0,0), (0,3), (3,3), (0,4), (3,4); then (1,1), (1,2), (2,2).
+    /// Squares and products of the even columns: (0,0), (0,3), (3,3), (0,4), (3,4). Those of the odd ones follow from them.
     even: [f32; 5],
-    odd: [f32; 3],
     gradient: [[f32; 5]; 2],
     square: f32,
+}
+
+impl Sums {
+    /// Takes the next row of the design, which is that of `rows` samples but for signs: `sum` and `difference` of those.
+    #[inline(always)]
+    fn add(&mut self, rows: f32, sum: Pair, difference: Pair) {
+        let [c, s, uc, us] = self.row.next();
+        // The products of a row count for all its samples.
+        let (all_c, all_us) = (rows * c, rows * us);
+        let even = [all_c * c, all_c * us, all_us * us, all_c, all_us];
+        for (sum, value) in self.even.iter_mut().zip(even) {
+            *sum += value;
+        }
+        for ((gradient, sum), difference) in self.gradient.iter_mut().zip(sum).zip(difference) {
+            gradient[0] += c * sum;
+            gradient[1] += s * difference;
+            gradient[2] += uc * difference;
+            gradient[3] += us * sum;
+            gradient[4] += sum;
+        }
+    }
 }
 
 /// The design, from sample to sample.
@@ -80,48 +107,55 @@ impl Trial {
             step,
             length,
             count: 0,
-            row: Row::new(step, length),
-            even: [0.0; 5],
-            odd: [0.0; 3],
-            gradient: [[0.0; 5]; 2],
-            square: 0.0,
+            sums: Sums {
+                row: Row::new(step, length),
+                even: [0.0; 5],
+                gradient: [[0.0; 5]; 2],
+                square: 0.0,
+            },
         }
     }
 
-    /// Takes the next sample; true when the stretch is whole.
-    #[inline(always)]
-    pub(crate) fn push(&mut self, sample: Pair) -> bool {
-        let row = self.row.next();
-        let [c, s, uc, us] = row;
-        let even = [c * c, c * us, us * us, c, us];
-        let odd = [s * s, s * uc, uc * uc];
-        for (sum, value) in self.even.iter_mut().zip(even) {
-            *sum += value;
-        }
-        for (sum, value) in self.odd.iter_mut().zip(odd) {
-            *sum += value;
-        }
-        for (gradient, value) in self.gradient.iter_mut().zip(sample) {
-            self.square += value * value;
-            for (sum, weight) in gradient.iter_mut().zip(row) {
-                *sum += weight * value;
-            }
-            gradient[4] += value;
-        }
+    /// Takes the next sample.
+    #[cfg(feature = "mean-return")]
+    pub(crate) fn push(&mut self, sample: Pair) {
+        self.sums.add(1.0, sample, sample);
+        self.sums.square += sample[0] * sample[0] + sample[1] * sample[1];
         self.count += 1;
-        self.count == self.length
+    }
+
+    /// True when all samples are taken.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.count >= self.length
+    }
+
+    /// Takes pairs of the first samples and, from the last one back, as many of the last ones.
+    #[inline(always)]
+    pub(crate) fn push_ends(&mut self, ends: impl Iterator<Item = [Pair; 2]>) {
+        let mut sums = self.sums;
+        for [a, b] in ends {
+            let (sum, difference) = ([a[0] + b[0], a[1] + b[1]], [a[0] - b[0], a[1] - b[1]]);
+            sums.add(2.0, sum, difference);
+            for value in [a[0], a[1], b[0], b[1]] {
+                sums.square += value * value;
+            }
+            self.count += 2;
+        }
+        self.sums = sums;
     }
 
     /// The normal equations.
     fn normal(&self) -> Normal {
-        let [cc, cus, usus, c1, us1] = self.even;
-        let [ss, suc, ucuc] = self.odd;
+        let [cc, cus, usus, c1, us1] = self.sums.even;
+        // cos² + sin² is one, and u² adds up to (n² − 1)/3n.
+        let n = self.length as f32;
+        let (ss, suc, ucuc) = (n - cc, cus, (n - 1.0 / n) / 3.0 - usus);
         let mut normal = Normal::from_lower([
             [cc, 0.0, 0.0, 0.0, 0.0],
             [0.0, ss, 0.0, 0.0, 0.0],
             [0.0, suc, ucuc, 0.0, 0.0],
             [cus, 0.0, 0.0, usus, 0.0],
-            [c1, 0.0, 0.0, us1, self.length as f32],
+            [c1, 0.0, 0.0, us1, n],
         ]);
         normal.factorise();
         normal
@@ -131,22 +165,22 @@ impl Trial {
     pub(crate) fn fitted(&self) -> Option<Fitted> {
         let normal = self.normal();
         let n = self.length as f32;
-        let parameters = self.gradient.map(|gradient| normal.solve(gradient));
+        let parameters = self.sums.gradient.map(|gradient| normal.solve(gradient));
         let mut explained = 0.0;
         let mut turned = 0.0;
         let mut size = 0.0;
-        for (gradient, x) in self.gradient.iter().zip(&parameters) {
+        for (gradient, x) in self.sums.gradient.iter().zip(&parameters) {
             explained += gradient.iter().zip(x).map(|(g, x)| g * x).sum::<f32>();
             let (z, change) = (Complex32::new(x[0], x[1]), Complex32::new(x[2], x[3]));
             turned += (change * z.conj()).im;
             size += z.norm_sqr();
         }
-        let sums = self.gradient.map(|gradient| gradient[4]);
-        let power = self.square - (sums[0] * sums[0] + sums[1] * sums[1]) / n;
-        if !(power > 1e-6 * self.square && size > 0.0) {
+        let sums = self.sums.gradient.map(|gradient| gradient[4]);
+        let power = self.sums.square - (sums[0] * sums[0] + sums[1] * sums[1]) / n;
+        if !(power > 1e-6 * self.sums.square && size > 0.0) {
             return None;
         }
-        let rest = ((self.square - explained) / power).max(1e-6);
+        let rest = ((self.sums.square - explained) / power).max(1e-6);
         let drift = turned / size;
         if !(rest < UNEXPLAINED && by_chance(rest, self.length) < FALSE_ALARM && drift.abs() < 1.0)
         {

@@ -34,13 +34,12 @@ pub(crate) type Lags<S> = [<S as Sample>::Square; LAGS];
 #[derive(Debug, Clone)]
 struct Octave<S: Sample> {
     frame: [[S; 2]; FRAME],
+    /// Samples in the frame; of an odd count the last is not in D(T) yet.
     count: usize,
     /// D(T) over the frame so far.
     differences: Lags<S>,
-    /// D(1) of the last frame and its count of pairs.
-    last: (S::Square, usize),
-    /// The first of two samples that make one of the next octave.
-    waiting: Option<[S; 2]>,
+    /// D(1) of the last frame.
+    last: S::Square,
 }
 
 impl<S: Sample> Octave<S> {
@@ -50,39 +49,37 @@ impl<S: Sample> Octave<S> {
             frame: [[zero; 2]; FRAME],
             count: 0,
             differences: Lags::<S>::default(),
-            last: (S::Square::default(), 1),
-            waiting: None,
+            last: S::Square::default(),
         }
     }
 
     fn restart(&mut self) {
         self.count = 0;
-        self.differences = Lags::<S>::default();
-        self.last = (S::Square::default(), 1);
-        self.waiting = None;
+        // What the frame before the first lost.
+        self.differences[0] = S::Square::default();
     }
 
-    /// Takes a sample; gives the next octave's.
+    /// Takes a sample; gives the next octave's at every second one, and only then is D(T) whole.
     #[inline(always)]
     fn push(&mut self, sample: [S; 2]) -> Option<[S; 2]> {
-        if self.count == FRAME {
-            self.last = (self.differences[0], FRAME - 1);
-            self.count = 0;
-            self.differences = Lags::<S>::default();
+        let place = self.count % FRAME;
+        self.frame[place] = sample;
+        self.count = place + 1;
+        (!place.is_multiple_of(2)).then(|| self.compare(place - 1, sample))
+    }
+
+    /// Takes two samples into D(T): what is before them is read once for both. Gives their mean.
+    #[inline(never)]
+    fn compare(&mut self, place: usize, second: [S; 2]) -> [S; 2] {
+        let (before, first) = match self.frame.split_at_checked(place) {
+            Some((before, [first, ..])) => (before, *first),
+            _ => (&[][..], second),
+        };
+        if before.is_empty() {
+            self.last = self.differences[0];
         }
-        let before = self.frame.get(..self.count).unwrap_or(&[]);
-        S::add_differences(&mut self.differences, sample, before);
-        if let Some(place) = self.frame.get_mut(self.count) {
-            *place = sample;
-            self.count += 1;
-        }
-        match self.waiting.take() {
-            None => {
-                self.waiting = Some(sample);
-                None
-            }
-            Some(first) => Some(S::mean(first, sample)),
-        }
+        S::add_differences(&mut self.differences, [first, second], before);
+        S::mean(first, second)
     }
 
     /// Power that halving takes away: the mean square of half a difference of neighbours.
@@ -90,36 +87,37 @@ impl<S: Sample> Octave<S> {
         let (sum, count) = if self.count >= 8 {
             (self.differences[0], self.count - 1)
         } else {
-            self.last
+            (self.last, FRAME - 1)
         };
         0.25 * S::square_to_f32(sum) / count as f32
     }
 
-    /// True when enough samples are new to look at D(T).
+    /// True when enough samples are new to look at D(T), after an even count of them.
     #[inline(always)]
     fn is_due(&self) -> bool {
-        self.count >= LEAST
-            && (self.count.is_multiple_of(4) || self.count.is_multiple_of(2) && self.count <= OFTEN)
+        self.count >= LEAST && (self.count <= OFTEN || self.count.is_multiple_of(4))
     }
 
     /// The first minimum of D(T) after its first maximum, between samples, where the frame is long enough for it.
     #[inline(never)]
     fn period(&self) -> Option<f32> {
-        let levels = S::means(&self.differences, self.count);
-        let [mut before, mut here, ..] = levels;
+        let shift = S::shift(&self.differences);
+        let level = |lag: usize| S::level(self.differences[lag - 1], shift, self.count - lag);
+        // A minimum lies within 0.6 of its lag: beyond these the frame cannot hold enough of it.
+        let most = ((2 * self.count + 3) / 5).min(LAGS - 1);
+        let (mut before, mut here) = (level(1), level(2));
         let mut greatest = if before < here { here } else { before };
-        for (lag, &after) in (2u8..).zip(&levels[2..]) {
+        let mut lag = 2;
+        while lag <= most {
+            let after = level(lag + 1);
             if here < S::halved(greatest) && here <= before && here < after {
-                // The minimum lies within 0.6 of its lag: sooner than that the frame cannot hold enough of it.
-                if f32::from(lag) - 0.6 > self.count as f32 / HELD {
-                    return None;
-                }
-                return self.between(f32::from(lag), [before, here, after]);
+                return self.between(lag as f32, [before, here, after]);
             }
             if after > greatest {
                 greatest = after;
             }
             (before, here) = (here, after);
+            lag += 1;
         }
         None
     }
@@ -201,12 +199,14 @@ impl<S: Sample> DifferenceDetector<S> {
 
     /// Takes a sample pair; gives the period in samples once it is sure.
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<f32> {
-        let mut next = Some(pair.pair().map(S::search_form));
+        let mut sample = pair.pair().map(S::search_form);
         let mut found = None;
         for (halvings, octave) in self.octaves.iter_mut().enumerate() {
-            let Some(sample) = next else { break };
-            next = octave.push(sample);
-            if octave.is_due() && !self.candidate.is_open && found.is_none() {
+            let Some(next) = octave.push(sample) else {
+                break;
+            };
+            sample = next;
+            if !self.candidate.is_open && found.is_none() && octave.is_due() {
                 found = octave.period().map(|period| (halvings, period));
             }
         }

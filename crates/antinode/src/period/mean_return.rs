@@ -206,7 +206,8 @@ impl MeanReturnDetector {
                 })
             }
             Stage::Try { trial } => {
-                if trial.push(pair) {
+                trial.push(pair);
+                if trial.is_whole() {
                     let found = trial.fitted().map(|found| found.period);
                     *self = Self::new();
                     return found.filter(|period| PERIODS.contains(period));

@@ -1,10 +1,10 @@
 //! Arithmetic at sample rate on 16-bit codes: two products an instruction where the core has them, sums in 32 bits.
 
-use super::codes::{self, Levels};
+use super::codes;
 use super::{Sample, SamplePair};
 use crate::arch;
 use crate::block::{ChannelSums, ChannelWatch};
-use crate::period::{LAGS, Lags};
+use crate::period::Lags;
 
 /// Two 16-bit halves as a word.
 #[inline(always)]
@@ -16,29 +16,6 @@ fn word(pair: [i16; 2]) -> u32 {
 #[inline(always)]
 fn pair(word: u32) -> [i16; 2] {
     [word as i16, (word >> 16) as i16]
-}
-
-/// The weights of `count` samples from `index` on, which is even: words of two cosines and of two sines.
-#[inline(always)]
-fn weights(table: &[u32], index: usize, count: usize) -> &[u32] {
-    table
-        .get(index..index + ((count + 1) & !1))
-        .unwrap_or_default()
-}
-
-/// What stands for a sample of odd index alone: a pair of words, the first of zeros.
-#[inline(always)]
-fn after_nothing(pair: [i16; 2]) -> [[i16; 2]; 2] {
-    [[0; 2], pair]
-}
-
-/// Splits off the first pair where its index is odd: the kernels begin at even ones.
-#[inline(always)]
-fn odd_first<P>(pairs: &[P], index: usize) -> (Option<&P>, &[P]) {
-    match pairs {
-        [first, rest @ ..] if index % 2 == 1 => (Some(first), rest),
-        _ => (None, pairs),
-    }
 }
 
 impl Sample for i16 {
@@ -95,37 +72,21 @@ impl Sample for i16 {
     #[inline(always)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
-        mut pairs: &[P],
+        pairs: &[P],
         table: &[u32],
-        mut index: usize,
+        index: u16,
     ) {
-        if let (Some(first), rest) = odd_first(pairs, index) {
-            let two = after_nothing(first.pair());
-            arch::add_pairs(sums, &two, weights(table, index & !1, 2));
-            (pairs, index) = (rest, index + 1);
-        }
-        arch::add_pairs(sums, pairs, weights(table, index, pairs.len()));
+        arch::add_pairs(sums, pairs, table, index);
     }
 
     #[inline(always)]
     fn watch_slice<P: SamplePair<Self>>(
         watch: &mut [ChannelWatch<Self>; 2],
-        mut pairs: &[P],
+        pairs: &[P],
         table: &[u32],
-        mut index: usize,
+        index: u16,
     ) {
-        if let (Some(first), rest) = odd_first(pairs, index) {
-            let two = after_nothing(first.pair());
-            let extremes = watch.map(|channel| [channel.low, channel.high]);
-            arch::watch_pairs(watch, &two, weights(table, index & !1, 2));
-            // The zero of nothing is no sample.
-            for ((channel, [low, high]), sample) in watch.iter_mut().zip(extremes).zip(first.pair())
-            {
-                (channel.low, channel.high) = (low.min(sample), high.max(sample));
-            }
-            (pairs, index) = (rest, index + 1);
-        }
-        arch::watch_pairs(watch, pairs, weights(table, index, pairs.len()));
+        arch::watch_pairs(watch, pairs, table, index);
     }
 
     #[inline(always)]
@@ -153,22 +114,12 @@ impl Sample for i16 {
     }
 
     #[inline(always)]
-    fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]) {
-        let pair = word(pair);
-        let add = |sum: &mut u32, before: [i16; 2]| {
+    fn add_differences(sums: &mut Lags<Self>, pairs: [[Self; 2]; 2], before: &[[Self; 2]]) {
+        super::lag_by_lag::<Self>(sums, pairs, before, |sum, now, before| {
             // Of codes of 14 bits half a difference is below 2¹³: 31 squares of two stay below 2³².
-            let half = arch::half_difference(pair, word(before));
+            let half = arch::half_difference(word(now), word(before));
             *sum = arch::dual_multiply_add(half, half, *sum);
-        };
-        if let Some(all) = before.last_chunk::<LAGS>() {
-            for lag in 0..LAGS {
-                add(&mut sums[lag], all[LAGS - 1 - lag]);
-            }
-        } else {
-            for (sum, &before) in sums.iter_mut().zip(before.iter().rev()) {
-                add(sum, before);
-            }
-        }
+        });
     }
 
     #[inline(always)]
@@ -177,8 +128,13 @@ impl Sample for i16 {
     }
 
     #[inline(always)]
-    fn means(sums: &Lags<Self>, count: usize) -> Levels {
-        codes::means(sums, count)
+    fn shift(sums: &Lags<Self>) -> u32 {
+        codes::shift(sums)
+    }
+
+    #[inline(always)]
+    fn level(sum: u32, shift: u32, count: usize) -> u32 {
+        codes::mean(sum, shift, count)
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Arithmetic at sample rate on codes of up to 32 bits: sums in 64 bits.
 
-use super::codes::{self, Levels};
+use super::codes;
 use super::{Sample, SamplePair};
 use crate::block::{ChannelSums, ChannelWatch};
 use crate::period::Lags;
@@ -54,10 +54,17 @@ impl Sample for i32 {
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
         table: &[[i16; 2]],
-        index: usize,
+        index: u16,
     ) {
-        let [mut c, mut d] = *sums;
-        for (pair, &weight) in pairs.iter().zip(table.get(index..).unwrap_or(&[])) {
+        let [mut c, mut d] = if index == 0 {
+            [ChannelSums::empty(); 2]
+        } else {
+            *sums
+        };
+        for (pair, &weight) in pairs
+            .iter()
+            .zip(table.get(usize::from(index)..).unwrap_or(&[]))
+        {
             let [on_c, on_d] = pair.pair();
             c.add(on_c, weight);
             d.add(on_d, weight);
@@ -70,10 +77,17 @@ impl Sample for i32 {
         watch: &mut [ChannelWatch<Self>; 2],
         pairs: &[P],
         table: &[[i16; 2]],
-        index: usize,
+        index: u16,
     ) {
-        let [mut c, mut d] = *watch;
-        for (pair, &[cosine, sine]) in pairs.iter().zip(table.get(index..).unwrap_or(&[])) {
+        let [mut c, mut d] = if index == 0 {
+            [ChannelWatch::empty(); 2]
+        } else {
+            *watch
+        };
+        for (pair, &[cosine, sine]) in pairs
+            .iter()
+            .zip(table.get(usize::from(index)..).unwrap_or(&[]))
+        {
             for (channel, sample) in [&mut c, &mut d].into_iter().zip(pair.pair()) {
                 channel.third_cosine += product(sample, cosine);
                 channel.third_sine += product(sample, sine);
@@ -111,15 +125,15 @@ impl Sample for i32 {
     }
 
     #[inline(always)]
-    fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]) {
+    fn add_differences(sums: &mut Lags<Self>, pairs: [[Self; 2]; 2], before: &[[Self; 2]]) {
         // A square of up to 2⁶⁴, less its last 7 bits, fits in the sum 64 times.
         let square = |a: i32, b: i32| {
             let apart = u64::from(a.abs_diff(b));
             (apart * apart) >> 7
         };
-        for (sum, before) in sums.iter_mut().zip(before.iter().rev()) {
-            *sum += square(pair[0], before[0]) + square(pair[1], before[1]);
-        }
+        super::lag_by_lag::<Self>(sums, pairs, before, |sum, now, before| {
+            *sum += square(now[0], before[0]) + square(now[1], before[1]);
+        });
     }
 
     #[inline(always)]
@@ -130,11 +144,15 @@ impl Sample for i32 {
     }
 
     #[inline(always)]
-    fn means(sums: &Lags<Self>, count: usize) -> Levels {
+    fn shift(sums: &Lags<Self>) -> u32 {
         // The 32 highest bits that any of the sums uses.
-        let used = sums.iter().fold(0, |all, &sum| all | sum);
-        let shift = 32u32.saturating_sub(used.leading_zeros());
-        codes::means(&sums.map(|sum| (sum >> shift) as u32), count)
+        let used = sums.iter().fold(1, |all, &sum| all | sum);
+        used.leading_zeros()
+    }
+
+    #[inline(always)]
+    fn level(sum: u64, shift: u32, count: usize) -> u32 {
+        codes::mean(((sum << shift) >> 32) as u32, 0, count)
     }
 
     #[inline(always)]

@@ -3,7 +3,7 @@
 use super::{Sample, SamplePair};
 use crate::arch;
 use crate::block::{ChannelSums, ChannelWatch, Runs};
-use crate::period::{LAGS, Lags};
+use crate::period::Lags;
 use crate::sum::Sum;
 
 impl Sample for f32 {
@@ -49,10 +49,9 @@ impl Sample for f32 {
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
         table: &[[f32; 2]],
-        index: usize,
+        index: u16,
     ) {
-        let weights = table.get(index..index + pairs.len()).unwrap_or_default();
-        arch::add_floats(sums, pairs, weights);
+        arch::add_floats(sums, pairs, table, index);
     }
 
     #[inline(never)]
@@ -60,11 +59,15 @@ impl Sample for f32 {
         watch: &mut [ChannelWatch<Self>; 2],
         pairs: &[P],
         table: &[[f32; 2]],
-        index: usize,
+        index: u16,
     ) {
-        let [mut c, mut d] = *watch;
-        let table = table.get(index..).unwrap_or(&[]);
-        for ((pair, &[cosine, sine]), index) in pairs.iter().zip(table).zip(index as u16..) {
+        let [mut c, mut d] = if index == 0 {
+            [ChannelWatch::empty(); 2]
+        } else {
+            *watch
+        };
+        let table = table.get(usize::from(index)..).unwrap_or(&[]);
+        for ((pair, &[cosine, sine]), index) in pairs.iter().zip(table).zip(index..) {
             let pair = pair.pair();
             c.third_cosine += pair[0] * cosine;
             c.third_sine += pair[0] * sine;
@@ -103,20 +106,11 @@ impl Sample for f32 {
     }
 
     #[inline(always)]
-    fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]) {
-        let add = |sum: &mut f32, before: [f32; 2]| {
-            let (c, d) = (pair[0] - before[0], pair[1] - before[1]);
+    fn add_differences(sums: &mut Lags<Self>, pairs: [[Self; 2]; 2], before: &[[Self; 2]]) {
+        super::lag_by_lag::<Self>(sums, pairs, before, |sum, now, before| {
+            let (c, d) = (now[0] - before[0], now[1] - before[1]);
             *sum += c * c + d * d;
-        };
-        if let Some(all) = before.last_chunk::<LAGS>() {
-            for lag in 0..LAGS {
-                add(&mut sums[lag], all[LAGS - 1 - lag]);
-            }
-        } else {
-            for (sum, &before) in sums.iter_mut().zip(before.iter().rev()) {
-                add(sum, before);
-            }
-        }
+        });
     }
 
     #[inline(always)]
@@ -125,14 +119,13 @@ impl Sample for f32 {
     }
 
     #[inline(always)]
-    fn means(sums: &Lags<Self>, count: usize) -> [f32; LAGS] {
-        let first = count.saturating_sub(LAGS);
-        let reciprocals = RECIPROCALS.get(first..first + LAGS).unwrap_or(&[]);
-        let mut means = *sums;
-        for (mean, reciprocal) in means.iter_mut().zip(reciprocals.iter().rev()) {
-            *mean *= reciprocal;
-        }
-        means
+    fn shift(_: &Lags<Self>) -> u32 {
+        0
+    }
+
+    #[inline(always)]
+    fn level(sum: f32, _: u32, count: usize) -> f32 {
+        sum * RECIPROCALS.get(count).map_or(0.0, |&reciprocal| reciprocal)
     }
 
     #[inline(always)]

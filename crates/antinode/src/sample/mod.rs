@@ -10,6 +10,43 @@ use core::fmt::Debug;
 use crate::block::{ChannelSums, ChannelWatch};
 use crate::period::{LAGS, Lags};
 
+/// Goes through the lags of two pairs, before which an even number came: gives `add` each lag's sum with what is as far apart.
+#[inline(always)]
+fn lag_by_lag<S: Sample>(
+    sums: &mut Lags<S>,
+    [first, second]: [[S; 2]; 2],
+    before: &[[S; 2]],
+    add: impl Fn(&mut S::Square, [S; 2], [S; 2]),
+) {
+    const { assert!(LAGS == 10, "lags are taken in twos, five times") };
+    let two = |[odd, even]: &mut [S::Square; 2], [far, near]: [[S; 2]; 2], last: [S; 2]| {
+        add(odd, first, near);
+        add(odd, second, last);
+        add(even, first, far);
+        add(even, second, near);
+        far
+    };
+    let (twos, _) = sums.as_chunks_mut();
+    let before_in_twos = before.as_rchunks().1;
+    if let ([a, b, c, d, e], Some(&[j, i, h, g, f])) = (&mut *twos, before_in_twos.last_chunk()) {
+        // Most often all lags are there, and a loop over them would take as long again as the sums.
+        let last = two(b, g, two(a, f, first));
+        two(e, j, two(d, i, two(c, h, last)));
+        return;
+    }
+    // The next two lags begin here: no sum is cleared beforehand.
+    if let Some(new) = twos.get_mut(before_in_twos.len()) {
+        *new = [S::Square::default(); 2];
+    }
+    let mut last = first;
+    for (sums, &pairs) in twos.iter_mut().zip(before_in_twos.iter().rev()) {
+        last = two(sums, pairs, last);
+    }
+    if let Some(sum) = sums.get_mut(before.len()) {
+        add(sum, second, last);
+    }
+}
+
 mod sealed {
     pub trait Sealed {
         /// Of a pair of these.
@@ -98,23 +135,23 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     /// Puts the weights of sample `index` into a table, from cosine and sine in f32: whole numbers where there is a scale.
     #[doc(hidden)]
     fn set_weight(table: &mut [Self::Weight], index: usize, weight: [f32; 2]);
-    /// Adds pairs, the first of which is sample `index` of its block, to the carrier's sums.
+    /// Adds pairs, the first of which is sample `index` of its block, to the carrier's sums, which begin anew at 0.
     ///
-    /// Nothing is added where the table is too short.
+    /// Nothing is done without pairs, or where the table is too short.
     #[doc(hidden)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
         table: &[Self::Weight],
-        index: usize,
+        index: u16,
     );
-    /// Watches pairs, the first of which is sample `index` of its block.
+    /// Watches pairs, as [`add_slice`](Self::add_slice) adds them.
     #[doc(hidden)]
     fn watch_slice<P: SamplePair<Self>>(
         watch: &mut [ChannelWatch<Self>; 2],
         pairs: &[P],
         table: &[Self::Weight],
-        index: usize,
+        index: u16,
     );
     /// The longest runs at the extremes, low and high: 1 where they are not counted.
     #[doc(hidden)]
@@ -140,15 +177,19 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     /// The sample as the search for a period takes it: of 16-bit codes, less two bits.
     #[doc(hidden)]
     fn search_form(self) -> Self;
-    /// Adds the squared differences of a pair from those before it, the last first.
+    /// Adds the squared differences of two pairs from those before them, of which there is an even number. A lag that is there for
+    /// the first time begins its sum.
     #[doc(hidden)]
-    fn add_differences(sums: &mut Lags<Self>, pair: [Self; 2], before: &[[Self; 2]]);
+    fn add_differences(sums: &mut Lags<Self>, pairs: [[Self; 2]; 2], before: &[[Self; 2]]);
     /// The mean of two pairs, for the next octave of the period search.
     #[doc(hidden)]
     fn mean(a: [Self; 2], b: [Self; 2]) -> [Self; 2];
-    /// The sums as means over `count` − lag pairs: only their ratios mean anything.
+    /// What the sums must be shifted by for [`level`](Self::level) to lose none of their digits.
     #[doc(hidden)]
-    fn means(sums: &Lags<Self>, count: usize) -> [Self::Level; LAGS];
+    fn shift(sums: &Lags<Self>) -> u32;
+    /// A sum of `count` pairs, at most a frame of the search, as a mean: only the ratios of levels mean anything.
+    #[doc(hidden)]
+    fn level(sum: Self::Square, shift: u32, count: usize) -> Self::Level;
     /// Half a level.
     #[doc(hidden)]
     fn halved(level: Self::Level) -> Self::Level;

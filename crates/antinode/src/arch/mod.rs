@@ -1,0 +1,59 @@
+//! The few instructions of the Cortex-M4 that Rust has no stable name for, each with a portable twin that agrees with it bit for bit.
+//!
+//! This is the only module with `unsafe` code. A word holds two 16-bit codes: the first in its low half.
+
+#![allow(
+    unsafe_code,
+    reason = "instructions by name: registers in, registers out, no memory"
+)]
+
+#[cfg(has_dsp)]
+mod dsp;
+#[cfg(has_vsqrt)]
+mod fpu;
+#[cfg_attr(
+    has_dsp,
+    allow(dead_code, reason = "the instructions take their place")
+)]
+pub mod portable;
+
+#[cfg(has_dsp)]
+pub use dsp::{
+    add_pairs, add_products, dual_multiply_add, half_difference, half_sum, limited_difference,
+    watch_pairs,
+};
+#[cfg(not(has_dsp))]
+pub use portable::{
+    add_pairs, add_products, dual_multiply_add, half_difference, half_sum, limited_difference,
+    watch_pairs,
+};
+
+#[cfg(has_vsqrt)]
+pub use fpu::{add_floats, square_root};
+#[cfg(not(has_vsqrt))]
+pub use portable::{add_floats, square_root};
+
+#[cfg(test)]
+mod tests {
+    use super::portable::*;
+
+    #[test]
+    fn extremes_of_the_halves() {
+        let (least, most) = (0x8000_8000, 0x7fff_7fff);
+        assert_eq!(half_difference(most, least), 0x7fff_7fff);
+        assert_eq!(half_difference(least, most), 0x8000_8000);
+        assert_eq!(half_sum(least, least), least);
+        assert_eq!(limited_difference(most, least), most);
+        assert_eq!(limited_difference(least, 0x0001_ffff), 0x8000_8001);
+        assert_eq!(half_sum(0x0001_ffff, 0x0000_0000), 0x0000_ffff);
+        assert_eq!(dual_multiply_add(least, least, 5), 5 + (1 << 31));
+        assert_eq!(
+            add_products([1, i64::MAX, -1], least, 0x7fff_8000),
+            [
+                1 + (1 << 30),
+                i64::MAX - 32_768 * 32_767,
+                -1 - 32_768 * 32_767
+            ]
+        );
+    }
+}

@@ -37,48 +37,60 @@ impl<S: Sample> Attempt<S> {
         }
     }
 
-    /// Begins an attempt at a wave of `period` samples in the first `length` of `frame`, an even number.
+    /// Begins an attempt at a wave of `period` samples in the first `length` of `frame`, an even number. The first samples are tried
+    /// at once, but nothing is judged: that takes as long again.
     pub(super) fn begin(&mut self, frame: &[[S; 2]; FRAME], length: usize, period: f32) {
         self.frame = *frame;
         self.length = length;
         self.seen = 0;
         self.trial = Trial::new(period, length);
         self.doubt = None;
+        self.try_some();
     }
 
     /// Goes on by a few samples.
     pub(super) fn advance(&mut self) -> Verdict {
+        if self.doubt.is_none() {
+            self.try_some();
+            return if self.trial.is_whole() {
+                self.judge()
+            } else {
+                Verdict::Open
+            };
+        }
+        let from = self.step();
+        let Some((fitted, rests)) = &mut self.doubt else {
+            return Verdict::Refused;
+        };
+        for pair in self.frame.get(from..self.seen).unwrap_or(&[]) {
+            rests.push(pair.map(S::to_f32));
+        }
+        if self.seen < self.length {
+            Verdict::Open
+        } else if rests.are_noise() {
+            Verdict::Accepted(fitted.clone())
+        } else {
+            Verdict::Refused
+        }
+    }
+
+    /// Gives where the next samples begin; they end at `seen`.
+    fn step(&mut self) -> usize {
         let from = self.seen;
         self.seen = (from + STRIDE).min(self.length);
-        match &mut self.doubt {
-            None => {
-                // From both ends at once: of the two halves, what comes next.
-                let halves = self.frame.split_at_checked(self.length / 2);
-                let (first, last) = halves.unwrap_or((&[], &[]));
-                let first = first.get(from / 2..self.seen / 2).unwrap_or(&[]);
-                let last = last.get(..(self.length - from) / 2).unwrap_or(&[]);
-                let ends = first.iter().zip(last.iter().rev());
-                let ends = ends.map(|(&a, &b)| [a.map(S::to_f32), b.map(S::to_f32)]);
-                self.trial.push_ends(ends);
-                if self.trial.is_whole() {
-                    self.judge()
-                } else {
-                    Verdict::Open
-                }
-            }
-            Some((fitted, rests)) => {
-                for pair in self.frame.get(from..self.seen).unwrap_or(&[]) {
-                    rests.push(pair.map(S::to_f32));
-                }
-                if self.seen < self.length {
-                    Verdict::Open
-                } else if rests.are_noise() {
-                    Verdict::Accepted(fitted.clone())
-                } else {
-                    Verdict::Refused
-                }
-            }
-        }
+        from
+    }
+
+    /// Takes the next samples into the trial, from both ends at once: of the two halves, what comes next.
+    fn try_some(&mut self) {
+        let from = self.step();
+        let halves = self.frame.split_at_checked(self.length / 2);
+        let (first, last) = halves.unwrap_or((&[], &[]));
+        let first = first.get(from / 2..self.seen / 2).unwrap_or(&[]);
+        let last = last.get(..(self.length - from) / 2).unwrap_or(&[]);
+        let ends = first.iter().zip(last.iter().rev());
+        let ends = ends.map(|(&a, &b)| [a.map(S::to_f32), b.map(S::to_f32)]);
+        self.trial.push_ends(ends);
     }
 
     /// What the fit says.

@@ -22,10 +22,12 @@ const FOUND: core::ops::RangeInclusive<f32> = 3.5..=9.6;
 /// Power lost by halving beyond the wave's own, as a share of the wave's: noise of 20 % loses 0.2.
 const STRANGER: f32 = 0.4;
 /// Periods that a frame must hold before it is tried.
-const HELD: f32 = 2.5;
+const HELD: f32 = 2.4;
 /// Samples of a frame before its D(T) is looked at, and while it is looked at with every second one; later with every fourth.
-const LEAST: usize = 12;
+const LEAST: usize = 10;
 const OFTEN: usize = 22;
+/// Octaves whose D(T) is looked at in one call.
+const LOOKS: usize = 2;
 
 /// D(1)…D(10), not yet divided by the count of pairs in each.
 pub(crate) type Lags<S> = [<S as Sample>::Square; LAGS];
@@ -104,7 +106,7 @@ impl<S: Sample> Octave<S> {
         let shift = S::shift(&self.differences);
         let level = |lag: usize| S::level(self.differences[lag - 1], shift, self.count - lag);
         // A minimum lies within 0.6 of its lag: beyond these the frame cannot hold enough of it.
-        let most = ((2 * self.count + 3) / 5).min(LAGS - 1);
+        let most = ((5 * self.count + 7) / 12).min(LAGS - 1);
         let (mut before, mut here) = (level(1), level(2));
         let mut greatest = if before < here { here } else { before };
         let mut lag = 2;
@@ -172,6 +174,8 @@ impl<S: Sample> Candidate<S> {
 #[derive(Debug, Clone)]
 pub struct DifferenceDetector<S: Sample> {
     octaves: [Octave<S>; OCTAVES],
+    /// The octaves whose D(T) is still to be looked at, as bits: those of the next call, long before their next sample.
+    due: u8,
     candidate: Candidate<S>,
 }
 
@@ -180,6 +184,7 @@ impl<S: Sample> DifferenceDetector<S> {
     pub fn new() -> Self {
         Self {
             octaves: core::array::from_fn(|_| Octave::new()),
+            due: 0,
             candidate: Candidate {
                 is_open: false,
                 attempt: Attempt::new(),
@@ -192,6 +197,7 @@ impl<S: Sample> DifferenceDetector<S> {
     /// Forgets all samples.
     pub fn restart(&mut self) {
         self.candidate.is_open = false;
+        self.due = 0;
         for octave in &mut self.octaves {
             octave.restart();
         }
@@ -200,23 +206,36 @@ impl<S: Sample> DifferenceDetector<S> {
     /// Takes a sample pair; gives the period in samples once it is sure.
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<f32> {
         let mut sample = pair.pair().map(S::search_form);
-        let mut found = None;
         for (halvings, octave) in self.octaves.iter_mut().enumerate() {
             let Some(next) = octave.push(sample) else {
                 break;
             };
             sample = next;
-            if !self.candidate.is_open && found.is_none() && octave.is_due() {
-                found = octave.period().map(|period| (halvings, period));
-            }
-        }
-        if let Some((halvings, period)) = found {
-            self.propose(halvings, period);
+            self.due |= u8::from(octave.is_due()) << halvings;
         }
         if self.candidate.is_open {
+            self.due = 0;
             return self.attempt();
         }
+        if self.due > 0 {
+            self.look();
+        }
         None
+    }
+
+    /// Looks at D(T) of the first octaves that are due.
+    #[inline(never)]
+    fn look(&mut self) {
+        for _ in 0..LOOKS {
+            let halvings = self.due.trailing_zeros() as usize;
+            let Some(octave) = self.octaves.get(halvings) else {
+                return;
+            };
+            if let Some(period) = octave.period() {
+                return self.propose(halvings, period);
+            }
+            self.due &= self.due - 1;
+        }
     }
 
     /// Goes on with the trial of the candidate.

@@ -205,7 +205,20 @@ pub(crate) fn between(before: &Record, now: &Record) -> Flags {
             amplitude_floor,
         )
     });
+    // A step within a window also looks like growth that the window before did not have.
+    let half = 0.5 * now.samples as f32;
+    let bends = |rate: f32, variance: f32| {
+        samples <= 4.0 * half && beyond(half * rate, half * square_root(variance), amplitude_floor)
+    };
+    let bent = bends(
+        now.main_rate - before.main_rate,
+        now.main_rate_variance + before.main_rate_variance,
+    ) || bends(
+        now.quadrature_rate - before.quadrature_rate,
+        now.quadrature_rate_variance + before.quadrature_rate_variance,
+    );
     Flags::empty()
+        .with_if(bent, Flags::MISFIT)
         .with_if(jump, Flags::PHASE_JUMP)
         .with_if(main || quadrature || angle || offsets, Flags::STEP)
 }

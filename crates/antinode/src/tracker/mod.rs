@@ -310,6 +310,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
                 before.phase_variance = f32::INFINITY;
                 before.main_variance = f32::INFINITY;
                 before.quadrature_variance = f32::INFINITY;
+                before.main_rate_variance = f32::INFINITY;
+                before.quadrature_rate_variance = f32::INFINITY;
                 before.angle_variance = f32::INFINITY;
                 before.offset_variance = f32::INFINITY;
             }

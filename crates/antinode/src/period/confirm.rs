@@ -3,8 +3,8 @@
 use num_complex::Complex32;
 
 use crate::block::Pair;
+use crate::order::greater;
 use crate::phase::PhaseStep;
-use crate::window::Normal;
 
 /// The share of the signal's power that a wave may leave unexplained; 20 % noise leaves 14 %.
 const UNEXPLAINED: f32 = 0.3;
@@ -53,6 +53,30 @@ impl Sums {
             gradient[3] += us * sum;
             gradient[4] += sum;
         }
+    }
+}
+
+/// A symmetric 2×2 matrix made ready for solving.
+struct Inverse {
+    entries: [f32; 3],
+}
+
+impl Inverse {
+    /// From (0,0), (0,1), (1,1); none where it is singular.
+    fn new([a, b, d]: [f32; 3]) -> Option<Self> {
+        let determinant = a * d - b * b;
+        (determinant > 1e-5 * a * d).then(|| {
+            let scale = 1.0 / determinant;
+            Self {
+                entries: [d * scale, -b * scale, a * scale],
+            }
+        })
+    }
+
+    #[inline(always)]
+    fn solve(&self, [x, y]: [f32; 2]) -> [f32; 2] {
+        let [a, b, d] = self.entries;
+        [a * x + b * y, b * x + d * y]
     }
 }
 
@@ -144,28 +168,28 @@ impl Trial {
         self.sums = sums;
     }
 
-    /// The normal equations.
-    fn normal(&self) -> Normal {
+    /// The parameters of both pick-offs; none where the stretch does not tell them apart.
+    fn parameters(&self) -> Option<[[f32; 5]; 2]> {
         let [cc, cus, usus, c1, us1] = self.sums.even;
-        // cos² + sin² is one, and u² adds up to (n² − 1)/3n.
         let n = self.length as f32;
-        let (ss, suc, ucuc) = (n - cc, cus, (n - 1.0 / n) / 3.0 - usus);
-        let mut normal = Normal::from_lower([
-            [cc, 0.0, 0.0, 0.0, 0.0],
-            [0.0, ss, 0.0, 0.0, 0.0],
-            [0.0, suc, ucuc, 0.0, 0.0],
-            [cus, 0.0, 0.0, usus, 0.0],
-            [c1, 0.0, 0.0, us1, n],
-        ]);
-        normal.factorise();
-        normal
+        let per_sample = 1.0 / n;
+        // cos² + sin² is one, and u² adds up to (n² − 1)/3n.
+        let odd = Inverse::new([n - cc, cus, (n - per_sample) / 3.0 - usus])?;
+        // The offset is taken out of the even columns, then they are two as well.
+        let (mean_c, mean_us) = (c1 * per_sample, us1 * per_sample);
+        let even = Inverse::new([cc - c1 * mean_c, cus - c1 * mean_us, usus - us1 * mean_us])?;
+        Some(self.sums.gradient.map(|[c, s, uc, us, sum]| {
+            let [x_s, x_uc] = odd.solve([s, uc]);
+            let [x_c, x_us] = even.solve([c - mean_c * sum, us - mean_us * sum]);
+            let offset = per_sample * sum - mean_c * x_c - mean_us * x_us;
+            [x_c, x_s, x_uc, x_us, offset]
+        }))
     }
 
     /// The wave, once the stretch is whole and holds one.
     pub(crate) fn fitted(&self) -> Option<Fitted> {
-        let normal = self.normal();
+        let parameters = self.parameters()?;
         let n = self.length as f32;
-        let parameters = self.sums.gradient.map(|gradient| normal.solve(gradient));
         let mut explained = 0.0;
         let mut turned = 0.0;
         let mut size = 0.0;
@@ -180,7 +204,7 @@ impl Trial {
         if !(power > 1e-6 * self.sums.square && size > 0.0) {
             return None;
         }
-        let rest = ((self.sums.square - explained) / power).max(1e-6);
+        let rest = greater((self.sums.square - explained) / power, 1e-6);
         let drift = turned / size;
         if !(rest < UNEXPLAINED && by_chance(rest, self.length) < FALSE_ALARM && drift.abs() < 1.0)
         {

@@ -16,5 +16,4 @@ mod waves;
 pub(crate) use fit::{CARRIER_REACH, Fit, solve};
 pub(crate) use gathered::Gathered;
 pub(crate) use model::Model;
-pub(crate) use normal::Normal;
 pub(crate) use seen::{Extremes, Seen};

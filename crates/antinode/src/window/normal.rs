@@ -18,11 +18,6 @@ impl Normal {
         entries: [[0.0; PARAMETERS]; PARAMETERS],
     };
 
-    /// A matrix from its lower triangle.
-    pub(crate) const fn from_lower(entries: [[f32; PARAMETERS]; PARAMETERS]) -> Self {
-        Self { entries }
-    }
-
     /// Adds the square of one design row.
     #[inline(never)]
     pub(crate) fn add(&mut self, row: &Row) {

@@ -50,16 +50,15 @@ impl Layout {
         let twice = self.twice_from_middle(index);
         // Taken after the middle and mirrored before it: exactly even and odd, whatever is rounded.
         let phase = self.step.after_half_samples(twice.abs());
-        let third = Phase(phase.0.wrapping_mul(3));
         let side = if twice < 0 { -1.0 } else { 1.0 };
-        let [[cosine, sine], [third_cosine, third_sine]] = [phase, third].map(|phase| {
-            if self.scale == 0 {
-                let unit = phase.unit();
-                [unit.re, unit.im]
-            } else {
-                phase.scaled_unit(self.scale).map(f32::from)
-            }
-        });
+        let ([cosine, sine], [third_cosine, third_sine]) = if self.scale == 0 {
+            let unit = phase.unit();
+            let carrier = [unit.re, unit.im];
+            (carrier, third_harmonic(carrier))
+        } else {
+            let rounded = |phase: Phase| phase.scaled_unit(self.scale).map(f32::from);
+            (rounded(phase), rounded(Phase(phase.0.wrapping_mul(3))))
+        };
         Reference {
             cosine,
             sine: side * sine,
@@ -72,4 +71,11 @@ impl Layout {
     pub(crate) fn one(self) -> f32 {
         f32::from(self.scale.max(1))
     }
+}
+
+/// cos 3φ and sin 3φ from cos φ and sin φ.
+#[inline(always)]
+pub(crate) fn third_harmonic([cosine, sine]: [f32; 2]) -> [f32; 2] {
+    let square = 4.0 * cosine * cosine;
+    [cosine * (square - 3.0), sine * (square - 1.0)]
 }

@@ -8,6 +8,7 @@ mod layout;
 mod sums;
 
 pub use layout::Layout;
+pub(crate) use layout::third_harmonic;
 pub use sums::{ChannelSums, ChannelWatch, Runs};
 
 use crate::sample::{Sample, SamplePair};
@@ -51,7 +52,7 @@ struct Summing<S: Sample, const N: usize> {
     known: u16,
     block: Block<S>,
     table: [S::Weight; N],
-    third: [S::Weight; N],
+    third: [S::Third; N],
 }
 
 impl<S: Sample, const N: usize> Demodulator<S, N> {
@@ -74,7 +75,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
                     watch: watch.then_some([ChannelWatch::empty(); 2]),
                 },
                 table: [S::Weight::default(); N],
-                third: [S::Weight::default(); N],
+                third: [S::Third::default(); N],
             },
         };
         demodulator.begin(layout, start);
@@ -166,7 +167,7 @@ impl<S: Sample, const N: usize> Summing<S, N> {
         let index = index as u16;
         S::add_slice(&mut self.block.sums, pairs, &self.table, index);
         if let Some(watch) = &mut self.block.watch {
-            S::watch_slice(watch, pairs, &self.third, index);
+            S::watch_slice(watch, pairs, (&self.table, &self.third), index);
         }
         (pairs.len(), count == length)
     }
@@ -200,7 +201,7 @@ impl<S: Sample, const N: usize> Summing<S, N> {
             let index = usize::from(index);
             S::set_weight(&mut self.table, index, [reference.cosine, reference.sine]);
             let third = [reference.third_cosine, reference.third_sine];
-            S::set_weight(&mut self.third, index, third);
+            S::set_third(&mut self.third, index, third);
         }
         self.known = self.count;
     }

@@ -22,6 +22,7 @@ impl Sample for i16 {
     type Sum = i32;
     // Cosines of two samples in the even places, their sines in the odd ones.
     type Weight = u32;
+    type Third = u32;
     type Runs = ();
     type Square = u32;
     // A word of two. Products are at most 2³⁰: 2³³ of them stay below 2⁶³.
@@ -70,6 +71,11 @@ impl Sample for i16 {
     }
 
     #[inline(always)]
+    fn set_third(table: &mut [u32], index: usize, weight: [f32; 2]) {
+        Self::set_weight(table, index, weight);
+    }
+
+    #[inline(always)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
@@ -83,7 +89,7 @@ impl Sample for i16 {
     fn watch_slice<P: SamplePair<Self>>(
         watch: &mut [ChannelWatch<Self>; 2],
         pairs: &[P],
-        table: &[u32],
+        (_, table): (&[u32], &[u32]),
         index: u16,
     ) {
         arch::watch_pairs(watch, pairs, table, index);

@@ -14,6 +14,7 @@ fn product(sample: i32, weight: i16) -> i64 {
 impl Sample for i32 {
     type Sum = i64;
     type Weight = [i16; 2];
+    type Third = [i16; 2];
     type Runs = ();
     type Square = u64;
     type Centred = [f32; 2];
@@ -49,6 +50,11 @@ impl Sample for i32 {
         }
     }
 
+    #[inline(always)]
+    fn set_third(table: &mut [[i16; 2]], index: usize, weight: [f32; 2]) {
+        Self::set_weight(table, index, weight);
+    }
+
     #[inline(never)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
@@ -76,7 +82,7 @@ impl Sample for i32 {
     fn watch_slice<P: SamplePair<Self>>(
         watch: &mut [ChannelWatch<Self>; 2],
         pairs: &[P],
-        table: &[[i16; 2]],
+        (_, table): (&[[i16; 2]], &[[i16; 2]]),
         index: u16,
     ) {
         let [mut c, mut d] = if index == 0 {

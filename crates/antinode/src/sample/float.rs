@@ -2,13 +2,14 @@
 
 use super::{Sample, SamplePair};
 use crate::arch;
-use crate::block::{ChannelSums, ChannelWatch, Runs};
+use crate::block::{ChannelSums, ChannelWatch, Runs, third_harmonic};
 use crate::period::Lags;
 use crate::sum::Sum;
 
 impl Sample for f32 {
     type Sum = f32;
     type Weight = [f32; 2];
+    type Third = ();
     type Runs = Runs;
     type Square = f32;
     type Centred = [f32; 2];
@@ -45,6 +46,9 @@ impl Sample for f32 {
     }
 
     #[inline(always)]
+    fn set_third(_: &mut [()], _: usize, _: [f32; 2]) {}
+
+    #[inline(always)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
         pairs: &[P],
@@ -58,7 +62,7 @@ impl Sample for f32 {
     fn watch_slice<P: SamplePair<Self>>(
         watch: &mut [ChannelWatch<Self>; 2],
         pairs: &[P],
-        table: &[[f32; 2]],
+        (table, _): (&[[f32; 2]], &[()]),
         index: u16,
     ) {
         let [mut c, mut d] = if index == 0 {
@@ -67,8 +71,8 @@ impl Sample for f32 {
             *watch
         };
         let table = table.get(usize::from(index)..).unwrap_or(&[]);
-        for ((pair, &[cosine, sine]), index) in pairs.iter().zip(table).zip(index..) {
-            let pair = pair.pair();
+        for ((pair, &reference), index) in pairs.iter().zip(table).zip(index..) {
+            let (pair, [cosine, sine]) = (pair.pair(), third_harmonic(reference));
             c.third_cosine += pair[0] * cosine;
             c.third_sine += pair[0] * sine;
             d.third_cosine += pair[1] * cosine;

@@ -112,6 +112,8 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     type Sum: Copy + Debug + PartialEq + Default + Send;
     /// The reference at one sample of a block: cosine and sine.
     type Weight: Copy + Debug + Default + Send;
+    /// The reference's third harmonic at one sample of a block, where it is not made of the reference itself.
+    type Third: Copy + Debug + Default + Send;
     /// What is kept of runs of equal samples.
     type Runs: Copy + Debug + PartialEq + Default + Send;
     /// A running sum of squared differences.
@@ -135,6 +137,9 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
     /// Puts the weights of sample `index` into a table, from cosine and sine in f32: whole numbers where there is a scale.
     #[doc(hidden)]
     fn set_weight(table: &mut [Self::Weight], index: usize, weight: [f32; 2]);
+    /// Puts the weights of the third harmonic into their table, where there is one.
+    #[doc(hidden)]
+    fn set_third(table: &mut [Self::Third], index: usize, weight: [f32; 2]);
     /// Adds pairs, the first of which is sample `index` of its block, to the carrier's sums, which begin anew at 0.
     ///
     /// Nothing is done without pairs, or where the table is too short.
@@ -145,12 +150,12 @@ pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
         table: &[Self::Weight],
         index: u16,
     );
-    /// Watches pairs, as [`add_slice`](Self::add_slice) adds them.
+    /// Watches pairs, as [`add_slice`](Self::add_slice) adds them; the tables are those of the reference and of its third harmonic.
     #[doc(hidden)]
     fn watch_slice<P: SamplePair<Self>>(
         watch: &mut [ChannelWatch<Self>; 2],
         pairs: &[P],
-        table: &[Self::Weight],
+        tables: (&[Self::Weight], &[Self::Third]),
         index: u16,
     );
     /// The longest runs at the extremes, low and high: 1 where they are not counted.

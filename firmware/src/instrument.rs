@@ -1,5 +1,7 @@
 //! The thread half of the pipeline: blocks are solved and tracked, reports sent, commands obeyed.
 
+use core::mem::MaybeUninit;
+
 use antinode::{Calibration, Estimate, Sample, SettingsError, Tracker};
 use antinode_telemetry::{
     Acknowledgement, Cause, Command, CommandError, CommandFrame, Configuration, Counters, Hello,
@@ -57,20 +59,23 @@ pub struct Instrument<'q, S: Sample> {
 }
 
 impl<'q, S: Sample> Instrument<'q, S> {
-    /// An instrument that has seen nothing; it says hello, and why it has started.
+    /// Makes in `place` an instrument that has seen nothing; it says hello, and why it has started.
     ///
     /// # Errors
     ///
     /// Those of [`antinode::Settings::check`] for [`RING`].
-    pub fn new(
+    #[cold]
+    #[inline(never)]
+    pub fn make(
+        place: &'q mut MaybeUninit<Self>,
         configuration: Configuration,
         items: Consumer<'q, Item<S>, QUEUE>,
         requests: Producer<'q, Request, REQUESTS>,
         counts: &'q Counts,
         link: Link<'q>,
         cause: Cause,
-    ) -> Result<Self, SettingsError> {
-        let mut instrument = Self {
+    ) -> Result<&'q mut Self, SettingsError> {
+        let instrument = place.write(Self {
             tracker: Tracker::new(configuration.settings)?,
             items,
             requests,
@@ -89,7 +94,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
             counters: Counters::default(),
             reported: 0,
             now: 0,
-        };
+        });
         instrument.hello();
         instrument.link.send(Report::State(State::Started(cause)));
         Ok(instrument)
@@ -215,7 +220,8 @@ impl<'q, S: Sample> Instrument<'q, S> {
         result.is_ok()
     }
 
-    // A new tracker passes over its stack, which the main loop's need not hold.
+    // Rare: the main loop's stack need not hold what it needs.
+    #[cold]
     #[inline(never)]
     fn obey(&mut self, command: &Command) -> Result<(), CommandError> {
         match command {

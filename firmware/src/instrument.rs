@@ -96,7 +96,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
             now: 0,
         });
         instrument.hello();
-        instrument.link.send(Report::State(State::Started(cause)));
+        instrument.link.send(&Report::State(State::Started(cause)));
         Ok(instrument)
     }
 
@@ -137,7 +137,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
             Some(Item::Lapse(lapse)) => {
                 log(Event::Lapse(*lapse));
                 let restarted = State::SamplingRestarted(lapse.cause);
-                self.link.send(Report::State(restarted));
+                self.link.send(&Report::State(restarted));
             }
             Some(Item::Searching(number)) => self.awaits &= *number != self.number,
         }
@@ -146,9 +146,9 @@ impl<'q, S: Sample> Instrument<'q, S> {
         if let Some(estimate) = estimate {
             self.enter(State::Tracking, log);
             let methods = self.methods(&estimate);
-            self.link.send(Report::Estimate(estimate));
+            self.link.send(&Report::Estimate(estimate));
             if let Some(methods) = methods {
-                self.link.send(Report::Methods(methods));
+                self.link.send(&Report::Methods(methods));
             }
         }
         if self.tracker.has_lost() {
@@ -196,7 +196,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
     fn enter(&mut self, state: State, log: &mut impl FnMut(Event)) {
         if self.state != state {
             self.state = state;
-            self.link.send(Report::State(state));
+            self.link.send(&Report::State(state));
             log(Event::State(state));
         }
     }
@@ -208,14 +208,14 @@ impl<'q, S: Sample> Instrument<'q, S> {
 
     fn hello(&mut self) {
         let hello = Hello::new(env!("CARGO_PKG_VERSION"), self.configuration);
-        self.link.send(Report::Hello(hello));
+        self.link.send(&Report::Hello(hello));
     }
 
     /// Obeys a command and acknowledges it; true where it was done.
     fn answer(&mut self, CommandFrame { id, command }: CommandFrame) -> bool {
         let result = self.obey(&command);
         let acknowledgement = Acknowledgement { id, result };
-        self.link.send(Report::Acknowledgement(acknowledgement));
+        self.link.send(&Report::Acknowledgement(acknowledgement));
         self.answered = self.answered.wrapping_add(1);
         result.is_ok()
     }
@@ -284,7 +284,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
     /// Sends the counters as they are.
     pub fn report_counters(&mut self) {
         self.update();
-        self.link.send(Report::Counters(self.counters));
+        self.link.send(&Report::Counters(self.counters));
         self.reported = self.now;
     }
 

@@ -28,9 +28,11 @@ impl<S: Slow> Interrupt<S> {
     /// `place` is writable and nobody else's.
     #[inline(never)]
     pub(crate) unsafe fn write(place: *mut Self, settings: Settings) -> Result<(), Status> {
-        // SAFETY: the caller's contract; what is not yet a front may be anything.
+        // Here, for speed rather than for size: otherwise the stack would hold it four times.
+        let front = Front::new(settings)?;
+        // SAFETY: the caller's contract.
         unsafe {
-            S::begin(&mut *(&raw mut (*place).front).cast(), settings)?;
+            (&raw mut (*place).front).write(front);
             (&raw mut (*place).search).write(0);
         }
         Ok(())

@@ -131,9 +131,11 @@ impl Thread {
     /// `place` is writable and nobody else's.
     #[inline(never)]
     pub(crate) unsafe fn write(place: *mut Self, settings: Settings) -> Result<(), Status> {
-        // SAFETY: the caller's contract; what is not yet a tracker may be anything.
+        // As the interrupt's front.
+        let tracker = Tracker::new(settings)?;
+        // SAFETY: the caller's contract.
         unsafe {
-            antinode_capi_slow::begin(&mut *(&raw mut (*place).tracker).cast(), settings)?;
+            (&raw mut (*place).tracker).write(tracker);
             (&raw mut (*place).settings).write(settings);
         }
         Ok(())

@@ -80,12 +80,20 @@ impl core::error::Error for BufferTooSmall {}
 ///
 /// [`BufferTooSmall`]: never with [`MAX_FRAME`] bytes.
 pub fn frame<'a, M: Frame>(message: &M, buffer: &'a mut [u8]) -> Result<&'a [u8], BufferTooSmall> {
+    frame_of(&(M::HEADER, message), buffer)
+}
+
+/// Writes header, number and body as a frame.
+pub(crate) fn frame_of<'a>(
+    message: &impl Serialize,
+    buffer: &'a mut [u8],
+) -> Result<&'a [u8], BufferTooSmall> {
     // A delimiter, the place of the first COBS code, and the payload where it is to be sent from.
     let most = buffer.len().min(MAX_FRAME);
     let room = buffer.get_mut(..most).ok_or(BufferTooSmall)?;
     let (start, payload) = room.split_first_chunk_mut().ok_or(BufferTooSmall)?;
     *start = [0; START];
-    let message = postcard::to_slice(&(M::HEADER, message), payload);
+    let message = postcard::to_slice(message, payload);
     let length = message.map_err(|_| BufferTooSmall)?.len();
     finish(room, START + length)
 }

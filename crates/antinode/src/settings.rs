@@ -144,7 +144,8 @@ impl Settings {
         let within = |x: f32, least: f32, most: f32| x >= least && x <= most;
         let most = blocks.saturating_sub(2).min(60_000) as u16;
         let c = &self.calibration;
-        if !(1e-3..=1e12).contains(&self.sample_rate) {
+        // Numbers above zero are in the order of their bits, and all else is beyond: no comparison in f64 is linked in.
+        if !(1e-3f64.to_bits()..=1e12f64.to_bits()).contains(&self.sample_rate.to_bits()) {
             Err(SettingsError::SampleRate(self.sample_rate))
         } else if self.periods < 2 {
             Err(SettingsError::PeriodsTooFew(self.periods))

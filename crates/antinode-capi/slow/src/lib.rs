@@ -5,9 +5,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
-use core::mem::MaybeUninit;
-
-use antinode::{Block, Calibration, Estimate, Sample, Settings, SettingsError};
+use antinode::{Block, Calibration, Estimate, Sample, SettingsError};
 
 /// The longest period, sample pairs.
 pub const LONGEST_PERIOD: usize = 200;
@@ -21,14 +19,6 @@ pub type Tracker = antinode::Tracker<RING_BLOCKS>;
 
 /// Samples of the C ABI.
 pub trait Slow: Sample {
-    /// Makes in `place` a front that searches.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Settings::check`].
-    fn begin(place: &mut MaybeUninit<Front<Self>>, settings: Settings)
-    -> Result<(), SettingsError>;
-
     /// Drops the period and searches anew.
     fn search_anew(front: &mut Front<Self>);
 
@@ -45,15 +35,6 @@ pub trait Slow: Sample {
 macro_rules! slow {
     ($sample:ty) => {
         impl Slow for $sample {
-            #[inline(never)]
-            fn begin(
-                place: &mut MaybeUninit<Front<Self>>,
-                settings: Settings,
-            ) -> Result<(), SettingsError> {
-                place.write(Front::new(settings)?);
-                Ok(())
-            }
-
             #[cold]
             #[inline(never)]
             fn search_anew(front: &mut Front<Self>) {
@@ -85,33 +66,12 @@ macro_rules! slow {
 slow!(i16);
 slow!(f32);
 
-/// Makes in `place` a tracker that waits for its first block.
-///
-/// # Errors
-///
-/// Those of [`Settings::check`].
-#[inline(never)]
-pub fn begin(place: &mut MaybeUninit<Tracker>, settings: Settings) -> Result<(), SettingsError> {
-    place.write(Tracker::new(settings)?);
-    Ok(())
-}
-
 /// Changes the calibration.
 ///
 /// # Errors
 ///
-/// Those of [`Settings::check`]; nothing is changed then.
+/// Those of [`antinode::Settings::check`]; nothing is changed then.
 #[inline(never)]
 pub fn calibrate(tracker: &mut Tracker, calibration: Calibration) -> Result<(), SettingsError> {
     tracker.calibrate(calibration)
-}
-
-/// Checks settings.
-///
-/// # Errors
-///
-/// Those of [`Settings::check`].
-#[inline(never)]
-pub fn check(settings: &Settings) -> Result<(), SettingsError> {
-    settings.check(RING_BLOCKS)
 }

@@ -4,6 +4,7 @@ use core::fmt;
 
 use crate::block::Layout;
 use crate::calibration::Calibration;
+use crate::order::{greater, lesser};
 use crate::phase::PhaseStep;
 
 /// How the period is found from cold.
@@ -183,7 +184,7 @@ impl Settings {
     /// that of f32; a [`Demodulator`](crate::block::Demodulator) puts in its own.
     pub fn layout(&self, period: f32) -> Layout {
         let window = period * f32::from(self.periods);
-        let length = libm::roundf(period.min(window / BLOCKS_A_WINDOW)).max(1.0);
+        let length = greater(libm::roundf(lesser(period, window / BLOCKS_A_WINDOW)), 1.0);
         Layout::new::<f32>(PhaseStep::from_period(period), length as u16)
     }
 

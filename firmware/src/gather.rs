@@ -1,5 +1,7 @@
 //! The interrupt half of the pipeline: a source's pairs become blocks in a queue.
 
+use core::mem::MaybeUninit;
+
 use antinode::block::ChannelWatch;
 use antinode::{Block, Front, Sample, SamplePair, Settings, SettingsError};
 use antinode_telemetry::Cause;
@@ -150,18 +152,22 @@ pub struct Gatherer<'q, S: Sample> {
 }
 
 impl<'q, S: Sample> Gatherer<'q, S> {
-    /// A gatherer that searches for a period.
+    /// Makes in `place` a gatherer that searches for a period.
     ///
     /// # Errors
     ///
     /// Those of [`Settings::check`].
-    pub fn new(
+    // Not inlined, nor is the instrument's: the stack holds one part at a time.
+    #[cold]
+    #[inline(never)]
+    pub fn make(
+        place: &'q mut MaybeUninit<Self>,
         settings: Settings,
         items: Producer<'q, Item<S>, QUEUE>,
         requests: Consumer<'q, Request, REQUESTS>,
         counts: &'q Counts,
-    ) -> Result<Self, SettingsError> {
-        Ok(Self {
+    ) -> Result<&'q mut Self, SettingsError> {
+        Ok(place.write(Self {
             front: Front::new(settings)?,
             methods: Gathering::new(),
             requests,
@@ -172,7 +178,7 @@ impl<'q, S: Sample> Gatherer<'q, S> {
                 answer: None,
                 saturated: false,
             },
-        })
+        }))
     }
 
     /// Serves the source's interrupt: obeys requests, then takes what the source has.

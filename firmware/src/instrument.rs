@@ -1,5 +1,7 @@
 //! The thread half of the pipeline: blocks are solved and tracked, reports sent, commands obeyed.
 
+use core::mem::MaybeUninit;
+
 use antinode::{Calibration, Estimate, Sample, SettingsError, Tracker};
 use antinode_telemetry::{
     Acknowledgement, Cause, Command, CommandError, CommandFrame, Configuration, Counters, Hello,
@@ -57,20 +59,23 @@ pub struct Instrument<'q, S: Sample> {
 }
 
 impl<'q, S: Sample> Instrument<'q, S> {
-    /// An instrument that has seen nothing; it says hello, and why it has started.
+    /// Makes in `place` an instrument that has seen nothing; it says hello, and why it has started.
     ///
     /// # Errors
     ///
     /// Those of [`antinode::Settings::check`] for [`RING`].
-    pub fn new(
+    #[cold]
+    #[inline(never)]
+    pub fn make(
+        place: &'q mut MaybeUninit<Self>,
         configuration: Configuration,
         items: Consumer<'q, Item<S>, QUEUE>,
         requests: Producer<'q, Request, REQUESTS>,
         counts: &'q Counts,
         link: Link<'q>,
         cause: Cause,
-    ) -> Result<Self, SettingsError> {
-        let mut instrument = Self {
+    ) -> Result<&'q mut Self, SettingsError> {
+        let instrument = place.write(Self {
             tracker: Tracker::new(configuration.settings)?,
             items,
             requests,
@@ -89,9 +94,9 @@ impl<'q, S: Sample> Instrument<'q, S> {
             counters: Counters::default(),
             reported: 0,
             now: 0,
-        };
+        });
         instrument.hello();
-        instrument.link.send(Report::State(State::Started(cause)));
+        instrument.link.send(&Report::State(State::Started(cause)));
         Ok(instrument)
     }
 
@@ -132,7 +137,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
             Some(Item::Lapse(lapse)) => {
                 log(Event::Lapse(*lapse));
                 let restarted = State::SamplingRestarted(lapse.cause);
-                self.link.send(Report::State(restarted));
+                self.link.send(&Report::State(restarted));
             }
             Some(Item::Searching(number)) => self.awaits &= *number != self.number,
         }
@@ -141,9 +146,9 @@ impl<'q, S: Sample> Instrument<'q, S> {
         if let Some(estimate) = estimate {
             self.enter(State::Tracking, log);
             let methods = self.methods(&estimate);
-            self.link.send(Report::Estimate(estimate));
+            self.link.send(&Report::Estimate(estimate));
             if let Some(methods) = methods {
-                self.link.send(Report::Methods(methods));
+                self.link.send(&Report::Methods(methods));
             }
         }
         if self.tracker.has_lost() {
@@ -191,7 +196,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
     fn enter(&mut self, state: State, log: &mut impl FnMut(Event)) {
         if self.state != state {
             self.state = state;
-            self.link.send(Report::State(state));
+            self.link.send(&Report::State(state));
             log(Event::State(state));
         }
     }
@@ -203,19 +208,20 @@ impl<'q, S: Sample> Instrument<'q, S> {
 
     fn hello(&mut self) {
         let hello = Hello::new(env!("CARGO_PKG_VERSION"), self.configuration);
-        self.link.send(Report::Hello(hello));
+        self.link.send(&Report::Hello(hello));
     }
 
     /// Obeys a command and acknowledges it; true where it was done.
     fn answer(&mut self, CommandFrame { id, command }: CommandFrame) -> bool {
         let result = self.obey(&command);
         let acknowledgement = Acknowledgement { id, result };
-        self.link.send(Report::Acknowledgement(acknowledgement));
+        self.link.send(&Report::Acknowledgement(acknowledgement));
         self.answered = self.answered.wrapping_add(1);
         result.is_ok()
     }
 
-    // A new tracker passes over its stack, which the main loop's need not hold.
+    // Rare: the main loop's stack need not hold what it needs.
+    #[cold]
     #[inline(never)]
     fn obey(&mut self, command: &Command) -> Result<(), CommandError> {
         match command {
@@ -278,7 +284,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
     /// Sends the counters as they are.
     pub fn report_counters(&mut self) {
         self.update();
-        self.link.send(Report::Counters(self.counters));
+        self.link.send(&Report::Counters(self.counters));
         self.reported = self.now;
     }
 

@@ -70,7 +70,7 @@ impl<'q> Link<'q> {
     }
 
     /// Sends a report, or drops and counts it where there is no room for any frame: a slow reader stalls nothing.
-    pub fn send(&mut self, report: Report) {
+    pub fn send(&mut self, report: &Report) {
         if let Ok(mut room) = self.out.grant_exact(MAX_FRAME) {
             // It never fails with that much room.
             let length = self

@@ -3,6 +3,7 @@
 #![allow(unsafe_code, reason = "the bench takes the USART for itself")]
 
 use core::hint::black_box;
+use core::mem::MaybeUninit;
 
 use antinode::Packed;
 use antinode_telemetry::{Cause, Configuration, FrontEnd};
@@ -17,7 +18,7 @@ use crate::gauge::Gauge;
 use crate::hardware::line::{By, Line};
 use crate::marks::{leave, mark_begin, mark_end};
 use crate::methods::AVAILABLE;
-use crate::pipeline::Queues;
+use crate::pipeline::{Places, Queues};
 use crate::sampling::{Lapse, Ready, Source, both, is_at_rail_12};
 use crate::settings::{Arithmetic, DUAL_ADC_RAILS, HALF, configuration};
 
@@ -106,35 +107,40 @@ pub fn interrupt_alone(name: &'static str) -> ! {
     let (sender, mut blocks) = items.split();
     let (_, asked) = requests.split();
     let settings = configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS).settings;
-    let Ok(mut gatherer) = Gatherer::<Arithmetic>::new(settings, sender, asked, &counts) else {
+    let mut place = MaybeUninit::<Gatherer<Arithmetic>>::uninit();
+    let state = size_of_val(&place);
+    let Ok(gatherer) = Gatherer::make(&mut place, settings, sender, asked, &counts) else {
         leave()
     };
-    let state = size_of_val(&gatherer);
     measure(name, state, || {
-        interrupt(&mut gatherer, &mut source);
+        interrupt(gatherer, &mut source);
         while blocks.dequeue().is_some() {}
         source.total
     })
 }
 
 /// The whole pipeline; with the feature `methods` they are on.
-pub fn application(name: &'static str, queues: &'static mut Queues<Arithmetic>) -> ! {
+pub fn application(
+    name: &'static str,
+    queues: &'static mut Queues<Arithmetic>,
+    places: &'static mut Places<'static, Arithmetic>,
+) -> ! {
     let mut source = Endless::new();
     let configuration = Configuration {
         methods: AVAILABLE,
         ..configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS)
     };
-    let Ok(mut parts) = queues.split(configuration, Cause::PowerOn) else {
+    let Ok(parts) = queues.split(places, configuration, Cause::PowerOn) else {
         leave()
     };
     // SAFETY: nobody else uses the peripherals.
     let device = unsafe { Peripherals::steal() };
-    let parts_size = size_of_val(&parts);
+    let parts_size = size_of_val(&parts) + size_of::<Places<'static, Arithmetic>>();
     let mut line = Line::new(device.USART1, &device.RCC, parts.out, parts.bytes, By::Hand);
     let mut now = 0;
     let state = size_of::<Queues<Arithmetic>>() + parts_size + size_of_val(&line);
     measure(name, state, || {
-        interrupt(&mut parts.gatherer, &mut source);
+        interrupt(parts.gatherer, &mut source);
         now += 1;
         black_box(parts.instrument.poll(now, |_| {}));
         line.serve(true);

@@ -1,5 +1,7 @@
 //! Both halves of the pipeline and what lies between them, for every image and for the tests.
 
+use core::mem::MaybeUninit;
+
 use antinode::{Sample, SettingsError};
 use antinode_telemetry::{Cause, Configuration};
 use heapless::spsc::{Producer, Queue};
@@ -20,12 +22,34 @@ pub struct Queues<S: Sample> {
     counts: Counts,
 }
 
+/// Where the large parts are made and stay; each image has one, in a static.
+pub struct Places<'q, S: Sample> {
+    gatherer: MaybeUninit<Gatherer<'q, S>>,
+    instrument: MaybeUninit<Instrument<'q, S>>,
+}
+
+impl<S: Sample> Places<'_, S> {
+    /// Places for a pipeline that is still to come.
+    pub const fn new() -> Self {
+        Self {
+            gatherer: MaybeUninit::uninit(),
+            instrument: MaybeUninit::uninit(),
+        }
+    }
+}
+
+impl<S: Sample> Default for Places<'_, S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 /// The parts, each for one context.
 pub struct Parts<'q, S: Sample> {
     /// For the source's interrupt.
-    pub gatherer: Gatherer<'q, S>,
+    pub gatherer: &'q mut Gatherer<'q, S>,
     /// For the main loop.
-    pub instrument: Instrument<'q, S>,
+    pub instrument: &'q mut Instrument<'q, S>,
     /// For the line's interrupt: bytes to send.
     pub out: Outgoing<'q>,
     /// For the line's interrupt: bytes received.
@@ -50,19 +74,25 @@ impl<S: Sample> Queues<S> {
     /// # Errors
     ///
     /// Those of [`antinode::Settings::check`].
-    pub fn split(
-        &mut self,
+    pub fn split<'q>(
+        &'q mut self,
+        places: &'q mut Places<'q, S>,
         configuration: Configuration,
         cause: Cause,
-    ) -> Result<Parts<'_, S>, SettingsError> {
+    ) -> Result<Parts<'q, S>, SettingsError> {
         let (items, taken) = self.items.split();
         let (requests, asked) = self.requests.split();
         let (bytes, received) = self.bytes.split();
         let link = Link::new(&self.out, &self.sent, received);
         let counts = &self.counts;
+        let settings = configuration.settings;
+        let gatherer = Gatherer::make(&mut places.gatherer, settings, items, asked, counts)?;
+        let place = &mut places.instrument;
+        let instrument =
+            Instrument::make(place, configuration, taken, requests, counts, link, cause)?;
         Ok(Parts {
-            gatherer: Gatherer::new(configuration.settings, items, asked, counts)?,
-            instrument: Instrument::new(configuration, taken, requests, counts, link, cause)?,
+            gatherer,
+            instrument,
             out: Outgoing::new(&self.out, &self.sent),
             bytes,
         })

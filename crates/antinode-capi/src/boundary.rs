@@ -7,7 +7,7 @@
 use core::mem::MaybeUninit;
 use core::sync::atomic::Ordering;
 
-use antinode::SamplePair;
+use antinode::{Packed, SamplePair};
 
 use crate::capacity::RING_BLOCKS;
 use crate::estimate::Estimate;
@@ -154,6 +154,27 @@ pub(crate) unsafe fn push_pairs<S: Arithmetic, O, P: SamplePair<S>>(
         interrupt::<S, O>(opaque)
             .and_then(|(side, shared)| Ok(side.push(shared, slice(pairs, count)?)))
     })
+}
+
+/// # Safety
+/// As [`interrupt`] and [`slice`].
+pub(crate) unsafe fn push_words<O>(opaque: *mut O, words: *const u32, count: usize) -> Status {
+    if cfg!(target_endian = "big") {
+        // SAFETY: the caller's contract.
+        return unsafe { push_pairs::<i16, O, _>(opaque, words.cast::<Packed>(), count) };
+    }
+    status((|| {
+        // SAFETY: the caller's contract.
+        let (side, shared) = unsafe { interrupt::<i16, O>(opaque)? };
+        // SAFETY: the caller's contract.
+        let words = unsafe { slice(words, count)? };
+        // Word by word the same bytes as C and D in turn: one piece of code serves both.
+        // SAFETY: as many bytes, and no stricter an alignment; one caller at a time.
+        Ok(unsafe {
+            let pairs = core::slice::from_raw_parts(words.as_ptr().cast::<[i16; 2]>(), count);
+            side.push(shared, pairs)
+        })
+    })())
 }
 
 /// # Safety

@@ -1,4 +1,5 @@
-//! How much a state can hold, and so its size. All capacities are chosen here; the header follows.
+//! How much a state can hold, and so its size. Capacities are chosen here, and the first two in `slow/src/lib.rs` too; the header
+//! follows.
 
 use core::mem::{align_of, size_of};
 
@@ -14,6 +15,12 @@ pub const ANTINODE_QUEUE_BLOCKS: usize = 16;
 
 /// Blocks of the ring that windows are cut from: a little more than the periods of a window.
 pub(crate) const RING_BLOCKS: usize = ANTINODE_MOST_PERIODS + 2;
+
+const _: () = assert!(
+    ANTINODE_LONGEST_PERIOD == antinode_capi_slow::LONGEST_PERIOD
+        && RING_BLOCKS == antinode_capi_slow::RING_BLOCKS,
+    "slow/src/lib.rs has other capacities"
+);
 
 /// 64-bit words of an `antinode_fixed_t`.
 pub const ANTINODE_FIXED_WORDS: usize = 1152;

@@ -69,7 +69,7 @@ pub unsafe extern "C" fn antinode_fixed_push_block_packed(
     words: *const u32,
     count: usize,
 ) -> Status {
-    boundary::push_pairs::<i16, _, _>(state, words.cast::<antinode::Packed>(), count)
+    boundary::push_words(state, words, count)
 }
 
 /// Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is

@@ -6,9 +6,9 @@
 
 use core::sync::atomic::Ordering;
 
-use antinode::{Front, Sample, SamplePair, Settings};
+use antinode::{Sample, SamplePair, Settings};
+use antinode_capi_slow::{Front, Slow};
 
-use crate::capacity::ANTINODE_LONGEST_PERIOD;
 use crate::state::Shared;
 use crate::status::Status;
 
@@ -17,17 +17,18 @@ pub(crate) const AT_ONCE: usize = 64;
 
 /// What belongs to the interrupt alone.
 pub(crate) struct Interrupt<S: Sample> {
-    front: Front<S, ANTINODE_LONGEST_PERIOD>,
+    front: Front<S>,
     search: u32,
 }
 
-impl<S: Sample> Interrupt<S> {
+impl<S: Slow> Interrupt<S> {
     /// Writes a front that searches.
     ///
     /// # Safety
     /// `place` is writable and nobody else's.
     #[inline(never)]
     pub(crate) unsafe fn write(place: *mut Self, settings: Settings) -> Result<(), Status> {
+        // Here, for speed rather than for size: otherwise the stack would hold it four times.
         let front = Front::new(settings)?;
         // SAFETY: the caller's contract.
         unsafe {
@@ -52,7 +53,7 @@ impl<S: Sample> Interrupt<S> {
     #[inline(never)]
     fn search_anew(&mut self, shared: &Shared<S>, wanted: u32) {
         self.search = wanted;
-        self.front.search();
+        S::search_anew(&mut self.front);
         self.tell(shared);
     }
 
@@ -112,7 +113,7 @@ impl<S: Sample> Interrupt<S> {
             *place = pair.pair();
             count += 1;
         }
-        let taken = search(&mut self.front, buffer.get(..count).unwrap_or(&[]));
+        let taken = S::search(&mut self.front, buffer.get(..count).unwrap_or(&[]));
         self.tell(shared);
         taken
     }
@@ -124,19 +125,6 @@ impl<S: Sample> Interrupt<S> {
 
     pub(crate) fn skip(&mut self, shared: &Shared<S>, count: u32) {
         self.obey(shared);
-        self.front.skip(u64::from(count));
+        S::skip(&mut self.front, count);
     }
-}
-
-/// Searches a period in pairs; gives how many it took. One piece of code for every form of pairs, and apart from the sums.
-#[inline(never)]
-fn search<S: Sample>(front: &mut Front<S, ANTINODE_LONGEST_PERIOD>, pairs: &[[S; 2]]) -> usize {
-    for (before, &pair) in pairs.iter().enumerate() {
-        // No block can be finished by it.
-        front.push(pair);
-        if !front.is_searching() {
-            return before + 1;
-        }
-    }
-    pairs.len()
 }

@@ -6,16 +6,16 @@
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
-use antinode::{Block, Calibration, Sample, Settings, Tracker};
+use antinode::{Block, Calibration, Sample, Settings};
+use antinode_capi_slow::{Slow, Tracker};
 
-use crate::capacity::RING_BLOCKS;
 use crate::estimate::Estimate;
 use crate::interrupt::Interrupt;
 use crate::queue::{Entry, Queue};
 use crate::status::Status;
 
 /// An arithmetic that states can have.
-pub(crate) trait Arithmetic: Sample {
+pub(crate) trait Arithmetic: Slow {
     /// What the first word of an initialised state holds.
     const MAGIC: u32;
 }
@@ -50,7 +50,7 @@ pub(crate) struct Shared<S: Sample> {
 
 /// What belongs to the thread alone.
 pub(crate) struct Thread {
-    tracker: Tracker<RING_BLOCKS>,
+    tracker: Tracker,
     pub settings: Settings,
 }
 
@@ -131,6 +131,7 @@ impl Thread {
     /// `place` is writable and nobody else's.
     #[inline(never)]
     pub(crate) unsafe fn write(place: *mut Self, settings: Settings) -> Result<(), Status> {
+        // As the interrupt's front.
         let tracker = Tracker::new(settings)?;
         // SAFETY: the caller's contract.
         unsafe {
@@ -144,7 +145,8 @@ impl Thread {
     ///
     /// # Safety
     /// One caller at a time.
-    pub(crate) unsafe fn solve<S: Sample>(&mut self, shared: &Shared<S>) -> Option<Estimate> {
+    #[inline(never)]
+    pub(crate) unsafe fn solve<S: Slow>(&mut self, shared: &Shared<S>) -> Option<Estimate> {
         // SAFETY: the caller is the only consumer.
         while let Some(estimate) = unsafe { shared.queue.take(|entry| self.push(shared, entry)) } {
             if estimate.is_some() {
@@ -154,12 +156,12 @@ impl Thread {
         None
     }
 
-    fn push<S: Sample>(&mut self, shared: &Shared<S>, entry: &Entry<S>) -> Option<Estimate> {
+    fn push<S: Slow>(&mut self, shared: &Shared<S>, entry: &Entry<S>) -> Option<Estimate> {
         if entry.search != shared.wanted.load(Ordering::Relaxed) {
             // Gathered before the interrupt heard of the loss.
             return None;
         }
-        let estimate = self.tracker.push(&entry.block);
+        let estimate = S::solve(&mut self.tracker, &entry.block);
         if self.tracker.has_lost() {
             self.search(shared);
         }
@@ -174,7 +176,7 @@ impl Thread {
     }
 
     pub(crate) fn calibrate(&mut self, calibration: Calibration) -> Result<(), Status> {
-        self.tracker.calibrate(calibration)?;
+        antinode_capi_slow::calibrate(&mut self.tracker, calibration)?;
         self.settings.calibration = calibration;
         Ok(())
     }
@@ -184,7 +186,7 @@ impl Thread {
 ///
 /// # Safety
 /// No other call of this state at the same time.
-pub(crate) unsafe fn identify<S: Sample>(
+pub(crate) unsafe fn identify<S: Slow>(
     (interrupt, thread, shared): (&mut Interrupt<S>, &mut Thread, &Shared<S>),
     pairs: &[[S; 2]],
 ) -> (usize, Option<Estimate>) {

@@ -40,7 +40,7 @@ impl Device {
     /// The bytes of the next report.
     fn frame(&mut self, report: Report) -> Vec<u8> {
         let mut buffer = [0; MAX_FRAME];
-        self.reporter.frame(report, &mut buffer).unwrap().to_vec()
+        self.reporter.frame(&report, &mut buffer).unwrap().to_vec()
     }
 
     fn send(&mut self, report: Report) {

@@ -47,7 +47,7 @@ impl Device {
             let mut configuration = Configuration::new(Settings::new(100_000.0), FrontEnd::DualAdc);
             let mut send = |port: &mut TTYPort, report| {
                 let mut buffer = [0; MAX_FRAME];
-                let frame = reporter.frame(report, &mut buffer).unwrap();
+                let frame = reporter.frame(&report, &mut buffer).unwrap();
                 let _ = port.write_all(frame);
             };
             loop {

@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 use cobs::{DecodeResult, DecoderState};
 
 use crate::PROTOCOL_VERSION;
-use crate::frame::{CRC, Frame, MAX_PAYLOAD};
+use crate::frame::{self, Frame, MAX_PAYLOAD};
 
 /// Why bytes between two delimiters were dropped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -103,7 +103,7 @@ impl<M: Frame> Default for Decoder<M> {
 
 fn message<M: Frame>(payload: &[u8]) -> Result<M, Damage> {
     let (content, checksum) = payload.split_last_chunk().ok_or(Damage::Framing)?;
-    if CRC.checksum(content) != u32::from_le_bytes(*checksum) {
+    if frame::checksum(content) != u32::from_le_bytes(*checksum) {
         return Err(Damage::Checksum);
     }
     let (&header, body) = content.split_first().ok_or(Damage::Framing)?;

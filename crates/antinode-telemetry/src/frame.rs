@@ -2,7 +2,6 @@
 
 use core::fmt;
 
-use crc::{CRC_32_ISO_HDLC, Crc, Table};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
@@ -13,10 +12,36 @@ use crate::{MAX_FRAME, PROTOCOL_VERSION};
 /// Most bytes of header, number, body and checksum.
 pub(crate) const MAX_PAYLOAD: usize = 120;
 
+const _: () = assert!(MAX_PAYLOAD < 254, "a payload has one COBS code before it");
+
 /// Bytes of the checksum.
 const CHECKSUM: usize = 4;
 
-pub(crate) static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
+/// What half a byte makes of the checksum: a table of whole bytes would be 1 KB, and only a third faster.
+static REMAINDERS: [u32; 16] = {
+    let mut remainders = [0; 16];
+    let mut half = 0;
+    while half < 16 {
+        let mut remainder = half;
+        let mut bit = 0;
+        while bit < 4 {
+            // The polynomial of Ethernet, its highest power in the lowest bit.
+            remainder = (remainder >> 1) ^ ((remainder & 1) * 0xedb8_8320);
+            bit += 1;
+        }
+        remainders[half as usize] = remainder;
+        half += 1;
+    }
+    remainders
+};
+
+/// CRC-32 of Ethernet and zlib.
+pub(crate) fn checksum(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |sum, &byte| {
+        let half = |sum: u32| (sum >> 4) ^ REMAINDERS[(sum & 15) as usize];
+        half(half(sum ^ u32::from(byte)))
+    })
+}
 
 mod sealed {
     pub trait Sealed {}
@@ -78,17 +103,55 @@ impl core::error::Error for BufferTooSmall {}
 ///
 /// [`BufferTooSmall`]: never with [`MAX_FRAME`] bytes.
 pub fn frame<'a, M: Frame>(message: &M, buffer: &'a mut [u8]) -> Result<&'a [u8], BufferTooSmall> {
-    // postcard could add the checksum and write COBS straight into the buffer, but byte by byte, and its indexing links panics in.
-    let mut payload = [0; MAX_PAYLOAD];
-    let message = postcard::to_slice(&(M::HEADER, message), &mut payload);
+    frame_of(&(M::HEADER, message), buffer)
+}
+
+/// Writes header, number and body as a frame.
+pub(crate) fn frame_of<'a>(
+    message: &impl Serialize,
+    buffer: &'a mut [u8],
+) -> Result<&'a [u8], BufferTooSmall> {
+    // A delimiter, the place of the first COBS code, and the payload where it is to be sent from.
+    let most = buffer.len().min(MAX_FRAME);
+    let room = buffer.get_mut(..most).ok_or(BufferTooSmall)?;
+    let (start, payload) = room.split_first_chunk_mut().ok_or(BufferTooSmall)?;
+    *start = [0; START];
+    let message = postcard::to_slice(message, payload);
     let length = message.map_err(|_| BufferTooSmall)?.len();
-    let (message, rest) = payload.split_at_mut_checked(length).ok_or(BufferTooSmall)?;
-    let checksum = rest.first_chunk_mut().ok_or(BufferTooSmall)?;
-    *checksum = CRC.checksum(message).to_le_bytes();
-    let payload = payload.get(..length + CHECKSUM).ok_or(BufferTooSmall)?;
-    let (first, rest) = buffer.split_first_mut().ok_or(BufferTooSmall)?;
-    *first = 0;
-    let length = cobs::try_encode(payload, rest).map_err(|_| BufferTooSmall)?;
-    *rest.get_mut(length).ok_or(BufferTooSmall)? = 0;
-    buffer.get(..length + 2).ok_or(BufferTooSmall)
+    finish(room, START + length)
+}
+
+/// Bytes before the payload.
+const START: usize = 2;
+
+/// Adds the checksum to a payload that ends before `end`, takes the zeros out, and ends the frame.
+fn finish(buffer: &mut [u8], end: usize) -> Result<&[u8], BufferTooSmall> {
+    let (before, rest) = buffer.split_at_mut_checked(end).ok_or(BufferTooSmall)?;
+    let (sum, rest) = rest.split_first_chunk_mut().ok_or(BufferTooSmall)?;
+    let message = before.get(START..).ok_or(BufferTooSmall)?;
+    *sum = checksum(message).to_le_bytes();
+    *rest.first_mut().ok_or(BufferTooSmall)? = 0;
+    let end = end + CHECKSUM;
+    let stuffed = buffer.get_mut(1..end).ok_or(BufferTooSmall)?;
+    // COBS: each zero becomes the way to the next, the first of them that before the payload. No way is longer than a code can tell.
+    let mut way = 0;
+    for byte in stuffed.iter_mut().rev() {
+        way += 1;
+        if *byte == 0 {
+            *byte = way;
+            way = 0;
+        }
+    }
+    buffer.get(..=end).ok_or(BufferTooSmall)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_checksum_is_that_of_ethernet() {
+        assert_eq!(checksum(b"123456789"), 0xcbf4_3926);
+        assert_eq!(checksum(b""), 0);
+    }
 }

@@ -36,7 +36,7 @@
 //! let mut configuration = Configuration::new(antinode::Settings::new(100_000.0), FrontEnd::DualAdc);
 //! let mut reporter = Reporter::new();
 //! let mut buffer = [0; MAX_FRAME];
-//! let hello = reporter.frame(Report::Hello(Hello::new("0.1.0", configuration)), &mut buffer)?;
+//! let hello = reporter.frame(&Report::Hello(Hello::new("0.1.0", configuration)), &mut buffer)?;
 //! // Hand `hello` to the DMA of the USART.
 //! let mut wire = hello.to_vec(); // Here: to a vector.
 //!
@@ -52,7 +52,7 @@
 //!             // A ring of 64 blocks.
 //!             let result = configuration.after(&command, 64).map(|new| configuration = new);
 //!             let report = Report::Acknowledgement(Acknowledgement { id, result });
-//!             wire.extend(reporter.frame(report, &mut buffer)?);
+//!             wire.extend(reporter.frame(&report, &mut buffer)?);
 //!         }
 //!     }
 //! }

@@ -1,7 +1,7 @@
 //! Both ends of the reports' way: one numbers them, the other misses numbers.
 
 use crate::decoder::{Damage, Decoder};
-use crate::frame::{BufferTooSmall, ReportFrame, frame};
+use crate::frame::{BufferTooSmall, Frame, ReportFrame, frame_of};
 use crate::report::Report;
 
 /// Numbers the device's reports.
@@ -30,12 +30,12 @@ impl Reporter {
     /// [`BufferTooSmall`]: never with [`MAX_FRAME`](crate::MAX_FRAME) bytes.
     pub fn frame<'a>(
         &mut self,
-        report: Report,
+        report: &Report,
         buffer: &'a mut [u8],
     ) -> Result<&'a [u8], BufferTooSmall> {
         let number = self.next;
         self.next = number.wrapping_add(1);
-        frame(&ReportFrame { number, report }, buffer)
+        frame_of(&(ReportFrame::HEADER, number, report), buffer)
     }
 }
 
@@ -119,7 +119,7 @@ mod tests {
         let mut buffer = [0; MAX_FRAME];
         for i in 0..20 {
             let bytes = reporter
-                .frame(Report::State(State::Tracking), &mut buffer)
+                .frame(&Report::State(State::Tracking), &mut buffer)
                 .expect("room");
             if ![3, 5, 6].contains(&i) {
                 for &byte in bytes {

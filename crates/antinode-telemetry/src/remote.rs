@@ -54,11 +54,40 @@ pub struct CalibrationFields {
     pick_off_angle: f32,
 }
 
+/// Both detectors, whether or not the core was built with both.
 #[derive(Serialize, Deserialize)]
-#[serde(remote = "Detection")]
-pub enum DetectionNames {
+enum DetectionNames {
     Difference,
     MeanReturn,
+}
+
+/// [`Detection`] by its name.
+mod detection {
+    use antinode::Detection;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use super::DetectionNames;
+
+    pub fn serialize<S: Serializer>(detection: &Detection, to: S) -> Result<S::Ok, S::Error> {
+        let name = if *detection == Detection::Difference {
+            DetectionNames::Difference
+        } else {
+            DetectionNames::MeanReturn
+        };
+        name.serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Detection, D::Error> {
+        match DetectionNames::deserialize(from)? {
+            DetectionNames::Difference => Ok(Detection::Difference),
+            #[cfg(feature = "mean-return")]
+            DetectionNames::MeanReturn => Ok(Detection::MeanReturn),
+            #[cfg(not(feature = "mean-return"))]
+            DetectionNames::MeanReturn => {
+                Err(serde::de::Error::custom("built without this detector"))
+            }
+        }
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -70,7 +99,7 @@ pub struct SettingsFields {
     start_angle: f32,
     rails: Option<[f32; 2]>,
     resolution: Option<f32>,
-    #[serde(with = "DetectionNames")]
+    #[serde(with = "detection")]
     detection: Detection,
     watch: bool,
     #[serde(with = "CalibrationFields")]

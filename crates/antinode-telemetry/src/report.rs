@@ -64,11 +64,10 @@ impl Hello {
     /// A Hello of this protocol; of `firmware` it keeps the characters that fit.
     pub fn new(firmware: &str, configuration: Configuration) -> Self {
         let mut kept = heapless::String::new();
-        for character in firmware.chars() {
-            if kept.push(character).is_err() {
-                break;
-            }
-        }
+        let fits = |end: &usize| firmware.is_char_boundary(*end);
+        let end = (0..=FIRMWARE_BYTES.min(firmware.len())).rev().find(fits);
+        // It never fails with so many bytes.
+        let _ = kept.push_str(firmware.get(..end.unwrap_or(0)).unwrap_or(""));
         Self {
             protocol: PROTOCOL_VERSION,
             firmware: kept,

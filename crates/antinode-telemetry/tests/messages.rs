@@ -127,20 +127,20 @@ fn a_buffer_too_small_is_told_and_the_number_is_spent() {
     for room in 0..24 {
         let report = Report::Counters(Counters::default());
         let mut buffer = vec![0; room];
-        let result = reporter.frame(report, &mut buffer);
+        let result = reporter.frame(&report, &mut buffer);
         assert_eq!(result.is_err(), room < 20, "{room}: {result:?}");
     }
     let mut receiver = Receiver::new();
     let mut buffer = [0; MAX_FRAME];
     let mut send = |reporter: &mut Reporter, report| {
-        for &byte in reporter.frame(report, &mut buffer).unwrap() {
+        for &byte in reporter.frame(&report, &mut buffer).unwrap() {
             receiver.push(byte);
         }
         receiver.lost()
     };
     assert_eq!(send(&mut reporter, Report::State(State::Tracking)), 0);
     reporter
-        .frame(Report::State(State::Tracking), &mut [])
+        .frame(&Report::State(State::Tracking), &mut [])
         .unwrap_err();
     assert_eq!(send(&mut reporter, Report::State(State::Tracking)), 1);
     // A device that starts anew has lost nothing.

@@ -182,7 +182,7 @@ fn a_receiver_counts_damage_and_loss() {
     for number in 0..10 {
         let mut buffer = [0; MAX_FRAME];
         let report = Report::State(State::Searching);
-        let length = reporter.frame(report, &mut buffer).unwrap().len();
+        let length = reporter.frame(&report, &mut buffer).unwrap().len();
         match number {
             3 => continue,
             5 => buffer[4] ^= 0x10,

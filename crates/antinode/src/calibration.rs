@@ -29,7 +29,7 @@ impl Calibration {
     /// The correction for a wave of `cycles_per_sample`, at a sample rate in Hz.
     pub(crate) fn at(&self, cycles_per_sample: f32, sample_rate: f32) -> Correction {
         let turns = cycles_per_sample * sample_rate * self.skew;
-        let lag = Phase((turns * 4_294_967_296.0) as i64 as u32).unit() * self.gain_ratio;
+        let lag = Phase::from_turns(turns).unit() * self.gain_ratio;
         let turned = Phase::from_radians(2.0 * self.pick_off_angle).unit();
         let ideal = *self == Self::IDEAL;
         Correction {

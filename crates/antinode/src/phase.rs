@@ -20,8 +20,12 @@ pub struct PhaseStep(pub u32);
 impl Phase {
     /// The phase of an angle in radians. Valid within ±10⁴; f32 rounding grows with the angle.
     pub fn from_radians(radians: f32) -> Self {
+        Self::from_turns(radians * (1.0 / TAU))
+    }
+
+    /// The phase of some turns.
+    pub(crate) fn from_turns(turns: f32) -> Self {
         // Whole turns go first: what is left fits an i32 in half turns, in its doubled form.
-        let turns = radians * (1.0 / TAU);
         let rest = turns - turns as i32 as f32;
         Self(((rest * (0.5 * TURN)) as i32 as u32) << 1)
     }

@@ -4,6 +4,7 @@ use core::fmt;
 
 use crate::block::Layout;
 use crate::calibration::Calibration;
+use crate::order::{greater, lesser};
 use crate::phase::PhaseStep;
 
 /// How the period is found from cold.
@@ -144,7 +145,8 @@ impl Settings {
         let within = |x: f32, least: f32, most: f32| x >= least && x <= most;
         let most = blocks.saturating_sub(2).min(60_000) as u16;
         let c = &self.calibration;
-        if !(1e-3..=1e12).contains(&self.sample_rate) {
+        // Numbers above zero are in the order of their bits, and all else is beyond: no comparison in f64 is linked in.
+        if !(1e-3f64.to_bits()..=1e12f64.to_bits()).contains(&self.sample_rate.to_bits()) {
             Err(SettingsError::SampleRate(self.sample_rate))
         } else if self.periods < 2 {
             Err(SettingsError::PeriodsTooFew(self.periods))
@@ -182,7 +184,7 @@ impl Settings {
     /// that of f32; a [`Demodulator`](crate::block::Demodulator) puts in its own.
     pub fn layout(&self, period: f32) -> Layout {
         let window = period * f32::from(self.periods);
-        let length = libm::roundf(period.min(window / BLOCKS_A_WINDOW)).max(1.0);
+        let length = greater(libm::roundf(lesser(period, window / BLOCKS_A_WINDOW)), 1.0);
         Layout::new::<f32>(PhaseStep::from_period(period), length as u16)
     }
 

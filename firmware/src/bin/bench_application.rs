@@ -3,14 +3,15 @@
 #![no_main]
 
 use cortex_m_rt::entry;
-use firmware::pipeline::Queues;
+use firmware::pipeline::{Places, Queues};
 use firmware::settings::Arithmetic;
 use firmware::{load, marks};
 
 #[entry]
 fn main() -> ! {
     static mut QUEUES: Queues<Arithmetic> = Queues::new();
-    load::application(env!("CARGO_BIN_NAME"), QUEUES)
+    static mut PLACES: Places<'static, Arithmetic> = Places::new();
+    load::application(env!("CARGO_BIN_NAME"), QUEUES, PLACES)
 }
 
 #[panic_handler]

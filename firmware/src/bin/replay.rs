@@ -19,7 +19,7 @@ mod app {
     };
     use firmware::instrument::Instrument;
     use firmware::marks;
-    use firmware::pipeline::Queues;
+    use firmware::pipeline::{Places, Queues};
     use firmware::replay::{self, Replay, Script};
     use firmware::settings::Arithmetic;
     use stm32f4xx_hal::pac::Interrupt;
@@ -30,14 +30,17 @@ mod app {
     #[local]
     struct Local {
         source: Replay,
-        gatherer: Gatherer<'static, Arithmetic>,
-        instrument: Instrument<'static, Arithmetic>,
+        gatherer: &'static mut Gatherer<'static, Arithmetic>,
+        instrument: &'static mut Instrument<'static, Arithmetic>,
         line: Line,
         script: Script,
         idle_script: Script,
     }
 
-    #[init(local = [queues: Queues<Arithmetic> = Queues::new()])]
+    #[init(local = [
+        queues: Queues<Arithmetic> = Queues::new(),
+        places: Places<'static, Arithmetic> = Places::new(),
+    ])]
     fn init(c: init::Context) -> (Shared, Local) {
         let (cause, place) = reset::started(&c.device.RCC);
         log::started(cause, place);
@@ -54,7 +57,11 @@ mod app {
             defmt::error!("no recording, nor one of two channels of 16 bits");
             marks::fail()
         };
-        let Ok(parts) = c.local.queues.split(source.configuration(), cause) else {
+        let Ok(parts) = c
+            .local
+            .queues
+            .split(c.local.places, source.configuration(), cause)
+        else {
             defmt::error!("the sample rate is beyond the settings' range");
             marks::fail()
         };

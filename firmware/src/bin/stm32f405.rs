@@ -24,7 +24,7 @@ mod app {
     use firmware::hardware::watchdog::Watchdog;
     use firmware::hardware::{clock, log, reset};
     use firmware::instrument::Instrument;
-    use firmware::pipeline::Queues;
+    use firmware::pipeline::{Places, Queues};
     use firmware::settings::{Arithmetic, DUAL_ADC_RAILS, HALF, configuration};
     use stm32f4xx_hal::pac::Interrupt;
     use stm32f4xx_hal::prelude::*;
@@ -35,19 +35,20 @@ mod app {
         #[lock_free]
         source: Option<Sampler<DualAdc>>,
         #[lock_free]
-        gatherer: Gatherer<'static, Arithmetic>,
+        gatherer: &'static mut Gatherer<'static, Arithmetic>,
         #[lock_free]
         line: Line,
     }
 
     #[local]
     struct Local {
-        instrument: Instrument<'static, Arithmetic>,
+        instrument: &'static mut Instrument<'static, Arithmetic>,
         watchdog: Watchdog,
     }
 
     #[init(local = [
         queues: Queues<Arithmetic> = Queues::new(),
+        places: Places<'static, Arithmetic> = Places::new(),
         memory: Memory = [[Packed(0); HALF]; 2],
     ])]
     fn init(c: init::Context) -> (Shared, Local) {
@@ -67,7 +68,7 @@ mod app {
         let inputs = (pins.pa1.into_analog(), pins.pa2.into_analog());
 
         let settings = configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS);
-        let Ok(mut parts) = c.local.queues.split(settings, cause) else {
+        let Ok(parts) = c.local.queues.split(c.local.places, settings, cause) else {
             // The host's tests check the settings.
             reset::restart(Cause::Unknown, line!())
         };

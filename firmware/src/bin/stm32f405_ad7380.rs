@@ -24,7 +24,7 @@ mod app {
     use firmware::hardware::watchdog::Watchdog;
     use firmware::hardware::{clock, log, reset};
     use firmware::instrument::Instrument;
-    use firmware::pipeline::Queues;
+    use firmware::pipeline::{Places, Queues};
     use firmware::settings::{AD7380_RAILS, Arithmetic, HALF, configuration};
     use stm32f4xx_hal::pac::Interrupt;
     use stm32f4xx_hal::prelude::*;
@@ -39,13 +39,14 @@ mod app {
     struct Local {
         /// `None` where there is no clock or no converter to sample by.
         source: Option<Sampler<SpiAdc>>,
-        gatherer: Gatherer<'static, Arithmetic>,
-        instrument: Instrument<'static, Arithmetic>,
+        gatherer: &'static mut Gatherer<'static, Arithmetic>,
+        instrument: &'static mut Instrument<'static, Arithmetic>,
         watchdog: Watchdog,
     }
 
     #[init(local = [
         queues: Queues<Arithmetic> = Queues::new(),
+        places: Places<'static, Arithmetic> = Places::new(),
         memory: Memory = [[Packed(0); HALF]; 2],
     ])]
     fn init(c: init::Context) -> (Shared, Local) {
@@ -70,7 +71,7 @@ mod app {
         let cs = pins.pa8.into_push_pull_output();
 
         let settings = configuration(FrontEnd::Spi, AD7380_RAILS);
-        let Ok(mut parts) = c.local.queues.split(settings, cause) else {
+        let Ok(parts) = c.local.queues.split(c.local.places, settings, cause) else {
             // The host's tests check the settings.
             reset::restart(Cause::Unknown, line!())
         };

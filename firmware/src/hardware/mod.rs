@@ -4,6 +4,7 @@ pub mod clock;
 pub mod dual_adc;
 pub mod line;
 pub mod log;
+mod memory;
 pub mod pair_clock;
 pub mod reset;
 pub mod ring;

@@ -60,7 +60,7 @@ pub fn images() -> &'static Path {
     BUILT.get_or_init(|| {
         // One after the other: both go through the same folder.
         let float = build(&["f32"], &["replay"]);
-        let fixed = build(&[], &["stm32f405", "stm32f405_ad7380"]);
+        let fixed = build(&[], &["stm32f405", "stm32f405_ad7380", "check_memory"]);
         let replay = build(&["methods"], &["replay"]);
         fs::copy(replay.join("replay"), fixed.join("replay")).expect("built");
         fs::copy(float.join("replay"), fixed.join("replay_f32")).expect("built");

@@ -2,7 +2,7 @@
 
 use antinode::{Packed, Sample, SamplePair};
 use antinode_telemetry::{Cause, FrontEnd, Receiver, Report};
-use firmware::pipeline::Queues;
+use firmware::pipeline::{Places, Queues};
 use firmware::sampling::{Lapse, Ready, Source, both, is_at_rail_12};
 use firmware::settings::{DUAL_ADC_RAILS, HALF, configuration};
 
@@ -50,10 +50,10 @@ pub fn reports<S: Sample>(recording: &[Packed], commands: &[u8], slow: usize) ->
 where
     Packed: SamplePair<S>,
 {
-    let mut queues = Queues::<S>::new();
+    let (mut queues, mut places) = (Queues::<S>::new(), Places::new());
     let configuration = configuration(FrontEnd::Synthetic, DUAL_ADC_RAILS);
     let mut parts = queues
-        .split(configuration, Cause::Unknown)
+        .split(&mut places, configuration, Cause::Unknown)
         .expect("the settings can be");
     let mut receiver = Receiver::new();
     let mut reports = Vec::new();

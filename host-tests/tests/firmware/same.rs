@@ -16,7 +16,7 @@ pub fn timeless(reports: &[Report]) -> Vec<Vec<u8>> {
         .map(|report| {
             let mut buffer = [0; antinode_telemetry::MAX_FRAME];
             let mut reporter = antinode_telemetry::Reporter::new();
-            let frame = reporter.frame(report.clone(), &mut buffer);
+            let frame = reporter.frame(report, &mut buffer);
             frame.expect("it fits").to_vec()
         })
         .collect()

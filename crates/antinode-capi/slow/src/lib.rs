@@ -1,0 +1,77 @@
+//! What the C ABI does below sample rate: the search for a period, and the solution of windows.
+//!
+//! A crate of its own, because crates are what profiles optimise: `antinode-capi` has the sums at sample rate and is compiled for
+//! speed, this one for size. Nothing here is generic, or it would be compiled over there.
+#![no_std]
+#![forbid(unsafe_code)]
+
+use antinode::{Block, Calibration, Estimate, Sample, SettingsError};
+
+/// The longest period, sample pairs.
+pub const LONGEST_PERIOD: usize = 200;
+/// Blocks of the ring that windows are cut from.
+pub const RING_BLOCKS: usize = 52;
+
+/// The part at sample rate.
+pub type Front<S> = antinode::Front<S, LONGEST_PERIOD>;
+/// The part at window rate.
+pub type Tracker = antinode::Tracker<RING_BLOCKS>;
+
+/// Samples of the C ABI.
+pub trait Slow: Sample {
+    /// Drops the period and searches anew.
+    fn search_anew(front: &mut Front<Self>);
+
+    /// Searches a period in pairs; gives how many it took.
+    fn search(front: &mut Front<Self>, pairs: &[[Self; 2]]) -> usize;
+
+    /// Tells that `count` pairs were lost.
+    fn skip(front: &mut Front<Self>, count: u32);
+
+    /// Takes a block; gives the estimate of the window that it completes.
+    fn solve(tracker: &mut Tracker, block: &Block<Self>) -> Option<Estimate>;
+}
+
+macro_rules! slow {
+    ($sample:ty) => {
+        impl Slow for $sample {
+            #[cold]
+            #[inline(never)]
+            fn search_anew(front: &mut Front<Self>) {
+                front.search();
+            }
+
+            #[inline(never)]
+            fn search(front: &mut Front<Self>, pairs: &[[Self; 2]]) -> usize {
+                // Always so; the compiler thus learns that there is nothing to sum.
+                if !front.is_searching() {
+                    return 0;
+                }
+                front.push_slice(pairs).0
+            }
+
+            #[inline(never)]
+            fn skip(front: &mut Front<Self>, count: u32) {
+                front.skip(u64::from(count));
+            }
+
+            #[inline(never)]
+            fn solve(tracker: &mut Tracker, block: &Block<Self>) -> Option<Estimate> {
+                tracker.push(block)
+            }
+        }
+    };
+}
+
+slow!(i16);
+slow!(f32);
+
+/// Changes the calibration.
+///
+/// # Errors
+///
+/// Those of [`antinode::Settings::check`]; nothing is changed then.
+#[inline(never)]
+pub fn calibrate(tracker: &mut Tracker, calibration: Calibration) -> Result<(), SettingsError> {
+    tracker.calibrate(calibration)
+}

@@ -1,0 +1,117 @@
+//! Proves on the target that memory is copied, moved and cleared as the ABI wants it: every count, at every distance of the two runs.
+//! Leaves with success or failure and names the function that errs.
+#![no_std]
+#![no_main]
+#![allow(unsafe_code, reason = "functions of the ABI take addresses")]
+
+use core::ptr::{read_volatile, write_volatile};
+
+use cortex_m_rt::entry;
+use firmware::line::Line;
+use firmware::marks;
+
+unsafe extern "C" {
+    fn __aeabi_memcpy(to: *mut u8, from: *const u8, count: usize);
+    fn __aeabi_memcpy4(to: *mut u8, from: *const u8, count: usize);
+    fn __aeabi_memcpy8(to: *mut u8, from: *const u8, count: usize);
+    fn __aeabi_memmove4(to: *mut u8, from: *const u8, count: usize);
+    fn __aeabi_memmove8(to: *mut u8, from: *const u8, count: usize);
+    fn __aeabi_memclr4(to: *mut u8, count: usize);
+    fn __aeabi_memclr8(to: *mut u8, count: usize);
+}
+
+/// Bytes of the memory, and the most that are moved.
+const LENGTH: usize = 96;
+const MOST: usize = 50;
+
+#[repr(align(8))]
+struct Memory([u8; LENGTH]);
+
+/// What a byte holds before.
+fn before(index: usize) -> u8 {
+    (index * 7 + 1) as u8
+}
+
+/// Lets `act` loose on bytes; true where each then is what `after` says. Byte by byte, by nothing that is under test.
+fn holds(act: impl FnOnce(*mut u8), after: impl Fn(usize) -> u8) -> bool {
+    let mut memory = Memory([0; LENGTH]);
+    let first = memory.0.as_mut_ptr();
+    // SAFETY: bytes of the memory, here and below.
+    (0..LENGTH).for_each(|i| unsafe { write_volatile(first.add(i), before(i)) });
+    act(first);
+    (0..LENGTH).all(|i| unsafe { read_volatile(first.add(i)) } == after(i))
+}
+
+type Copy = unsafe extern "C" fn(*mut u8, *const u8, usize);
+type Clear = unsafe extern "C" fn(*mut u8, usize);
+
+/// True where `copy` is right at all addresses that `step` divides; `overlapping`: wherever they are.
+fn copies(copy: Copy, step: usize, overlapping: bool) -> bool {
+    let places = || (0..LENGTH - MOST).step_by(step);
+    places().all(|to| {
+        places().all(|from| {
+            (0..MOST).all(|count| {
+                let apart = to.abs_diff(from) >= count;
+                (!apart && !overlapping)
+                    || holds(
+                        // SAFETY: both runs lie in the memory, as far apart as the function wants.
+                        |first| unsafe { copy(first.add(to), first.add(from), count) },
+                        |i| {
+                            before(if (to..to + count).contains(&i) {
+                                i - to + from
+                            } else {
+                                i
+                            })
+                        },
+                    )
+            })
+        })
+    })
+}
+
+/// True where `clear` is right at all addresses that `step` divides.
+fn clears(clear: Clear, step: usize) -> bool {
+    (0..LENGTH - MOST).step_by(step).all(|to| {
+        (0..MOST).all(|count| {
+            holds(
+                // SAFETY: the run lies in the memory.
+                |first| unsafe { clear(first.add(to), count) },
+                |i| {
+                    if (to..to + count).contains(&i) {
+                        0
+                    } else {
+                        before(i)
+                    }
+                },
+            )
+        })
+    })
+}
+
+#[entry]
+fn main() -> ! {
+    let checks = [
+        ("memcpy", copies(__aeabi_memcpy, 3, false)),
+        ("memcpy4", copies(__aeabi_memcpy4, 4, false)),
+        ("memcpy8", copies(__aeabi_memcpy8, 8, false)),
+        ("memmove4", copies(__aeabi_memmove4, 4, true)),
+        ("memmove8", copies(__aeabi_memmove8, 8, true)),
+        ("memclr4", clears(__aeabi_memclr4, 4)),
+        ("memclr8", clears(__aeabi_memclr8, 8)),
+    ];
+    let mut good = true;
+    for (function, right) in checks {
+        let mut line = Line::new();
+        line.text("check_memory ");
+        line.text(function);
+        line.text(if right { ": right" } else { ": WRONG" });
+        line.print();
+        good &= right;
+    }
+    if good { marks::leave() } else { marks::fail() }
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo) -> ! {
+    marks::fail()
+}

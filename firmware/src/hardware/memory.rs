@@ -1,0 +1,86 @@
+//! Copying and clearing memory, as compilers call it: the run-time ABI of the ARM architecture, 4.3.4.
+//!
+//! In the place of the functions of Rust's run-time library, which take 3 KB of flash, unrolled for long runs: here most have some ten
+//! words, and are copied as fast.
+
+#![allow(unsafe_code, reason = "functions in assembly, with names of the ABI")]
+
+use core::arch::global_asm;
+
+// r0: target, r1: source, r2: count of bytes. Any of them may change, and r3, ip and lr.
+global_asm!(
+    ".macro function name:vararg",
+    ".irp each, \\name",
+    ".global \\each",
+    ".type \\each, %function",
+    ".thumb_func",
+    "\\each:",
+    ".endr",
+    ".endm",
+    ".section .text.__aeabi_memcpy4, \"ax\", %progbits",
+    ".balign 4",
+    // Of bytes at any address: in most calls fewer than ten.
+    "function __aeabi_memcpy",
+    "    cbz     r2, 2f",
+    "1:  ldrb    r3, [r1], #1",
+    "    strb    r3, [r0], #1",
+    "    subs    r2, #1",
+    "    bne     1b",
+    "2:  bx      lr",
+    // Of words, the last bytes apart. Overlapping runs are copied soundly where the target lies before the source.
+    ".balign 4",
+    "function __aeabi_memcpy4, __aeabi_memcpy8",
+    "    push    {{r4, r5, lr}}",
+    "    subs    r2, #16",
+    "    blo     4f",
+    "3:  ldm     r1!, {{r3, r4, r5, ip}}",
+    "    stm     r0!, {{r3, r4, r5, ip}}",
+    "    subs    r2, #16",
+    "    bhs     3b",
+    "4:  adds    r2, #12",
+    "    bmi     6f",
+    "5:  ldr     r3, [r1], #4",
+    "    str     r3, [r0], #4",
+    "    subs    r2, #4",
+    "    bpl     5b",
+    "6:  adds    r2, #4",
+    "    pop     {{r4, r5, lr}}",
+    "    b       __aeabi_memcpy",
+    // Of words, backwards where the target begins within the source.
+    ".balign 4",
+    "function __aeabi_memmove4, __aeabi_memmove8",
+    "    subs    r3, r0, r1",
+    "    cmp     r3, r2",
+    "    bhs     __aeabi_memcpy4",
+    "    add     r0, r2",
+    "    add     r1, r2",
+    "7:  tst     r2, #3",
+    "    beq     9f",
+    "    ldrb    r3, [r1, #-1]!",
+    "    strb    r3, [r0, #-1]!",
+    "    subs    r2, #1",
+    "    b       7b",
+    "8:  ldr     r3, [r1, #-4]!",
+    "    str     r3, [r0, #-4]!",
+    "9:  subs    r2, #4",
+    "    bhs     8b",
+    "    bx      lr",
+    // Zeros into r1 bytes.
+    ".section .text.__aeabi_memclr4, \"ax\", %progbits",
+    ".balign 4",
+    "function __aeabi_memclr4, __aeabi_memclr8",
+    "    movs    r2, #0",
+    "    movs    r3, #0",
+    "    subs    r1, #8",
+    "    blo     11f",
+    "10: strd    r2, r3, [r0], #8",
+    "    subs    r1, #8",
+    "    bhs     10b",
+    "11: adds    r1, #8",
+    "12: subs    r1, #1",
+    "    it      hs",
+    "    strbhs  r2, [r0], #1",
+    "    bhs     12b",
+    "    bx      lr",
+    ".purgem function",
+);

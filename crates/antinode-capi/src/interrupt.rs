@@ -107,7 +107,7 @@ impl<S: Slow> Interrupt<S> {
     /// Searches a period in the first pairs; gives how many it took. Apart, so that pairs of a known period do not pay for it.
     #[inline(never)]
     fn search_some<P: SamplePair<S>>(&mut self, shared: &Shared<S>, pairs: &[P]) -> usize {
-        let mut buffer = [[S::EXTREMES[0]; 2]; AT_ONCE];
+        let mut buffer = [[S::default(); 2]; AT_ONCE];
         let mut count = 0;
         for (place, pair) in buffer.iter_mut().zip(pairs) {
             *place = pair.pair();

@@ -103,7 +103,7 @@ impl<M: Frame> Default for Decoder<M> {
 
 fn message<M: Frame>(payload: &[u8]) -> Result<M, Damage> {
     let (content, checksum) = payload.split_last_chunk().ok_or(Damage::Framing)?;
-    if frame::checksum(content) != u32::from_le_bytes(*checksum) {
+    if frame::CRC.checksum(content) != u32::from_le_bytes(*checksum) {
         return Err(Damage::Checksum);
     }
     let (&header, body) = content.split_first().ok_or(Damage::Framing)?;

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use crc::{CRC_32_ISO_HDLC, Crc, Table};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
@@ -17,31 +18,7 @@ const _: () = assert!(MAX_PAYLOAD < 254, "a payload has one COBS code before it"
 /// Bytes of the checksum.
 const CHECKSUM: usize = 4;
 
-/// What half a byte makes of the checksum: a table of whole bytes would be 1 KB, and only a third faster.
-static REMAINDERS: [u32; 16] = {
-    let mut remainders = [0; 16];
-    let mut half = 0;
-    while half < 16 {
-        let mut remainder = half;
-        let mut bit = 0;
-        while bit < 4 {
-            // The polynomial of Ethernet, its highest power in the lowest bit.
-            remainder = (remainder >> 1) ^ ((remainder & 1) * 0xedb8_8320);
-            bit += 1;
-        }
-        remainders[half as usize] = remainder;
-        half += 1;
-    }
-    remainders
-};
-
-/// CRC-32 of Ethernet and zlib.
-pub(crate) fn checksum(bytes: &[u8]) -> u32 {
-    !bytes.iter().fold(u32::MAX, |sum, &byte| {
-        let half = |sum: u32| (sum >> 4) ^ REMAINDERS[(sum & 15) as usize];
-        half(half(sum ^ u32::from(byte)))
-    })
-}
+pub(crate) static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
 mod sealed {
     pub trait Sealed {}
@@ -129,7 +106,7 @@ fn finish(buffer: &mut [u8], end: usize) -> Result<&[u8], BufferTooSmall> {
     let (before, rest) = buffer.split_at_mut_checked(end).ok_or(BufferTooSmall)?;
     let (sum, rest) = rest.split_first_chunk_mut().ok_or(BufferTooSmall)?;
     let message = before.get(START..).ok_or(BufferTooSmall)?;
-    *sum = checksum(message).to_le_bytes();
+    *sum = CRC.checksum(message).to_le_bytes();
     *rest.first_mut().ok_or(BufferTooSmall)? = 0;
     let end = end + CHECKSUM;
     let stuffed = buffer.get_mut(1..end).ok_or(BufferTooSmall)?;
@@ -143,15 +120,4 @@ fn finish(buffer: &mut [u8], end: usize) -> Result<&[u8], BufferTooSmall> {
         }
     }
     buffer.get(..=end).ok_or(BufferTooSmall)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_checksum_is_that_of_ethernet() {
-        assert_eq!(checksum(b"123456789"), 0xcbf4_3926);
-        assert_eq!(checksum(b""), 0);
-    }
 }

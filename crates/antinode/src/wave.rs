@@ -41,25 +41,39 @@ pub(crate) struct Standing {
     pub quadrature_change_variance: f32,
 }
 
-/// Weights of one real quantity on (Re, Im) of the two pick-offs' phasors.
-type Gradient = [[f32; 2]; 2];
-
-/// The gradient of p·(component of z₊ along e₊) + m·(component of z₋ along e₋).
-fn gradient(plus: Complex32, minus: Complex32) -> Gradient {
-    // z₊ = z_C + j z_D and z₋ = z_C − j z_D.
-    [
-        [plus.re + minus.re, plus.im + minus.im],
-        [plus.im - minus.im, minus.re - plus.re],
-    ]
+/// Variances of the components of z₊ and of z₋ along two directions, and their covariance.
+struct Pair {
+    plus: f32,
+    minus: f32,
+    both: f32,
 }
 
-/// The variance or covariance of two quantities, under one 2×2 covariance for each pick-off.
-fn covariance(a: &Gradient, b: &Gradient, block: [[f32; 2]; 2], gain_d: f32) -> f32 {
-    let one = |x: [f32; 2], y: [f32; 2]| {
-        x[0] * (block[0][0] * y[0] + block[0][1] * y[1])
-            + x[1] * (block[1][0] * y[0] + block[1][1] * y[1])
-    };
-    one(a[0], b[0]) + gain_d * gain_d * one(a[1], b[1])
+impl Pair {
+    /// Of the components along `plus` and along `minus`, under one 2×2 covariance for the phasor of each pick-off, that of D amplified
+    /// by `gain_d`.
+    #[inline(never)]
+    fn along(plus: Complex32, minus: Complex32, block: &[[f32; 2]; 2], gain_d: f32) -> Self {
+        let one = |x: Complex32, y: Complex32| {
+            x.re * (block[0][0] * y.re + block[0][1] * y.im)
+                + x.im * (block[1][0] * y.re + block[1][1] * y.im)
+        };
+        // z₊ = z_C + j z_D and z₋ = z_C − j z_D: what a component sees of z_D.
+        let (plus_d, minus_d) = (
+            Complex32::new(plus.im, -plus.re) * gain_d,
+            Complex32::new(-minus.im, minus.re) * gain_d,
+        );
+        Self {
+            plus: one(plus, plus) + one(plus_d, plus_d),
+            minus: one(minus, minus) + one(minus_d, minus_d),
+            both: one(plus, minus) + one(plus_d, minus_d),
+        }
+    }
+
+    /// Variance of the sum of both, and of their difference.
+    fn sum_and_difference(&self) -> [f32; 2] {
+        let separate = self.plus + self.minus;
+        [separate + 2.0 * self.both, separate - 2.0 * self.both]
+    }
 }
 
 impl Standing {
@@ -89,21 +103,19 @@ impl Standing {
             (turned(plus_change, e_plus), turned(minus_change, e_minus));
 
         let c = &model.covariance;
-        let levels = [[c[0][0], c[0][1]], [c[1][0], c[1][1]]];
-        let slopes = [[c[2][2], c[2][3]], [c[3][2], c[3][3]]];
-        let gain_d = model.correction.noise_gain();
-        let level = |g: &Gradient| noise * covariance(g, g, levels, gain_d);
-        let slope = |g: &Gradient, h: &Gradient| noise * covariance(g, h, slopes, gain_d);
-
-        let sum = gradient(e_plus * 0.5, e_minus * 0.5);
-        let difference = gradient(e_plus * 0.5, e_minus * -0.5);
-        let quarter = gradient(f_plus * 0.25, f_minus * -0.25);
-        let half = gradient(f_plus * 0.5, f_minus * 0.5);
-        let least = if p < m {
-            gradient(e_plus, Complex32::ZERO)
-        } else {
-            gradient(Complex32::ZERO, e_minus)
+        let block = |i: usize, j: usize| {
+            [[c[i][i], c[i][j]], [c[j][i], c[j][j]]].map(|row| row.map(|x| noise * x))
         };
+        let (levels, slopes) = (block(0, 1), block(2, 3));
+        let gain_d = model.correction.noise_gain();
+        let size = Pair::along(e_plus, e_minus, &levels, gain_d);
+        let growth = Pair::along(e_plus, e_minus, &slopes, gain_d);
+        let phase = Pair::along(f_plus, f_minus, &levels, gain_d);
+        let turn = Pair::along(f_plus, f_minus, &slopes, gain_d);
+        let [main, quadrature] = size.sum_and_difference();
+        let [main_change, quadrature_change] = growth.sum_and_difference();
+        let [common, apart] = phase.sum_and_difference();
+        let [drift, turning] = turn.sum_and_difference();
         Self {
             main: 0.5 * (p + m),
             quadrature: 0.5 * (p - m),
@@ -114,16 +126,16 @@ impl Standing {
             main_change: 0.5 * (plus_growth + minus_growth),
             quadrature_change: 0.5 * (plus_growth - minus_growth),
             lesser: lesser(p, m),
-            lesser_variance: level(&least),
-            main_variance: level(&sum),
-            quadrature_variance: level(&difference),
-            angle_variance: level(&quarter),
-            phase_variance: level(&half),
-            drift_variance: slope(&half, &half),
-            turning_variance: slope(&quarter, &quarter),
-            drift_turning: slope(&half, &quarter),
-            main_change_variance: slope(&sum, &sum),
-            quadrature_change_variance: slope(&difference, &difference),
+            lesser_variance: if p < m { size.plus } else { size.minus },
+            main_variance: 0.25 * main,
+            quadrature_variance: 0.25 * quadrature,
+            angle_variance: 0.0625 * apart,
+            phase_variance: 0.25 * common,
+            drift_variance: 0.25 * drift,
+            turning_variance: 0.0625 * turning,
+            drift_turning: 0.125 * (turn.plus - turn.minus),
+            main_change_variance: 0.25 * main_change,
+            quadrature_change_variance: 0.25 * quadrature_change,
         }
     }
 }

@@ -64,7 +64,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         let mut demodulator = Self {
             held: 0,
             room: 0,
-            holding: [[S::EXTREMES[0]; 2]; HELD],
+            holding: [[S::default(); 2]; HELD],
             summing: Summing {
                 count: 0,
                 known: 0,

@@ -29,7 +29,7 @@ impl<S: Sample> Attempt<S> {
     /// An attempt at nothing.
     pub(super) fn new() -> Self {
         Self {
-            frame: [[S::EXTREMES[0]; 2]; FRAME],
+            frame: [[S::default(); 2]; FRAME],
             length: 0,
             seen: 0,
             trial: Trial::new(4.0, 0),

@@ -46,9 +46,8 @@ struct Octave<S: Sample> {
 
 impl<S: Sample> Octave<S> {
     fn new() -> Self {
-        let zero = S::EXTREMES[0];
         Self {
-            frame: [[zero; 2]; FRAME],
+            frame: [[S::default(); 2]; FRAME],
             count: 0,
             differences: Lags::<S>::default(),
             last: S::Square::default(),

@@ -107,7 +107,7 @@ pub enum Form {
 ///
 /// With integers the input unit is the code. All three reach the same accuracy: the reference's own rounding is part of the
 /// window's equations. Integers need no floating point at sample rate.
-pub trait Sample: Copy + Debug + PartialEq + Send + sealed::Sealed + 'static {
+pub trait Sample: Copy + Debug + Default + PartialEq + Send + sealed::Sealed + 'static {
     /// A running sum of weighted samples.
     type Sum: Copy + Debug + PartialEq + Default + Send;
     /// The reference at one sample of a block: cosine and sine.

@@ -146,6 +146,7 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
 }
 
 /// How far apart two estimates of one variance may be.
+#[inline(never)]
 fn spread(a: f32, b: f32) -> f32 {
     // The logarithm of an F variable has about this variance; its upper tail is the lighter one.
     libm::expf(SIGMAS * square_root(2.0 / a + 2.0 / b))
@@ -153,45 +154,35 @@ fn spread(a: f32, b: f32) -> f32 {
 
 /// Tests of a window against the clean one before.
 pub(crate) fn between(before: &Record, now: &Record) -> Flags {
-    let samples = 0.5 * (now.middle.wrapping_sub(before.middle)) as f32;
-    // Both windows' own rates, as a trapezoid: exact for a rate that itself changes steadily.
-    let step = |value: f32, rates: f32| value - 0.5 * rates * samples;
-    let deviation =
-        |levels: f32, rates: f32| square_root(levels + 0.25 * samples * samples * rates);
-    let beyond = |step: f32, deviation: f32, floor: f32| {
-        step.abs() > SIGMAS * deviation + floor || step.is_nan()
+    let passed = Passed {
+        samples: 0.5 * (now.middle.wrapping_sub(before.middle)) as f32,
+        half: 0.5 * now.samples as f32,
     };
-
     let phase = wrap(now.phase_advance(before));
-    let phase_deviation = deviation(
+    let phase_deviation = passed.deviation(
         before.phase_variance + now.phase_variance,
         before.drift_variance + now.drift_variance,
     );
     let jump = phase_deviation < 0.3 && beyond(phase, phase_deviation, PHASE_FLOOR);
 
     let amplitude_floor = AMPLITUDE_FLOOR * before.main;
-    let main = beyond(
-        step(now.main - before.main, now.main_rate + before.main_rate),
-        deviation(
-            now.main_variance + before.main_variance,
-            now.main_rate_variance + before.main_rate_variance,
-        ),
+    let main = passed.change(
+        [before.main, now.main],
+        [before.main_rate, now.main_rate],
+        before.main_variance + now.main_variance,
+        before.main_rate_variance + now.main_rate_variance,
         amplitude_floor,
     );
-    let quadrature = beyond(
-        step(
-            now.quadrature - before.quadrature,
-            now.quadrature_rate + before.quadrature_rate,
-        ),
-        deviation(
-            now.quadrature_variance + before.quadrature_variance,
-            now.quadrature_rate_variance + before.quadrature_rate_variance,
-        ),
+    let quadrature = passed.change(
+        [before.quadrature, now.quadrature],
+        [before.quadrature_rate, now.quadrature_rate],
+        before.quadrature_variance + now.quadrature_variance,
+        before.quadrature_rate_variance + now.quadrature_rate_variance,
         amplitude_floor,
     );
     let angle = beyond(
-        step(now.angle.less(before.angle), now.turning + before.turning),
-        deviation(
+        now.angle.less(before.angle) - passed.promised([before.turning, now.turning]),
+        passed.deviation(
             now.angle_variance + before.angle_variance,
             now.turning_variance + before.turning_variance,
         ),
@@ -205,20 +196,60 @@ pub(crate) fn between(before: &Record, now: &Record) -> Flags {
             amplitude_floor,
         )
     });
-    // A step within a window also looks like growth that the window before did not have.
-    let half = 0.5 * now.samples as f32;
-    let bends = |rate: f32, variance: f32| {
-        samples <= 4.0 * half && beyond(half * rate, half * square_root(variance), amplitude_floor)
-    };
-    let bent = bends(
-        now.main_rate - before.main_rate,
-        now.main_rate_variance + before.main_rate_variance,
-    ) || bends(
-        now.quadrature_rate - before.quadrature_rate,
-        now.quadrature_rate_variance + before.quadrature_rate_variance,
-    );
     Flags::empty()
-        .with_if(bent, Flags::MISFIT)
         .with_if(jump, Flags::PHASE_JUMP)
-        .with_if(main || quadrature || angle || offsets, Flags::STEP)
+        .with_if(angle || offsets, Flags::STEP)
+        .with(main)
+        .with(quadrature)
+}
+
+/// What lies between the middles of two windows.
+struct Passed {
+    samples: f32,
+    /// Half the later window.
+    half: f32,
+}
+
+impl Passed {
+    /// The change that both windows' own rates promise, as a trapezoid: exact for a rate that itself changes steadily.
+    fn promised(&self, rates: [f32; 2]) -> f32 {
+        0.5 * (rates[0] + rates[1]) * self.samples
+    }
+
+    /// The deviation of a change from what is promised, from the variances of both levels and both rates.
+    fn deviation(&self, levels: f32, rates: f32) -> f32 {
+        square_root(levels + 0.25 * self.samples * self.samples * rates)
+    }
+
+    /// Tests an amplitude and its rate: before and now, and the sums of their variances.
+    #[inline(never)]
+    fn change(
+        &self,
+        values: [f32; 2],
+        rates: [f32; 2],
+        variance: f32,
+        rate_variance: f32,
+        floor: f32,
+    ) -> Flags {
+        let step = beyond(
+            values[1] - values[0] - self.promised(rates),
+            self.deviation(variance, rate_variance),
+            floor,
+        );
+        // A step within a window also looks like growth that the window before did not have.
+        let bent = self.samples <= 4.0 * self.half
+            && beyond(
+                self.half * (rates[1] - rates[0]),
+                self.half * square_root(rate_variance),
+                floor,
+            );
+        Flags::empty()
+            .with_if(step, Flags::STEP)
+            .with_if(bent, Flags::MISFIT)
+    }
+}
+
+/// True where a step is more than chance and a floor explain, or no number.
+fn beyond(step: f32, deviation: f32, floor: f32) -> bool {
+    step.abs() > SIGMAS * deviation + floor || step.is_nan()
 }

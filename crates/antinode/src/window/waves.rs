@@ -31,10 +31,11 @@ impl Parameters {
     pub(super) fn add(&mut self, model: &Model, gradients: &[Gradient; 2]) -> Step {
         let rows = gradients.each_ref().map(|gradient| gradient.row(model));
         let mut changes = [[0.0; PARAMETERS]; 2];
-        for (i, covariance) in model.covariance.iter().enumerate() {
-            for (j, entry) in covariance.iter().enumerate() {
-                changes[0][i] += entry * rows[0][j];
-                changes[1][i] += entry * rows[1][j];
+        for (change, row) in changes.iter_mut().zip(&rows) {
+            for (sum, covariance) in change.iter_mut().zip(&model.covariance) {
+                for (entry, value) in covariance.iter().zip(row) {
+                    *sum += entry * value;
+                }
             }
         }
         let mut step = Step::default();

@@ -33,12 +33,11 @@ pub fn add_floats<P: SamplePair<f32>>(
     if count == 0 || count > by.len() {
         return;
     }
-    if index == 0 {
-        *sums = [ChannelSums::empty(); 2];
-    }
+    // The first pairs of a block begin its sums.
+    let count = count << 1 | usize::from(index == 0);
     let (from, by) = (pairs.as_ptr(), by.as_ptr());
     match P::FORM {
-        // SAFETY: `count` pairs are words of memory, as many weights are there, and the sums are six words.
+        // SAFETY: the pairs are words of memory, weights for all are there, and the sums are six words.
         Form::Codes => unsafe { add_codes(sums, from.cast(), by, count) },
         // SAFETY: as above, and a pair is two words.
         Form::Floats => unsafe { add_pairs(sums, from.cast(), by, count) },
@@ -46,7 +45,8 @@ pub fn add_floats<P: SamplePair<f32>>(
     }
 }
 
-/// r0: six sums; r1: words of two codes, which need no alignment; r2: weights; r3: pairs, at least one.
+/// r0: six sums; r1: words of two codes, which need no alignment; r2: weights; r3: pairs, at least one, doubled, and one more where the
+/// sums begin.
 #[unsafe(naked)]
 unsafe extern "C" fn add_codes(
     sums: *mut [ChannelSums<f32>; 2],
@@ -85,7 +85,10 @@ unsafe extern "C" fn add_codes(
         "ADD s12, s13, s8, s9",
         ".endm",
         "push {{r4, r5}}",
+        "lsrs r3, r3, #1",
+        "bcs 5f",
         "vldmia r0, {{s0-s5}}",
+        "6:",
         "subs r3, #4",
         "blo 2f",
         "1:",
@@ -107,6 +110,12 @@ unsafe extern "C" fn add_codes(
         "vstmia r0, {{s0-s5}}",
         "pop {{r4, r5}}",
         "bx lr",
+        "5:",
+        "mov r12, #0",
+        "vmov s0, s1, r12, r12",
+        "vmov s2, s3, r12, r12",
+        "vmov s4, s5, r12, r12",
+        "b 6b",
         ".purgem ADD",
         ".purgem LOAD",
         ".purgem ADD_TWO",
@@ -135,7 +144,10 @@ unsafe extern "C" fn add_pairs(
         "vadd.f32 s4, s4, s15",
         "vadd.f32 s5, s5, \\d",
         ".endm",
+        "lsrs r3, r3, #1",
+        "bcs 5f",
         "vldmia r0, {{s0-s5}}",
+        "6:",
         "subs r3, #2",
         "blo 2f",
         "1:",
@@ -154,6 +166,12 @@ unsafe extern "C" fn add_pairs(
         "3:",
         "vstmia r0, {{s0-s5}}",
         "bx lr",
+        "5:",
+        "mov r12, #0",
+        "vmov s0, s1, r12, r12",
+        "vmov s2, s3, r12, r12",
+        "vmov s4, s5, r12, r12",
+        "b 6b",
         ".purgem ADD",
     )
 }

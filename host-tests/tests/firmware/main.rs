@@ -11,3 +11,4 @@ mod methods;
 mod mirror;
 mod recordings;
 mod same;
+mod stack;

@@ -160,6 +160,30 @@ fn a_small_step_within_a_window_is_flagged() {
 }
 
 #[test]
+fn a_fast_ring_down_is_no_fault() {
+    for seed in 0..8 {
+        for decay_rate in [1.0, 10.0, 50.0] {
+            for periods in [10, 50] {
+                let (mut wave, mut flaws) = gyro(seed);
+                wave.decay_rate = decay_rate;
+                flaws.noise = 1e-4 * wave.main_amplitude;
+                // Down to a twentieth, by half of itself within a window of 50 periods at the fastest.
+                let samples = (3.0 / decay_rate * RATE) as usize;
+                let estimates =
+                    identify(wave, &flaws, windows(periods), samples.min(100_000), seed);
+                assert!(estimates.len() > 5);
+                for estimate in &estimates {
+                    assert!(
+                        estimate.flags.is_empty(),
+                        "seed {seed}, {decay_rate} 1/s, {periods} periods: {estimate:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn flattened_crests_are_flagged_in_noise_without_a_known_rail() {
     for seed in 0..10 {
         let (wave, _) = gyro(seed);

@@ -154,10 +154,7 @@ fn spread(a: f32, b: f32) -> f32 {
 
 /// Tests of a window against the clean one before.
 pub(crate) fn between(before: &Record, now: &Record) -> Flags {
-    let passed = Passed {
-        samples: 0.5 * (now.middle.wrapping_sub(before.middle)) as f32,
-        half: 0.5 * now.samples as f32,
-    };
+    let passed = Passed::new(before, now);
     let phase = wrap(now.phase_advance(before));
     let phase_deviation = passed.deviation(
         before.phase_variance + now.phase_variance,
@@ -208,9 +205,29 @@ struct Passed {
     samples: f32,
     /// Half the later window.
     half: f32,
+    /// Growth of the main amplitude, a share of itself a sample, in both windows: a wave that rings down has the same all along.
+    growth: [f32; 2],
+    /// The factor that makes of an amplitude from one middle to the other.
+    factor: f32,
 }
 
 impl Passed {
+    fn new(before: &Record, now: &Record) -> Self {
+        let samples = 0.5 * (now.middle.wrapping_sub(before.middle)) as f32;
+        let growth = [before, now].map(|record| record.main_rate / record.main);
+        // Beyond these the wave has died.
+        let exponent = lesser(
+            greater(0.5 * (growth[0] + growth[1]) * samples, -20.0),
+            20.0,
+        );
+        Self {
+            samples,
+            half: 0.5 * now.samples as f32,
+            growth,
+            factor: libm::expf(exponent),
+        }
+    }
+
     /// The change that both windows' own rates promise, as a trapezoid: exact for a rate that itself changes steadily.
     fn promised(&self, rates: [f32; 2]) -> f32 {
         0.5 * (rates[0] + rates[1]) * self.samples
@@ -231,15 +248,18 @@ impl Passed {
         rate_variance: f32,
         floor: f32,
     ) -> Flags {
+        // Beside the growth that both amplitudes share, as a trapezoid.
+        let own: [f32; 2] = core::array::from_fn(|i| rates[i] - self.growth[i] * values[i]);
+        let beside = self.promised([self.factor * own[0], own[1]]);
         let step = beyond(
-            values[1] - values[0] - self.promised(rates),
+            values[1] - self.factor * values[0] - beside,
             self.deviation(variance, rate_variance),
             floor,
         );
         // A step within a window also looks like growth that the window before did not have.
         let bent = self.samples <= 4.0 * self.half
             && beyond(
-                self.half * (rates[1] - rates[0]),
+                self.half * (rates[1] - self.factor * rates[0]),
                 self.half * square_root(rate_variance),
                 floor,
             );
@@ -250,6 +270,7 @@ impl Passed {
 }
 
 /// True where a step is more than chance and a floor explain, or no number.
+#[inline(never)]
 fn beyond(step: f32, deviation: f32, floor: f32) -> bool {
     step.abs() > SIGMAS * deviation + floor || step.is_nan()
 }

@@ -40,16 +40,15 @@ struct Row<'a> {
 impl<'a> Row<'a> {
     fn new(file: &'a str, flags: &'a str, e: &Estimate) -> Self {
         // Nine decimals are beyond every bound, and twelve beyond every clock; more would be digits of nothing.
-        let nine = |x: f64| (x * 1e9).round() / 1e9;
-        let twelve = |x: f64| (x * 1e12).round() / 1e12;
+        let to = |x: f64, unit: f64| (x * unit).round() / unit;
         Self {
-            time_s: twelve(e.time),
+            time_s: to(e.time, 1e12),
             samples: e.samples,
             main_amplitude: e.main_amplitude,
             quadrature_amplitude: e.quadrature_amplitude,
-            angle_rad: nine(e.angle),
+            angle_rad: to(e.angle, 1e9),
             phase_rad: e.phase,
-            frequency_hz: nine(e.frequency),
+            frequency_hz: to(e.frequency, 1e9),
             angle_rate_rad_s: e.angle_rate,
             decay_rate_s: e.decay_rate,
             main_amplitude_std: e.main_amplitude_std,

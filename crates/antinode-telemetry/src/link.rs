@@ -35,6 +35,7 @@ impl Reporter {
     ) -> Result<&'a [u8], BufferTooSmall> {
         let number = self.next;
         self.next = number.wrapping_add(1);
+        // As a `ReportFrame`, but for a copy of the report.
         frame_of(&(ReportFrame::HEADER, number, report), buffer)
     }
 }

@@ -42,13 +42,13 @@ pub(crate) struct Standing {
 }
 
 /// Variances of the components of z₊ and of z₋ along two directions, and their covariance.
-struct Pair {
+struct Variances {
     plus: f32,
     minus: f32,
     both: f32,
 }
 
-impl Pair {
+impl Variances {
     /// Of the components along `plus` and along `minus`, under one 2×2 covariance for the phasor of each pick-off, that of D amplified
     /// by `gain_d`.
     #[inline(never)]
@@ -81,10 +81,10 @@ impl Standing {
     pub(crate) fn new(model: &Model, fit: &Fit, noise: f32) -> Self {
         let [plus, minus] = fit.waves.value;
         let [plus_change, minus_change] = fit.waves.change;
-        let size = |z: Complex32| square_root(z.norm_sqr());
+        let absolute = |z: Complex32| square_root(z.norm_sqr());
         let arg = |z: Complex32| libm::atan2f(z.im, z.re);
         let (plus_angle, minus_angle) = (arg(plus), arg(minus));
-        let (p, m) = (size(plus), size(minus));
+        let (p, m) = (absolute(plus), absolute(minus));
         let along = |z: Complex32, size: f32| {
             if size > 0.0 { z / size } else { Complex32::ONE }
         };
@@ -108,10 +108,10 @@ impl Standing {
         };
         let (levels, slopes) = (block(0, 1), block(2, 3));
         let gain_d = model.correction.noise_gain();
-        let size = Pair::along(e_plus, e_minus, &levels, gain_d);
-        let growth = Pair::along(e_plus, e_minus, &slopes, gain_d);
-        let phase = Pair::along(f_plus, f_minus, &levels, gain_d);
-        let turn = Pair::along(f_plus, f_minus, &slopes, gain_d);
+        let size = Variances::along(e_plus, e_minus, &levels, gain_d);
+        let growth = Variances::along(e_plus, e_minus, &slopes, gain_d);
+        let phase = Variances::along(f_plus, f_minus, &levels, gain_d);
+        let turn = Variances::along(f_plus, f_minus, &slopes, gain_d);
         let [main, quadrature] = size.sum_and_difference();
         let [main_change, quadrature_change] = growth.sum_and_difference();
         let [common, apart] = phase.sum_and_difference();

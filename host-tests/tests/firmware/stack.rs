@@ -13,7 +13,7 @@ struct Function {
     name: String,
     /// Bytes that it takes.
     frame: u32,
-    /// Where it branches to, itself left out below.
+    /// Where it branches to, also within itself.
     targets: Vec<u32>,
 }
 
@@ -73,7 +73,7 @@ fn functions(image: &str) -> HashMap<u32, Function> {
         };
         // What follows a semicolon or an at sign is a comment.
         let operands = operands.split([';', '@']).next().unwrap_or("").trim();
-        let by_register = matches!(mnemonic, "blx" | "bx") && operands.starts_with('r');
+        let by_register = matches!(mnemonic, "blx" | "bx") && operands != "lr";
         assert!(
             !by_register,
             "{image}: {} calls through a register: {line}",

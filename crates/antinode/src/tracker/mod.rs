@@ -259,8 +259,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             Some(before) => {
                 // A model that is near enough is kept: its matrix need not be built anew.
                 let drift = before.frequency_beyond(model.carrier);
-                let half = 0.5 * f32::from(self.count) * f32::from(model.layout.length);
-                let near = (drift * half).abs() < CARRIER_REACH;
+                let near = (drift * model.half).abs() < CARRIER_REACH;
                 (
                     if near {
                         model.carrier

@@ -42,10 +42,10 @@ impl<'a> Carrier<'a> {
         }
     }
 
-    /// Time and carrier of the next block, exactly; the next call's is `blocks` further on.
-    pub(super) fn next(&mut self, blocks: usize) -> (f32, Complex32) {
+    /// Time and carrier of the first block of the next [`CHUNK`], exactly.
+    pub(super) fn next(&mut self) -> (f32, Complex32) {
         let index = self.index;
-        self.index += blocks as u16;
+        self.index += CHUNK as u16;
         (self.model.time(index), self.model.phase(index).unit())
     }
 }
@@ -114,7 +114,7 @@ impl<'a> Course<'a> {
     pub(super) fn next(&mut self, here: &mut [Here]) {
         let waves = self.waves;
         let Carrier { advance, turn, .. } = self.carrier;
-        let (mut u, mut unit) = self.carrier.next(CHUNK);
+        let (mut u, mut unit) = self.carrier.next();
         // Only residuals are turned by it: they have no digits to lose.
         let turn = turn.rounded();
         let at = |w: usize| waves.value[w & 1] * (growth(waves.slope[w & 1] * u) + 1.0) * unit;

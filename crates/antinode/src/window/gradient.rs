@@ -40,8 +40,7 @@ impl Gradient {
             mean.slope * sums.mean + even.slope * sums.even,
         );
         let back = unit.conj();
-        let level = along * back;
-        self.level += level;
+        self.level += along * back;
         self.slope += (along * time + across) * back;
         self.mean += sums.mean;
     }
@@ -66,7 +65,7 @@ pub(super) fn of_sums(model: &Model, blocks: &[Seen]) -> [Gradient; 2] {
     let mut carrier = Carrier::new(model);
     let (half, turn) = (model.half, carrier.turn.rounded());
     for chunk in blocks.chunks(CHUNK) {
-        let (mut u, mut unit) = carrier.next(CHUNK);
+        let (mut u, mut unit) = carrier.next();
         for block in chunk {
             for (gradient, sums) in gradients.iter_mut().zip(&block.whitened) {
                 gradient.take(&model.response, sums, u * half, unit);

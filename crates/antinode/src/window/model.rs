@@ -98,13 +98,12 @@ impl Model {
     /// The design rows of a block, for its mean, even and odd sums.
     fn rows(&self, u: f32, unit: Complex32) -> [Row; 3] {
         let (c, s) = (unit.re, unit.im);
-        let per_sample = self.per_half;
         let even = |level: f32, slope: f32, offset: f32| {
-            let (l, k) = (level * u, slope * per_sample);
+            let (l, k) = (level * u, slope * self.per_half);
             [level * c, -level * s, l * c + k * s, k * c - l * s, offset]
         };
         let r = &self.response;
-        let (l, k) = (r.odd.level * u, r.odd.slope * per_sample);
+        let (l, k) = (r.odd.level * u, r.odd.slope * self.per_half);
         [
             even(r.mean.level, r.mean.slope, r.offset),
             even(r.even.level, r.even.slope, 0.0),

@@ -1,4 +1,4 @@
-//! The five-parameter normal equations that both pick-offs share: factorised once, solved for each.
+//! The five-parameter normal equations that both pick-offs share, and their inverse by columns.
 
 /// Parameters of one pick-off: Re z, Im z, Re z′, Im z′, offset.
 pub(crate) const PARAMETERS: usize = 5;

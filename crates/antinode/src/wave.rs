@@ -9,7 +9,7 @@ use num_complex::Complex32;
 
 use crate::arch::square_root;
 use crate::order::{greater, lesser};
-use crate::window::{Fit, Model};
+use crate::window::{Covariance, Fit, Model};
 
 /// The standing wave at the middle of a window, with its rates per half window, and variances for the fit's own noise.
 #[derive(Debug, Clone, Copy)]
@@ -49,14 +49,11 @@ struct Variances {
 }
 
 impl Variances {
-    /// Of the components along `plus` and along `minus`, under one 2×2 covariance for the phasor of each pick-off, that of D amplified
-    /// by `gain_d`.
+    /// Of the components along `plus` and along `minus`, from the variances of the real and the imaginary part of each pick-off's
+    /// phasor, those of D amplified by `gain_d`.
     #[inline(never)]
-    fn along(plus: Complex32, minus: Complex32, block: &[[f32; 2]; 2], gain_d: f32) -> Self {
-        let one = |x: Complex32, y: Complex32| {
-            x.re * (block[0][0] * y.re + block[0][1] * y.im)
-                + x.im * (block[1][0] * y.re + block[1][1] * y.im)
-        };
+    fn along(plus: Complex32, minus: Complex32, parts: [f32; 2], gain_d: f32) -> Self {
+        let one = |x: Complex32, y: Complex32| parts[0] * x.re * y.re + parts[1] * x.im * y.im;
         // z₊ = z_C + j z_D and z₋ = z_C − j z_D: what a component sees of z_D.
         let (plus_d, minus_d) = (
             Complex32::new(plus.im, -plus.re) * gain_d,
@@ -102,16 +99,14 @@ impl Standing {
         let (plus_growth, minus_growth) =
             (turned(plus_change, e_plus), turned(minus_change, e_minus));
 
-        let c = &model.covariance;
-        let block = |i: usize, j: usize| {
-            [[c[i][i], c[i][j]], [c[j][i], c[j][j]]].map(|row| row.map(|x| noise * x))
-        };
-        let (levels, slopes) = (block(0, 1), block(2, 3));
+        let Covariance { even, odd } = &model.covariance;
+        let levels = [noise * even[0][0], noise * odd[0][0]];
+        let slopes = [noise * odd[1][1], noise * even[1][1]];
         let gain_d = model.correction.noise_gain();
-        let size = Variances::along(e_plus, e_minus, &levels, gain_d);
-        let growth = Variances::along(e_plus, e_minus, &slopes, gain_d);
-        let phase = Variances::along(f_plus, f_minus, &levels, gain_d);
-        let turn = Variances::along(f_plus, f_minus, &slopes, gain_d);
+        let size = Variances::along(e_plus, e_minus, levels, gain_d);
+        let growth = Variances::along(e_plus, e_minus, slopes, gain_d);
+        let phase = Variances::along(f_plus, f_minus, levels, gain_d);
+        let turn = Variances::along(f_plus, f_minus, slopes, gain_d);
         let [main, quadrature] = size.sum_and_difference();
         let [main_change, quadrature_change] = growth.sum_and_difference();
         let [common, apart] = phase.sum_and_difference();

@@ -100,7 +100,8 @@ impl Record {
             quadrature_rate: wave.quadrature_change / half,
             quadrature_rate_variance: wave.quadrature_change_variance / squared,
             channel_power: fit.channel_power(),
-            channel_variance: noise * greater(model.covariance[0][0], model.covariance[1][1]),
+            channel_variance: noise
+                * greater(model.covariance.even[0][0], model.covariance.odd[0][0]),
             offsets: fit.offsets,
             // A short window knows its offset worse than the mean of its samples.
             offset_variance: 2.0 * noise / half,

@@ -123,7 +123,7 @@ pub(crate) fn solve(
         }
         // Four standard deviations of the frequency, from the bound.
         let noise = fit.remains.variance();
-        let variance = 2.0 * noise * model.covariance[3][3] / fit.waves.power();
+        let variance = 2.0 * noise * model.covariance.even[1][1] / fit.waves.power();
         uncertainty = 4.0 * square_root(variance) / half;
         span = reach(uncertainty).max(span + 1).min(count);
     }

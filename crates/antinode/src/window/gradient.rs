@@ -45,15 +45,12 @@ impl Gradient {
         self.mean += sums.mean;
     }
 
-    /// The right-hand side, its slope scaled to half windows.
-    pub(super) fn row(&self, model: &Model) -> Row {
+    /// The right-hand side, even and odd, its slope scaled to half windows.
+    pub(super) fn sides(&self, model: &Model) -> [Row; 2] {
         let slope = self.slope * model.per_half;
         [
-            self.level.re,
-            self.level.im,
-            slope.re,
-            slope.im,
-            model.response.offset * self.mean,
+            [self.level.re, slope.im, model.response.offset * self.mean],
+            [self.level.im, slope.re, 0.0],
         ]
     }
 }

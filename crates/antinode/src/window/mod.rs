@@ -16,4 +16,5 @@ mod waves;
 pub(crate) use fit::{CARRIER_REACH, Fit, solve};
 pub(crate) use gathered::Gathered;
 pub(crate) use model::Model;
+pub(crate) use normal::Covariance;
 pub(crate) use seen::{Extremes, Seen};

@@ -2,7 +2,7 @@
 
 use num_complex::Complex32;
 
-use super::normal::{Normal, PARAMETERS, Row};
+use super::normal::{Covariance, Normal, PARAMETERS, Row};
 use super::response::{Basis, Response};
 use crate::block::Layout;
 use crate::calibration::{Calibration, Correction};
@@ -24,8 +24,7 @@ pub(crate) struct Model {
     pub(super) per_half: f32,
     /// Correction of the pick-offs at the carrier.
     pub correction: Correction,
-    /// Inverse of the normal matrix: covariance of (Re z, Im z, Re z′, Im z′, d) for noise of one a sample.
-    pub covariance: [Row; PARAMETERS],
+    pub covariance: Covariance,
 }
 
 impl Model {
@@ -48,7 +47,7 @@ impl Model {
             half: 0.0,
             per_half: 0.0,
             correction: calibration.at(1.0 / carrier.period(), sample_rate),
-            covariance: [[0.0; PARAMETERS]; PARAMETERS],
+            covariance: Covariance::default(),
         };
         model.build();
         model
@@ -95,12 +94,15 @@ impl Model {
         self.carrier.after_half_samples(half_samples)
     }
 
-    /// The design rows of a block, for its mean, even and odd sums.
-    fn rows(&self, u: f32, unit: Complex32) -> [Row; 3] {
+    /// The design rows of a block, for its mean, even and odd sums: each as its even and its odd side.
+    fn rows(&self, u: f32, unit: Complex32) -> [[Row; 2]; 3] {
         let (c, s) = (unit.re, unit.im);
         let even = |level: f32, slope: f32, offset: f32| {
             let (l, k) = (level * u, slope * self.per_half);
-            [level * c, -level * s, l * c + k * s, k * c - l * s, offset]
+            [
+                [level * c, k * c - l * s, offset],
+                [-level * s, l * c + k * s, 0.0],
+            ]
         };
         let r = &self.response;
         let (l, k) = (r.odd.level * u, r.odd.slope * self.per_half);
@@ -108,11 +110,8 @@ impl Model {
             even(r.mean.level, r.mean.slope, r.offset),
             even(r.even.level, r.even.slope, 0.0),
             [
-                r.odd.level * s,
-                r.odd.level * c,
-                l * s + k * c,
-                l * c - k * s,
-                0.0,
+                [r.odd.level * s, l * c - k * s, 0.0],
+                [r.odd.level * c, l * s + k * c, 0.0],
             ],
         ]
     }
@@ -120,17 +119,16 @@ impl Model {
     fn build(&mut self) {
         self.half = 0.5 * f32::from(self.blocks) * f32::from(self.layout.length);
         self.per_half = 1.0 / self.half;
-        let mut normal = Normal::ZERO;
+        let [mut even, mut odd] = [Normal::ZERO; 2];
         for index in 0..self.blocks {
-            for row in &self.rows(self.time(index), self.phase(index).unit()) {
-                normal.add(row);
+            for [even_row, odd_row] in &self.rows(self.time(index), self.phase(index).unit()) {
+                even.add(even_row);
+                odd.add(odd_row);
             }
         }
-        normal.factorise();
-        for (i, row) in self.covariance.iter_mut().enumerate() {
-            let mut unit = [0.0; PARAMETERS];
-            unit[i] = 1.0;
-            *row = normal.solve(unit);
-        }
+        self.covariance = Covariance {
+            even: even.inverse(),
+            odd: odd.inverse(),
+        };
     }
 }

@@ -1,21 +1,36 @@
-//! The five-parameter normal equations that both pick-offs share, and their inverse by columns.
+//! The normal equations that both pick-offs share, and their inverse.
+//!
+//! A window is symmetric about its middle, where the carrier's phase is zero. So what is even in time (Re z, Im z′ and the offset)
+//! and what is odd (Im z and Re z′) do not mix: five equations are three and two.
 
 /// Parameters of one pick-off: Re z, Im z, Re z′, Im z′, offset.
 pub(crate) const PARAMETERS: usize = 5;
 
-/// One row of the design, or one right-hand side.
-pub(crate) type Row = [f32; PARAMETERS];
+/// Of one side, the even or the odd.
+const SIDE: usize = 3;
+
+/// One row of the design of one side, or one right-hand side: of the odd side the third entry is zero.
+pub(crate) type Row = [f32; SIDE];
+
+/// Covariance of a pick-off's parameters for noise of one a sample.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Covariance {
+    /// Of Re z, Im z′ and the offset.
+    pub even: [Row; SIDE],
+    /// Of Im z and Re z′.
+    pub odd: [Row; SIDE],
+}
 
 /// A symmetric positive matrix, gathered row by row and then factorised as L D Lᵀ in place.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Normal {
     /// Lower triangle; after [`Normal::factorise`] the unit L below the diagonal and 1/D on it.
-    entries: [[f32; PARAMETERS]; PARAMETERS],
+    entries: [Row; SIDE],
 }
 
 impl Normal {
     pub(crate) const ZERO: Self = Self {
-        entries: [[0.0; PARAMETERS]; PARAMETERS],
+        entries: [[0.0; SIDE]; SIDE],
     };
 
     /// Adds the square of one design row.
@@ -28,14 +43,24 @@ impl Normal {
         }
     }
 
-    /// Factorises; a direction that the data do not see (pivot below 10⁻⁵ of its diagonal) is held at zero.
+    /// The inverse; a direction that the data do not see (pivot below 10⁻⁵ of its diagonal) is held at zero.
+    pub(crate) fn inverse(mut self) -> [Row; SIDE] {
+        self.factorise();
+        let mut inverse = [[0.0; SIDE]; SIDE];
+        for (i, row) in inverse.iter_mut().enumerate() {
+            row[i] = 1.0;
+            *row = self.solve(*row);
+        }
+        inverse
+    }
+
     #[expect(
         clippy::needless_range_loop,
         reason = "the indices are those of the textbook"
     )]
-    pub(crate) fn factorise(&mut self) {
+    fn factorise(&mut self) {
         let a = &mut self.entries;
-        for j in 0..PARAMETERS {
+        for j in 0..SIDE {
             // Row j holds L·D up to here; dividing by D turns it into L and takes its square off the pivot.
             let mut pivot = a[j][j];
             for k in 0..j {
@@ -48,7 +73,7 @@ impl Normal {
             } else {
                 0.0
             };
-            for i in j + 1..PARAMETERS {
+            for i in j + 1..SIDE {
                 for k in 0..j {
                     a[i][j] -= a[i][k] * a[j][k];
                 }
@@ -57,18 +82,18 @@ impl Normal {
     }
 
     /// Solves for one right-hand side.
-    pub(crate) fn solve(&self, mut rhs: Row) -> Row {
+    fn solve(&self, mut rhs: Row) -> Row {
         let l = &self.entries;
-        for i in 1..PARAMETERS {
+        for i in 1..SIDE {
             for k in 0..i {
                 rhs[i] -= l[i][k] * rhs[k];
             }
         }
-        for i in 0..PARAMETERS {
+        for i in 0..SIDE {
             rhs[i] *= l[i][i];
         }
-        for i in (0..PARAMETERS - 1).rev() {
-            for k in i + 1..PARAMETERS {
+        for i in (0..SIDE - 1).rev() {
+            for k in i + 1..SIDE {
                 rhs[i] -= l[k][i] * rhs[k];
             }
         }
@@ -84,7 +109,7 @@ mod tests {
     fn solves_what_it_gathered() {
         let mut normal = Normal::ZERO;
         let mut rhs = [0.0; PARAMETERS];
-        let truth = [1.0, -2.0, 0.5, 3.0, -0.25];
+        let truth = [1.0, -2.0, 0.5];
         let mut seed = 1u32;
         for _ in 0..12 {
             let row: Row = core::array::from_fn(|_| {
@@ -95,8 +120,8 @@ mod tests {
             normal.add(&row);
             rhs.iter_mut().zip(&row).for_each(|(r, a)| *r += a * y);
         }
-        normal.factorise();
-        for (found, wanted) in normal.solve(rhs).iter().zip(&truth) {
+        for (row, wanted) in normal.inverse().iter().zip(&truth) {
+            let found: f32 = row.iter().zip(&rhs).map(|(a, b)| a * b).sum();
             assert!((found - wanted).abs() < 2e-5, "{found} {wanted}");
         }
     }
@@ -104,10 +129,9 @@ mod tests {
     #[test]
     fn an_unseen_parameter_stays_at_zero() {
         let mut normal = Normal::ZERO;
-        normal.add(&[1.0, 0.0, 0.0, 0.0, 1.0]);
-        normal.add(&[0.0, 2.0, 0.0, 0.0, 0.0]);
-        normal.factorise();
-        let x = normal.solve([1.0, 4.0, 0.0, 0.0, 1.0]);
-        assert_eq!(x, [1.0, 1.0, 0.0, 0.0, 0.0]);
+        normal.add(&[1.0, 0.0, 1.0]);
+        normal.add(&[0.0, 2.0, 0.0]);
+        let inverse = normal.inverse();
+        assert_eq!(inverse, [[1.0, 0.0, 0.0], [0.0, 0.25, 0.0], [0.0; 3]]);
     }
 }

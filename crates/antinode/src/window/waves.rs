@@ -5,7 +5,7 @@ use num_complex::Complex32;
 
 use super::gradient::Gradient;
 use super::model::Model;
-use super::normal::PARAMETERS;
+use super::normal::{Covariance, Row};
 
 /// The raw parameters of both pick-offs, as they stand in the normal equations.
 #[derive(Debug, Clone, Copy, Default)]
@@ -29,25 +29,23 @@ impl Parameters {
     /// Moves to where the gradients vanish, but for what is not linear.
     #[inline(never)]
     pub(super) fn add(&mut self, model: &Model, gradients: &[Gradient; 2]) -> Step {
-        let rows = gradients.each_ref().map(|gradient| gradient.row(model));
-        let mut changes = [[0.0; PARAMETERS]; 2];
-        for (change, row) in changes.iter_mut().zip(&rows) {
-            for (sum, covariance) in change.iter_mut().zip(&model.covariance) {
-                for (entry, value) in covariance.iter().zip(row) {
-                    *sum += entry * value;
-                }
-            }
-        }
+        let product =
+            |row: &Row, side: &Row| row[0] * side[0] + row[1] * side[1] + row[2] * side[2];
+        let Covariance { even, odd } = &model.covariance;
         let mut step = Step::default();
-        for (channel, (row, change)) in rows.iter().zip(&changes).enumerate() {
-            let z = Complex32::new(change[0], change[1]);
-            let slope = Complex32::new(change[2], change[3]);
+        for (channel, gradient) in gradients.iter().enumerate() {
+            let [of_even, of_odd] = gradient.sides(model);
+            let [level, across, offset] = even.each_ref().map(|row| product(row, &of_even));
+            let [beside, growth, _] = odd.each_ref().map(|row| product(row, &of_odd));
+            let z = Complex32::new(level, beside);
+            let slope = Complex32::new(growth, across);
             self.z[channel] += z;
             self.slope[channel] += slope;
-            self.offset[channel] += change[4];
+            self.offset[channel] += offset;
             step.moved += z.norm_sqr() + slope.norm_sqr();
             step.size += self.z[channel].norm_sqr();
-            step.explained += row.iter().zip(change).map(|(a, b)| a * b).sum::<f32>();
+            step.explained += product(&of_even, &[level, across, offset])
+                + product(&of_odd, &[beside, growth, 0.0]);
         }
         step
     }

@@ -4,8 +4,7 @@
 
 use core::hint::black_box;
 
-use antinode::block::{Demodulator, Layout};
-use antinode::phase::PhaseStep;
+use antinode::block::Demodulator;
 use antinode::{Front, Identifier, Packed, Sample, SamplePair, Settings, Tracker};
 
 use crate::codes::{Codes, PERIOD};
@@ -19,12 +18,9 @@ const LONGEST_OF: usize = 2_000;
 /// Pairs of a half-buffer.
 pub(crate) const HALF_BUFFER: usize = 128;
 
-fn demodulator<S: Sample>(watch: bool) -> Demodulator<S, 200> {
-    Demodulator::new(
-        Layout::new::<S>(PhaseStep::from_period(PERIOD), 19),
-        0,
-        watch,
-    )
+pub(crate) fn demodulator<S: Sample>(watch: bool) -> Demodulator<S, 200> {
+    // The blocks of a window of 10 periods.
+    Demodulator::new(Settings::new(100_000.0).layout(PERIOD, 200), 0, watch)
 }
 
 /// Block sums from half-buffers, with or without the watch.
@@ -125,7 +121,7 @@ where
     gauge.finish()
 }
 
-/// The solution of one window of 10 blocks alone, in thread context.
+/// The solution of one window of 10 periods alone, in thread context.
 pub fn solution<S: Sample>(name: &'static str) -> !
 where
     Packed: SamplePair<S>,
@@ -149,7 +145,7 @@ where
         let block = next();
         black_box(tracker.push(&block));
     }
-    let blocks: [_; 10] = core::array::from_fn(|_| next());
+    let blocks: [_; 5] = core::array::from_fn(|_| next());
     gauge.start();
     mark_begin();
     apart(|| {

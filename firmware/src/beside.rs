@@ -3,13 +3,11 @@
 use core::hint::black_box;
 use core::num::Wrapping;
 
-use antinode::block::{Demodulator, Layout};
 use antinode::methods::{DelayedSums, MomentSums};
-use antinode::phase::PhaseStep;
 use antinode::{Packed, Sample, SamplePair};
 use idsp::{Accu, cossin};
 
-use crate::bench::{HALF_BUFFER, PAIRS};
+use crate::bench::{HALF_BUFFER, PAIRS, demodulator};
 use crate::codes::{Codes, PERIOD};
 use crate::gauge::{Gauge, apart};
 use crate::marks::{mark_begin, mark_end};
@@ -64,9 +62,8 @@ where
     Packed: SamplePair<S>,
 {
     let codes = Codes::new();
-    let layout = Layout::new::<S>(PhaseStep::from_period(PERIOD), 19);
     let offsets = [20.0, -15.0];
-    let mut demodulator = Demodulator::<S, 200>::new(layout, 0, false);
+    let mut demodulator = demodulator::<S>(false);
     let mut moments = MomentSums::<S>::new(offsets);
     // A quarter of a period; a line for one of the longest.
     let mut delayed = DelayedSums::<50, S>::new(5, offsets);
@@ -82,13 +79,13 @@ where
             if black_box(block).is_some() {
                 blocks += 1;
             }
-            if blocks == 10 || at == pairs.len() {
+            if blocks == 5 || at == pairs.len() {
                 let new = pairs.get(window..at).unwrap_or(&[]);
                 moments.extend(new);
                 delayed.extend(new);
                 window = at;
             }
-            if blocks == 10 {
+            if blocks == 5 {
                 black_box((moments.take(), delayed.take()));
                 blocks = 0;
             }

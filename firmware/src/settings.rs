@@ -25,8 +25,8 @@ pub const HALF: usize = 128;
 pub const LONGEST_PERIOD: usize = 200;
 /// Blocks that the tracker holds: a window has up to two periods less.
 pub const RING: usize = 24;
-/// Blocks that may wait for the main loop, and one more; comparing the methods over a window takes as long as 30 blocks.
-pub const QUEUE: usize = if cfg!(feature = "methods") { 64 } else { 16 };
+/// Blocks that may wait for the main loop, and one more; comparing the methods over a window takes as long as 15 blocks.
+pub const QUEUE: usize = if cfg!(feature = "methods") { 32 } else { 16 };
 /// Requests that may wait for the interrupt, and one more.
 pub const REQUESTS: usize = 4;
 /// Bytes that may wait for the line: 17 reports of 110 bytes, 22 ms.

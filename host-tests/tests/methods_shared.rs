@@ -230,3 +230,36 @@ fn streaming_sums_are_those_of_the_slice() {
     }
     assert!(Products::from_blocks::<f32>([]).is_none());
 }
+
+#[test]
+fn products_of_codes_know_how_the_reference_was_rounded() {
+    let step = PhaseStep::from_period(18.754);
+    for length in [5, 19, 38, 75] {
+        let mut demodulator =
+            Demodulator::<i16, 200>::new(Layout::new::<i16>(step, length), 0, false);
+        let wave =
+            |k: usize, phase: f64| (1500.0 * (0.335 * k as f64 + phase).sin()).round() as i16;
+        // At mid-scale, as a converter without a sign gives them.
+        let codes: Vec<[i16; 2]> = (0..10 * usize::from(length))
+            .map(|k| [2048 + wave(k, 0.3), 2040 - wave(k, 1.9)])
+            .collect();
+        let blocks: Vec<_> = codes
+            .iter()
+            .filter_map(|&pair| demodulator.push(pair).copied())
+            .collect();
+        let products = Products::from_blocks(&blocks).unwrap();
+        let pairs: Vec<[f32; 2]> = codes.iter().map(|pair| pair.map(f32::from)).collect();
+        let direct = Products::of(&pairs, products.omega);
+        for i in 0..2 {
+            for (found, wanted) in [
+                (products.cosine[i], direct.cosine[i]),
+                (products.sine[i], direct.sine[i]),
+            ] {
+                assert!(
+                    (found - wanted).abs() < 2e-3,
+                    "blocks of {length}: {found} {wanted}"
+                );
+            }
+        }
+    }
+}

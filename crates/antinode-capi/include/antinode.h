@@ -45,8 +45,8 @@
 // The most periods a window may have.
 #define ANTINODE_MOST_PERIODS 50
 
-// Finished blocks that the queue holds, the one being solved among them: one block is about one period, so nearly this many periods
-// may pass between two calls of a `_solve` function.
+// Finished blocks that the queue holds, the one being solved among them. A block is two periods in windows of ten or more, and one
+// where there is a hop: between two calls of a `_solve` function so many periods may pass, less one block.
 #define ANTINODE_QUEUE_BLOCKS 16
 
 // 64-bit words of an `antinode_fixed_t`.
@@ -165,8 +165,8 @@ typedef struct {
     double sample_rate_hz;
     // Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10.
     uint32_t periods;
-    // Blocks from the start of one window to the start of the next; a block is a period, or a tenth of a window of less than ten
-    // periods. 1 to 65535; 0, the default: windows follow each other without gap or overlap.
+    // Blocks from the start of one window to the start of the next; a block is a period then, or a tenth of a window of less than
+    // ten periods. 1 to 65535; 0, the default: windows follow each other without gap or overlap.
     uint32_t hop_blocks;
     // The first window's angle is chosen within pi/4 of this one, rad. Within +-10000; default pi/4, which puts it in 0 to pi/2.
     float start_angle_rad;

@@ -64,7 +64,7 @@ pub struct Identify {
     pub periods: u16,
     /// Blocks from the start of one window to the start of the next [default: those of one window].
     ///
-    /// A block is a period; in windows of fewer than ten periods it is a tenth of the window.
+    /// With it a block is a period; in windows of fewer than ten periods it is a tenth of the window.
     /// Fewer blocks than a window has make windows overlap, more leave gaps.
     #[arg(long, value_name = "BLOCKS", value_parser = value_parser!(u16).range(1..))]
     pub hop: Option<u16>,

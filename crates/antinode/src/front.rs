@@ -150,8 +150,9 @@ impl<S: Sample, const N: usize> Front<S, N> {
         for (taken, &pair) in (1..).zip(pairs) {
             if let Some(period) = self.detector.push(pair) {
                 self.index += taken as u64;
-                let layout = self.settings.layout(period);
-                if usize::from(layout.length) <= N {
+                // The ring of blocks is made for blocks of a period.
+                if period < N as f32 + 0.5 {
+                    let layout = self.settings.layout(period, N as u16);
                     self.demodulator.begin(layout, self.index);
                     self.is_searching = false;
                 } else {

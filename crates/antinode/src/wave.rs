@@ -14,6 +14,8 @@ use crate::window::{Covariance, Fit, Model};
 /// The standing wave at the middle of a window, with its rates per half window, and variances for the fit's own noise.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Standing {
+    /// The noise variance a sample that all variances are for.
+    pub noise: f32,
     pub main: f32,
     pub quadrature: f32,
     /// In (−π/2, π/2], modulo π/2.
@@ -112,6 +114,7 @@ impl Standing {
         let [common, apart] = phase.sum_and_difference();
         let [drift, turning] = turn.sum_and_difference();
         Self {
+            noise,
             main: 0.5 * (p + m),
             quadrature: 0.5 * (p - m),
             angle: 0.25 * (plus_angle - minus_angle),

@@ -1,6 +1,6 @@
 //! Samples become block sums: the only work done at sample rate while a wave is tracked, formulas (7) and (24).
 //!
-//! A block is a fixed count of sample pairs, about one period. Its reference starts anew at every block, centred on the block's
+//! A block is a fixed count of sample pairs, about one period or two. Its reference starts anew at every block, centred on the block's
 //! middle, so there is no oscillator to run: the phase of the block is applied to its sums later, at block rate. No block need
 //! fit the period, and no weight need be exact, because the window solution takes exact sums of the very weights for any length.
 

@@ -88,8 +88,8 @@ impl Reference {
             estimate.angle_std,
         ];
         let noise = f64::from(estimate.residual_rms);
-        // The core sees noise in three sums a block, ten blocks a window at the least, less ten unknowns.
-        let blocks = (samples * omega / core::f64::consts::TAU).max(10.0);
+        // The core sees noise in three sums a block of each pick-off, less ten unknowns: blocks of two periods, five at the least.
+        let blocks = (0.5 * samples * omega / core::f64::consts::TAU).max(5.0);
         Self {
             wave: Wave {
                 shape: Shape {
@@ -165,20 +165,28 @@ fn waves(sums: &Sums) -> [Wave; 4] {
 }
 
 /// What turning by `turn` rad, a loss of `decay`, and f32 rounding leave in a window's sums, as a share of them.
-pub(super) fn slow(turn: f64, decay: f64, leakage: f64) -> f64 {
+pub(super) fn slow(turn: f64, decay: f64, changing: f64) -> f64 {
     let (turn, decay) = (2.0 * turn, decay);
     // What leaks changes over the window at first order.
-    (turn * turn + decay * decay) / 12.0 + leakage * (turn.abs() + decay.abs()) + 1e-6
+    (turn * turn + decay * decay) / 12.0 + changing * (turn.abs() + decay.abs()) + 1e-6
+}
+
+/// How much of a steady change leaks: as much as of what is constant, or |⟨t e^{2jωt}⟩| with t in windows from the middle, which does
+/// not vanish where a window fits the period.
+fn changing(leakage: f64, omega: f64, count: u32) -> f64 {
+    let x = omega * f64::from(count);
+    let (sine, cosine) = libm::sincos(x);
+    leakage.max(0.5 * (cosine - sine / x).abs() / x)
 }
 
 /// What the methods may differ by without a fault, beside `explained`: the exact solution's own deviations, how little the noise and
 /// its mean square over the window are known, and what turning, decay and f32 rounding leave.
-fn scatter(explained: &Shape, reference: &Reference, count: u32, leakage: f64) -> [f64; 3] {
+fn scatter(explained: &Shape, reference: &Reference, count: u32, changing: f64) -> [f64; 3] {
     let square = reference.noise_uncertainty * reference.noise_uncertainty + 2.0 / f64::from(count);
     let [of_c, of_d, _] = reference.noise.moments;
     let noise = of_c.max(of_d) * libm::sqrt(square);
     let size = reference.wave.shape.main_amplitude;
-    let rest = slow(reference.turn, reference.decay, leakage);
+    let rest = slow(reference.turn, reference.decay, changing);
     let [a, b, angle] = reference.deviations;
     let quadrature = explained.quadrature_amplitude.abs().max(b);
     let sum = |x: f64, y: f64, z: f64| libm::sqrt(x * x + y * y + z * z);
@@ -223,8 +231,9 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
         ..
     } = exact.shape;
     let window = 0.5 * a * leakage < of_a.max(0.5 * a * of_angle);
+    let changing = changing(leakage, omega, count);
     let [imbalance_excess, phase_excess] =
-        conditions::of_delay(sums, &expected_sums, reference, leakage);
+        conditions::of_delay(sums, &expected_sums, reference, changing);
     let conditions = |i: usize| Conditions {
         window,
         no_quadrature: i != NO_QUADRATURE || b.abs() < 2.0 * of_b,
@@ -247,7 +256,7 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
             // So is the side of the pick-off's axis on which (12) sees the wave.
             seen.angle = libm::copysign(seen.angle, explained.shape.angle);
         }
-        let unit = scatter(&explained.shape, reference, count, leakage);
+        let unit = scatter(&explained.shape, reference, count, changing);
         Method {
             wave: wave.near(exact.shape.angle),
             j: functional::squares(&wave, &sums.moments, &sums.products).max(0.0),

@@ -62,7 +62,7 @@ pub(super) fn of_delay(
     found: &Sums,
     expected: &Sums,
     reference: &Reference,
-    leakage: f64,
+    changing: f64,
 ) -> [f64; 2] {
     let Sums {
         moments,
@@ -89,7 +89,7 @@ pub(super) fn of_delay(
         libm::hypot(reference.decay, of_decay),
     );
     let during = (2.0 * turn + decay) * lag / count * cosine.abs();
-    let rest = (c + d) * (slow(turn, decay, leakage) + during);
+    let rest = (c + d) * (slow(turn, decay, changing) + during);
     let deviation = |variance: f64| libm::sqrt(variance + rest * rest) / sine.abs();
 
     let at_quarter = |sums: &Sums| {

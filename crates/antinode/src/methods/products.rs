@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use crate::block::{Block, Pair};
+use crate::block::{Block, Layout, Pair};
 use crate::sample::Sample;
 
 /// Mean products of a window with cos ωt and sin ωt, t from the window's first sample, in input units.
@@ -39,7 +39,7 @@ impl Products {
         Self::new(pairs.len() as u32, omega, sums, mean)
     }
 
-    /// Of blocks that follow each other: the demodulator's own sums, at its own frequency. No block gives `None`.
+    /// Of blocks of one layout that follow each other: the demodulator's own sums, at its own frequency. No block gives `None`.
     pub fn from_blocks<'a, S: Sample>(
         blocks: impl IntoIterator<Item = &'a Block<S>>,
     ) -> Option<Self> {
@@ -47,6 +47,7 @@ impl Products {
         let first = **blocks.peek()?;
         let step = first.layout.step;
         let omega = core::f64::consts::TAU * f64::from(step.0) / 4_294_967_296.0;
+        let weights = Weights::of(first.layout);
         let mut sums = [Complex64::ZERO; 2];
         let mut mean = [0.0; 2];
         let mut count = 0;
@@ -55,12 +56,12 @@ impl Products {
             let samples = block.start.wrapping_sub(first.start) as f64
                 + 0.5 * (f64::from(block.layout.length) - 1.0);
             let (sine, cosine) = libm::sincos(omega * samples);
-            let unit = 1.0 / f64::from(block.layout.one());
             let value = |sum| f64::from(S::sum_to_f32(sum));
             for (i, channel) in block.sums.iter().enumerate() {
-                let own = Complex64::new(value(channel.cosine), -value(channel.sine)) * unit;
+                let sum = value(channel.sum);
+                let own = weights.unrounded(value(channel.cosine), value(channel.sine), sum);
                 sums[i] += own * Complex64::new(cosine, -sine);
-                mean[i] += value(channel.sum);
+                mean[i] += sum;
             }
             count += u32::from(block.layout.length);
         }
@@ -100,6 +101,56 @@ impl Products {
         (
             x * self.cosine[0] + y * self.cosine[1],
             x * self.sine[0] + y * self.sine[1],
+        )
+    }
+}
+
+/// What the weights of a block are instead of cosine and sine: whole numbers, of integer samples.
+struct Weights {
+    /// Σ cos²/Σ w cos and Σ sin²/Σ w sin.
+    gains: [f64; 2],
+    /// Σ w and Σ cos of the cosine, for each sample.
+    levels: [f64; 2],
+}
+
+impl Weights {
+    fn of(layout: Layout) -> Self {
+        let exact = Layout { scale: 0, ..layout };
+        let (mut squares, mut products, mut levels) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+        for k in 0..layout.length {
+            let (reference, rounded) = (exact.reference(k), layout.reference(k));
+            let pairs = [
+                (reference.cosine, rounded.cosine),
+                (reference.sine, rounded.sine),
+            ];
+            for (i, (wave, weight)) in pairs.into_iter().enumerate() {
+                squares[i] += f64::from(wave * wave);
+                products[i] += f64::from(wave) * f64::from(weight);
+            }
+            levels[0] += f64::from(rounded.cosine);
+            levels[1] += f64::from(reference.cosine);
+        }
+        let scale = 1.0 / f64::from(layout.length);
+        // A block of one sample has no sine.
+        let gain = |i: usize| {
+            if products[i] == 0.0 {
+                0.0
+            } else {
+                squares[i] / products[i]
+            }
+        };
+        Self {
+            gains: [gain(0), gain(1)],
+            levels: levels.map(|level| level * scale),
+        }
+    }
+
+    /// Σ S e^{−jφ} of a block, from its sums.
+    fn unrounded(&self, cosine: f64, sine: f64, sum: f64) -> Complex64 {
+        let [weights, wave] = self.levels;
+        Complex64::new(
+            (cosine - weights * sum) * self.gains[0] + wave * sum,
+            -sine * self.gains[1],
         )
     }
 }

@@ -13,6 +13,8 @@ use crate::window::Fit;
 
 /// Standard deviations of an innocent deviation.
 const SIGMAS: f32 = 7.0;
+/// Standard deviations of an innocent variance: one in 10¹⁰, as a window has several parts.
+const REACH: f32 = 6.2;
 /// Below this share of a_A a step of an amplitude or an offset between windows is no fault.
 const AMPLITUDE_FLOOR: f32 = 2e-3;
 /// Below this a step of the pattern angle between windows is no fault, rad.
@@ -27,11 +29,15 @@ const RESIDUAL_FLOOR: f32 = 4e-8;
 const STRANGER: f32 = 0.25;
 /// By how much the residual variance about the carrier may exceed that about the third harmonic.
 const COLOUR: f32 = 16.0;
+/// By how much a window's noise variance may exceed that of the windows before and be no fault.
+const RISE: f32 = 4.0;
 
 /// The noise variance of the clean windows before.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Noise {
     variance: f32,
+    /// The mean of that and of the noise about the third harmonic, by degrees of freedom.
+    wide: f32,
     freedom: f32,
     refused: u8,
 }
@@ -41,22 +47,36 @@ impl Noise {
     const NEW_LEVEL: u8 = 3;
     /// Degrees of freedom remembered, in windows.
     const MEMORY: f32 = 16.0;
+    /// How much more the windows before may weigh than one window, which knows its noise by few degrees of freedom.
+    const SHARE: f32 = 2.0;
+
+    /// The noise variance of a window, from its own of `freedom` degrees and that of the windows before, unless it is a new one.
+    pub(crate) fn beside(&self, variance: f32, freedom: f32) -> f32 {
+        if self.is_exceeded(variance, freedom, 0.0) {
+            return variance;
+        }
+        let before = lesser(self.freedom, Self::SHARE * freedom);
+        variance + (self.variance - variance) * before / (freedom + before)
+    }
 
     /// Takes the noise of a window that is otherwise clean.
-    fn learn(&mut self, variance: f32, freedom: f32) {
+    fn learn(&mut self, variance: f32, wide: f32, freedom: f32) {
         self.freedom = lesser(self.freedom + freedom, Self::MEMORY * freedom);
-        self.variance += (variance - self.variance) * freedom / self.freedom;
+        let share = freedom / self.freedom;
+        self.variance += (variance - self.variance) * share;
+        self.wide += (wide - self.wide) * share;
         self.refused = 0;
     }
 
     /// True when a variance of `freedom` exceeds the one remembered, and a floor.
     fn is_exceeded(&self, variance: f32, freedom: f32, floor: f32) -> bool {
-        // The exact limit is looked at only where the least one is passed.
-        let beyond = variance - floor;
-        self.freedom > 0.0
-            && beyond > 4.0 * self.variance
-            && beyond > spread(freedom, self.freedom) * self.variance
+        self.freedom > 0.0 && is_louder(variance - floor, self.variance, freedom, self.freedom)
     }
+}
+
+/// True when a variance exceeds a level by more than noise may rise, and by more than chance explains from their degrees of freedom.
+fn is_louder(variance: f32, level: f32, freedom: f32, other: f32) -> bool {
+    variance > RISE * level && variance > limit(freedom, other) * level
 }
 
 /// True when the first window after a search holds no wave, or as much else beside it: two tones, say.
@@ -89,39 +109,41 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
     let significant = is_significant(wave);
     flags = flags.with_if(!significant, Flags::LOST);
 
+    let known = noise.freedom > 0.0;
     // White noise is the same about the carrier and about its third harmonic.
     let beyond = variance - 4.0 * floor;
     let coloured = remains.third_freedom >= 12.0
         && beyond > COLOUR * remains.third_noise
-        && beyond > spread(remains.freedom, remains.third_freedom) * remains.third_noise;
-    let known = noise.freedom > 0.0;
-    let louder = noise.is_exceeded(variance, remains.freedom, floor);
-    // One block out of line with all others: a step, a spike or a short dropout.
-    let others = if known && noise.freedom > 3.0 * remains.freedom {
-        noise.variance
-    } else {
-        greater(remains.residual - remains.worst_block, 0.0) / greater(remains.freedom - 6.0, 1.0)
+        && beyond > limit(remains.freedom, remains.third_freedom) * remains.third_noise;
+    // What is white is seen better in both together.
+    let wide_freedom = remains.freedom + remains.third_freedom;
+    let wide = (remains.residual + remains.third_noise * remains.third_freedom) / wide_freedom;
+    let louder = known
+        && (noise.is_exceeded(variance, remains.freedom, floor)
+            || is_louder(wide - floor, noise.wide, wide_freedom, noise.freedom));
+    // A part of the residual beside the noise of the windows before, or beside the rest where that is known better.
+    let stands_out = |part: f32, degrees: f32, floor: f32| {
+        let rest = remains.freedom - degrees;
+        let (level, freedom) = if noise.freedom > rest {
+            (noise.variance, noise.freedom)
+        } else {
+            (greater(remains.residual - part, 0.0) / rest, rest)
+        };
+        part > degrees * limit(degrees, freedom) * level + floor
     };
-    let outlier = remains.freedom > 20.0
-        && remains.worst_block > 60.0 * others * (1.0 + 20.0 / remains.freedom) + 6.0 * floor;
-    // A step within the window, or any course that bends: chi-square of 4 degrees at each of its places, or its ratio to the
-    // rest where the noise is not yet known.
-    let rest = greater(remains.residual - remains.step, 0.0) / greater(remains.freedom - 4.0, 1.0);
-    let level = if known { noise.variance } else { rest };
-    let limit = 56.0 * (1.0 + 40.0 / (noise.freedom + remains.freedom));
-    let stepped = remains.freedom > 20.0
-        && remains.step > limit * level + (8.0 + 0.1 * remains.freedom) * floor;
+    // One block out of line with all others: a step, a spike or a short dropout.
+    let outlier = stands_out(remains.worst_block, 6.0, 6.0 * floor);
+    // A step within the window, or any course that bends.
+    let stepped = stands_out(remains.step, 4.0, (8.0 + 0.1 * remains.freedom) * floor);
     let misfit = coloured || louder || outlier || stepped || !fit.settled;
     flags = flags.with_if(misfit, Flags::MISFIT);
 
     let harmonic = remains.third.iter().map(Complex32::norm_sqr).sum::<f32>();
-    let harmonic_noise = greater(remains.third_noise, lesser(variance, noise.variance));
-    let limit = SIGMAS
-        * square_root(
-            wave.main_variance / greater(variance, f32::MIN_POSITIVE) * 1.2 * harmonic_noise,
-        )
-        + HARMONIC_FLOOR * wave.main
-        + SIGMAS * square_root(coding * wave.main_variance / greater(variance, f32::MIN_POSITIVE));
+    let harmonic_noise = greater(remains.third_noise, lesser(wide, noise.wide));
+    // What of a sample's noise is in an amplitude.
+    let share = wave.main_variance / greater(wave.noise, f32::MIN_POSITIVE);
+    let limit = SIGMAS * (square_root(1.2 * share * harmonic_noise) + square_root(share * coding))
+        + HARMONIC_FLOOR * wave.main;
     flags = flags.with_if(
         harmonic > limit * limit && remains.third_freedom >= 12.0,
         Flags::CLIPPED,
@@ -132,7 +154,7 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
     flags = flags.with_if(round && significant, Flags::CIRCULAR);
 
     if flags.with(Flags::CIRCULAR) == Flags::CIRCULAR {
-        noise.learn(variance, remains.freedom);
+        noise.learn(variance, wide, remains.freedom);
     } else if flags.with(Flags::CIRCULAR) == Flags::MISFIT.with(Flags::CIRCULAR)
         && !(coloured || outlier || stepped)
         && fit.settled
@@ -145,11 +167,23 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
     flags
 }
 
-/// How far apart two estimates of one variance may be.
+/// How many times a variance of `freedom` degrees may exceed another of `other` by chance, once in 10¹⁰: Paulson's approximation.
+///
+/// Infinite where the other is known too badly for that.
 #[inline(never)]
-fn spread(a: f32, b: f32) -> f32 {
-    // The logarithm of an F variable has about this variance; its upper tail is the lighter one.
-    libm::expf(SIGMAS * square_root(2.0 / a + 2.0 / b))
+fn limit(freedom: f32, other: f32) -> f32 {
+    // The cube root of a variance is nearly normal, its mean less than one by its own variance.
+    let (own, others) = (2.0 / (9.0 * freedom), 2.0 / (9.0 * other));
+    let (mean, other_mean) = (1.0 - own, 1.0 - others);
+    let squared = REACH * REACH;
+    let known = other_mean * other_mean - squared * others;
+    if known.is_nan() || known <= 0.0 {
+        return f32::INFINITY;
+    }
+    let deviation =
+        square_root(own * other_mean * other_mean + others * mean * mean - squared * own * others);
+    let root = (mean * other_mean + REACH * deviation) / known;
+    root * root * root
 }
 
 /// Tests of a window against the clean one before.

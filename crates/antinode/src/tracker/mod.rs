@@ -173,13 +173,14 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let fit = self.fit()?;
         let model = self.model.as_ref()?;
         let half = model.half;
-        let noise = fit.remains.variance();
+        let own = fit.remains.variance();
+        let noise = self.noise.beside(own, fit.remains.freedom);
         // Rounding of f32 sums is an error too, where there is no other, and part of it does not average.
         let size = fit.offsets[0].abs() + fit.offsets[1].abs() + square_root(fit.waves.power());
         let rounding = 1e-7 * size;
         let coding = converter::coding(&self.settings, noise, half);
-        let variance = noise + rounding * rounding * (1.0 + half) + coding;
-        let wave = Standing::new(model, &fit, variance);
+        let errors = rounding * rounding * (1.0 + half) + coding;
+        let wave = Standing::new(model, &fit, noise + errors);
         if self.before.is_none() && checks::is_no_wave(&fit, &wave, self.count, model.layout.length)
         {
             // The detector was deceived: nothing is reported, and the search goes on.
@@ -207,7 +208,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             model.layout.step.period(),
             &wave,
         ));
-        let mut record = Record::new(model, &fit, &wave, variance, middle, angle, phase);
+        let mut record = Record::new(model, &fit, &wave, own + errors, middle, angle, phase);
         let mut between = Flags::empty();
         if let Some(before) = &self.before {
             between = checks::between(before, &record);

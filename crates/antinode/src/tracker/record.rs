@@ -37,8 +37,8 @@ pub(crate) struct Record {
     pub middle: u64,
     /// Sample pairs of the window.
     pub samples: u32,
-    /// Noise variance a sample.
-    pub noise: f32,
+    /// What this window alone leaves, as a noise variance a sample.
+    pub residual: f32,
     pub carrier: PhaseStep,
     /// Frequency beyond the carrier, rad/sample.
     pub drift: f32,
@@ -71,7 +71,7 @@ impl Record {
         model: &Model,
         fit: &Fit,
         wave: &Standing,
-        noise: f32,
+        residual: f32,
         middle: u64,
         angle: Angle,
         phase: f32,
@@ -81,7 +81,7 @@ impl Record {
         Self {
             middle,
             samples: u32::from(model.blocks) * u32::from(model.layout.length),
-            noise,
+            residual,
             carrier: model.carrier,
             drift: wave.drift / half,
             drift_variance: wave.drift_variance / squared,
@@ -100,11 +100,11 @@ impl Record {
             quadrature_rate: wave.quadrature_change / half,
             quadrature_rate_variance: wave.quadrature_change_variance / squared,
             channel_power: fit.channel_power(),
-            channel_variance: noise
+            channel_variance: wave.noise
                 * greater(model.covariance.even[0][0], model.covariance.odd[0][0]),
             offsets: fit.offsets,
             // A short window knows its offset worse than the mean of its samples.
-            offset_variance: 2.0 * noise / half,
+            offset_variance: 2.0 * wave.noise / half,
         }
     }
 
@@ -131,7 +131,7 @@ impl Record {
             frequency_std: root(self.drift_variance) * rate / core::f32::consts::TAU,
             angle_rate_std: root(self.turning_variance) * rate,
             decay_rate_std: root(self.main_rate_variance) / self.main * rate,
-            residual_rms: root(self.noise),
+            residual_rms: root(self.residual),
             flags,
         }
     }

@@ -3,7 +3,7 @@
 //! z₊ = (a_A + a_B)·e^{j(2θ−α)} and z₋ = (a_A − a_B)·e^{−j(2θ+α)}. Hence a_A = (|z₊|+|z₋|)/2, a_B = (|z₊|−|z₋|)/2,
 //! 4θ = arg z₊ − arg z₋, 2α = −arg z₊ − arg z₋, with no cancellation and the right quadrant.
 
-use core::f32::consts::{FRAC_PI_2, PI, TAU};
+use core::f32::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
 
 use num_complex::Complex32;
 
@@ -85,13 +85,17 @@ impl Standing {
         let (plus_angle, minus_angle) = (arg(plus), arg(minus));
         let (p, m) = (absolute(plus), absolute(minus));
         let along = |z: Complex32, size: f32| {
-            if size > 0.0 { z / size } else { Complex32::ONE }
+            if size > 0.0 {
+                z * (1.0 / size)
+            } else {
+                Complex32::ONE
+            }
         };
         let (e_plus, e_minus) = (along(plus, p), along(minus, m));
         // Where the phase of a wave moves: across it, and the more the smaller it is.
         let across = |e: Complex32, size: f32| {
             let size = greater(greater(size, 1e-12 * (p + m)), f32::MIN_POSITIVE);
-            Complex32::new(-e.im, e.re) / size
+            Complex32::new(-e.im, e.re) * (1.0 / size)
         };
         // The component of a change along e or f: how the size and the phase of a wave move.
         let turned = |change: Complex32, f: Complex32| change.re * f.re + change.im * f.im;
@@ -140,7 +144,7 @@ impl Standing {
 
 /// Takes whole turns off an angle in radians: (−π, π].
 pub(crate) fn wrap(angle: f32) -> f32 {
-    let turns = libm::roundf(angle / TAU);
+    let turns = libm::roundf(angle * (1.0 / TAU));
     let rest = angle - turns * TAU;
     if rest <= -PI { rest + TAU } else { rest }
 }
@@ -155,7 +159,7 @@ pub(crate) struct Angle {
 
 impl Angle {
     pub(crate) fn new(radians: f32) -> Self {
-        let quarters = libm::roundf(radians / FRAC_PI_2);
+        let quarters = libm::roundf(radians * FRAC_2_PI);
         Self {
             quarters: quarters as i32,
             rest: radians - quarters * FRAC_PI_2,
@@ -164,7 +168,7 @@ impl Angle {
 
     /// The value nearest to this one that equals `angle` modulo π/2, and by how many quarter turns it was moved.
     pub(crate) fn nearest(self, angle: f32) -> (Self, i32) {
-        let quarters = libm::roundf((self.rest - angle) / FRAC_PI_2) as i32;
+        let quarters = libm::roundf((self.rest - angle) * FRAC_2_PI) as i32;
         let rest = angle + quarters as f32 * FRAC_PI_2;
         let moved = Angle::new(rest);
         (

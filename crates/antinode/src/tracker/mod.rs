@@ -170,7 +170,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Solves the window gathered.
     #[inline(never)]
     fn estimate(&mut self) -> Option<Estimate> {
-        let fit = self.fit()?;
+        let mut fit = Fit::default();
+        self.fit(&mut fit);
         let model = self.model.as_ref()?;
         let half = model.half;
         let own = fit.remains.variance();
@@ -252,8 +253,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Solves for the waves, from the last clean frequency or the detector's.
-    fn fit(&mut self) -> Option<Fit> {
-        let model = self.model.as_mut()?;
+    fn fit(&mut self, fit: &mut Fit) {
+        let Some(model) = &mut self.model else {
+            return;
+        };
         let rough = DETECTOR_UNCERTAINTY * model.layout.step.radians();
         let (carrier, uncertainty) = match &self.before {
             None => (model.layout.step, rough),
@@ -272,11 +275,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             }
         };
         let blocks = self.gathered.blocks();
-        let fit = solve(model, blocks, carrier, uncertainty);
-        if fit.settled || uncertainty > 0.0 {
-            return Some(fit);
+        solve(model, blocks, carrier, uncertainty, fit);
+        if !fit.settled && uncertainty == 0.0 {
+            solve(model, blocks, carrier, rough, fit);
         }
-        Some(solve(model, blocks, carrier, rough))
     }
 
     /// Takes the share of a turning pattern out of the frequency, with what the angles of the windows before promise.

@@ -76,35 +76,35 @@ impl Record {
         angle: Angle,
         phase: f32,
     ) -> Self {
-        let half = model.half;
-        let squared = half * half;
+        let per_half = model.per_half;
+        let squared = per_half * per_half;
         Self {
             middle,
             samples: u32::from(model.blocks) * u32::from(model.layout.length),
             residual,
             carrier: model.carrier,
-            drift: wave.drift / half,
-            drift_variance: wave.drift_variance / squared,
+            drift: wave.drift * per_half,
+            drift_variance: wave.drift_variance * squared,
             angle,
             angle_variance: wave.angle_variance,
-            turning: wave.turning / half,
-            turning_variance: wave.turning_variance / squared,
+            turning: wave.turning * per_half,
+            turning_variance: wave.turning_variance * squared,
             phase,
             phase_variance: wave.phase_variance,
             main: wave.main,
             main_variance: wave.main_variance,
-            main_rate: wave.main_change / half,
-            main_rate_variance: wave.main_change_variance / squared,
+            main_rate: wave.main_change * per_half,
+            main_rate_variance: wave.main_change_variance * squared,
             quadrature: wave.quadrature,
             quadrature_variance: wave.quadrature_variance,
-            quadrature_rate: wave.quadrature_change / half,
-            quadrature_rate_variance: wave.quadrature_change_variance / squared,
+            quadrature_rate: wave.quadrature_change * per_half,
+            quadrature_rate_variance: wave.quadrature_change_variance * squared,
             channel_power: fit.channel_power(),
             channel_variance: wave.noise
                 * greater(model.covariance.even[0][0], model.covariance.odd[0][0]),
             offsets: fit.offsets,
             // A short window knows its offset worse than the mean of its samples.
-            offset_variance: 2.0 * wave.noise / half,
+            offset_variance: 2.0 * wave.noise * per_half,
         }
     }
 
@@ -112,6 +112,7 @@ impl Record {
     pub(crate) fn estimate(&self, units: &Units, flags: Flags) -> Estimate {
         let rate = units.sample_rate;
         let root = square_root;
+        let share = rate / self.main;
         Estimate {
             start: (self.middle + 1 - u64::from(self.samples)) / 2,
             samples: self.samples,
@@ -122,15 +123,15 @@ impl Record {
             phase: self.phase,
             frequency: self.carrier.hertz(self.drift, units.step),
             angle_rate: self.turning * rate,
-            decay_rate: -self.main_rate / self.main * rate,
+            decay_rate: -self.main_rate * share,
             offsets: self.offsets,
             main_amplitude_std: root(self.main_variance),
             quadrature_amplitude_std: root(self.quadrature_variance),
             angle_std: root(self.angle_variance),
             phase_std: root(self.phase_variance),
-            frequency_std: root(self.drift_variance) * rate / core::f32::consts::TAU,
+            frequency_std: root(self.drift_variance) * rate * (1.0 / core::f32::consts::TAU),
             angle_rate_std: root(self.turning_variance) * rate,
-            decay_rate_std: root(self.main_rate_variance) / self.main * rate,
+            decay_rate_std: root(self.main_rate_variance) * share,
             residual_rms: root(self.residual),
             flags,
         }

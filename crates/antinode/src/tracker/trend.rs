@@ -122,12 +122,13 @@ impl Trend {
             s2 - s3 * s3 * bent,
         );
         let (level_value, rate_value) = (v0 - s2 * v2 * bent, v1 - s3 * v2 * bent);
-        let known = rate - mixed * mixed / level;
-        let value = (rate_value - mixed * level_value / level) / known;
-        let window = samples as f32;
+        let shared = mixed / level;
+        // Of a rate a window: a rate a sample is so much less.
+        let per_sample = 2.0 * per_window;
+        let variance = 1.0 / (rate - mixed * shared);
         Rate {
-            value: value / window,
-            variance: 1.0 / (known * window * window),
+            value: (rate_value - level_value * shared) * variance * per_sample,
+            variance: variance * per_sample * per_sample,
         }
     }
 }

@@ -7,7 +7,7 @@ use super::waves::Waves;
 use crate::phase::Phase;
 
 /// Blocks from one exact exponential to the next; between them a recursion.
-pub(super) const CHUNK: usize = 10;
+pub(super) const CHUNK: usize = 5;
 
 /// One block's phasors.
 #[derive(Debug, Clone, Copy, Default)]
@@ -24,29 +24,24 @@ pub(super) struct Here {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Carrier<'a> {
     model: &'a Model,
-    /// What a block adds to the time.
-    pub advance: f32,
-    /// What a block does to the carrier.
-    pub turn: Turn,
     index: u16,
 }
 
 impl<'a> Carrier<'a> {
     pub(super) fn new(model: &'a Model) -> Self {
-        let block = 2 * i64::from(model.layout.length);
-        Self {
-            model,
-            advance: 2.0 / f32::from(model.blocks),
-            turn: Turn::by(model.carrier.after_half_samples(block)),
-            index: 0,
-        }
+        Self { model, index: 0 }
     }
 
     /// Time and carrier of the first block of the next [`CHUNK`], exactly.
     pub(super) fn next(&mut self) -> (f32, Complex32) {
         let index = self.index;
         self.index += CHUNK as u16;
-        (self.model.time(index), self.model.phase(index).unit())
+        let unit = if index == 0 {
+            self.model.first
+        } else {
+            self.model.phase(index).unit()
+        };
+        (self.model.time(index), unit)
     }
 }
 
@@ -58,7 +53,13 @@ pub(super) struct Turn {
 }
 
 impl Turn {
-    fn by(Phase(phase): Phase) -> Self {
+    /// None at all.
+    pub(super) const NONE: Self = Self {
+        whole: Complex32::ONE,
+        beyond: Complex32::ZERO,
+    };
+
+    pub(super) fn by(Phase(phase): Phase) -> Self {
         let whole = phase.wrapping_add(1 << 29) & (3 << 30);
         let rest = phase.wrapping_sub(whole);
         let whole = Phase(whole).unit();
@@ -100,10 +101,9 @@ pub(super) struct Course<'a> {
 
 impl<'a> Course<'a> {
     pub(super) fn new(model: &'a Model, waves: &'a Waves) -> Self {
-        let carrier = Carrier::new(model);
-        let turn = |slope: Complex32| carrier.turn.grown(growth(slope * carrier.advance));
+        let turn = |slope: Complex32| model.turn.grown(growth(slope * model.advance));
         Self {
-            carrier,
+            carrier: Carrier::new(model),
             waves,
             turns: waves.slope.map(turn),
         }
@@ -113,7 +113,7 @@ impl<'a> Course<'a> {
     #[inline(never)]
     pub(super) fn next(&mut self, here: &mut [Here]) {
         let waves = self.waves;
-        let Carrier { advance, turn, .. } = self.carrier;
+        let Model { advance, turn, .. } = *self.carrier.model;
         let (mut u, mut unit) = self.carrier.next();
         // Only residuals are turned by it: they have no digits to lose.
         let turn = turn.rounded();

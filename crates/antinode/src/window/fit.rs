@@ -72,7 +72,7 @@ impl Model {
     }
 }
 
-/// Solves a run of blocks from a carrier known to `uncertainty` rad a sample.
+/// Solves a run of blocks into `fit`, from a carrier known to `uncertainty` rad a sample.
 ///
 /// A carrier too rough for the whole window is first refined in its middle: a single jump to a long window would slip a turn.
 pub(crate) fn solve(
@@ -80,43 +80,39 @@ pub(crate) fn solve(
     blocks: &[Seen],
     mut carrier: PhaseStep,
     mut uncertainty: f32,
-) -> Fit {
+    fit: &mut Fit,
+) {
     let count = blocks.len() as u16;
     let length = f32::from(model.layout.length);
-    let shortest = count
-        .min((2.5 * carrier.period() / length) as u16 + 1)
-        .max(count.min(4));
-    let reach = |uncertainty: f32| {
-        let blocks = 1.0 / (uncertainty * length + 1e-9);
-        if blocks >= f32::from(count) {
-            count
-        } else {
-            (blocks as u16).max(shortest)
+    let reach = |carrier: PhaseStep, uncertainty: f32| {
+        let whole = uncertainty * length;
+        if whole * f32::from(count) <= 1.0 {
+            return count;
         }
+        let shortest = (2.5 * carrier.period() / length) as u16 + 1;
+        ((1.0 / whole) as u16).max(shortest.max(4)).min(count)
     };
-    let mut span = reach(uncertainty);
+    let mut span = reach(carrier, uncertainty);
     let mut moves = 0;
-    let mut fit = Fit::default();
     loop {
         model.retune(carrier, span);
         let skipped = usize::from((count - span) / 2);
         let part = blocks
             .get(skipped..skipped + usize::from(span))
             .unwrap_or(blocks);
-        model.fit(part, &mut fit);
+        model.fit(part, fit);
         let drift = fit.waves.drift();
         if span == count && (drift.abs() <= CARRIER_REACH || moves >= 4) {
-            return fit;
+            return;
         }
         if drift.abs() > 1.5 || !drift.is_finite() {
             // The wave is nowhere near: the caller sees a fit that did not settle.
             model.retune(carrier, count);
-            model.fit(blocks, &mut fit);
+            model.fit(blocks, fit);
             fit.settled = false;
-            return fit;
+            return;
         }
-        let half = model.half;
-        carrier = carrier.shifted(drift / half);
+        carrier = carrier.shifted(drift * model.per_half);
         if span == count {
             moves += 1;
             continue;
@@ -124,7 +120,7 @@ pub(crate) fn solve(
         // Four standard deviations of the frequency, from the bound.
         let noise = fit.remains.variance();
         let variance = 2.0 * noise * model.covariance.even[1][1] / fit.waves.power();
-        uncertainty = 4.0 * square_root(variance) / half;
-        span = reach(uncertainty).max(span + 1).min(count);
+        uncertainty = 4.0 * square_root(variance) * model.per_half;
+        span = reach(carrier, uncertainty).max(span + 1).min(count);
     }
 }

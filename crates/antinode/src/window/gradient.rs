@@ -60,14 +60,14 @@ impl Gradient {
 pub(super) fn of_sums(model: &Model, blocks: &[Seen]) -> [Gradient; 2] {
     let mut gradients = [Gradient::default(); 2];
     let mut carrier = Carrier::new(model);
-    let (half, turn) = (model.half, carrier.turn.rounded());
+    let (half, advance, turn) = (model.half, model.advance, model.turn.rounded());
     for chunk in blocks.chunks(CHUNK) {
         let (mut u, mut unit) = carrier.next();
         for block in chunk {
             for (gradient, sums) in gradients.iter_mut().zip(&block.whitened) {
                 gradient.take(&model.response, sums, u * half, unit);
             }
-            u += carrier.advance;
+            u += advance;
             unit *= turn;
         }
     }

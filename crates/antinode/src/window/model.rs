@@ -2,6 +2,7 @@
 
 use num_complex::Complex32;
 
+use super::course::Turn;
 use super::normal::{Covariance, Normal, PARAMETERS, Row};
 use super::response::{Basis, Response};
 use crate::block::Layout;
@@ -21,7 +22,12 @@ pub(crate) struct Model {
     pub(super) response: Response,
     /// Half the window, in samples, and one over it.
     pub half: f32,
-    pub(super) per_half: f32,
+    pub per_half: f32,
+    /// What a block adds to the time, and what it does to the carrier.
+    pub(super) advance: f32,
+    pub(super) turn: Turn,
+    /// The carrier in the middle of the first block.
+    pub(super) first: Complex32,
     /// Correction of the pick-offs at the carrier.
     pub correction: Correction,
     pub covariance: Covariance,
@@ -46,6 +52,9 @@ impl Model {
             basis,
             half: 0.0,
             per_half: 0.0,
+            advance: 0.0,
+            turn: Turn::NONE,
+            first: Complex32::ONE,
             correction: calibration.at(1.0 / carrier.period(), sample_rate),
             covariance: Covariance::default(),
         };
@@ -84,11 +93,10 @@ impl Model {
     /// Time of the middle of block `index`: −1 to 1 over the window.
     #[inline]
     pub(super) fn time(&self, index: u16) -> f32 {
-        self.twice_blocks(index) as f32 / f32::from(self.blocks)
+        0.5 * self.advance * self.twice_blocks(index) as f32
     }
 
     /// Phase of the carrier in the middle of block `index`, zero in the middle of the window.
-    #[inline]
     pub(super) fn phase(&self, index: u16) -> Phase {
         let half_samples = i64::from(self.twice_blocks(index)) * i64::from(self.layout.length);
         self.carrier.after_half_samples(half_samples)
@@ -119,6 +127,10 @@ impl Model {
     fn build(&mut self) {
         self.half = 0.5 * f32::from(self.blocks) * f32::from(self.layout.length);
         self.per_half = 1.0 / self.half;
+        self.advance = 2.0 / f32::from(self.blocks);
+        let block = 2 * i64::from(self.layout.length);
+        self.turn = Turn::by(self.carrier.after_half_samples(block));
+        self.first = self.phase(0).unit();
         let [mut even, mut odd] = [Normal::ZERO; 2];
         for index in 0..self.blocks {
             for [even_row, odd_row] in &self.rows(self.time(index), self.phase(index).unit()) {

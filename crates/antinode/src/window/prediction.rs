@@ -26,8 +26,8 @@ impl Gains {
 pub(super) struct Mixing {
     /// Of each pick-off, for each wave.
     factors: [[Complex32; 2]; 2],
-    /// z′/z of each wave, a sample.
-    slope: [Complex32; 2],
+    /// z′/z of each wave, a sample, and its square.
+    slope: [[Complex32; 2]; 2],
 }
 
 impl Mixing {
@@ -40,22 +40,25 @@ impl Mixing {
             factors[0][w] = c;
             factors[1][w] = d * (slope[w] * model.correction.delay + 1.0);
         }
-        Self { factors, slope }
+        Self {
+            factors,
+            slope: slope.map(|s| [s, s * s]),
+        }
     }
 
     /// The gains of each pick-off in a sum that is even in time: level·Re v₀ + slope·Im v₁ + curve·Re v₂.
     pub(super) fn even(&self, answer: &Answer) -> [Gains; 2] {
-        self.gains(self.slope.map(|s| {
+        self.gains(self.slope.map(|[s, square]| {
             let turned = Complex32::new(s.im, -s.re) * answer.slope;
-            turned + s * s * answer.curve + answer.level
+            turned + square * answer.curve + answer.level
         }))
     }
 
     /// The gains of each pick-off in a sum that is odd in time: level·Im v₀ + slope·Re v₁ + curve·Im v₂.
     pub(super) fn odd(&self, answer: &Answer) -> [Gains; 2] {
-        self.gains(self.slope.map(|s| {
+        self.gains(self.slope.map(|[s, square]| {
             let turned = Complex32::new(-s.im, s.re) * answer.slope;
-            let gain = turned + s * s * answer.curve + answer.level;
+            let gain = turned + square * answer.curve + answer.level;
             // The imaginary part of a number is the real part of −j times it.
             Complex32::new(gain.im, -gain.re)
         }))

@@ -82,7 +82,7 @@ impl Waves {
             let power = value[w].norm_sqr();
             let steady = change[w].norm_sqr() < 0.25 * power;
             if steady {
-                change[w] * value[w].conj() / power
+                change[w] * value[w].conj() * (1.0 / power)
             } else {
                 Complex32::ZERO
             }

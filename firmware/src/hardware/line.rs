@@ -119,12 +119,10 @@ fn dma() -> DMA2 {
 /// True once the stream has ended, by its last byte or by an error; clears its flags.
 fn sent() -> bool {
     let dma = dma();
-    let status = dma.hisr().read();
-    let ended = status.tcif7().bit_is_set() || status.teif7().bit_is_set();
-    if ended {
-        clear(&dma);
-    }
-    ended
+    // First the flags: should it end right after, its interrupt comes again.
+    clear(&dma);
+    // CR.EN: the stream clears it at its end.
+    dma.st(7).cr().read().en().bit_is_clear()
 }
 
 /// HIFCR: forgets what stream 7 has done.

@@ -5,13 +5,16 @@ use super::difference::FRAME;
 use crate::sample::Sample;
 
 /// Samples tried in one call, an even number.
-const STRIDE: usize = 16;
+const STRIDE: usize = 12;
+/// Samples tried in a call that also judges.
+const LAST: usize = 4;
 
 /// A copy of a frame under trial, which the stream meanwhile overwrites.
 #[derive(Debug, Clone)]
 pub(super) struct Attempt<S: Sample> {
     frame: [[S; 2]; FRAME],
     length: usize,
+    period: f32,
     /// Samples seen in this pass.
     seen: usize,
     trial: Trial,
@@ -31,28 +34,32 @@ impl<S: Sample> Attempt<S> {
         Self {
             frame: [[S::default(); 2]; FRAME],
             length: 0,
+            period: 4.0,
             seen: 0,
             trial: Trial::new(4.0, 0),
             doubt: None,
         }
     }
 
-    /// Begins an attempt at a wave of `period` samples in the first `length` of `frame`, an even number. The first samples are tried
-    /// at once, but nothing is judged: that takes as long again.
+    /// Begins an attempt at a wave of `period` samples in the first `length` of `frame`, an even number. Nothing is tried yet: to
+    /// find the frame took long enough.
     pub(super) fn begin(&mut self, frame: &[[S; 2]; FRAME], length: usize, period: f32) {
         self.frame = *frame;
         self.length = length;
+        self.period = period;
         self.seen = 0;
-        self.trial = Trial::new(period, length);
         self.doubt = None;
-        self.try_some();
     }
 
     /// Goes on by a few samples.
     pub(super) fn advance(&mut self) -> Verdict {
         if self.doubt.is_none() {
+            let from = self.seen;
+            if from == 0 {
+                self.trial = Trial::new(self.period, self.length);
+            }
             self.try_some();
-            return if self.trial.is_whole() {
+            return if self.seen == self.length && self.seen - from <= LAST {
                 self.judge()
             } else {
                 Verdict::Open

@@ -22,10 +22,12 @@ const FOUND: core::ops::RangeInclusive<f32> = 3.5..=9.6;
 /// Power lost by halving beyond the wave's own, as a share of the wave's: noise of 20 % loses 0.2.
 const STRANGER: f32 = 0.4;
 /// Periods that a frame must hold before it is tried.
-const HELD: f32 = 2.4;
+const HELD: f32 = 2.23;
 /// Samples of a frame before its D(T) is looked at, and while it is looked at with every second one; later with every fourth.
 const LEAST: usize = 10;
 const OFTEN: usize = 22;
+/// Octaves that take two samples into their D(T) in one call; what is left for higher ones waits for the next.
+const AT_ONCE: usize = 2;
 /// Octaves whose D(T) is looked at in one call.
 const LOOKS: usize = 2;
 
@@ -104,6 +106,11 @@ impl<S: Sample> Octave<S> {
     fn period(&self) -> Option<f32> {
         let shift = S::shift(&self.differences);
         let level = |lag: usize| S::level(self.differences[lag - 1], shift, self.count - lag);
+        // Of a wave beyond this octave D(1) is next to nothing: above a fourteenth of D(7) within it, below at 13 samples and more.
+        let sixteenth = S::halved(S::halved(S::halved(S::halved(level(7)))));
+        if level(1) < sixteenth {
+            return None;
+        }
         // A minimum lies within 0.6 of its lag: beyond these the frame cannot hold enough of it.
         let most = ((5 * self.count + 7) / 12).min(LAGS - 1);
         let (mut before, mut here) = (level(1), level(2));
@@ -175,6 +182,9 @@ pub struct DifferenceDetector<S: Sample> {
     octaves: [Octave<S>; OCTAVES],
     /// The octaves whose D(T) is still to be looked at, as bits: those of the next call, long before their next sample.
     due: u8,
+    /// The octave that is to take a sample in the next call, where it is not 0, and the sample.
+    waiting: usize,
+    sample: [S; 2],
     candidate: Candidate<S>,
 }
 
@@ -184,6 +194,8 @@ impl<S: Sample> DifferenceDetector<S> {
         Self {
             octaves: core::array::from_fn(|_| Octave::new()),
             due: 0,
+            waiting: 0,
+            sample: [S::default(); 2],
             candidate: Candidate {
                 is_open: false,
                 attempt: Attempt::new(),
@@ -197,6 +209,7 @@ impl<S: Sample> DifferenceDetector<S> {
     pub fn restart(&mut self) {
         self.candidate.is_open = false;
         self.due = 0;
+        self.waiting = 0;
         for octave in &mut self.octaves {
             octave.restart();
         }
@@ -204,13 +217,11 @@ impl<S: Sample> DifferenceDetector<S> {
 
     /// Takes a sample pair; gives the period in samples once it is sure.
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<f32> {
-        let mut sample = pair.pair().map(S::search_form);
-        for (halvings, octave) in self.octaves.iter_mut().enumerate() {
-            let Some(next) = octave.push(sample) else {
-                break;
-            };
-            sample = next;
-            self.due |= u8::from(octave.is_due()) << halvings;
+        // Higher octaves wait at every fourth pair at most, and are done before the next that could wait.
+        let (waiting, sample) = (self.waiting, self.sample);
+        let left = self.take(0, pair.pair().map(S::search_form), AT_ONCE);
+        if waiting > 0 {
+            self.go_on(waiting, sample, left);
         }
         if self.candidate.is_open {
             self.due = 0;
@@ -220,6 +231,32 @@ impl<S: Sample> DifferenceDetector<S> {
             self.look();
         }
         None
+    }
+
+    /// Gives a sample to an octave, its mean with the one before to the next octave, and so on while some are `left`; gives how many
+    /// then are.
+    #[inline(always)]
+    fn take(&mut self, from: usize, mut sample: [S; 2], mut left: usize) -> usize {
+        for (halvings, octave) in self.octaves.iter_mut().enumerate().skip(from) {
+            if left == 0 {
+                (self.waiting, self.sample) = (halvings, sample);
+                break;
+            }
+            let Some(next) = octave.push(sample) else {
+                break;
+            };
+            sample = next;
+            self.due |= u8::from(octave.is_due()) << halvings;
+            left -= 1;
+        }
+        left
+    }
+
+    /// Goes on with the sample that waited.
+    #[inline(never)]
+    fn go_on(&mut self, waiting: usize, sample: [S; 2], left: usize) {
+        self.waiting = 0;
+        self.take(waiting, sample, left);
     }
 
     /// Looks at D(T) of the first octaves that are due.

@@ -70,7 +70,7 @@ macro_rules! arithmetic {
             // SAFETY: the state is there, and this thread alone uses it.
             unsafe {
                 assert_eq!($init(state, &settings), Status::Ok);
-                // Short pieces: the loss of a wave is heard of at the same sample as in one thread.
+                // One by one: the loss of a wave is heard of at the same sample as in one thread.
                 let run = |name: &str, feed: &dyn Fn(usize) -> Status, step: usize| {
                     assert_eq!($reset(state), Status::Ok);
                     let (mut all, mut estimate) = (Vec::new(), MaybeUninit::uninit());
@@ -90,8 +90,8 @@ macro_rules! arithmetic {
                 run("separate", &|at| $block(state, &c[at], &d[at], 1), 1);
                 run(
                     "interleaved",
-                    &|at| $interleaved(state, pairs[at..].as_ptr().cast(), 2),
-                    2,
+                    &|at| $interleaved(state, pairs[at..].as_ptr().cast(), 1),
+                    1,
                 );
                 run("packed", &|at| $packed(state, &words[at], 1), 1);
 

@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::block::Layout;
 use crate::calibration::Calibration;
-use crate::order::{greater, lesser};
+use crate::order::lesser;
 use crate::phase::PhaseStep;
 
 /// How the period is found from cold.
@@ -192,24 +192,31 @@ impl Settings {
         let window = period * f32::from(self.periods);
         let longest = lesser(LONGEST_BLOCK * period, window / BLOCKS_A_WINDOW);
         let mut length = if self.hop.is_some() {
-            libm::roundf(0.5 * longest)
+            rounded(0.5 * longest)
         } else if longest < 16.0 {
-            libm::roundf(longest)
+            rounded(longest)
         } else {
             // Samples are summed in twos.
-            2.0 * libm::roundf(0.5 * longest)
+            2 * rounded(0.5 * longest)
         };
-        let off = |length: f32| (libm::roundf(window / length) * length - window).abs();
-        while length > 1.0 && off(length) > NEAR * window {
-            length -= 1.0;
+        let off = |length: u16| {
+            let blocks = rounded(window / f32::from(length));
+            (u32::from(blocks) * u32::from(length)) as f32 - window
+        };
+        while length > 1 && off(length).abs() > NEAR * window {
+            length -= 1;
         }
-        let length = greater(length, 1.0) as u16;
-        Layout::new::<f32>(PhaseStep::from_period(period), length.min(most))
+        Layout::new::<f32>(PhaseStep::from_period(period), length.min(most).max(1))
     }
 
     /// How many blocks of `layout` come nearest to a window.
     pub fn blocks(&self, layout: Layout) -> u16 {
         let window = layout.step.period() * f32::from(self.periods);
-        libm::roundf(window / f32::from(layout.length)) as u16
+        rounded(window / f32::from(layout.length))
     }
+}
+
+/// The nearest whole number, of numbers from 0 to 65 535.
+fn rounded(x: f32) -> u16 {
+    (x + 0.5) as u16
 }

@@ -7,7 +7,7 @@ use crate::sample::Sample;
 /// Samples tried in one call, an even number.
 const STRIDE: usize = 12;
 /// Samples tried in a call that also judges.
-const LAST: usize = 4;
+const LAST: usize = 2;
 
 /// A copy of a frame under trial, which the stream meanwhile overwrites.
 #[derive(Debug, Clone)]
@@ -36,7 +36,7 @@ impl<S: Sample> Attempt<S> {
             length: 0,
             period: 4.0,
             seen: 0,
-            trial: Trial::new(4.0, 0),
+            trial: Trial::NONE,
             doubt: None,
         }
     }

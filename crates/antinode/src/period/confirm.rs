@@ -124,19 +124,35 @@ pub(crate) struct Fitted {
 }
 
 impl Trial {
+    /// A trial of no samples.
+    pub(crate) const NONE: Self = Self {
+        step: PhaseStep(0),
+        length: 0,
+        count: 0,
+        sums: Sums {
+            row: Row {
+                unit: Complex32::ZERO,
+                turn: Complex32::ZERO,
+                u: 0.0,
+                advance: 0.0,
+            },
+            even: [0.0; 5],
+            gradient: [[0.0; 5]; 2],
+            square: 0.0,
+        },
+    };
+
     /// A trial of `period` samples over a stretch of `length`.
     pub(crate) fn new(period: f32, length: usize) -> Self {
         let step = PhaseStep::from_period(period);
         Self {
             step,
             length,
-            count: 0,
             sums: Sums {
                 row: Row::new(step, length),
-                even: [0.0; 5],
-                gradient: [[0.0; 5]; 2],
-                square: 0.0,
+                ..Self::NONE.sums
             },
+            ..Self::NONE
         }
     }
 
@@ -149,6 +165,7 @@ impl Trial {
     }
 
     /// True when all samples are taken.
+    #[cfg(feature = "mean-return")]
     pub(crate) fn is_whole(&self) -> bool {
         self.count >= self.length
     }

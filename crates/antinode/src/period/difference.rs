@@ -22,20 +22,16 @@ const FOUND: core::ops::RangeInclusive<f32> = 3.5..=9.6;
 /// Power lost by halving beyond the wave's own, as a share of the wave's: noise of 20 % loses 0.2.
 const STRANGER: f32 = 0.4;
 /// Periods that a frame must hold before it is tried.
-const HELD: f32 = 2.23;
+const HELD: f32 = 2.2;
 /// Samples of a frame before its D(T) is looked at, and while it is looked at with every second one; later with every fourth.
 const LEAST: usize = 10;
 const OFTEN: usize = 22;
-/// Octaves that take two samples into their D(T) in one call; what is left for higher ones waits for the next.
-const AT_ONCE: usize = 2;
-/// Octaves whose D(T) is looked at in one call.
-const LOOKS: usize = 2;
 
 /// D(1)…D(10), not yet divided by the count of pairs in each.
 pub(crate) type Lags<S> = [<S as Sample>::Square; LAGS];
 
 /// One octave of the stream: a frame of samples and its D(T).
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 struct Octave<S: Sample> {
     frame: [[S; 2]; FRAME],
     /// Samples in the frame; of an odd count the last is not in D(T) yet.
@@ -157,17 +153,16 @@ impl<S: Sample> Candidate<S> {
     /// The period in samples of the stream, where halving took little of the wave found: it takes all of a faster one that folds
     /// down to the same period or hides it.
     fn accept(&self, period: f32, power: f32) -> Option<f32> {
-        let mut kept = 1.0;
-        let mut scale = 1.0;
-        let mut turn = core::f32::consts::PI / period;
-        for _ in 0..self.halvings {
-            turn *= 0.5;
-            scale *= 2.0;
-            let cosine = Phase::from_radians(turn).unit().re;
-            kept *= cosine * cosine;
-        }
-        let is_whole = self.lost < power * (1.0 / kept - 1.0 + STRANGER);
+        let scale = (1u32 << self.halvings.min(OCTAVES)) as f32;
         let found = period * scale;
+        // cos ½t cos ¼t … is sin t over all halvings of t and the sine of what is left: a small angle.
+        let turn = core::f32::consts::PI / period;
+        let rest = turn / scale;
+        let square = rest * rest;
+        let least = turn * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));
+        let whole = Phase::from_radians(turn).unit().im;
+        let kept = whole * whole / (least * least);
+        let is_whole = self.lost < power * (1.0 / kept - 1.0 + STRANGER);
         (is_whole && FOUND.contains(&period) && PERIODS.contains(&found)).then_some(found)
     }
 }
@@ -180,11 +175,11 @@ impl<S: Sample> Candidate<S> {
 #[derive(Debug, Clone)]
 pub struct DifferenceDetector<S: Sample> {
     octaves: [Octave<S>; OCTAVES],
-    /// The octaves whose D(T) is still to be looked at, as bits: those of the next call, long before their next sample.
+    /// The octaves whose D(T) is still to be looked at, as bits.
     due: u8,
-    /// The octave that is to take a sample in the next call, where it is not 0, and the sample.
-    waiting: usize,
-    sample: [S; 2],
+    /// The octaves that are still to take a sample, as bits, and their samples.
+    waiting: u8,
+    samples: [[S; 2]; OCTAVES],
     candidate: Candidate<S>,
 }
 
@@ -192,10 +187,10 @@ impl<S: Sample> DifferenceDetector<S> {
     /// A detector at rest.
     pub fn new() -> Self {
         Self {
-            octaves: core::array::from_fn(|_| Octave::new()),
+            octaves: [Octave::new(); OCTAVES],
             due: 0,
             waiting: 0,
-            sample: [S::default(); 2],
+            samples: [[S::default(); 2]; OCTAVES],
             candidate: Candidate {
                 is_open: false,
                 attempt: Attempt::new(),
@@ -216,12 +211,16 @@ impl<S: Sample> DifferenceDetector<S> {
     }
 
     /// Takes a sample pair; gives the period in samples once it is sure.
+    ///
+    /// In one call one octave at most takes samples into its D(T) and one is looked at, the lowest first: an octave has half of the
+    /// work of the one below, so all of them are done before their next samples come.
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<f32> {
-        // Higher octaves wait at every fourth pair at most, and are done before the next that could wait.
-        let (waiting, sample) = (self.waiting, self.sample);
-        let left = self.take(0, pair.pair().map(S::search_form), AT_ONCE);
-        if waiting > 0 {
-            self.go_on(waiting, sample, left);
+        let [first, ..] = &mut self.octaves;
+        if let Some(next) = first.push(pair.pair().map(S::search_form)) {
+            let is_due = first.is_due();
+            self.rise(0, is_due, next);
+        } else if self.waiting > 0 {
+            self.halve();
         }
         if self.candidate.is_open {
             self.due = 0;
@@ -233,44 +232,42 @@ impl<S: Sample> DifferenceDetector<S> {
         None
     }
 
-    /// Gives a sample to an octave, its mean with the one before to the next octave, and so on while some are `left`; gives how many
-    /// then are.
+    /// Keeps the sample that an octave gives to the next.
     #[inline(always)]
-    fn take(&mut self, from: usize, mut sample: [S; 2], mut left: usize) -> usize {
-        for (halvings, octave) in self.octaves.iter_mut().enumerate().skip(from) {
-            if left == 0 {
-                (self.waiting, self.sample) = (halvings, sample);
-                break;
-            }
-            let Some(next) = octave.push(sample) else {
-                break;
-            };
-            sample = next;
-            self.due |= u8::from(octave.is_due()) << halvings;
-            left -= 1;
+    fn rise(&mut self, halvings: usize, is_due: bool, sample: [S; 2]) {
+        self.due |= u8::from(is_due) << halvings;
+        if let Some(place) = self.samples.get_mut(halvings + 1) {
+            *place = sample;
+            self.waiting |= 2 << halvings;
         }
-        left
     }
 
-    /// Goes on with the sample that waited.
+    /// Gives the samples that wait to their octaves, up to the first that takes two of them into its D(T).
     #[inline(never)]
-    fn go_on(&mut self, waiting: usize, sample: [S; 2], left: usize) {
-        self.waiting = 0;
-        self.take(waiting, sample, left);
-    }
-
-    /// Looks at D(T) of the first octaves that are due.
-    #[inline(never)]
-    fn look(&mut self) {
-        for _ in 0..LOOKS {
-            let halvings = self.due.trailing_zeros() as usize;
-            let Some(octave) = self.octaves.get(halvings) else {
+    fn halve(&mut self) {
+        while self.waiting > 0 {
+            let halvings = self.waiting.trailing_zeros() as usize;
+            self.waiting &= self.waiting - 1;
+            let (Some(octave), Some(&sample)) =
+                (self.octaves.get_mut(halvings), self.samples.get(halvings))
+            else {
                 return;
             };
-            if let Some(period) = octave.period() {
-                return self.propose(halvings, period);
+            if let Some(next) = octave.push(sample) {
+                let is_due = octave.is_due();
+                return self.rise(halvings, is_due, next);
             }
-            self.due &= self.due - 1;
+        }
+    }
+
+    /// Looks at D(T) of the first octave that is due.
+    #[inline(never)]
+    fn look(&mut self) {
+        let halvings = self.due.trailing_zeros() as usize;
+        self.due &= self.due - 1;
+        let octave = self.octaves.get(halvings);
+        if let Some(period) = octave.and_then(Octave::period) {
+            self.propose(halvings, period);
         }
     }
 

@@ -157,8 +157,8 @@ fn sums_of_codes_are_exact_at_full_scale() {
             .map(|(&a, &b)| (centred(a), centred(b)))
     };
     assert_eq!(delayed.cd, pairs().map(|(a, b)| a[0] * b[1]).sum::<f64>());
-    assert_eq!(delayed.cc, pairs().map(|(a, b)| a[0] * b[0]).sum::<f64>());
-    assert_eq!(delayed.dd, pairs().map(|(a, b)| a[1] * b[1]).sum::<f64>());
+    let own = |(a, b): ([f64; 2], [f64; 2])| a[0] * b[0] + a[1] * b[1];
+    assert_eq!(delayed.own, pairs().map(own).sum::<f64>());
     assert!(moments.cc > 40_000.0 * 5.0e8);
 }
 

@@ -247,6 +247,16 @@ fn main() -> ! {
             }),
         ),
         (
+            "add_delayed",
+            on_words(random, |a, b, sum| {
+                let sums = [
+                    (i64::from(sum) << 31) ^ i64::from(a as i32),
+                    i64::from(!sum as i32),
+                ];
+                arch::add_delayed(sums, a, b) == portable::add_delayed(sums, a, b)
+            }),
+        ),
+        (
             "square_root",
             FLOATS.iter().all(|&bits| same_root(bits))
                 && (0..WORDS).all(|_| same_root(random.word())),

@@ -43,6 +43,21 @@ pub fn add_products(sums: [i64; 3], a: u32, b: u32) -> [i64; 3] {
     core::array::from_fn(|i| ((u64::from(high[i]) << 32) | u64::from(low[i])) as i64)
 }
 
+/// SMLALD and SMLALBT.
+#[inline(always)]
+pub fn add_delayed(sums: [i64; 2], a: u32, b: u32) -> [i64; 2] {
+    let mut low = sums.map(|sum| sum as u32);
+    let mut high = sums.map(|sum| (sum >> 32) as u32);
+    // SAFETY: reads and writes the named registers only.
+    unsafe {
+        asm!("smlald {l0}, {h0}, {a}, {b}", "smlalbt {l1}, {h1}, {a}, {b}",
+            l0 = inout(reg) low[0], h0 = inout(reg) high[0], l1 = inout(reg) low[1], h1 = inout(reg) high[1],
+            a = in(reg) a, b = in(reg) b,
+            options(pure, nomem, nostack, preserves_flags));
+    }
+    core::array::from_fn(|i| ((u64::from(high[i]) << 32) | u64::from(low[i])) as i64)
+}
+
 /// QSUB16.
 #[inline(always)]
 pub fn limited_difference(a: u32, b: u32) -> u32 {

@@ -19,13 +19,13 @@ pub mod portable;
 
 #[cfg(has_dsp)]
 pub use dsp::{
-    add_pairs, add_products, dual_multiply_add, half_difference, half_sum, limited_difference,
-    watch_pairs,
+    add_delayed, add_pairs, add_products, dual_multiply_add, half_difference, half_sum,
+    limited_difference, watch_pairs,
 };
 #[cfg(not(has_dsp))]
 pub use portable::{
-    add_pairs, add_products, dual_multiply_add, half_difference, half_sum, limited_difference,
-    watch_pairs,
+    add_delayed, add_pairs, add_products, dual_multiply_add, half_difference, half_sum,
+    limited_difference, watch_pairs,
 };
 
 #[cfg(has_vsqrt)]
@@ -47,6 +47,10 @@ mod tests {
         assert_eq!(limited_difference(least, 0x0001_ffff), 0x8000_8001);
         assert_eq!(half_sum(0x0001_ffff, 0x0000_0000), 0x0000_ffff);
         assert_eq!(dual_multiply_add(least, least, 5), 5 + (1 << 31));
+        assert_eq!(
+            add_delayed([i64::MIN, -1], least, 0x7fff_8000),
+            [i64::MIN + 32_768, -1 - 32_768 * 32_767]
+        );
         assert_eq!(
             add_products([1, i64::MAX, -1], least, 0x7fff_8000),
             [

@@ -42,6 +42,13 @@ pub fn add_products(sums: [i64; 3], a: u32, b: u32) -> [i64; 3] {
     ]
 }
 
+/// Adds low·low + high·high, and low·high, of two words of signed halves to two sums, wrapping.
+#[inline(always)]
+pub fn add_delayed(sums: [i64; 2], a: u32, b: u32) -> [i64; 2] {
+    let [low, high, mixed] = add_products([sums[0], 0, sums[1]], a, b);
+    [low.wrapping_add(high), mixed]
+}
+
 /// The square root, correctly rounded; NaN below zero.
 #[inline(always)]
 pub fn square_root(x: f32) -> f32 {

@@ -33,7 +33,7 @@ pub fn choose_lag(pairs: &[Pair], start: usize, near: u16) -> u16 {
     let mut best = (f64::INFINITY, near.max(1));
     for lag in near.saturating_sub(1).max(1)..=near.saturating_add(1) {
         let delayed = Delayed::of(pairs, start, lag);
-        let size = ((delayed.cc + delayed.dd) / f64::from(delayed.count)).abs();
+        let size = (delayed.own / f64::from(delayed.count)).abs();
         if size < best.0 {
             best = (size, lag);
         }

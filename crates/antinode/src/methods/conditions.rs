@@ -93,7 +93,7 @@ pub(super) fn of_delay(
     let deviation = |variance: f64| libm::sqrt(variance + rest * rest) / sine.abs();
 
     let at_quarter = |sums: &Sums| {
-        let sum = (sums.delayed.cc + sums.delayed.dd) / f64::from(sums.delayed.count);
+        let sum = sums.delayed.own / f64::from(sums.delayed.count);
         (sum - sums.moments.power() * cosine) / sine
     };
     let delay = (at_quarter(found) - at_quarter(expected)) / deviation(own);

@@ -13,10 +13,8 @@ pub struct Delayed {
     pub count: u32,
     /// Σ S_C(t) S_D(t − t₃), input units squared.
     pub cd: f64,
-    /// Σ S_C(t) S_C(t − t₃), which (17) wants to vanish.
-    pub cc: f64,
-    /// Σ S_D(t) S_D(t − t₃), which (17) wants to vanish.
-    pub dd: f64,
+    /// Σ S_C(t) S_C(t − t₃) + S_D(t) S_D(t − t₃), which (17) wants to vanish.
+    pub own: f64,
 }
 
 impl Delayed {
@@ -28,18 +26,17 @@ impl Delayed {
         let before = pairs.get(from - shift..).unwrap_or(&[]);
         let mut sums = Default::default();
         for (&now, &before) in now.iter().zip(before) {
-            f32::add_products(&mut sums, now, before);
+            f32::add_delayed(&mut sums, now, before);
         }
-        Self::new(lag, now.len() as u32, f32::products(sums))
+        Self::new(lag, now.len() as u32, f32::delayed(sums))
     }
 
-    fn new(lag: u16, count: u32, [cc, dd, cd]: [f64; 3]) -> Self {
+    fn new(lag: u16, count: u32, [own, cd]: [f64; 2]) -> Self {
         Self {
             lag,
             count,
             cd,
-            cc,
-            dd,
+            own,
         }
     }
 
@@ -49,8 +46,7 @@ impl Delayed {
             lag: self.lag,
             count: self.count + other.count,
             cd: self.cd + other.cd,
-            cc: self.cc + other.cc,
-            dd: self.dd + other.dd,
+            own: self.own + other.own,
         }
     }
 
@@ -71,11 +67,11 @@ impl Delayed {
 
     /// How far (17) is from zero: ⟨S(t) S(t − t₃)⟩ over both pick-offs, as a share of ⟨S_C² + S_D²⟩; it is about cos ωt₃.
     pub fn imbalance(&self, moments: &Moments) -> f64 {
-        (self.cc + self.dd) / f64::from(self.count) / moments.power()
+        self.own / f64::from(self.count) / moments.power()
     }
 }
 
-/// Gathers [`Delayed`] at sample rate: as much work as [`MomentSums`](super::MomentSums), and a delay line of up to `LAGS` pairs.
+/// Gathers [`Delayed`] at sample rate: about as much work as [`MomentSums`](super::MomentSums), and a delay line of up to `LAGS` pairs.
 ///
 /// A quarter of the longest period, 200 samples, takes 50.
 #[derive(Debug, Clone)]
@@ -88,7 +84,7 @@ pub struct DelayedSums<const LAGS: usize, S: Sample = f32> {
     /// Pairs in the line, up to the lag.
     filled: u16,
     count: u32,
-    sums: S::Products,
+    sums: S::Delayed,
 }
 
 impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
@@ -102,7 +98,7 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
             place: 0,
             filled: 0,
             count: 0,
-            sums: S::Products::default(),
+            sums: S::Delayed::default(),
         }
     }
 
@@ -122,7 +118,7 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
             self.filled += 1;
             return;
         }
-        S::add_products(&mut self.sums, now, before);
+        S::add_delayed(&mut self.sums, now, before);
         self.count += 1;
     }
 
@@ -131,20 +127,29 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
     pub fn extend<P: SamplePair<S>>(&mut self, pairs: &[P]) {
         let lag = usize::from(self.lag);
         let (first, rest) = pairs.split_at_checked(lag).unwrap_or((pairs, &[]));
-        for &pair in first {
-            self.push(pair);
+        let is_in_order = self.place == 0 && self.filled == self.lag;
+        if rest.is_empty() || !is_in_order {
+            for &pair in first {
+                self.push(pair);
+            }
         }
         if rest.is_empty() {
             return;
         }
         let (offsets, mut sums) = (self.offsets, self.sums);
+        if is_in_order {
+            for (pair, &before) in first.iter().zip(&self.line) {
+                S::add_delayed(&mut sums, S::centred(pair.pair(), offsets), before);
+            }
+            self.count += u32::from(self.lag);
+        }
         let mut add = |now: P, before: P| {
             let [now, before] = [now, before].map(|pair| S::centred(pair.pair(), offsets));
-            S::add_products(&mut sums, now, before);
+            S::add_delayed(&mut sums, now, before);
         };
-        // In fours: the loop itself costs as much as a pair.
-        let (now, now_rest) = rest.as_chunks::<4>();
-        let (before, _) = pairs.as_chunks::<4>();
+        // In eights: the loop itself costs as much as a pair.
+        let (now, now_rest) = rest.as_chunks::<8>();
+        let (before, _) = pairs.as_chunks::<8>();
         for (now, before) in now.iter().zip(before) {
             for (&now, &before) in now.iter().zip(before) {
                 add(now, before);
@@ -164,7 +169,7 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
 
     /// The products since the last call; the sums start anew, the line goes on.
     pub fn take(&mut self) -> Delayed {
-        let sums = S::products(core::mem::take(&mut self.sums));
+        let sums = S::delayed(core::mem::take(&mut self.sums));
         Delayed::new(self.lag, core::mem::take(&mut self.count), sums)
     }
 

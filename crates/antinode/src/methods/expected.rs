@@ -88,8 +88,7 @@ impl Delayed {
             lag,
             count,
             cd: product(0, 1),
-            cc: product(0, 0),
-            dd: product(1, 1) + n * noise.delayed,
+            own: product(0, 0) + product(1, 1) + n * noise.delayed,
         }
     }
 }

@@ -7,7 +7,7 @@
 //! | sums of a window | gathered by | a sample costs | used by |
 //! |---|---|---|---|
 //! | [`Moments`]: ⟨S_C²⟩, ⟨S_D²⟩, ⟨S_C S_D⟩ | [`MomentSums`] | 3 products: of f32, each with a compensated addition of 4 operations; of codes, added exactly | 1, 2, 3 |
-//! | [`Delayed`]: ⟨S_C(t) S_D(t − t₃)⟩ and (17) | [`DelayedSums`] | the same 3 again, and a delay line | 2, sign of 3 |
+//! | [`Delayed`]: ⟨S_C(t) S_D(t − t₃)⟩ and (17) | [`DelayedSums`] | 3 again, two of them added together, and a delay line | 2, sign of 3 |
 //! | [`Products`]: CC, CS, DC, DS of (14) | the [`block`](crate::block)s of the demodulator | nothing more | phases, 4 |
 //! | [`Ratio`]: ⟨S_D/S_C⟩ of (13) | itself | one division | (13) only |
 //!

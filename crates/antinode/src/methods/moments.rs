@@ -77,7 +77,7 @@ impl<S: Sample> MomentSums<S> {
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) {
         let pair = S::centred(pair.pair(), self.offsets);
-        S::add_products(&mut self.sums, pair, pair);
+        S::add_products(&mut self.sums, pair);
         self.count += 1;
     }
 
@@ -87,12 +87,12 @@ impl<S: Sample> MomentSums<S> {
         let (offsets, mut sums) = (self.offsets, self.sums);
         let mut add = |pair: P| {
             let pair = S::centred(pair.pair(), offsets);
-            S::add_products(&mut sums, pair, pair);
+            S::add_products(&mut sums, pair);
         };
-        // In fours: the loop itself costs as much as a pair.
-        let (fours, rest) = pairs.as_chunks::<4>();
-        for &four in fours {
-            four.into_iter().for_each(&mut add);
+        // In eights: the loop itself costs as much as a pair.
+        let (eights, rest) = pairs.as_chunks::<8>();
+        for eight in eights {
+            eight.iter().copied().for_each(&mut add);
         }
         rest.iter().copied().for_each(add);
         self.sums = sums;

@@ -25,9 +25,10 @@ impl Sample for i16 {
     type Third = u32;
     type Runs = ();
     type Square = u32;
-    // A word of two. Products are at most 2³⁰: 2³³ of them stay below 2⁶³.
+    // A word of two. Products are at most 2³⁰, two of them 2³¹: 2³² stay below 2⁶³.
     type Centred = u32;
     type Products = [i64; 3];
+    type Delayed = [i64; 2];
     type Level = u32;
 
     const WATCHED_AT_ONCE: u16 = 32;
@@ -106,11 +107,20 @@ impl Sample for i16 {
     }
 
     #[inline(always)]
-    fn add_products(sums: &mut [i64; 3], now: u32, before: u32) {
-        *sums = arch::add_products(*sums, now, before);
+    fn add_products(sums: &mut [i64; 3], pair: u32) {
+        *sums = arch::add_products(*sums, pair, pair);
+    }
+
+    #[inline(always)]
+    fn add_delayed(sums: &mut [i64; 2], now: u32, before: u32) {
+        *sums = arch::add_delayed(*sums, now, before);
     }
 
     fn products(sums: [i64; 3]) -> [f64; 3] {
+        sums.map(|sum| sum as f64)
+    }
+
+    fn delayed(sums: [i64; 2]) -> [f64; 2] {
         sums.map(|sum| sum as f64)
     }
 

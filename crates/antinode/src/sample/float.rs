@@ -14,6 +14,7 @@ impl Sample for f32 {
     type Square = f32;
     type Centred = [f32; 2];
     type Products = [Sum; 3];
+    type Delayed = [Sum; 2];
     type Level = f32;
 
     const WATCHED_AT_ONCE: u16 = 14;
@@ -94,13 +95,23 @@ impl Sample for f32 {
     }
 
     #[inline(always)]
-    fn add_products(sums: &mut [Sum; 3], [c, d]: [f32; 2], before: [f32; 2]) {
-        sums[0].add(c * before[0]);
-        sums[1].add(d * before[1]);
-        sums[2].add(c * before[1]);
+    fn add_products(sums: &mut [Sum; 3], [c, d]: [f32; 2]) {
+        sums[0].add(c * c);
+        sums[1].add(d * d);
+        sums[2].add(c * d);
+    }
+
+    #[inline(always)]
+    fn add_delayed(sums: &mut [Sum; 2], [c, d]: [f32; 2], before: [f32; 2]) {
+        sums[0].add(c * before[0] + d * before[1]);
+        sums[1].add(c * before[1]);
     }
 
     fn products(sums: [Sum; 3]) -> [f64; 3] {
+        sums.map(Sum::value)
+    }
+
+    fn delayed(sums: [Sum; 2]) -> [f64; 2] {
         sums.map(Sum::value)
     }
 

@@ -122,6 +122,8 @@ pub trait Sample: Copy + Debug + Default + PartialEq + Send + sealed::Sealed + '
     type Centred: Copy + Debug + Default + Send;
     /// Three running sums of products.
     type Products: Copy + Debug + Default + Send;
+    /// Two running sums of products with what was before.
+    type Delayed: Copy + Debug + Default + Send;
     /// A mean squared difference, to be compared with others.
     type Level: Copy + Debug + PartialOrd + Send;
 
@@ -173,12 +175,18 @@ pub trait Sample: Copy + Debug + Default + PartialEq + Send + sealed::Sealed + '
     /// A pair less its offsets.
     #[doc(hidden)]
     fn centred(pair: [Self; 2], offsets: Self::Centred) -> Self::Centred;
-    /// Adds the products of C with C, D with D and C with D of a pair and one before it, or itself.
+    /// Adds the products of C with C, D with D and C with D of a pair.
     #[doc(hidden)]
-    fn add_products(sums: &mut Self::Products, now: Self::Centred, before: Self::Centred);
+    fn add_products(sums: &mut Self::Products, pair: Self::Centred);
+    /// Adds the products of a pair with one before it: of C with C and D with D together, and of C with D.
+    #[doc(hidden)]
+    fn add_delayed(sums: &mut Self::Delayed, now: Self::Centred, before: Self::Centred);
     /// The sums in input units squared.
     #[doc(hidden)]
     fn products(sums: Self::Products) -> [f64; 3];
+    /// The sums in input units squared.
+    #[doc(hidden)]
+    fn delayed(sums: Self::Delayed) -> [f64; 2];
     /// The sample as the search for a period takes it: of 16-bit codes, less two bits.
     #[doc(hidden)]
     fn search_form(self) -> Self;

@@ -96,7 +96,8 @@ impl fmt::Display for Flags {
 
 /// The wave over one window, at the window's middle. Amplitudes, offsets and residual are in input units.
 ///
-/// Each `_std` is one standard deviation, from the window's own residual and the information in its samples.
+/// Each `_std` is one standard deviation, from the information in the window's samples and their noise: that of its own residual and
+/// of the clean windows before, which count twice as much at most, unless it has grown beyond them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
     /// Index in the stream of the window's first sample pair.

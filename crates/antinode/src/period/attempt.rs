@@ -70,7 +70,7 @@ impl<S: Sample> Attempt<S> {
             return Verdict::Refused;
         };
         for pair in self.frame.get(from..self.seen).unwrap_or(&[]) {
-            rests.push(pair.map(S::to_f32));
+            rests.push(pair.map(S::to_f32), fitted);
         }
         if self.seen < self.length {
             Verdict::Open
@@ -106,7 +106,7 @@ impl<S: Sample> Attempt<S> {
             None => Verdict::Refused,
             Some(fitted) if fitted.is_doubtful => {
                 self.seen = 0;
-                let rests = self.trial.again(&fitted);
+                let rests = self.trial.again();
                 self.doubt = Some((fitted, rests));
                 Verdict::Open
             }

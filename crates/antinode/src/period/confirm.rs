@@ -236,10 +236,9 @@ impl Trial {
     }
 
     /// Begins a second pass over the same samples.
-    pub(crate) fn again(&self, fitted: &Fitted) -> Rests {
+    pub(crate) fn again(&self) -> Rests {
         Rests {
             row: Row::new(self.step, self.length),
-            parameters: fitted.parameters,
             sums: [f32::MIN_POSITIVE, 0.0, 0.0],
             before: [[0.0; 2]; 2],
         }
@@ -265,17 +264,16 @@ fn by_chance(rest: f32, n: usize) -> f32 {
 #[derive(Debug, Clone)]
 pub(crate) struct Rests {
     row: Row,
-    parameters: [[f32; 5]; 2],
     sums: [f32; 3],
     before: [Pair; 2],
 }
 
 impl Rests {
-    /// Takes the next sample.
-    pub(crate) fn push(&mut self, sample: Pair) {
+    /// Takes the next sample, less what was fitted.
+    pub(crate) fn push(&mut self, sample: Pair, fitted: &Fitted) {
         let row = self.row.next();
         let rest: Pair = core::array::from_fn(|channel| {
-            let [a, b, c, d, offset] = self.parameters[channel];
+            let [a, b, c, d, offset] = fitted.parameters[channel];
             sample[channel] - (a * row[0] + b * row[1] + c * row[2] + d * row[3] + offset)
         });
         let others = [rest, self.before[0], self.before[1]];

@@ -53,12 +53,13 @@ impl Model {
     fn fit(&self, blocks: &[Seen], fit: &mut Fit) {
         let mut parameters = Parameters::default();
         parameters.add(self, &gradient::of_sums(self, blocks));
-        fit.waves = Waves::new(self, &parameters);
+        fit.waves.set(self, &parameters);
         fit.offsets = parameters.offset;
         for _ in 0..STEPS {
+            fit.waves.take_course();
             let gradients = examine(self, blocks, &fit.waves, fit.offsets, &mut fit.remains);
             let step = parameters.add(self, &gradients);
-            fit.waves = Waves::new(self, &parameters);
+            fit.waves.set(self, &parameters);
             fit.offsets = parameters.offset;
             fit.settled = step.moved <= NEAR * NEAR * step.size;
             // What is left has no part along the parameters: this much less than before the step.

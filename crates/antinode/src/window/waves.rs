@@ -58,15 +58,17 @@ pub(crate) struct Waves {
     pub value: [Complex32; 2],
     /// z₊′ and z₋′ for each half window.
     pub change: [Complex32; 2],
-    /// What of the change is exponential: z′/z, or nothing where a wave is too small to have a course of its own.
+    /// What of the change is exponential: z′/z, or nothing where a wave is too small to have a course of its own. This and the
+    /// next are made by [`Waves::take_course`].
     pub(super) slope: [Complex32; 2],
     /// What is left of the change: it runs linearly.
     pub(super) rest: [Complex32; 2],
 }
 
 impl Waves {
-    /// The waves of ideal pick-offs from the raw parameters.
-    pub(super) fn new(model: &Model, parameters: &Parameters) -> Self {
+    /// Moves to the waves of ideal pick-offs that the raw parameters are.
+    #[inline(never)]
+    pub(super) fn set(&mut self, model: &Model, parameters: &Parameters) {
         let correction = &model.correction;
         let travelling = |raw: [Complex32; 2]| {
             let [c, d] = correction.correct(raw);
@@ -76,29 +78,21 @@ impl Waves {
         // Channel D was sampled later: what it saw lies that much further along its course.
         let [c, d] = parameters.z;
         let d = d - parameters.slope[1] * (correction.delay * model.per_half);
-        let value = travelling([c, d]);
-        let change = travelling(parameters.slope);
-        let slope = core::array::from_fn(|w| {
-            let power = value[w].norm_sqr();
-            let steady = change[w].norm_sqr() < 0.25 * power;
-            if steady {
-                change[w] * value[w].conj() * (1.0 / power)
+        self.value = travelling([c, d]);
+        self.change = travelling(parameters.slope);
+    }
+
+    /// Takes the changes apart into what is exponential and what is not.
+    pub(super) fn take_course(&mut self) {
+        for w in 0..2 {
+            let (value, change) = (self.value[w], self.change[w]);
+            let power = value.norm_sqr();
+            let is_steady = change.norm_sqr() < 0.25 * power;
+            (self.slope[w], self.rest[w]) = if is_steady {
+                (change * value.conj() * (1.0 / power), Complex32::ZERO)
             } else {
-                Complex32::ZERO
-            }
-        });
-        let rest = core::array::from_fn(|w| {
-            if slope[w] == Complex32::ZERO {
-                change[w]
-            } else {
-                Complex32::ZERO
-            }
-        });
-        Self {
-            value,
-            change,
-            slope,
-            rest,
+                (Complex32::ZERO, change)
+            };
         }
     }
 

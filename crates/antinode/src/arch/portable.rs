@@ -58,7 +58,7 @@ pub fn square_root(x: f32) -> f32 {
 /// Adds pairs to the sums, of which the first is sample `index` of its block: at 0 the sums begin anew. `weights` are the whole
 /// block's, words of two cosines and of two sines in turn.
 ///
-/// Nothing is done without pairs, or where there are weights for fewer.
+/// Nothing is done where there are weights for fewer.
 #[inline(always)]
 pub fn add_pairs<P: SamplePair<i16>>(
     sums: &mut [ChannelSums<i16>; 2],
@@ -135,7 +135,7 @@ pub fn add_floats<P: SamplePair<f32>>(
     *sums = now;
 }
 
-/// Pairs with a cosine and a sine for each, where there are pairs and weights for all.
+/// Pairs with a cosine and a sine for each, where there are weights for all.
 #[inline(always)]
 fn weighted<P: Copy>(
     pairs: &[P],
@@ -144,7 +144,7 @@ fn weighted<P: Copy>(
 ) -> Option<impl Iterator<Item = (P, [i32; 2])>> {
     let (twos, odd) = (usize::from(index / 2), usize::from(index % 2));
     let weights = weights.as_chunks().0.get(twos..)?;
-    if pairs.is_empty() || odd + pairs.len() > 2 * weights.len() {
+    if odd + pairs.len() > 2 * weights.len() {
         return None;
     }
     let each = weights.iter().flat_map(|&[cosines, sines]| {

@@ -108,11 +108,17 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
         // While slices come nothing is held back. The next single pair is not either: by then there is room.
         if self.room > 0 {
-            self.sum_held();
-            self.room = 0;
+            self.hold_no_more();
         }
         let (taken, is_full) = self.summing.sum(pairs);
         (taken, is_full.then_some(&self.summing.block))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn hold_no_more(&mut self) {
+        self.sum_held();
+        self.room = 0;
     }
 
     /// Sums the pairs held back.

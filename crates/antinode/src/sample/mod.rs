@@ -144,7 +144,7 @@ pub trait Sample: Copy + Debug + Default + PartialEq + Send + sealed::Sealed + '
     fn set_third(table: &mut [Self::Third], index: usize, weight: [f32; 2]);
     /// Adds pairs, the first of which is sample `index` of its block, to the carrier's sums, which begin anew at 0.
     ///
-    /// Nothing is done without pairs, or where the table is too short.
+    /// Nothing is done where the table is too short.
     #[doc(hidden)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],

@@ -18,6 +18,8 @@ mod estimate;
 mod fixed;
 mod float;
 mod interrupt;
+#[cfg(all(target_arch = "arm", target_os = "none"))]
+mod memory;
 mod queue;
 mod settings;
 mod state;

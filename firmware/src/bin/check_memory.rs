@@ -14,8 +14,10 @@ unsafe extern "C" {
     fn __aeabi_memcpy(to: *mut u8, from: *const u8, count: usize);
     fn __aeabi_memcpy4(to: *mut u8, from: *const u8, count: usize);
     fn __aeabi_memcpy8(to: *mut u8, from: *const u8, count: usize);
+    fn __aeabi_memmove(to: *mut u8, from: *const u8, count: usize);
     fn __aeabi_memmove4(to: *mut u8, from: *const u8, count: usize);
     fn __aeabi_memmove8(to: *mut u8, from: *const u8, count: usize);
+    fn __aeabi_memclr(to: *mut u8, count: usize);
     fn __aeabi_memclr4(to: *mut u8, count: usize);
     fn __aeabi_memclr8(to: *mut u8, count: usize);
 }
@@ -94,8 +96,10 @@ fn main() -> ! {
         ("memcpy", copies(__aeabi_memcpy, 3, false)),
         ("memcpy4", copies(__aeabi_memcpy4, 4, false)),
         ("memcpy8", copies(__aeabi_memcpy8, 8, false)),
+        ("memmove", copies(__aeabi_memmove, 3, true)),
         ("memmove4", copies(__aeabi_memmove4, 4, true)),
         ("memmove8", copies(__aeabi_memmove8, 8, true)),
+        ("memclr", clears(__aeabi_memclr, 3)),
         ("memclr4", clears(__aeabi_memclr4, 4)),
         ("memclr8", clears(__aeabi_memclr8, 8)),
     ];

@@ -4,6 +4,8 @@ pub mod clock;
 pub mod dual_adc;
 pub mod line;
 pub mod log;
+// The same as for C: of every image all memory functions are these.
+#[path = "../../../crates/antinode-capi/src/memory.rs"]
 mod memory;
 pub mod pair_clock;
 pub mod reset;

@@ -69,5 +69,5 @@ fn memory_is_copied_and_cleared() {
         .expect("qemu-system-arm must be installed");
     let lines = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{lines}");
-    assert_eq!(lines.matches(": right").count(), 7, "{lines}");
+    assert_eq!(lines.matches(": right").count(), 9, "{lines}");
 }

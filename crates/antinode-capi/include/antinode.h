@@ -45,8 +45,8 @@
 // The most periods a window may have.
 #define ANTINODE_MOST_PERIODS 50
 
-// Finished blocks that the queue holds, the one being solved among them. A block is two periods in windows of ten or more, and one
-// where there is a hop: between two calls of a `_solve` function so many periods may pass, less one block.
+// Finished blocks that the queue holds, the one being solved among them. In windows of ten periods and more a block is two periods,
+// or one where there is a hop: nearly 32 periods, or 16, may pass between two calls of a `_solve` function.
 #define ANTINODE_QUEUE_BLOCKS 16
 
 // 64-bit words of an `antinode_fixed_t`.

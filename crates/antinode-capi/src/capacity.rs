@@ -9,8 +9,8 @@ use crate::state::State;
 pub const ANTINODE_LONGEST_PERIOD: usize = 200;
 /// The most periods a window may have.
 pub const ANTINODE_MOST_PERIODS: usize = 50;
-/// Finished blocks that the queue holds, the one being solved among them. A block is two periods in windows of ten or more, and one
-/// where there is a hop: between two calls of a `_solve` function so many periods may pass, less one block.
+/// Finished blocks that the queue holds, the one being solved among them. In windows of ten periods and more a block is two periods,
+/// or one where there is a hop: nearly 32 periods, or 16, may pass between two calls of a `_solve` function.
 pub const ANTINODE_QUEUE_BLOCKS: usize = 16;
 
 /// Blocks of the ring that windows are cut from: a little more than the periods of a window.

@@ -24,8 +24,8 @@ const STRANGER: f32 = 0.4;
 /// Periods that a frame must hold before it is tried.
 const HELD: f32 = 2.2;
 /// Samples of a frame before its D(T) is looked at, and while it is looked at with every second one; later with every fourth.
-const LEAST: usize = 10;
-const OFTEN: usize = 22;
+const LEAST: u16 = 10;
+const OFTEN: u16 = 22;
 
 /// D(1)…D(10), not yet divided by the count of pairs in each.
 pub(crate) type Lags<S> = [<S as Sample>::Square; LAGS];
@@ -35,11 +35,13 @@ pub(crate) type Lags<S> = [<S as Sample>::Square; LAGS];
 struct Octave<S: Sample> {
     frame: [[S; 2]; FRAME],
     /// Samples in the frame; of an odd count the last is not in D(T) yet.
-    count: usize,
+    count: u16,
     /// D(T) over the frame so far.
     differences: Lags<S>,
     /// D(1) of the last frame.
     last: S::Square,
+    /// True where the wave of this frame is too slow for this octave: from then on only D(1) goes on.
+    is_slow: bool,
 }
 
 impl<S: Sample> Octave<S> {
@@ -49,6 +51,7 @@ impl<S: Sample> Octave<S> {
             count: 0,
             differences: Lags::<S>::default(),
             last: S::Square::default(),
+            is_slow: false,
         }
     }
 
@@ -61,9 +64,9 @@ impl<S: Sample> Octave<S> {
     /// Takes a sample; gives the next octave's at every second one, and only then is D(T) whole.
     #[inline(always)]
     fn push(&mut self, sample: [S; 2]) -> Option<[S; 2]> {
-        let place = self.count % FRAME;
+        let place = usize::from(self.count) % FRAME;
         self.frame[place] = sample;
-        self.count = place + 1;
+        self.count = place as u16 + 1;
         (!place.is_multiple_of(2)).then(|| self.compare(place - 1, sample))
     }
 
@@ -74,9 +77,15 @@ impl<S: Sample> Octave<S> {
             Some((before, [first, ..])) => (before, *first),
             _ => (&[][..], second),
         };
-        if before.is_empty() {
-            self.last = self.differences[0];
-        }
+        let before = match before {
+            [] => {
+                self.last = self.differences[0];
+                self.is_slow = false;
+                before
+            }
+            [.., a, b] if self.is_slow => &[*a, *b],
+            _ => before,
+        };
         S::add_differences(&mut self.differences, [first, second], before);
         S::mean(first, second)
     }
@@ -84,31 +93,34 @@ impl<S: Sample> Octave<S> {
     /// Power that halving takes away: the mean square of half a difference of neighbours.
     fn lost(&self) -> f32 {
         let (sum, count) = if self.count >= 8 {
-            (self.differences[0], self.count - 1)
+            (self.differences[0], f32::from(self.count) - 1.0)
         } else {
-            (self.last, FRAME - 1)
+            (self.last, FRAME as f32 - 1.0)
         };
-        0.25 * S::square_to_f32(sum) / count as f32
+        0.25 * S::square_to_f32(sum) / count
     }
 
     /// True when enough samples are new to look at D(T), after an even count of them.
     #[inline(always)]
     fn is_due(&self) -> bool {
-        self.count >= LEAST && (self.count <= OFTEN || self.count.is_multiple_of(4))
+        !self.is_slow
+            && self.count >= LEAST
+            && (self.count <= OFTEN || self.count.is_multiple_of(4))
     }
 
     /// The first minimum of D(T) after its first maximum, between samples, where the frame is long enough for it.
     #[inline(never)]
-    fn period(&self) -> Option<f32> {
-        let shift = S::shift(&self.differences);
-        let level = |lag: usize| S::level(self.differences[lag - 1], shift, self.count - lag);
+    fn period(&mut self) -> Option<f32> {
+        let (shift, count) = (S::shift(&self.differences), usize::from(self.count));
+        let level = |lag: usize| S::level(self.differences[lag - 1], shift, count - lag);
         // Of a wave beyond this octave D(1) is next to nothing: above a fourteenth of D(7) within it, below at 13 samples and more.
         let sixteenth = S::halved(S::halved(S::halved(S::halved(level(7)))));
         if level(1) < sixteenth {
+            self.is_slow = true;
             return None;
         }
         // A minimum lies within 0.6 of its lag: beyond these the frame cannot hold enough of it.
-        let most = ((5 * self.count + 7) / 12).min(LAGS - 1);
+        let most = ((5 * count + 7) / 12).min(LAGS - 1);
         let (mut before, mut here) = (level(1), level(2));
         let mut greatest = if before < here { here } else { before };
         let mut lag = 2;
@@ -135,7 +147,7 @@ impl<S: Sample> Octave<S> {
         let omega = core::f32::consts::TAU / (lag - 0.5 * ratio);
         let half = Phase::from_radians(0.5 * omega).unit();
         let period = lag - libm::atan2f(ratio * half.im, half.re) / omega;
-        (RANGE.contains(&period) && HELD * period <= self.count as f32).then_some(period)
+        (RANGE.contains(&period) && HELD * period <= f32::from(self.count)).then_some(period)
     }
 }
 
@@ -265,7 +277,7 @@ impl<S: Sample> DifferenceDetector<S> {
     fn look(&mut self) {
         let halvings = self.due.trailing_zeros() as usize;
         self.due &= self.due - 1;
-        let octave = self.octaves.get(halvings);
+        let octave = self.octaves.get_mut(halvings);
         if let Some(period) = octave.and_then(Octave::period) {
             self.propose(halvings, period);
         }
@@ -291,7 +303,9 @@ impl<S: Sample> DifferenceDetector<S> {
         let lost = below.map(Octave::lost).sum();
         if let Some(octave) = self.octaves.get(halvings) {
             let candidate = &mut self.candidate;
-            candidate.attempt.begin(&octave.frame, octave.count, period);
+            candidate
+                .attempt
+                .begin(&octave.frame, usize::from(octave.count), period);
             candidate.halvings = halvings;
             candidate.lost = lost;
             candidate.is_open = true;

@@ -40,8 +40,17 @@ struct Octave<S: Sample> {
     differences: Lags<S>,
     /// D(1) of the last frame.
     last: S::Square,
-    /// True where the wave of this frame is too slow for this octave: from then on only D(1) goes on.
-    is_slow: bool,
+    pace: Pace,
+}
+
+/// What an octave makes of the wave of its frame. As wide as the count: padding would be cleared apart, through a copy on the stack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u16)]
+enum Pace {
+    /// It may be the octave's own.
+    Own,
+    /// Too slow for this octave: only D(1) goes on.
+    Slow,
 }
 
 impl<S: Sample> Octave<S> {
@@ -51,7 +60,7 @@ impl<S: Sample> Octave<S> {
             count: 0,
             differences: Lags::<S>::default(),
             last: S::Square::default(),
-            is_slow: false,
+            pace: Pace::Own,
         }
     }
 
@@ -80,10 +89,10 @@ impl<S: Sample> Octave<S> {
         let before = match before {
             [] => {
                 self.last = self.differences[0];
-                self.is_slow = false;
+                self.pace = Pace::Own;
                 before
             }
-            [.., a, b] if self.is_slow => &[*a, *b],
+            [.., a, b] if self.pace == Pace::Slow => &[*a, *b],
             _ => before,
         };
         S::add_differences(&mut self.differences, [first, second], before);
@@ -103,7 +112,7 @@ impl<S: Sample> Octave<S> {
     /// True when enough samples are new to look at D(T), after an even count of them.
     #[inline(always)]
     fn is_due(&self) -> bool {
-        !self.is_slow
+        self.pace == Pace::Own
             && self.count >= LEAST
             && (self.count <= OFTEN || self.count.is_multiple_of(4))
     }
@@ -116,7 +125,7 @@ impl<S: Sample> Octave<S> {
         // Of a wave beyond this octave D(1) is next to nothing: above a fourteenth of D(7) within it, below at 13 samples and more.
         let sixteenth = S::halved(S::halved(S::halved(S::halved(level(7)))));
         if level(1) < sixteenth {
-            self.is_slow = true;
+            self.pace = Pace::Slow;
             return None;
         }
         // A minimum lies within 0.6 of its lag: beyond these the frame cannot hold enough of it.

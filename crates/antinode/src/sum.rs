@@ -31,6 +31,21 @@ impl Sum {
     }
 }
 
+/// Adds C², D² and C·D of a pair to three sums.
+#[inline(always)]
+pub(crate) fn add_products(sums: &mut [Sum; 3], [c, d]: [f32; 2]) {
+    sums[0].add(c * c);
+    sums[1].add(d * d);
+    sums[2].add(c * d);
+}
+
+/// Adds C·C′ + D·D′ and C·D′ of a pair and one before it to two sums.
+#[inline(always)]
+pub(crate) fn add_delayed(sums: &mut [Sum; 2], [c, d]: [f32; 2], before: [f32; 2]) {
+    sums[0].add(c * before[0] + d * before[1]);
+    sums[1].add(c * before[1]);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

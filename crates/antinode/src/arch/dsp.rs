@@ -28,11 +28,25 @@ pub fn half_difference(a: u32, b: u32) -> u32 {
     out
 }
 
+/// The low and the high words of sums.
+#[inline(always)]
+fn halves<const N: usize>(sums: [i64; N]) -> [[u32; N]; 2] {
+    [
+        sums.map(|sum| sum as u32),
+        sums.map(|sum| (sum >> 32) as u32),
+    ]
+}
+
+/// Sums from their words.
+#[inline(always)]
+fn whole<const N: usize>(low: [u32; N], high: [u32; N]) -> [i64; N] {
+    core::array::from_fn(|i| ((u64::from(high[i]) << 32) | u64::from(low[i])) as i64)
+}
+
 /// SMLALBB, SMLALTT and SMLALBT.
 #[inline(always)]
 pub fn add_products(sums: [i64; 3], a: u32, b: u32) -> [i64; 3] {
-    let mut low = sums.map(|sum| sum as u32);
-    let mut high = sums.map(|sum| (sum >> 32) as u32);
+    let [mut low, mut high] = halves(sums);
     // SAFETY: reads and writes the named registers only.
     unsafe {
         asm!("smlalbb {l0}, {h0}, {a}, {b}", "smlaltt {l1}, {h1}, {a}, {b}", "smlalbt {l2}, {h2}, {a}, {b}",
@@ -40,14 +54,13 @@ pub fn add_products(sums: [i64; 3], a: u32, b: u32) -> [i64; 3] {
             l2 = inout(reg) low[2], h2 = inout(reg) high[2], a = in(reg) a, b = in(reg) b,
             options(pure, nomem, nostack, preserves_flags));
     }
-    core::array::from_fn(|i| ((u64::from(high[i]) << 32) | u64::from(low[i])) as i64)
+    whole(low, high)
 }
 
 /// SMLALD and SMLALBT.
 #[inline(always)]
 pub fn add_delayed(sums: [i64; 2], a: u32, b: u32) -> [i64; 2] {
-    let mut low = sums.map(|sum| sum as u32);
-    let mut high = sums.map(|sum| (sum >> 32) as u32);
+    let [mut low, mut high] = halves(sums);
     // SAFETY: reads and writes the named registers only.
     unsafe {
         asm!("smlald {l0}, {h0}, {a}, {b}", "smlalbt {l1}, {h1}, {a}, {b}",
@@ -55,7 +68,7 @@ pub fn add_delayed(sums: [i64; 2], a: u32, b: u32) -> [i64; 2] {
             a = in(reg) a, b = in(reg) b,
             options(pure, nomem, nostack, preserves_flags));
     }
-    core::array::from_fn(|i| ((u64::from(high[i]) << 32) | u64::from(low[i])) as i64)
+    whole(low, high)
 }
 
 /// QSUB16.

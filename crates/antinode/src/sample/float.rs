@@ -4,7 +4,7 @@ use super::{Sample, SamplePair};
 use crate::arch;
 use crate::block::{ChannelSums, ChannelWatch, Runs, third_harmonic};
 use crate::period::Lags;
-use crate::sum::Sum;
+use crate::sum::{self, Sum};
 
 impl Sample for f32 {
     type Sum = f32;
@@ -95,16 +95,13 @@ impl Sample for f32 {
     }
 
     #[inline(always)]
-    fn add_products(sums: &mut [Sum; 3], [c, d]: [f32; 2]) {
-        sums[0].add(c * c);
-        sums[1].add(d * d);
-        sums[2].add(c * d);
+    fn add_products(sums: &mut [Sum; 3], pair: [f32; 2]) {
+        sum::add_products(sums, pair);
     }
 
     #[inline(always)]
-    fn add_delayed(sums: &mut [Sum; 2], [c, d]: [f32; 2], before: [f32; 2]) {
-        sums[0].add(c * before[0] + d * before[1]);
-        sums[1].add(c * before[1]);
+    fn add_delayed(sums: &mut [Sum; 2], now: [f32; 2], before: [f32; 2]) {
+        sum::add_delayed(sums, now, before);
     }
 
     fn products(sums: [Sum; 3]) -> [f64; 3] {

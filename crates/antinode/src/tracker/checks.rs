@@ -13,7 +13,7 @@ use crate::window::Fit;
 
 /// Standard deviations of an innocent deviation.
 const SIGMAS: f32 = 7.0;
-/// Standard deviations of an innocent variance: one in 10¹⁰, as a window has several parts.
+/// Standard deviations of an innocent variance: three in 10¹⁰, as a window has several parts.
 const REACH: f32 = 6.2;
 /// Below this share of a_A a step of an amplitude or an offset between windows is no fault.
 const AMPLITUDE_FLOOR: f32 = 2e-3;
@@ -167,7 +167,8 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
     flags
 }
 
-/// How many times a variance of `freedom` degrees may exceed another of `other` by chance, once in 10¹⁰: Paulson's approximation.
+/// How many times a variance of `freedom` degrees may exceed another of `other` by chance, three times in 10¹⁰: Paulson's
+/// approximation.
 ///
 /// Infinite where the other is known too badly for that.
 #[inline(never)]
@@ -307,4 +308,29 @@ impl Passed {
 #[inline(never)]
 fn beyond(step: f32, deviation: f32, floor: f32) -> bool {
     step.abs() > SIGMAS * deviation + floor || step.is_nan()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::limit;
+
+    #[test]
+    fn limits_are_those_of_the_f_distribution_or_a_little_above() {
+        // Quantiles of F for a chance of 2.82·10⁻¹⁰, by scipy's `f.isf`.
+        for (freedom, other, exact) in [
+            (4.0, 320.0, 13.634),
+            (6.0, 320.0, 10.145),
+            (20.0, 40.0, 10.480),
+            (20.0, 320.0, 4.8260),
+            (36.0, 576.0, 3.4453),
+            (50.0, 800.0, 2.9354),
+        ] {
+            let ratio = limit(freedom, other) / exact;
+            assert!(
+                (1.0..1.1).contains(&ratio),
+                "F of {freedom}, {other}: {ratio}"
+            );
+        }
+        assert!(limit(20.0, 8.0).is_infinite() && limit(20.0, 0.0).is_infinite());
+    }
 }

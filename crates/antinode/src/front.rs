@@ -51,6 +51,8 @@ pub struct Front<S: Sample, const N: usize> {
     detector: Detector<S>,
     demodulator: Demodulator<S, N>,
     is_searching: bool,
+    /// The period found, from which the next pair begins the first block: to begin it at once would make the longest call longer.
+    found: Option<f32>,
     /// Index in the stream of the next sample pair.
     index: u64,
 }
@@ -64,6 +66,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
             detector: Detector::new(settings.detection),
             demodulator: Demodulator::new(Layout::NONE, 0, settings.watch),
             is_searching: true,
+            found: None,
             index: 0,
         })
     }
@@ -84,6 +87,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
         self.demodulator.set_watch(settings.watch);
         self.settings = settings;
         self.is_searching = true;
+        self.found = None;
         Ok(())
     }
 
@@ -98,11 +102,12 @@ impl<S: Sample, const N: usize> Front<S, N> {
     pub fn search(&mut self) {
         self.detector.restart();
         self.is_searching = true;
+        self.found = None;
     }
 
     /// True while a period is searched.
     pub fn is_searching(&self) -> bool {
-        self.is_searching
+        self.is_searching && self.found.is_none()
     }
 
     /// Index in the stream of the next sample pair.
@@ -113,9 +118,9 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Tells that `count` sample pairs were lost before the next one: the block that they would have been part of is dropped.
     pub fn skip(&mut self, count: u64) {
         self.index += count;
-        if self.is_searching {
+        if self.is_searching() {
             self.search();
-        } else {
+        } else if !self.is_searching {
             self.demodulator.restart(self.index);
         }
     }
@@ -123,7 +128,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Takes one sample pair; gives the block that it finished.
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<&Block<S>> {
-        if self.is_searching {
+        if self.is_searching && !self.begin() {
             self.search_slice(&[pair]);
             return None;
         }
@@ -136,12 +141,24 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Call it again with the rest until it has taken all: results are the same to the bit however a stream is cut.
     #[inline]
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
-        if self.is_searching {
+        if self.is_searching && !self.begin() {
             return (self.search_slice(pairs), None);
         }
         let (taken, block) = self.demodulator.push_slice(pairs);
         self.index += taken as u64;
         (taken, block)
+    }
+
+    /// Begins blocks of the period found; false where none is.
+    #[inline(never)]
+    fn begin(&mut self) -> bool {
+        let Some(period) = self.found.take() else {
+            return false;
+        };
+        let layout = self.settings.layout(period, N as u16);
+        self.demodulator.begin(layout, self.index);
+        self.is_searching = false;
+        true
     }
 
     /// Takes pairs until a period is found; gives how many.
@@ -152,9 +169,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
                 self.index += taken as u64;
                 // The ring of blocks is made for blocks of a period.
                 if period < N as f32 + 0.5 {
-                    let layout = self.settings.layout(period, N as u16);
-                    self.demodulator.begin(layout, self.index);
-                    self.is_searching = false;
+                    self.found = Some(period);
                 } else {
                     self.detector.restart();
                 }

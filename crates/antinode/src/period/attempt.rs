@@ -56,7 +56,7 @@ impl<S: Sample> Attempt<S> {
         if self.doubt.is_none() {
             let from = self.seen;
             if from == 0 {
-                self.trial = Trial::new(self.period, self.length);
+                self.trial.begin(self.period, self.length);
             }
             self.try_some();
             return if self.seen == self.length && self.seen - from <= LAST {

@@ -143,17 +143,22 @@ impl Trial {
     };
 
     /// A trial of `period` samples over a stretch of `length`.
+    #[cfg(feature = "mean-return")]
     pub(crate) fn new(period: f32, length: usize) -> Self {
-        let step = PhaseStep::from_period(period);
-        Self {
-            step,
-            length,
-            sums: Sums {
-                row: Row::new(step, length),
-                ..Self::NONE.sums
-            },
-            ..Self::NONE
-        }
+        let mut trial = Self::NONE;
+        trial.begin(period, length);
+        trial
+    }
+
+    /// Makes this one a trial of `period` samples over a stretch of `length`, in place.
+    pub(crate) fn begin(&mut self, period: f32, length: usize) {
+        self.step = PhaseStep::from_period(period);
+        self.length = length;
+        self.count = 0;
+        self.sums.row = Row::new(self.step, length);
+        self.sums.even = [0.0; 5];
+        self.sums.gradient = [[0.0; 5]; 2];
+        self.sums.square = 0.0;
     }
 
     /// Takes the next sample.

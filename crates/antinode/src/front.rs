@@ -42,6 +42,15 @@ impl<S: Sample> Detector<S> {
     }
 }
 
+/// What a front does with its pairs.
+#[derive(Debug, Clone, Copy)]
+enum Stage {
+    Searching,
+    /// From this period the next pair begins the first block: to begin it at once would make the longest call longer.
+    Found(f32),
+    Gathering,
+}
+
 /// The sample-rate half of an identification on samples of type `S`, for blocks of up to `N` sample pairs; `N` bounds the period
 /// (200 for all).
 #[derive(Debug, Clone)]
@@ -50,9 +59,7 @@ pub struct Front<S: Sample, const N: usize> {
     // Side by side: to build one in the other's place would be the longest call of all.
     detector: Detector<S>,
     demodulator: Demodulator<S, N>,
-    is_searching: bool,
-    /// The period found, from which the next pair begins the first block: to begin it at once would make the longest call longer.
-    found: Option<f32>,
+    stage: Stage,
     /// Index in the stream of the next sample pair.
     index: u64,
 }
@@ -65,8 +72,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
             settings,
             detector: Detector::new(settings.detection),
             demodulator: Demodulator::new(Layout::NONE, 0, settings.watch),
-            is_searching: true,
-            found: None,
+            stage: Stage::Searching,
             index: 0,
         })
     }
@@ -86,8 +92,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
         }
         self.demodulator.set_watch(settings.watch);
         self.settings = settings;
-        self.is_searching = true;
-        self.found = None;
+        self.stage = Stage::Searching;
         Ok(())
     }
 
@@ -101,13 +106,12 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Drops the period and searches anew.
     pub fn search(&mut self) {
         self.detector.restart();
-        self.is_searching = true;
-        self.found = None;
+        self.stage = Stage::Searching;
     }
 
     /// True while a period is searched.
     pub fn is_searching(&self) -> bool {
-        self.is_searching && self.found.is_none()
+        matches!(self.stage, Stage::Searching)
     }
 
     /// Index in the stream of the next sample pair.
@@ -118,17 +122,17 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Tells that `count` sample pairs were lost before the next one: the block that they would have been part of is dropped.
     pub fn skip(&mut self, count: u64) {
         self.index += count;
-        if self.is_searching() {
-            self.search();
-        } else if !self.is_searching {
-            self.demodulator.restart(self.index);
+        match self.stage {
+            Stage::Searching => self.search(),
+            Stage::Found(_) => {}
+            Stage::Gathering => self.demodulator.restart(self.index),
         }
     }
 
     /// Takes one sample pair; gives the block that it finished.
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<&Block<S>> {
-        if self.is_searching && !self.begin() {
+        if !self.gathers() {
             self.search_slice(&[pair]);
             return None;
         }
@@ -141,7 +145,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Call it again with the rest until it has taken all: results are the same to the bit however a stream is cut.
     #[inline]
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
-        if self.is_searching && !self.begin() {
+        if !self.gathers() {
             return (self.search_slice(pairs), None);
         }
         let (taken, block) = self.demodulator.push_slice(pairs);
@@ -149,16 +153,21 @@ impl<S: Sample, const N: usize> Front<S, N> {
         (taken, block)
     }
 
-    /// Begins blocks of the period found; false where none is.
+    /// True when the next pair belongs to a block, perhaps the first.
+    #[inline(always)]
+    fn gathers(&mut self) -> bool {
+        if let Stage::Found(period) = self.stage {
+            self.begin(period);
+        }
+        matches!(self.stage, Stage::Gathering)
+    }
+
+    /// Begins blocks for a wave of `period` samples.
     #[inline(never)]
-    fn begin(&mut self) -> bool {
-        let Some(period) = self.found.take() else {
-            return false;
-        };
+    fn begin(&mut self, period: f32) {
         let layout = self.settings.layout(period, N as u16);
         self.demodulator.begin(layout, self.index);
-        self.is_searching = false;
-        true
+        self.stage = Stage::Gathering;
     }
 
     /// Takes pairs until a period is found; gives how many.
@@ -169,7 +178,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
                 self.index += taken as u64;
                 // The ring of blocks is made for blocks of a period.
                 if period < N as f32 + 0.5 {
-                    self.found = Some(period);
+                    self.stage = Stage::Found(period);
                 } else {
                     self.detector.restart();
                 }

@@ -196,8 +196,6 @@ impl<S: Sample> Candidate<S> {
 #[derive(Debug, Clone)]
 pub struct DifferenceDetector<S: Sample> {
     octaves: [Octave<S>; OCTAVES],
-    /// The octaves whose D(T) is still to be looked at, as bits.
-    due: u8,
     /// The octaves that are still to take a sample, as bits, and their samples.
     waiting: u8,
     samples: [[S; 2]; OCTAVES],
@@ -209,7 +207,6 @@ impl<S: Sample> DifferenceDetector<S> {
     pub fn new() -> Self {
         Self {
             octaves: [Octave::new(); OCTAVES],
-            due: 0,
             waiting: 0,
             samples: [[S::default(); 2]; OCTAVES],
             candidate: Candidate {
@@ -224,7 +221,6 @@ impl<S: Sample> DifferenceDetector<S> {
     /// Forgets all samples.
     pub fn restart(&mut self) {
         self.candidate.is_open = false;
-        self.due = 0;
         self.waiting = 0;
         for octave in &mut self.octaves {
             octave.restart();
@@ -237,55 +233,57 @@ impl<S: Sample> DifferenceDetector<S> {
     /// work of the one below, so all of them are done before their next samples come.
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<f32> {
         let [first, ..] = &mut self.octaves;
-        if let Some(next) = first.push(pair.pair().map(S::search_form)) {
+        let due = if let Some(next) = first.push(pair.pair().map(S::search_form)) {
             let is_due = first.is_due();
-            self.rise(0, is_due, next);
+            self.rise(0, next);
+            is_due.then_some(0)
         } else if self.waiting > 0 {
-            self.halve();
-        }
+            self.halve()
+        } else {
+            None
+        };
         if self.candidate.is_open {
-            self.due = 0;
             return self.attempt();
         }
-        if self.due > 0 {
-            self.look();
+        if let Some(halvings) = due {
+            self.look(halvings);
         }
         None
     }
 
     /// Keeps the sample that an octave gives to the next.
     #[inline(always)]
-    fn rise(&mut self, halvings: usize, is_due: bool, sample: [S; 2]) {
-        self.due |= u8::from(is_due) << halvings;
+    fn rise(&mut self, halvings: usize, sample: [S; 2]) {
         if let Some(place) = self.samples.get_mut(halvings + 1) {
             *place = sample;
             self.waiting |= 2 << halvings;
         }
     }
 
-    /// Gives the samples that wait to their octaves, up to the first that takes two of them into its D(T).
+    /// Gives the samples that wait to their octaves, up to the first that takes two of them into its D(T); gives that one where it is
+    /// to be looked at.
     #[inline(never)]
-    fn halve(&mut self) {
+    fn halve(&mut self) -> Option<usize> {
         while self.waiting > 0 {
             let halvings = self.waiting.trailing_zeros() as usize;
             self.waiting &= self.waiting - 1;
             let (Some(octave), Some(&sample)) =
                 (self.octaves.get_mut(halvings), self.samples.get(halvings))
             else {
-                return;
+                return None;
             };
             if let Some(next) = octave.push(sample) {
                 let is_due = octave.is_due();
-                return self.rise(halvings, is_due, next);
+                self.rise(halvings, next);
+                return is_due.then_some(halvings);
             }
         }
+        None
     }
 
-    /// Looks at D(T) of the first octave that is due.
+    /// Looks at D(T) of an octave.
     #[inline(never)]
-    fn look(&mut self) {
-        let halvings = self.due.trailing_zeros() as usize;
-        self.due &= self.due - 1;
+    fn look(&mut self, halvings: usize) {
         let octave = self.octaves.get_mut(halvings);
         if let Some(period) = octave.and_then(Octave::period) {
             self.propose(halvings, period);

@@ -108,7 +108,7 @@ mod tests {
     #[test]
     fn solves_what_it_gathered() {
         let mut normal = Normal::ZERO;
-        let mut rhs = [0.0; PARAMETERS];
+        let mut rhs = Row::default();
         let truth = [1.0, -2.0, 0.5];
         let mut seed = 1u32;
         for _ in 0..12 {

@@ -12,7 +12,7 @@ use crate::sample::{Sample, SamplePair};
 /// Lags of an octave.
 pub(crate) const LAGS: usize = 10;
 /// Samples of a frame: more than three of the longest periods of its octave.
-pub(super) const FRAME: usize = 32;
+pub(crate) const FRAME: usize = 32;
 /// Octaves: periods of 4 to 8, 8 to 16, … 128 to 256 samples.
 const OCTAVES: usize = 6;
 /// Periods that an octave answers for, in its own samples: wider than an octave, so that neighbours overlap.

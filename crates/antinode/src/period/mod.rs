@@ -7,7 +7,7 @@ mod difference;
 mod mean_return;
 
 pub use difference::DifferenceDetector;
-pub(crate) use difference::{LAGS, Lags};
+pub(crate) use difference::{FRAME, LAGS, Lags};
 #[cfg(feature = "mean-return")]
 pub use mean_return::MeanReturnDetector;
 

@@ -1,10 +1,10 @@
 //! What codes of any width share.
 
-use crate::period::LAGS;
+use crate::period::{FRAME, LAGS};
 
-/// 2³¹/n up to a frame of the period search.
-static RECIPROCALS: [u32; 33] = {
-    let mut table = [0; 33];
+/// 2³¹/n for every count of pairs that a frame of the period search has at a lag.
+static RECIPROCALS: [u32; FRAME] = {
+    let mut table = [0; FRAME];
     let mut n = 1;
     while n < table.len() {
         table[n] = (1 << 31) / n as u32;
@@ -22,6 +22,6 @@ pub(super) fn shift(sums: &[u32; LAGS]) -> u32 {
 /// A sum over `count` pairs as a mean, with the last digits of small ones.
 #[inline(always)]
 pub(super) fn mean(sum: u32, shift: u32, count: usize) -> u32 {
-    let reciprocal = RECIPROCALS.get(count).map_or(0, |&reciprocal| reciprocal);
+    let reciprocal = RECIPROCALS[count % FRAME];
     ((u64::from(sum << shift) * u64::from(reciprocal)) >> 32) as u32
 }

@@ -3,7 +3,7 @@
 use super::{Sample, SamplePair};
 use crate::arch;
 use crate::block::{ChannelSums, ChannelWatch, Runs, third_harmonic};
-use crate::period::Lags;
+use crate::period::{FRAME, Lags};
 use crate::sum::{self, Sum};
 
 impl Sample for f32 {
@@ -137,7 +137,7 @@ impl Sample for f32 {
 
     #[inline(always)]
     fn level(sum: f32, _: u32, count: usize) -> f32 {
-        sum * RECIPROCALS.get(count).map_or(0.0, |&reciprocal| reciprocal)
+        sum * RECIPROCALS[count % FRAME]
     }
 
     #[inline(always)]
@@ -156,9 +156,9 @@ impl Sample for f32 {
     }
 }
 
-/// 1/n up to a frame of the period search.
-static RECIPROCALS: [f32; 33] = {
-    let mut table = [0.0; 33];
+/// 1/n for every count of pairs that a frame of the period search has at a lag.
+static RECIPROCALS: [f32; FRAME] = {
+    let mut table = [0.0; FRAME];
     let mut n = 1;
     while n < table.len() {
         table[n] = 1.0 / n as f32;

@@ -1,7 +1,7 @@
 //! A frame of the search that may hold a wave, tried a few samples at a time: no single call pays for all of it.
 
 use super::confirm::{Fitted, Rests, Trial};
-use super::difference::FRAME;
+use super::octave::{FRAME, Frame, Two};
 use crate::sample::Sample;
 
 /// Samples tried in one call, an even number.
@@ -12,7 +12,7 @@ const LAST: usize = 2;
 /// A copy of a frame under trial, which the stream meanwhile overwrites.
 #[derive(Debug, Clone)]
 pub(super) struct Attempt<S: Sample> {
-    frame: [[S; 2]; FRAME],
+    frame: Frame<S>,
     length: usize,
     period: f32,
     /// Samples seen in this pass.
@@ -32,7 +32,7 @@ impl<S: Sample> Attempt<S> {
     /// An attempt at nothing.
     pub(super) fn new() -> Self {
         Self {
-            frame: [[S::default(); 2]; FRAME],
+            frame: [Two::<S>::default(); FRAME / 2],
             length: 0,
             period: 4.0,
             seen: 0,
@@ -43,7 +43,7 @@ impl<S: Sample> Attempt<S> {
 
     /// Begins an attempt at a wave of `period` samples in the first `length` of `frame`, an even number. Nothing is tried yet: to
     /// find the frame took long enough.
-    pub(super) fn begin(&mut self, frame: &[[S; 2]; FRAME], length: usize, period: f32) {
+    pub(super) fn begin(&mut self, frame: &Frame<S>, length: usize, period: f32) {
         self.frame = *frame;
         self.length = length;
         self.period = period;
@@ -69,7 +69,8 @@ impl<S: Sample> Attempt<S> {
         let Some((fitted, rests)) = &mut self.doubt else {
             return Verdict::Refused;
         };
-        for pair in self.frame.get(from..self.seen).unwrap_or(&[]) {
+        let samples = self.frame.as_flattened();
+        for pair in samples.get(from..self.seen).unwrap_or(&[]) {
             rests.push(pair.map(S::to_f32), fitted);
         }
         if self.seen < self.length {
@@ -91,7 +92,7 @@ impl<S: Sample> Attempt<S> {
     /// Takes the next samples into the trial, from both ends at once: of the two halves, what comes next.
     fn try_some(&mut self) {
         let from = self.step();
-        let halves = self.frame.split_at_checked(self.length / 2);
+        let halves = self.frame.as_flattened().split_at_checked(self.length / 2);
         let (first, last) = halves.unwrap_or((&[], &[]));
         let first = first.get(from / 2..self.seen / 2).unwrap_or(&[]);
         let last = last.get(..(self.length - from) / 2).unwrap_or(&[]);

@@ -130,12 +130,10 @@ impl Sample for i16 {
     }
 
     #[inline(always)]
-    fn add_differences(sums: &mut Lags<Self>, pairs: [[Self; 2]; 2], before: &[[Self; 2]]) {
-        super::lag_by_lag::<Self>(sums, pairs, before, |sum, now, before| {
-            // Of codes of 14 bits half a difference is below 2¹³: 31 squares of two stay below 2³².
-            let half = arch::half_difference(word(now), word(before));
-            *sum = arch::dual_multiply_add(half, half, *sum);
-        });
+    fn add_difference(sum: &mut u32, a: [i16; 2], b: [i16; 2]) {
+        // Of codes of 14 bits half a difference is below 2¹³: 31 squares of two stay below 2³².
+        let half = arch::half_difference(word(a), word(b));
+        *sum = arch::dual_multiply_add(half, half, *sum);
     }
 
     #[inline(always)]

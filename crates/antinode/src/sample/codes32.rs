@@ -139,15 +139,13 @@ impl Sample for i32 {
     }
 
     #[inline(always)]
-    fn add_differences(sums: &mut Lags<Self>, pairs: [[Self; 2]; 2], before: &[[Self; 2]]) {
+    fn add_difference(sum: &mut u64, a: [i32; 2], b: [i32; 2]) {
         // A square of up to 2⁶⁴, less its last 7 bits, fits in the sum 64 times.
         let square = |a: i32, b: i32| {
             let apart = u64::from(a.abs_diff(b));
             (apart * apart) >> 7
         };
-        super::lag_by_lag::<Self>(sums, pairs, before, |sum, now, before| {
-            *sum += square(now[0], before[0]) + square(now[1], before[1]);
-        });
+        *sum += square(a[0], b[0]) + square(a[1], b[1]);
     }
 
     #[inline(always)]

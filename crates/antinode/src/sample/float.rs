@@ -118,11 +118,9 @@ impl Sample for f32 {
     }
 
     #[inline(always)]
-    fn add_differences(sums: &mut Lags<Self>, pairs: [[Self; 2]; 2], before: &[[Self; 2]]) {
-        super::lag_by_lag::<Self>(sums, pairs, before, |sum, now, before| {
-            let (c, d) = (now[0] - before[0], now[1] - before[1]);
-            *sum += c * c + d * d;
-        });
+    fn add_difference(sum: &mut f32, a: [f32; 2], b: [f32; 2]) {
+        let (c, d) = (a[0] - b[0], a[1] - b[1]);
+        *sum += c * c + d * d;
     }
 
     #[inline(always)]

@@ -8,44 +8,7 @@ mod float;
 use core::fmt::Debug;
 
 use crate::block::{ChannelSums, ChannelWatch};
-use crate::period::{LAGS, Lags};
-
-/// Goes through the lags of two pairs, before which an even number came: gives `add` each lag's sum with what is as far apart.
-#[inline(always)]
-fn lag_by_lag<S: Sample>(
-    sums: &mut Lags<S>,
-    [first, second]: [[S; 2]; 2],
-    before: &[[S; 2]],
-    add: impl Fn(&mut S::Square, [S; 2], [S; 2]),
-) {
-    const { assert!(LAGS == 10, "lags are taken in twos, five times") };
-    let two = |[odd, even]: &mut [S::Square; 2], [far, near]: [[S; 2]; 2], last: [S; 2]| {
-        add(odd, first, near);
-        add(odd, second, last);
-        add(even, first, far);
-        add(even, second, near);
-        far
-    };
-    let (twos, _) = sums.as_chunks_mut();
-    let before_in_twos = before.as_rchunks().1;
-    if let ([a, b, c, d, e], Some(&[j, i, h, g, f])) = (&mut *twos, before_in_twos.last_chunk()) {
-        // Most often all lags are there, and a loop over them would take as long again as the sums.
-        let last = two(b, g, two(a, f, first));
-        two(e, j, two(d, i, two(c, h, last)));
-        return;
-    }
-    // The next two lags begin here: no sum is cleared beforehand.
-    if let Some(new) = twos.get_mut(before_in_twos.len()) {
-        *new = [S::Square::default(); 2];
-    }
-    let mut last = first;
-    for (sums, &pairs) in twos.iter_mut().zip(before_in_twos.iter().rev()) {
-        last = two(sums, pairs, last);
-    }
-    if let Some(sum) = sums.get_mut(before.len()) {
-        add(sum, second, last);
-    }
-}
+use crate::period::Lags;
 
 mod sealed {
     pub trait Sealed {
@@ -190,10 +153,9 @@ pub trait Sample: Copy + Debug + Default + PartialEq + Send + sealed::Sealed + '
     /// The sample as the search for a period takes it: of 16-bit codes, less two bits.
     #[doc(hidden)]
     fn search_form(self) -> Self;
-    /// Adds the squared differences of two pairs from those before them, of which there is an even number. A lag that is there for
-    /// the first time begins its sum.
+    /// Adds the squared difference of two pairs, both in [`search_form`](Self::search_form).
     #[doc(hidden)]
-    fn add_differences(sums: &mut Lags<Self>, pairs: [[Self; 2]; 2], before: &[[Self; 2]]);
+    fn add_difference(sum: &mut Self::Square, a: [Self; 2], b: [Self; 2]);
     /// The mean of two pairs, for the next octave of the period search.
     #[doc(hidden)]
     fn mean(a: [Self; 2], b: [Self; 2]) -> [Self; 2];

@@ -1,0 +1,200 @@
+//! One octave of the stream, and its D(T).
+
+use crate::phase::Phase;
+use crate::sample::Sample;
+
+/// Lags of an octave.
+pub(crate) const LAGS: usize = 10;
+/// Samples of a frame: more than three of the longest periods of its octave.
+pub(crate) const FRAME: usize = 32;
+/// Periods that an octave answers for, in its own samples: wider than an octave, so that neighbours overlap.
+const RANGE: core::ops::RangeInclusive<f32> = 3.7..=9.2;
+/// Periods that a frame must hold before it is tried.
+const HELD: f32 = 2.2;
+/// Samples of a frame before its D(T) is looked at, and while it is looked at with every second one; later with every fourth.
+const LEAST: u16 = 10;
+const OFTEN: u16 = 22;
+
+/// D(1)…D(10), not yet divided by the count of pairs in each.
+pub(crate) type Lags<S> = [<S as Sample>::Square; LAGS];
+/// Two sample pairs that follow each other.
+pub(super) type Two<S> = [[S; 2]; 2];
+/// The samples of a frame.
+pub(super) type Frame<S> = [Two<S>; FRAME / 2];
+
+/// One octave of the stream: a frame of samples and its D(T).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Octave<S: Sample> {
+    pub frame: Frame<S>,
+    /// Samples in the frame; of an odd count the last is not in D(T) yet.
+    pub count: u16,
+    /// D(T) over the frame so far.
+    differences: Lags<S>,
+    /// D(1) of the last frame.
+    last: S::Square,
+    pace: Pace,
+}
+
+/// What an octave makes of the wave of its frame. As wide as the count: padding would be cleared apart, through a copy on the stack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u16)]
+enum Pace {
+    /// It may be the octave's own.
+    Own,
+    /// Too slow for this octave: only D(1) goes on.
+    Slow,
+}
+
+impl<S: Sample> Octave<S> {
+    /// An octave of no samples.
+    pub(super) fn new() -> Self {
+        Self {
+            frame: [Two::<S>::default(); FRAME / 2],
+            count: 0,
+            differences: Lags::<S>::default(),
+            last: S::Square::default(),
+            pace: Pace::Own,
+        }
+    }
+
+    /// Forgets all samples.
+    pub(super) fn restart(&mut self) {
+        self.count = 0;
+        // What the frame before the first lost.
+        self.differences[0] = S::Square::default();
+    }
+
+    /// Keeps a sample; true when it is the second of two, which are to be taken into D(T) before the next comes.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, sample: [S; 2]) -> bool {
+        let place = usize::from(self.count) % FRAME;
+        self.frame.as_flattened_mut()[place] = sample;
+        self.count = place as u16 + 1;
+        place % 2 == 1
+    }
+
+    /// Takes the last two samples into D(T): what is before them is read once for both. Gives their mean.
+    #[inline(always)]
+    pub(super) fn compare(&mut self) -> Option<[S; 2]> {
+        let (&two, before) = self
+            .frame
+            .get(..usize::from(self.count) / 2)?
+            .split_last()?;
+        let [first, second] = two;
+        match before {
+            [.., [_, last]] if self.pace == Pace::Slow => {
+                let [sum, ..] = &mut self.differences;
+                S::add_difference(sum, first, *last);
+                S::add_difference(sum, second, first);
+            }
+            _ => {
+                if before.is_empty() {
+                    self.last = self.differences[0];
+                    self.pace = Pace::Own;
+                }
+                add_lags::<S>(&mut self.differences, two, before);
+            }
+        }
+        Some(S::mean(first, second))
+    }
+
+    /// Power that halving takes away: the mean square of half a difference of neighbours.
+    pub(super) fn lost(&self) -> f32 {
+        let (sum, count) = if self.count >= 8 {
+            (self.differences[0], f32::from(self.count) - 1.0)
+        } else {
+            (self.last, FRAME as f32 - 1.0)
+        };
+        0.25 * S::square_to_f32(sum) / count
+    }
+
+    /// True when enough samples are new to look at D(T), after an even count of them.
+    #[inline(always)]
+    pub(super) fn is_due(&self) -> bool {
+        self.pace == Pace::Own
+            && self.count >= LEAST
+            && (self.count <= OFTEN || self.count.is_multiple_of(4))
+    }
+
+    /// The first minimum of D(T) after its first maximum, between samples, where the frame is long enough for it.
+    #[inline(never)]
+    pub(super) fn period(&mut self) -> Option<f32> {
+        let (shift, count) = (S::shift(&self.differences), usize::from(self.count));
+        let level = |lag: usize| S::level(self.differences[lag - 1], shift, count - lag);
+        // Of a wave beyond this octave D(1) is next to nothing: above a fourteenth of D(7) within it, below at 13 samples and more.
+        let sixteenth = S::halved(S::halved(S::halved(S::halved(level(7)))));
+        if level(1) < sixteenth {
+            self.pace = Pace::Slow;
+            return None;
+        }
+        // A minimum lies within 0.6 of its lag: beyond these the frame cannot hold enough of it.
+        let most = ((5 * count + 7) / 12).min(LAGS - 1);
+        let (mut before, mut here) = (level(1), level(2));
+        let mut greatest = if before < here { here } else { before };
+        let mut lag = 2;
+        while lag <= most {
+            let after = level(lag + 1);
+            if here < S::halved(greatest) && here <= before && here < after {
+                return self.between(lag as f32, [before, here, after]);
+            }
+            if after > greatest {
+                greatest = after;
+            }
+            (before, here) = (here, after);
+            lag += 1;
+        }
+        None
+    }
+
+    /// The minimum of D(T) about a lag.
+    #[inline(never)]
+    fn between(&self, lag: f32, levels: [S::Level; 3]) -> Option<f32> {
+        let [before, here, after] = levels.map(S::level_to_f32);
+        // About its minimum D(T) = level − depth·cos ω(T − P): three lags give P.
+        let ratio = (after - before) / (after + before - 2.0 * here);
+        let omega = core::f32::consts::TAU / (lag - 0.5 * ratio);
+        let half = Phase::from_radians(0.5 * omega).unit();
+        let period = lag - libm::atan2f(ratio * half.im, half.re) / omega;
+        (RANGE.contains(&period) && HELD * period <= f32::from(self.count)).then_some(period)
+    }
+}
+
+/// Adds the squared differences of two samples from all those before them. A lag that is there for the first time begins its sum.
+#[inline(always)]
+fn add_lags<S: Sample>(sums: &mut Lags<S>, now: Two<S>, before: &[Two<S>]) {
+    const { assert!(LAGS == 10, "lags are taken in twos, five times") };
+    let [first, second] = now;
+    let (twos, _) = sums.as_chunks_mut();
+    if let ([a, b, c, d, e], Some([j, i, h, g, f])) = (&mut *twos, before.last_chunk()) {
+        // Most often all lags are there, and a loop over them would take as long again as the sums.
+        let last = add_two_lags::<S>(b, now, g, add_two_lags::<S>(a, now, f, first));
+        let last = add_two_lags::<S>(d, now, i, add_two_lags::<S>(c, now, h, last));
+        add_two_lags::<S>(e, now, j, last);
+        return;
+    }
+    let mut last = first;
+    for (sums, before) in twos.iter_mut().zip(before.iter().rev()) {
+        last = add_two_lags::<S>(sums, now, before, last);
+    }
+    // The next two lags begin here: no sum is cleared beforehand.
+    if let Some(new) = twos.get_mut(before.len()) {
+        *new = [S::Square::default(); 2];
+        S::add_difference(&mut new[0], second, last);
+    }
+}
+
+/// Adds to an odd lag and the even one after it, from what is the even lag before the first sample and what is the odd one before
+/// it; `last` came after those. Gives what the next two lags need of them.
+#[inline(always)]
+fn add_two_lags<S: Sample>(
+    [odd, even]: &mut [S::Square; 2],
+    [first, second]: Two<S>,
+    &[far, near]: &Two<S>,
+    last: [S; 2],
+) -> [S; 2] {
+    S::add_difference(odd, first, near);
+    S::add_difference(odd, second, last);
+    S::add_difference(even, first, far);
+    S::add_difference(even, second, near);
+    far
+}

@@ -99,6 +99,7 @@ impl<S: Sample> Octave<S> {
     }
 
     /// Power that halving takes away: the mean square of half a difference of neighbours.
+    #[inline(never)]
     pub(super) fn lost(&self) -> f32 {
         let (sum, count) = if self.count >= 8 {
             (self.differences[0], f32::from(self.count) - 1.0)

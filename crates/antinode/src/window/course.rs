@@ -119,23 +119,32 @@ impl<'a> Course<'a> {
         let turn = turn.rounded();
         let at = |w: usize| waves.value[w & 1] * (growth(waves.slope[w & 1] * u) + 1.0) * unit;
         let mut running = [at(0), at(1)];
-        let is_bent = waves.rest != [Complex32::ZERO; 2];
-        for here in here {
+        for here in &mut *here {
             *here = Here {
                 u,
                 unit,
                 waves: running,
             };
-            if is_bent {
-                here.waves[0] += waves.rest[0] * unit * u;
-                here.waves[1] += waves.rest[1] * unit * u;
-            }
             u += advance;
             unit *= turn;
             running = [
                 self.turns[0].apply(running[0]),
                 self.turns[1].apply(running[1]),
             ];
+        }
+        if waves.rest != [Complex32::ZERO; 2] {
+            bend(here, waves.rest);
+        }
+    }
+}
+
+/// Adds to each wave what of its change is not exponential.
+#[cold]
+#[inline(never)]
+fn bend(here: &mut [Here], rest: [Complex32; 2]) {
+    for here in here {
+        for (wave, rest) in here.waves.iter_mut().zip(rest) {
+            *wave += rest * here.unit * here.u;
         }
     }
 }

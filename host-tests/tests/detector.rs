@@ -208,3 +208,43 @@ fn a_wave_that_begins_late_is_found_as_soon() {
         assert!(worst < 0.25 && mean < 3.8 && latest < 9.0);
     }
 }
+
+#[test]
+fn a_spur_does_not_hide_the_wave() {
+    // A tone beside the wave, as a share of a_A, from a fifth of its frequency to five times it.
+    for share in [0.02, 0.1, 0.2] {
+        let (mut worst, mut latest, mut none) = (0f64, 0f64, 0);
+        for seed in 0..3000 {
+            let (wave, period) = wave(seed);
+            let ratio = 0.2 * 25f64.powf((seed as f64 * 0.754_878).fract());
+            let advance = std::f64::consts::TAU * ratio / period;
+            let size = share * wave.main_amplitude;
+            let flaws = Flaws {
+                noise: 0.002 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let mut detector = DifferenceDetector::<f32>::new();
+            let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
+            let pairs = (0..).zip(gyro.take((20.0 * period) as usize));
+            let found = pairs.into_iter().find_map(|(k, pair)| {
+                let (sine, cosine) = (advance * f64::from(k) + seed as f64).sin_cos();
+                let pair = [pair.c + size * cosine, pair.d + size * sine];
+                let found = detector.push(pair.map(|x| x as f32))?;
+                Some((f64::from(k), f64::from(found)))
+            });
+            match found {
+                Some((k, found)) => {
+                    worst = worst.max((found / period - 1.0).abs());
+                    latest = latest.max(k / period);
+                }
+                None => none += 1,
+            }
+        }
+        println!("spur of {share}: worst {worst:.3}, latest {latest:.1} periods, none {none}");
+        assert_eq!(none, 0, "spur of {share}");
+        assert!(
+            worst < 0.5 * share.max(0.02) && latest < 5.5,
+            "spur of {share}: {worst} {latest}"
+        );
+    }
+}

@@ -12,6 +12,9 @@ const UNEXPLAINED: f32 = 0.3;
 const FALSE_ALARM: f32 = 1e-11;
 /// Unexplained share above which the rest must look like noise, not like a second tone.
 const TONE: f32 = 2e-3;
+/// The same for a stretch of so many periods, in which a wave with a tone of 20 % beside it is told from two that are alike.
+const LOUD_TONE: f32 = 0.1;
+const LONG: f32 = 2.6;
 
 /// A wave, its slope and an offset, fitted to a stretch of samples of known length.
 ///
@@ -232,10 +235,12 @@ impl Trial {
         {
             return None;
         }
+        let period = self.step.shifted(2.0 * drift / n).period();
+        let tone = if n < LONG * period { TONE } else { LOUD_TONE };
         Some(Fitted {
-            period: self.step.shifted(2.0 * drift / n).period(),
+            period,
             power: power / n,
-            is_doubtful: rest > TONE,
+            is_doubtful: rest > tone,
             parameters,
         })
     }

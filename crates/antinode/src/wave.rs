@@ -39,6 +39,8 @@ pub(crate) struct Standing {
     pub turning_variance: f32,
     /// Covariance of drift and turning: with quadrature, a turning pattern looks like another frequency.
     pub drift_turning: f32,
+    /// The product of both variances less the square of that.
+    pub turn_determinant: f32,
     pub main_change_variance: f32,
     pub quadrature_change_variance: f32,
 }
@@ -136,6 +138,7 @@ impl Standing {
             drift_variance: 0.25 * drift,
             turning_variance: 0.0625 * turning,
             drift_turning: 0.125 * (turn.plus - turn.minus),
+            turn_determinant: 0.0625 * (turn.plus * turn.minus - turn.both * turn.both),
             main_change_variance: 0.25 * main_change,
             quadrature_change_variance: 0.25 * quadrature_change,
         }

@@ -223,7 +223,14 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             fault && self.has_fallen_silent(&record),
             Flags::DEAD_CHANNEL,
         );
-        self.promise(&mut record, &wave, half);
+        let is_circular = flags.contains(Flags::CIRCULAR);
+        if is_circular {
+            self.trend.clear();
+        }
+        // A wave's first window takes its pattern to stand still, and so does one that cannot see it turn.
+        if is_circular || self.before.is_none() || !self.trend.is_empty() {
+            self.promise(&mut record, &wave, half);
+        }
 
         if flags.contains(Flags::LOST) {
             self.failures = self.failures.saturating_add(1);
@@ -292,14 +299,17 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let apart = record.turning - rate.value;
         let spread = record.turning_variance + rate.variance;
         if spread > 0.0 && apart * apart < 16.0 * spread {
-            let shared = wave.drift_turning / (half * half);
-            record.drift -= shared / spread * apart;
-            record.drift_variance -= shared * shared / spread;
+            let squared = half * half;
+            record.drift -= wave.drift_turning / (squared * spread) * apart;
+            // The variance less shared²/spread, without a difference: near a circle nothing would be left of it.
+            record.drift_variance = (wave.turn_determinant / squared
+                + record.drift_variance * rate.variance * squared)
+                / (squared * spread);
         }
     }
 
     /// Keeps what the next windows need.
-    fn remember(&mut self, record: Record, flags: Flags, between: Flags) {
+    fn remember(&mut self, mut record: Record, flags: Flags, between: Flags) {
         let broken = Flags::LOST
             .with(Flags::MISFIT)
             .with(Flags::NOT_FINITE)
@@ -322,7 +332,13 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         if !between.is_empty() {
             self.trend.clear();
         }
-        if !flags.contains(Flags::CIRCULAR) {
+        if flags.contains(Flags::CIRCULAR) {
+            // It has neither an angle nor a phase of its own.
+            record.angle = self.angle;
+            record.turning = 0.0;
+            record.angle_variance = f32::INFINITY;
+            record.phase_variance = f32::INFINITY;
+        } else {
             self.trend.keep(
                 record.middle,
                 record.samples,

@@ -51,6 +51,10 @@ impl Trend {
         self.length = 0;
     }
 
+    pub(crate) fn is_empty(&self) -> bool {
+        self.length == 0
+    }
+
     /// Keeps a clean window of `samples`, unless it overlaps the last one kept.
     pub(crate) fn keep(&mut self, middle: u64, samples: u32, angle: Angle, variance: f32) {
         let overlaps = |last: &Point| middle < last.middle + 2 * u64::from(samples);

@@ -406,3 +406,93 @@ fn other_settings_in_place_do_what_a_new_start_does() {
     assert_eq!(run(&mut front, &mut tracker), changed);
     assert!(first.len() > 60 && changed.len() > 100);
 }
+
+#[test]
+fn a_long_gap_leaves_no_angle_that_is_wrong_and_clean() {
+    // Lost pairs, and whether every first window after them must be one that knows its angle modulo π/2 only.
+    for (lost, unknown) in [
+        (1000u64, Some(false)),
+        (200_000, None),
+        (2_000_000, Some(true)),
+    ] {
+        for seed in 0..20 {
+            let wave = Wave {
+                angle_rate: 0.0,
+                ..random_wave(seed, 5332.0, 0.2)
+            };
+            let flaws = Flaws {
+                noise: 0.005 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let mut gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
+            let mut core = Core::new(windows(10)).unwrap();
+            let push = |gyro: &mut Gyro, core: &mut Core, count| -> Vec<Estimate> {
+                let pairs = gyro.by_ref().take(count);
+                pairs
+                    .filter_map(|pair| core.push([pair.c as f32, pair.d as f32]))
+                    .collect()
+            };
+            let before = push(&mut gyro, &mut core, 5000);
+            let angle = before.last().unwrap().angle;
+            gyro.nth(lost as usize - 1);
+            core.skip(lost);
+            let after = push(&mut gyro, &mut core, 3000);
+            let is_unknown = after[0].flags.contains(antinode::Flags::REACQUIRED);
+            if let Some(unknown) = unknown {
+                assert_eq!(
+                    is_unknown, unknown,
+                    "{lost} lost, seed {seed}: {:?}",
+                    after[0]
+                );
+            }
+            let apart = |estimate: &Estimate| (estimate.angle - angle).abs() > 0.5;
+            assert!(
+                is_unknown || !after.iter().any(apart),
+                "{lost} lost, seed {seed}: {angle} {:?}",
+                after[0]
+            );
+            assert!(after[1..].iter().all(|estimate| estimate.flags.is_empty()));
+        }
+    }
+}
+
+#[test]
+fn a_nearly_circular_pattern_has_an_honest_frequency() {
+    for (share, turning) in [
+        (0.9999, 0.0),
+        (0.998, 0.0),
+        (0.997, 1.0),
+        (0.996, 0.0),
+        (0.996, 1.0),
+        (0.98, 1.0),
+    ] {
+        let wave = Wave {
+            quadrature_amplitude: 0.5 * share,
+            main_amplitude: 0.5,
+            angle_rate: turning,
+            ..Wave::default()
+        };
+        let flaws = Flaws {
+            noise: 0.002,
+            ..Flaws::default()
+        };
+        let (mut squares, mut rows) = (0.0, 0.0);
+        for estimate in identify(wave, &flaws, windows(10), 600_000, 1) {
+            assert!(estimate.frequency_std > 0.0, "{share}: {estimate:?}");
+            // A circle does not show whether it turns: its frequency is that of a pattern that stands still.
+            if estimate.flags.is_empty() || turning == 0.0 {
+                let error = estimate.frequency - wave.frequency;
+                squares += (error / f64::from(estimate.frequency_std)).powi(2);
+                rows += 1.0;
+            }
+        }
+        let ratio = f64::sqrt(squares / rows);
+        println!(
+            "a_B of {share} a_A at {turning} rad/s: {rows} rows, error over stated {ratio:.2}"
+        );
+        assert!(
+            (0.9..1.15).contains(&ratio) || rows < 30.0,
+            "{share}: {ratio}"
+        );
+    }
+}

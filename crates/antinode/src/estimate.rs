@@ -21,7 +21,8 @@ impl Flags {
     pub const MISFIT: Self = Self(1 << 5);
     /// One pick-off gave one and the same value for the whole window.
     pub const DEAD_CHANNEL: Self = Self(1 << 6);
-    /// First window after the wave was lost: the angle is known modulo π/2 only.
+    /// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
+    /// only.
     pub const REACQUIRED: Self = Self(1 << 7);
     /// A sample that is not a number.
     pub const NOT_FINITE: Self = Self(1 << 8);

@@ -192,12 +192,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let samples = u32::from(self.count) * u32::from(model.layout.length);
         let middle = 2 * self.end - u64::from(samples) - 1;
 
-        let expected = match &self.before {
-            Some(before) => {
-                let passed = 0.5 * middle.wrapping_sub(before.middle) as f32;
-                before.angle.plus(before.turning * passed)
-            }
-            None => self.angle,
+        let (expected, is_certain) = match &self.before {
+            Some(before) => before.angle_at(middle, samples),
+            None => (self.angle, true),
         };
         let (angle, quarters) = expected.nearest(wave.angle);
         let phase = wrap(wave.phase + (quarters & 1) as f32 * core::f32::consts::PI);
@@ -229,15 +226,16 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
         // A wave's first window takes its pattern to stand still, and so does one that cannot see it turn.
         if is_circular || self.before.is_none() || !self.trend.is_empty() {
-            self.promise(&mut record, &wave, half);
+            self.trend.take_turning_out(&mut record, &wave, model);
         }
 
         if flags.contains(Flags::LOST) {
             self.failures = self.failures.saturating_add(1);
         } else if fit.settled {
             self.failures = 0;
-            if self.lost {
+            if self.lost || !is_certain {
                 flags = flags.with(Flags::REACQUIRED);
+                self.trend.clear();
                 self.lost = false;
             }
             self.ever = true;
@@ -288,26 +286,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
     }
 
-    /// Takes the share of a turning pattern out of the frequency, with what the angles of the windows before promise.
-    fn promise(&self, record: &mut Record, wave: &Standing, half: f32) {
-        let rate = self.trend.rate(
-            record.middle,
-            record.samples,
-            record.angle,
-            record.angle_variance,
-        );
-        let apart = record.turning - rate.value;
-        let spread = record.turning_variance + rate.variance;
-        if spread > 0.0 && apart * apart < 16.0 * spread {
-            let squared = half * half;
-            record.drift -= wave.drift_turning / (squared * spread) * apart;
-            // The variance less shared²/spread, without a difference: near a circle nothing would be left of it.
-            record.drift_variance = (wave.turn_determinant / squared
-                + record.drift_variance * rate.variance * squared)
-                / (squared * spread);
-        }
-    }
-
     /// Keeps what the next windows need.
     fn remember(&mut self, mut record: Record, flags: Flags, between: Flags) {
         let broken = Flags::LOST
@@ -336,6 +314,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             // It has neither an angle nor a phase of its own.
             record.angle = self.angle;
             record.turning = 0.0;
+            record.turning_variance = 0.0;
             record.angle_variance = f32::INFINITY;
             record.phase_variance = f32::INFINITY;
         } else {

@@ -7,6 +7,9 @@ use crate::phase::PhaseStep;
 use crate::wave::{Angle, Standing};
 use crate::window::{Fit, Model};
 
+/// Deviation of a promised angle, rad, of which six reach the next angle that looks the same.
+const UNKNOWN_TURN: f32 = 0.13;
+
 /// What turns samples into seconds and Hz, made once: f64 is slow on a core without it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Units {
@@ -135,6 +138,16 @@ impl Record {
             residual_rms: root(self.residual),
             flags,
         }
+    }
+
+    /// The angle that this window promises one of `samples` about `middle`, and whether it knows it to less than a quarter turn: over
+    /// a gap it may not.
+    pub(crate) fn angle_at(&self, middle: u64, samples: u32) -> (Angle, bool) {
+        let passed = 0.5 * middle.wrapping_sub(self.middle) as f32;
+        let is_certain = passed < 1.5 * samples as f32
+            || self.turning_variance * passed * passed < UNKNOWN_TURN * UNKNOWN_TURN;
+        let turning = if is_certain { self.turning } else { 0.0 };
+        (self.angle.plus(turning * passed), is_certain)
     }
 
     /// True when pick-off `channel` shows no wave.

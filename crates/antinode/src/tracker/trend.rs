@@ -3,17 +3,19 @@
 //! With a quadrature wave a turning pattern shifts the apparent frequency, so a window that must find θ̇ and f together knows f up
 //! to (a_A² + a_B²)/(a_A² − a_B²) times worse than the bound. The angles of the windows before know θ̇ far better than one window.
 
+use super::record::Record;
 use crate::order::greater;
-use crate::wave::Angle;
+use crate::wave::{Angle, Standing};
+use crate::window::Model;
 
 /// Windows kept.
 const KEPT: usize = 5;
 
 /// A rate in rad/sample and its variance.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Rate {
-    pub value: f32,
-    pub variance: f32,
+struct Rate {
+    value: f32,
+    variance: f32,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -79,9 +81,30 @@ impl Trend {
         self.points.get(..self.length).unwrap_or(&self.points)
     }
 
+    /// Takes the share of a turning pattern out of a window's frequency, with what the angles of the windows before promise.
+    pub(crate) fn take_turning_out(&self, record: &mut Record, wave: &Standing, model: &Model) {
+        let rate = self.rate(
+            record.middle,
+            record.samples,
+            record.angle,
+            record.angle_variance,
+        );
+        let apart = record.turning - rate.value;
+        let spread = record.turning_variance + rate.variance;
+        if spread > 0.0 && apart * apart < 16.0 * spread {
+            let (squared, per_half) = (model.half * model.half, model.per_half);
+            let per_spread = 1.0 / (squared * spread);
+            record.drift -= wave.drift_turning * per_spread * apart;
+            // The variance less shared²/spread, without a difference: near a circle nothing would be left of it.
+            record.drift_variance = (wave.turn_determinant * per_half * per_half
+                + record.drift_variance * rate.variance * squared)
+                * per_spread;
+        }
+    }
+
     /// The rate at the middle of a window, from its own angle and the angles before: constant through three points, linear in time
     /// through more. With none before, the pattern is taken to stand still until a window shows that it does not.
-    pub(crate) fn rate(&self, middle: u64, samples: u32, angle: Angle, variance: f32) -> Rate {
+    fn rate(&self, middle: u64, samples: u32, angle: Angle, variance: f32) -> Rate {
         // Sums of weight·timeⁿ and of weight·timeⁿ·angle; the window itself is at time and angle 0.
         let own = weight(variance);
         let mut powers = [own, 0.0, 0.0, 0.0, 0.0];

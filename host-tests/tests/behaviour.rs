@@ -48,6 +48,41 @@ proptest! {
 }
 
 #[test]
+fn stated_deviations_hold_for_pick_offs_that_are_corrected() {
+    for (gain_ratio, pick_off_error) in [(1.0, 0.3), (1.5, -0.2), (0.5, 0.0)] {
+        let wave = Wave {
+            angle: 0.4,
+            ..random_wave(1, 5332.0, 0.3)
+        };
+        let flaws = Flaws {
+            gain_ratio,
+            pick_off_error,
+            noise: 0.004 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let settings = Settings {
+            calibration: Calibration {
+                gain_ratio: gain_ratio as f32,
+                pick_off_angle: pick_off_error as f32,
+                ..Calibration::IDEAL
+            },
+            ..windows(10)
+        };
+        let (mut squares, mut rows) = ([0.0; 4], 0.0);
+        for estimate in identify(wave, &flaws, settings, 500_000, 7) {
+            let found = errors(&estimate, &wave).into_iter().zip(stated(&estimate));
+            for (square, (error, deviation)) in squares.iter_mut().zip(found) {
+                *square += (error / deviation).powi(2);
+            }
+            rows += 1.0;
+        }
+        let ratios = squares.map(|square| f64::sqrt(square / rows));
+        println!("gain {gain_ratio}, {pick_off_error} rad: error over stated {ratios:.3?}");
+        assert!(ratios.iter().all(|ratio| (0.94..1.06).contains(ratio)));
+    }
+}
+
+#[test]
 fn calibration_undoes_the_pick_offs() {
     for seed in 0..12 {
         let wave = Wave {

@@ -80,9 +80,16 @@ impl Correction {
         [c, self.lag * (d * self.cosine - c * self.sine)]
     }
 
-    /// By how much correcting amplifies the noise of channel D.
-    pub(crate) fn noise_gain(&self) -> f32 {
-        1.0 / (square_root(self.lag.norm_sqr()) * self.cosine)
+    /// What correcting makes of noise: by how much it amplifies that of channel D, and the share of C's that it adds there.
+    pub(crate) fn noise_gains(&self) -> [f32; 2] {
+        if self.ideal {
+            return [1.0, 0.0];
+        }
+        let per_cosine = 1.0 / self.cosine;
+        [
+            per_cosine / square_root(self.lag.norm_sqr()),
+            self.sine * per_cosine,
+        ]
     }
 }
 

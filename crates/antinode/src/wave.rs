@@ -53,20 +53,22 @@ struct Variances {
 }
 
 impl Variances {
-    /// Of the components along `plus` and along `minus`, from the variances of the real and the imaginary part of each pick-off's
-    /// phasor, those of D amplified by `gain_d`.
+    /// Of the components along `plus` and along `minus`, from the variances of the real and the imaginary part of each raw pick-off's
+    /// phasor and the gains of [`Correction::noise_gains`](crate::calibration::Correction::noise_gains).
     #[inline(never)]
-    fn along(plus: Complex32, minus: Complex32, parts: [f32; 2], gain_d: f32) -> Self {
+    fn along(plus: Complex32, minus: Complex32, parts: [f32; 2], [d, c_on_d]: [f32; 2]) -> Self {
         let one = |x: Complex32, y: Complex32| parts[0] * x.re * y.re + parts[1] * x.im * y.im;
-        // z₊ = z_C + j z_D and z₋ = z_C − j z_D: what a component sees of z_D.
+        // z₊ = z_C + j z_D and z₋ = z_C − j z_D: what a component sees of z_D, and of D and C in it.
         let (plus_d, minus_d) = (
-            Complex32::new(plus.im, -plus.re) * gain_d,
-            Complex32::new(-minus.im, minus.re) * gain_d,
+            Complex32::new(plus.im, -plus.re),
+            Complex32::new(-minus.im, minus.re),
         );
+        let (plus_c, minus_c) = (plus + plus_d * c_on_d, minus + minus_d * c_on_d);
+        let (plus_d, minus_d) = (plus_d * d, minus_d * d);
         Self {
-            plus: one(plus, plus) + one(plus_d, plus_d),
-            minus: one(minus, minus) + one(minus_d, minus_d),
-            both: one(plus, minus) + one(plus_d, minus_d),
+            plus: one(plus_c, plus_c) + one(plus_d, plus_d),
+            minus: one(minus_c, minus_c) + one(minus_d, minus_d),
+            both: one(plus_c, minus_c) + one(plus_d, minus_d),
         }
     }
 
@@ -110,11 +112,11 @@ impl Standing {
         let Covariance { even, odd } = &model.covariance;
         let levels = [noise * even[0][0], noise * odd[0][0]];
         let slopes = [noise * odd[1][1], noise * even[1][1]];
-        let gain_d = model.correction.noise_gain();
-        let size = Variances::along(e_plus, e_minus, levels, gain_d);
-        let growth = Variances::along(e_plus, e_minus, slopes, gain_d);
-        let phase = Variances::along(f_plus, f_minus, levels, gain_d);
-        let turn = Variances::along(f_plus, f_minus, slopes, gain_d);
+        let gains = model.correction.noise_gains();
+        let size = Variances::along(e_plus, e_minus, levels, gains);
+        let growth = Variances::along(e_plus, e_minus, slopes, gains);
+        let phase = Variances::along(f_plus, f_minus, levels, gains);
+        let turn = Variances::along(f_plus, f_minus, slopes, gains);
         let [main, quadrature] = size.sum_and_difference();
         let [main_change, quadrature_change] = growth.sum_and_difference();
         let [common, apart] = phase.sum_and_difference();

@@ -121,6 +121,9 @@ impl<S: Sample, const N: usize> Front<S, N> {
 
     /// Tells that `count` sample pairs were lost before the next one: the block that they would have been part of is dropped.
     pub fn skip(&mut self, count: u64) {
+        if count == 0 {
+            return;
+        }
         self.index += count;
         match self.stage {
             Stage::Searching => self.search(),
@@ -165,7 +168,9 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Begins blocks for a wave of `period` samples.
     #[inline(never)]
     fn begin(&mut self, period: f32) {
-        let layout = self.settings.layout(period, N as u16);
+        let layout = self
+            .settings
+            .layout(period, N.min(usize::from(u16::MAX)) as u16);
         self.demodulator.begin(layout, self.index);
         self.stage = Stage::Gathering;
     }

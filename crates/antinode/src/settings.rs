@@ -23,7 +23,7 @@ pub enum Detection {
 pub struct Settings {
     /// Sample rate in Hz, 10⁻³ to 10¹².
     pub sample_rate: f64,
-    /// Length of a window in periods, 2 to what the ring of blocks holds (at most one block a period; see [`Settings::layout`]).
+    /// Length of a window in periods, 2 to two less than the ring of blocks holds; see [`Settings::layout`].
     pub periods: u16,
     /// Blocks from the start of one window to the start of the next; `None`: windows follow each other without gap or overlap, and
     /// have half as many blocks.
@@ -126,7 +126,9 @@ impl core::error::Error for SettingsError {}
 const BLOCKS_A_WINDOW: f32 = 5.0;
 /// Periods of a block at most: a reference that is off by the detector's 5 % then costs 2 % of its sums.
 const LONGEST_BLOCK: f32 = 2.0;
-/// How far a window may be from what was asked, as a share of it.
+/// Blocks of a window at most, where it has fewer periods: none has more blocks than the larger of both.
+pub(crate) const MOST_BLOCKS: u16 = 11;
+/// How far a window may be from what was asked, as a share of it, if another length of blocks brings it nearer.
 const NEAR: f32 = 0.05;
 
 impl Settings {
@@ -191,7 +193,7 @@ impl Settings {
     pub fn layout(&self, period: f32, most: u16) -> Layout {
         let window = period * f32::from(self.periods);
         let longest = lesser(LONGEST_BLOCK * period, window / BLOCKS_A_WINDOW);
-        let mut length = if self.hop.is_some() {
+        let length = if self.hop.is_some() {
             rounded(0.5 * longest)
         } else if longest < 16.0 {
             rounded(longest)
@@ -199,14 +201,26 @@ impl Settings {
             // Samples are summed in twos.
             2 * rounded(0.5 * longest)
         };
-        let off = |length: u16| {
-            let blocks = rounded(window / f32::from(length));
-            (u32::from(blocks) * u32::from(length)) as f32 - window
-        };
-        while length > 1 && off(length).abs() > NEAR * window {
-            length -= 1;
-        }
+        let length = self.fitting(window, length.max(1));
         Layout::new::<f32>(PhaseStep::from_period(period), length.min(most).max(1))
+    }
+
+    /// The length from `length` down to half of it that brings whole blocks near enough to `window` samples.
+    fn fitting(&self, window: f32, mut length: u16) -> u16 {
+        let blocks = |length: u16| rounded(window / f32::from(length));
+        let off = |length: u16| (f32::from(blocks(length)) * f32::from(length) - window).abs();
+        let is_too_short = |length: u16| blocks(length) > self.periods.max(MOST_BLOCKS);
+        if is_too_short(length) {
+            length += 1;
+        }
+        let (least, mut nearest) = (length.div_ceil(2), length);
+        while off(nearest) > NEAR * window && length > least && !is_too_short(length - 1) {
+            length -= 1;
+            if off(length) < off(nearest) {
+                nearest = length;
+            }
+        }
+        nearest
     }
 
     /// How many blocks of `layout` come nearest to a window.

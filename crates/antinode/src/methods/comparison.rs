@@ -259,14 +259,22 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
         let unit = scatter(&explained.shape, reference, count, changing);
         Method {
             wave: wave.near(exact.shape.angle),
-            j: functional::squares(&wave, &sums.moments, &sums.products).max(0.0),
+            j: functional::above_zero(functional::squares(&wave, &sums.moments, &sums.products)),
             differences: apart(&wave.shape, &exact.shape, &reference.deviations),
             unexplained: apart(&seen, &explained.shape, &unit),
             conditions: conditions(i),
             rank: 0,
         }
     });
-    let key = |method: &Method| (!method.conditions.of_the_method_hold(), method.j);
+    // A method that found nothing comes last.
+    let j = |method: &Method| {
+        if method.j.is_nan() {
+            f64::INFINITY
+        } else {
+            method.j
+        }
+    };
+    let key = |method: &Method| (!method.conditions.of_the_method_hold(), j(method));
     let keys = methods.map(|method| key(&method));
     for (i, method) in methods.iter_mut().enumerate() {
         let own = key(method);

@@ -93,7 +93,7 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
     pub fn new(lag: u16, offsets: [f32; 2]) -> Self {
         Self {
             offsets: S::offsets(offsets),
-            lag: lag.min(LAGS as u16).max(1),
+            lag: lag.min(LAGS.min(usize::from(u16::MAX)) as u16).max(1),
             line: [S::Centred::default(); LAGS],
             place: 0,
             filled: 0,

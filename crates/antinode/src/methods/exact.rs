@@ -8,6 +8,7 @@ use num_complex::Complex64;
 
 use super::algorithm4;
 use super::frequency;
+use super::functional;
 use super::moments::Moments;
 use super::products::{Products, mean_harmonic};
 use super::wave::Wave;
@@ -52,7 +53,7 @@ pub fn at(products: &Products, moments: &Moments) -> Solution {
         wave: algorithm4::wave(&fitted),
         offsets,
         omega,
-        residual: residual.max(0.0),
+        residual: functional::above_zero(residual),
     }
 }
 

@@ -22,6 +22,11 @@ pub fn squares(wave: &Wave, moments: &Moments, products: &Products) -> f64 {
     j
 }
 
+/// Zero for what rounding left below it; what is not a number stays so.
+pub(super) fn above_zero(squares: f64) -> f64 {
+    if squares < 0.0 { 0.0 } else { squares }
+}
+
 /// (15), input units: the mean of |residual| of both pick-offs, at `omega` rad a sample. It takes the samples themselves, centred.
 ///
 /// Printed for algorithm 1, it serves any wave.

@@ -129,7 +129,7 @@ pub trait Sample: Copy + Debug + Default + PartialEq + Send + sealed::Sealed + '
     /// Single pairs that are summed and watched together, at most 32: no more than fit between two samples of a fast converter.
     #[doc(hidden)]
     const WATCHED_AT_ONCE: u16;
-    /// Less than every sample, and more than every sample: extremes of none.
+    /// No sample is less than the first or more than the second: the extremes of none, greatest and least.
     #[doc(hidden)]
     const EXTREMES: [Self; 2];
     /// Offsets in input units, to be taken off by [`centred`](Self::centred).

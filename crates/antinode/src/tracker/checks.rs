@@ -124,7 +124,7 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
     // A part of the residual beside the noise of the windows before, or beside the rest where that is known better.
     let stands_out = |part: f32, degrees: f32, floor: f32| {
         let rest = remains.freedom - degrees;
-        let (level, freedom) = if noise.freedom > rest {
+        let (level, freedom) = if noise.freedom > rest && !louder {
             (noise.variance, noise.freedom)
         } else {
             (greater(remains.residual - part, 0.0) / rest, rest)

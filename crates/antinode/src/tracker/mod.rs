@@ -10,7 +10,7 @@ use crate::block::{Block, Layout};
 use crate::calibration::Calibration;
 use crate::estimate::{Estimate, Flags};
 use crate::sample::Sample;
-use crate::settings::{Settings, SettingsError};
+use crate::settings::{MOST_BLOCKS, Settings, SettingsError};
 use crate::wave::{Angle, Standing, wrap};
 use crate::window::{CARRIER_REACH, Fit, Gathered, Model, solve};
 use checks::Noise;
@@ -19,10 +19,15 @@ use trend::Trend;
 
 /// How far the detector's frequency may be off, as a share of it.
 const DETECTOR_UNCERTAINTY: f32 = 0.05;
+/// Flags of a window that says nothing about those after it.
+const BROKEN: Flags = Flags::LOST
+    .with(Flags::MISFIT)
+    .with(Flags::NOT_FINITE)
+    .with(Flags::DEAD_CHANNEL);
 /// Windows without a wave after which the search starts anew.
 const GIVE_UP: u8 = 2;
 
-/// Cuts the stream of blocks into windows and tracks the wave over them. Holds up to `BLOCKS` blocks.
+/// Cuts the stream of blocks into windows and tracks the wave over them. Holds up to `BLOCKS` blocks, 11 to 65 535.
 ///
 /// It works at block rate and may run in thread context while blocks are gathered in an interrupt.
 #[derive(Debug, Clone)]
@@ -52,6 +57,7 @@ pub struct Tracker<const BLOCKS: usize> {
 impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// A tracker that waits for its first block.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
+        const { assert!(BLOCKS >= MOST_BLOCKS as usize && BLOCKS <= u16::MAX as usize) };
         settings.check(BLOCKS)?;
         Ok(Self {
             settings,
@@ -120,7 +126,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.failures = 0;
     }
 
-    /// Changes the calibration: the next block starts a new first window, its angle continued.
+    /// Changes the calibration: the next block starts a new first window, flagged [`Flags::REACQUIRED`], its angle continued.
     pub fn calibrate(&mut self, calibration: Calibration) -> Result<(), SettingsError> {
         let settings = Settings {
             calibration,
@@ -206,7 +212,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             model.layout.step.period(),
             &wave,
         ));
-        let mut record = Record::new(model, &fit, &wave, own + errors, middle, angle, phase);
+        let mut record = Record::new(model, &fit, &wave, own, middle, angle, phase);
         let mut between = Flags::empty();
         if let Some(before) = &self.before {
             between = checks::between(before, &record);
@@ -233,7 +239,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.failures = self.failures.saturating_add(1);
         } else if fit.settled {
             self.failures = 0;
-            if self.lost || !is_certain {
+            let is_clean = !flags.intersects(BROKEN);
+            if self.lost || !is_certain && is_clean {
                 flags = flags.with(Flags::REACQUIRED);
                 self.trend.clear();
                 self.lost = false;
@@ -242,7 +249,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         } else {
             self.failures = self.failures.saturating_add(1);
         }
-        self.remember(record, flags, between);
+        self.remember(record, flags, between, fit.waves.drift() * model.per_half);
         Some(record.estimate(&self.units, flags))
     }
 
@@ -286,13 +293,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
     }
 
-    /// Keeps what the next windows need.
-    fn remember(&mut self, mut record: Record, flags: Flags, between: Flags) {
-        let broken = Flags::LOST
-            .with(Flags::MISFIT)
-            .with(Flags::NOT_FINITE)
-            .with(Flags::DEAD_CHANNEL);
-        self.broken = flags.intersects(broken);
+    /// Keeps what the next windows need; `drift` is the frequency beyond the carrier weighted by power, rad a sample.
+    fn remember(&mut self, mut record: Record, flags: Flags, between: Flags, drift: f32) {
+        self.broken = flags.intersects(BROKEN);
         if self.broken {
             // The next window is judged by itself: what lies between it and the last clean one is already flagged.
             self.trend.clear();
@@ -311,7 +314,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.trend.clear();
         }
         if flags.contains(Flags::CIRCULAR) {
-            // It has neither an angle nor a phase of its own.
+            // It has neither an angle nor a phase of its own, and of its two waves one knows the frequency.
+            record.drift = drift;
             record.angle = self.angle;
             record.turning = 0.0;
             record.turning_variance = 0.0;

@@ -61,9 +61,9 @@ pub(crate) struct Record {
     pub quadrature_variance: f32,
     pub quadrature_rate: f32,
     pub quadrature_rate_variance: f32,
-    /// Power of each pick-off's phasor, and its variance.
+    /// Power of each ideal pick-off's phasor, and the variance of a part of it.
     pub channel_power: [f32; 2],
-    pub channel_variance: f32,
+    pub channel_variance: [f32; 2],
     pub offsets: [f32; 2],
     pub offset_variance: f32,
 }
@@ -81,6 +81,9 @@ impl Record {
     ) -> Self {
         let per_half = model.per_half;
         let squared = per_half * per_half;
+        let [d, c_on_d] = model.correction.noise_gains();
+        let variance =
+            wave.noise * greater(model.covariance.even[0][0], model.covariance.odd[0][0]);
         Self {
             middle,
             samples: u32::from(model.blocks) * u32::from(model.layout.length),
@@ -103,8 +106,7 @@ impl Record {
             quadrature_rate: wave.quadrature_change * per_half,
             quadrature_rate_variance: wave.quadrature_change_variance * squared,
             channel_power: fit.channel_power(),
-            channel_variance: wave.noise
-                * greater(model.covariance.even[0][0], model.covariance.odd[0][0]),
+            channel_variance: [variance, variance * (d * d + c_on_d * c_on_d)],
             offsets: fit.offsets,
             // A short window knows its offset worse than the mean of its samples.
             offset_variance: 2.0 * wave.noise * per_half,
@@ -152,7 +154,8 @@ impl Record {
 
     /// True when pick-off `channel` shows no wave.
     pub(crate) fn is_silent(&self, channel: usize) -> bool {
-        self.channel_power[channel] < 36.0 * self.channel_variance + 1e-6 * self.main * self.main
+        self.channel_power[channel]
+            < 36.0 * self.channel_variance[channel] + 1e-6 * self.main * self.main
     }
 
     /// By how much the phase has run beyond what the mean frequency of both windows explains, rad, not wrapped.

@@ -10,6 +10,10 @@ use crate::window::Model;
 
 /// Windows kept.
 const KEPT: usize = 5;
+/// Windows ago beyond which an angle says nothing of the present rate: sixth powers of it are still numbers.
+const OLDEST: f32 = 1e5;
+/// The least variance of an angle, rad².
+const LEAST: f32 = 1e-18;
 
 /// A rate in rad/sample and its variance.
 #[derive(Debug, Clone, Copy)]
@@ -71,7 +75,7 @@ impl Trend {
             *place = Point {
                 middle,
                 angle,
-                weight: weight(variance),
+                weight: 1.0 / greater(variance, LEAST),
             };
             self.length += 1;
         }
@@ -105,9 +109,9 @@ impl Trend {
     /// The rate at the middle of a window, from its own angle and the angles before: constant through three points, linear in time
     /// through more. With none before, the pattern is taken to stand still until a window shows that it does not.
     fn rate(&self, middle: u64, samples: u32, angle: Angle, variance: f32) -> Rate {
-        // Sums of weight·timeⁿ and of weight·timeⁿ·angle; the window itself is at time and angle 0.
-        let own = weight(variance);
-        let mut powers = [own, 0.0, 0.0, 0.0, 0.0];
+        // Sums of weight·timeⁿ and of weight·timeⁿ·angle; the window itself is at time and angle 0, and its weight is one.
+        let own = greater(variance, LEAST);
+        let mut powers = [1.0, 0.0, 0.0, 0.0, 0.0];
         let mut values = [0.0; 3];
         let per_window = 0.5 / samples as f32;
         let mut used = 1;
@@ -118,8 +122,11 @@ impl Trend {
                 continue;
             }
             let time = -(passed as f32) * per_window;
+            if time < -OLDEST {
+                continue;
+            }
             let angle = point.angle.less(angle);
-            let mut weight = point.weight;
+            let mut weight = point.weight * own;
             for (n, power) in powers.iter_mut().enumerate() {
                 *power += weight;
                 if let Some(value) = values.get_mut(n) {
@@ -138,11 +145,7 @@ impl Trend {
         let [s0, s1, s2, s3, s4] = powers;
         let [v0, v1, v2] = values;
         // The curve is taken out of level and rate where there are points for it, then the level out of the rate.
-        let bent = if self.length >= 3 && s4 > 0.0 {
-            1.0 / s4
-        } else {
-            0.0
-        };
+        let bent = if used > 3 && s4 > 0.0 { 1.0 / s4 } else { 0.0 };
         let (level, mixed, rate) = (
             s0 - s2 * s2 * bent,
             s1 - s2 * s3 * bent,
@@ -155,11 +158,7 @@ impl Trend {
         let variance = 1.0 / (rate - mixed * shared);
         Rate {
             value: (rate_value - level_value * shared) * variance * per_sample,
-            variance: variance * per_sample * per_sample,
+            variance: variance * own * per_sample * per_sample,
         }
     }
-}
-
-fn weight(variance: f32) -> f32 {
-    1.0 / greater(variance, 1e-18)
 }

@@ -102,7 +102,7 @@ impl Waves {
     }
 
     /// The common phase advance beyond the carrier, rad a half window, weighted by the power of the waves.
-    pub(super) fn drift(&self) -> f32 {
+    pub(crate) fn drift(&self) -> f32 {
         let turned = |w: usize| (self.change[w] * self.value[w].conj()).im;
         let power = self.power();
         if power > 0.0 {

@@ -207,9 +207,11 @@ impl Settings {
 
     /// The length from `length` down to half of it that brings whole blocks near enough to `window` samples.
     fn fitting(&self, window: f32, mut length: u16) -> u16 {
-        let blocks = |length: u16| rounded(window / f32::from(length));
-        let off = |length: u16| (f32::from(blocks(length)) * f32::from(length) - window).abs();
-        let is_too_short = |length: u16| blocks(length) > self.periods.max(MOST_BLOCKS);
+        let off = |length: u16| {
+            (f32::from(nearest_count(window, length)) * f32::from(length) - window).abs()
+        };
+        let most = self.periods.max(MOST_BLOCKS);
+        let is_too_short = |length: u16| nearest_count(window, length) > most;
         if is_too_short(length) {
             length += 1;
         }
@@ -226,8 +228,14 @@ impl Settings {
     /// How many blocks of `layout` come nearest to a window.
     pub fn blocks(&self, layout: Layout) -> u16 {
         let window = layout.step.period() * f32::from(self.periods);
-        rounded(window / f32::from(layout.length))
+        nearest_count(window, layout.length)
     }
+}
+
+/// How many lengths come nearest to a window.
+#[inline(never)]
+fn nearest_count(window: f32, length: u16) -> u16 {
+    rounded(window / f32::from(length))
 }
 
 /// The nearest whole number, of numbers from 0 to 65 535.

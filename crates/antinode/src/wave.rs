@@ -163,6 +163,7 @@ pub(crate) struct Angle {
 }
 
 impl Angle {
+    #[inline(never)]
     pub(crate) fn new(radians: f32) -> Self {
         let quarters = libm::roundf(radians * FRAC_2_PI);
         Self {

@@ -130,9 +130,9 @@ impl<S: Sample> Octave<S> {
         }
         // A minimum lies within 0.6 of its lag: beyond these the frame cannot hold enough of it.
         let most = ((5 * count + 7) / 12).min(LAGS - 1);
-        let (mut before, mut here) = (level(1), level(2));
-        let mut greatest = if before < here { here } else { before };
-        let mut lag = 2;
+        let (mut before, mut here) = (level(1), level(1));
+        let mut greatest = here;
+        let mut lag = 1;
         while lag <= most {
             let after = level(lag + 1);
             if here < S::halved(greatest) && here <= before && here < after {

@@ -9,6 +9,7 @@ use crate::arch::square_root;
 use crate::block::{Block, Layout};
 use crate::calibration::Calibration;
 use crate::estimate::{Estimate, Flags};
+use crate::order::greater;
 use crate::sample::Sample;
 use crate::settings::{MOST_BLOCKS, Settings, SettingsError};
 use crate::wave::{Angle, Standing, wrap};
@@ -86,14 +87,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         settings.check(BLOCKS)?;
         self.settings = settings;
         self.units = Units::at(settings.sample_rate);
+        // All else begins anew with the next block.
         self.forget();
-        self.noise = Noise::default();
-        self.trend.clear();
-        self.before = None;
         self.angle = Angle::new(settings.start_angle);
-        self.lost = false;
         self.ever = false;
-        self.broken = false;
         Ok(())
     }
 
@@ -164,7 +161,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             layout.step,
             self.count,
             settings.calibration,
-            settings.sample_rate as f32,
+            self.units.sample_rate,
         ));
         self.noise = Noise::default();
         self.trend.clear();
@@ -210,7 +207,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             &self.settings,
             self.gathered.blocks(),
             model.layout.step.period(),
+            &fit,
             &wave,
+            greater(own, wave.noise),
         ));
         let mut record = Record::new(model, &fit, &wave, own, middle, angle, phase);
         let mut between = Flags::empty();
@@ -249,7 +248,12 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         } else {
             self.failures = self.failures.saturating_add(1);
         }
-        self.remember(record, flags, between, fit.waves.drift() * model.per_half);
+        let drift = if is_circular {
+            fit.waves.drift() * model.per_half
+        } else {
+            record.drift
+        };
+        self.remember(record, flags, between, drift);
         Some(record.estimate(&self.units, flags))
     }
 

@@ -14,7 +14,7 @@ const UNKNOWN_TURN: f32 = 0.13;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Units {
     /// In Hz.
-    sample_rate: f32,
+    pub sample_rate: f32,
     /// Half a sample, s.
     half_sample: f64,
     /// A phase step of one, Hz.
@@ -22,6 +22,7 @@ pub(crate) struct Units {
 }
 
 impl Units {
+    #[inline(never)]
     pub(crate) fn at(sample_rate: f64) -> Self {
         // By Newton's steps, to within two units of the last place: a division in f64 is a kilobyte of code there.
         let rough = f64::from(1.0 / sample_rate as f32);

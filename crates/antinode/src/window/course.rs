@@ -18,6 +18,10 @@ pub(super) struct Here {
     pub unit: Complex32,
     /// z₊ and z₋ there, turned with the carrier.
     pub waves: [Complex32; 2],
+    /// What both pick-offs leave beside the waves: the sum of the squares.
+    pub power: f32,
+    /// The squared sums, from the first block to this one, of what is left along z.
+    pub run: f32,
 }
 
 /// The carrier in the middle of the blocks of a window.
@@ -124,6 +128,8 @@ impl<'a> Course<'a> {
                 u,
                 unit,
                 waves: running,
+                power: 0.0,
+                run: 0.0,
             };
             u += advance;
             unit *= turn;

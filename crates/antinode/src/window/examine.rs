@@ -56,15 +56,12 @@ pub(super) fn examine(
     for chunk in blocks.chunks(CHUNK) {
         let here = here.get_mut(..chunk.len()).unwrap_or_default();
         course.next(here);
-        let mut rests = [Rest::default(); CHUNK];
         for (channel, prediction) in predictions.iter().enumerate() {
             let gradient = &mut gradients[channel];
-            rest(
-                model, prediction, channel, chunk, here, gradient, &mut rests,
-            );
+            rest(model, prediction, channel, chunk, here, gradient);
         }
-        for (rest, here) in rests.iter().zip(&*here) {
-            views.take(rest, here.u);
+        for here in &*here {
+            views.take(here);
         }
         if let Some(thirds) = &mut thirds {
             thirds.add(chunk, here);
@@ -77,15 +74,6 @@ pub(super) fn examine(
     gradients
 }
 
-/// What a block leaves, of both pick-offs.
-#[derive(Debug, Clone, Copy, Default)]
-struct Rest {
-    /// Sum of the squares.
-    power: f32,
-    /// The squared sums, from the first block to this one, of what is left along z.
-    run: f32,
-}
-
 /// Takes what one pick-off leaves of a run of blocks: one at a time, so that its constants stay in registers.
 #[inline(never)]
 fn rest(
@@ -93,17 +81,16 @@ fn rest(
     prediction: &Prediction,
     channel: usize,
     blocks: &[Seen],
-    here: &[Here],
+    here: &mut [Here],
     gradient: &mut Gradient,
-    rests: &mut [Rest],
 ) {
     let (half, response, prediction) = (model.half, model.response, *prediction);
     let mut sums = *gradient;
-    for ((block, here), out) in blocks.iter().zip(here).zip(rests) {
+    for (block, here) in blocks.iter().zip(here) {
         let rest = prediction.rest(&block.whitened[channel & 1], here);
         sums.take(&response, &rest, here.u * half, here.unit);
-        out.power += rest.mean * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
-        out.run += sums.level.norm_sqr();
+        here.power += rest.mean * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
+        here.run += sums.level.norm_sqr();
     }
     *gradient = sums;
 }
@@ -134,13 +121,13 @@ impl Views {
         }
     }
 
-    /// Takes the next block, at time `u`.
+    /// Takes what the next block leaves.
     #[inline(always)]
-    fn take(&mut self, rest: &Rest, u: f32) {
+    fn take(&mut self, rest: &Here) {
         self.residual += rest.power;
         self.worst_block = greater(rest.power, self.worst_block);
         self.count += 1.0;
-        self.time += u;
+        self.time += rest.u;
         // A step is known by what of it is neither constant nor slope.
         let room = self.count
             - self.count * self.count * self.per_block

@@ -30,6 +30,8 @@ const STEPS: usize = 6;
 pub(crate) struct Fit {
     pub waves: Waves,
     pub offsets: [f32; 2],
+    /// The greatest amplitude of each raw pick-off's wave within the window, or up to 2 % more, squared.
+    pub reach: [f32; 2],
     /// What the waves leave unexplained.
     pub remains: Remains,
     /// False when the steps did not settle.
@@ -69,6 +71,10 @@ impl Model {
             if fit.settled && (negligible || step.moved <= SETTLED * SETTLED * step.size) {
                 break;
             }
+        }
+        for (i, reach) in fit.reach.iter_mut().enumerate() {
+            // (|z| + |z′|)² is not more than that, whatever share of |z| the change is.
+            *reach = 1.01 * parameters.z[i].norm_sqr() + 101.0 * parameters.slope[i].norm_sqr();
         }
     }
 }

@@ -17,4 +17,4 @@ pub(crate) use fit::{CARRIER_REACH, Fit, solve};
 pub(crate) use gathered::Gathered;
 pub(crate) use model::Model;
 pub(crate) use normal::Covariance;
-pub(crate) use seen::{Extremes, Seen};
+pub(crate) use seen::Seen;

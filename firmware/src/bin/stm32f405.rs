@@ -63,7 +63,8 @@ mod app {
         let pins = device.GPIOA.split(&mut rcc);
         let _ = (
             pins.pa9.into_alternate::<7>(),
-            pins.pa10.into_alternate::<7>(),
+            // Pulled up: without a bridge it would float, and noise be bytes.
+            pins.pa10.into_alternate::<7>().internal_pull_up(true),
         );
         let inputs = (pins.pa1.into_analog(), pins.pa2.into_analog());
 

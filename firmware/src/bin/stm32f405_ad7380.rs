@@ -26,6 +26,7 @@ mod app {
     use firmware::instrument::Instrument;
     use firmware::pipeline::{Places, Queues};
     use firmware::settings::{AD7380_RAILS, Arithmetic, HALF, configuration};
+    use stm32f4xx_hal::gpio::Speed;
     use stm32f4xx_hal::pac::Interrupt;
     use stm32f4xx_hal::prelude::*;
 
@@ -61,14 +62,16 @@ mod app {
         let pins = device.GPIOA.split(&mut rcc);
         let _ = (
             pins.pa9.into_alternate::<7>(),
-            pins.pa10.into_alternate::<7>(),
+            // Pulled up: without a bridge it would float, and noise be bytes.
+            pins.pa10.into_alternate::<7>().internal_pull_up(true),
         );
+        // After a reset pins are at their slowest, which 10.5 MHz are too fast for; the edge of CS is when both inputs are sampled.
         let data = (
-            pins.pa5.into_alternate::<5>(),
+            pins.pa5.into_alternate::<5>().speed(Speed::High),
             pins.pa6.into_alternate::<5>(),
-            pins.pa7.into_alternate::<5>(),
+            pins.pa7.into_alternate::<5>().speed(Speed::High),
         );
-        let cs = pins.pa8.into_push_pull_output();
+        let cs = pins.pa8.into_push_pull_output().speed(Speed::VeryHigh);
 
         let settings = configuration(FrontEnd::Spi, AD7380_RAILS);
         let Ok(parts) = c.local.queues.split(c.local.places, settings, cause) else {

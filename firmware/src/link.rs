@@ -3,10 +3,10 @@
 use antinode_telemetry::{CommandFrame, Decoder, MAX_FRAME, Report, Reporter};
 use bbqueue::nicknames::Churrasco;
 use bbqueue::prod_cons::stream::{StreamConsumer, StreamGrantR, StreamProducer};
-use heapless::spsc::Consumer;
 
 use crate::counts::Count;
-use crate::settings::{INBOX, OUTBOX};
+use crate::inbox::Inbox;
+use crate::settings::OUTBOX;
 
 /// Bytes on their way to the line; they lie in runs that a DMA can fetch.
 pub type Outbox = Churrasco<OUTBOX>;
@@ -45,7 +45,9 @@ impl<'q> Outgoing<'q> {
 pub struct Link<'q> {
     out: StreamProducer<&'q Outbox>,
     sent: &'q Count,
-    bytes: Consumer<'q, u8, INBOX>,
+    inbox: &'q Inbox,
+    /// Where the next byte lies in it.
+    at: usize,
     reporter: Reporter,
     decoder: Decoder<CommandFrame>,
     /// Bytes put into the outbox; they wrap.
@@ -56,11 +58,12 @@ pub struct Link<'q> {
 
 impl<'q> Link<'q> {
     /// A link whose next report is number 0.
-    pub fn new(outbox: &'q Outbox, sent: &'q Count, bytes: Consumer<'q, u8, INBOX>) -> Self {
+    pub fn new(outbox: &'q Outbox, sent: &'q Count, inbox: &'q Inbox) -> Self {
         Self {
             out: outbox.stream_producer(),
             sent,
-            bytes,
+            inbox,
+            at: 0,
             reporter: Reporter::new(),
             decoder: Decoder::new(),
             put: 0,
@@ -87,7 +90,7 @@ impl<'q> Link<'q> {
 
     /// The next command that has arrived whole.
     pub fn command(&mut self) -> Option<CommandFrame> {
-        while let Some(byte) = self.bytes.dequeue() {
+        while let Some(byte) = self.inbox.take(&mut self.at) {
             match self.decoder.push(byte) {
                 None => {}
                 Some(Ok(command)) => return Some(command),

@@ -31,7 +31,7 @@ pub const QUEUE: usize = if cfg!(feature = "methods") { 32 } else { 16 };
 pub const REQUESTS: usize = 4;
 /// Bytes that may wait for the line: 17 reports of 110 bytes, 22 ms.
 pub const OUTBOX: usize = 2048;
-/// Bytes that may wait for the main loop, and one more: two frames.
+/// Bytes that may wait for the main loop, and one more: two frames, 2.8 ms.
 pub const INBOX: usize = 256;
 
 /// The serial line's rate, baud, 8N1.

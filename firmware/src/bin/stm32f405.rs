@@ -73,7 +73,7 @@ mod app {
             // The host's tests check the settings.
             reset::restart(Cause::Unknown, line!())
         };
-        let line = Line::new(device.USART1, &rcc, parts.out, parts.bytes, By::Dma);
+        let line = Line::new(device.USART1, &rcc, parts.out, parts.inbox, By::Dma);
         let source = crystal.then(|| {
             DualAdc::start(
                 (device.ADC1, device.ADC2, device.ADC_COMMON),
@@ -135,7 +135,7 @@ mod app {
         }
     }
 
-    /// A byte has arrived, or the main loop has some to send.
+    /// The main loop looks for bytes that have arrived, and may have some to send.
     #[task(binds = USART1, priority = 2, shared = [line])]
     fn line(c: line::Context) {
         c.shared.line.serve(true);

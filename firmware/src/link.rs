@@ -8,6 +8,9 @@ use crate::counts::Count;
 use crate::inbox::Inbox;
 use crate::settings::OUTBOX;
 
+/// Bytes that estimates and counters leave free: two frames, such as an acknowledgement and the hello before it.
+const RESERVE: usize = 2 * MAX_FRAME;
+
 /// Bytes on their way to the line; they lie in runs that a DMA can fetch.
 pub type Outbox = Churrasco<OUTBOX>;
 /// A run of bytes for the line.
@@ -54,6 +57,7 @@ pub struct Link<'q> {
     put: u32,
     dropped: u32,
     damaged: u32,
+    closed: bool,
 }
 
 impl<'q> Link<'q> {
@@ -69,12 +73,20 @@ impl<'q> Link<'q> {
             put: 0,
             dropped: 0,
             damaged: 0,
+            closed: false,
         }
     }
 
     /// Sends a report, or drops and counts it where there is no room for any frame: a slow reader stalls nothing.
     pub fn send(&mut self, report: &Report) {
-        if let Ok(mut room) = self.out.grant_exact(MAX_FRAME) {
+        if self.closed {
+            return;
+        }
+        let reserve = match report {
+            Report::Hello(_) | Report::State(_) | Report::Acknowledgement(_) => 0,
+            _ => RESERVE,
+        };
+        if let Ok(mut room) = self.out.grant_exact(MAX_FRAME + reserve) {
             // It never fails with that much room.
             let length = self
                 .reporter
@@ -86,6 +98,11 @@ impl<'q> Link<'q> {
             self.reporter.skip();
             self.dropped = self.dropped.wrapping_add(1);
         }
+    }
+
+    /// Sends no more reports than those that wait already.
+    pub fn close(&mut self) {
+        self.closed = true;
     }
 
     /// The next command that has arrived whole.

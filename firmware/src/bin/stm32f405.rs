@@ -56,6 +56,7 @@ mod app {
         let watchdog = Watchdog::start(device.IWDG);
         let (cause, place) = reset::started(&device.RCC);
         log::started(cause, place);
+        log::supply(&device.FLASH);
         let crystal = clock::start(&device.RCC, &device.FLASH);
         clock::start_tick(c.core.SYST);
 

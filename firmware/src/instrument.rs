@@ -1,12 +1,11 @@
 //! The thread half of the pipeline: blocks are solved and tracked, reports sent, commands obeyed.
 
+mod commands;
+
 use core::mem::MaybeUninit;
 
-use antinode::{Calibration, Estimate, Sample, SettingsError, Tracker};
-use antinode_telemetry::{
-    Acknowledgement, Cause, Command, CommandError, CommandFrame, Configuration, Counters, Hello,
-    Methods, Report, State,
-};
+use antinode::{Estimate, Sample, SettingsError, Tracker};
+use antinode_telemetry::{Cause, Configuration, Counters, Hello, Methods, Report, State};
 use heapless::spsc::{Consumer, Producer};
 
 use crate::counts::Counts;
@@ -211,58 +210,6 @@ impl<'q, S: Sample> Instrument<'q, S> {
     fn hello(&mut self) {
         let hello = Hello::new(env!("CARGO_PKG_VERSION"), self.configuration);
         self.link.send(&Report::Hello(hello));
-    }
-
-    /// Obeys a command and acknowledges it; true where it was done.
-    fn answer(&mut self, CommandFrame { id, command }: CommandFrame) -> bool {
-        let result = self.obey(&command);
-        let acknowledgement = Acknowledgement { id, result };
-        self.link.send(&Report::Acknowledgement(acknowledgement));
-        if self.restart.is_some() {
-            self.link.close();
-        }
-        self.answered = self.answered.wrapping_add(1);
-        result.is_ok()
-    }
-
-    // Rare: the main loop's stack need not hold what it needs.
-    #[cold]
-    #[inline(never)]
-    fn obey(&mut self, command: &Command) -> Result<(), CommandError> {
-        match command {
-            Command::Get => self.hello(),
-            Command::Restart => self.restart = Some(self.now),
-            Command::SetMethods { on } => {
-                self.check_methods(*on, &self.configuration.settings.calibration)?;
-                let request = Request::Tune(None);
-                self.requests
-                    .enqueue(request)
-                    .map_err(|_| CommandError::Busy)?;
-                self.tuning = None;
-                self.configuration.methods = *on;
-                self.hello();
-            }
-            Command::SetWindow { .. } | Command::SetHop { .. } | Command::SetCalibration(_) => {
-                let configuration = self.configuration.after(command, RING)?;
-                self.check_methods(configuration.methods, &configuration.settings.calibration)?;
-                configuration.settings.check(RING)?;
-                if !self.request(|number| Request::Configure(number, configuration.settings)) {
-                    return Err(CommandError::Busy);
-                }
-                self.tracker.configure(configuration.settings)?;
-                self.configuration = configuration;
-                self.hello();
-            }
-        }
-        Ok(())
-    }
-
-    /// The methods are to be built in, and know of no calibration.
-    fn check_methods(&self, on: bool, calibration: &Calibration) -> Result<(), CommandError> {
-        if on && !(AVAILABLE && *calibration == Calibration::IDEAL) {
-            return Err(CommandError::Unsupported);
-        }
-        Ok(())
     }
 
     /// Brings the counters up to date; true where something went wrong that they must tell at once.

@@ -77,7 +77,7 @@ impl<'q> Link<'q> {
         }
     }
 
-    /// Sends a report, or drops and counts it where there is no room for any frame, or none beside [`RESERVE`]: a slow reader stalls nothing.
+    /// Sends a report, or drops and counts it where there is no room for any frame, or none beside the reserve: a slow reader stalls nothing.
     pub fn send(&mut self, report: &Report) {
         if self.closed {
             return;

@@ -28,7 +28,7 @@ pub fn started(cause: Cause, place: u32) {
     defmt::info!("antinode started: {=str}, at {=u32:#x}", name(cause), place);
 }
 
-/// Warns where nothing resets the chip between 1.8 V and the 2.7 V that its clock needs.
+/// Warns where nothing resets the chip between 1.7 V and the 2.7 V that its clock needs.
 pub fn supply(flash: &FLASH) {
     // OPTCR.BOR_LEV: 0 is level 3, as option bytes count.
     if flash.optcr().read().bor_lev().bits() != 0 {

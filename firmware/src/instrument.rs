@@ -1,12 +1,11 @@
 //! The thread half of the pipeline: blocks are solved and tracked, reports sent, commands obeyed.
 
+mod commands;
+
 use core::mem::MaybeUninit;
 
-use antinode::{Calibration, Estimate, Sample, SettingsError, Tracker};
-use antinode_telemetry::{
-    Acknowledgement, Cause, Command, CommandError, CommandFrame, Configuration, Counters, Hello,
-    Methods, Report, State,
-};
+use antinode::{Estimate, Sample, SettingsError, Tracker};
+use antinode_telemetry::{Cause, Configuration, Counters, Hello, Methods, Report, State};
 use heapless::spsc::{Consumer, Producer};
 
 use crate::counts::Counts;
@@ -14,7 +13,7 @@ use crate::gather::{Item, Request};
 use crate::link::Link;
 use crate::methods::{AVAILABLE, History, Tuning};
 use crate::sampling::Lapse;
-use crate::settings::{COUNTERS_MS, OUTBOX, QUEUE, REQUESTS, RING};
+use crate::settings::{COUNTERS_MS, OUTBOX, QUEUE, REQUESTS, RESTART_MS, RING};
 use crate::supervision::Liveness;
 
 /// What is worth a line in the log.
@@ -47,7 +46,8 @@ pub struct Instrument<'q, S: Sample> {
     number: u8,
     awaits: bool,
     state: State,
-    restart: bool,
+    /// When a command asked for a restart, ms.
+    restart: Option<u32>,
     /// True where the source's interrupt must be called: it will not come by itself.
     asks: bool,
     answered: u32,
@@ -87,7 +87,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
             number: 0,
             awaits: false,
             state: State::Started(cause),
-            restart: false,
+            restart: None,
             asks: false,
             answered: 0,
             liveness: Liveness::new(),
@@ -100,7 +100,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
         Ok(instrument)
     }
 
-    /// One round of the main loop at `now`, ms since the start: everything that waits is worked off.
+    /// One round of the main loop at `now`, ms since the start: everything that waits is worked off, but not what comes meanwhile.
     ///
     /// True when the pipeline is alive: pairs arrive and this loop turns.
     pub fn poll(&mut self, now: u32, mut log: impl FnMut(Event)) -> bool {
@@ -111,7 +111,8 @@ impl<'q, S: Sample> Instrument<'q, S> {
             let done = self.answer(frame);
             log(Event::Answered { id: frame.id, done });
         }
-        while self.take(&mut log) {}
+        // No more than the queue holds: under overload it is never empty, and the line and the watchdog must have their turn.
+        let _ = (1..QUEUE).all(|_| self.take(&mut log));
         if matches!(self.state, State::Started(_)) {
             self.enter(State::Searching, &mut log);
         }
@@ -211,55 +212,6 @@ impl<'q, S: Sample> Instrument<'q, S> {
         self.link.send(&Report::Hello(hello));
     }
 
-    /// Obeys a command and acknowledges it; true where it was done.
-    fn answer(&mut self, CommandFrame { id, command }: CommandFrame) -> bool {
-        let result = self.obey(&command);
-        let acknowledgement = Acknowledgement { id, result };
-        self.link.send(&Report::Acknowledgement(acknowledgement));
-        self.answered = self.answered.wrapping_add(1);
-        result.is_ok()
-    }
-
-    // Rare: the main loop's stack need not hold what it needs.
-    #[cold]
-    #[inline(never)]
-    fn obey(&mut self, command: &Command) -> Result<(), CommandError> {
-        match command {
-            Command::Get => self.hello(),
-            Command::Restart => self.restart = true,
-            Command::SetMethods { on } => {
-                self.check_methods(*on, &self.configuration.settings.calibration)?;
-                let request = Request::Tune(None);
-                self.requests
-                    .enqueue(request)
-                    .map_err(|_| CommandError::Busy)?;
-                self.tuning = None;
-                self.configuration.methods = *on;
-                self.hello();
-            }
-            Command::SetWindow { .. } | Command::SetHop { .. } | Command::SetCalibration(_) => {
-                let configuration = self.configuration.after(command, RING)?;
-                self.check_methods(configuration.methods, &configuration.settings.calibration)?;
-                configuration.settings.check(RING)?;
-                if !self.request(|number| Request::Configure(number, configuration.settings)) {
-                    return Err(CommandError::Busy);
-                }
-                self.tracker.configure(configuration.settings)?;
-                self.configuration = configuration;
-                self.hello();
-            }
-        }
-        Ok(())
-    }
-
-    /// The methods are to be built in, and know of no calibration.
-    fn check_methods(&self, on: bool, calibration: &Calibration) -> Result<(), CommandError> {
-        if on && !(AVAILABLE && *calibration == Calibration::IDEAL) {
-            return Err(CommandError::Unsupported);
-        }
-        Ok(())
-    }
-
     /// Brings the counters up to date; true where something went wrong that they must tell at once.
     fn update(&mut self) -> bool {
         let (counts, c) = (self.counts, &mut self.counters);
@@ -288,9 +240,10 @@ impl<'q, S: Sample> Instrument<'q, S> {
         self.reported = self.now;
     }
 
-    /// True once a command asked for a restart and its acknowledgement was sent.
+    /// True once a command asked for a restart and its acknowledgement was sent, or [`RESTART_MS`] have passed.
     pub fn wants_restart(&self) -> bool {
-        self.restart && self.link.is_empty()
+        self.restart
+            .is_some_and(|asked| self.link.is_empty() || self.now.wrapping_sub(asked) >= RESTART_MS)
     }
 
     /// True where the source's interrupt must be pended, because no pairs have come for too long.

@@ -32,7 +32,7 @@
 //! | [`sampling`] | the seam: a source of simultaneous pairs, and what can go wrong with one |
 //! | [`gather`] | the interrupt's half: pairs become blocks |
 //! | [`instrument`] | the main loop's half: blocks become reports; commands are obeyed |
-//! | [`link`] | reports out, commands in, neither ever waited for |
+//! | [`link`], [`inbox`] | reports out, commands in, neither ever waited for |
 //! | [`pipeline`] | both halves and the queues between them, for images and tests |
 //! | [`supervision`] | whether the pipeline lives, and why the device started |
 //! | [`methods`] | the paper's four methods beside every estimate, with the feature `methods` |
@@ -50,6 +50,7 @@ extern crate std;
 
 pub mod counts;
 pub mod gather;
+pub mod inbox;
 pub mod instrument;
 pub mod link;
 #[cfg_attr(not(feature = "methods"), path = "no_methods.rs")]

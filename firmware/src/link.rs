@@ -3,10 +3,13 @@
 use antinode_telemetry::{CommandFrame, Decoder, MAX_FRAME, Report, Reporter};
 use bbqueue::nicknames::Churrasco;
 use bbqueue::prod_cons::stream::{StreamConsumer, StreamGrantR, StreamProducer};
-use heapless::spsc::Consumer;
 
 use crate::counts::Count;
-use crate::settings::{INBOX, OUTBOX};
+use crate::inbox::Inbox;
+use crate::settings::OUTBOX;
+
+/// Bytes that estimates and counters leave free: two frames, such as an acknowledgement and the hello before it.
+const RESERVE: usize = 2 * MAX_FRAME;
 
 /// Bytes on their way to the line; they lie in runs that a DMA can fetch.
 pub type Outbox = Churrasco<OUTBOX>;
@@ -45,33 +48,45 @@ impl<'q> Outgoing<'q> {
 pub struct Link<'q> {
     out: StreamProducer<&'q Outbox>,
     sent: &'q Count,
-    bytes: Consumer<'q, u8, INBOX>,
+    inbox: &'q Inbox,
+    /// Where the next byte lies in it.
+    at: usize,
     reporter: Reporter,
     decoder: Decoder<CommandFrame>,
     /// Bytes put into the outbox; they wrap.
     put: u32,
     dropped: u32,
     damaged: u32,
+    closed: bool,
 }
 
 impl<'q> Link<'q> {
     /// A link whose next report is number 0.
-    pub fn new(outbox: &'q Outbox, sent: &'q Count, bytes: Consumer<'q, u8, INBOX>) -> Self {
+    pub fn new(outbox: &'q Outbox, sent: &'q Count, inbox: &'q Inbox) -> Self {
         Self {
             out: outbox.stream_producer(),
             sent,
-            bytes,
+            inbox,
+            at: 0,
             reporter: Reporter::new(),
             decoder: Decoder::new(),
             put: 0,
             dropped: 0,
             damaged: 0,
+            closed: false,
         }
     }
 
-    /// Sends a report, or drops and counts it where there is no room for any frame: a slow reader stalls nothing.
+    /// Sends a report, or drops and counts it where there is no room for any frame, or none beside the reserve: a slow reader stalls nothing.
     pub fn send(&mut self, report: &Report) {
-        if let Ok(mut room) = self.out.grant_exact(MAX_FRAME) {
+        if self.closed {
+            return;
+        }
+        let reserve = match report {
+            Report::Hello(_) | Report::State(_) | Report::Acknowledgement(_) => 0,
+            _ => RESERVE,
+        };
+        if let Ok(mut room) = self.out.grant_exact(MAX_FRAME + reserve) {
             // It never fails with that much room.
             let length = self
                 .reporter
@@ -85,9 +100,14 @@ impl<'q> Link<'q> {
         }
     }
 
+    /// Sends no more reports than those that wait already.
+    pub fn close(&mut self) {
+        self.closed = true;
+    }
+
     /// The next command that has arrived whole.
     pub fn command(&mut self) -> Option<CommandFrame> {
-        while let Some(byte) = self.bytes.dequeue() {
+        while let Some(byte) = self.inbox.take(&mut self.at) {
             match self.decoder.push(byte) {
                 None => {}
                 Some(Ok(command)) => return Some(command),

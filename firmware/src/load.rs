@@ -137,7 +137,7 @@ pub fn application(
     let device = unsafe { Peripherals::steal() };
     let parts_size = size_of_val(&parts) + size_of::<Places<'static, Arithmetic>>();
     // The emulator has no DMA: its registers read as those of a stream that has ended, and the bytes go nowhere.
-    let mut line = Line::new(device.USART1, &device.RCC, parts.out, parts.bytes, By::Dma);
+    let mut line = Line::new(device.USART1, &device.RCC, parts.out, parts.inbox, By::Dma);
     let mut now = 0;
     let state = size_of::<Queues<Arithmetic>>() + parts_size + size_of_val(&line);
     measure(name, state, || {

@@ -4,13 +4,14 @@ use core::mem::MaybeUninit;
 
 use antinode::{Sample, SettingsError};
 use antinode_telemetry::{Cause, Configuration};
-use heapless::spsc::{Producer, Queue};
+use heapless::spsc::Queue;
 
 use crate::counts::{Count, Counts};
 use crate::gather::{Gatherer, Item, Request};
+use crate::inbox::Inbox;
 use crate::instrument::Instrument;
 use crate::link::{Link, Outbox, Outgoing};
-use crate::settings::{INBOX, QUEUE, REQUESTS};
+use crate::settings::{QUEUE, REQUESTS};
 
 /// The queues between the contexts; each image has one, in a static.
 pub struct Queues<S: Sample> {
@@ -18,7 +19,7 @@ pub struct Queues<S: Sample> {
     requests: Queue<Request, REQUESTS>,
     out: Outbox,
     sent: Count,
-    bytes: Queue<u8, INBOX>,
+    inbox: Inbox,
     counts: Counts,
 }
 
@@ -53,7 +54,7 @@ pub struct Parts<'q, S: Sample> {
     /// For the line's interrupt: bytes to send.
     pub out: Outgoing<'q>,
     /// For the line's interrupt: bytes received.
-    pub bytes: Producer<'q, u8, INBOX>,
+    pub inbox: &'q Inbox,
 }
 
 impl<S: Sample> Queues<S> {
@@ -64,7 +65,7 @@ impl<S: Sample> Queues<S> {
             requests: Queue::new(),
             out: Outbox::new(),
             sent: Count::new(),
-            bytes: Queue::new(),
+            inbox: Inbox::new(),
             counts: Counts::new(),
         }
     }
@@ -82,8 +83,8 @@ impl<S: Sample> Queues<S> {
     ) -> Result<Parts<'q, S>, SettingsError> {
         let (items, taken) = self.items.split();
         let (requests, asked) = self.requests.split();
-        let (bytes, received) = self.bytes.split();
-        let link = Link::new(&self.out, &self.sent, received);
+        let inbox = &self.inbox;
+        let link = Link::new(&self.out, &self.sent, inbox);
         let counts = &self.counts;
         let settings = configuration.settings;
         let gatherer = Gatherer::make(&mut places.gatherer, settings, items, asked, counts)?;
@@ -94,7 +95,7 @@ impl<S: Sample> Queues<S> {
             gatherer,
             instrument,
             out: Outgoing::new(&self.out, &self.sent),
-            bytes,
+            inbox,
         })
     }
 }

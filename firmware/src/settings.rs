@@ -29,9 +29,9 @@ pub const RING: usize = 24;
 pub const QUEUE: usize = if cfg!(feature = "methods") { 32 } else { 16 };
 /// Requests that may wait for the interrupt, and one more.
 pub const REQUESTS: usize = 4;
-/// Bytes that may wait for the line: 17 reports of 110 bytes, 22 ms.
+/// Bytes that may wait for the line: 15 estimates of 110 bytes, 18 ms, and what goes before them.
 pub const OUTBOX: usize = 2048;
-/// Bytes that may wait for the main loop, and one more: two frames.
+/// Bytes that may wait for the main loop, and one more: two frames, 2.8 ms.
 pub const INBOX: usize = 256;
 
 /// The serial line's rate, baud, 8N1.
@@ -42,6 +42,8 @@ pub const CRYSTAL_MHZ: u32 = 8;
 pub const STALL_MS: u32 = 20;
 /// Without a live pipeline for so long, ms, the watchdog resets the chip.
 pub const WATCHDOG_MS: u32 = 250;
+/// A restart that was asked for waits for the line so long, ms, at most.
+pub const RESTART_MS: u32 = 100;
 /// From one report of the counters to the next, ms.
 pub const COUNTERS_MS: u32 = 1000;
 

@@ -55,7 +55,8 @@ const BORRSTF: u32 = 1 << 25;
 
 /// Why the chip was reset, by RCC_CSR; `noted` is what the firmware itself left behind, where it did.
 ///
-/// Power-on sets BORRSTF and every reset sets PINRSTF, so the special ones are asked first.
+/// Power-on sets BORRSTF and every reset sets PINRSTF, so the special ones are asked first. From the factory the brown-out reset is off:
+/// then every loss of power sets PORRSTF. BORRSTF comes alone where a level is set in the option bytes, see `firmware/docs/wiring.md`.
 pub const fn cause(csr: u32, noted: Option<Cause>) -> Cause {
     // Memory survives no loss of power: what it then seems to say is chance.
     if csr & PORRSTF != 0 {

@@ -69,7 +69,7 @@ mod app {
             c.device.USART1,
             &c.device.RCC,
             parts.out,
-            parts.bytes,
+            parts.inbox,
             By::Hand,
         );
         let local = Local {

@@ -56,6 +56,7 @@ mod app {
         let watchdog = Watchdog::start(device.IWDG);
         let (cause, place) = reset::started(&device.RCC);
         log::started(cause, place);
+        log::supply(&device.FLASH);
         let crystal = clock::start(&device.RCC, &device.FLASH);
         clock::start_tick(c.core.SYST);
 
@@ -63,7 +64,8 @@ mod app {
         let pins = device.GPIOA.split(&mut rcc);
         let _ = (
             pins.pa9.into_alternate::<7>(),
-            pins.pa10.into_alternate::<7>(),
+            // Pulled up: without a bridge it would float, and noise be bytes.
+            pins.pa10.into_alternate::<7>().internal_pull_up(true),
         );
         let inputs = (pins.pa1.into_analog(), pins.pa2.into_analog());
 
@@ -72,7 +74,7 @@ mod app {
             // The host's tests check the settings.
             reset::restart(Cause::Unknown, line!())
         };
-        let line = Line::new(device.USART1, &rcc, parts.out, parts.bytes, By::Dma);
+        let line = Line::new(device.USART1, &rcc, parts.out, parts.inbox, By::Dma);
         let source = crystal.then(|| {
             DualAdc::start(
                 (device.ADC1, device.ADC2, device.ADC_COMMON),
@@ -134,7 +136,7 @@ mod app {
         }
     }
 
-    /// A byte has arrived, or the main loop has some to send.
+    /// The main loop looks for bytes that have arrived, and may have some to send.
     #[task(binds = USART1, priority = 2, shared = [line])]
     fn line(c: line::Context) {
         c.shared.line.serve(true);

@@ -26,6 +26,7 @@ mod app {
     use firmware::instrument::Instrument;
     use firmware::pipeline::{Places, Queues};
     use firmware::settings::{AD7380_RAILS, Arithmetic, HALF, configuration};
+    use stm32f4xx_hal::gpio::Speed;
     use stm32f4xx_hal::pac::Interrupt;
     use stm32f4xx_hal::prelude::*;
 
@@ -54,6 +55,7 @@ mod app {
         let watchdog = Watchdog::start(device.IWDG);
         let (cause, place) = reset::started(&device.RCC);
         log::started(cause, place);
+        log::supply(&device.FLASH);
         let crystal = clock::start(&device.RCC, &device.FLASH);
         clock::start_tick(c.core.SYST);
 
@@ -61,21 +63,23 @@ mod app {
         let pins = device.GPIOA.split(&mut rcc);
         let _ = (
             pins.pa9.into_alternate::<7>(),
-            pins.pa10.into_alternate::<7>(),
+            // Pulled up: without a bridge it would float, and noise be bytes.
+            pins.pa10.into_alternate::<7>().internal_pull_up(true),
         );
+        // After a reset pins are at their slowest, which 10.5 MHz are too fast for; the edge of CS is when both inputs are sampled.
         let data = (
-            pins.pa5.into_alternate::<5>(),
+            pins.pa5.into_alternate::<5>().speed(Speed::High),
             pins.pa6.into_alternate::<5>(),
-            pins.pa7.into_alternate::<5>(),
+            pins.pa7.into_alternate::<5>().speed(Speed::High),
         );
-        let cs = pins.pa8.into_push_pull_output();
+        let cs = pins.pa8.into_push_pull_output().speed(Speed::VeryHigh);
 
         let settings = configuration(FrontEnd::Spi, AD7380_RAILS);
         let Ok(parts) = c.local.queues.split(c.local.places, settings, cause) else {
             // The host's tests check the settings.
             reset::restart(Cause::Unknown, line!())
         };
-        let line = Line::new(device.USART1, &rcc, parts.out, parts.bytes, By::Dma);
+        let line = Line::new(device.USART1, &rcc, parts.out, parts.inbox, By::Dma);
         let started = if crystal {
             SpiAdc::start(
                 device.SPI1,
@@ -130,7 +134,7 @@ mod app {
         }
     }
 
-    /// A byte has arrived, or the main loop has some to send.
+    /// The main loop looks for bytes that have arrived, and may have some to send.
     #[task(binds = USART1, priority = 2, shared = [line])]
     fn line(c: line::Context) {
         c.shared.line.serve(true);

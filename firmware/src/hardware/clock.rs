@@ -7,7 +7,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use cortex_m::peripheral::{SYST, syst::SystClkSource};
 use stm32f4xx_hal::pac::{FLASH, RCC};
 
-use crate::settings::CRYSTAL_MHZ;
+use crate::settings::{CRYSTAL_MHZ, WATCHDOG_MS};
 
 /// Core clock, Hz.
 pub const CORE: u32 = 168_000_000;
@@ -20,12 +20,19 @@ pub const APB2_TIMERS: u32 = CORE;
 
 /// Frequency of the chip's own oscillator, MHz, within a percent.
 const HSI_MHZ: u32 = 16;
-/// Looks at a flag before an oscillator is given up: a crystal takes some milliseconds.
-const PATIENCE: u32 = 1_000_000;
+/// How long an oscillator is waited for, ms: a crystal takes some milliseconds.
+const PATIENCE_MS: u32 = 30;
+/// Looks at its flag in that time, of five cycles or more each.
+const PATIENCE: u32 = PATIENCE_MS * HSI_MHZ * 1000 / 5;
 
 const _: () = assert!(
     CRYSTAL_MHZ >= 4 && CRYSTAL_MHZ <= 26,
     "the crystal must have 4 to 26 MHz"
+);
+// Crystal and PLL are waited for, in looks of up to ten cycles, and the watchdog's clock may run at one and a half of its rate.
+const _: () = assert!(
+    2 * 2 * PATIENCE_MS * 2 <= WATCHDOG_MS,
+    "the watchdog resets before a dead crystal can be told"
 );
 
 /// Starts the clocks; false where the crystal is dead: then they come from the chip's own oscillator, which serves the line only.

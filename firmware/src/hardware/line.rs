@@ -1,14 +1,16 @@
-//! The serial line: USART1, TX on PA9, RX on PA10, 8N1. Runs of bytes leave by DMA, bytes arrive by an interrupt each.
+//! The serial line: USART1, TX on PA9, RX on PA10, 8N1. Bytes leave by DMA in runs, and arrive by DMA in a ring.
+//!
+//! Not by an interrupt each: a byte takes 11 µs, the USART holds one, and the samples' interrupt takes up to a quarter of a millisecond.
 
 #![allow(
     unsafe_code,
     reason = "addresses for the DMA, and registers that take any bits"
 )]
 
-use heapless::spsc::Producer;
 use stm32f4xx_hal::pac::{DMA2, RCC, USART1};
 
 use crate::hardware::clock::APB2;
+use crate::inbox::Inbox;
 use crate::link::{Outgoing, Run};
 use crate::settings::{BAUD, INBOX};
 
@@ -24,12 +26,12 @@ const _: () = {
     assert!(error < BAUD / 100, "the baud rate is more than 1 % off");
 };
 
-/// How bytes leave.
+/// How bytes leave and arrive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum By {
-    /// Stream 7 of DMA2.
+    /// Streams 7 and 5 of DMA2.
     Dma,
-    /// One after the other: the emulator has no DMA, and its USART takes a byte at once.
+    /// One after the other: the emulator has no DMA, its USART takes a byte at once, and keeps one until it is read.
     Hand,
 }
 
@@ -37,7 +39,7 @@ pub enum By {
 pub struct Line {
     usart: USART1,
     out: Outgoing<'static>,
-    bytes: Producer<'static, u8, INBOX>,
+    inbox: &'static Inbox,
     by: By,
     /// What the DMA is sending.
     under_way: Option<Run<'static>>,
@@ -49,7 +51,7 @@ impl Line {
         usart: USART1,
         rcc: &RCC,
         out: Outgoing<'static>,
-        bytes: Producer<'static, u8, INBOX>,
+        inbox: &'static Inbox,
         by: By,
     ) -> Self {
         // APB2ENR.USART1EN, AHB1ENR.DMA2EN: their clocks.
@@ -57,19 +59,25 @@ impl Line {
         rcc.ahb1enr().modify(|_, w| w.dma2en().set_bit());
         // SAFETY: the USART is off, and the divider within its 16 bits.
         usart.brr().write(|w| unsafe { w.bits(DIVIDER as u16) });
-        // CR3.DMAT: it asks the DMA for bytes.
-        usart.cr3().write(|w| w.dmat().bit(by == By::Dma));
-        // CR1: on, both ways, an interrupt for each byte that arrives.
+        let by_dma = by == By::Dma;
+        if by_dma {
+            receive(inbox, usart.dr().as_ptr() as u32);
+        }
+        // CR3.DMAT, DMAR: it asks the DMA for bytes, and to fetch those that arrive.
+        usart
+            .cr3()
+            .write(|w| w.dmat().bit(by_dma).dmar().bit(by_dma));
+        // CR1: on, both ways, without DMA an interrupt for each byte that arrives.
         usart.cr1().write(|w| {
             w.ue().set_bit();
             w.te().set_bit();
             w.re().set_bit();
-            w.rxneie().set_bit()
+            w.rxneie().bit(!by_dma)
         });
         Self {
             usart,
             out,
-            bytes,
+            inbox,
             by,
             under_way: None,
         }
@@ -77,14 +85,13 @@ impl Line {
 
     /// Serves the line's interrupts, of which the main loop pends one when there may be bytes to send; `open` false holds them back.
     pub fn serve(&mut self, open: bool) {
-        // SR.RXNE: a byte is there. Reading SR and then DR clears an overrun (ORE) too; the frame's checksum misses the byte.
-        let status = self.usart.sr().read();
-        if status.rxne().bit_is_set() || status.ore().bit_is_set() {
-            let byte = self.usart.dr().read().bits() as u8;
-            if status.rxne().bit_is_set() {
-                // A full queue drops the byte, which its frame's checksum misses as well.
-                let _ = self.bytes.enqueue(byte);
-            }
+        if self.by == By::Dma {
+            // NDTR: places left before the ring's end. What it counts has long been written when the main loop comes to it.
+            self.inbox
+                .left(dma().st(5).ndtr().read().ndt().bits().into());
+        } else if self.usart.sr().read().rxne().bit_is_set() {
+            // SR.RXNE: a byte is there.
+            self.inbox.put(self.usart.dr().read().bits() as u8);
         }
         if let Some(run) = self.under_way.take() {
             if !sent() {
@@ -110,9 +117,9 @@ impl Line {
     }
 }
 
-/// The controller, of which stream 7 is the line's.
+/// The controller, of which streams 5 and 7 are the line's.
 fn dma() -> DMA2 {
-    // SAFETY: nothing else touches stream 7, HISR, nor by HIFCR's write-one-to-clear bits the flags of stream 7.
+    // SAFETY: nothing else touches streams 5 and 7, HISR, nor by HIFCR's write-one-to-clear bits the flags of stream 7.
     unsafe { DMA2::steal() }
 }
 
@@ -134,6 +141,28 @@ fn clear(dma: &DMA2) {
         w.cdmeif7().set_bit();
         w.cfeif7().set_bit()
     });
+}
+
+/// Starts stream 5, which fills the inbox for ever.
+fn receive(inbox: &'static Inbox, register: u32) {
+    let dma = dma();
+    let stream = dma.st(5);
+    // SAFETY: the inbox is there for ever, and its bytes may change at any time.
+    unsafe {
+        // PAR, M0AR, NDTR: from the USART's data register into the ring.
+        stream.par().write(|w| w.bits(register));
+        stream
+            .m0ar()
+            .write(|w| w.bits(inbox.places().as_ptr() as u32));
+        stream.ndtr().write(|w| w.bits(INBOX as u32));
+        // CHSEL 4: USART1_RX. DIR 0: from the peripheral. MINC, CIRC: along the ring, round and round, byte by byte. EN: on.
+        stream.cr().write(|w| {
+            w.chsel().bits(4);
+            w.minc().set_bit();
+            w.circ().set_bit();
+            w.en().set_bit()
+        });
+    }
 }
 
 /// Starts stream 7 on a run.

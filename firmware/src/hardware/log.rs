@@ -1,6 +1,7 @@
 //! The log beside the telemetry, by defmt.
 
 use antinode_telemetry::{Cause, State};
+use stm32f4xx_hal::pac::FLASH;
 
 use crate::instrument::Event;
 
@@ -25,6 +26,14 @@ fn name(cause: Cause) -> &'static str {
 /// Says why the device started; `place` is a line of source after a panic, an address after a fault.
 pub fn started(cause: Cause, place: u32) {
     defmt::info!("antinode started: {=str}, at {=u32:#x}", name(cause), place);
+}
+
+/// Warns where nothing resets the chip between 1.7 V and the 2.7 V that its clock needs.
+pub fn supply(flash: &FLASH) {
+    // OPTCR.BOR_LEV: 0 is level 3, as option bytes count.
+    if flash.optcr().read().bor_lev().bits() != 0 {
+        defmt::warn!("the brown-out level is not set: see firmware/docs/wiring.md");
+    }
 }
 
 /// Says what happened.

@@ -13,6 +13,9 @@ const _: () = assert!(
     "the watchdog waits 1 to 4095 ms"
 );
 
+/// Looks at its status before it is fed unready, some 3 ms at the start's 16 MHz: its registers take up to 0.6 ms.
+const PATIENCE: u32 = 10_000;
+
 /// The running watchdog.
 pub struct Watchdog(IWDG);
 
@@ -28,6 +31,8 @@ impl Watchdog {
             iwdg.pr().write(|w| w.bits(3));
             iwdg.rlr().write(|w| w.bits(RELOAD));
         }
+        // SR.PVU, RVU: until both values are in, feeding would load the reset's, which last for seconds.
+        let _ = (0..PATIENCE).any(|_| iwdg.sr().read().bits() == 0);
         let mut watchdog = Self(iwdg);
         watchdog.feed();
         watchdog

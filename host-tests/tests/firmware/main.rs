@@ -1,12 +1,13 @@
 //! The images: `replay` in QEMU against the same pipeline on the host, and what the others are made of.
 //!
-//! They need the ARM target and QEMU, and so are run by name:
+//! All but those of `line` need the ARM target and QEMU, and so are run by name:
 //! `cargo test --release -p host-tests --test firmware -- --ignored`.
 
 mod commands;
 mod emulator;
 mod faults;
 mod image;
+mod line;
 mod methods;
 mod mirror;
 mod recordings;

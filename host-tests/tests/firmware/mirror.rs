@@ -7,9 +7,19 @@ use firmware::sampling::{Lapse, Ready, Source, both, is_at_rail_12};
 use firmware::settings::{DUAL_ADC_RAILS, HALF, configuration};
 
 /// Codes from memory.
-struct Recorded<'a> {
+pub struct Recorded<'a> {
     rest: &'a [Packed],
     half: &'a [Packed],
+}
+
+impl<'a> Recorded<'a> {
+    /// All of them are still to come.
+    pub fn new(codes: &'a [Packed]) -> Self {
+        Self {
+            rest: codes,
+            half: &[],
+        }
+    }
 }
 
 impl Source for Recorded<'_> {
@@ -58,12 +68,9 @@ where
     let mut receiver = Receiver::new();
     let mut reports = Vec::new();
     for &byte in commands {
-        parts.bytes.enqueue(byte).expect("room");
+        parts.inbox.put(byte);
     }
-    let mut source = Recorded {
-        rest: recording,
-        half: &[],
-    };
+    let mut source = Recorded::new(recording);
     let mut first = true;
     loop {
         for _ in 0..slow {

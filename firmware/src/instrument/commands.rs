@@ -1,0 +1,63 @@
+//! Commands are obeyed and acknowledged.
+
+use antinode::{Calibration, Sample};
+use antinode_telemetry::{Acknowledgement, Command, CommandError, CommandFrame, Report};
+
+use super::Instrument;
+use crate::gather::Request;
+use crate::methods::AVAILABLE;
+use crate::settings::RING;
+
+impl<S: Sample> Instrument<'_, S> {
+    /// Obeys a command and acknowledges it; true where it was done.
+    pub(super) fn answer(&mut self, CommandFrame { id, command }: CommandFrame) -> bool {
+        let result = self.obey(&command);
+        let acknowledgement = Acknowledgement { id, result };
+        self.link.send(&Report::Acknowledgement(acknowledgement));
+        if self.restart.is_some() {
+            self.link.close();
+        }
+        self.answered = self.answered.wrapping_add(1);
+        result.is_ok()
+    }
+
+    // Rare: the main loop's stack need not hold what it needs.
+    #[cold]
+    #[inline(never)]
+    fn obey(&mut self, command: &Command) -> Result<(), CommandError> {
+        match command {
+            Command::Get => self.hello(),
+            Command::Restart => self.restart = Some(self.now),
+            Command::SetMethods { on } => {
+                self.check_methods(*on, &self.configuration.settings.calibration)?;
+                let request = Request::Tune(None);
+                self.requests
+                    .enqueue(request)
+                    .map_err(|_| CommandError::Busy)?;
+                self.tuning = None;
+                self.configuration.methods = *on;
+                self.hello();
+            }
+            Command::SetWindow { .. } | Command::SetHop { .. } | Command::SetCalibration(_) => {
+                let configuration = self.configuration.after(command, RING)?;
+                self.check_methods(configuration.methods, &configuration.settings.calibration)?;
+                configuration.settings.check(RING)?;
+                if !self.request(|number| Request::Configure(number, configuration.settings)) {
+                    return Err(CommandError::Busy);
+                }
+                self.tracker.configure(configuration.settings)?;
+                self.configuration = configuration;
+                self.hello();
+            }
+        }
+        Ok(())
+    }
+
+    /// The methods are to be built in, and know of no calibration.
+    fn check_methods(&self, on: bool, calibration: &Calibration) -> Result<(), CommandError> {
+        if on && !(AVAILABLE && *calibration == Calibration::IDEAL) {
+            return Err(CommandError::Unsupported);
+        }
+        Ok(())
+    }
+}

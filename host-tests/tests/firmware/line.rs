@@ -1,0 +1,259 @@
+//! A line that is too slow, too dead or too busy, and a main loop that is: the pipeline on the host, at the pace of a board.
+
+use std::sync::atomic::Ordering;
+
+use antinode::Packed;
+use antinode_telemetry::{Cause, Command, Configuration, FrontEnd, Receiver, Report};
+use firmware::inbox::Inbox;
+use firmware::instrument::{Event, Instrument};
+use firmware::link::{Outgoing, Run};
+use firmware::pipeline::{Places, Queues};
+use firmware::sampling::{Lapse, Ready, Source, both};
+use firmware::settings::{
+    BAUD, DUAL_ADC_RAILS, HALF, INBOX, QUEUE, RESTART_MS, SAMPLE_RATE, configuration,
+};
+
+use crate::emulator::bytes;
+use crate::mirror::Recorded;
+use crate::recordings;
+
+/// A DMA that sends run after run at the line's rate.
+struct Wire<'q> {
+    out: Outgoing<'q>,
+    run: Option<Run<'q>>,
+    /// Bytes that there was time for since the run began.
+    time: usize,
+    receiver: Receiver,
+    reports: Vec<Report>,
+}
+
+impl<'q> Wire<'q> {
+    fn new(out: Outgoing<'q>) -> Self {
+        Self {
+            out,
+            run: None,
+            time: 0,
+            receiver: Receiver::new(),
+            reports: Vec::new(),
+        }
+    }
+
+    /// Time for so many bytes passes.
+    fn pass(&mut self, bytes: usize) {
+        self.time += bytes;
+        loop {
+            if let Some(run) = self.run.take_if(|run| run.len() <= self.time) {
+                self.time -= run.len();
+                for &byte in run.iter() {
+                    let report = self.receiver.push(byte);
+                    self.reports
+                        .extend(report.map(|r| r.expect("a sound frame")));
+                }
+                self.out.release(run);
+            }
+            if self.run.is_some() {
+                return;
+            }
+            self.run = self.out.run();
+            if self.run.is_none() {
+                self.time = 0;
+                return;
+            }
+        }
+    }
+
+    /// The acknowledgements that came.
+    fn acknowledged(&self) -> Vec<u16> {
+        let id = |report: &Report| match report {
+            Report::Acknowledgement(acknowledgement) => Some(acknowledgement.id),
+            _ => None,
+        };
+        self.reports.iter().filter_map(id).collect()
+    }
+}
+
+/// Bytes that the line takes while half of the ring fills.
+const BYTES: usize = (BAUD / 10) as usize * HALF / SAMPLE_RATE as usize;
+
+/// A window at every so many blocks: at 5, the default, the line is half busy; at 1 the reports are more than twice what it takes.
+fn hop_of(blocks: u16) -> Configuration {
+    let mut configuration = configuration(FrontEnd::Synthetic, DUAL_ADC_RAILS);
+    configuration.settings.hop = Some(blocks);
+    configuration
+}
+
+/// What a test has of a board.
+struct Board<'q> {
+    instrument: &'q mut Instrument<'q, i16>,
+    inbox: &'q Inbox,
+    wire: Wire<'q>,
+    /// Halves of the ring so far, and the time, ms.
+    half: usize,
+    now: u32,
+}
+
+impl Board<'_> {
+    fn command(&self, id: u16, command: Command) {
+        for byte in bytes(id, command) {
+            self.inbox.put(byte);
+        }
+    }
+}
+
+/// A board that samples a wave; after each half of the ring `go_on` does what it likes, and says whether to go on.
+fn board(configuration: Configuration, mut go_on: impl FnMut(&mut Board<'_>) -> bool) {
+    let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 200_000);
+    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
+    let parts = queues
+        .split(&mut places, configuration, Cause::Unknown)
+        .expect("the settings can be");
+    let mut board = Board {
+        instrument: parts.instrument,
+        inbox: parts.inbox,
+        wire: Wire::new(parts.out),
+        half: 0,
+        now: 0,
+    };
+    let mut source = Recorded::new(&recording);
+    while go_on(&mut board) {
+        parts.gatherer.serve(&mut source);
+        board.half += 1;
+        board.now = (board.half * HALF * 1000 / SAMPLE_RATE as usize) as u32;
+        assert!(board.now < 1900, "it does not end");
+        board.instrument.poll(board.now, |_| {});
+    }
+}
+
+#[test]
+fn a_saturated_line_acknowledges() {
+    let (mut asked, mut answered, mut lost) = (Vec::new(), Vec::new(), 0);
+    board(hop_of(1), |board| {
+        board.wire.pass(BYTES);
+        if board.half % 50 == 49 {
+            asked.push(board.half as u16);
+            board.command(board.half as u16, Command::Get);
+        }
+        (answered, lost) = (board.wire.acknowledged(), board.wire.receiver.lost());
+        board.half < 1000
+    });
+    assert!(lost > 500, "the line is not saturated: {lost} lost");
+    assert_eq!(answered, asked[..answered.len()]);
+    // The last may still be on its way.
+    assert!(asked.len() - answered.len() <= 1, "{answered:?}");
+}
+
+#[test]
+fn a_busy_line_does_not_hold_a_restart_up() {
+    for (hop, half) in (1..=5).flat_map(|hop| (400..420).map(move |half| (hop, half))) {
+        let (mut asked, mut restarted, mut answered) = (0, 0, Vec::new());
+        board(hop_of(hop), |board| {
+            board.wire.pass(BYTES);
+            if board.half == half {
+                board.command(7, Command::Restart);
+                asked = board.now;
+            }
+            (restarted, answered) = (board.now, board.wire.acknowledged());
+            !board.instrument.wants_restart()
+        });
+        assert_eq!(answered, [7], "hop {hop}");
+        // What the outbox holds takes 22 ms.
+        let took = restarted - asked;
+        assert!(took < 30, "hop {hop}: it took {took} ms");
+    }
+}
+
+#[test]
+fn a_dead_line_does_not_hold_a_restart_up() {
+    let (mut asked, mut restarted) = (0, 0);
+    board(hop_of(1), |board| {
+        if board.half == 100 {
+            board.command(7, Command::Restart);
+            asked = board.now;
+        }
+        restarted = board.now;
+        !board.instrument.wants_restart()
+    });
+    let took = restarted - asked;
+    assert!(
+        (RESTART_MS..RESTART_MS + 5).contains(&took),
+        "it took {took} ms"
+    );
+}
+
+#[test]
+fn a_dma_fills_the_inbox_round_and_round() {
+    let (mut place, mut asked, mut answered) = (0, Vec::new(), Vec::new());
+    board(hop_of(1), |board| {
+        board.wire.pass(10 * BYTES);
+        if board.half < 100 {
+            asked.push(board.half as u16);
+            for byte in bytes(board.half as u16, Command::Get) {
+                board.inbox.places()[place].store(byte, Ordering::Relaxed);
+                place = (place + 1) % INBOX;
+            }
+            // Delimiters, now and then, to the ring's very end.
+            while board.half % 10 == 5 && place != 0 {
+                board.inbox.places()[place].store(0, Ordering::Relaxed);
+                place = (place + 1) % INBOX;
+            }
+            // NDTR counts down; at a round's end it may be seen at nothing.
+            board.inbox.left((INBOX - place) % INBOX);
+        }
+        answered = board.wire.acknowledged();
+        board.half < 200
+    });
+    assert_eq!(answered, asked);
+    assert!(asked.len() * bytes(0, Command::Get).len() > 2 * INBOX);
+}
+
+/// A source that loses pairs whenever it is asked.
+struct Losing;
+
+impl Source for Losing {
+    type Pair = Packed;
+
+    fn next(&mut self) -> Ready {
+        Ready::Lapse(self.restart(Cause::Overrun))
+    }
+
+    fn pairs(&self) -> &[Packed] {
+        &[]
+    }
+
+    fn is_intact(&self) -> bool {
+        true
+    }
+
+    fn restart(&mut self, cause: Cause) -> Lapse {
+        Lapse { cause, lost: 1 }
+    }
+
+    fn rails(&self) -> [Packed; 2] {
+        both(DUAL_ADC_RAILS)
+    }
+
+    fn is_at_rail(&self, _: Packed) -> bool {
+        false
+    }
+}
+
+#[test]
+fn a_queue_that_never_empties_does_not_hold_the_main_loop_up() {
+    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
+    let parts = queues
+        .split(&mut places, hop_of(1), Cause::Unknown)
+        .expect("the settings can be");
+    parts.gatherer.serve(&mut Losing);
+    for now in 0..3 {
+        let mut taken = 0;
+        // The interrupt comes again whenever an item is taken.
+        parts.instrument.poll(now, |event| {
+            if matches!(event, Event::Lapse(_)) {
+                taken += 1;
+                assert!(taken < QUEUE, "it takes what has come meanwhile");
+                parts.gatherer.serve(&mut Losing);
+            }
+        });
+        assert_eq!(taken, QUEUE - 1);
+    }
+}

@@ -108,14 +108,26 @@ fn identify(
         bar.set_position(recording.bytes_read());
     };
     bar.finish_and_clear();
-    if let Some(error) = fault {
-        return Err(error.into());
+    let failure = match fault {
+        Some(error) => Some(error.into()),
+        None if rows.count() > 0 => None,
+        None => Some(no_rows(&name, rate, &core, options)),
+    };
+    match (recording.not_finite(), failure) {
+        (None, failure) => failure.map_or(Ok(()), Err),
+        (Some(error), None) => Err(error.into()),
+        (Some(error), Some(failure)) => {
+            rows.flush()?;
+            eprintln!("error: {error}");
+            Err(failure)
+        }
     }
-    if rows.count() > 0 {
-        return Ok(());
-    }
+}
+
+/// Why a recording that was read to its end gave no row.
+fn no_rows(name: &str, rate: f64, core: &Core, options: &Identify) -> Failure {
     let (pairs, seconds) = (core.index(), core.index() as f64 / rate);
-    Err(Failure::Recording(if core.is_searching() {
+    Failure::Recording(if core.is_searching() {
         format!(
             "{name}: no period found in {pairs} sample pairs ({seconds:.4} s): no wave of 4 to 200 samples a period \
              stands out of the noise; check the sample rate, the channels and the signal"
@@ -126,7 +138,7 @@ fn identify(
              record longer or give a smaller --periods",
             options.periods
         )
-    }))
+    })
 }
 
 /// The rate that was asked for, or else the recording's own.

@@ -6,7 +6,7 @@ use csv::{ByteRecord, ReaderBuilder, Terminator};
 
 use super::columns::{Columns, FirstLine, Places};
 use super::error::{InputError, LineFault, Place, Role};
-use super::text::{self, MAX_LINE, Number, Text, bare, fields, number};
+use super::text::{self, MAX_LINE, Text, bare, fields, number};
 use super::time::{Printed, TimeAxis, standstill};
 use super::{Opened, Source, Stream};
 
@@ -51,6 +51,8 @@ struct Delimited {
     places: Places,
     printed: Printed,
     axis: Option<TimeAxis>,
+    /// Of the first sample that is not a finite number.
+    not_finite: Option<Place>,
     /// Pairs read to tell the sample rate, and not yet delivered.
     ahead: std::vec::IntoIter<[f32; 2]>,
     /// Met behind the last of them.
@@ -95,6 +97,7 @@ impl Delimited {
             places,
             printed: Printed::default(),
             axis: None,
+            not_finite: None,
             ahead: Vec::new().into_iter(),
             fault: None,
         };
@@ -199,44 +202,57 @@ impl Delimited {
             };
             return Err(InputError::line(&self.file, self.line(), fault));
         }
-        let time = self.places[0]
-            .map(|_| self.number(0, found[0]))
-            .transpose()?;
+        let time = self.places[0].map(|_| {
+            let time = number::<f64>(found[0], self.separator).filter(|time| time.is_finite());
+            time.ok_or_else(|| self.no_number(0, found[0]))
+        });
+        let time = time.transpose()?;
         if time.is_some() {
             self.printed.see(found[0]);
         }
-        let pair = [self.number(1, found[1])?, self.number(2, found[2])?];
+        let signal = |role: usize| {
+            number::<f32>(found[role], self.separator)
+                .ok_or_else(|| self.no_number(role, found[role]))
+        };
+        let pair = [signal(1)?, signal(2)?];
+        if self.not_finite.is_none()
+            && let Some(channel) = pair.iter().position(|value| !value.is_finite())
+        {
+            self.not_finite = Some(self.place(channel + 1));
+        }
         Ok(Some((time, pair)))
     }
 
-    /// The number in `text`, which is in the column of this `role`.
-    fn number<T: Number>(&self, role: usize, text: &[u8]) -> Result<T, InputError> {
-        number(text, self.separator).ok_or_else(|| {
-            let column = self.places[role].map(|place| place + 1);
-            let role = Role::ALL[role];
-            let fault = if text.is_empty() {
-                LineFault::FieldMissing { role }
-            } else {
-                let text = String::from_utf8_lossy(text);
-                let shown = text
-                    .chars()
-                    .flat_map(char::escape_debug)
-                    .take(SHOWN_LETTERS);
-                LineFault::Number {
-                    role,
-                    text: shown.collect(),
-                }
-            };
-            let place = Place {
-                line: self.line(),
-                column,
-            };
-            InputError::Line {
-                file: self.file.clone(),
-                place,
-                fault,
+    /// This line, and the column of this `role`.
+    fn place(&self, role: usize) -> Place {
+        Place {
+            line: self.line(),
+            column: self.places[role].map(|place| place + 1),
+        }
+    }
+
+    /// What is wrong with `text`, which is in the column of this `role` and no number.
+    fn no_number(&self, role: usize, text: &[u8]) -> InputError {
+        let place = self.place(role);
+        let role = Role::ALL[role];
+        let fault = if text.is_empty() {
+            LineFault::FieldMissing { role }
+        } else {
+            let text = String::from_utf8_lossy(text);
+            let shown = text
+                .chars()
+                .flat_map(char::escape_debug)
+                .take(SHOWN_LETTERS);
+            LineFault::Number {
+                role,
+                text: shown.collect(),
             }
-        })
+        };
+        InputError::Line {
+            file: self.file.clone(),
+            place,
+            fault,
+        }
     }
 }
 
@@ -261,6 +277,10 @@ impl Source for Delimited {
 
     fn bytes_read(&self) -> u64 {
         self.skipped.1 + self.reader.position().byte()
+    }
+
+    fn not_finite_place(&self) -> Option<Place> {
+        self.not_finite
     }
 }
 

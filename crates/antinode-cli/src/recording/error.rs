@@ -121,16 +121,20 @@ pub enum InputError {
          are there in the format named, and that the recording was not cut off"
     )]
     HalfPair { file: String, found: u64 },
-    /// NaN, an infinity, or a number beyond single precision.
+    /// NaN, an infinity, or a number beyond single precision: told once all is read.
     #[error(
-        "{file}: sample pair {pair} (from 0), {channel}: the value is {value}, not a finite number; \
-         cut the recording there, or mend what wrote it"
+        "{file}{}: sample pair {pair} (from 0), {channel}: the value is {value}, not a finite number{}; \
+         rows of windows with one are flagged or missing, the others are good: mend what wrote it",
+        place.map_or(String::new(), |place| format!(":{place}")),
+        if *.count == 1 { String::new() } else { format!(", the first of {count}") }
     )]
     NotFinite {
         file: String,
+        place: Option<Place>,
         pair: u64,
         channel: Channel,
         value: f32,
+        count: u64,
     },
 
     /// The NPY header is damaged.

@@ -4,6 +4,7 @@
 mod columns;
 mod delimited;
 mod error;
+mod not_finite;
 mod npy;
 mod raw;
 mod sample;
@@ -17,7 +18,9 @@ use std::io::{self, Cursor, IsTerminal, Read};
 use std::path::Path;
 
 pub use columns::Columns;
+use error::Place;
 pub use error::{Channel, InputError};
+use not_finite::NotFinite;
 pub use raw::RawFormat;
 pub use write::{OutputError, RecordingWriter, WavSample, WholeFile};
 
@@ -41,6 +44,9 @@ pub struct Recording {
     name: String,
     bytes_total: Option<u64>,
     opened: Opened,
+    /// The pairs delivered.
+    delivered: u64,
+    not_finite: NotFinite,
     /// Met while there were still good pairs to deliver.
     fault: Option<InputError>,
     ended: bool,
@@ -56,6 +62,11 @@ trait Source: Send {
 
     /// The bytes read so far, the header included.
     fn bytes_read(&self) -> u64;
+
+    /// The line and column of the first sample that is not a finite number, where there are lines.
+    fn not_finite_place(&self) -> Option<Place> {
+        None
+    }
 }
 
 /// A source, and what its header tells.
@@ -154,6 +165,8 @@ impl Recording {
             name,
             bytes_total,
             opened,
+            delivered: 0,
+            not_finite: NotFinite::default(),
             fault: None,
             ended: false,
         }
@@ -191,10 +204,24 @@ impl Recording {
         self.opened.full_scale
     }
 
+    /// What is wrong with the samples read so far that are not finite numbers, if there are any.
+    pub fn not_finite(&self) -> Option<InputError> {
+        let first = self.not_finite.first?;
+        Some(InputError::NotFinite {
+            file: self.name.clone(),
+            place: self.opened.source.not_finite_place(),
+            pair: first.pair,
+            channel: first.channel,
+            value: first.value,
+            count: self.not_finite.count,
+        })
+    }
+
     /// Clears `buffer` and fills it to its capacity with the next pairs [S_C, S_D]; `Ok(0)` at the end.
     ///
     /// A pipe of raw samples gives what is there instead of waiting for more. All good pairs before a
-    /// fault are delivered first; the next call gives the error, and those after it `Ok(0)`.
+    /// fault are delivered first; the next call gives the error, and those after it `Ok(0)`. Samples that are
+    /// not finite numbers are delivered as they are, and told by [`not_finite`](Self::not_finite).
     pub fn read(&mut self, buffer: &mut Vec<[f32; 2]>) -> Result<usize, InputError> {
         buffer.clear();
         if buffer.capacity() == 0 {
@@ -208,6 +235,11 @@ impl Recording {
             self.ended = true;
             return self.fault.take().map_or(Ok(0), Err);
         }
+        // Integers are all finite.
+        if self.opened.full_scale.is_none() {
+            self.not_finite.look(self.delivered, buffer);
+        }
+        self.delivered += buffer.len() as u64;
         Ok(buffer.len())
     }
 }

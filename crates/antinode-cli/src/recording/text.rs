@@ -128,25 +128,8 @@ pub(super) fn bare(field: &[u8]) -> &[u8] {
     }
 }
 
-/// A type of number in a field.
-pub(super) trait Number: FromStr {
-    fn is_finite(&self) -> bool;
-}
-
-impl Number for f32 {
-    fn is_finite(&self) -> bool {
-        f32::is_finite(*self)
-    }
-}
-
-impl Number for f64 {
-    fn is_finite(&self) -> bool {
-        f64::is_finite(*self)
-    }
-}
-
-/// The finite number a field holds; its decimal mark may be a comma where that separates no fields.
-pub(super) fn number<T: Number>(field: &[u8], separator: u8) -> Option<T> {
+/// The number a field holds, finite or not; its decimal mark may be a comma where that separates no fields.
+pub(super) fn number<T: FromStr>(field: &[u8], separator: u8) -> Option<T> {
     let text = str::from_utf8(field).ok()?;
     let number = match text.parse::<T>() {
         Err(_) if separator != b',' && !text.contains('.') => {
@@ -154,7 +137,7 @@ pub(super) fn number<T: Number>(field: &[u8], separator: u8) -> Option<T> {
         }
         number => number,
     };
-    number.ok().filter(T::is_finite)
+    number.ok()
 }
 
 #[cfg(test)]
@@ -182,19 +165,21 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_finite_and_may_have_a_decimal_comma() {
+    fn numbers_may_have_a_decimal_comma() {
         assert_eq!(number::<f32>(b"-1.5e-3", b','), Some(-1.5e-3));
         assert_eq!(number::<f64>(b"1,5", b';'), Some(1.5));
         for (text, mark) in [
             ("1,5", b','),
             ("1,234.5", b';'),
             ("1,234,5", b';'),
-            ("nan", b','),
-            ("-inf", b','),
+            ("nanny", b','),
+            ("1.#INF", b','),
         ] {
             assert_eq!(number::<f32>(text.as_bytes(), mark), None, "{text}");
         }
-        assert_eq!(number::<f32>(b"1e39", b','), None);
+        assert_eq!(number::<f32>(b"1e39", b','), Some(f32::INFINITY));
+        assert_eq!(number::<f32>(b"-Inf", b','), Some(f32::NEG_INFINITY));
+        assert!(number::<f32>(b"NaN", b',').is_some_and(f32::is_nan));
         assert_eq!(number::<f32>(b"", b';'), None);
         assert_eq!(number::<f32>(b"\xff", b';'), None);
     }

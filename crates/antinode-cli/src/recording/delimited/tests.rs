@@ -91,19 +91,24 @@ fn faults_in_a_line_are_named_by_line_and_column() {
             "a.csv:2:2: S_D is `x4`, not a finite number; correct or delete the line, or begin it",
         ),
         (
-            "#\n\nc,d\r\n1,2\r\n\r\nnan,4\r\n",
-            1,
-            "a.csv:6:1: S_C is `nan`, not a finite number; ",
+            "#\n\nc,d\r\n1,2\r\n\r\nnan,4\r\n5,6\n7,inf",
+            4,
+            "a.csv:6:1: sample pair 1 (from 0), S_C (left): the value is NaN, not a finite number, the first of 2; ",
         ),
         (
-            "0,1,2\n1,2,-inf\n",
-            1,
-            "a.csv:2:3: S_D is `-inf`, not a finite number; ",
+            "0,1,2\n1,2,-Inf\n",
+            2,
+            "a.csv:2:3: sample pair 1 (from 0), S_D (right): the value is -inf, not a finite number; ",
         ),
         (
             "0,1,2\n1,1e99,3\n",
+            2,
+            "a.csv:2:2: sample pair 1 (from 0), S_C (left): the value is inf, not a finite number; ",
+        ),
+        (
+            "0,1,2\nnan,2,3\n",
             1,
-            "a.csv:2:2: S_C is `1e99`, not a finite number; ",
+            "a.csv:2:1: the time is `nan`, not a finite number; ",
         ),
         (
             "0,1,2\nx,2,3\n",

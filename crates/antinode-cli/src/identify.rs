@@ -62,7 +62,9 @@ fn identify(
     let mut recording = Recording::open(path, &open)?;
     let name = recording.name().to_owned();
     let mut buffer = Vec::with_capacity(BLOCK_PAIRS);
-    if options.rate.or(recording.sample_rate()).is_none() && path != Path::new("-") {
+    // What comes by a pipe comes in its own time.
+    let is_pipe = recording.bytes_total().is_none();
+    if options.rate.or(recording.sample_rate()).is_none() && !is_pipe {
         // A fault in the first lines may be why the rate is not known: one block, and what ended it.
         for _ in 0..2 {
             recording.read(&mut buffer)?;
@@ -101,7 +103,7 @@ fn identify(
                 rows.print(&name, &estimate, methods.as_ref())?;
             }
         }
-        if live || path == Path::new("-") {
+        if live || is_pipe {
             // Somebody watches, or the samples arrive as they are taken.
             rows.flush()?;
         }

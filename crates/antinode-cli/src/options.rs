@@ -56,7 +56,7 @@ pub enum Command {
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub struct Identify {
-    /// Recordings: WAV (left S_C, right S_D), CSV, NPY; `-` is standard input.
+    /// Recordings: WAV (left S_C, right S_D), CSV, NPY, told apart by their content; `-` is standard input.
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Periods a window, 2 to 1022.
@@ -80,10 +80,12 @@ pub struct Identify {
     /// exact solution in its standard deviations. Windows without a wave have none.
     #[arg(long, value_enum, default_value_t = Methods::Exact)]
     pub methods: Methods,
-    /// Format of raw samples on standard input or in a file of another kind: little-endian, S_C and S_D in turn.
+    /// Format of raw samples, in whatever is no WAV, no NPY and not named as a text: little-endian, S_C and S_D in turn.
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub raw: Option<Raw>,
     /// Columns of a text recording, by name or number from 1, as C,D or TIME,C,D [default: by their names or number].
+    ///
+    /// What is neither WAV nor NPY is then read as text, unless --raw is given. Without it, text is known by its first line.
     #[arg(long, value_name = "COLUMNS")]
     pub columns: Option<Columns>,
     /// How the period is found.

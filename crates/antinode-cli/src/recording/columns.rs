@@ -134,6 +134,11 @@ fn role(name: &str) -> Option<Role> {
     }
 }
 
+/// Whether a name says what its column holds.
+pub(super) fn is_known(name: &str) -> bool {
+    role(name).is_some()
+}
+
 /// Whether a name is that of a mere count of lines.
 fn is_index(name: &str) -> bool {
     let names = ["", "n", "i", "k", "no", "index", "sample", "samples"];

@@ -16,13 +16,15 @@ const HEAD_LINES: usize = 1 << 16;
 /// As much of a bad field as an error shows.
 const SHOWN_LETTERS: usize = 40;
 
-/// Opens text; `chosen` are the columns the user asks for.
+/// Opens text; `chosen` are the columns the user asks for, and a `live` stream is handed over as it comes.
 pub(super) fn open(
     file: &str,
     stream: Stream,
     chosen: Option<&Columns>,
+    live: bool,
 ) -> Result<Opened, InputError> {
     let mut source = Delimited::open(file, stream, chosen)?;
+    source.live = live;
     source.read_ahead();
     if source.ahead.len() == 0 {
         let none = InputError::NoPairs {
@@ -51,6 +53,7 @@ struct Delimited {
     places: Places,
     printed: Printed,
     axis: Option<TimeAxis>,
+    live: bool,
     /// Of the first sample that is not a finite number.
     not_finite: Option<Place>,
     /// Pairs read to tell the sample rate, and not yet delivered.
@@ -97,6 +100,7 @@ impl Delimited {
             places,
             printed: Printed::default(),
             axis: None,
+            live: false,
             not_finite: None,
             ahead: Vec::new().into_iter(),
             fault: None,
@@ -271,6 +275,10 @@ impl Source for Delimited {
                 checked.map_err(|fault| InputError::line(&self.file, self.line(), fault))?;
             }
             pairs.push(pair);
+            // The next line may take its time.
+            if self.live && self.reader.position().byte() >= self.reader.get_ref().lines_end() {
+                break;
+            }
         }
         Ok(())
     }

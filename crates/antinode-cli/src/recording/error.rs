@@ -61,7 +61,8 @@ pub enum InputError {
     /// Neither the content nor the extension is known.
     #[error(
         "{file}: neither its content nor its extension is known; give a .wav, .csv, .tsv, .txt or \
-         .npy file, or the sample format of a raw one with {RAW_OPTION} i16, i32 or f32"
+         .npy file, or the sample format of a raw one with {RAW_OPTION} i16, i32 or f32, or the \
+         columns of a text with {COLUMNS_OPTION}"
     )]
     Unknown { file: String },
     /// The content is not what the extension promises.
@@ -71,8 +72,8 @@ pub enum InputError {
     NotOfKind { file: String, kind: &'static str },
     /// Standard input without a sample format.
     #[error(
-        "{file}: raw samples do not tell their format; give it with {RAW_OPTION} i16, i32 or f32 \
-         (little-endian, S_C and S_D in turn)"
+        "{file}: this is neither WAV, NPY nor CSV, and raw samples do not tell their format; give it \
+         with {RAW_OPTION} i16, i32 or f32 (little-endian, S_C and S_D in turn)"
     )]
     RawFormatNeeded { file: String },
 

@@ -12,6 +12,8 @@ pub(super) const MAX_LINE: usize = 1 << 16;
 /// Text as the CSV reader is to see it: lines end in `\n` alone, the last one too, and none is endless.
 pub(super) struct Text {
     stream: Stream,
+    /// The bytes given.
+    given: u64,
     /// The bytes of the line begun.
     line: usize,
     last: u8,
@@ -21,9 +23,15 @@ impl Text {
     pub fn new(stream: Stream) -> Self {
         Self {
             stream,
+            given: 0,
             line: 0,
             last: b'\n',
         }
+    }
+
+    /// The bytes of the whole lines given.
+    pub fn lines_end(&self) -> u64 {
+        self.given - self.line as u64
     }
 }
 
@@ -48,6 +56,7 @@ impl Read for Text {
             Some(end) => bytes.len() - end - 1,
             None => self.line + bytes.len(),
         };
+        self.given += bytes.len() as u64;
         self.last = bytes.last().copied().unwrap_or(self.last);
         if self.line > MAX_LINE {
             return Err(io::ErrorKind::InvalidData.into());
@@ -82,14 +91,20 @@ pub(super) fn first_line(
             }
             _ => {}
         }
-        if let (1, Some(rest)) = (number, line.strip_prefix(b"\xef\xbb\xbf")) {
-            line = rest.to_vec();
-            before += 3;
+        if number == 1 {
+            let rest = without_mark(&line).to_vec();
+            before += (line.len() - rest.len()) as u64;
+            line = rest;
         }
         if !is_skipped(&line) {
             return Ok((line, number, before));
         }
     }
+}
+
+/// Text without the mark that some programs begin UTF-8 with.
+pub(super) fn without_mark(text: &[u8]) -> &[u8] {
+    text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text)
 }
 
 /// Whether a line is blank or a comment.

@@ -3,7 +3,7 @@
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::Path;
 
-use antinode::Identifier;
+use antinode::{Estimate, Identifier};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
@@ -71,6 +71,9 @@ fn identify(
         }
     }
     let rate = sample_rate(&name, options.rate, recording.sample_rate())?;
+    if let Some(warning) = recording.warning() {
+        eprintln!("warning: {warning}");
+    }
     let settings = options.settings(rate, recording.full_scale());
     let mut core = Box::new(Core::new(settings)?);
     let mut history =
@@ -100,6 +103,10 @@ fn identify(
                 let methods = history
                     .as_ref()
                     .and_then(|history| history.compare(&estimate));
+                let estimate = Estimate {
+                    time: estimate.time + recording.start(),
+                    ..estimate
+                };
                 rows.print(&name, &estimate, methods.as_ref())?;
             }
         }

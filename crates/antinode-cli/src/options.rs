@@ -37,6 +37,9 @@ pub struct Options {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Identifies the wave in recordings, one row a window.
+    ///
+    /// A row's time is that of the window's middle, from the first sample on; where the recording has a time column, that column's
+    /// first value is added.
     Identify(Box<Identify>),
     /// Writes a simulated recording, and the truth beside it as JSON.
     Simulate(Box<super::simulate::Simulate>),
@@ -86,6 +89,8 @@ pub struct Identify {
     /// Columns of a text recording, by name or number from 1, as C,D or TIME,C,D [default: by their names or number].
     ///
     /// What is neither WAV nor NPY is then read as text, unless --raw is given. Without it, text is known by its first line.
+    /// Two columns leave the recording's time out: its rate is then that of --rate. Lines that begin with #, % or // are comments; a
+    /// line of units may follow the header, and a time in ms, us or ns is understood.
     #[arg(long, value_name = "COLUMNS")]
     pub columns: Option<Columns>,
     /// How the period is found.

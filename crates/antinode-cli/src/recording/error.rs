@@ -5,13 +5,16 @@ mod line;
 use std::fmt;
 use std::io;
 
-pub use line::{LineFault, Place, Role};
+pub use line::{LineFault, Place, Role, TimeFault};
 
 /// The command-line option that names a [`RawFormat`](super::RawFormat), as the remedies spell it.
 pub const RAW_OPTION: &str = "--raw";
 
 /// The command-line option that names the [`Columns`](super::Columns), as the remedies spell it.
 pub const COLUMNS_OPTION: &str = "--columns";
+
+/// The command-line option that gives the sample rate, as the remedies spell it.
+pub const RATE_OPTION: &str = "--rate";
 
 /// One of the two pick-off signals of a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,12 +5,16 @@ mod columns;
 mod content;
 mod delimited;
 mod error;
+mod header;
+mod lines;
 mod not_finite;
 mod npy;
+mod printed;
 mod raw;
 mod sample;
 mod text;
 mod time;
+mod units;
 mod wav;
 mod write;
 
@@ -85,6 +89,9 @@ struct Kind {
 struct Opened {
     source: Box<dyn Source>,
     sample_rate: Option<f64>,
+    /// The time of the first pair, s.
+    start: f64,
+    warning: Option<String>,
     pairs: Option<u64>,
     full_scale: Option<f32>,
 }
@@ -187,6 +194,16 @@ impl Recording {
     /// The sample rate in Hz from a WAV header or a time column.
     pub fn sample_rate(&self) -> Option<f64> {
         self.opened.sample_rate
+    }
+
+    /// The time of the first pair in the recording's own time column, s; 0 where there is none.
+    pub fn start(&self) -> f64 {
+        self.opened.start
+    }
+
+    /// What is understood, but hardly meant.
+    pub fn warning(&self) -> Option<&str> {
+        self.opened.warning.as_deref()
     }
 
     /// The number of pairs, where the format tells it: those that are there, if the header promises more.

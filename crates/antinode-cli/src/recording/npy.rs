@@ -81,6 +81,8 @@ pub(super) fn open(
     Ok(Opened {
         source,
         sample_rate: None,
+        start: 0.0,
+        warning: None,
         pairs: Some(there),
         full_scale: code.full_scale(),
     })

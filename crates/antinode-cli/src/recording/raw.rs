@@ -49,6 +49,8 @@ pub(super) fn open(file: &str, stream: Stream, format: RawFormat, length: Option
     Opened {
         source: Box::new(source),
         sample_rate: None,
+        start: 0.0,
+        warning: None,
         pairs: length.map(|length| length / code.pair_bytes() as u64),
         full_scale: code.full_scale(),
     }

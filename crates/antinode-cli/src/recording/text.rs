@@ -9,7 +9,44 @@ use super::error::{InputError, LineFault};
 /// No line of a few numbers is as long; a file without ends of line must not fill the memory.
 pub(super) const MAX_LINE: usize = 1 << 16;
 
-/// Text as the CSV reader is to see it: lines end in `\n` alone, the last one too, and none is endless.
+/// Text whose lines end in `\n` alone, byte for byte: they may have ended in `\r\n` or in `\r`.
+pub(super) struct LineEnds {
+    stream: Stream,
+    /// True after a `\r`, which is a `\n` by now.
+    is_after_return: bool,
+}
+
+impl LineEnds {
+    pub fn new(stream: Stream) -> Self {
+        Self {
+            stream,
+            is_after_return: false,
+        }
+    }
+}
+
+impl Read for LineEnds {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let count = self.stream.read(bytes)?;
+        let bytes = &mut bytes[..count];
+        if !self.is_after_return && !bytes.contains(&b'\r') {
+            return Ok(count);
+        }
+        for byte in bytes {
+            let is_return = *byte == b'\r';
+            *byte = match *byte {
+                b'\r' => b'\n',
+                // A blank before the next line does no harm.
+                b'\n' if self.is_after_return => b' ',
+                other => other,
+            };
+            self.is_after_return = is_return;
+        }
+        Ok(count)
+    }
+}
+
+/// Text as the CSV reader is to see it: its last line ends too, and none is endless.
 pub(super) struct Text {
     stream: Stream,
     /// The bytes given.
@@ -49,9 +86,6 @@ impl Read for Text {
             },
             _ => &mut bytes[..count],
         };
-        for byte in bytes.iter_mut() {
-            *byte = if *byte == b'\r' { b' ' } else { *byte };
-        }
         self.line = match bytes.iter().rposition(|&byte| byte == b'\n') {
             Some(end) => bytes.len() - end - 1,
             None => self.line + bytes.len(),
@@ -114,7 +148,10 @@ pub(super) fn is_skipped(line: &[u8]) -> bool {
 
 /// Whether a line is a comment.
 pub(super) fn is_comment(line: &[u8]) -> bool {
-    line.trim_ascii_start().starts_with(b"#")
+    let line = line.trim_ascii_start();
+    [&b"#"[..], b"%", b"//"]
+        .into_iter()
+        .any(|mark| line.starts_with(mark))
 }
 
 /// What separates the fields: the first of `;`, tab and `,` that is there, or else blanks.
@@ -201,10 +238,21 @@ mod tests {
 
     #[test]
     fn lines_end_the_same_way() {
-        let mut text = String::new();
-        Text::new(Box::new(&b"1,2\r\n3,4"[..]))
-            .read_to_string(&mut text)
-            .unwrap();
-        assert_eq!(text, "1,2 \n3,4\n");
+        for (text, expected) in [
+            ("1,2\r\n3,4", "1,2\n 3,4\n"),
+            ("1,2\r3,4\r", "1,2\n3,4\n"),
+            ("1,2\n3,4\n", "1,2\n3,4\n"),
+            ("1,2\r\r\n3,4", "1,2\n\n 3,4\n"),
+        ] {
+            for most in [1, 100] {
+                let bytes = text.as_bytes().to_vec();
+                let stream = super::super::tests::Dribble::new(bytes, most);
+                let mut found = String::new();
+                Text::new(Box::new(LineEnds::new(Box::new(stream))))
+                    .read_to_string(&mut found)
+                    .unwrap();
+                assert_eq!(found, expected);
+            }
+        }
     }
 }

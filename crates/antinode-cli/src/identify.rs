@@ -152,24 +152,15 @@ fn no_rows(name: &str, rate: f64, core: &Core, options: &Identify) -> Failure {
 
 /// The rate that was asked for, or else the recording's own.
 fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, Failure> {
-    let (rate, remedy) = match (asked, own) {
-        (Some(rate), _) => (rate, "give --rate in Hz, 100000 for 100 kS/s"),
-        (None, Some(rate)) => (
-            rate,
-            "the recording says so itself: give the true one as --rate HZ",
-        ),
-        (None, None) => {
-            return Err(Failure::Recording(format!(
-                "{name}: the sample rate is not known: the recording does not say it; give --rate HZ"
-            )));
-        }
-    };
-    if (1.0..=1e10).contains(&rate) {
-        Ok(rate)
-    } else {
-        Err(Failure::Recording(format!(
-            "{name}: a sample rate of {rate} Hz is absurd; {remedy}"
-        )))
+    match (asked, own) {
+        (Some(rate), _) => Ok(rate),
+        (None, Some(rate)) if (1.0..=1e10).contains(&rate) => Ok(rate),
+        (None, Some(rate)) => Err(Failure::Recording(format!(
+            "{name}: a sample rate of {rate} Hz is absurd; the recording says so itself: give the true one as --rate HZ"
+        ))),
+        (None, None) => Err(Failure::Recording(format!(
+            "{name}: the sample rate is not known: the recording does not say it; give --rate HZ"
+        ))),
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use antinode::{Calibration, Detection, Settings};
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 
+use crate::ranges;
 use crate::recording::{Columns, RawFormat};
 
 /// Under the help of the whole.
@@ -71,11 +72,11 @@ pub struct Identify {
     /// Fewer blocks than a window has make windows overlap, more leave gaps.
     #[arg(long, value_name = "BLOCKS", value_parser = value_parser!(u16).range(1..))]
     pub hop: Option<u16>,
-    /// Sample rate, Hz [default: the recording's own].
-    #[arg(long, value_name = "HZ")]
+    /// Sample rate, Hz, 1 to 1e10 [default: the recording's own].
+    #[arg(long, value_name = "HZ", value_parser = ranges::rate)]
     pub rate: Option<f64>,
     /// How rows are printed.
-    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
+    #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
     pub output: Format,
     /// Which methods a row shows.
     ///
@@ -96,39 +97,42 @@ pub struct Identify {
     /// How the period is found.
     #[arg(long, value_enum, default_value_t = Detector::Difference)]
     pub detector: Detector,
-    /// The first window's angle is chosen within π/4 of this one, rad [default: π/4, so that it lies in 0…π/2].
-    #[arg(long, value_name = "RAD")]
+    /// The first window's angle is chosen within π/4 of this one, rad, within ±10000 [default: π/4, so that it lies in 0…π/2].
+    #[arg(long, value_name = "RAD", value_parser = ranges::start_angle)]
     pub start_angle: Option<f32>,
 
-    /// Gain of pick-off D over that of C.
+    /// Gain of pick-off D over that of C, 0.1 to 10.
     #[arg(
         long,
         default_value_t = 1.0,
         value_name = "RATIO",
+        value_parser = ranges::gain_ratio,
         help_heading = "Calibration"
     )]
     pub gain_ratio: f32,
-    /// How much later than C pick-off D is sampled, ns.
+    /// How much later than C pick-off D is sampled, ns, within ±1000000.
     #[arg(
         long,
         default_value_t = 0.0,
         value_name = "NS",
+        value_parser = ranges::skew_ns,
         help_heading = "Calibration"
     )]
     pub skew_ns: f32,
-    /// Pick-off D stands at 45° plus this angle from C, rad.
+    /// Pick-off D stands at 45° plus this angle from C, rad, within ±0.3.
     #[arg(
         long,
         default_value_t = 0.0,
         value_name = "RAD",
+        value_parser = ranges::pick_off_angle,
         help_heading = "Calibration"
     )]
     pub pick_off_angle: f32,
-    /// |sample| at which the converter is at its rail [default: known for integers, none for others].
-    #[arg(long, value_name = "LEVEL", help_heading = "Calibration")]
+    /// |sample| at which the converter is at its rail, above 0 [default: known for integers, none for others].
+    #[arg(long, value_name = "LEVEL", value_parser = ranges::positive, help_heading = "Calibration")]
     pub full_scale: Option<f32>,
-    /// Step between two codes of the converter [default: known for integers, none for others].
-    #[arg(long, value_name = "STEP", help_heading = "Calibration")]
+    /// Step between two codes of the converter, above 0, in the unit of the samples [default: known for integers, none for others].
+    #[arg(long, value_name = "STEP", value_parser = ranges::positive, help_heading = "Calibration")]
     pub resolution: Option<f32>,
 }
 
@@ -182,6 +186,12 @@ impl From<Raw> for RawFormat {
     }
 }
 
+/// A skew in the core's unit.
+pub fn seconds(skew_ns: f32) -> f32 {
+    // By way of f64: the limit of 1 ms stays what it is.
+    (f64::from(skew_ns) * 1e-9) as f32
+}
+
 impl Identify {
     /// The core's settings for a recording of this sample rate whose integers have this full scale.
     pub fn settings(&self, sample_rate: f64, full_scale: Option<f32>) -> Settings {
@@ -202,7 +212,7 @@ impl Identify {
             },
             calibration: Calibration {
                 gain_ratio: self.gain_ratio,
-                skew: self.skew_ns * 1e-9,
+                skew: seconds(self.skew_ns),
                 pick_off_angle: self.pick_off_angle,
             },
             ..plain

@@ -94,7 +94,7 @@ pub struct Identify {
     /// line of units may follow the header, and a time in ms, us or ns is understood.
     #[arg(long, value_name = "COLUMNS")]
     pub columns: Option<Columns>,
-    /// How the period is found.
+    /// How the period is found: where one way finds none, as a second tone may hide it, try the other.
     #[arg(long, value_enum, default_value_t = Detector::Difference)]
     pub detector: Detector,
     /// The first window's angle is chosen within π/4 of this one, rad, within ±10000 [default: π/4, so that it lies in 0…π/2].
@@ -159,9 +159,9 @@ pub enum Format {
 /// Formulas for the period.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Detector {
-    /// Formula (10), the squared difference.
+    /// Formula (10), the squared difference: the sooner one, and the one for noise.
     Difference,
-    /// Formula (9), the return of the running sum.
+    /// Formula (9), the return of the running sum: for little noise, and where a second tone hides the period.
     MeanReturn,
 }
 

@@ -32,6 +32,7 @@ pub(super) fn open(
         return Err(source.fault.take().unwrap_or(none));
     }
     Ok(Opened {
+        format: "CSV".to_owned(),
         sample_rate: source.axis.as_ref().map(TimeAxis::rate),
         start: source.start,
         warning: source.warning(),

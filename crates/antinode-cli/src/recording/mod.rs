@@ -88,6 +88,8 @@ struct Kind {
 /// A source, and what its header tells.
 struct Opened {
     source: Box<dyn Source>,
+    /// What it is, in words.
+    format: String,
     sample_rate: Option<f64>,
     /// The time of the first pair, s.
     start: f64,
@@ -189,6 +191,11 @@ impl Recording {
     /// The path, or "standard input".
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// What the recording is, in words.
+    pub fn format(&self) -> &str {
+        &self.opened.format
     }
 
     /// The sample rate in Hz from a WAV header or a time column.

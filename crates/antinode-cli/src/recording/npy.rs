@@ -79,6 +79,7 @@ pub(super) fn open(
         (Box::new(planes), there)
     };
     Ok(Opened {
+        format: format!("NPY of {}", code.words()),
         source,
         sample_rate: None,
         start: 0.0,

@@ -47,6 +47,7 @@ pub(super) fn open(file: &str, stream: Stream, format: RawFormat, length: Option
     });
     let source = Interleaved::new(file, stream, code, 0).live(length.is_none());
     Opened {
+        format: format!("raw {}", code.words()),
         source: Box::new(source),
         sample_rate: None,
         start: 0.0,

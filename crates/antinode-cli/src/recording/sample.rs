@@ -75,6 +75,16 @@ impl SampleCode {
         self.is_integer().then_some((1.0 - step) as f32)
     }
 
+    /// What the samples are, in words.
+    pub fn words(self) -> String {
+        let kind = if self.is_integer() {
+            "integers"
+        } else {
+            "floats"
+        };
+        format!("{}-bit {kind}", self.valid_bits)
+    }
+
     fn is_integer(self) -> bool {
         !matches!(self.kind, Kind::F32 | Kind::F64)
     }

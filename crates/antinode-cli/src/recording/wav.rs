@@ -41,6 +41,7 @@ pub(super) fn open(file: &str, stream: Stream, length: Option<u64>) -> Result<Op
         None => source,
     };
     Ok(Opened {
+        format: format!("WAV of {}", format.code.words()),
         source: Box::new(source),
         sample_rate: (format.rate > 0).then_some(f64::from(format.rate)),
         start: 0.0,

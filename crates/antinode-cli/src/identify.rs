@@ -3,17 +3,20 @@
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::Path;
 
-use antinode::Identifier;
+use antinode::{Estimate, Identifier};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
 use crate::methods::History;
-use crate::options::{Identify, MOST_PERIODS, Methods};
+use crate::options::{Detector, Format, Identify, MOST_PERIODS, Methods};
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
 
 /// Periods of up to 256 samples, windows of up to 1022 periods.
 type Core = Identifier<f32, 256, { MOST_PERIODS as usize + 2 }>;
+
+/// Pairs between two looks at the search: no period is found and refused in fewer.
+const GLANCE: usize = 8;
 
 /// Recordings longer than this show how far they have come.
 const LONG: u64 = 32 << 20;
@@ -62,13 +65,18 @@ fn identify(
     let mut recording = Recording::open(path, &open)?;
     let name = recording.name().to_owned();
     let mut buffer = Vec::with_capacity(BLOCK_PAIRS);
-    if options.rate.or(recording.sample_rate()).is_none() && path != Path::new("-") {
+    // What comes by a pipe comes in its own time.
+    let is_pipe = recording.bytes_total().is_none();
+    if options.rate.or(recording.sample_rate()).is_none() && !is_pipe {
         // A fault in the first lines may be why the rate is not known: one block, and what ended it.
         for _ in 0..2 {
             recording.read(&mut buffer)?;
         }
     }
     let rate = sample_rate(&name, options.rate, recording.sample_rate())?;
+    if let Some(warning) = recording.warning() {
+        eprintln!("warning: {warning}");
+    }
     let settings = options.settings(rate, recording.full_scale());
     let mut core = Box::new(Core::new(settings)?);
     let mut history =
@@ -76,10 +84,18 @@ fn identify(
     let bar = progress(&recording);
     let length = recording
         .pairs()
-        .map_or(String::new(), |pairs| format!("{pairs} sample pairs at "));
-    rows.begin(several.then(|| format!("{name}: {length}{rate} Hz")));
+        .map_or(String::new(), |pairs| format!(", {pairs} sample pairs"));
+    let title = format!("{name}: {}{length} at {rate} Hz", recording.format());
+    // Tables of several recordings have it above them.
+    let is_told = several && options.output == Format::Table;
+    let is_watched = !is_told && io::stderr().is_terminal();
+    if is_watched {
+        eprintln!("{title}");
+    }
+    rows.begin(several.then_some(title));
 
     let live = io::stdout().is_terminal();
+    let mut search = Search::default();
     let fault = loop {
         match recording.read(&mut buffer) {
             Ok(0) => break None,
@@ -88,7 +104,14 @@ fn identify(
         }
         let mut pairs = buffer.as_slice();
         while !pairs.is_empty() {
-            let (taken, estimate) = core.push_slice(pairs);
+            // Until the first row, what becomes of the search is to be seen.
+            let most = if rows.count() == 0 {
+                GLANCE
+            } else {
+                pairs.len()
+            };
+            let (taken, estimate) = core.push_slice(&pairs[..most.min(pairs.len())]);
+            search.see(core.is_searching());
             let (new, rest) = pairs.split_at(taken);
             pairs = rest;
             if let Some(history) = &mut history {
@@ -98,57 +121,93 @@ fn identify(
                 let methods = history
                     .as_ref()
                     .and_then(|history| history.compare(&estimate));
+                let estimate = Estimate {
+                    time: estimate.time + recording.start(),
+                    ..estimate
+                };
                 rows.print(&name, &estimate, methods.as_ref())?;
             }
         }
-        if live || path == Path::new("-") {
+        if live || is_pipe {
             // Somebody watches, or the samples arrive as they are taken.
             rows.flush()?;
         }
         bar.set_position(recording.bytes_read());
     };
     bar.finish_and_clear();
-    if let Some(error) = fault {
-        return Err(error.into());
+    if is_watched && recording.pairs().is_none() {
+        eprintln!("{name}: {} sample pairs", core.index());
     }
-    if rows.count() > 0 {
-        return Ok(());
+    let failure = match fault {
+        Some(error) => Some(error.into()),
+        None if rows.count() > 0 => None,
+        None => Some(no_rows(&name, rate, &core, search, options)),
+    };
+    match (recording.not_finite(), failure) {
+        (None, failure) => failure.map_or(Ok(()), Err),
+        (Some(error), None) => Err(error.into()),
+        (Some(error), Some(failure)) => {
+            rows.flush()?;
+            eprintln!("error: {error}");
+            Err(failure)
+        }
     }
+}
+
+/// What became of the search for a period.
+#[derive(Debug, Clone, Copy, Default)]
+struct Search {
+    has_found: bool,
+    /// Periods whose first window was no wave.
+    refused: u64,
+}
+
+impl Search {
+    /// Takes a look at the core.
+    fn see(&mut self, is_searching: bool) {
+        self.refused += u64::from(self.has_found && is_searching);
+        self.has_found = !is_searching;
+    }
+}
+
+/// Why a recording that was read to its end gave no row.
+fn no_rows(name: &str, rate: f64, core: &Core, search: Search, options: &Identify) -> Failure {
     let (pairs, seconds) = (core.index(), core.index() as f64 / rate);
-    Err(Failure::Recording(if core.is_searching() {
+    let periods = options.periods;
+    Failure::Recording(if search.refused > 0 {
+        format!(
+            "{name}: a period was found, but no window of {periods} periods in {pairs} sample pairs ({seconds:.4} s) is mostly \
+             one wave; look for a second tone, and check the scale of the samples, --full-scale and --resolution"
+        )
+    } else if core.is_searching() {
+        let other = match options.detector {
+            Detector::Difference => "mean-return",
+            Detector::MeanReturn => "difference",
+        };
         format!(
             "{name}: no period found in {pairs} sample pairs ({seconds:.4} s): no wave of 4 to 200 samples a period \
-             stands out of the noise; check the sample rate, the channels and the signal"
+             stands out of the noise; check the sample rate, the channels and the signal, or try --detector {other}, \
+             as a second tone may hide the period"
         )
     } else {
         format!(
-            "{name}: a period was found, but {pairs} sample pairs ({seconds:.4} s) hold no window of {} periods; \
-             record longer or give a smaller --periods",
-            options.periods
+            "{name}: a period was found, but {pairs} sample pairs ({seconds:.4} s) hold no window of {periods} periods; \
+             record longer or give a smaller --periods"
         )
-    }))
+    })
 }
 
 /// The rate that was asked for, or else the recording's own.
 fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, Failure> {
-    let (rate, remedy) = match (asked, own) {
-        (Some(rate), _) => (rate, "give --rate in Hz, 100000 for 100 kS/s"),
-        (None, Some(rate)) => (
-            rate,
-            "the recording says so itself: give the true one as --rate HZ",
-        ),
-        (None, None) => {
-            return Err(Failure::Recording(format!(
-                "{name}: the sample rate is not known: the recording does not say it; give --rate HZ"
-            )));
-        }
-    };
-    if (1.0..=1e10).contains(&rate) {
-        Ok(rate)
-    } else {
-        Err(Failure::Recording(format!(
-            "{name}: a sample rate of {rate} Hz is absurd; {remedy}"
-        )))
+    match (asked, own) {
+        (Some(rate), _) => Ok(rate),
+        (None, Some(rate)) if (1.0..=1e10).contains(&rate) => Ok(rate),
+        (None, Some(rate)) => Err(Failure::Recording(format!(
+            "{name}: a sample rate of {rate} Hz is absurd; the recording says so itself: give the true one as --rate HZ"
+        ))),
+        (None, None) => Err(Failure::Recording(format!(
+            "{name}: the sample rate is not known: the recording does not say it; give --rate HZ"
+        ))),
     }
 }
 

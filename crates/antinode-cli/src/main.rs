@@ -10,6 +10,7 @@ mod method_rows;
 mod method_table;
 mod methods;
 mod options;
+mod ranges;
 mod recording;
 mod rows;
 mod simulate;

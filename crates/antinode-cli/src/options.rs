@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use antinode::{Calibration, Detection, Settings};
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 
+use crate::ranges;
 use crate::recording::{Columns, RawFormat};
 
 /// Under the help of the whole.
@@ -37,6 +38,9 @@ pub struct Options {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Identifies the wave in recordings, one row a window.
+    ///
+    /// A row's time is that of the window's middle, from the first sample on; where the recording has a time column, that column's
+    /// first value is added.
     Identify(Box<Identify>),
     /// Writes a simulated recording, and the truth beside it as JSON.
     Simulate(Box<super::simulate::Simulate>),
@@ -56,7 +60,7 @@ pub enum Command {
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub struct Identify {
-    /// Recordings: WAV (left S_C, right S_D), CSV, NPY; `-` is standard input.
+    /// Recordings: WAV (left S_C, right S_D), CSV, NPY, told apart by their content; `-` is standard input.
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Periods a window, 2 to 1022.
@@ -68,11 +72,11 @@ pub struct Identify {
     /// Fewer blocks than a window has make windows overlap, more leave gaps.
     #[arg(long, value_name = "BLOCKS", value_parser = value_parser!(u16).range(1..))]
     pub hop: Option<u16>,
-    /// Sample rate, Hz [default: the recording's own].
-    #[arg(long, value_name = "HZ")]
+    /// Sample rate, Hz, 1 to 1e10 [default: the recording's own].
+    #[arg(long, value_name = "HZ", value_parser = ranges::rate)]
     pub rate: Option<f64>,
     /// How rows are printed.
-    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
+    #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
     pub output: Format,
     /// Which methods a row shows.
     ///
@@ -80,48 +84,55 @@ pub struct Identify {
     /// exact solution in its standard deviations. Windows without a wave have none.
     #[arg(long, value_enum, default_value_t = Methods::Exact)]
     pub methods: Methods,
-    /// Format of raw samples on standard input or in a file of another kind: little-endian, S_C and S_D in turn.
+    /// Format of raw samples, in whatever is no WAV, no NPY and not named as a text: little-endian, S_C and S_D in turn.
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub raw: Option<Raw>,
     /// Columns of a text recording, by name or number from 1, as C,D or TIME,C,D [default: by their names or number].
+    ///
+    /// What is neither WAV nor NPY is then read as text, unless --raw is given. Without it, text is known by its first line.
+    /// Two columns leave the recording's time out: its rate is then that of --rate. Lines that begin with #, % or // are comments; a
+    /// line of units may follow the header, and a time in ms, us or ns is understood.
     #[arg(long, value_name = "COLUMNS")]
     pub columns: Option<Columns>,
-    /// How the period is found.
+    /// How the period is found: where one way finds none, as a second tone may hide it, try the other.
     #[arg(long, value_enum, default_value_t = Detector::Difference)]
     pub detector: Detector,
-    /// The first window's angle is chosen within π/4 of this one, rad [default: π/4, so that it lies in 0…π/2].
-    #[arg(long, value_name = "RAD")]
+    /// The first window's angle is chosen within π/4 of this one, rad, within ±10000 [default: π/4, so that it lies in 0…π/2].
+    #[arg(long, value_name = "RAD", value_parser = ranges::start_angle)]
     pub start_angle: Option<f32>,
 
-    /// Gain of pick-off D over that of C.
+    /// Gain of pick-off D over that of C, 0.1 to 10.
     #[arg(
         long,
         default_value_t = 1.0,
         value_name = "RATIO",
+        value_parser = ranges::gain_ratio,
         help_heading = "Calibration"
     )]
     pub gain_ratio: f32,
-    /// How much later than C pick-off D is sampled, ns.
+    /// How much later than C pick-off D is sampled, ns, within ±1000000.
     #[arg(
         long,
         default_value_t = 0.0,
         value_name = "NS",
+        value_parser = ranges::skew_ns,
         help_heading = "Calibration"
     )]
     pub skew_ns: f32,
-    /// Pick-off D stands at 45° plus this angle from C, rad.
+    /// Pick-off D stands at 45° plus this angle from C, rad, within ±0.3.
     #[arg(
         long,
         default_value_t = 0.0,
         value_name = "RAD",
+        value_parser = ranges::pick_off_angle,
         help_heading = "Calibration"
     )]
     pub pick_off_angle: f32,
-    /// |sample| at which the converter is at its rail [default: known for integers, none for others].
-    #[arg(long, value_name = "LEVEL", help_heading = "Calibration")]
+    /// |sample| at which the converter is at its rail, above 0 [default: known for integers, none for others].
+    #[arg(long, value_name = "LEVEL", value_parser = ranges::positive, help_heading = "Calibration")]
     pub full_scale: Option<f32>,
-    /// Step between two codes of the converter [default: known for integers, none for others].
-    #[arg(long, value_name = "STEP", help_heading = "Calibration")]
+    /// Step between two codes of the converter, above 0, in the unit of the samples [default: known for integers, none for others].
+    #[arg(long, value_name = "STEP", value_parser = ranges::positive, help_heading = "Calibration")]
     pub resolution: Option<f32>,
 }
 
@@ -148,9 +159,9 @@ pub enum Format {
 /// Formulas for the period.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Detector {
-    /// Formula (10), the squared difference.
+    /// Formula (10), the squared difference: the sooner one, and the one for noise.
     Difference,
-    /// Formula (9), the return of the running sum.
+    /// Formula (9), the return of the running sum: for little noise, and where a second tone hides the period.
     MeanReturn,
 }
 
@@ -175,6 +186,12 @@ impl From<Raw> for RawFormat {
     }
 }
 
+/// A skew in the core's unit.
+pub fn seconds(skew_ns: f32) -> f32 {
+    // By way of f64: the limit of 1 ms stays what it is.
+    (f64::from(skew_ns) * 1e-9) as f32
+}
+
 impl Identify {
     /// The core's settings for a recording of this sample rate whose integers have this full scale.
     pub fn settings(&self, sample_rate: f64, full_scale: Option<f32>) -> Settings {
@@ -195,7 +212,7 @@ impl Identify {
             },
             calibration: Calibration {
                 gain_ratio: self.gain_ratio,
-                skew: self.skew_ns * 1e-9,
+                skew: seconds(self.skew_ns),
                 pick_off_angle: self.pick_off_angle,
             },
             ..plain

@@ -7,7 +7,7 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use common::{Row, WAVE, npy, raw, rows, run, run_with, text, wav};
+use common::{Row, WAVE, npy, raw, rows, run, run_with, wav};
 
 /// Runs `identify`, which must exit 1 with one message that holds all of these; gives the rows before it.
 fn fault(directory: &Path, arguments: &str, input: Vec<u8>, told: &[&str]) -> Vec<Row> {
@@ -144,48 +144,6 @@ fn a_truncated_recording_gives_its_good_rows() {
         half,
         &["standard input: sample pair 15000", "middle of it"],
     ));
-}
-
-#[test]
-fn not_a_number_is_told_with_its_line() {
-    let directory = tempfile::tempdir().unwrap();
-    let here = directory.path();
-    let codes = WAVE.codes(20_000);
-    fs::write(here.join("good.csv"), text(&codes[..12_000])).unwrap();
-    let mut lines: Vec<String> = text(&codes).lines().map(str::to_owned).collect();
-    // The header is line 1, so the pair of index 12000 is on line 12002.
-    lines[12_001] = "0.12000,0.1,NaN".to_owned();
-    fs::write(here.join("bad.csv"), lines.join("\n")).unwrap();
-    let told = [
-        "bad.csv:12002:3: ",
-        "S_D is `NaN`, not a finite number",
-        "correct or delete the line",
-    ];
-    let found = fault(here, "bad.csv", Vec::new(), &told);
-    let expected = rows(here, "good.csv");
-    assert!(expected.len() > 55);
-    assert_eq!(found.len(), expected.len());
-    for (found, expected) in found.iter().zip(&expected) {
-        assert_eq!(found.unnamed(), expected.unnamed());
-    }
-    let mut bytes = Vec::new();
-    for (k, code) in codes.iter().enumerate() {
-        let pair = if k == 12_000 {
-            [f32::INFINITY, 0.0]
-        } else {
-            code.map(|code| f32::from(code) / 32_768.0)
-        };
-        bytes.extend(pair.iter().flat_map(|value| value.to_le_bytes()));
-    }
-    let told = [
-        "standard input: sample pair 12000 (from 0), S_C",
-        "inf",
-        "cut the recording there",
-    ];
-    assert_eq!(
-        fault(here, "- --raw f32 --rate 1e5", bytes, &told).len(),
-        expected.len()
-    );
 }
 
 #[test]

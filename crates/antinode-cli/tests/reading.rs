@@ -98,7 +98,7 @@ fn a_table_is_aligned() {
     // Several recordings have a table each, under their names.
     let two = run(directory.path(), "identify a.wav b.wav");
     let body = one.out.as_str();
-    let title = |name| format!("{name}: 5000 sample pairs at 100000 Hz\n");
+    let title = |name| format!("{name}: WAV of 16-bit integers, 5000 sample pairs at 100000 Hz\n");
     assert_eq!(
         two.out,
         format!("{}{body}\n{}{body}", title("a.wav"), title("b.wav"))

@@ -15,6 +15,7 @@ use serialport::SerialPort;
 
 use super::{BAUD, port, told};
 use crate::failure::Failure;
+use crate::{options, ranges};
 
 /// `antinode command`.
 #[derive(Debug, Args)]
@@ -23,10 +24,10 @@ pub struct Options {
     #[arg(value_name = "PORT")]
     pub port: PathBuf,
     /// Speed of the port, baud (bits a second; 8N1).
-    #[arg(long, default_value_t = BAUD, value_name = "BAUD", value_parser = value_parser!(u32).range(1..))]
+    #[arg(long, global = true, default_value_t = BAUD, value_name = "BAUD", value_parser = value_parser!(u32).range(1..))]
     pub baud: u32,
     /// How long to wait for an answer, s; 0.01 to 3600.
-    #[arg(long, default_value_t = 2.0, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, global = true, default_value_t = 2.0, value_name = "SECONDS", value_parser = ranges::seconds)]
     pub timeout: f64,
     /// What the device is to do.
     #[command(subcommand)]
@@ -41,7 +42,7 @@ pub enum Ask {
     /// Changes the length of a window.
     Window {
         /// Periods a window, 2 or more; the device knows the most.
-        #[arg(value_name = "PERIODS")]
+        #[arg(value_name = "PERIODS", value_parser = value_parser!(u16).range(2..))]
         periods: u16,
     },
     /// Changes the step from the start of one window to the start of the next.
@@ -54,13 +55,13 @@ pub enum Ask {
     #[command(allow_negative_numbers = true, arg_required_else_help = true)]
     Calibration {
         /// Gain of pick-off D over that of C, 0.1 to 10.
-        #[arg(long, value_name = "RATIO")]
+        #[arg(long, value_name = "RATIO", value_parser = ranges::gain_ratio)]
         gain_ratio: Option<f32>,
         /// How much later than C pick-off D is sampled, ns, within ±1000000.
-        #[arg(long, value_name = "NS")]
+        #[arg(long, value_name = "NS", value_parser = ranges::skew_ns)]
         skew_ns: Option<f32>,
         /// Pick-off D stands at 45° plus this angle from C, rad, within ±0.3.
-        #[arg(long, value_name = "RAD")]
+        #[arg(long, value_name = "RAD", value_parser = ranges::pick_off_angle)]
         pick_off_angle: Option<f32>,
     },
     /// Has the paper's four methods reported beside every estimate, or no longer.
@@ -96,13 +97,6 @@ fn blocks(text: &str) -> Result<Blocks, String> {
     }
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(seconds) if (0.01..=3600.0).contains(&seconds) => Ok(seconds),
-        _ => Err("it must be 0.01 to 3600 s".to_owned()),
-    }
-}
-
 /// Sends a command and prints the answer.
 pub fn run(options: &Options) -> Result<(), Failure> {
     let mut line = Line {
@@ -130,7 +124,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
             let present = line.hello()?.configuration.settings.calibration;
             Command::SetCalibration(Calibration {
                 gain_ratio: gain_ratio.unwrap_or(present.gain_ratio),
-                skew: skew_ns.map_or(present.skew, |ns| ns * 1e-9),
+                skew: skew_ns.map_or(present.skew, options::seconds),
                 pick_off_angle: pick_off_angle.unwrap_or(present.pick_off_angle),
             })
         }

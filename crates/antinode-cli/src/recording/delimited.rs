@@ -1,13 +1,12 @@
 //! Text recordings: one pair a line, with or without the time before it.
 
-use std::io::{self, BufReader, Cursor, Read};
-
-use csv::{ByteRecord, ReaderBuilder, Terminator};
-
-use super::columns::{Columns, FirstLine, Places};
-use super::error::{InputError, LineFault, Place, Role};
-use super::text::{self, MAX_LINE, Number, Text, bare, fields, number};
-use super::time::{Printed, TimeAxis, standstill};
+use super::columns::Columns;
+use super::error::{COLUMNS_OPTION, InputError, LineFault, Place, RATE_OPTION, Role, TimeFault};
+use super::header::{Header, lossy};
+use super::lines::Lines;
+use super::printed::Printed;
+use super::text::number;
+use super::time::{TimeAxis, standstill};
 use super::{Opened, Source, Stream};
 
 /// The lines read ahead to tell the sample rate, whose times are rounded as they are printed.
@@ -16,13 +15,15 @@ const HEAD_LINES: usize = 1 << 16;
 /// As much of a bad field as an error shows.
 const SHOWN_LETTERS: usize = 40;
 
-/// Opens text; `chosen` are the columns the user asks for.
+/// Opens text; `chosen` are the columns the user asks for, and a `live` stream is handed over as it comes.
 pub(super) fn open(
     file: &str,
     stream: Stream,
     chosen: Option<&Columns>,
+    live: bool,
 ) -> Result<Opened, InputError> {
     let mut source = Delimited::open(file, stream, chosen)?;
+    source.live = live;
     source.read_ahead();
     if source.ahead.len() == 0 {
         let none = InputError::NoPairs {
@@ -30,10 +31,12 @@ pub(super) fn open(
         };
         return Err(source.fault.take().unwrap_or(none));
     }
-    let sample_rate = source.axis.as_ref().map(TimeAxis::rate);
     Ok(Opened {
+        format: "CSV".to_owned(),
+        sample_rate: source.axis.as_ref().map(TimeAxis::rate),
+        start: source.start,
+        warning: source.warning(),
         source: Box::new(source),
-        sample_rate,
         pairs: None,
         full_scale: None,
     })
@@ -42,15 +45,15 @@ pub(super) fn open(
 /// Reads lines of numbers.
 struct Delimited {
     file: String,
-    reader: csv::Reader<Text>,
-    record: ByteRecord,
-    separator: u8,
-    /// The lines and bytes before those that `reader` has.
-    skipped: (u64, u64),
-    width: usize,
-    places: Places,
+    lines: Lines,
+    header: Header,
     printed: Printed,
+    /// The first time, or 0.
+    start: f64,
     axis: Option<TimeAxis>,
+    live: bool,
+    /// Of the first sample that is not a finite number.
+    not_finite: Option<Place>,
     /// Pairs read to tell the sample rate, and not yet delivered.
     ahead: std::vec::IntoIter<[f32; 2]>,
     /// Met behind the last of them.
@@ -62,51 +65,25 @@ type Row = (Option<f64>, [f32; 2]);
 
 impl Delimited {
     fn open(file: &str, stream: Stream, chosen: Option<&Columns>) -> Result<Self, InputError> {
-        let mut stream = BufReader::with_capacity(MAX_LINE, stream);
-        let (first, line, before) = text::first_line(file, &mut stream)?;
-        let separator = text::separator(&first);
-        let text = Text::new(Box::new(Cursor::new(first.clone()).chain(stream)));
-        let reader = ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .delimiter(separator)
-            .terminator(Terminator::Any(b'\n'))
-            // A stray quote must not swallow the lines that follow.
-            .quoting(false)
-            .buffer_capacity(MAX_LINE)
-            .from_reader(text);
-        let names: Vec<String> = fields(&first, separator)
-            .map(|name| String::from_utf8_lossy(name).into_owned())
-            .collect();
-        let is_header =
-            !fields(&first, separator).any(|field| number::<f64>(field, separator).is_some());
-        let width = names.len();
-        let names = is_header.then_some(names.as_slice());
-        let places = FirstLine { names, width }
-            .places(chosen)
-            .map_err(|fault| InputError::line(file, line, fault))?;
-        let mut source = Self {
+        let (mut lines, first) = Lines::open(file, stream)?;
+        let header = Header::read(file, &mut lines, &first, chosen)?;
+        Ok(Self {
             file: file.to_owned(),
-            reader,
-            record: ByteRecord::new(),
-            separator,
-            skipped: (line - 1, before),
-            width,
-            places,
+            lines,
+            header,
             printed: Printed::default(),
+            start: 0.0,
             axis: None,
+            live: false,
+            not_finite: None,
             ahead: Vec::new().into_iter(),
             fault: None,
-        };
-        if is_header {
-            source.next_record()?;
-        }
-        Ok(source)
+        })
     }
 
     /// Reads as many lines as it takes to tell the sample rate, and checks their times.
     fn read_ahead(&mut self) {
-        let head = if self.places[0].is_some() {
+        let head = if self.header.places[0].is_some() {
             HEAD_LINES
         } else {
             1
@@ -117,12 +94,13 @@ impl Delimited {
                 Ok(Some((time, pair))) => {
                     pairs.push(pair);
                     times.extend(time);
-                    lines.push(self.line());
+                    lines.push(self.lines.number());
                 }
                 Ok(None) => break,
                 Err(fault) => self.fault = Some(fault),
             }
         }
+        self.start = times.first().copied().unwrap_or(0.0);
         self.axis = TimeAxis::of(&times, self.printed);
         let broken = match &mut self.axis {
             Some(axis) => times.iter().enumerate().skip(1).find_map(|(index, &time)| {
@@ -133,111 +111,105 @@ impl Delimited {
         };
         if let Some((index, fault)) = broken {
             pairs.truncate(index);
-            self.fault = Some(InputError::line(&self.file, lines[index], fault));
+            self.fault = Some(self.time_fault(lines[index], fault));
         }
         self.ahead = pairs.into_iter();
     }
 
-    /// The number of the line last read.
-    fn line(&self) -> u64 {
-        self.skipped.0 + self.reader.position().line() - 1
-    }
-
-    /// Goes to the next line that is neither blank nor a comment.
-    fn next_record(&mut self) -> Result<bool, InputError> {
-        loop {
-            let read = self.reader.read_byte_record(&mut self.record);
-            if !read.map_err(|fault| self.broken(fault))? {
-                return Ok(false);
-            }
-            // A line of nothing but separators is not blank: its numbers are missing.
-            let whole = self.record.len() <= 1 || self.separator == b' ';
-            let start = if whole {
-                self.record.as_slice()
-            } else {
-                &self.record[0]
-            };
-            if !(text::is_skipped(start) && (whole || text::is_comment(start))) {
-                return Ok(true);
-            }
-        }
-    }
-
-    fn broken(&self, fault: csv::Error) -> InputError {
-        match fault.into_kind() {
-            csv::ErrorKind::Io(fault) if fault.kind() == io::ErrorKind::InvalidData => {
-                let fault = LineFault::LineTooLong { limit: MAX_LINE };
-                InputError::line(&self.file, self.line() + 1, fault)
-            }
-            csv::ErrorKind::Io(fault) => InputError::io(&self.file, fault),
-            other => InputError::io(&self.file, io::Error::other(format!("{other:?}"))),
-        }
+    /// What is understood, but hardly meant.
+    fn warning(&self) -> Option<String> {
+        let axis = self.axis.as_ref()?;
+        axis.is_like_index(self.printed).then(|| {
+            format!(
+                "{}: the time column goes up by 1 a line, and is read as seconds; if it is an index, ignore it \
+                 with {COLUMNS_OPTION} {} {RATE_OPTION} HZ",
+                self.file,
+                self.header.samples()
+            )
+        })
     }
 
     fn row(&mut self) -> Result<Option<Row>, InputError> {
-        if !self.next_record()? {
+        if !self.lines.advance()? {
             return Ok(None);
         }
         let mut found = [&[][..]; 3];
         let (mut count, mut last_is_blank) = (0, false);
-        for field in self.record.iter().map(bare) {
-            if field.is_empty() && self.separator == b' ' {
-                continue;
-            }
-            for (text, place) in found.iter_mut().zip(self.places) {
+        for field in self.lines.fields() {
+            for (text, place) in found.iter_mut().zip(self.header.places) {
                 if place == Some(count) {
                     *text = field;
                 }
             }
-            count += 1;
-            last_is_blank = field.is_empty();
+            (count, last_is_blank) = (count + 1, field.is_empty());
         }
-        if count > self.width + usize::from(last_is_blank) {
+        // One mark at the end of a line ends its last field; it does not begin another.
+        if count > self.header.width + usize::from(last_is_blank) {
             let fault = LineFault::FieldCount {
                 found: count,
-                expected: self.width,
+                expected: self.header.width,
             };
-            return Err(InputError::line(&self.file, self.line(), fault));
+            return Err(InputError::line(&self.file, self.lines.number(), fault));
         }
-        let time = self.places[0]
-            .map(|_| self.number(0, found[0]))
-            .transpose()?;
-        if time.is_some() {
-            self.printed.see(found[0]);
+        let mut time = None;
+        if self.header.places[0].is_some() {
+            let told = number::<f64>(found[0], self.lines.separator)
+                .filter(|time| time.is_finite())
+                .ok_or_else(|| self.no_number(0, found[0]))?;
+            self.printed.see(found[0], told, self.header.exponent);
+            time = Some(told / 10f64.powi(-self.header.exponent));
         }
-        let pair = [self.number(1, found[1])?, self.number(2, found[2])?];
+        let signal = |role: usize| {
+            number::<f32>(found[role], self.lines.separator)
+                .ok_or_else(|| self.no_number(role, found[role]))
+        };
+        let pair = [signal(1)?, signal(2)?];
+        if self.not_finite.is_none()
+            && let Some(channel) = pair.iter().position(|value| !value.is_finite())
+        {
+            self.not_finite = Some(self.place(channel + 1));
+        }
         Ok(Some((time, pair)))
     }
 
-    /// The number in `text`, which is in the column of this `role`.
-    fn number<T: Number>(&self, role: usize, text: &[u8]) -> Result<T, InputError> {
-        number(text, self.separator).ok_or_else(|| {
-            let column = self.places[role].map(|place| place + 1);
-            let role = Role::ALL[role];
-            let fault = if text.is_empty() {
-                LineFault::FieldMissing { role }
-            } else {
-                let text = String::from_utf8_lossy(text);
-                let shown = text
-                    .chars()
-                    .flat_map(char::escape_debug)
-                    .take(SHOWN_LETTERS);
-                LineFault::Number {
-                    role,
-                    text: shown.collect(),
-                }
-            };
-            let place = Place {
-                line: self.line(),
-                column,
-            };
-            InputError::Line {
-                file: self.file.clone(),
-                place,
-                fault,
-            }
-        })
+    /// This line, and the column of this `role`.
+    fn place(&self, role: usize) -> Place {
+        Place {
+            line: self.lines.number(),
+            column: self.header.places[role].map(|place| place + 1),
+        }
     }
+
+    /// What is wrong with `text`, which is in the column of this `role` and no number.
+    fn no_number(&self, role: usize, text: &[u8]) -> InputError {
+        let place = self.place(role);
+        let is_missing = text.is_empty();
+        let text = shown(text);
+        let fault = match Role::ALL[role] {
+            Role::Time if is_missing => self.header.time_fault(TimeFault::Missing),
+            Role::Time => self.header.time_fault(TimeFault::Number { text }),
+            role if is_missing => LineFault::FieldMissing { role },
+            role => LineFault::Number { role, text },
+        };
+        InputError::Line {
+            file: self.file.clone(),
+            place,
+            fault,
+        }
+    }
+
+    fn time_fault(&self, line: u64, fault: TimeFault) -> InputError {
+        InputError::line(&self.file, line, self.header.time_fault(fault))
+    }
+}
+
+/// A bad field as an error shows it.
+fn shown(field: &[u8]) -> String {
+    let text = lossy(field);
+    text.chars()
+        .flat_map(char::escape_debug)
+        .take(SHOWN_LETTERS)
+        .collect()
 }
 
 impl Source for Delimited {
@@ -252,15 +224,23 @@ impl Source for Delimited {
             };
             if let (Some(axis), Some(time)) = (&mut self.axis, time) {
                 let checked = axis.check(time, self.printed);
-                checked.map_err(|fault| InputError::line(&self.file, self.line(), fault))?;
+                checked.map_err(|fault| self.time_fault(self.lines.number(), fault))?;
             }
             pairs.push(pair);
+            // The next line may take its time.
+            if self.live && self.lines.is_drained() {
+                break;
+            }
         }
         Ok(())
     }
 
     fn bytes_read(&self) -> u64 {
-        self.skipped.1 + self.reader.position().byte()
+        self.lines.bytes_read()
+    }
+
+    fn not_finite_place(&self) -> Option<Place> {
+        self.not_finite
     }
 }
 

@@ -5,13 +5,16 @@ mod line;
 use std::fmt;
 use std::io;
 
-pub use line::{LineFault, Place, Role};
+pub use line::{LineFault, Place, Role, TimeFault};
 
 /// The command-line option that names a [`RawFormat`](super::RawFormat), as the remedies spell it.
 pub const RAW_OPTION: &str = "--raw";
 
 /// The command-line option that names the [`Columns`](super::Columns), as the remedies spell it.
 pub const COLUMNS_OPTION: &str = "--columns";
+
+/// The command-line option that gives the sample rate, as the remedies spell it.
+pub const RATE_OPTION: &str = "--rate";
 
 /// One of the two pick-off signals of a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,7 +64,8 @@ pub enum InputError {
     /// Neither the content nor the extension is known.
     #[error(
         "{file}: neither its content nor its extension is known; give a .wav, .csv, .tsv, .txt or \
-         .npy file, or the sample format of a raw one with {RAW_OPTION} i16, i32 or f32"
+         .npy file, or the sample format of a raw one with {RAW_OPTION} i16, i32 or f32, or the \
+         columns of a text with {COLUMNS_OPTION}"
     )]
     Unknown { file: String },
     /// The content is not what the extension promises.
@@ -71,8 +75,8 @@ pub enum InputError {
     NotOfKind { file: String, kind: &'static str },
     /// Standard input without a sample format.
     #[error(
-        "{file}: raw samples do not tell their format; give it with {RAW_OPTION} i16, i32 or f32 \
-         (little-endian, S_C and S_D in turn)"
+        "{file}: this is neither WAV, NPY nor CSV, and raw samples do not tell their format; give it \
+         with {RAW_OPTION} i16, i32 or f32 (little-endian, S_C and S_D in turn)"
     )]
     RawFormatNeeded { file: String },
 
@@ -121,16 +125,20 @@ pub enum InputError {
          are there in the format named, and that the recording was not cut off"
     )]
     HalfPair { file: String, found: u64 },
-    /// NaN, an infinity, or a number beyond single precision.
+    /// NaN, an infinity, or a number beyond single precision: told once all is read.
     #[error(
-        "{file}: sample pair {pair} (from 0), {channel}: the value is {value}, not a finite number; \
-         cut the recording there, or mend what wrote it"
+        "{file}{}: sample pair {pair} (from 0), {channel}: the value is {value}, not a finite number{}; \
+         rows of windows with one are flagged or missing, the others are good: mend what wrote it",
+        place.map_or(String::new(), |place| format!(":{place}")),
+        if *.count == 1 { String::new() } else { format!(", the first of {count}") }
     )]
     NotFinite {
         file: String,
+        place: Option<Place>,
         pair: u64,
         channel: Channel,
         value: f32,
+        count: u64,
     },
 
     /// The NPY header is damaged.

@@ -2,30 +2,36 @@
 //! and written as WAV, text and NPY.
 
 mod columns;
+mod content;
 mod delimited;
 mod error;
+mod header;
+mod lines;
+mod not_finite;
 mod npy;
+mod printed;
 mod raw;
 mod sample;
 mod text;
 mod time;
+mod units;
 mod wav;
 mod write;
 
 use std::fs::{self, File};
-use std::io::{self, Cursor, IsTerminal, Read};
+use std::io::{self, IsTerminal, Read};
 use std::path::Path;
 
 pub use columns::Columns;
+use content::Content;
+use error::Place;
 pub use error::{Channel, InputError};
+use not_finite::NotFinite;
 pub use raw::RawFormat;
 pub use write::{OutputError, RecordingWriter, WavSample, WholeFile};
 
 /// The capacity given to a buffer that has none: small enough to stay in the cache.
 pub const BLOCK_PAIRS: usize = 1 << 14;
-
-/// Enough of the first bytes to know what a file is.
-const HEAD_BYTES: usize = 12;
 
 /// What the content does not tell about itself.
 #[derive(Debug, Clone, Default)]
@@ -41,6 +47,9 @@ pub struct Recording {
     name: String,
     bytes_total: Option<u64>,
     opened: Opened,
+    /// The pairs delivered.
+    delivered: u64,
+    not_finite: NotFinite,
     /// Met while there were still good pairs to deliver.
     fault: Option<InputError>,
     ended: bool,
@@ -56,18 +65,41 @@ trait Source: Send {
 
     /// The bytes read so far, the header included.
     fn bytes_read(&self) -> u64;
+
+    /// The line and column of the first sample that is not a finite number, where there are lines.
+    fn not_finite_place(&self) -> Option<Place> {
+        None
+    }
+}
+
+/// What is known of a stream beside its bytes.
+#[derive(Default)]
+struct Kind {
+    /// False for standard input.
+    is_named: bool,
+    /// In lower case.
+    extension: String,
+    /// Of a file.
+    length: Option<u64>,
+    /// The file once more, to be sought in.
+    again: Option<File>,
 }
 
 /// A source, and what its header tells.
 struct Opened {
     source: Box<dyn Source>,
+    /// What it is, in words.
+    format: String,
     sample_rate: Option<f64>,
+    /// The time of the first pair, s.
+    start: f64,
+    warning: Option<String>,
     pairs: Option<u64>,
     full_scale: Option<f32>,
 }
 
 impl Recording {
-    /// Opens a file by its content or else its extension, or standard input if `path` is `-`.
+    /// Opens a file or pipe by its content or else its extension, or standard input if `path` is `-`.
     pub fn open(path: &Path, options: &OpenOptions) -> Result<Self, InputError> {
         if path == Path::new("-") {
             return Self::standard_input(options);
@@ -79,73 +111,68 @@ impl Recording {
             return Err(InputError::Directory { file: name });
         }
         let length = metadata.is_file().then_some(metadata.len());
-        let mut file = File::open(path).map_err(io)?;
+        let file = File::open(path).map_err(io)?;
         let again = if length.is_some() {
             Some(file.try_clone().map_err(io)?)
         } else {
             None
         };
-        let head = head(&mut file).map_err(io)?;
         let extension = path
             .extension()
             .map(|text| text.to_string_lossy().to_lowercase());
-        let extension = extension.unwrap_or_default();
-        let stream = Box::new(Cursor::new(head.clone()).chain(file));
-        let opened = match (Content::of(&head), extension.as_str()) {
-            (Content::Nothing, _) => return Err(InputError::Empty { file: name }),
-            (Content::Wav, _) => wav::open(&name, stream, length)?,
-            (Content::Npy, _) => npy::open(&name, stream, again, length)?,
-            (_, "wav" | "wave") => {
-                return Err(InputError::NotOfKind {
-                    file: name,
-                    kind: "a WAV file",
-                });
-            }
-            (_, "npy") => {
-                return Err(InputError::NotOfKind {
-                    file: name,
-                    kind: "an NPY file",
-                });
-            }
-            (Content::Utf16, "csv" | "tsv" | "txt") => {
-                return Err(InputError::Utf16 { file: name });
-            }
-            (_, "csv" | "tsv" | "txt") => delimited::open(&name, stream, options.columns.as_ref())?,
-            _ => match options.raw {
-                Some(format) => raw::open(&name, stream, format, length),
-                None => return Err(InputError::Unknown { file: name }),
-            },
+        let kind = Kind {
+            is_named: true,
+            extension: extension.unwrap_or_default(),
+            length,
+            again,
         };
+        let opened = Self::stream(&name, Box::new(file), kind, options)?;
         Ok(Self::new(name, opened, length))
     }
 
     fn standard_input(options: &OpenOptions) -> Result<Self, InputError> {
         let name = "standard input".to_owned();
-        let mut stdin = io::stdin();
-        if options.raw.is_none() && stdin.is_terminal() {
+        let stdin = io::stdin();
+        let is_told = options.raw.is_some() || options.columns.is_some();
+        if !is_told && stdin.is_terminal() {
             return Err(InputError::RawFormatNeeded { file: name });
         }
-        let head = head(&mut stdin).map_err(|fault| InputError::io(&name, fault))?;
-        let opened = Self::stream(&name, head, Box::new(stdin), options)?;
+        let opened = Self::stream(&name, Box::new(stdin), Kind::default(), options)?;
         Ok(Self::new(name, opened, None))
     }
 
-    /// A stream that begins with `head`: a WAV or NPY file as it is, anything else as raw samples.
+    /// A stream by its content, or else by what is known beside it.
     fn stream(
         name: &str,
-        head: Vec<u8>,
-        rest: Stream,
+        stream: Stream,
+        kind: Kind,
         options: &OpenOptions,
     ) -> Result<Opened, InputError> {
+        let (columns, length) = (options.columns.as_ref(), kind.length);
+        let is_text = matches!(kind.extension.as_str(), "csv" | "tsv" | "txt")
+            || columns.is_some() && options.raw.is_none();
+        let (content, stream) = Content::look(stream, !is_text && options.raw.is_none())
+            .map_err(|fault| InputError::io(name, fault))?;
         let file = name.to_owned();
-        let content = Content::of(&head);
-        let stream = Box::new(Cursor::new(head).chain(rest));
-        match (content, options.raw) {
-            (Content::Nothing, _) => Err(InputError::Empty { file }),
-            (Content::Wav, _) => wav::open(name, stream, None),
-            (Content::Npy, _) => npy::open(name, stream, None, None),
-            (_, Some(format)) => Ok(raw::open(name, stream, format, None)),
-            (_, None) => Err(InputError::RawFormatNeeded { file }),
+        match (content, kind.extension.as_str(), options.raw) {
+            (Content::Nothing, ..) => Err(InputError::Empty { file }),
+            (Content::Wav, ..) => wav::open(name, stream, length),
+            (Content::Npy, ..) => npy::open(name, stream, kind.again, length),
+            (_, "wav" | "wave", _) => Err(InputError::NotOfKind {
+                file,
+                kind: "a WAV file",
+            }),
+            (_, "npy", _) => Err(InputError::NotOfKind {
+                file,
+                kind: "an NPY file",
+            }),
+            (Content::Utf16, ..) if is_text => Err(InputError::Utf16 { file }),
+            _ if is_text || content == Content::Text => {
+                delimited::open(name, stream, columns, length.is_none())
+            }
+            (_, _, Some(format)) => Ok(raw::open(name, stream, format, length)),
+            _ if kind.is_named => Err(InputError::Unknown { file }),
+            _ => Err(InputError::RawFormatNeeded { file }),
         }
     }
 
@@ -154,6 +181,8 @@ impl Recording {
             name,
             bytes_total,
             opened,
+            delivered: 0,
+            not_finite: NotFinite::default(),
             fault: None,
             ended: false,
         }
@@ -164,9 +193,24 @@ impl Recording {
         &self.name
     }
 
+    /// What the recording is, in words.
+    pub fn format(&self) -> &str {
+        &self.opened.format
+    }
+
     /// The sample rate in Hz from a WAV header or a time column.
     pub fn sample_rate(&self) -> Option<f64> {
         self.opened.sample_rate
+    }
+
+    /// The time of the first pair in the recording's own time column, s; 0 where there is none.
+    pub fn start(&self) -> f64 {
+        self.opened.start
+    }
+
+    /// What is understood, but hardly meant.
+    pub fn warning(&self) -> Option<&str> {
+        self.opened.warning.as_deref()
     }
 
     /// The number of pairs, where the format tells it: those that are there, if the header promises more.
@@ -191,10 +235,24 @@ impl Recording {
         self.opened.full_scale
     }
 
+    /// What is wrong with the samples read so far that are not finite numbers, if there are any.
+    pub fn not_finite(&self) -> Option<InputError> {
+        let first = self.not_finite.first?;
+        Some(InputError::NotFinite {
+            file: self.name.clone(),
+            place: self.opened.source.not_finite_place(),
+            pair: first.pair,
+            channel: first.channel,
+            value: first.value,
+            count: self.not_finite.count,
+        })
+    }
+
     /// Clears `buffer` and fills it to its capacity with the next pairs [S_C, S_D]; `Ok(0)` at the end.
     ///
-    /// A pipe of raw samples gives what is there instead of waiting for more. All good pairs before a
-    /// fault are delivered first; the next call gives the error, and those after it `Ok(0)`.
+    /// A pipe gives what is there instead of waiting for more. All good pairs before a
+    /// fault are delivered first; the next call gives the error, and those after it `Ok(0)`. Samples that are
+    /// not finite numbers are delivered as they are, and told by [`not_finite`](Self::not_finite).
     pub fn read(&mut self, buffer: &mut Vec<[f32; 2]>) -> Result<usize, InputError> {
         buffer.clear();
         if buffer.capacity() == 0 {
@@ -208,48 +266,13 @@ impl Recording {
             self.ended = true;
             return self.fault.take().map_or(Ok(0), Err);
         }
+        // Integers are all finite.
+        if self.opened.full_scale.is_none() {
+            self.not_finite.look(self.delivered, buffer);
+        }
+        self.delivered += buffer.len() as u64;
         Ok(buffer.len())
     }
-}
-
-/// What the first bytes tell.
-enum Content {
-    Nothing,
-    Wav,
-    Npy,
-    Utf16,
-    Other,
-}
-
-impl Content {
-    fn of(head: &[u8]) -> Self {
-        match head {
-            [] => Self::Nothing,
-            // Any twelve bytes of a raw stream could be a chunk's name, but hardly this pair.
-            [b'R', b'I', b'F', b'F' | b'X', .., b'W', b'A', b'V', b'E'] => Self::Wav,
-            [
-                b'R' | b'B',
-                b'F' | b'W',
-                b'6',
-                b'4',
-                ..,
-                b'W',
-                b'A',
-                b'V',
-                b'E',
-            ] => Self::Wav,
-            [0x93, b'N', b'U', b'M', b'P', b'Y', ..] => Self::Npy,
-            [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Self::Utf16,
-            _ => Self::Other,
-        }
-    }
-}
-
-/// The first bytes, fewer than [`HEAD_BYTES`] only if there are no more.
-fn head(stream: &mut impl Read) -> io::Result<Vec<u8>> {
-    let mut head = Vec::with_capacity(HEAD_BYTES);
-    stream.take(HEAD_BYTES as u64).read_to_end(&mut head)?;
-    Ok(head)
 }
 
 #[cfg(test)]

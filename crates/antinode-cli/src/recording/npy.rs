@@ -79,8 +79,11 @@ pub(super) fn open(
         (Box::new(planes), there)
     };
     Ok(Opened {
+        format: format!("NPY of {}", code.words()),
         source,
         sample_rate: None,
+        start: 0.0,
+        warning: None,
         pairs: Some(there),
         full_scale: code.full_scale(),
     })

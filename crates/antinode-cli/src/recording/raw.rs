@@ -3,7 +3,7 @@
 use std::io::{self, Read};
 
 use super::error::InputError;
-use super::sample::{BadSample, BadValue, Kind, SampleCode};
+use super::sample::{BadSample, Kind, SampleCode};
 use super::{Opened, Source, Stream};
 
 /// Large enough that system calls cost nothing, small enough to stay in the cache.
@@ -47,8 +47,11 @@ pub(super) fn open(file: &str, stream: Stream, format: RawFormat, length: Option
     });
     let source = Interleaved::new(file, stream, code, 0).live(length.is_none());
     Opened {
+        format: format!("raw {}", code.words()),
         source: Box::new(source),
         sample_rate: None,
+        start: 0.0,
+        warning: None,
         pairs: length.map(|length| length / code.pair_bytes() as u64),
         full_scale: code.full_scale(),
     }
@@ -122,24 +125,13 @@ impl Interleaved {
 
 /// The error for a sample that is `bad`, `pairs` pairs after the start.
 pub(super) fn bad_sample(file: &str, code: SampleCode, pairs: u64, bad: BadSample) -> InputError {
-    let (file, pair, channel) = (file.to_owned(), pairs + bad.pair as u64, bad.channel);
-    match bad.value {
-        BadValue::NotFinite(value) => InputError::NotFinite {
-            file,
-            pair,
-            channel,
-            value,
-        },
-        BadValue::Padding => {
-            let (valid, container) = code.bits();
-            InputError::Padding {
-                file,
-                pair,
-                channel,
-                valid,
-                container,
-            }
-        }
+    let (valid, container) = code.bits();
+    InputError::Padding {
+        file: file.to_owned(),
+        pair: pairs + bad.pair as u64,
+        channel: bad.channel,
+        valid,
+        container,
     }
 }
 
@@ -231,20 +223,22 @@ mod tests {
     }
 
     #[test]
-    fn not_finite_is_named_by_pair_and_channel() {
+    fn not_finite_samples_pass_and_are_told() {
         let mut values = [0.5f32; 40];
         values[30] = f32::NEG_INFINITY;
+        values[33] = f32::NAN;
         let bytes = values
             .iter()
             .flat_map(|value| value.to_le_bytes())
             .collect();
-        let (pairs, fault) = drain(&mut raw(bytes, RawFormat::F32));
-        assert_eq!(pairs.len(), 15);
-        assert!(
-            message(fault).starts_with(
-                "standard input: sample pair 15 (from 0), S_C (left): the value is -inf"
-            )
-        );
+        let mut recording = raw(bytes, RawFormat::F32);
+        let (pairs, fault) = drain(&mut recording);
+        assert_eq!((pairs.len(), fault.is_none()), (20, true));
+        assert_eq!(pairs[15], [f32::NEG_INFINITY, 0.5]);
+        assert!(message(recording.not_finite()).starts_with(
+            "standard input: sample pair 15 (from 0), S_C (left): the value is -inf, not a finite \
+             number, the first of 2; "
+        ));
     }
 
     #[test]

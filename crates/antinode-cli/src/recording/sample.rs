@@ -23,20 +23,11 @@ pub(super) struct SampleCode {
     valid_bits: u32,
 }
 
-/// Why decoding stopped, `pair` pairs into the bytes given.
+/// Where decoding stopped, `pair` pairs into the bytes given: bits are set below the valid ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct BadSample {
     pub pair: usize,
     pub channel: Channel,
-    pub value: BadValue,
-}
-
-/// What is wrong with a sample.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum BadValue {
-    NotFinite(f32),
-    /// Bits below the valid ones are set.
-    Padding,
 }
 
 impl SampleCode {
@@ -84,6 +75,16 @@ impl SampleCode {
         self.is_integer().then_some((1.0 - step) as f32)
     }
 
+    /// What the samples are, in words.
+    pub fn words(self) -> String {
+        let kind = if self.is_integer() {
+            "integers"
+        } else {
+            "floats"
+        };
+        format!("{}-bit {kind}", self.valid_bits)
+    }
+
     fn is_integer(self) -> bool {
         !matches!(self.kind, Kind::F32 | Kind::F64)
     }
@@ -108,12 +109,7 @@ impl SampleCode {
             (Kind::F64, false) => push(bytes, pairs, |b| f64::from_le_bytes(b) as f32),
             (Kind::F64, true) => push(bytes, pairs, |b| f64::from_be_bytes(b) as f32),
         }
-        let bad = if self.is_integer() {
-            self.padding(bytes)
-        } else {
-            not_finite(&pairs[start..])
-        };
-        match bad {
+        match self.padding(bytes) {
             Some(bad) => {
                 pairs.truncate(start + bad.pair);
                 Err(bad)
@@ -142,8 +138,7 @@ impl SampleCode {
             .position(|sample| low(sample) != 0)?;
         Some(BadSample {
             pair: index / 2,
-            channel: channel(index),
-            value: BadValue::Padding,
+            channel: channel_at(index),
         })
     }
 }
@@ -158,7 +153,8 @@ fn bytes(kind: Kind) -> usize {
     }
 }
 
-fn channel(index: usize) -> Channel {
+/// The channel of the sample at `index` among those of both.
+pub(super) fn channel_at(index: usize) -> Channel {
     if index.is_multiple_of(2) {
         Channel::C
     } else {
@@ -185,23 +181,6 @@ fn push<const N: usize>(bytes: &[u8], pairs: &mut Vec<[f32; 2]>, value: impl Fn(
             .iter()
             .map(|&[c, d]| [value(c), value(d)]),
     );
-}
-
-fn not_finite(pairs: &[[f32; 2]]) -> Option<BadSample> {
-    let values = pairs.as_flattened();
-    // No early end: the usual case is that there is none, and this form is compiled to vector instructions.
-    if !values
-        .iter()
-        .fold(false, |bad, value| bad | !value.is_finite())
-    {
-        return None;
-    }
-    let index = values.iter().position(|value| !value.is_finite())?;
-    Some(BadSample {
-        pair: index / 2,
-        channel: channel(index),
-        value: BadValue::NotFinite(values[index]),
-    })
 }
 
 #[cfg(test)]

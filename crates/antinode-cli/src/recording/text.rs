@@ -9,9 +9,48 @@ use super::error::{InputError, LineFault};
 /// No line of a few numbers is as long; a file without ends of line must not fill the memory.
 pub(super) const MAX_LINE: usize = 1 << 16;
 
-/// Text as the CSV reader is to see it: lines end in `\n` alone, the last one too, and none is endless.
+/// Text whose lines end in `\n` alone, byte for byte: they may have ended in `\r\n` or in `\r`.
+pub(super) struct LineEnds {
+    stream: Stream,
+    /// True after a `\r`, which is a `\n` by now.
+    is_after_return: bool,
+}
+
+impl LineEnds {
+    pub fn new(stream: Stream) -> Self {
+        Self {
+            stream,
+            is_after_return: false,
+        }
+    }
+}
+
+impl Read for LineEnds {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let count = self.stream.read(bytes)?;
+        let bytes = &mut bytes[..count];
+        if !self.is_after_return && !bytes.contains(&b'\r') {
+            return Ok(count);
+        }
+        for byte in bytes {
+            let is_return = *byte == b'\r';
+            *byte = match *byte {
+                b'\r' => b'\n',
+                // A blank before the next line does no harm.
+                b'\n' if self.is_after_return => b' ',
+                other => other,
+            };
+            self.is_after_return = is_return;
+        }
+        Ok(count)
+    }
+}
+
+/// Text as the CSV reader is to see it: its last line ends too, and none is endless.
 pub(super) struct Text {
     stream: Stream,
+    /// The bytes given.
+    given: u64,
     /// The bytes of the line begun.
     line: usize,
     last: u8,
@@ -21,9 +60,15 @@ impl Text {
     pub fn new(stream: Stream) -> Self {
         Self {
             stream,
+            given: 0,
             line: 0,
             last: b'\n',
         }
+    }
+
+    /// The bytes of the whole lines given.
+    pub fn lines_end(&self) -> u64 {
+        self.given - self.line as u64
     }
 }
 
@@ -41,13 +86,11 @@ impl Read for Text {
             },
             _ => &mut bytes[..count],
         };
-        for byte in bytes.iter_mut() {
-            *byte = if *byte == b'\r' { b' ' } else { *byte };
-        }
         self.line = match bytes.iter().rposition(|&byte| byte == b'\n') {
             Some(end) => bytes.len() - end - 1,
             None => self.line + bytes.len(),
         };
+        self.given += bytes.len() as u64;
         self.last = bytes.last().copied().unwrap_or(self.last);
         if self.line > MAX_LINE {
             return Err(io::ErrorKind::InvalidData.into());
@@ -82,14 +125,20 @@ pub(super) fn first_line(
             }
             _ => {}
         }
-        if let (1, Some(rest)) = (number, line.strip_prefix(b"\xef\xbb\xbf")) {
-            line = rest.to_vec();
-            before += 3;
+        if number == 1 {
+            let rest = without_mark(&line).to_vec();
+            before += (line.len() - rest.len()) as u64;
+            line = rest;
         }
         if !is_skipped(&line) {
             return Ok((line, number, before));
         }
     }
+}
+
+/// Text without the mark that some programs begin UTF-8 with.
+pub(super) fn without_mark(text: &[u8]) -> &[u8] {
+    text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text)
 }
 
 /// Whether a line is blank or a comment.
@@ -99,7 +148,10 @@ pub(super) fn is_skipped(line: &[u8]) -> bool {
 
 /// Whether a line is a comment.
 pub(super) fn is_comment(line: &[u8]) -> bool {
-    line.trim_ascii_start().starts_with(b"#")
+    let line = line.trim_ascii_start();
+    [&b"#"[..], b"%", b"//"]
+        .into_iter()
+        .any(|mark| line.starts_with(mark))
 }
 
 /// What separates the fields: the first of `;`, tab and `,` that is there, or else blanks.
@@ -128,25 +180,8 @@ pub(super) fn bare(field: &[u8]) -> &[u8] {
     }
 }
 
-/// A type of number in a field.
-pub(super) trait Number: FromStr {
-    fn is_finite(&self) -> bool;
-}
-
-impl Number for f32 {
-    fn is_finite(&self) -> bool {
-        f32::is_finite(*self)
-    }
-}
-
-impl Number for f64 {
-    fn is_finite(&self) -> bool {
-        f64::is_finite(*self)
-    }
-}
-
-/// The finite number a field holds; its decimal mark may be a comma where that separates no fields.
-pub(super) fn number<T: Number>(field: &[u8], separator: u8) -> Option<T> {
+/// The number a field holds, finite or not; its decimal mark may be a comma where that separates no fields.
+pub(super) fn number<T: FromStr>(field: &[u8], separator: u8) -> Option<T> {
     let text = str::from_utf8(field).ok()?;
     let number = match text.parse::<T>() {
         Err(_) if separator != b',' && !text.contains('.') => {
@@ -154,7 +189,7 @@ pub(super) fn number<T: Number>(field: &[u8], separator: u8) -> Option<T> {
         }
         number => number,
     };
-    number.ok().filter(T::is_finite)
+    number.ok()
 }
 
 #[cfg(test)]
@@ -182,29 +217,42 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_finite_and_may_have_a_decimal_comma() {
+    fn numbers_may_have_a_decimal_comma() {
         assert_eq!(number::<f32>(b"-1.5e-3", b','), Some(-1.5e-3));
         assert_eq!(number::<f64>(b"1,5", b';'), Some(1.5));
         for (text, mark) in [
             ("1,5", b','),
             ("1,234.5", b';'),
             ("1,234,5", b';'),
-            ("nan", b','),
-            ("-inf", b','),
+            ("nanny", b','),
+            ("1.#INF", b','),
         ] {
             assert_eq!(number::<f32>(text.as_bytes(), mark), None, "{text}");
         }
-        assert_eq!(number::<f32>(b"1e39", b','), None);
+        assert_eq!(number::<f32>(b"1e39", b','), Some(f32::INFINITY));
+        assert_eq!(number::<f32>(b"-Inf", b','), Some(f32::NEG_INFINITY));
+        assert!(number::<f32>(b"NaN", b',').is_some_and(f32::is_nan));
         assert_eq!(number::<f32>(b"", b';'), None);
         assert_eq!(number::<f32>(b"\xff", b';'), None);
     }
 
     #[test]
     fn lines_end_the_same_way() {
-        let mut text = String::new();
-        Text::new(Box::new(&b"1,2\r\n3,4"[..]))
-            .read_to_string(&mut text)
-            .unwrap();
-        assert_eq!(text, "1,2 \n3,4\n");
+        for (text, expected) in [
+            ("1,2\r\n3,4", "1,2\n 3,4\n"),
+            ("1,2\r3,4\r", "1,2\n3,4\n"),
+            ("1,2\n3,4\n", "1,2\n3,4\n"),
+            ("1,2\r\r\n3,4", "1,2\n\n 3,4\n"),
+        ] {
+            for most in [1, 100] {
+                let bytes = text.as_bytes().to_vec();
+                let stream = super::super::tests::Dribble::new(bytes, most);
+                let mut found = String::new();
+                Text::new(Box::new(LineEnds::new(Box::new(stream))))
+                    .read_to_string(&mut found)
+                    .unwrap();
+                assert_eq!(found, expected);
+            }
+        }
     }
 }

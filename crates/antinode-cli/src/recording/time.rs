@@ -1,6 +1,7 @@
 //! The time column of a text recording: its sample rate, and whether it keeps to it.
 
-use super::error::LineFault;
+use super::error::TimeFault;
+use super::printed::Printed;
 
 /// How far a step may be off, in samples.
 const STEP_TOLERANCE: f64 = 0.01;
@@ -10,49 +11,6 @@ const COARSE: f64 = 0.25;
 
 /// How many lines the rate is averaged over before it is compared.
 const RATE_LINES: u64 = 1 << 16;
-
-/// How finely times are printed: with so many decimals, or so many digits.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Printed {
-    decimals: i32,
-    digits: i32,
-}
-
-impl Printed {
-    /// Takes the digits of one more number into account.
-    pub fn see(&mut self, text: &[u8]) {
-        let (mut decimals, mut digits, mut point) = (0, 0, false);
-        let mut bytes = text.iter();
-        for byte in bytes.by_ref() {
-            match byte {
-                b'0'..=b'9' => {
-                    decimals += i32::from(point);
-                    digits += i32::from(digits > 0 || *byte != b'0');
-                }
-                b'.' | b',' => point = true,
-                b'e' | b'E' => break,
-                _ => {}
-            }
-        }
-        let exponent = std::str::from_utf8(bytes.as_slice())
-            .ok()
-            .and_then(|text| text.parse::<i32>().ok());
-        self.decimals = self
-            .decimals
-            .max(decimals.saturating_sub(exponent.unwrap_or(0)));
-        self.digits = self.digits.max(digits);
-    }
-
-    /// The step between neighbouring numbers printed near `seconds`.
-    fn step(self, seconds: f64) -> f64 {
-        let magnitude = seconds.abs().log10().floor().max(-300.0) as i32;
-        let by_digits = 10f64.powi(magnitude + 1 - self.digits);
-        10f64
-            .powi(-self.decimals)
-            .max(by_digits)
-            .max(f64::EPSILON * seconds.abs())
-    }
-}
 
 /// A constant sample rate, and the last time that kept to it.
 pub(super) struct TimeAxis {
@@ -118,8 +76,13 @@ impl TimeAxis {
         self.rate
     }
 
+    /// True where time goes up by one whole second a line, as an index does.
+    pub fn is_like_index(&self, printed: Printed) -> bool {
+        self.rate == 1.0 && printed.is_whole()
+    }
+
     /// Takes the next line, or says how it breaks the rate.
-    pub fn check(&mut self, now: f64, printed: Printed) -> Result<(), LineFault> {
+    pub fn check(&mut self, now: f64, printed: Printed) -> Result<(), TimeFault> {
         let step = now - self.last;
         let printed = printed.step(now);
         let rounding = printed.max(self.rounding) / self.step;
@@ -139,49 +102,49 @@ impl TimeAxis {
         let allowed = (0.5 + 2.0 * rounding) * self.step + 2.0 * lines * self.uncertainty;
         if (length - lines * self.step).abs() > allowed {
             let (from, to) = (self.rate, lines / length);
-            return Err(LineFault::TimeDrift { from, to });
+            return Err(TimeFault::Drift { from, to });
         }
         self.anchor = now;
         self.lines = 0;
         Ok(())
     }
 
-    fn broken(&self, now: f64, rounding: f64) -> LineFault {
+    fn broken(&self, now: f64, rounding: f64) -> TimeFault {
         let (from, to, usual) = (self.last, now, self.step);
         let step = to - from;
         let samples = step / usual;
         let tolerance = STEP_TOLERANCE + rounding.min(COARSE) + samples * self.uncertainty / usual;
         if rounding > COARSE && rounding * usual > self.harmless {
-            LineFault::TimeCoarse {
-                printed: rounding * usual,
+            TimeFault::Coarse {
+                told: rounding * usual,
                 usual,
             }
         } else if step <= 0.0 {
-            LineFault::TimeBackwards { from, to }
+            TimeFault::Backwards { from, to }
         } else if samples > 1.5 && (samples - samples.round()).abs() <= tolerance {
-            LineFault::TimeGap {
+            TimeFault::Gap {
                 lost: samples.round() as u64 - 1,
                 from,
                 to,
             }
         } else {
-            LineFault::TimeUneven { step, usual }
+            TimeFault::Uneven { step, usual }
         }
     }
 }
 
 /// Which of `times` is the first that does not go up, and how.
-pub(super) fn standstill(times: &[f64], printed: Printed) -> Option<(usize, LineFault)> {
+pub(super) fn standstill(times: &[f64], printed: Printed) -> Option<(usize, TimeFault)> {
     let at = 1 + times.windows(2).position(|pair| pair[1] <= pair[0])?;
     let (from, to) = (times[at - 1], times[at]);
     let usual = (times.last()? - times.first()?) / (times.len() - 1) as f64;
     let fault = if from == to && usual > 0.0 {
-        LineFault::TimeCoarse {
-            printed: printed.step(to),
+        TimeFault::Coarse {
+            told: printed.step(to),
             usual,
         }
     } else {
-        LineFault::TimeBackwards { from, to }
+        TimeFault::Backwards { from, to }
     };
     Some((at, fault))
 }

@@ -1,5 +1,7 @@
 //! Text recordings: what is understood, and what is said of what is not.
 
+mod time;
+
 use std::fmt::Write;
 
 use super::super::tests::{file, read, read_with};
@@ -19,13 +21,6 @@ fn bad(text: &str) -> (usize, String) {
     (pairs.len(), fault.unwrap_or_default())
 }
 
-fn rate(text: &str) -> Option<f64> {
-    let (_directory, path) = file("a.csv", text.as_bytes());
-    Recording::open(&path, &OpenOptions::default())
-        .expect("a good recording")
-        .sample_rate()
-}
-
 #[test]
 fn every_separator_is_understood() {
     for text in [
@@ -42,6 +37,10 @@ fn every_separator_is_understood() {
         "\u{feff}# one\n\n  # two\nc,d\n0.1,0.2\n\n \t\r\n# three, or four\n-0.5,1e-3\n1.5,-2\n#",
         "d,c\n0.2,0.1\n1e-3,-0.5\n-2,1.5\n",
         "time,c,d\n0,0.1,0.2\n1e-5,-0.5,1e-3\n2e-5,1.5,-2\n",
+        "% one\nc,d\n// two\n0.1,0.2\n-0.5,1e-3\n %three\n1.5,-2\n",
+        "c,d\r0.1,0.2\r\r-0.5,1e-3\r# one\r1.5,-2\r",
+        "c,d\nV,\n0.1,0.2\n-0.5,1e-3\n1.5,-2\n",
+        "Time\tA\tB\n(ms)\t(mV)\t(mV)\n\n0\t0.1\t0.2\n1\t-0.5\t1e-3\n2\t1.5\t-2\n",
         "0 0.1 0.2\n1 -0.5 1e-3\n2 1.5 -2\n",
     ] {
         assert_eq!(good(text), PAIRS, "{text}");
@@ -72,38 +71,32 @@ fn columns_can_be_chosen() {
 }
 
 #[test]
-fn the_rate_comes_from_the_time() {
-    assert_eq!(rate("1,2\n3,4\n"), None);
-    assert_eq!(
-        rate("t,c,d\n5,1,2\n5.00001,3,4\n5.00002,5,6\n"),
-        Some(100_000.0)
-    );
-    assert_eq!(rate("0;1,5;2\n0,0001;3;4\n0,0002;3;4\n"), Some(10_000.0));
-    assert_eq!(rate("0,1,2\n"), None);
-}
-
-#[test]
 fn faults_in_a_line_are_named_by_line_and_column() {
     for (text, pairs, expected) in [
         (
             "1,2\n3,x4\n",
             1,
-            "a.csv:2:2: S_D is `x4`, not a finite number; correct or delete the line, or begin it",
+            "a.csv:2:2: S_D is `x4`, not a number; correct or delete the line, or begin it",
         ),
         (
-            "#\n\nc,d\r\n1,2\r\n\r\nnan,4\r\n",
-            1,
-            "a.csv:6:1: S_C is `nan`, not a finite number; ",
+            "#\n\nc,d\r\n1,2\r\n\r\nnan,4\r\n5,6\n7,inf",
+            4,
+            "a.csv:6:1: sample pair 1 (from 0), S_C (left): the value is NaN, not a finite number, the first of 2; ",
         ),
         (
-            "0,1,2\n1,2,-inf\n",
-            1,
-            "a.csv:2:3: S_D is `-inf`, not a finite number; ",
+            "0,1,2\n1,2,-Inf\n",
+            2,
+            "a.csv:2:3: sample pair 1 (from 0), S_D (right): the value is -inf, not a finite number; ",
         ),
         (
             "0,1,2\n1,1e99,3\n",
+            2,
+            "a.csv:2:2: sample pair 1 (from 0), S_C (left): the value is inf, not a finite number; ",
+        ),
+        (
+            "0,1,2\nnan,2,3\n",
             1,
-            "a.csv:2:2: S_C is `1e99`, not a finite number; ",
+            "a.csv:2:1: the time is `nan`, not a finite number; ",
         ),
         (
             "0,1,2\nx,2,3\n",
@@ -126,12 +119,12 @@ fn faults_in_a_line_are_named_by_line_and_column() {
             1,
             "a.csv:2: found 3 fields where the first line has 2; use another separator",
         ),
-        ("1,x\n", 0, "a.csv:1:2: S_D is `x`, not a finite number; "),
+        ("1,x\n", 0, "a.csv:1:2: S_D is `x`, not a number; "),
         ("s,V,V\n0,1\n", 0, "a.csv:2:3: S_D is missing here; "),
         (
-            "time,c,d\ns,V,V\n",
+            "time,c,d\nx,V,V\n",
             0,
-            "a.csv:2:1: the time is `s`, not a finite number; ",
+            "a.csv:2:1: the time is `x`, not a finite number; ",
         ),
         (
             "1\n2\n",
@@ -140,9 +133,26 @@ fn faults_in_a_line_are_named_by_line_and_column() {
         ),
         ("1,2,3,4\n", 0, "a.csv:1: found 4 columns, but two "),
         (
-            "# a\ntime_ms,c,d\n",
+            "# a\ntime_min,c,d\n",
             0,
-            "a.csv:2: the time column `time_ms` is not in seconds; ",
+            "a.csv:2: the time column `time_min` is not in s, ms, us or ns; convert it to seconds, \
+             or ignore the time column with --columns 2,3 --rate HZ",
+        ),
+        (
+            "time,c,d\nh,V,V\n",
+            0,
+            "a.csv:2: the time column `h` is not in s, ms, us or ns; ",
+        ),
+        (
+            "time,c,d\n,1,2\n",
+            0,
+            "a.csv:2:1: the time is missing here; ",
+        ),
+        ("c,d\nNA,NA\n", 0, "a.csv:2:1: S_C is `NA`, not a number; "),
+        (
+            "c,d\n1,2\nV,V\n",
+            1,
+            "a.csv:3:1: S_C is `V`, not a number; ",
         ),
         (
             "# nothing\n\n",
@@ -183,69 +193,6 @@ fn a_line_without_end_does_not_fill_the_memory() {
         bad(&format!("1,2\n3,4\n{endless}")),
         (2, format!("a.csv:3: {expected}"))
     );
-}
-
-#[test]
-fn faults_in_time_are_named_by_line() {
-    for (text, pairs, expected) in [
-        (
-            "0,1,2\n1,1,2\n2,1,2\n1.5,1,2\n",
-            3,
-            "a.csv:4: time goes from 2 s to 1.5 s, but must go up; sort",
-        ),
-        (
-            "0,1,2\n1,1,2\n2,1,2\n5,1,2\n6,1,2\n",
-            3,
-            "a.csv:4: 2 samples are lost before this line (time goes from 2 s",
-        ),
-        (
-            "0,1,2\n1,1,2\n2,1,2\n4,1,2\n5,1,2\n",
-            3,
-            "a.csv:4: 1 sample is lost before this line ",
-        ),
-        (
-            "0,1,2\n1.0,1,2\n2.00,1,2\n3.05,1,2\n4,1,2\n5,1,2\n",
-            3,
-            "a.csv:4: time steps by 1.0500e0 s here, but by 1.0000e0 s elsewhere; sample at",
-        ),
-        (
-            "2,1,2\n1,1,2\n",
-            1,
-            "a.csv:2: time goes from 2 s to 1 s, but must go up; ",
-        ),
-        (
-            "2,1,2\n2,1,2\n2,1,2\n",
-            1,
-            "a.csv:2: time goes from 2 s to 2 s, but must go up; ",
-        ),
-        (
-            "2,1,2\n2,1,2\n2,1,2\n3,1,2\n",
-            1,
-            "a.csv:2: time is printed to 1e0 s only, too coarse for samples ",
-        ),
-    ] {
-        let (count, fault) = bad(text);
-        assert!(
-            fault.starts_with(expected) && count == pairs,
-            "{text}: {count}, {fault}"
-        );
-    }
-}
-
-#[test]
-fn a_fault_far_behind_the_first_lines_is_found() {
-    let line = |k: u32| format!("{:.6},{},0.5\n", f64::from(k) / 96_000.0, k % 7);
-    let mut text = "time,c,d\n".to_owned();
-    (0..150_000)
-        .filter(|&k| k != 140_000)
-        .for_each(|k| text.push_str(&line(k)));
-    let (pairs, fault) = bad(&text);
-    assert_eq!(pairs, 140_000);
-    assert!(
-        fault.starts_with("a.csv:140002: 1 sample is lost before this line "),
-        "{fault}"
-    );
-    assert_eq!(rate(&text), Some(96_000.0));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{COLUMNS_OPTION, Channel};
+use super::{COLUMNS_OPTION, Channel, RATE_OPTION};
 
 /// A line, and a column in it, both from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,9 +43,6 @@ pub enum LineFault {
     /// A column asked for that is not there.
     #[error("there is no column `{wanted}`; choose among {known} with {COLUMNS_OPTION}")]
     ColumnUnknown { wanted: String, known: String },
-    /// Time in something other than seconds.
-    #[error("the time column `{name}` is not in seconds; convert it to seconds, or leave it out")]
-    TimeUnit { name: String },
     /// A field too few.
     #[error("{role} is missing here; complete or delete the line")]
     FieldMissing { role: Role },
@@ -55,43 +52,67 @@ pub enum LineFault {
          than the decimal mark, and the same one in every line"
     )]
     FieldCount { found: usize, expected: usize },
-    /// A field that is no finite number.
+    /// A field that is no number.
     #[error(
-        "{role} is `{text}`, not a finite number; correct or delete the line, or \
+        "{role} is `{text}`, not a number; correct or delete the line, or \
          begin it with # if it is a comment"
     )]
     Number { role: Role, text: String },
+    /// The time is at fault; the samples are in the columns named.
+    #[error("{fault}, or ignore the time column with {COLUMNS_OPTION} {samples} {RATE_OPTION} HZ")]
+    Time { fault: TimeFault, samples: String },
+}
+
+/// Why the time of a line cannot be taken.
+#[derive(Debug, thiserror::Error)]
+#[allow(
+    missing_docs,
+    reason = "the message above each variant says what its fields are"
+)]
+pub enum TimeFault {
+    /// Time in something other than seconds.
+    #[error("the time column `{name}` is not in s, ms, us or ns; convert it to seconds")]
+    Unit { name: String },
+    /// No time.
+    #[error("the time is missing here; complete or delete the line")]
+    Missing,
+    /// A time that is no finite number.
+    #[error(
+        "the time is `{text}`, not a finite number; give it in seconds, delete the line, or begin \
+         it with # if it is a comment"
+    )]
+    Number { text: String },
     /// Time stands still or runs backwards.
     #[error(
         "time goes from {from} s to {to} s, but must go up; sort the lines, cut the \
-         recording here, or print the time with more digits"
+         recording here, print the time with more digits"
     )]
-    TimeBackwards { from: f64, to: f64 },
+    Backwards { from: f64, to: f64 },
     /// A gap of whole samples.
     #[error(
         "{lost} {} lost before this line (time goes from {from} s to {to} s); \
-         cut the recording here, or record it again without loss",
+         cut the recording here, record it again without loss",
         if *.lost == 1 { "sample is" } else { "samples are" }
     )]
-    TimeGap { lost: u64, from: f64, to: f64 },
+    Gap { lost: u64, from: f64, to: f64 },
     /// A step that is no whole number of samples.
     #[error(
         "time steps by {step:.4e} s here, but by {usual:.4e} s elsewhere; sample at a constant \
-         rate, or resample it to one"
+         rate, resample it to one"
     )]
-    TimeUneven { step: f64, usual: f64 },
+    Uneven { step: f64, usual: f64 },
     /// The rate creeps away.
     #[error(
-        "the sample rate has gone from {from:.3} Hz to {to:.3} Hz; sample at a constant rate, or \
+        "the sample rate has gone from {from:.3} Hz to {to:.3} Hz; sample at a constant rate, \
          resample it to one"
     )]
-    TimeDrift { from: f64, to: f64 },
+    Drift { from: f64, to: f64 },
     /// Time with too few digits.
     #[error(
-        "time is printed to {printed:.0e} s only, too coarse for samples {usual:.4e} s apart; print \
-         it with more digits, or leave the column out"
+        "time is told to {told:.0e} s only, too coarse for samples {usual:.4e} s apart; print \
+         it with more digits"
     )]
-    TimeCoarse { printed: f64, usual: f64 },
+    Coarse { told: f64, usual: f64 },
 }
 
 /// What a column of a text recording holds.

@@ -229,7 +229,8 @@ fn not_finite_is_named_in_either_layout() {
         .collect();
     for (shape, data) in [("(40000, 2)", data(&values)), ("(2, 40000)", data(&apart))] {
         let (pairs, fault) = read("a.npy", &npy("'<f4'", false, shape, &data));
-        assert_eq!(pairs, [[0.5, 0.5]].repeat(30_000));
+        assert_eq!(pairs.len(), count);
+        assert!(pairs[30_000][0].is_nan() && pairs[30_001] == [0.5, 0.5]);
         let expected = "a.npy: sample pair 30000 (from 0), S_C (left): the value is NaN, not a finite number; ";
         assert!(fault.expect("a fault").starts_with(expected));
     }

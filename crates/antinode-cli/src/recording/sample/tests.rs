@@ -65,22 +65,14 @@ fn full_scale_is_the_largest_code() {
 }
 
 #[test]
-fn floats_pass_until_one_is_not_finite() {
-    let values = [0.25f32, -0.5, 1.5, f32::NAN, 1.0, 1.0];
+fn floats_pass_whatever_they_are() {
+    let values = [0.25f32, -0.5, 1.5, f32::NEG_INFINITY, 1.0, 1.0];
     let bytes: Vec<u8> = values
         .iter()
         .flat_map(|value| value.to_le_bytes())
         .collect();
     let (pairs, bad) = decode(SampleCode::new(Kind::F32), &bytes);
-    assert_eq!(pairs, [[0.25, -0.5]]);
-    assert!(matches!(
-        bad,
-        Some(BadSample {
-            pair: 1,
-            channel: Channel::D,
-            value: BadValue::NotFinite(_)
-        })
-    ));
+    assert_eq!((pairs.as_flattened(), bad), (&values[..], None));
 
     let values = [0.25f64, 1.0e300];
     let bytes: Vec<u8> = values
@@ -88,16 +80,7 @@ fn floats_pass_until_one_is_not_finite() {
         .flat_map(|value| value.to_be_bytes())
         .collect();
     let (pairs, bad) = decode(SampleCode::new(Kind::F64).big_endian(true), &bytes);
-    assert!(pairs.is_empty());
-    let infinite = BadValue::NotFinite(f32::INFINITY);
-    assert_eq!(
-        bad,
-        Some(BadSample {
-            pair: 0,
-            channel: Channel::D,
-            value: infinite
-        })
-    );
+    assert_eq!((pairs, bad), (vec![[0.25, f32::INFINITY]], None));
 }
 
 #[test]
@@ -109,8 +92,7 @@ fn bits_below_the_valid_ones_are_refused() {
         bad,
         Some(BadSample {
             pair: 1,
-            channel: Channel::C,
-            value: BadValue::Padding
+            channel: Channel::C
         })
     );
 }

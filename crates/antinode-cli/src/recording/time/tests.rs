@@ -7,16 +7,17 @@ fn run(times: &[String], head: usize) -> Result<Option<f64>, (usize, String)> {
     let mut printed = Printed::default();
     let mut first = Vec::new();
     for text in &times[..head.min(times.len())] {
-        printed.see(text.as_bytes());
-        first.push(text.parse().unwrap());
+        let time = text.parse().unwrap();
+        printed.see(text.as_bytes(), time, 0);
+        first.push(time);
     }
     let Some(mut axis) = TimeAxis::of(&first, printed) else {
         let (index, fault) = standstill(&first, printed).expect("a fault");
         return Err((index, fault.to_string()));
     };
     for (index, text) in times.iter().enumerate().skip(1) {
-        printed.see(text.as_bytes());
         let time = text.parse().unwrap();
+        printed.see(text.as_bytes(), time, 0);
         axis.check(time, printed)
             .map_err(|fault| (index, fault.to_string()))?;
     }
@@ -149,13 +150,42 @@ fn time_printed_too_coarsely_is_named() {
         let (_, fault) =
             run(&times(1000, rate, 0.0, |t| format!("{t:.decimals$}")), HEAD).unwrap_err();
         assert!(
-            fault.contains("time is printed to 1e-"),
+            fault.contains("time is told to 1e-"),
             "{decimals} {rate}: {fault}"
         );
     }
     // Five digits are enough for the first second only.
     let (index, fault) = run(&times(200_000, 100_000.0, 0.0, |t| digits(t, 5)), HEAD).unwrap_err();
-    assert!(fault.contains("time is printed to 1e-"), "{index}: {fault}");
+    assert!(fault.contains("time is told to 1e-"), "{index}: {fault}");
+}
+
+#[test]
+fn single_precision_is_not_uneven_sampling() {
+    type Print = fn(f32) -> String;
+    let prints: [Print; 4] = [
+        |t| format!("{t}"),
+        |t| format!("{t:.18e}"),
+        |t| format!("{t:.9}"),
+        |t| format!("{t:.10}"),
+    ];
+    for print in prints {
+        for start in [0.0, 7.3] {
+            let single = |t: f64| print(t as f32);
+            let text = times(3_000_000, 100_000.0, start, single);
+            let found = run(&text, HEAD).unwrap().unwrap();
+            assert!((found / 100_000.0 - 1.0).abs() < 1e-5, "{found}");
+            // What is lost is told all the same.
+            let mut text = text;
+            text.remove(2_000_000);
+            let (index, fault) = run(&text, HEAD).unwrap_err();
+            assert_eq!(index, 2_000_000);
+            assert!(fault.starts_with("1 sample is lost"), "{fault}");
+        }
+        // Beyond 128 s single precision is too coarse for these samples.
+        let text = times(200_000, 100_000.0, 127.5, |t| print(t as f32));
+        let (_, fault) = run(&text, HEAD).unwrap_err();
+        assert!(fault.starts_with("time is told to "), "{fault}");
+    }
 }
 
 #[test]

@@ -135,7 +135,7 @@ fn a_damaged_header_is_named() {
 fn not_finite_and_padding_are_named() {
     let values = [0.5f32, 0.5, 0.5, f32::NAN].map(f32::to_le_bytes);
     let (pairs, fault) = wav(format(3, 2, 32), values.as_flattened()).read();
-    assert_eq!(pairs, [[0.5, 0.5]]);
+    assert_eq!((pairs[0], pairs.len()), ([0.5, 0.5], 2));
     assert!(
         fault
             .expect("a fault")

@@ -1,0 +1,47 @@
+//! Options whose numbers have a range: checked where they are typed, in the unit they are typed in.
+
+/// The number in `text`, if it lies within these; `unit` begins with a blank where there is one.
+fn within(text: &str, least: f64, most: f64, unit: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(number) if (least..=most).contains(&number) => Ok(number),
+        _ => Err(format!("it must be {least} to {most}{unit}")),
+    }
+}
+
+/// A sample rate, Hz.
+pub fn rate(text: &str) -> Result<f64, String> {
+    within(text, 1.0, 1e10, " Hz, 100000 for 100 kS/s")
+}
+
+/// How long to wait, s.
+pub fn seconds(text: &str) -> Result<f64, String> {
+    within(text, 0.01, 3600.0, " s")
+}
+
+/// A gain ratio.
+pub fn gain_ratio(text: &str) -> Result<f32, String> {
+    within(text, 0.1, 10.0, "").map(|ratio| ratio as f32)
+}
+
+/// A skew, ns.
+pub fn skew_ns(text: &str) -> Result<f32, String> {
+    within(text, -1e6, 1e6, " ns").map(|skew| skew as f32)
+}
+
+/// What a pick-off's angle differs from 45° by, rad.
+pub fn pick_off_angle(text: &str) -> Result<f32, String> {
+    within(text, -0.3, 0.3, " rad").map(|angle| angle as f32)
+}
+
+/// An angle to start from, rad.
+pub fn start_angle(text: &str) -> Result<f32, String> {
+    within(text, -1e4, 1e4, " rad").map(|angle| angle as f32)
+}
+
+/// A level or a step, in the input's unit.
+pub fn positive(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(number) if number >= f32::MIN_POSITIVE && number.is_finite() => Ok(number),
+        _ => Err("it must be a number above 0".to_owned()),
+    }
+}

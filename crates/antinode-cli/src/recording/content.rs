@@ -1,0 +1,154 @@
+//! What a stream is, told from its first bytes.
+
+use std::io::{self, Cursor, Read};
+
+use super::Stream;
+use super::columns::is_known;
+use super::text::{MAX_LINE, fields, is_skipped, number, separator, without_mark};
+
+/// Enough of the first bytes to know a sound file or an array.
+const HEAD_BYTES: usize = 12;
+
+/// Bytes read at a time while a text's first line is looked for.
+const PIECE: usize = 4096;
+
+/// What the first bytes tell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Content {
+    Nothing,
+    Wav,
+    Npy,
+    Utf16,
+    /// Its first line is a CSV header or numbers.
+    Text,
+    Other,
+}
+
+impl Content {
+    /// Looks at a stream, and gives it back whole. Text is looked for only where `or_text` says so, for it takes a line.
+    pub fn look(mut stream: Stream, or_text: bool) -> io::Result<(Self, Stream)> {
+        let mut head = Vec::with_capacity(HEAD_BYTES);
+        stream
+            .by_ref()
+            .take(HEAD_BYTES as u64)
+            .read_to_end(&mut head)?;
+        let mut content = Self::of(&head);
+        if or_text && content == Self::Other && is_text(&mut head, &mut stream)? {
+            content = Self::Text;
+        }
+        Ok((content, Box::new(Cursor::new(head).chain(stream))))
+    }
+
+    fn of(head: &[u8]) -> Self {
+        match head {
+            [] => Self::Nothing,
+            // Any twelve bytes of a raw stream could be a chunk's name, but hardly this pair.
+            [b'R', b'I', b'F', b'F' | b'X', .., b'W', b'A', b'V', b'E'] => Self::Wav,
+            [
+                b'R' | b'B',
+                b'F' | b'W',
+                b'6',
+                b'4',
+                ..,
+                b'W',
+                b'A',
+                b'V',
+                b'E',
+            ] => Self::Wav,
+            [0x93, b'N', b'U', b'M', b'P', b'Y', ..] => Self::Npy,
+            [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Self::Utf16,
+            _ => Self::Other,
+        }
+    }
+}
+
+/// Whether the first line that is neither blank nor a comment is one of CSV; what is read goes behind `head`.
+fn is_text(head: &mut Vec<u8>, stream: &mut Stream) -> io::Result<bool> {
+    loop {
+        let is_control = |byte: &u8| byte.is_ascii_control() && !byte.is_ascii_whitespace();
+        if head.iter().any(is_control) || head.len() > MAX_LINE {
+            return Ok(false);
+        }
+        let end = head.iter().rposition(|byte| b"\r\n".contains(byte));
+        if let Some(line) = first_line(&head[..end.unwrap_or(0)]) {
+            return Ok(is_csv(line));
+        }
+        let before = head.len();
+        // No more than is there: a line of a slow pipe is enough.
+        let mut piece = [0; PIECE];
+        let read = stream.read(&mut piece)?;
+        head.extend_from_slice(&piece[..read]);
+        if head.len() == before {
+            return Ok(first_line(head).is_some_and(is_csv));
+        }
+    }
+}
+
+/// The first line in `text` that is neither blank nor a comment.
+fn first_line(text: &[u8]) -> Option<&[u8]> {
+    without_mark(text)
+        .split(|byte| b"\r\n".contains(byte))
+        .find(|line| !is_skipped(line))
+}
+
+/// Whether a line is a CSV header, or numbers.
+fn is_csv(line: &[u8]) -> bool {
+    if str::from_utf8(line).is_err() {
+        return false;
+    }
+    let separator = separator(line);
+    let found: Vec<&[u8]> = fields(line, separator).collect();
+    let numbers = found
+        .iter()
+        .filter(|field| number::<f64>(field, separator).is_some());
+    // Words between blanks are any text: one of them must be a name that is known.
+    let is_header = if separator == b' ' {
+        found
+            .iter()
+            .any(|name| str::from_utf8(name).is_ok_and(is_known))
+    } else {
+        found.len() > 1
+    };
+    is_header || numbers.count() == found.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What bytes are that come one at a time.
+    fn content(bytes: &[u8]) -> Content {
+        let stream = super::super::tests::Dribble::new(bytes.to_vec(), 1);
+        let (content, mut stream) = Content::look(Box::new(stream), true).unwrap();
+        let mut all = Vec::new();
+        stream.read_to_end(&mut all).unwrap();
+        assert_eq!(all, bytes);
+        content
+    }
+
+    #[test]
+    fn text_is_known_by_its_first_line() {
+        for text in [
+            "1,2\n",
+            "0.1 -2e-3\r\n",
+            "1\n",
+            "time,x,y\n0,1,2",
+            "c d\n1 2\n",
+            "time;temperature;heat;c;d\n",
+            "\u{feff}# a comment as long as you like, \n\n# one more\nt\tx\ty\r0\t1\t2\r",
+            "2024-05-01T00:00:00,1,2\n",
+        ] {
+            assert_eq!(content(text.as_bytes()), Content::Text, "{text}");
+        }
+        for other in [
+            &b"these are no samples at all"[..],
+            b"MATLAB 5.0 MAT-file, made on a PC\0\x01IM",
+            b"1,2\x07\n",
+            b"# nothing but a comment",
+            b"\xe9t\xe9,c,d\n",
+            &[b'1'; 100_000],
+        ] {
+            assert_eq!(content(other), Content::Other);
+        }
+    }
+}

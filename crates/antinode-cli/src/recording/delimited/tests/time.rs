@@ -1,0 +1,113 @@
+//! Text recordings with a time column: the rate it gives, and what is said where it gives none.
+
+use super::super::super::tests::file;
+use super::super::super::{OpenOptions, Recording};
+use super::bad;
+
+fn rate(text: &str) -> Option<f64> {
+    let (_directory, path) = file("a.csv", text.as_bytes());
+    Recording::open(&path, &OpenOptions::default())
+        .expect("a good recording")
+        .sample_rate()
+}
+
+#[test]
+fn the_rate_comes_from_the_time() {
+    assert_eq!(rate("1,2\n3,4\n"), None);
+    assert_eq!(
+        rate("t,c,d\n5,1,2\n5.00001,3,4\n5.00002,5,6\n"),
+        Some(100_000.0)
+    );
+    assert_eq!(rate("0;1,5;2\n0,0001;3;4\n0,0002;3;4\n"), Some(10_000.0));
+    assert_eq!(rate("0,1,2\n"), None);
+}
+
+#[test]
+fn the_time_may_have_a_unit() {
+    let lines = "0,1,2\n0.02,3,4\n0.04,5,6\n";
+    for (header, expected) in [
+        ("time,c,d\ns,V,V\n", 50.0),
+        ("time,c,d\n(ms),(V),(V)\n\n", 50e3),
+        ("time [s],c,d\nµs,,\n", 50e6),
+        ("time,c,d\nns,LSB,LSB\n", 50e9),
+        ("time_ms,c,d\n", 50e3),
+        ("Time (us),A,B\n", 50e6),
+        ("timens,c,d\n", 50e9),
+        ("ms,V,V\n", 50e3),
+    ] {
+        assert_eq!(
+            rate(&format!("{header}{lines}")),
+            Some(expected),
+            "{header}"
+        );
+    }
+    // A µ of an older code.
+    let (_directory, path) = file("a.csv", b"time,c,d\n(\xb5s),V,V\n0,1,2\n4.000,3,4\n");
+    let recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+    assert_eq!(recording.sample_rate(), Some(250e3));
+}
+
+#[test]
+fn faults_in_time_are_named_by_line() {
+    for (text, pairs, expected) in [
+        (
+            "0,1,2\n1,1,2\n2,1,2\n1.5,1,2\n",
+            3,
+            "a.csv:4: time goes from 2 s to 1.5 s, but must go up; sort",
+        ),
+        (
+            "0,1,2\n1,1,2\n2,1,2\n5,1,2\n6,1,2\n",
+            3,
+            "a.csv:4: 2 samples are lost before this line (time goes from 2 s",
+        ),
+        (
+            "0,1,2\n1,1,2\n2,1,2\n4,1,2\n5,1,2\n",
+            3,
+            "a.csv:4: 1 sample is lost before this line ",
+        ),
+        (
+            "0,1,2\n1.0,1,2\n2.00,1,2\n3.05,1,2\n4,1,2\n5,1,2\n",
+            3,
+            "a.csv:4: time steps by 1.0500e0 s here, but by 1.0000e0 s elsewhere; sample at",
+        ),
+        (
+            "2,1,2\n1,1,2\n",
+            1,
+            "a.csv:2: time goes from 2 s to 1 s, but must go up; ",
+        ),
+        (
+            "2,1,2\n2,1,2\n2,1,2\n",
+            1,
+            "a.csv:2: time goes from 2 s to 2 s, but must go up; ",
+        ),
+        (
+            "2,1,2\n2,1,2\n2,1,2\n3,1,2\n",
+            1,
+            "a.csv:2: time is told to 1e0 s only, too coarse for samples ",
+        ),
+    ] {
+        let (count, fault) = bad(text);
+        assert!(
+            fault.starts_with(expected) && count == pairs,
+            "{text}: {count}, {fault}"
+        );
+        let remedy = ", or ignore the time column with --columns 2,3 --rate HZ";
+        assert!(fault.ends_with(remedy), "{fault}");
+    }
+}
+
+#[test]
+fn a_fault_far_behind_the_first_lines_is_found() {
+    let line = |k: u32| format!("{:.6},{},0.5\n", f64::from(k) / 96_000.0, k % 7);
+    let mut text = "time,c,d\n".to_owned();
+    (0..150_000)
+        .filter(|&k| k != 140_000)
+        .for_each(|k| text.push_str(&line(k)));
+    let (pairs, fault) = bad(&text);
+    assert_eq!(pairs, 140_000);
+    assert!(
+        fault.starts_with("a.csv:140002: 1 sample is lost before this line "),
+        "{fault}"
+    );
+    assert_eq!(rate(&text), Some(96_000.0));
+}

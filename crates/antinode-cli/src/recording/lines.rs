@@ -1,0 +1,109 @@
+//! The lines of a text recording, cut into fields.
+
+use std::io::{self, BufReader, Cursor, Read};
+
+use csv::{ByteRecord, ReaderBuilder, Terminator};
+
+use super::Stream;
+use super::error::{InputError, LineFault};
+use super::text::{self, LineEnds, MAX_LINE, Text, bare};
+
+/// Reads lines that are neither blank nor comments.
+pub(super) struct Lines {
+    file: String,
+    reader: csv::Reader<Text>,
+    record: ByteRecord,
+    pub separator: u8,
+    /// The lines and bytes before those that `reader` has.
+    skipped: (u64, u64),
+    /// True where the line last read is to be read again.
+    again: bool,
+}
+
+impl Lines {
+    /// Opens text, and gives its first line too, which is still to be read.
+    pub fn open(file: &str, stream: Stream) -> Result<(Self, Vec<u8>), InputError> {
+        let mut stream = BufReader::with_capacity(MAX_LINE, LineEnds::new(stream));
+        let (first, line, before) = text::first_line(file, &mut stream)?;
+        let separator = text::separator(&first);
+        let text = Text::new(Box::new(Cursor::new(first.clone()).chain(stream)));
+        let reader = ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .delimiter(separator)
+            .terminator(Terminator::Any(b'\n'))
+            // A stray quote must not swallow the lines that follow.
+            .quoting(false)
+            .buffer_capacity(MAX_LINE)
+            .from_reader(text);
+        let lines = Self {
+            file: file.to_owned(),
+            reader,
+            record: ByteRecord::new(),
+            separator,
+            skipped: (line - 1, before),
+            again: false,
+        };
+        Ok((lines, first))
+    }
+
+    /// The number of the line last read.
+    pub fn number(&self) -> u64 {
+        self.skipped.0 + self.reader.position().line() - 1
+    }
+
+    /// The bytes read so far.
+    pub fn bytes_read(&self) -> u64 {
+        self.skipped.1 + self.reader.position().byte()
+    }
+
+    /// True when no whole line is left of what has come.
+    pub fn is_drained(&self) -> bool {
+        self.reader.position().byte() >= self.reader.get_ref().lines_end()
+    }
+
+    /// Reads the line last read once more.
+    pub fn back(&mut self) {
+        self.again = true;
+    }
+
+    /// Goes to the next line; false at the end.
+    pub fn advance(&mut self) -> Result<bool, InputError> {
+        if std::mem::take(&mut self.again) {
+            return Ok(true);
+        }
+        loop {
+            let read = self.reader.read_byte_record(&mut self.record);
+            if !read.map_err(|fault| self.broken(fault))? {
+                return Ok(false);
+            }
+            // A line of nothing but separators is not blank: its numbers are missing.
+            let whole = self.record.len() <= 1 || self.separator == b' ';
+            let start = if whole {
+                self.record.as_slice()
+            } else {
+                &self.record[0]
+            };
+            if !(text::is_skipped(start) && (whole || text::is_comment(start))) {
+                return Ok(true);
+            }
+        }
+    }
+
+    /// The fields of this line; of those between blanks, only those that are not empty.
+    pub fn fields(&self) -> impl Iterator<Item = &[u8]> {
+        let fields = self.record.iter().map(bare);
+        fields.filter(|field| self.separator != b' ' || !field.is_empty())
+    }
+
+    fn broken(&self, fault: csv::Error) -> InputError {
+        match fault.into_kind() {
+            csv::ErrorKind::Io(fault) if fault.kind() == io::ErrorKind::InvalidData => {
+                let fault = LineFault::LineTooLong { limit: MAX_LINE };
+                InputError::line(&self.file, self.number() + 1, fault)
+            }
+            csv::ErrorKind::Io(fault) => InputError::io(&self.file, fault),
+            other => InputError::io(&self.file, io::Error::other(format!("{other:?}"))),
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! How finely the times of a text recording are told.
+
+/// Decimals or digits, whichever tell less; and single precision, where all times so far have no more.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Printed {
+    decimals: i32,
+    digits: i32,
+    /// True once a time has been seen that single precision does not hold.
+    is_double: bool,
+}
+
+impl Printed {
+    /// Takes one more number into account, which is `text` times ten to the `exponent` in seconds.
+    pub fn see(&mut self, text: &[u8], value: f64, exponent: i32) {
+        let (mut decimals, mut digits, mut point) = (0, 0, false);
+        let mut bytes = text.iter();
+        let mut last = b'1';
+        for byte in bytes.by_ref() {
+            match byte {
+                b'0'..=b'9' => {
+                    decimals += i32::from(point);
+                    digits += i32::from(digits > 0 || *byte != b'0');
+                    last = *byte;
+                }
+                b'.' | b',' => point = true,
+                b'e' | b'E' => break,
+                _ => {}
+            }
+        }
+        let own = std::str::from_utf8(bytes.as_slice())
+            .ok()
+            .and_then(|text| text.parse::<i32>().ok());
+        let decimals = decimals.saturating_sub(own.unwrap_or(0));
+        let is_padded = point && last == b'0';
+        self.is_double = self.is_double || !is_single(value, decimals, is_padded);
+        self.decimals = self.decimals.max(decimals.saturating_sub(exponent));
+        self.digits = self.digits.max(digits);
+    }
+
+    /// The step between neighbouring numbers told near `seconds`.
+    pub fn step(self, seconds: f64) -> f64 {
+        let magnitude = seconds.abs().log10().floor().max(-300.0) as i32;
+        let by_digits = 10f64.powi(magnitude + 1 - self.digits);
+        let single = seconds.abs() as f32;
+        let precision = if self.is_double {
+            f64::EPSILON * seconds.abs()
+        } else {
+            f64::from(single.next_up()) - f64::from(single)
+        };
+        10f64.powi(-self.decimals).max(by_digits).max(precision)
+    }
+
+    /// True where all numbers are whole.
+    pub fn is_whole(self) -> bool {
+        self.decimals <= 0
+    }
+}
+
+/// Whether a number told to so many decimals may come of single precision: it is one such number rounded to them, or the shortest
+/// text that tells it from its neighbours.
+fn is_single(value: f64, decimals: i32, is_padded: bool) -> bool {
+    let single = value as f32;
+    let half = 0.5 * 10f64.powi(-decimals) + f64::EPSILON * value.abs();
+    (value - f64::from(single)).abs() <= half
+        || !is_padded && single.to_string().parse() == Ok(value)
+}

@@ -1,0 +1,77 @@
+//! Units of the columns of a text recording, in its header or in a line of their own.
+
+/// The power of ten that a unit of time makes of seconds: −3 for ms. `Some(None)` for times that are none, `None` for other units.
+pub(super) fn time_exponent(unit: &str) -> Option<Option<i32>> {
+    match bare(unit).to_lowercase().as_str() {
+        "s" | "sec" | "secs" | "second" | "seconds" => Some(Some(0)),
+        "ms" | "timems" | "tms" | "msec" | "millisecond" | "milliseconds" => Some(Some(-3)),
+        // Both letters of Unicode, and what is left of a µ in an older code.
+        "us" | "µs" | "μs" | "\u{fffd}s" | "timeus" | "tus" | "usec" | "microsecond"
+        | "microseconds" => Some(Some(-6)),
+        "ns" | "timens" | "tns" | "nsec" | "nanosecond" | "nanoseconds" => Some(Some(-9)),
+        "min" | "minute" | "minutes" | "h" | "hour" | "hours" | "day" | "days" => Some(None),
+        _ => None,
+    }
+}
+
+/// A unit without the brackets around it.
+fn bare(unit: &str) -> &str {
+    unit.trim_matches(|letter: char| "()[]{} ".contains(letter))
+}
+
+/// The unit at the end of a column's name: `time [ms]`, `time (ms)`, `time/ms`, `time_ms`.
+pub(super) fn of_name(name: &str) -> &str {
+    let end = name.trim_end_matches([']', ')', ' ']);
+    let unit = end.rsplit(['[', '(', '/', '_', ' ']).next();
+    unit.unwrap_or_default().trim()
+}
+
+/// Whether a field may be a unit: a short word, or nothing.
+pub(super) fn is_unit(field: &str) -> bool {
+    let field = bare(field).to_lowercase();
+    // What stands for a number that is missing is none.
+    let is_missing = ["na", "n/a", "null", "none"].contains(&field.as_str());
+    let is_word = field.chars().any(|letter| !letter.is_ascii_digit());
+    !is_missing && field.chars().count() <= 8 && (is_word || field.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_of_time_are_known_however_they_are_written() {
+        for (unit, exponent) in [
+            ("s", Some(Some(0))),
+            ("[s]", Some(Some(0))),
+            ("(ms)", Some(Some(-3))),
+            ("µs", Some(Some(-6))),
+            ("us", Some(Some(-6))),
+            ("NS", Some(Some(-9))),
+            ("min", Some(None)),
+            ("V", None),
+            ("", None),
+        ] {
+            assert_eq!(time_exponent(unit), exponent, "{unit}");
+        }
+        for (name, unit) in [
+            ("time [ms]", "ms"),
+            ("Time (us)", "us"),
+            ("t/ns", "ns"),
+            ("time_ms", "ms"),
+            ("time", "time"),
+        ] {
+            assert_eq!(of_name(name), unit);
+        }
+    }
+
+    #[test]
+    fn units_are_short_words() {
+        for field in ["V", "(mV)", "", "m/s", "LSB", "-", "°/s"] {
+            assert!(is_unit(field), "{field}");
+        }
+        for field in ["NA", "n/a", "12", "no signal here"] {
+            assert!(!is_unit(field), "{field}");
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! `antinode identify` where no window is a wave: what was found, and what to try.
+
+mod common;
+
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
+
+use common::{RATE, Run, rows, run, wav};
+
+/// A 16-bit WAV file of tones, each a frequency and an amplitude.
+fn tones(path: &Path, tones: &[(f64, f64)]) {
+    let value = |k: usize| -> f64 {
+        let tone = |&(frequency, amplitude): &(f64, f64)| {
+            amplitude * (TAU * frequency * k as f64 / RATE).cos()
+        };
+        tones.iter().map(tone).sum()
+    };
+    let code = |value: f64| (value * 32_767.0).round() as i16;
+    let pairs: Vec<[i16; 2]> = (0..20_000)
+        .map(|k| [code(0.8 * value(k)), code(0.6 * value(k))])
+        .collect();
+    fs::write(path, wav(&pairs)).unwrap();
+}
+
+/// Runs `identify`, which must exit 1 without a row, with one message that holds all of these.
+fn fault(directory: &Path, arguments: &str, told: &[&str]) {
+    let Run { code, out, err } = run(directory, &format!("identify {arguments}"));
+    assert_eq!((code, out.as_str()), (1, ""), "{arguments}: {err}");
+    assert_eq!(err.lines().count(), 1, "{err}");
+    for part in told {
+        assert!(err.contains(part), "{arguments}: `{part}` is not in {err}");
+    }
+}
+
+#[test]
+fn windows_that_are_no_wave_are_told_from_too_few_samples() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let refused = "a period was found, but no window of 10 periods in 20000 sample pairs";
+    tones(&here.join("two.wav"), &[(5321.7, 0.45), (7000.0, 0.45)]);
+    fault(here, "two.wav", &[refused, "second tone"]);
+    tones(&here.join("one.wav"), &[(5321.7, 1.0)]);
+    fault(here, "one.wav --resolution 1", &[refused, "--resolution"]);
+    assert!(rows(here, "one.wav --full-scale 2").len() > 90);
+    let mut tiny = String::new();
+    for k in 0..20_000 {
+        let value = 1e-20 * (TAU * 5321.7 * f64::from(k) / RATE).cos();
+        tiny += &format!("{value:e},{:e}\n", 0.5 * value);
+    }
+    fs::write(here.join("tiny.csv"), tiny).unwrap();
+    fault(here, "tiny.csv --rate 1e5", &[refused, "scale"]);
+    let short = "hold no window of 1022 periods; record longer or give a smaller --periods";
+    fs::write(here.join("short.wav"), wav(&common::WAVE.codes(5000))).unwrap();
+    fault(here, "short.wav --periods 1022", &[short]);
+}
+
+#[test]
+fn the_other_detector_is_something_to_try() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    tones(&here.join("a.wav"), &[(5321.7, 0.5), (2660.0, 0.2)]);
+    let none = "no period found in 20000 sample pairs";
+    fault(
+        here,
+        "a.wav",
+        &[none, "try --detector mean-return", "second tone"],
+    );
+    assert!(rows(here, "a.wav --detector mean-return").len() > 90);
+    fs::write(here.join("flat.wav"), wav(&[[9, 9]; 5000])).unwrap();
+    let flat = "flat.wav --detector mean-return";
+    fault(
+        here,
+        flat,
+        &["no period found", "try --detector difference"],
+    );
+    let help = run(here, "identify --help").out;
+    let words: Vec<&str> = help.split_whitespace().collect();
+    let told = "a second tone may hide it, try the other";
+    assert!(words.join(" ").contains(told), "{help}");
+}

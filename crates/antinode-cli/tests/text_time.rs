@@ -1,0 +1,120 @@
+//! `antinode identify` on text with a time column: what it makes of it, and how it is left out.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::{RATE, Row, WAVE, rows, run, text};
+
+/// The pairs of [`WAVE`] with the time of each as `print` has it.
+fn timed(header: &str, pairs: usize, print: impl Fn(f64) -> String) -> String {
+    let mut lines = header.to_owned();
+    for (k, line) in text(&WAVE.codes(pairs)).lines().skip(1).enumerate() {
+        let samples = line.split_once(',').unwrap().1;
+        lines += &format!("{},{samples}\n", print(k as f64 / RATE));
+    }
+    lines
+}
+
+/// The rows of a text; the command must succeed.
+fn found(directory: &Path, text: &str, arguments: &str) -> Vec<Row> {
+    fs::write(directory.join("a.csv"), text).unwrap();
+    rows(directory, &format!("a.csv {arguments}"))
+}
+
+/// The same windows, their times later by so much.
+fn same(found: &[Row], expected: &[Row], later: f64) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        let time = found.number("time_s") - expected.number("time_s");
+        assert!((time - later).abs() < 1e-6, "{time}");
+        assert_eq!(found.unnamed()[1..], expected.unnamed()[1..]);
+    }
+}
+
+#[test]
+fn rows_have_the_recordings_own_time() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = found(here, &text(&WAVE.codes(5000)), "");
+    assert!((0.001..0.003).contains(&expected[0].number("time_s")));
+    for start in [-0.5, 1.7e9] {
+        let text = timed("time,c,d\n", 5000, |t| format!("{:.6}", start + t));
+        same(&found(here, &text, ""), &expected, start);
+        same(
+            &found(here, &text, "--columns 2,3 --rate 1e5"),
+            &expected,
+            0.0,
+        );
+        let table = run(here, "identify a.csv").out;
+        let first = table.lines().nth(1).unwrap().split_whitespace().next();
+        let shown: f64 = first.unwrap().parse().unwrap();
+        assert!((shown - start - expected[0].number("time_s")).abs() < 1e-6);
+    }
+    let milliseconds = timed("time,c,d\nms,V,V\n", 5000, |t| {
+        format!("{:.3}", 1e3 * t + 250.0)
+    });
+    same(&found(here, &milliseconds, ""), &expected, 0.25);
+}
+
+#[test]
+fn single_precision_is_as_good() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = found(here, &text(&WAVE.codes(200_000)), "");
+    // At 20 s single precision has steps of a fifth of a sample.
+    let text = timed("time,c,d\n", 200_000, |t| format!("{}", (20.0 + t) as f32));
+    same(&found(here, &text, ""), &expected, 20.0);
+}
+
+#[test]
+fn every_fault_of_the_time_names_the_way_around_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let good = |t: f64| format!("{t:.5}");
+    let lines: Vec<String> = timed("zeit,c,d\n", 5000, good)
+        .lines()
+        .map(str::to_owned)
+        .collect();
+    let lost = [&lines[..3000], &lines[3003..]].concat().join("\n");
+    let jitter = |t: f64| format!("{:.9}", t + 2e-6 * (1e5 * t).sin());
+    let cases = [
+        (lost, "3 samples are lost"),
+        (timed("zeit,c,d\n", 5000, jitter), "time steps by"),
+        (
+            timed("zeit,c,d\n", 5000, |t| format!("{t:.3}")),
+            "too coarse",
+        ),
+        (
+            timed("zeit,c,d\n", 5000, |t| format!("2024-05-01T00:00:{t:08.5}")),
+            "the time is `2024-05-01T00:00:00.00000`",
+        ),
+        (timed("time_min,c,d\n", 5000, good), "`time_min`"),
+    ];
+    for (text, told) in cases {
+        fs::write(here.join("a.csv"), text).unwrap();
+        let fault = run(here, "identify a.csv --rate 1e5 --output csv");
+        assert_eq!(fault.code, 1, "{told}");
+        assert!(fault.err.contains(told), "{}", fault.err);
+        let way = "ignore the time column with --columns 2,3 --rate HZ\n";
+        assert!(fault.err.ends_with(way), "{}", fault.err);
+        // And it is a way.
+        assert!(rows(here, "a.csv --columns 2,3 --rate 1e5").len() > 20);
+    }
+}
+
+#[test]
+fn an_index_is_warned_of() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let text = timed("zeit,c,d\n", 5000, |t| format!("{:.0}", 1e5 * t));
+    fs::write(here.join("a.csv"), text).unwrap();
+    let run = run(here, "identify a.csv --output csv");
+    assert_eq!(run.code, 0);
+    assert!(
+        run.err
+            .starts_with("warning: a.csv: the time column goes up by 1 a line")
+    );
+    assert!(run.err.ends_with("with --columns 2,3 --rate HZ\n") && run.err.lines().count() == 1);
+}

@@ -84,7 +84,8 @@
 // A pick-off gave one and the same value, or lost its wave while the other kept it.
 #define ANTINODE_FLAG_DEAD_CHANNEL 64u
 
-// First window after the wave was lost, after a new calibration, or after a long gap: the angle is known modulo pi/2 only.
+// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo pi/2
+// only. Also the first window after a new calibration.
 #define ANTINODE_FLAG_REACQUIRED 128u
 
 // A sample that is not a number.

@@ -18,7 +18,8 @@ pub const ANTINODE_FLAG_CIRCULAR: u32 = 0x010_u32;
 pub const ANTINODE_FLAG_MISFIT: u32 = 0x020_u32;
 /// A pick-off gave one and the same value, or lost its wave while the other kept it.
 pub const ANTINODE_FLAG_DEAD_CHANNEL: u32 = 0x040_u32;
-/// First window after the wave was lost, after a new calibration, or after a long gap: the angle is known modulo π/2 only.
+/// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
+/// only. Also the first window after a new calibration.
 pub const ANTINODE_FLAG_REACQUIRED: u32 = 0x080_u32;
 /// A sample that is not a number.
 pub const ANTINODE_FLAG_NOT_FINITE: u32 = 0x100_u32;

@@ -2,20 +2,36 @@
 #   antinode::antinode   the static library: of this PC, or of the core that a cross build is for
 #   antinode::shared     the shared library, on a PC
 # A cross build names the Rust target in ANTINODE_TARGET (thumbv7em-none-eabihf, thumbv7m-none-eabi, thumbv6m-none-eabi); where it
-# does not, the target follows from -mcpu in CMAKE_C_FLAGS.
+# does not, the target follows from -mcpu and -mfloat-abi in CMAKE_C_FLAGS, CMAKE_CXX_FLAGS or add_compile_options().
 get_filename_component(_antinode_prefix "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 set(_antinode_lib "${_antinode_prefix}/lib")
 if(CMAKE_CROSSCOMPILING)
-    if(NOT ANTINODE_TARGET)
-        if(CMAKE_C_FLAGS MATCHES "-mcpu=cortex-m[47].*-mfloat-abi=hard|-mfloat-abi=hard.*-mcpu=cortex-m[47]")
-            set(ANTINODE_TARGET thumbv7em-none-eabihf)
-        elseif(CMAKE_C_FLAGS MATCHES "-mcpu=cortex-m(3|4|7)")
-            set(ANTINODE_TARGET thumbv7m-none-eabi)
-        elseif(CMAKE_C_FLAGS MATCHES "-mcpu=cortex-m0")
-            set(ANTINODE_TARGET thumbv6m-none-eabi)
+    set(_antinode_target "${ANTINODE_TARGET}")
+    if(NOT _antinode_target)
+        get_directory_property(_antinode_options COMPILE_OPTIONS)
+        set(_antinode_flags " ${CMAKE_C_FLAGS} ${CMAKE_CXX_FLAGS} ${_antinode_options} ")
+        set(_antinode_core "")
+        if(_antinode_flags MATCHES "[ ;]-mcpu=cortex-m([0-9a-z]+)[ ;+.]")
+            set(_antinode_core "${CMAKE_MATCH_1}")
+        endif()
+        # Never across float ABIs: the linker may not see it, and arguments would go astray.
+        if(_antinode_flags MATCHES "[ ;]-mfloat-abi=hard[ ;]")
+            if(_antinode_core MATCHES "^[47]$")
+                set(_antinode_target thumbv7em-none-eabihf)
+            endif()
+        elseif(_antinode_core MATCHES "^[347]$")
+            set(_antinode_target thumbv7m-none-eabi)
+        elseif(_antinode_core MATCHES "^(0|0plus|1)$")
+            set(_antinode_target thumbv6m-none-eabi)
         endif()
     endif()
-    set(_antinode_lib "${_antinode_lib}/${ANTINODE_TARGET}")
+    if(NOT _antinode_target)
+        set(antinode_FOUND FALSE)
+        set(antinode_NOT_FOUND_MESSAGE "the flags do not tell which core this build is for: name the Rust target in ANTINODE_TARGET, \
+say -DANTINODE_TARGET=thumbv7em-none-eabihf, and install antinode for it")
+        return()
+    endif()
+    set(_antinode_lib "${_antinode_lib}/${_antinode_target}")
 endif()
 
 if(NOT EXISTS "${_antinode_lib}/libantinode.a")

@@ -2,24 +2,27 @@
 
 use antinode::Flags;
 
+// With the type at the number: the header's constants are then unsigned, and `flags & ~ANTINODE_FLAG_…` is too.
+
 /// Samples at the converter's rail, or the third harmonic that a limiter leaves: amplitudes are wrong.
-pub const ANTINODE_FLAG_CLIPPED: u32 = 0x001;
+pub const ANTINODE_FLAG_CLIPPED: u32 = 0x001_u32;
 /// No significant wave: nothing in the estimate is meant.
-pub const ANTINODE_FLAG_LOST: u32 = 0x002;
+pub const ANTINODE_FLAG_LOST: u32 = 0x002_u32;
 /// The phase does not continue that of the window before: samples are missing between or within them.
-pub const ANTINODE_FLAG_PHASE_JUMP: u32 = 0x004;
+pub const ANTINODE_FLAG_PHASE_JUMP: u32 = 0x004_u32;
 /// Amplitude, angle or offset stepped between the window before and this one.
-pub const ANTINODE_FLAG_STEP: u32 = 0x008;
+pub const ANTINODE_FLAG_STEP: u32 = 0x008_u32;
 /// Main and quadrature amplitude are about equal: the pattern is circular and the angle has no meaning.
-pub const ANTINODE_FLAG_CIRCULAR: u32 = 0x010;
+pub const ANTINODE_FLAG_CIRCULAR: u32 = 0x010_u32;
 /// The samples are not one wave with steady rates plus noise: a step, a dropout, a second tone within the window.
-pub const ANTINODE_FLAG_MISFIT: u32 = 0x020;
+pub const ANTINODE_FLAG_MISFIT: u32 = 0x020_u32;
 /// A pick-off gave one and the same value, or lost its wave while the other kept it.
-pub const ANTINODE_FLAG_DEAD_CHANNEL: u32 = 0x040;
-/// First window after the wave was lost: the angle is known modulo π/2 only.
-pub const ANTINODE_FLAG_REACQUIRED: u32 = 0x080;
+pub const ANTINODE_FLAG_DEAD_CHANNEL: u32 = 0x040_u32;
+/// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
+/// only. Also the first window after a new calibration.
+pub const ANTINODE_FLAG_REACQUIRED: u32 = 0x080_u32;
 /// A sample that is not a number.
-pub const ANTINODE_FLAG_NOT_FINITE: u32 = 0x100;
+pub const ANTINODE_FLAG_NOT_FINITE: u32 = 0x100_u32;
 
 /// The bits that the header names are those of the core, and all of them.
 const _: () = {

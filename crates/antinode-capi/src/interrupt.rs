@@ -14,6 +14,8 @@ use crate::status::Status;
 
 /// Pairs that are put into one form at a time, on the stack.
 pub(crate) const AT_ONCE: usize = 64;
+/// The same for the search, which calls deep: more would take stack and save nothing beside its hundreds of instructions a pair.
+const SEARCHED_AT_ONCE: usize = 16;
 
 /// What belongs to the interrupt alone.
 pub(crate) struct Interrupt<S: Sample> {
@@ -65,7 +67,7 @@ impl<S: Slow> Interrupt<S> {
     pub(crate) unsafe fn push_one(&mut self, shared: &Shared<S>, pair: [S; 2]) -> Status {
         self.obey(shared);
         if self.front.is_searching() {
-            self.search_some(shared, &[pair]);
+            self.search_in(shared, &[pair]);
             return Status::Ok;
         }
         let Some(block) = self.front.push(pair) else {
@@ -107,13 +109,18 @@ impl<S: Slow> Interrupt<S> {
     /// Searches a period in the first pairs; gives how many it took. Apart, so that pairs of a known period do not pay for it.
     #[inline(never)]
     fn search_some<P: SamplePair<S>>(&mut self, shared: &Shared<S>, pairs: &[P]) -> usize {
-        let mut buffer = [[S::default(); 2]; AT_ONCE];
+        let mut buffer = [[S::default(); 2]; SEARCHED_AT_ONCE];
         let mut count = 0;
         for (place, pair) in buffer.iter_mut().zip(pairs) {
             *place = pair.pair();
             count += 1;
         }
-        let taken = S::search(&mut self.front, buffer.get(..count).unwrap_or(&[]));
+        self.search_in(shared, buffer.get(..count).unwrap_or(&[]))
+    }
+
+    /// As [`Self::search_some`], where pairs need no copy.
+    fn search_in(&mut self, shared: &Shared<S>, pairs: &[[S; 2]]) -> usize {
+        let taken = S::search(&mut self.front, pairs);
         self.tell(shared);
         taken
     }

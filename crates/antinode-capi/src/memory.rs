@@ -1,7 +1,8 @@
 //! Copying, moving and clearing memory, as compilers call it: the run-time ABI of the ARM architecture, 4.3.4.
 //!
 //! In the place of the functions of Rust's run-time library, which take 3 KB of flash, unrolled for long runs: here most have some ten
-//! words, and are copied as fast. Weak, as those are: a program's own come before them. The instructions are those of every Cortex-M.
+//! words, and are copied as fast. Weak, as those are, and before them; `install` hides them, so that a program's own calls get its own
+//! functions. The instructions are those of every Cortex-M.
 
 #![allow(unsafe_code, reason = "functions in assembly, with names of the ABI")]
 

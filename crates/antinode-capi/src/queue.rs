@@ -61,11 +61,12 @@ impl<S: Sample> Queue<S> {
         self.slots[counter as usize % ANTINODE_QUEUE_BLOCKS].get()
     }
 
-    /// How many entries wait.
-    #[inline]
+    /// How many entries wait. From any context, also one that both sides break into.
     pub(crate) fn len(&self) -> u32 {
-        let taken = self.taken.load(Ordering::Acquire);
-        self.put.load(Ordering::Acquire).wrapping_sub(taken)
+        waiting(
+            || self.put.load(Ordering::Acquire),
+            || self.taken.load(Ordering::Acquire),
+        )
     }
 
     /// Entries ever put in; it wraps. For the producer.
@@ -116,8 +117,22 @@ impl<S: Sample> Queue<S> {
     }
 }
 
+/// Entries between two counters that may move on between the looks: of those seen put in, what is not taken yet.
+fn waiting(put: impl FnOnce() -> u32, taken: impl FnOnce() -> u32) -> u32 {
+    // This order, or entries that came since would count, and more than there is room for.
+    let count = put().wrapping_sub(taken());
+    // More were taken since than were seen.
+    if count > ANTINODE_QUEUE_BLOCKS as u32 {
+        0
+    } else {
+        count
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use core::cell::Cell;
+
     use super::*;
     use antinode::block::{Demodulator, Layout};
     use antinode::phase::PhaseStep;
@@ -148,6 +163,31 @@ mod tests {
             assert_eq!(queue.take(|entry| entry.search), Some(0));
             assert!(queue.put(99, &block(99)));
         }
+    }
+
+    #[test]
+    fn what_waits_is_told_though_both_sides_go_on_between_the_looks() {
+        const FULL: u32 = ANTINODE_QUEUE_BLOCKS as u32;
+        let (put, taken) = (Cell::new(0u32), Cell::new(0u32));
+        // A full queue, of which `since` are solved after the first look, and as many come anew.
+        let told = |since: u32| {
+            taken.set(u32::MAX - 3);
+            put.set(taken.get().wrapping_add(FULL));
+            let go_on = || {
+                put.set(put.get().wrapping_add(since));
+                taken.set(taken.get().wrapping_add(since));
+            };
+            let look = |counter: &Cell<u32>| {
+                let seen = counter.get();
+                go_on();
+                seen
+            };
+            waiting(|| look(&put), || look(&taken))
+        };
+        assert_eq!(
+            [0, 5, FULL, FULL + 1, 3 * FULL].map(told),
+            [FULL, FULL - 5, 0, 0, 0]
+        );
     }
 
     #[test]

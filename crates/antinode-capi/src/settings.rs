@@ -6,9 +6,9 @@ use core_crate::Calibration as CoreCalibration;
 use crate::status::Status;
 
 /// The period is found by the squared difference, in about three periods, at any offset, at 20 % noise and more.
-pub const ANTINODE_DETECTION_DIFFERENCE: u32 = 0;
+pub const ANTINODE_DETECTION_DIFFERENCE: u32 = 0_u32;
 /// The period is found by the return of the running sum, in about eleven periods, for signals with little noise.
-pub const ANTINODE_DETECTION_MEAN_RETURN: u32 = 1;
+pub const ANTINODE_DETECTION_MEAN_RETURN: u32 = 1_u32;
 
 /// How pick-off D differs from an ideal one that stands 45° from C, has C's gain and is sampled with C.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,6 +49,8 @@ pub struct Settings {
     pub watch: u32,
     /// How the pick-offs differ from ideal ones. Default: not at all.
     pub calibration: Calibration,
+    /// Not looked at: the struct ends at a multiple of eight bytes on every machine.
+    pub reserved: u32,
 }
 
 /// Settings with every default: windows of 10 periods that follow each other, ideal pick-offs, no known rails, everything watched.
@@ -72,6 +74,7 @@ pub extern "C" fn antinode_settings_default(sample_rate_hz: f64) -> Settings {
             skew_s: plain.calibration.skew,
             pick_off_angle_rad: plain.calibration.pick_off_angle,
         },
+        reserved: 0,
     }
 }
 

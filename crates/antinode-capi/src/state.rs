@@ -58,7 +58,8 @@ pub(crate) struct Thread {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(C)]
 pub struct Health {
-    /// 1 while a period is searched, 0 while blocks are gathered.
+    /// 1 while a period is searched, 0 while blocks are gathered. It stays 1 where there is no wave within the periods of
+    /// ANTINODE_SHORTEST_PERIOD to ANTINODE_LONGEST_PERIOD samples.
     pub searching: u32,
     /// Finished blocks that wait to be solved, 0 to ANTINODE_QUEUE_BLOCKS.
     pub waiting: u32,

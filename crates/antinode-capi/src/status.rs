@@ -22,7 +22,8 @@ pub enum Status {
     ErrorNotInitialised = -3,
     /// An array would be larger than the address space.
     ErrorCount = -4,
-    /// The pairs were taken, but the queue was full and at least one finished block was dropped: call `_solve` more often.
+    /// The pairs were taken, but the queue was full and at least one finished block was dropped, a gap as by a `_skip` function: call
+    /// `_solve` more often.
     ErrorQueueFull = -5,
     /// `sample_rate_hz` is not within 1 to 1e10.
     ErrorSampleRate = -10,
@@ -135,7 +136,7 @@ pub extern "C" fn antinode_status_string(status: i32) -> *const c_char {
 }
 
 /// The version of this header: major × 65536 + minor × 256 + patch.
-pub const ANTINODE_VERSION: u32 = 0x00_0100;
+pub const ANTINODE_VERSION: u32 = 0x00_0100_u32;
 
 /// The version of the library that is linked: must equal ANTINODE_VERSION, or header and library are not of one kind and sizes
 /// may differ. May be called from anywhere.

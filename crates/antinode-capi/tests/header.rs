@@ -30,6 +30,9 @@ fn the_committed_header_is_that_of_the_sources() {
 fn in_c(text: String) -> String {
     let spellings = [
         ("ANTINODE_STATUS_T_", "ANTINODE_"),
+        // In C the enum has no tag, as its typedef is a number: one name for both is none in C++.
+        ("enum antinode_status_t\n#if", "enum\n#if"),
+        ("\n  : int32_t\n", "\n    antinode_status_t : int32_t\n"),
         ("ANTINODE_FLAG_…", "ANTINODE_FLAG_*"),
         ("ANTINODE_DETECTION_…", "ANTINODE_DETECTION_*"),
         ("0…π/2", "0 to pi/2"),

@@ -1,0 +1,150 @@
+/*
+ * What the interrupt side takes of a Cortex-M4: instructions a sample pair while a period is searched, in noise from half-buffers and in
+ * a wave pair by pair, and the most stack of any call, the processor's own frame not counted. Counted as in push_block.c. In fixed
+ * point the floating-point unit is off once the period is known: an instruction of it would end in the fault handler.
+ */
+#include <stdio.h>
+
+#include "antinode.h"
+
+#if defined(FLOAT)
+typedef float sample_t;
+typedef antinode_float_t state_t;
+#define CALL(name) antinode_float_##name
+#define NAME "float"
+#else
+typedef int16_t sample_t;
+typedef antinode_fixed_t state_t;
+#define CALL(name) antinode_fixed_##name
+#define NAME "fixed"
+#endif
+
+enum { RING = 1406, HALF_BUFFER = 128, PAIRS = 16384, FROM_COLD = 100, PAINTED = 1024 };
+enum form { PACKED, INTERLEAVED, SEPARATE, SINGLE };
+
+#define SYSTICK ((volatile uint32_t *)0xE000E010u)
+static uint32_t now(void) { return SYSTICK[2]; }
+
+extern const uint32_t _binary_codes_bin_start[RING];
+
+static state_t gyro;
+static uint32_t words[HALF_BUFFER];
+static sample_t interleaved[2 * HALF_BUFFER], c[HALF_BUFFER], d[HALF_BUFFER];
+static antinode_estimate_t estimate;
+static antinode_health_t health;
+static uint32_t ticks, pairs, most_stack;
+static int is_told; /* to search anew, which the next call does */
+
+static void fpu(int on)
+{
+    *(volatile uint32_t *)0xE000ED88u = on ? 0xFu << 20 : 0; /* CPACR */
+    __asm volatile("dsb\n isb" ::: "memory");
+}
+
+/* Pushes, and sees how much of the painted stack is no longer as it was. */
+static __attribute__((noinline)) void push(enum form form, uint32_t count)
+{
+    const uint32_t paint = 0x5afe5afeu;
+    volatile uint32_t *bottom, *top;
+    uint32_t begin, i;
+
+    if (CALL(health)(&gyro, &health) == ANTINODE_OK && sizeof(sample_t) == 2)
+        fpu(health.searching || is_told);
+    is_told = 0;
+    __asm volatile("mov %0, sp" : "=r"(top));
+    for (bottom = top - PAINTED; bottom < top; bottom++)
+        *bottom = paint;
+    begin = now();
+    if (form == PACKED)
+        CALL(push_block_packed)(&gyro, words, count);
+    else if (form == INTERLEAVED)
+        CALL(push_block_interleaved)(&gyro, interleaved, count);
+    else if (form == SEPARATE)
+        CALL(push_block)(&gyro, c, d, count);
+    else
+        for (i = 0; i < count; i++)
+            CALL(push)(&gyro, c[i], d[i]);
+    ticks += (begin - now()) & 0xffffffu;
+    pairs += count;
+    fpu(1);
+    for (bottom = top - PAINTED; bottom < top && *bottom == paint; bottom++)
+        ;
+    if ((uint32_t)(top - bottom) * 4 > most_stack)
+        most_stack = (uint32_t)(top - bottom) * 4;
+}
+
+static void take(const uint32_t *from, uint32_t count)
+{
+    uint32_t i;
+    for (i = 0; i < count; i++) {
+        words[i] = from[i];
+        c[i] = interleaved[2 * i] = (int16_t)(uint16_t)words[i];
+        d[i] = interleaved[2 * i + 1] = (int16_t)(uint16_t)(words[i] >> 16);
+    }
+}
+
+/* Prints the instructions a pair since the last time. */
+static void print(const char *what)
+{
+    const uint32_t thousandths = (uint32_t)((uint64_t)ticks * 1000000 / 168 / pairs);
+    printf("%s %s %lu.%03lu\n", NAME, what, (unsigned long)thousandths / 1000, (unsigned long)thousandths % 1000);
+    ticks = pairs = 0;
+}
+
+int main(void)
+{
+    const antinode_settings_t settings = antinode_settings_default(100e3);
+    static const char *const names[] = {"packed", "interleaved", "separate", "single"};
+    uint32_t at, i, count, form, seed = 7;
+    uint32_t noise[HALF_BUFFER], tracked = 0;
+
+    SYSTICK[1] = 0xffffffu;
+    SYSTICK[2] = 0;
+    SYSTICK[0] = 5; /* on, at the core's clock */
+
+    if (CALL(init)(&gyro, &settings) != ANTINODE_OK)
+        return 1;
+    for (at = 0; at < PAIRS; at += HALF_BUFFER) {
+        for (i = 0; i < HALF_BUFFER; i++) {
+            seed = seed * 1664525 + 1013904223;
+            noise[i] = (seed >> 8 & 0xff) | (seed & 0xff0000);
+        }
+        take(noise, HALF_BUFFER);
+        push(PACKED, HALF_BUFFER);
+    }
+    if (CALL(health)(&gyro, &health) != ANTINODE_OK || health.searching != 1)
+        return 1;
+    print("noise");
+
+    for (at = 0; at < RING - FROM_COLD; at += 29) {
+        CALL(init)(&gyro, &settings);
+        for (i = 0; CALL(health)(&gyro, &health) == ANTINODE_OK && health.searching && i < FROM_COLD; i++) {
+            take(_binary_codes_bin_start + at + i, 1);
+            push(SINGLE, 1);
+        }
+    }
+    print("wave");
+
+    most_stack = 0;
+    /* Every way in, from cold to a full queue, with a search on the way. */
+    for (form = PACKED; form <= SINGLE; form++) {
+        CALL(init)(&gyro, &settings);
+        for (at = 0; at < 4 * PAIRS; at += count) {
+            const uint32_t left = RING - at % RING;
+            count = left < HALF_BUFFER ? left : HALF_BUFFER;
+            take(_binary_codes_bin_start + at % RING, count);
+            push((enum form)form, count);
+            if (at < 2 * PAIRS && at + count >= 2 * PAIRS) {
+                CALL(search)(&gyro);
+                is_told = 1;
+            }
+            while (at < 3 * PAIRS && CALL(solve)(&gyro, &estimate) == ANTINODE_ESTIMATE)
+                tracked += estimate.flags == 0;
+        }
+        if (tracked < 250)
+            return 1;
+        printf("%s %s, stack %lu\n", NAME, names[form], (unsigned long)most_stack);
+        tracked = most_stack = 0;
+    }
+    return 0;
+}

@@ -207,19 +207,22 @@ impl Settings {
 
     /// The length from `length` down to half of it that brings whole blocks near enough to `window` samples.
     fn fitting(&self, window: f32, mut length: u16) -> u16 {
-        let off = |length: u16| {
-            (f32::from(nearest_count(window, length)) * f32::from(length) - window).abs()
-        };
         let most = self.periods.max(MOST_BLOCKS);
-        let is_too_short = |length: u16| nearest_count(window, length) > most;
-        if is_too_short(length) {
+        if nearest_count(window, length) > most {
             length += 1;
         }
+        let off = |length: u16, count: u16| (f32::from(count) * f32::from(length) - window).abs();
         let (least, mut nearest) = (length.div_ceil(2), length);
-        while off(nearest) > NEAR * window && length > least && !is_too_short(length - 1) {
+        let mut least_off = off(length, nearest_count(window, length));
+        while least_off > NEAR * window && length > least {
             length -= 1;
-            if off(length) < off(nearest) {
-                nearest = length;
+            let count = nearest_count(window, length);
+            if count > most {
+                break;
+            }
+            let off = off(length, count);
+            if off < least_off {
+                (nearest, least_off) = (length, off);
             }
         }
         nearest

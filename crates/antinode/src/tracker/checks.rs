@@ -129,7 +129,9 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
         } else {
             (greater(remains.residual - part, 0.0) / rest, rest)
         };
-        part > degrees * limit(degrees, freedom) * level + floor
+        // Of so few degrees the limit is more than that.
+        part > RISE * degrees * level + floor
+            && part > limit(degrees, freedom) * degrees * level + floor
     };
     // One block out of line with all others: a step, a spike or a short dropout.
     let outlier = stands_out(remains.worst_block, 6.0, 6.0 * floor);

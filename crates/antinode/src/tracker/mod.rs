@@ -34,6 +34,7 @@ const GIVE_UP: u8 = 2;
 #[derive(Debug, Clone)]
 pub struct Tracker<const BLOCKS: usize> {
     settings: Settings,
+    /// Made with the model.
     units: Units,
     gathered: Gathered<BLOCKS>,
     /// Index in the stream of the sample pair after the last block.
@@ -62,7 +63,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         settings.check(BLOCKS)?;
         Ok(Self {
             settings,
-            units: Units::at(settings.sample_rate),
+            units: Units::NONE,
             gathered: Gathered::new(),
             end: 0,
             model: None,
@@ -86,7 +87,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check(BLOCKS)?;
         self.settings = settings;
-        self.units = Units::at(settings.sample_rate);
         // All else begins anew with the next block.
         self.forget();
         self.angle = Angle::new(settings.start_angle);
@@ -155,6 +155,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     #[inline(never)]
     fn begin(&mut self, layout: Layout) {
         let settings = &self.settings;
+        self.units = Units::at(settings.sample_rate);
         self.count = settings.blocks(layout).clamp(1, BLOCKS as u16);
         self.model = Some(Model::new(
             layout,

@@ -22,7 +22,13 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    #[inline(never)]
+    /// Those of no sample rate yet.
+    pub(crate) const NONE: Self = Self {
+        sample_rate: 0.0,
+        half_sample: 0.0,
+        step: 0.0,
+    };
+
     pub(crate) fn at(sample_rate: f64) -> Self {
         // By Newton's steps, to within two units of the last place: a division in f64 is a kilobyte of code there.
         let rough = f64::from(1.0 / sample_rate as f32);

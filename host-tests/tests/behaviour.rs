@@ -531,3 +531,56 @@ fn a_nearly_circular_pattern_has_an_honest_frequency() {
         );
     }
 }
+
+#[test]
+fn windows_far_apart_state_their_frequency_as_well() {
+    for hop in [20u16, 1000] {
+        let wave = Wave {
+            angle: 0.3,
+            quadrature_amplitude: 0.5,
+            angle_rate: 0.02,
+            ..Wave::default()
+        };
+        let flaws = Flaws {
+            noise: 1e-4,
+            ..Flaws::default()
+        };
+        let settings = Settings {
+            hop: Some(hop),
+            ..windows(10)
+        };
+        let (mut squares, mut sum, mut rows) = (0.0, 0.0, 0.0);
+        for seed in 0..10 {
+            let estimates = identify(wave, &flaws, settings, 40 * 19 * usize::from(hop), seed);
+            for estimate in &estimates[7..] {
+                let error = errors(estimate, &wave)[3] / stated(estimate)[3];
+                squares += error * error;
+                sum += error;
+                rows += 1.0;
+            }
+        }
+        let (scatter, bias) = (f64::sqrt(squares / rows), sum / rows);
+        println!("hop {hop}: {rows} rows, error over stated {scatter:.2}, bias {bias:.2}");
+        assert!(
+            (0.85..1.15).contains(&scatter) && bias.abs() < 0.25,
+            "{hop}: {scatter} {bias}"
+        );
+    }
+}
+
+#[test]
+fn no_pairs_lost_is_no_loss() {
+    let pairs = stream(Wave::default(), Flaws::default(), 6000, 1);
+    let mut plain = Core::new(windows(5)).unwrap();
+    let wanted: Vec<_> = pairs.iter().filter_map(|&pair| plain.push(pair)).collect();
+    let mut told = Core::new(windows(5)).unwrap();
+    let found: Vec<_> = pairs
+        .iter()
+        .filter_map(|&pair| {
+            told.skip(0);
+            told.push(pair)
+        })
+        .collect();
+    assert!(wanted.len() > 40);
+    assert_eq!(found, wanted);
+}

@@ -260,3 +260,134 @@ fn a_pick_off_that_was_dead_from_the_start_is_flagged() {
         );
     }
 }
+
+#[test]
+fn a_lasting_rise_of_noise_becomes_the_new_level() {
+    let rises = |seed, factor: f64| {
+        let (wave, _) = gyro(seed);
+        let noise = Flaws {
+            noise: 0.002 * factor * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let still = Wave {
+            main_amplitude: 1e-12,
+            quadrature_amplitude: 0.0,
+            ..Wave::default()
+        };
+        let more = antinode_sim::Gyro::new(still, noise, RATE, seed + 50).unwrap();
+        let more: Vec<_> = more.take(60_000).map(|pair| [pair.c, pair.d]).collect();
+        changed(seed, 0.002, 10, 60_000, |k, [c, d]| {
+            if k < 20_000 {
+                [c, d]
+            } else {
+                [c + more[k][0], d + more[k][1]]
+            }
+        })
+    };
+    for factor in [3.0, 5.0, 10.0] {
+        for seed in 0..10 {
+            let estimates = rises(seed, factor);
+            let flagged = |e: &&Estimate| !e.flags.is_empty();
+            let count = estimates.iter().filter(flagged).count();
+            assert!(count < 8, "{factor} times, seed {seed}: {count} flagged");
+            let late = estimates.iter().filter(|e| e.start > 40_000);
+            assert_eq!(
+                late.filter(flagged).count(),
+                0,
+                "{factor} times, seed {seed}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_tone_that_whole_blocks_do_not_see_is_flagged() {
+    // 3/2, 2 and 5/2 of the wave's frequency: the sums of blocks of two periods hide them.
+    for multiple in [1.5, 2.0, 2.5] {
+        for seed in 0..5 {
+            let (wave, _) = gyro(seed);
+            let size = 0.1 * wave.main_amplitude;
+            let estimates = changed(seed, 0.001, 10, 20_000, |k, [c, d]| {
+                let advance = multiple * std::f64::consts::TAU * wave.frequency / RATE;
+                let tone = size * (advance * k as f64 + 0.7).cos();
+                [c + tone, d - 0.5 * tone]
+            });
+            assert!(estimates.len() > 90);
+            let unseen = estimates
+                .iter()
+                .filter(|e| !e.flags.contains(Flags::MISFIT));
+            // Twice the frequency may lie so that it hardly raises the crests.
+            let unseen = unseen.count();
+            assert!(unseen < 20, "{multiple}, seed {seed}: {unseen}");
+        }
+    }
+}
+
+#[test]
+fn a_step_of_the_offset_alone_is_a_step() {
+    for seed in 0..10 {
+        let (wave, _) = gyro(seed);
+        let windows = changed(seed, 0.002, 10, 30_000, |_, pair| pair);
+        // Where one window ends and the next begins.
+        let at = windows[80].start as usize;
+        let estimates = changed(seed, 0.002, 10, 30_000, |k, [c, d]| {
+            let step = if k < at {
+                0.0
+            } else {
+                0.05 * wave.main_amplitude
+            };
+            [c + step, d]
+        });
+        assert!(
+            estimates[80].flags.contains(Flags::STEP),
+            "seed {seed}: {}",
+            estimates[80].flags
+        );
+        assert!(!estimates[79].flags.contains(Flags::STEP));
+    }
+}
+
+#[test]
+fn a_pick_off_that_dies_is_told_whatever_its_gain() {
+    for gain_ratio in [0.1, 1.0, 10.0] {
+        let (wave, _) = gyro(3);
+        let wave = Wave { angle: 0.3, ..wave };
+        let flaws = Flaws {
+            gain_ratio,
+            noise: 0.005 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let settings = antinode::Settings {
+            calibration: antinode::Calibration {
+                gain_ratio: gain_ratio as f32,
+                ..antinode::Calibration::IDEAL
+            },
+            ..windows(10)
+        };
+        let silence = Flaws {
+            noise: flaws.noise,
+            ..Flaws::default()
+        };
+        let still = Wave {
+            main_amplitude: 1e-12,
+            quadrature_amplitude: 0.0,
+            ..wave
+        };
+        let gyro = antinode_sim::Gyro::new(wave, flaws, RATE, 1).unwrap();
+        let dead = antinode_sim::Gyro::new(still, silence, RATE, 2).unwrap();
+        let mut core = Core::new(settings).unwrap();
+        let pairs = gyro.zip(dead).take(40_000).enumerate();
+        let estimates = pairs.filter_map(|(k, (pair, dead))| {
+            let d = if k < 20_000 { pair.d } else { dead.d };
+            core.push([pair.c as f32, d as f32])
+        });
+        let after: Vec<_> = estimates.filter(|e| e.start > 20_200).collect();
+        assert!(after.len() > 90);
+        let told = |e: &&Estimate| e.flags.contains(Flags::DEAD_CHANNEL);
+        assert_eq!(
+            after.iter().filter(told).count(),
+            after.len(),
+            "gain {gain_ratio}"
+        );
+    }
+}

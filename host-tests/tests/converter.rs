@@ -63,3 +63,26 @@ fn check(bits: u32, scale: f64, period: f64, noise: f64, periods: u16) {
         assert!(ratio < 1.5, "{label}: {ratio:.2} of what is stated");
     }
 }
+
+#[test]
+fn the_residual_is_that_of_the_samples_whatever_the_window() {
+    for periods in [10u16, 100] {
+        let wave = Wave::default();
+        let step = wave.main_amplitude / 0.9 / 2048.0;
+        let flaws = Flaws {
+            noise: 0.05 * step,
+            bits: Some(12),
+            full_scale: wave.main_amplitude / 0.9,
+            ..Flaws::default()
+        };
+        let settings = Settings {
+            resolution: Some(step as f32),
+            ..windows(periods)
+        };
+        let estimates = identify(wave, &flaws, settings, 60_000, 1);
+        let square = |e: &antinode::Estimate| f64::from(e.residual_rms).powi(2);
+        let mean = estimates.iter().map(square).sum::<f64>() / estimates.len() as f64;
+        let ratio = mean.sqrt() / step / f64::sqrt(0.05f64.powi(2) + 1.0 / 12.0);
+        assert!((0.9..1.1).contains(&ratio), "{periods} periods: {ratio}");
+    }
+}

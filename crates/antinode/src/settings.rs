@@ -245,3 +245,34 @@ fn nearest_count(window: f32, length: u16) -> u16 {
 fn rounded(x: f32) -> u16 {
     (x + 0.5) as u16
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_fit_the_smallest_ring_that_is_accepted() {
+        for hop in [None, Some(1)] {
+            for periods in 2..=100u16 {
+                let settings = Settings {
+                    periods,
+                    hop,
+                    ..Settings::new(1e5)
+                };
+                for i in 0..400 {
+                    // 3.9 to 200 samples a period.
+                    let period = 3.9 * libm::powf(200.0 / 3.9, i as f32 / 400.0);
+                    let layout = settings.layout(period, 200);
+                    let blocks = settings.blocks(layout);
+                    let samples = f32::from(blocks) * f32::from(layout.length);
+                    let window = period * f32::from(periods);
+                    let off = (samples / window - 1.0).abs();
+                    assert!(
+                        (4..=periods.max(MOST_BLOCKS)).contains(&blocks) && off < 0.1,
+                        "{period} samples a period, {periods} periods, hop {hop:?}: {blocks} blocks, {off} off"
+                    );
+                }
+            }
+        }
+    }
+}

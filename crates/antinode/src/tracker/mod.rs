@@ -299,7 +299,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Keeps what the next windows need; `drift` is the frequency beyond the carrier weighted by power, rad a sample.
-    fn remember(&mut self, mut record: Record, flags: Flags, between: Flags, drift: f32) {
+    fn remember(&mut self, record: Record, flags: Flags, between: Flags, drift: f32) {
         self.broken = flags.intersects(BROKEN);
         if self.broken {
             // The next window is judged by itself: what lies between it and the last clean one is already flagged.
@@ -318,15 +318,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         if !between.is_empty() {
             self.trend.clear();
         }
-        if flags.contains(Flags::CIRCULAR) {
-            // It has neither an angle nor a phase of its own, and of its two waves one knows the frequency.
-            record.drift = drift;
-            record.angle = self.angle;
-            record.turning = 0.0;
-            record.turning_variance = 0.0;
-            record.angle_variance = f32::INFINITY;
-            record.phase_variance = f32::INFINITY;
-        } else {
+        if !flags.contains(Flags::CIRCULAR) {
             self.trend.keep(
                 record.middle,
                 record.samples,
@@ -335,6 +327,16 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             );
             self.angle = record.angle;
         }
-        self.before = Some(record);
+        let angle = self.angle;
+        let before = self.before.insert(record);
+        if flags.contains(Flags::CIRCULAR) {
+            // It has neither an angle nor a phase of its own, and of its two waves one knows the frequency.
+            before.drift = drift;
+            before.angle = angle;
+            before.turning = 0.0;
+            before.turning_variance = 0.0;
+            before.angle_variance = f32::INFINITY;
+            before.phase_variance = f32::INFINITY;
+        }
     }
 }

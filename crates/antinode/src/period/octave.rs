@@ -121,7 +121,10 @@ impl<S: Sample> Octave<S> {
     #[inline(never)]
     pub(super) fn period(&mut self) -> Option<f32> {
         let (shift, count) = (S::shift(&self.differences), usize::from(self.count));
-        let level = |lag: usize| S::level(self.differences[lag - 1], shift, count - lag);
+        let level = |lag: usize| {
+            let sum = self.differences.get(lag - 1).copied();
+            S::level(sum.unwrap_or_default(), shift, count - lag)
+        };
         // Of a wave beyond this octave D(1) is next to nothing: above a fourteenth of D(7) within it, below at 13 samples and more.
         let sixteenth = S::halved(S::halved(S::halved(S::halved(level(7)))));
         if level(1) < sixteenth {

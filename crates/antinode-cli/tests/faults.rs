@@ -4,30 +4,9 @@ mod common;
 
 use std::fs;
 use std::io::{BufRead, BufReader};
-use std::path::Path;
 use std::process::{Command, Stdio};
 
-use common::{Row, WAVE, npy, raw, rows, run, run_with, wav};
-
-/// Runs `identify`, which must exit 1 with one message that holds all of these; gives the rows before it.
-fn fault(directory: &Path, arguments: &str, input: Vec<u8>, told: &[&str]) -> Vec<Row> {
-    let run = run_with(
-        directory,
-        &format!("identify --output csv {arguments}"),
-        input,
-    );
-    assert_eq!(run.code, 1, "{arguments}: {}", run.err);
-    assert_eq!(run.err.lines().count(), 1, "{}", run.err);
-    assert!(run.err.starts_with("error: "), "{}", run.err);
-    for part in told {
-        assert!(
-            run.err.contains(part),
-            "{arguments}: `{part}` is not in {}",
-            run.err
-        );
-    }
-    Row::all(&run.out)
-}
+use common::{Row, WAVE, fault, npy, raw, rows, run, wav};
 
 #[test]
 fn what_is_not_a_recording_is_told() {

@@ -3,24 +3,8 @@
 mod common;
 
 use std::fs;
-use std::path::Path;
 
-use common::{Row, WAVE, rows, run_with, text, wav};
-
-/// Runs `identify`, which must exit 1 with one message that holds all of these; gives its rows.
-fn told(directory: &Path, arguments: &str, input: Vec<u8>, told: &[&str]) -> Vec<Row> {
-    let run = run_with(
-        directory,
-        &format!("identify --output csv {arguments}"),
-        input,
-    );
-    assert_eq!(run.code, 1, "{arguments}: {}", run.err);
-    assert_eq!(run.err.lines().count(), 1, "{}", run.err);
-    for part in told {
-        assert!(run.err.contains(part), "`{part}` is not in {}", run.err);
-    }
-    Row::all(&run.out)
-}
+use common::{Row, WAVE, fault, rows, run_with, text, wav};
 
 /// Pairs as 32-bit floats, one after the other.
 fn floats(pairs: &[[f32; 2]]) -> Vec<u8> {
@@ -94,7 +78,7 @@ fn rows_before_and_after_are_there_and_clean() {
     lines[12_001] = "0.12000,0.1,NaN".to_owned();
     fs::write(here.join("bad.csv"), lines.join("\n")).unwrap();
     let place = "bad.csv:12002:3: sample pair 12000 (from 0), S_D (right): the value is NaN";
-    let found = told(here, "bad.csv", Vec::new(), &[place, what]);
+    let found = fault(here, "bad.csv", Vec::new(), &[place, what]);
     one_row_is_flagged(&found, &clean, 12_000.0);
 
     pairs[12_000] = [f32::INFINITY, 0.0];
@@ -108,7 +92,7 @@ fn rows_before_and_after_are_there_and_clean() {
     ];
     for (arguments, name, input) in runs {
         let place = format!("{name}: sample pair 12000 (from 0), S_C (left): the value is inf");
-        let found = told(
+        let found = fault(
             here,
             arguments,
             input,
@@ -132,7 +116,7 @@ fn the_search_recovers_from_one_among_the_first() {
             let mut pairs = good.clone();
             pairs[at][1] = value;
             let place = format!("sample pair {at} (from 0), S_D (right): the value is {value}");
-            let found = told(here, "- --raw f32 --rate 1e5", floats(&pairs), &[&place]);
+            let found = fault(here, "- --raw f32 --rate 1e5", floats(&pairs), &[&place]);
             // At 18.8 samples a period, a window or two are gone.
             assert!(found.len() >= 24, "{at}: {}", found.len());
             assert!(found.iter().all(|row| row.text("flags").is_empty()));

@@ -4,27 +4,10 @@
  *
  * In QEMU with -icount shift=0,align=off,sleep=off every instruction takes 1 ns, and SysTick counts the 168 MHz of the core.
  */
-#include <stdio.h>
-
-#include "antinode.h"
-
-#if defined(FLOAT)
-typedef float sample_t;
-typedef antinode_float_t state_t;
-#define CALL(name) antinode_float_##name
-#define NAME "float"
-#else
-typedef int16_t sample_t;
-typedef antinode_fixed_t state_t;
-#define CALL(name) antinode_fixed_##name
-#define NAME "fixed"
-#endif
+#include "counts.h"
 
 enum { RING = 1406, HALF_BUFFER = 128, FIRST = 2000, PAIRS = 16384 };
 enum form { PACKED, INTERLEAVED, SEPARATE };
-
-#define SYSTICK ((volatile uint32_t *)0xE000E010u)
-static uint32_t now(void) { return SYSTICK[2]; }
 
 extern const uint32_t _binary_codes_bin_start[RING];
 

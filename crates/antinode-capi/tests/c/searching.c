@@ -3,27 +3,10 @@
  * a wave pair by pair, and the most stack of any call, the processor's own frame not counted. Counted as in push_block.c. In fixed
  * point the floating-point unit is off once the period is known: an instruction of it would end in the fault handler.
  */
-#include <stdio.h>
-
-#include "antinode.h"
-
-#if defined(FLOAT)
-typedef float sample_t;
-typedef antinode_float_t state_t;
-#define CALL(name) antinode_float_##name
-#define NAME "float"
-#else
-typedef int16_t sample_t;
-typedef antinode_fixed_t state_t;
-#define CALL(name) antinode_fixed_##name
-#define NAME "fixed"
-#endif
+#include "counts.h"
 
 enum { RING = 1406, HALF_BUFFER = 128, PAIRS = 16384, FROM_COLD = 100, PAINTED = 1024 };
 enum form { PACKED, INTERLEAVED, SEPARATE, SINGLE };
-
-#define SYSTICK ((volatile uint32_t *)0xE000E010u)
-static uint32_t now(void) { return SYSTICK[2]; }
 
 extern const uint32_t _binary_codes_bin_start[RING];
 

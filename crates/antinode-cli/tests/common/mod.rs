@@ -48,6 +48,26 @@ pub fn rows(directory: &Path, arguments: &str) -> Vec<Row> {
     Row::all(&run.out)
 }
 
+/// Runs `identify`, which must exit 1 with one message that holds all of these; gives its rows.
+pub fn fault(directory: &Path, arguments: &str, input: Vec<u8>, told: &[&str]) -> Vec<Row> {
+    let run = run_with(
+        directory,
+        &format!("identify --output csv {arguments}"),
+        input,
+    );
+    assert_eq!(run.code, 1, "{arguments}: {}", run.err);
+    assert_eq!(run.err.lines().count(), 1, "{}", run.err);
+    assert!(run.err.starts_with("error: "), "{}", run.err);
+    for part in told {
+        assert!(
+            run.err.contains(part),
+            "{arguments}: `{part}` is not in {}",
+            run.err
+        );
+    }
+    Row::all(&run.out)
+}
+
 /// One row of CSV.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {

@@ -30,7 +30,7 @@ const STEPS: usize = 6;
 pub(crate) struct Fit {
     pub waves: Waves,
     pub offsets: [f32; 2],
-    /// The greatest amplitude of each raw pick-off's wave within the window, or up to 2 % more, squared.
+    /// The greatest amplitude of each raw pick-off's wave within the window, squared, or a little more.
     pub reach: [f32; 2],
     /// What the waves leave unexplained.
     pub remains: Remains,
@@ -73,7 +73,7 @@ impl Model {
             }
         }
         for (i, reach) in fit.reach.iter_mut().enumerate() {
-            // (|z| + |z′|)² is not more than that, whatever share of |z| the change is.
+            // (|z| + |z′|)² is not more than that: half a per cent of |z| more where nothing changes.
             *reach = 1.01 * parameters.z[i].norm_sqr() + 101.0 * parameters.slope[i].norm_sqr();
         }
     }

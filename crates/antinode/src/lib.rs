@@ -76,6 +76,7 @@ pub mod phase;
 pub mod regrid;
 
 mod calibration;
+mod double;
 mod estimate;
 mod front;
 mod identifier;

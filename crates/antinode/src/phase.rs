@@ -4,6 +4,8 @@ use core::f32::consts::TAU;
 
 use num_complex::Complex32;
 
+use crate::double::units;
+
 /// One turn, in units of [`Phase`].
 const TURN: f32 = 4_294_967_296.0;
 
@@ -97,15 +99,20 @@ impl PhaseStep {
         self.0 as f32 * (TAU / TURN)
     }
 
-    /// The frequency in Hz plus `offset` radians a sample, at full resolution; `unit` is that of a step of one in Hz: sample rate · 2⁻³².
+    /// The frequency in Hz plus `offset` radians a sample (within ±3), at full resolution; `unit` is sample rate · 2⁻⁶⁴, in Hz.
     pub fn hertz(self, offset: f32, unit: f64) -> f64 {
-        (f64::from(self.0) + f64::from(offset) * (4_294_967_296.0 / core::f64::consts::TAU)) * unit
+        // The offset in units of 2⁻²⁹ rad, of which each is 2³⁵/2π of 2⁻⁶⁴ turn, and what is beyond: no digit of it is lost.
+        let scaled = offset * 536_870_912.0;
+        let whole = scaled as i32;
+        let rest = ((scaled - whole as f32) * (2.0 * TURN / TAU)) as i32;
+        let offset = i64::from(whole) * 5_468_522_205 + (i64::from(rest) << 2);
+        units((i64::from(self.0) << 32) + offset, unit)
     }
 
     /// This step moved by `offset` radians a sample, to within half a unit and f32 rounding of the offset.
     pub fn shifted(self, offset: f32) -> Self {
-        let units = libm::roundf(offset * (TURN / TAU));
-        Self(self.0.wrapping_add(units as i32 as u32))
+        let steps = libm::roundf(offset * (TURN / TAU));
+        Self(self.0.wrapping_add(steps as i32 as u32))
     }
 
     /// The phase after `half_samples` halves of a sample (negative: before), counted from phase zero.
@@ -153,7 +160,7 @@ mod tests {
     #[test]
     fn a_shift_moves_the_frequency_and_hertz_keeps_its_digits() {
         let step = PhaseStep::from_period(18.75);
-        let unit = 1e5 / 4_294_967_296.0;
+        let unit = 1e5 / 18_446_744_073_709_551_616.0;
         for offset in [1e-3f32, -2.5e-4, 3e-9, -0.01] {
             let moved = step.shifted(offset).hertz(0.0, unit) - step.hertz(0.0, unit);
             let wanted = f64::from(offset) / core::f64::consts::TAU * 1e5;

@@ -8,6 +8,7 @@ use core::f32::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
 use num_complex::Complex32;
 
 use crate::arch::square_root;
+use crate::double::units;
 use crate::order::{greater, lesser};
 use crate::window::{Covariance, Fit, Model};
 
@@ -202,6 +203,10 @@ impl Angle {
 
     /// In radians.
     pub(crate) fn radians(self) -> f64 {
-        f64::from(self.quarters) * core::f64::consts::FRAC_PI_2 + f64::from(self.rest)
+        // In units of 2⁻³² quarter turn.
+        let rest = (self.rest * 2_147_483_648.0) as i32;
+        let rest = (i64::from(rest) * 2_734_261_102) >> 31;
+        let unit = core::f64::consts::FRAC_PI_2 / 4_294_967_296.0;
+        units((i64::from(self.quarters) << 32) + rest, unit)
     }
 }

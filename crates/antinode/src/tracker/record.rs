@@ -1,6 +1,7 @@
 //! One window as the tracker remembers it: values at its middle, rates a sample, variances.
 
 use crate::arch::square_root;
+use crate::double::{self, reciprocal, to_single};
 use crate::estimate::{Estimate, Flags};
 use crate::order::greater;
 use crate::phase::PhaseStep;
@@ -17,8 +18,8 @@ pub(crate) struct Units {
     pub sample_rate: f32,
     /// Half a sample, s.
     half_sample: f64,
-    /// A phase step of one, Hz.
-    step: f64,
+    /// 2⁻⁶⁴ turn a sample, Hz.
+    turn: f64,
 }
 
 impl Units {
@@ -26,17 +27,14 @@ impl Units {
     pub(crate) const NONE: Self = Self {
         sample_rate: 0.0,
         half_sample: 0.0,
-        step: 0.0,
+        turn: 0.0,
     };
 
     pub(crate) fn at(sample_rate: f64) -> Self {
-        // By Newton's steps, to within two units of the last place: a division in f64 is a kilobyte of code there.
-        let rough = f64::from(1.0 / sample_rate as f32);
-        let newton = |x: f64| x * (2.0 - sample_rate * x);
         Self {
-            sample_rate: sample_rate as f32,
-            half_sample: 0.5 * newton(newton(rough)),
-            step: sample_rate * (1.0 / 4_294_967_296.0),
+            sample_rate: to_single(sample_rate),
+            half_sample: 0.5 * reciprocal(sample_rate),
+            turn: sample_rate * (1.0 / 18_446_744_073_709_551_616.0),
         }
     }
 }
@@ -128,12 +126,12 @@ impl Record {
         Estimate {
             start: (self.middle + 1 - u64::from(self.samples)) / 2,
             samples: self.samples,
-            time: self.middle as f64 * units.half_sample,
+            time: double::units(self.middle as i64, units.half_sample),
             main_amplitude: self.main,
             quadrature_amplitude: self.quadrature,
             angle: self.angle.radians(),
             phase: self.phase,
-            frequency: self.carrier.hertz(self.drift, units.step),
+            frequency: self.carrier.hertz(self.drift, units.turn),
             angle_rate: self.turning * rate,
             decay_rate: -self.main_rate * share,
             offsets: self.offsets,

@@ -1,4 +1,4 @@
-//! The greater and the lesser of two numbers, in two instructions: `f32::max` is a call on a core without one.
+//! The greater, the lesser and the nearest whole number in a few instructions: those of the library are calls on a core without them.
 
 /// The greater; `b` where `a` is not a number.
 #[inline(always)]
@@ -10,4 +10,10 @@ pub(crate) fn greater(a: f32, b: f32) -> f32 {
 #[inline(always)]
 pub(crate) fn lesser(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
+}
+
+/// The nearest whole number of one within ±2³¹; of halves the one further from zero.
+#[inline(always)]
+pub(crate) fn nearest(x: f32) -> i32 {
+    (x + if x < 0.0 { -0.5 } else { 0.5 }) as i32
 }

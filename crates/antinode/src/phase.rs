@@ -5,6 +5,7 @@ use core::f32::consts::TAU;
 use num_complex::Complex32;
 
 use crate::double::units;
+use crate::order::nearest;
 
 /// One turn, in units of [`Phase`].
 const TURN: f32 = 4_294_967_296.0;
@@ -111,8 +112,8 @@ impl PhaseStep {
 
     /// This step moved by `offset` radians a sample, to within half a unit and f32 rounding of the offset.
     pub fn shifted(self, offset: f32) -> Self {
-        let steps = libm::roundf(offset * (TURN / TAU));
-        Self(self.0.wrapping_add(steps as i32 as u32))
+        let steps = nearest(offset * (TURN / TAU));
+        Self(self.0.wrapping_add(steps as u32))
     }
 
     /// The phase after `half_samples` halves of a sample (negative: before), counted from phase zero.

@@ -9,7 +9,7 @@ use num_complex::Complex32;
 
 use crate::arch::square_root;
 use crate::double::units;
-use crate::order::{greater, lesser};
+use crate::order::{greater, lesser, nearest};
 use crate::window::{Covariance, Fit, Model};
 
 /// The standing wave at the middle of a window, with its rates per half window, and variances for the fit's own noise.
@@ -54,11 +54,29 @@ struct Variances {
 }
 
 impl Variances {
-    /// Of the components along `plus` and along `minus`, from the variances of the real and the imaginary part of each raw pick-off's
-    /// phasor and the gains of [`Correction::noise_gains`](crate::calibration::Correction::noise_gains).
-    #[inline(never)]
-    fn along(plus: Complex32, minus: Complex32, parts: [f32; 2], [d, c_on_d]: [f32; 2]) -> Self {
-        let one = |x: Complex32, y: Complex32| parts[0] * x.re * y.re + parts[1] * x.im * y.im;
+    /// Variance of the sum of both, and of their difference.
+    fn sum_and_difference(&self) -> [f32; 2] {
+        let separate = self.plus + self.minus;
+        [separate + 2.0 * self.both, separate - 2.0 * self.both]
+    }
+
+    /// Of components so many times as large.
+    fn times(&self, [plus, minus]: [f32; 2]) -> Self {
+        Self {
+            plus: self.plus * plus * plus,
+            minus: self.minus * minus * minus,
+            both: self.both * plus * minus,
+        }
+    }
+}
+
+/// What the noise of the raw phasors' real parts, and of their imaginary parts, adds to the components of z₊ and z₋ along two
+/// directions: the variances for a variance of one.
+struct Shares([Variances; 2]);
+
+impl Shares {
+    /// The gains are those of [`Correction::noise_gains`](crate::calibration::Correction::noise_gains).
+    fn along(plus: Complex32, minus: Complex32, [d, c_on_d]: [f32; 2]) -> Self {
         // z₊ = z_C + j z_D and z₋ = z_C − j z_D: what a component sees of z_D, and of D and C in it.
         let (plus_d, minus_d) = (
             Complex32::new(plus.im, -plus.re),
@@ -66,17 +84,31 @@ impl Variances {
         );
         let (plus_c, minus_c) = (plus + plus_d * c_on_d, minus + minus_d * c_on_d);
         let (plus_d, minus_d) = (plus_d * d, minus_d * d);
-        Self {
-            plus: one(plus_c, plus_c) + one(plus_d, plus_d),
-            minus: one(minus_c, minus_c) + one(minus_d, minus_d),
-            both: one(plus_c, minus_c) + one(plus_d, minus_d),
+        let of = |part: fn(Complex32) -> f32| {
+            let [plus_c, minus_c] = [plus_c, minus_c].map(part);
+            let [plus_d, minus_d] = [plus_d, minus_d].map(part);
+            Variances {
+                plus: plus_c * plus_c + plus_d * plus_d,
+                minus: minus_c * minus_c + minus_d * minus_d,
+                both: plus_c * minus_c + plus_d * minus_d,
+            }
+        };
+        Self([of(|z| z.re), of(|z| z.im)])
+    }
+
+    /// For these variances of the real and of the imaginary parts.
+    fn of(&self, [real, imaginary]: [f32; 2]) -> Variances {
+        let [re, im] = &self.0;
+        Variances {
+            plus: real * re.plus + imaginary * im.plus,
+            minus: real * re.minus + imaginary * im.minus,
+            both: real * re.both + imaginary * im.both,
         }
     }
 
-    /// Variance of the sum of both, and of their difference.
-    fn sum_and_difference(&self) -> [f32; 2] {
-        let separate = self.plus + self.minus;
-        [separate + 2.0 * self.both, separate - 2.0 * self.both]
+    /// As [`Shares::of`], across the directions, where the parts change places.
+    fn across(&self, [real, imaginary]: [f32; 2]) -> Variances {
+        self.of([imaginary, real])
     }
 }
 
@@ -97,27 +129,23 @@ impl Standing {
             }
         };
         let (e_plus, e_minus) = (along(plus, p), along(minus, m));
-        // Where the phase of a wave moves: across it, and the more the smaller it is.
-        let across = |e: Complex32, size: f32| {
-            let size = greater(greater(size, 1e-12 * (p + m)), f32::MIN_POSITIVE);
-            Complex32::new(-e.im, e.re) * (1.0 / size)
-        };
-        // The component of a change along e or f: how the size and the phase of a wave move.
-        let turned = |change: Complex32, f: Complex32| change.re * f.re + change.im * f.im;
-        let (f_plus, f_minus) = (across(e_plus, p), across(e_minus, m));
-
-        let (plus_turn, minus_turn) = (turned(plus_change, f_plus), turned(minus_change, f_minus));
+        // The component of a change along a wave and across it: how its size and its phase move, the latter the more the smaller it is.
+        let grown = |change: Complex32, e: Complex32| change.re * e.re + change.im * e.im;
+        let turned = |change: Complex32, e: Complex32| change.im * e.re - change.re * e.im;
         let (plus_growth, minus_growth) =
-            (turned(plus_change, e_plus), turned(minus_change, e_minus));
+            (grown(plus_change, e_plus), grown(minus_change, e_minus));
+        let least = greater(1e-12 * (p + m), f32::MIN_POSITIVE);
+        let per_size = [p, m].map(|size| 1.0 / greater(size, least));
+        let plus_turn = turned(plus_change, e_plus) * per_size[0];
+        let minus_turn = turned(minus_change, e_minus) * per_size[1];
 
         let Covariance { even, odd } = &model.covariance;
         let levels = [noise * even[0][0], noise * odd[0][0]];
         let slopes = [noise * odd[1][1], noise * even[1][1]];
-        let gains = model.correction.noise_gains();
-        let size = Variances::along(e_plus, e_minus, levels, gains);
-        let growth = Variances::along(e_plus, e_minus, slopes, gains);
-        let phase = Variances::along(f_plus, f_minus, levels, gains);
-        let turn = Variances::along(f_plus, f_minus, slopes, gains);
+        let shares = Shares::along(e_plus, e_minus, model.correction.noise_gains());
+        let (size, growth) = (shares.of(levels), shares.of(slopes));
+        let phase = shares.across(levels).times(per_size);
+        let turn = shares.across(slopes).times(per_size);
         let [main, quadrature] = size.sum_and_difference();
         let [main_change, quadrature_change] = growth.sum_and_difference();
         let [common, apart] = phase.sum_and_difference();
@@ -150,8 +178,7 @@ impl Standing {
 
 /// Takes whole turns off an angle in radians: (−π, π].
 pub(crate) fn wrap(angle: f32) -> f32 {
-    let turns = libm::roundf(angle * (1.0 / TAU));
-    let rest = angle - turns * TAU;
+    let rest = angle - nearest(angle * (1.0 / TAU)) as f32 * TAU;
     if rest <= -PI { rest + TAU } else { rest }
 }
 
@@ -166,16 +193,16 @@ pub(crate) struct Angle {
 impl Angle {
     #[inline(never)]
     pub(crate) fn new(radians: f32) -> Self {
-        let quarters = libm::roundf(radians * FRAC_2_PI);
+        let quarters = nearest(radians * FRAC_2_PI);
         Self {
-            quarters: quarters as i32,
-            rest: radians - quarters * FRAC_PI_2,
+            quarters,
+            rest: radians - quarters as f32 * FRAC_PI_2,
         }
     }
 
     /// The value nearest to this one that equals `angle` modulo π/2, and by how many quarter turns it was moved.
     pub(crate) fn nearest(self, angle: f32) -> (Self, i32) {
-        let quarters = libm::roundf((self.rest - angle) * FRAC_2_PI) as i32;
+        let quarters = nearest((self.rest - angle) * FRAC_2_PI);
         let rest = angle + quarters as f32 * FRAC_PI_2;
         let moved = Angle::new(rest);
         (

@@ -193,11 +193,11 @@ fn limit(freedom: f32, other: f32) -> f32 {
 pub(crate) fn between(before: &Record, now: &Record) -> Flags {
     let passed = Passed::new(before, now);
     let phase = wrap(now.phase_advance(before));
-    let phase_deviation = passed.deviation(
+    let phase_variance = passed.variance(
         before.phase_variance + now.phase_variance,
         before.drift_variance + now.drift_variance,
     );
-    let jump = phase_deviation < 0.3 && beyond(phase, phase_deviation, PHASE_FLOOR);
+    let jump = phase_variance < 0.3 * 0.3 && beyond(phase, phase_variance, PHASE_FLOOR);
 
     let amplitude_floor = AMPLITUDE_FLOOR * before.main;
     let main = passed.change(
@@ -216,17 +216,17 @@ pub(crate) fn between(before: &Record, now: &Record) -> Flags {
     );
     let angle = beyond(
         now.angle.less(before.angle) - passed.promised([before.turning, now.turning]),
-        passed.deviation(
+        passed.variance(
             now.angle_variance + before.angle_variance,
             now.turning_variance + before.turning_variance,
         ),
         ANGLE_FLOOR,
     );
-    let offset_deviation = square_root(now.offset_variance + before.offset_variance);
+    let offset_variance = now.offset_variance + before.offset_variance;
     let offsets = (0..2).any(|i| {
         beyond(
             now.offsets[i] - before.offsets[i],
-            offset_deviation,
+            offset_variance,
             amplitude_floor,
         )
     });
@@ -270,9 +270,9 @@ impl Passed {
         0.5 * (rates[0] + rates[1]) * self.samples
     }
 
-    /// The deviation of a change from what is promised, from the variances of both levels and both rates.
-    fn deviation(&self, levels: f32, rates: f32) -> f32 {
-        square_root(levels + 0.25 * self.samples * self.samples * rates)
+    /// The variance of a change from what is promised, from those of both levels and both rates.
+    fn variance(&self, levels: f32, rates: f32) -> f32 {
+        levels + 0.25 * self.samples * self.samples * rates
     }
 
     /// Tests an amplitude and its rate: before and now, and the sums of their variances.
@@ -290,14 +290,14 @@ impl Passed {
         let beside = self.promised([self.factor * own[0], own[1]]);
         let step = beyond(
             values[1] - self.factor * values[0] - beside,
-            self.deviation(variance, rate_variance),
+            self.variance(variance, rate_variance),
             floor,
         );
         // A step within a window also looks like growth that the window before did not have.
         let bent = self.samples <= 4.0 * self.half
             && beyond(
                 self.half * (rates[1] - self.factor * rates[0]),
-                self.half * square_root(rate_variance),
+                self.half * self.half * rate_variance,
                 floor,
             );
         Flags::empty()
@@ -308,8 +308,9 @@ impl Passed {
 
 /// True where a step is more than chance and a floor explain, or no number.
 #[inline(never)]
-fn beyond(step: f32, deviation: f32, floor: f32) -> bool {
-    step.abs() > SIGMAS * deviation + floor || step.is_nan()
+fn beyond(step: f32, variance: f32, floor: f32) -> bool {
+    let rest = step.abs() - floor;
+    rest > 0.0 && rest * rest > SIGMAS * SIGMAS * variance || step.is_nan()
 }
 
 #[cfg(test)]

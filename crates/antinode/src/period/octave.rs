@@ -30,19 +30,8 @@ pub(super) struct Octave<S: Sample> {
     pub count: u16,
     /// D(T) over the frame so far.
     differences: Lags<S>,
-    /// D(1) of the last frame.
-    last: S::Square,
-    pace: Pace,
-}
-
-/// What an octave makes of the wave of its frame. As wide as the count: padding would be cleared apart, through a copy on the stack.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(u16)]
-enum Pace {
-    /// It may be the octave's own.
-    Own,
-    /// Too slow for this octave: only D(1) goes on.
-    Slow,
+    /// Power that halving took away in the last frame.
+    last: f32,
 }
 
 impl<S: Sample> Octave<S> {
@@ -52,16 +41,14 @@ impl<S: Sample> Octave<S> {
             frame: [Two::<S>::default(); FRAME / 2],
             count: 0,
             differences: Lags::<S>::default(),
-            last: S::Square::default(),
-            pace: Pace::Own,
+            last: 0.0,
         }
     }
 
     /// Forgets all samples.
     pub(super) fn restart(&mut self) {
         self.count = 0;
-        // What the frame before the first lost.
-        self.differences[0] = S::Square::default();
+        self.last = 0.0;
     }
 
     /// Keeps a sample; true when it is the second of two, which are to be taken into D(T) before the next comes.
@@ -81,19 +68,9 @@ impl<S: Sample> Octave<S> {
             .get(..usize::from(self.count) / 2)?
             .split_last()?;
         let [first, second] = two;
-        match before {
-            [.., [_, last]] if self.pace == Pace::Slow => {
-                let [sum, ..] = &mut self.differences;
-                S::add_difference(sum, first, *last);
-                S::add_difference(sum, second, first);
-            }
-            _ => {
-                if before.is_empty() {
-                    self.last = self.differences[0];
-                    self.pace = Pace::Own;
-                }
-                add_lags::<S>(&mut self.differences, two, before);
-            }
+        add_lags::<S>(&mut self.differences, two, before);
+        if usize::from(self.count) == FRAME {
+            self.last = self.lost_so_far();
         }
         Some(S::mean(first, second))
     }
@@ -101,20 +78,22 @@ impl<S: Sample> Octave<S> {
     /// Power that halving takes away: the mean square of half a difference of neighbours.
     #[inline(never)]
     pub(super) fn lost(&self) -> f32 {
-        let (sum, count) = if self.count >= 8 {
-            (self.differences[0], f32::from(self.count) - 1.0)
+        if self.count < 8 {
+            self.last
         } else {
-            (self.last, FRAME as f32 - 1.0)
-        };
-        0.25 * S::square_to_f32(sum) / count
+            self.lost_so_far()
+        }
+    }
+
+    #[inline(always)]
+    fn lost_so_far(&self) -> f32 {
+        0.25 * S::square_to_f32(self.differences[0]) / (f32::from(self.count) - 1.0)
     }
 
     /// True when enough samples are new to look at D(T), after an even count of them.
     #[inline(always)]
     pub(super) fn is_due(&self) -> bool {
-        self.pace == Pace::Own
-            && self.count >= LEAST
-            && (self.count <= OFTEN || self.count.is_multiple_of(4))
+        self.count >= LEAST && (self.count <= OFTEN || self.count.is_multiple_of(4))
     }
 
     /// The first minimum of D(T) after its first maximum, between samples, where the frame is long enough for it.
@@ -125,10 +104,12 @@ impl<S: Sample> Octave<S> {
             let sum = self.differences.get(lag - 1).copied();
             S::level(sum.unwrap_or_default(), shift, count - lag)
         };
-        // Of a wave beyond this octave D(1) is next to nothing: above a fourteenth of D(7) within it, below at 13 samples and more.
-        let sixteenth = S::halved(S::halved(S::halved(S::halved(level(7)))));
-        if level(1) < sixteenth {
-            self.pace = Pace::Slow;
+        // Of a wave that is too slow for this octave D(T) still rises at its fourth lag, and at its sixth is not yet below its third: of
+        // one that the next octave cannot hold, of less than 7.4 samples, D(6) is below 0.4 of D(3). The frame begins anew, for a
+        // wave that began late in it looks slow as well.
+        if level(4) > level(3) && level(6) > level(3) {
+            self.last = self.lost_so_far();
+            self.count = 0;
             return None;
         }
         // A minimum lies within 0.6 of its lag: beyond these the frame cannot hold enough of it.
@@ -182,8 +163,9 @@ fn add_lags<S: Sample>(sums: &mut Lags<S>, now: Two<S>, before: &[Two<S>]) {
     }
     // The next two lags begin here: no sum is cleared beforehand.
     if let Some(new) = twos.get_mut(before.len()) {
+        let oldest = before.first().map_or(first, |&[oldest, _]| oldest);
         *new = [S::Square::default(); 2];
-        S::add_difference(&mut new[0], second, last);
+        S::add_difference(&mut new[0], second, oldest);
     }
 }
 

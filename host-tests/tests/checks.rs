@@ -1,6 +1,6 @@
 //! Each check of a window by itself: a fault that hardly any other check would see.
 
-use antinode::{Estimate, Flags};
+use antinode::{Calibration, Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Loss, Wave};
 use host_tests::{Core, RATE, gyro, identify, windows};
 
@@ -389,5 +389,42 @@ fn a_pick_off_that_dies_is_told_whatever_its_gain() {
             after.len(),
             "gain {gain_ratio}"
         );
+    }
+}
+
+#[test]
+fn a_gain_that_is_corrected_neither_makes_a_harmonic_nor_hides_one() {
+    for (gain, cubic) in [(3.0, 0.0), (0.3, 0.0), (0.3, 0.03), (3.0, 0.03)] {
+        let (mut clipped, mut rows) = (0, 0);
+        for seed in 0..4 {
+            let (mut wave, _) = gyro(seed);
+            wave.angle = std::f64::consts::FRAC_PI_4;
+            let flaws = Flaws {
+                noise: if cubic == 0.0 { 0.1 } else { 5e-4 } * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let settings = Settings {
+                calibration: Calibration {
+                    gain_ratio: gain as f32,
+                    ..Calibration::IDEAL
+                },
+                ..windows(10)
+            };
+            let mut core = Core::new(settings).unwrap();
+            for pair in antinode_sim::Gyro::new(wave, flaws, RATE, seed)
+                .unwrap()
+                .take(100_000)
+            {
+                let share = pair.d / wave.main_amplitude;
+                let d = gain * (pair.d + cubic * wave.main_amplitude * share.powi(3));
+                if let Some(estimate) = core.push([pair.c as f32, d as f32]) {
+                    rows += 1;
+                    clipped += usize::from(estimate.flags.contains(Flags::CLIPPED));
+                }
+            }
+        }
+        println!("gain {gain}, cubic {cubic}: {clipped} of {rows} clipped");
+        let expected = if cubic == 0.0 { 0 } else { rows };
+        assert_eq!(clipped, expected, "gain {gain}, cubic {cubic}");
     }
 }

@@ -2,14 +2,12 @@
 //!
 //! Every threshold is a false-alarm rate below 10⁻⁹ a window for white noise, plus a floor under which a deviation is no fault.
 
-use num_complex::Complex32;
-
 use super::record::Record;
 use crate::arch::square_root;
 use crate::estimate::Flags;
 use crate::order::{greater, lesser};
 use crate::wave::{Standing, wrap};
-use crate::window::Fit;
+use crate::window::{Covariance, Fit, Model, Remains};
 
 /// Standard deviations of an innocent deviation.
 const SIGMAS: f32 = 7.0;
@@ -99,7 +97,13 @@ fn is_significant(wave: &Standing) -> bool {
 /// Tests of one window by itself and against the noise of those before.
 ///
 /// `coding` is the noise variance that the converter's steps may add.
-pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise) -> Flags {
+pub(crate) fn within(
+    model: &Model,
+    fit: &Fit,
+    wave: &Standing,
+    coding: f32,
+    noise: &mut Noise,
+) -> Flags {
     let remains = &fit.remains;
     let variance = remains.variance();
     let power = wave.main * wave.main;
@@ -140,16 +144,10 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
     let misfit = coloured || louder || outlier || stepped || !fit.settled;
     flags = flags.with_if(misfit, Flags::MISFIT);
 
-    let harmonic = remains.third.iter().map(Complex32::norm_sqr).sum::<f32>();
-    let harmonic_noise = greater(remains.third_noise, lesser(wide, noise.wide));
-    // What of a sample's noise is in an amplitude.
-    let share = wave.main_variance / greater(wave.noise, f32::MIN_POSITIVE);
-    let limit = SIGMAS * (square_root(1.2 * share * harmonic_noise) + square_root(share * coding))
-        + HARMONIC_FLOOR * wave.main;
-    flags = flags.with_if(
-        harmonic > limit * limit && remains.third_freedom >= 12.0,
-        Flags::CLIPPED,
-    );
+    let third_noise = greater(remains.third_noise, lesser(wide, noise.wide));
+    let harmonic =
+        remains.third_freedom >= 12.0 && has_harmonic(model, remains, wave, coding, third_noise);
+    flags = flags.with_if(harmonic, Flags::CLIPPED);
 
     let round =
         wave.lesser * wave.lesser < 36.0 * wave.lesser_variance || wave.lesser < 2e-3 * wave.main;
@@ -167,6 +165,32 @@ pub(crate) fn within(fit: &Fit, wave: &Standing, coding: f32, noise: &mut Noise)
         }
     }
     flags
+}
+
+/// True when a pick-off shows a third harmonic beyond its noise and beyond what electronics with its gain may have.
+fn has_harmonic(
+    model: &Model,
+    remains: &Remains,
+    wave: &Standing,
+    coding: f32,
+    noise: f32,
+) -> bool {
+    // Of a raw pick-off: what of a sample's noise is in an amplitude.
+    let Covariance { even, odd } = &model.covariance;
+    let share = greater(even[0][0], odd[0][0]);
+    let floor = HARMONIC_FLOOR * wave.main;
+    let [per_gain, _] = model.correction.noise_gains();
+    [floor, floor / per_gain]
+        .iter()
+        .zip(&remains.third)
+        .any(|(floor, third)| {
+            let square = third.norm_sqr();
+            square > floor * floor && {
+                let chance = square_root(1.2 * share * noise) + square_root(share * coding);
+                let limit = SIGMAS * chance + floor;
+                square > limit * limit
+            }
+        })
 }
 
 /// How many times a variance of `freedom` degrees may exceed another of `other` by chance, three times in 10¹⁰: Paulson's

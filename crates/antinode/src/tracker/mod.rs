@@ -203,7 +203,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let (angle, quarters) = expected.nearest(wave.angle);
         let phase = wrap(wave.phase + (quarters & 1) as f32 * core::f32::consts::PI);
 
-        let mut flags = checks::within(&fit, &wave, coding, &mut self.noise);
+        let mut flags = checks::within(model, &fit, &wave, coding, &mut self.noise);
         flags = flags.with(converter::sample_flags(
             &self.settings,
             self.gathered.blocks(),

@@ -13,6 +13,7 @@ mod seen;
 mod third;
 mod waves;
 
+pub(crate) use examine::Remains;
 pub(crate) use fit::{CARRIER_REACH, Fit, solve};
 pub(crate) use gathered::Gathered;
 pub(crate) use model::Model;

@@ -3,22 +3,65 @@
 use crate::arch::square_root;
 use crate::estimate::Flags;
 use crate::order::{greater, lesser};
+use crate::phase::PhaseStep;
 use crate::settings::Settings;
 use crate::wave::Standing;
-use crate::window::{Fit, Seen};
+use crate::window::{Fit, Model, Seen};
 
-/// What the converter's steps add to the noise variance a sample, in a window of `half` samples each side.
+/// What the converter's steps add to the noise variance a sample.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Coding {
+    pub expected: f32,
+    /// Where every period of the wave has the same few errors, of up to a third of a step.
+    pub most: f32,
+}
+
+impl Coding {
+    /// Errors that repeat with the wave do not average: one that visits Q distinct phases has Q errors of step²/12, not one a sample.
+    /// Noise breaks them up as exp(−4π²σ²/step²).
+    pub(super) fn new(settings: &Settings, noise: f32, model: &Model, fit: &Fit) -> Self {
+        let Some(step) = settings.resolution else {
+            return Self::default();
+        };
+        let square = step * step;
+        let own = square / 12.0;
+        // The steps' own noise does not break up anything.
+        let apart = greater(noise - own, 0.0);
+        let repeated = libm::expf(-39.5 * apart / square);
+        let white = greater(own - noise, 0.0);
+        let most = white + 0.09 * square * repeated * model.half;
+        let mut expected = white;
+        if repeated > 1e-3 {
+            let samples = 2.0 * model.half;
+            let amplitude = square_root(lesser(fit.reach[0], fit.reach[1]));
+            let frequency = model.carrier.shifted(fit.waves.drift() * model.per_half);
+            // A wave crosses so many codes in a period.
+            let phases = phases(frequency, samples, step / (4.0 * amplitude));
+            expected += own * repeated * (samples / phases - 1.0);
+        }
+        Self { expected, most }
+    }
+}
+
+/// How many phases further apart than `width` turns so many samples of a wave visit, at least 2.
 ///
-/// A quantised wave has errors of up to a third of a step that repeat with it; noise breaks them up as exp(−2π²σ²/step²).
-pub(super) fn coding(settings: &Settings, noise: f32, half: f32) -> f32 {
-    let Some(step) = settings.resolution else {
-        return 0.0;
-    };
-    let square = step * step;
-    // The steps' own noise does not break up anything.
-    let apart = greater(noise - square / 12.0, 0.0);
-    let repeated = 0.09 * square * libm::expf(-39.5 * apart / square);
-    greater(square / 12.0 - noise, 0.0) + repeated * half
+/// After as many samples as the denominator of a good fraction for the frequency they come back, but for what the fraction is off.
+#[inline(never)]
+fn phases(frequency: PhaseStep, samples: f32, width: f32) -> f32 {
+    let (mut far, mut near) = (0u32, frequency.0);
+    let (mut before, mut count) = (0u32, 1u32);
+    let mut least = lesser(samples, 1.0 / width);
+    while near > 0 && (count as f32) < least {
+        let slipped = samples * (near as f32 * (1.0 / 4_294_967_296.0)) / width;
+        // Half a wave has the errors of the other half.
+        let share = if count.is_multiple_of(2) { 0.5 } else { 1.0 };
+        least = lesser(least, share * (count as f32 + slipped));
+        // A step of Euclid's algorithm; a first `far` of zero is a whole turn.
+        let times = far.wrapping_sub(near) / near + 1;
+        (far, near) = (near, far.wrapping_sub(times.wrapping_mul(near)));
+        (before, count) = (count, count.saturating_mul(times).saturating_add(before));
+    }
+    greater(least, 2.0)
 }
 
 /// Deviations of the noise that a sample may lie beyond the wave: less than one in 10¹⁴ lies further.
@@ -106,5 +149,27 @@ impl Range {
             let rest = greater(above, below) - apart;
             rest > 0.0 && rest * rest > fit.reach[i]
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn phases_are_counted() {
+        let count = |period: f32, samples: u32, width: f32| {
+            phases(PhaseStep::from_period(period), samples as f32, width)
+        };
+        // 75 samples are four periods; the frequency is rounded to 24 bits. 20 are ten each side.
+        assert_eq!(count(20.0, 2000, 1e-3).round(), 10.0);
+        assert_eq!(count(18.75, 1875, 1e-3).round(), 75.0);
+        assert_eq!(count(18.75, 30, 1e-3), 30.0);
+        // No more than there is room for.
+        assert_eq!(count(18.72, 100_000, 0.01), 100.0);
+        // A little beyond 20 samples: 100 times 0.002 of 20 are 0.01 turn, two widths from each of ten.
+        let slipped = count(20.002, 2000, 5e-3);
+        assert!((slipped - 30.0).abs() < 0.1, "{slipped}");
+        assert_eq!(count(2.0, 1000, 0.9), 2.0);
     }
 }

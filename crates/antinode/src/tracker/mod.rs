@@ -15,6 +15,7 @@ use crate::settings::{MOST_BLOCKS, Settings, SettingsError};
 use crate::wave::{Angle, Standing, wrap};
 use crate::window::{CARRIER_REACH, Fit, Gathered, Model, solve};
 use checks::Noise;
+use converter::Coding;
 use record::{Record, Units};
 use trend::Trend;
 
@@ -183,8 +184,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         // Rounding of f32 sums is an error too, where there is no other, and part of it does not average.
         let size = fit.offsets[0].abs() + fit.offsets[1].abs() + square_root(fit.waves.power());
         let rounding = 1e-7 * size;
-        let coding = converter::coding(&self.settings, noise, half);
-        let errors = rounding * rounding * (1.0 + half) + coding;
+        let coding = Coding::new(&self.settings, noise, model, &fit);
+        let errors = rounding * rounding * (1.0 + half) + coding.expected;
         let wave = Standing::new(model, &fit, noise + errors);
         if self.before.is_none() && checks::is_no_wave(&fit, &wave, self.count, model.layout.length)
         {
@@ -203,7 +204,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let (angle, quarters) = expected.nearest(wave.angle);
         let phase = wrap(wave.phase + (quarters & 1) as f32 * core::f32::consts::PI);
 
-        let mut flags = checks::within(model, &fit, &wave, coding, &mut self.noise);
+        let mut flags = checks::within(model, &fit, &wave, coding.most, &mut self.noise);
         flags = flags.with(converter::sample_flags(
             &self.settings,
             self.gathered.blocks(),

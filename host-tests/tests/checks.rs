@@ -64,6 +64,39 @@ fn a_sample_lost_between_two_windows_is_flagged() {
 }
 
 #[test]
+fn a_loss_is_told_from_a_spike() {
+    let (mut losses, mut spikes) = (0, 0);
+    for seed in 0..40 {
+        let (wave, mut flaws) = gyro(seed);
+        flaws.noise = 2e-3 * wave.main_amplitude;
+        let at = 30_000 + 97 * seed;
+        flaws.lost = vec![Loss {
+            at,
+            count: 1 + seed % 3,
+        }];
+        let lost = identify(wave, &flaws, windows(10), 40_000, seed);
+        let spiked = changed(seed, 2e-3, 10, 40_000, |k, [c, d]| {
+            let spike = if k as u64 == at {
+                wave.main_amplitude
+            } else {
+                0.0
+            };
+            [c + spike, d + spike]
+        });
+        let jumps = |estimates: &[Estimate]| {
+            let jumps = estimates
+                .iter()
+                .filter(|e| e.flags.contains(Flags::PHASE_JUMP));
+            jumps.filter(|e| !e.flags.contains(Flags::MISFIT)).count()
+        };
+        losses += jumps(&lost);
+        spikes += jumps(&spiked);
+        assert!(spiked.iter().any(|e| e.flags.contains(Flags::MISFIT)));
+    }
+    assert_eq!((losses, spikes), (40, 0));
+}
+
+#[test]
 fn a_burst_of_noise_is_flagged() {
     for seed in 0..40 {
         let (wave, _) = gyro(seed);

@@ -69,7 +69,7 @@
 // No significant wave: nothing in the estimate is meant.
 #define ANTINODE_FLAG_LOST 2u
 
-// The phase does not continue that of the window before: samples are missing between or within them.
+// The phase does not continue that of the last window without a misfit: samples are missing between or within them.
 #define ANTINODE_FLAG_PHASE_JUMP 4u
 
 // Amplitude, angle or offset stepped between the window before and this one.

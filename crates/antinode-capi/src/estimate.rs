@@ -8,7 +8,7 @@ use antinode::Flags;
 pub const ANTINODE_FLAG_CLIPPED: u32 = 0x001_u32;
 /// No significant wave: nothing in the estimate is meant.
 pub const ANTINODE_FLAG_LOST: u32 = 0x002_u32;
-/// The phase does not continue that of the window before: samples are missing between or within them.
+/// The phase does not continue that of the last window without a misfit: samples are missing between or within them.
 pub const ANTINODE_FLAG_PHASE_JUMP: u32 = 0x004_u32;
 /// Amplitude, angle or offset stepped between the window before and this one.
 pub const ANTINODE_FLAG_STEP: u32 = 0x008_u32;

@@ -11,7 +11,7 @@ impl Flags {
     pub const CLIPPED: Self = Self(1);
     /// No significant wave: nothing in the row is meant.
     pub const LOST: Self = Self(1 << 1);
-    /// The phase is not continuous with the window before: samples are missing between or within them.
+    /// The phase does not continue that of the last window without a misfit: samples are missing between or within them.
     pub const PHASE_JUMP: Self = Self(1 << 2);
     /// Amplitude, angle or offset stepped between the window before and this one.
     pub const STEP: Self = Self(1 << 3);
@@ -62,6 +62,11 @@ impl Flags {
     /// Both sets together.
     pub const fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)
+    }
+
+    /// This set but for the flags of `other`.
+    pub const fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
     }
 
     /// This set, with `other` added when `condition` holds.
@@ -131,7 +136,8 @@ pub struct Estimate {
     pub angle_std: f32,
     /// Standard deviation of α, rad.
     pub phase_std: f32,
-    /// Standard deviation of f, Hz.
+    /// Standard deviation of f, Hz. In a wave's first window, which must take its pattern to stand still, it may be up to twice as much
+    /// where a wave with much quadrature turns.
     pub frequency_std: f32,
     /// Standard deviation of θ̇, rad/s.
     pub angle_rate_std: f32,

@@ -233,7 +233,13 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
         // A wave's first window takes its pattern to stand still, and so does one that cannot see it turn.
         if is_circular || self.before.is_none() || !self.trend.is_empty() {
+            let drift = record.drift;
             self.trend.take_turning_out(&mut record, &wave, model);
+            if self.before.is_none() && !is_circular {
+                // It may have turned by as much as it seems to.
+                let moved = record.drift - drift;
+                record.drift_variance += moved * moved;
+            }
         }
 
         if flags.contains(Flags::LOST) {
@@ -306,7 +312,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             // The next window is judged by itself: what lies between it and the last clean one is already flagged.
             self.trend.clear();
             if let Some(before) = &mut self.before {
-                before.phase_variance = f32::INFINITY;
+                // But for the phase, where a wave went on: it tells samples that are missing from a spike.
+                if flags.intersects(BROKEN.without(Flags::MISFIT)) {
+                    before.phase_variance = f32::INFINITY;
+                }
                 before.main_variance = f32::INFINITY;
                 before.quadrature_variance = f32::INFINITY;
                 before.main_rate_variance = f32::INFINITY;

@@ -145,6 +145,8 @@ enum
     ANTINODE_ERROR_SKEW = -19,
     // `pick_off_angle_rad` is not within +-0.3.
     ANTINODE_ERROR_PICK_OFF_ANGLE = -20,
+    // `hum` is neither 0 nor 1.
+    ANTINODE_ERROR_HUM = -21,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -194,8 +196,9 @@ typedef struct {
     uint32_t watch;
     // How the pick-offs differ from ideal ones. Default: not at all.
     antinode_calibration_t calibration;
-    // Not looked at: the struct ends at a multiple of eight bytes on every machine.
-    uint32_t reserved;
+    // 1 where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
+    // only moves an offset is neither noise nor a fault. 0, the default: not.
+    uint32_t hum;
 } antinode_settings_t;
 
 // The wave over one window, at the window's middle. Each `_std` is one standard deviation.

@@ -49,8 +49,9 @@ pub struct Settings {
     pub watch: u32,
     /// How the pick-offs differ from ideal ones. Default: not at all.
     pub calibration: Calibration,
-    /// Not looked at: the struct ends at a multiple of eight bytes on every machine.
-    pub reserved: u32,
+    /// 1 where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
+    /// only moves an offset is neither noise nor a fault. 0, the default: not.
+    pub hum: u32,
 }
 
 /// Settings with every default: windows of 10 periods that follow each other, ideal pick-offs, no known rails, everything watched.
@@ -74,7 +75,7 @@ pub extern "C" fn antinode_settings_default(sample_rate_hz: f64) -> Settings {
             skew_s: plain.calibration.skew,
             pick_off_angle_rad: plain.calibration.pick_off_angle,
         },
-        reserved: 0,
+        hum: u32::from(plain.hum),
     }
 }
 
@@ -109,15 +110,17 @@ impl Settings {
                 ANTINODE_DETECTION_MEAN_RETURN => core_crate::Detection::MeanReturn,
                 _ => return Err(Status::ErrorDetection),
             },
-            watch: match self.watch {
-                0 => false,
-                1 => true,
-                _ => return Err(Status::ErrorWatch),
-            },
+            watch: switched(self.watch).ok_or(Status::ErrorWatch)?,
+            hum: switched(self.hum).ok_or(Status::ErrorHum)?,
             calibration: self.calibration.into(),
             ..core_crate::Settings::new(self.sample_rate_hz)
         };
         settings.check(blocks)?;
         Ok(settings)
     }
+}
+
+/// False of 0, true of 1.
+fn switched(value: u32) -> Option<bool> {
+    (value < 2).then_some(value == 1)
 }

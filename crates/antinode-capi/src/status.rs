@@ -47,10 +47,12 @@ pub enum Status {
     ErrorSkew = -19,
     /// `pick_off_angle_rad` is not within ±0.3.
     ErrorPickOffAngle = -20,
+    /// `hum` is neither 0 nor 1.
+    ErrorHum = -21,
 }
 
 impl Status {
-    const ALL: [(Self, &'static CStr); 19] = [
+    const ALL: [(Self, &'static CStr); 20] = [
         (Self::Ok, c"done"),
         (Self::Ready, c"done: finished blocks wait to be solved"),
         (Self::Estimate, c"done: an estimate was written"),
@@ -103,6 +105,7 @@ impl Status {
             Self::ErrorPickOffAngle,
             c"pick_off_angle_rad must lie within +-0.3",
         ),
+        (Self::ErrorHum, c"hum must be 0 or 1"),
     ];
 }
 

@@ -97,6 +97,11 @@ pub struct Identify {
     /// How the period is found: where one way finds none, as a second tone may hide it, try the other.
     #[arg(long, value_enum, default_value_t = Detector::Difference)]
     pub detector: Detector,
+    /// The signals carry mains hum, or an offset that wanders: it is then neither taken for noise nor for a fault.
+    ///
+    /// Each block, of a period or two, gets an offset of its own. Windows need 5 periods for it, with --hop 10.
+    #[arg(long)]
+    pub hum: bool,
     /// The first window's angle is chosen within π/4 of this one, rad, within ±10000 [default: π/4, so that it lies in 0…π/2].
     #[arg(long, value_name = "RAD", value_parser = ranges::start_angle)]
     pub start_angle: Option<f32>,
@@ -210,6 +215,7 @@ impl Identify {
                 Detector::Difference => Detection::Difference,
                 Detector::MeanReturn => Detection::MeanReturn,
             },
+            hum: self.hum,
             calibration: Calibration {
                 gain_ratio: self.gain_ratio,
                 skew: seconds(self.skew_ns),

@@ -102,6 +102,7 @@ pub struct SettingsFields {
     #[serde(with = "detection")]
     detection: Detection,
     watch: bool,
+    hum: bool,
     #[serde(with = "CalibrationFields")]
     calibration: Calibration,
 }

@@ -41,6 +41,9 @@ pub struct Settings {
     /// True when the third harmonic and the extremes of the samples are watched: [`Flags::CLIPPED`](crate::Flags::CLIPPED) needs
     /// it, and other faults are found earlier with it. It about doubles the work at sample rate.
     pub watch: bool,
+    /// True where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
+    /// only moves an offset is neither noise nor a fault. Windows need 5 periods for it, with a hop 10; shorter ones do without.
+    pub hum: bool,
     /// How the pick-offs differ from ideal ones.
     pub calibration: Calibration,
 }
@@ -143,6 +146,7 @@ impl Settings {
             resolution: None,
             detection: Detection::Difference,
             watch: true,
+            hum: false,
             calibration: Calibration::IDEAL,
         }
     }

@@ -18,7 +18,7 @@ pub fn hello(hello: &Hello) -> String {
     let level = |name, value: Option<f32>| value.map_or(String::new(), |x| format!(", {name} {x}"));
     format!(
         "firmware {}, protocol {}, {}, {} Hz, window {} periods, {hop}, methods {}, gain ratio {}, skew {} ns, \
-         pick-off angle {} rad, start angle {} rad{}{}{}{}",
+         pick-off angle {} rad, start angle {} rad{}{}{}{}{}",
         hello.firmware,
         hello.protocol,
         source(*front_end),
@@ -38,6 +38,7 @@ pub fn hello(hello: &Hello) -> String {
             Detection::MeanReturn => ", detector mean-return",
         },
         if s.watch { "" } else { ", samples not watched" },
+        if s.hum { ", hum" } else { "" },
     )
 }
 

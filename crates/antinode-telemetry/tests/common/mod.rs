@@ -72,7 +72,7 @@ fn configuration() -> impl Strategy<Value = Configuration> {
     (
         (
             double(),
-            any::<(u16, Option<u16>, bool, bool, bool)>(),
+            any::<(u16, Option<u16>, bool, bool, bool, bool)>(),
             single(),
         ),
         proptest::option::of([single(), single()]),
@@ -81,7 +81,7 @@ fn configuration() -> impl Strategy<Value = Configuration> {
         front_end(),
     )
         .prop_map(|(plain, rails, resolution, calibration, front_end)| {
-            let (sample_rate, (periods, hop, detection, methods, watch), start_angle) = plain;
+            let (sample_rate, (periods, hop, detection, methods, watch, hum), start_angle) = plain;
             Configuration {
                 settings: Settings {
                     sample_rate,
@@ -96,6 +96,7 @@ fn configuration() -> impl Strategy<Value = Configuration> {
                         Detection::MeanReturn
                     },
                     watch,
+                    hum,
                     calibration,
                 },
                 front_end,

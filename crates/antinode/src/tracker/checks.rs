@@ -246,11 +246,10 @@ pub(crate) fn between(before: &Record, now: &Record) -> Flags {
         ),
         ANGLE_FLOOR,
     );
-    let offset_variance = now.offset_variance + before.offset_variance;
     let offsets = (0..2).any(|i| {
         beyond(
             now.offsets[i] - before.offsets[i],
-            offset_variance,
+            now.offset_variance[i] + before.offset_variance[i],
             amplitude_floor,
         )
     });

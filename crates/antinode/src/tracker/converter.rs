@@ -146,7 +146,8 @@ impl Range {
     fn is_beyond(&self, fit: &Fit, apart: f32) -> bool {
         (0..2).any(|i| {
             let (above, below) = (self.high[i] - fit.offsets[i], fit.offsets[i] - self.low[i]);
-            let rest = greater(above, below) - apart;
+            // Hum lies as far beyond again.
+            let rest = greater(above, below) - apart - 4.0 * square_root(fit.remains.wander[i]);
             rest > 0.0 && rest * rest > fit.reach[i]
         })
     }

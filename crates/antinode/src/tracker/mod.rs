@@ -164,6 +164,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.count,
             settings.calibration,
             self.units.sample_rate,
+            settings.hum,
         ));
         self.noise = Noise::default();
         self.trend.clear();
@@ -321,7 +322,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
                 before.main_rate_variance = f32::INFINITY;
                 before.quadrature_rate_variance = f32::INFINITY;
                 before.angle_variance = f32::INFINITY;
-                before.offset_variance = f32::INFINITY;
+                before.offset_variance = [f32::INFINITY; 2];
             }
             return;
         }

@@ -70,7 +70,8 @@ pub(crate) struct Record {
     pub channel_power: [f32; 2],
     pub channel_variance: [f32; 2],
     pub offsets: [f32; 2],
-    pub offset_variance: f32,
+    /// Of each, with what it wandered within the window.
+    pub offset_variance: [f32; 2],
 }
 
 impl Record {
@@ -113,8 +114,11 @@ impl Record {
             channel_power: fit.channel_power(),
             channel_variance: [variance, variance * (d * d + c_on_d * c_on_d)],
             offsets: fit.offsets,
-            // A short window knows its offset worse than the mean of its samples.
-            offset_variance: 2.0 * wave.noise * per_half,
+            // A short window knows its offset worse than the mean of its samples. Of hum the offset moves by 2.5 deviations of its wander.
+            offset_variance: fit
+                .remains
+                .wander
+                .map(|wander| 2.0 * wave.noise * per_half + 0.25 * wander),
         }
     }
 

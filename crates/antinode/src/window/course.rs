@@ -18,6 +18,8 @@ pub(super) struct Here {
     pub unit: Complex32,
     /// z₊ and z₋ there, turned with the carrier.
     pub waves: [Complex32; 2],
+    /// What a slope of the offset of each pick-off adds to its odd sum there.
+    pub slopes: [f32; 2],
     /// What both pick-offs leave beside the waves: the sum of the squares.
     pub power: f32,
     /// The squared sums, from the first block to this one, of what is left along z.
@@ -128,6 +130,7 @@ impl<'a> Course<'a> {
                 u,
                 unit,
                 waves: running,
+                slopes: [0.0; 2],
                 power: 0.0,
                 run: 0.0,
             };
@@ -204,7 +207,14 @@ mod tests {
             for _ in 0..1000 {
                 let carrier = PhaseStep::from_period(18.75 + 0.5 * random());
                 let layout = Layout::new::<f32>(carrier, length);
-                let model = Model::new(layout, carrier, CHUNK as u16, Calibration::IDEAL, 1e5);
+                let model = Model::new(
+                    layout,
+                    carrier,
+                    CHUNK as u16,
+                    Calibration::IDEAL,
+                    1e5,
+                    false,
+                );
                 let value = Complex32::new(random(), random());
                 let slope = Complex32::new(1e-3 * random(), 0.05 * random());
                 let waves = Waves {

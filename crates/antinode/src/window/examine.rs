@@ -4,6 +4,7 @@ use num_complex::Complex32;
 
 use super::course::{CHUNK, Course, Here};
 use super::gradient::Gradient;
+use super::hum::take_slopes;
 use super::model::Model;
 use super::prediction::{Mixing, Prediction};
 use super::response::Response;
@@ -15,10 +16,13 @@ use crate::order::greater;
 /// The residual of a fit, in several views. Squares are in input units squared.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Remains {
-    /// Sum of the squared whitened residuals: noise of variance σ² a sample leaves `freedom`·σ².
+    /// Sum of the squared whitened residuals: noise of variance σ² a sample leaves `freedom`·σ². What only moves an offset that a block
+    /// has to itself is not among them.
     pub residual: f32,
     pub freedom: f32,
-    /// The largest share of one block in `residual`: 6 degrees of freedom.
+    /// Mean square of what the blocks' own offsets are beyond that of the window, of each pick-off; 0 where they have none.
+    pub wander: [f32; 2],
+    /// The largest share of one block in `residual`: 6 degrees of freedom, or 4.
     pub worst_block: f32,
     /// The most that one step of both phasors between two blocks would take off `residual`: 4 degrees of freedom.
     pub step: f32,
@@ -52,13 +56,17 @@ pub(super) fn examine(
     let mut course = Course::new(model, waves);
     let mut views = Views::new(model.blocks);
     let mut gradients = [Gradient::default(); 2];
+    let mut wander = [0.0; 2];
     let mut here = [Here::default(); CHUNK];
     for chunk in blocks.chunks(CHUNK) {
         let here = here.get_mut(..chunk.len()).unwrap_or_default();
         course.next(here);
+        if model.shared == 0.0 {
+            take_slopes(model, &predictions, chunk, here);
+        }
         for (channel, prediction) in predictions.iter().enumerate() {
             let gradient = &mut gradients[channel];
-            rest(model, prediction, channel, chunk, here, gradient);
+            wander[channel] += rest(model, prediction, channel, chunk, here, gradient);
         }
         for here in &*here {
             views.take(here);
@@ -68,13 +76,16 @@ pub(super) fn examine(
         }
     }
     views.conclude(model, remains);
+    let per_sample = 0.5 * model.per_half * (1.0 - model.shared);
+    remains.wander = wander.map(|sum| sum * per_sample);
     if let Some(thirds) = thirds {
         thirds.conclude(remains, f32::from(model.layout.length));
     }
     gradients
 }
 
-/// Takes what one pick-off leaves of a run of blocks: one at a time, so that its constants stay in registers.
+/// Takes what one pick-off leaves of a run of blocks: one at a time, so that its constants stay in registers. Gives the squares of what
+/// it leaves of the means.
 #[inline(never)]
 fn rest(
     model: &Model,
@@ -83,16 +94,22 @@ fn rest(
     blocks: &[Seen],
     here: &mut [Here],
     gradient: &mut Gradient,
-) {
+) -> f32 {
     let (half, response, prediction) = (model.half, model.response, *prediction);
+    let shared = model.shared;
     let mut sums = *gradient;
+    let mut wander = 0.0;
     for (block, here) in blocks.iter().zip(here) {
-        let rest = prediction.rest(&block.whitened[channel & 1], here);
+        let mut rest = prediction.rest(&block.whitened[channel & 1], here);
+        rest.odd -= here.slopes[channel & 1];
         sums.take(&response, &rest, here.u * half, here.unit);
-        here.power += rest.mean * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
+        let mean = rest.mean * rest.mean;
+        wander += mean;
+        here.power += shared * mean + rest.even * rest.even + rest.odd * rest.odd;
         here.run += sums.level.norm_sqr();
     }
     *gradient = sums;
+    wander
 }
 
 /// The residual as a whole, by blocks, and as a step of the phasors between two blocks.
@@ -139,11 +156,11 @@ impl Views {
 
     fn conclude(&self, model: &Model, remains: &mut Remains) {
         let Response {
-            mean, even, odd, ..
+            known, even, odd, ..
         } = &model.response;
         // Mean weight of z in a block, over all phases of the carrier.
         let weight =
-            0.5 * (mean.level * mean.level + even.level * even.level + odd.level * odd.level);
+            0.5 * (known.level * known.level + even.level * even.level + odd.level * odd.level);
         remains.residual = self.residual;
         remains.freedom = model.freedom();
         remains.worst_block = self.worst_block;

@@ -57,7 +57,7 @@ impl Model {
         parameters.add(self, &gradient::of_sums(self, blocks));
         fit.waves.set(self, &parameters);
         fit.offsets = parameters.offset;
-        for _ in 0..STEPS {
+        for pass in 0..STEPS {
             fit.waves.take_course();
             let gradients = examine(self, blocks, &fit.waves, fit.offsets, &mut fit.remains);
             let step = parameters.add(self, &gradients);
@@ -68,7 +68,12 @@ impl Model {
             let explained = lesser(step.explained, fit.remains.residual);
             fit.remains.residual -= explained;
             let negligible = explained <= NEGLIGIBLE * fit.remains.variance();
-            if fit.settled && (negligible || step.moved <= SETTLED * SETTLED * step.size) {
+            // With offsets of their own the linear solution does not know what the waves put into the blocks' means.
+            let knows_offset = pass > 0 || self.shared > 0.0;
+            if fit.settled
+                && knows_offset
+                && (negligible || step.moved <= SETTLED * SETTLED * step.size)
+            {
                 break;
             }
         }

@@ -29,15 +29,15 @@ impl Gradient {
         unit: Complex32,
     ) {
         let Response {
-            mean, even, odd, ..
+            known, even, odd, ..
         } = response;
         let along = Complex32::new(
-            mean.level * sums.mean + even.level * sums.even,
+            known.level * sums.mean + even.level * sums.even,
             odd.level * sums.odd,
         );
         let across = Complex32::new(
             odd.slope * sums.odd,
-            mean.slope * sums.mean + even.slope * sums.even,
+            known.slope * sums.mean + even.slope * sums.even,
         );
         let back = unit.conj();
         self.level += along * back;

@@ -5,6 +5,7 @@ mod examine;
 mod fit;
 mod gathered;
 mod gradient;
+mod hum;
 mod model;
 mod normal;
 mod prediction;

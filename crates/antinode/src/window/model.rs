@@ -10,6 +10,9 @@ use crate::calibration::{Calibration, Correction};
 use crate::order::greater;
 use crate::phase::{Phase, PhaseStep};
 
+/// Periods of a block that can have an offset of its own: a little less than one, for it is a whole number of samples.
+const LEAST_PERIODS: f32 = 0.9;
+
 /// A window of blocks about a carrier, and what its samples would not change.
 #[derive(Debug, Clone)]
 pub(crate) struct Model {
@@ -19,6 +22,8 @@ pub(crate) struct Model {
     calibration: Calibration,
     sample_rate: f32,
     pub(super) basis: Basis,
+    /// 1 where the blocks of a window share an offset, 0 where each has its own.
+    pub(super) shared: f32,
     pub(super) response: Response,
     /// Half the window, in samples, and one over it.
     pub half: f32,
@@ -40,16 +45,21 @@ impl Model {
         blocks: u16,
         calibration: Calibration,
         sample_rate: f32,
+        hum: bool,
     ) -> Self {
         let basis = Basis::new(layout);
+        // It costs a block of a period or more next to nothing, and a shorter one what it knows of the wave.
+        let is_long = f32::from(layout.length) > LEAST_PERIODS * carrier.period();
+        let shared = if hum && is_long { 0.0 } else { 1.0 };
         let mut model = Self {
             layout,
             blocks,
             carrier,
             calibration,
             sample_rate,
-            response: Response::new(layout, &basis, carrier),
+            response: Response::new(layout, &basis, carrier, shared),
             basis,
+            shared,
             half: 0.0,
             per_half: 0.0,
             advance: 0.0,
@@ -66,7 +76,7 @@ impl Model {
     pub(crate) fn retune(&mut self, carrier: PhaseStep, blocks: u16) {
         if carrier != self.carrier {
             self.carrier = carrier;
-            self.response = Response::new(self.layout, &self.basis, carrier);
+            self.response = Response::new(self.layout, &self.basis, carrier, self.shared);
             self.correction = self
                 .calibration
                 .at(1.0 / carrier.period(), self.sample_rate);
@@ -79,10 +89,9 @@ impl Model {
 
     /// Degrees of freedom that the residual of both pick-offs has.
     pub(super) fn freedom(&self) -> f32 {
-        2.0 * greater(
-            f32::from(self.basis.rank) * f32::from(self.blocks) - PARAMETERS as f32,
-            0.5,
-        )
+        let rank = f32::from(self.basis.rank) - 1.0 + self.shared;
+        let parameters = PARAMETERS as f32 - 1.0 + self.shared;
+        2.0 * greater(rank * f32::from(self.blocks) - parameters, 0.5)
     }
 
     /// Blocks, twice, from the middle of the window to that of block `index`.
@@ -115,7 +124,7 @@ impl Model {
         let r = &self.response;
         let (l, k) = (r.odd.level * u, r.odd.slope * self.per_half);
         [
-            even(r.mean.level, r.mean.slope, r.offset),
+            even(r.known.level, r.known.slope, r.offset),
             even(r.even.level, r.even.slope, 0.0),
             [
                 [r.odd.level * s, l * c - k * s, 0.0],

@@ -103,11 +103,16 @@ impl Prediction {
         ]
     }
 
+    /// The mean alone, less what is predicted here.
+    pub(super) fn mean_rest(&self, seen: &Whitened, here: &Here) -> f32 {
+        seen.mean - self.offset - self.mean.of(here)
+    }
+
     /// The sums less what is predicted here.
     #[inline(always)]
     pub(super) fn rest(&self, seen: &Whitened, here: &Here) -> Whitened {
         Whitened {
-            mean: seen.mean - self.offset - self.mean.of(here),
+            mean: self.mean_rest(seen, here),
             even: seen.even - self.even.of(here),
             odd: seen.odd - self.odd.of(here),
         }

@@ -17,6 +17,8 @@ pub(crate) struct Basis {
     cosine: f32,
     cosine_mean: f32,
     sine: f32,
+    /// What a slope adds to the odd sum, of one from mean to mean of neighbouring blocks.
+    pub ramp: f32,
     /// One over the layout's scale.
     pub unit: f32,
     /// How many of the three a block resolves: 1 for a block of one sample, else 2 or 3.
@@ -43,6 +45,8 @@ pub(crate) struct Answer {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Response {
     pub mean: Answer,
+    /// What the mean says of the wave: nothing where each block has its own offset.
+    pub known: Answer,
     pub even: Answer,
     pub odd: Answer,
     /// What an offset of one adds to the mean: √length.
@@ -57,10 +61,12 @@ impl Basis {
         let n = f32::from(layout.length);
         let mut mean = Sum::default();
         let mut sine = Sum::default();
+        let mut slope = Sum::default();
         for k in 0..layout.length {
             let reference = layout.reference(k);
             mean.add(reference.cosine);
             sine.add(reference.sine * reference.sine);
+            slope.add(layout.twice_from_middle(k) as i32 as f32 * reference.sine);
         }
         let cosine_mean = mean.get() / n;
         let mut even = Sum::default();
@@ -78,11 +84,13 @@ impl Basis {
             }
         };
         let (cosine, sine) = (inverse(even.get()), inverse(sine.get()));
+        let one = 1.0 / square_root(n);
         Self {
-            one: 1.0 / square_root(n),
+            one,
             cosine,
             cosine_mean,
             sine,
+            ramp: 0.5 * slope.get() * sine * one / n,
             unit: 1.0 / layout.one(),
             rank: 1 + u8::from(cosine > 0.0) + u8::from(sine > 0.0),
         }
@@ -100,7 +108,7 @@ impl Basis {
 
 impl Response {
     /// The answers of blocks of `layout` to a wave at `carrier`.
-    pub(crate) fn new(layout: Layout, basis: &Basis, carrier: PhaseStep) -> Self {
+    pub(crate) fn new(layout: Layout, basis: &Basis, carrier: PhaseStep, shared: f32) -> Self {
         let mut sums = [[Sum::default(); 3]; 5];
         let mut third_offset = Sum::default();
         let unit = 1.0 / layout.one();
@@ -133,8 +141,14 @@ impl Response {
             slope: s[1].get(),
             curve: s[2].get(),
         };
+        let mean = answer(&sums[0]);
         Self {
-            mean: answer(&sums[0]),
+            mean,
+            known: Answer {
+                level: shared * mean.level,
+                slope: shared * mean.slope,
+                curve: shared * mean.curve,
+            },
             even: answer(&sums[1]),
             odd: answer(&sums[2]),
             offset: square_root(f32::from(layout.length)),

@@ -44,7 +44,9 @@ impl Parameters {
             self.offset[channel] += offset;
             step.moved += z.norm_sqr() + slope.norm_sqr();
             step.size += self.z[channel].norm_sqr();
-            step.explained += product(&of_even, &[level, across, offset])
+            // An offset that every block has to itself has no part in the residual.
+            let shared = offset * model.shared;
+            step.explained += product(&of_even, &[level, across, shared])
                 + product(&of_odd, &[beside, growth, 0.0]);
         }
         step

@@ -1,0 +1,130 @@
+//! Signals with mains hum: with the setting for it the bound is reached, faults are still told, and a ring-down is followed to its end.
+
+use antinode::{Estimate, Flags, Settings};
+use antinode_sim::{Flaws, Gyro, Loss, Wave, random_wave};
+use host_tests::score::{NAMES, Score};
+use host_tests::{Core, RATE, windows};
+
+/// Hum of 50 Hz on both pick-offs, of this amplitude, and a third of it at 150 Hz.
+fn hum(k: usize, size: f64) -> [f64; 2] {
+    let phase = std::f64::consts::TAU * 50.0 * k as f64 / RATE;
+    let tone = |phase: f64| size * (phase.sin() + (3.0 * phase).cos() / 3.0);
+    [tone(phase), 0.8 * tone(phase + 0.5)]
+}
+
+fn identified(
+    wave: Wave,
+    flaws: Flaws,
+    size: f64,
+    samples: usize,
+    settings: Settings,
+    seed: u64,
+) -> Vec<Estimate> {
+    let mut core = Core::new(settings).unwrap();
+    let pairs = Gyro::new(wave, flaws, RATE, seed).unwrap().take(samples);
+    let pairs = pairs.enumerate().map(|(k, pair)| {
+        let [c, d] = hum(k, size);
+        [(pair.c + c) as f32, (pair.d + d) as f32]
+    });
+    pairs.filter_map(|pair| core.push(pair)).collect()
+}
+
+fn settings(periods: u16, hum: bool) -> Settings {
+    Settings {
+        hum,
+        ..windows(periods)
+    }
+}
+
+#[test]
+fn the_bound_is_reached_in_hum() {
+    for size in [0.0, 1e-3, 0.01] {
+        for periods in [5, 10, 50] {
+            let (mut score, mut flagged, mut rows) = (Score::default(), 0, 0);
+            for seed in 0..40 {
+                let wave = random_wave(seed, 5332.0, 0.5);
+                let noise = 2e-4 * wave.main_amplitude;
+                let flaws = Flaws {
+                    noise,
+                    offset_c: 0.2,
+                    ..Flaws::default()
+                };
+                let size = size * wave.main_amplitude;
+                let samples = 1900 * usize::from(periods).max(10) / 10 * 4;
+                for estimate in
+                    identified(wave, flaws, size, samples, settings(periods, true), seed)
+                {
+                    score.add(&estimate, &wave, noise);
+                    rows += 1;
+                    flagged += usize::from(!estimate.flags.is_empty());
+                }
+            }
+            let (error, stated) = (score.error(), score.stated());
+            println!(
+                "hum of {size} a_A, {periods} periods: {rows} windows, rms error/bound {error:.3?}, stated/bound {stated:.3?}"
+            );
+            assert!(flagged * 1000 <= rows, "{flagged} of {rows} flagged");
+            for i in 0..4 {
+                assert!(error[i] < 1.15, "{} at {:.3}", NAMES[i], error[i]);
+                let ratio = stated[i] / error[i];
+                assert!((0.85..1.15).contains(&ratio), "{}: {ratio:.3}", NAMES[i]);
+            }
+        }
+    }
+}
+
+#[test]
+fn faults_are_told_in_hum() {
+    for seed in 0..20 {
+        let wave = Wave {
+            main_amplitude: 1.0,
+            ..random_wave(seed, 5332.0, 0.1)
+        };
+        let wave = Wave {
+            quadrature_amplitude: 0.05,
+            ..wave
+        };
+        let at = 30_000 + 97 * seed;
+        let flaws = Flaws {
+            noise: 1e-3,
+            lost: vec![Loss { at, count: 1 }],
+            ..Flaws::default()
+        };
+        let found = identified(wave, flaws, 0.01, 60_000, settings(10, true), seed);
+        let told = |e: &&Estimate| !e.flags.is_empty();
+        let near = |e: &&Estimate| e.start + 400 > at && e.start < at + 400;
+        assert!(found.iter().filter(near).any(|e| told(&e)), "seed {seed}");
+        assert!(found.iter().any(|e| e.flags.contains(Flags::PHASE_JUMP)));
+        assert!(
+            !found.iter().filter(|e| !near(e)).any(|e| told(&e)),
+            "seed {seed}"
+        );
+    }
+}
+
+#[test]
+fn a_ring_down_is_followed_under_its_hum() {
+    let wave = Wave {
+        main_amplitude: 0.9,
+        quadrature_amplitude: 0.01,
+        decay_rate: 1.0,
+        ..Wave::default()
+    };
+    let flaws = Flaws {
+        noise: 1e-4,
+        ..Flaws::default()
+    };
+    // At the end the hum is three times the wave.
+    let samples = 800_000;
+    let with = identified(wave, flaws.clone(), 1e-3, samples, settings(10, true), 1);
+    let without = identified(wave, flaws, 1e-3, samples, settings(10, false), 1);
+    let clean = |rows: &[Estimate]| rows.iter().filter(|e| e.flags.is_empty()).count();
+    println!(
+        "of {} windows {} are clean, {} without the setting",
+        samples / 190,
+        clean(&with),
+        clean(&without)
+    );
+    assert!(with.len() > 4100 && clean(&with) > 4100);
+    assert!(clean(&without) < 3500);
+}

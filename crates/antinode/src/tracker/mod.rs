@@ -344,8 +344,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             // It has neither an angle nor a phase of its own, and of its two waves one knows the frequency.
             before.drift = drift;
             before.angle = angle;
-            before.turning = 0.0;
-            before.turning_variance = 0.0;
+            (before.turning, before.turning_variance) = (0.0, 0.0);
+            (before.promised, before.promised_variance) = (0.0, 0.0);
             before.angle_variance = f32::INFINITY;
             before.phase_variance = f32::INFINITY;
         }

@@ -55,6 +55,9 @@ pub(crate) struct Record {
     pub angle_variance: f32,
     pub turning: f32,
     pub turning_variance: f32,
+    /// The same with what the angles of the windows before say.
+    pub promised: f32,
+    pub promised_variance: f32,
     /// α, paired with `angle`.
     pub phase: f32,
     pub phase_variance: f32,
@@ -101,6 +104,8 @@ impl Record {
             angle_variance: wave.angle_variance,
             turning: wave.turning * per_half,
             turning_variance: wave.turning_variance * squared,
+            promised: wave.turning * per_half,
+            promised_variance: wave.turning_variance * squared,
             phase,
             phase_variance: wave.phase_variance,
             main: wave.main,
@@ -156,9 +161,16 @@ impl Record {
     pub(crate) fn angle_at(&self, middle: u64, samples: u32) -> (Angle, bool) {
         let passed = 0.5 * middle.wrapping_sub(self.middle) as f32;
         let is_certain = passed < 1.5 * samples as f32
-            || self.turning_variance * passed * passed < UNKNOWN_TURN * UNKNOWN_TURN;
-        let turning = if is_certain { self.turning } else { 0.0 };
-        (self.angle.plus(turning * passed), is_certain)
+            || self.promised_variance * passed * passed < UNKNOWN_TURN * UNKNOWN_TURN;
+        // As much of the turning as stands out of its noise: in much of it a pattern that stands still would be promised a quarter turn.
+        let square = self.promised * self.promised;
+        let share = square / (square + self.promised_variance + f32::MIN_POSITIVE);
+        let turned = if is_certain {
+            share * self.promised * passed
+        } else {
+            0.0
+        };
+        (self.angle.plus(turned), is_certain)
     }
 
     /// True when pick-off `channel` shows no wave.

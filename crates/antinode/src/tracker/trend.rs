@@ -95,6 +95,11 @@ impl Trend {
         );
         let apart = record.turning - rate.value;
         let spread = record.turning_variance + rate.variance;
+        if rate.variance > 0.0 {
+            let share = record.turning_variance / spread;
+            record.promised -= share * apart;
+            record.promised_variance = share * rate.variance;
+        }
         if spread > 0.0 && apart * apart < 16.0 * spread {
             let (squared, per_half) = (model.half * model.half, model.per_half);
             let per_spread = 1.0 / (squared * spread);

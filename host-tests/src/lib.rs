@@ -72,3 +72,11 @@ pub fn gyro(seed: u64) -> (Wave, Flaws) {
         },
     )
 }
+
+/// The first `samples` pairs of a gyro, in f32.
+pub fn stream(wave: Wave, flaws: Flaws, samples: usize, seed: u64) -> Vec<[f32; 2]> {
+    let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
+    gyro.take(samples)
+        .map(|pair| [pair.c as f32, pair.d as f32])
+        .collect()
+}

@@ -26,7 +26,7 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     // What is wrong with the options is wrong for every file: it is said once, before any is opened.
     // The rate is not among them: it belongs to a recording.
     options
-        .settings(1.0, None)
+        .settings(1.0, None, None)
         .check(usize::from(MOST_PERIODS) + 2)?;
     let mut rows = Rows::new(
         BufWriter::new(io::stdout().lock()),
@@ -77,7 +77,7 @@ fn identify(
     if let Some(warning) = recording.warning() {
         eprintln!("warning: {warning}");
     }
-    let settings = options.settings(rate, recording.full_scale());
+    let settings = options.settings(rate, recording.full_scale(), recording.resolution());
     let mut core = Box::new(Core::new(settings)?);
     let mut history =
         (options.methods == Methods::All).then(|| History::new(settings.calibration, rate));

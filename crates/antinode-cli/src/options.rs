@@ -136,7 +136,9 @@ pub struct Identify {
     /// |sample| at which the converter is at its rail, above 0 [default: known for integers, none for others].
     #[arg(long, value_name = "LEVEL", value_parser = ranges::positive, help_heading = "Calibration")]
     pub full_scale: Option<f32>,
-    /// Step between two codes of the converter, above 0, in the unit of the samples [default: known for integers, none for others].
+    /// Step between two codes of the converter, above 0, in the unit of the samples [default: known for integers, told from the first samples of others].
+    ///
+    /// Text and floats have one where their first samples all lie on its multiples; of pipes, text with a time alone.
     #[arg(long, value_name = "STEP", value_parser = ranges::positive, help_heading = "Calibration")]
     pub resolution: Option<f32>,
 }
@@ -198,19 +200,20 @@ pub fn seconds(skew_ns: f32) -> f32 {
 }
 
 impl Identify {
-    /// The core's settings for a recording of this sample rate whose integers have this full scale.
-    pub fn settings(&self, sample_rate: f64, full_scale: Option<f32>) -> Settings {
-        // Integer full scale reads as 1: the largest code is a step below it.
-        let step = full_scale
-            .map(|largest| 1.0 - largest)
-            .filter(|&step| step > 0.0);
+    /// The core's settings for a recording of this sample rate, full scale and resolution.
+    pub fn settings(
+        &self,
+        sample_rate: f64,
+        full_scale: Option<f32>,
+        resolution: Option<f32>,
+    ) -> Settings {
         let plain = Settings::new(sample_rate);
         Settings {
             periods: self.periods,
             hop: self.hop,
             start_angle: self.start_angle.unwrap_or(plain.start_angle),
             rails: self.full_scale.or(full_scale).map(|full| [-full, full]),
-            resolution: self.resolution.or(step),
+            resolution: self.resolution.or(resolution),
             detection: match self.detector {
                 Detector::Difference => Detection::Difference,
                 Detector::MeanReturn => Detection::MeanReturn,

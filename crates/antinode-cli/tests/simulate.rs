@@ -201,3 +201,24 @@ fn integers_that_reach_the_rail_are_told() {
             .all(|row| row.text("flags").is_empty())
     );
 }
+
+#[test]
+fn steps_of_a_converter_are_no_rail_in_any_format() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // At the end the crests are a few codes high, and flat.
+    let options = "--seconds 12 --noise 2e-5 --decay-rate 0.7 --main-amplitude 0.9 --quadrature-amplitude 0.01";
+    simulate(here, &format!("-o a.wav {options}"));
+    simulate(here, &format!("-o a.csv {options}"));
+    let clean = |row: &Row| row.text("flags").is_empty();
+    let codes = rows(here, "a.wav");
+    assert!(codes.len() > 6000 && codes.iter().all(clean));
+    let text = rows(here, "a.csv");
+    assert_eq!(text.len(), codes.len());
+    for (text, codes) in text.iter().zip(&codes) {
+        assert_eq!(text.unnamed(), codes.unnamed());
+    }
+    // What is asked for goes before what is seen.
+    let given = rows(here, "a.csv --resolution 1e-9");
+    assert!(given.iter().any(|row| row.text("flags") == "clipped"));
+}

@@ -239,6 +239,10 @@ impl Source for Delimited {
         self.lines.bytes_read()
     }
 
+    fn ahead(&self) -> &[[f32; 2]] {
+        self.ahead.as_slice()
+    }
+
     fn not_finite_place(&self) -> Option<Place> {
         self.not_finite
     }

@@ -11,7 +11,9 @@ mod not_finite;
 mod npy;
 mod printed;
 mod raw;
+mod resolution;
 mod sample;
+mod source;
 mod text;
 mod time;
 mod units;
@@ -19,15 +21,15 @@ mod wav;
 mod write;
 
 use std::fs::{self, File};
-use std::io::{self, IsTerminal, Read};
+use std::io::{self, IsTerminal};
 use std::path::Path;
 
 pub use columns::Columns;
 use content::Content;
-use error::Place;
 pub use error::{Channel, InputError};
 use not_finite::NotFinite;
 pub use raw::RawFormat;
+use source::{Kind, Opened, Source, Stream};
 pub use write::{OutputError, RecordingWriter, WavSample, WholeFile};
 
 /// The capacity given to a buffer that has none: small enough to stay in the cache.
@@ -47,55 +49,16 @@ pub struct Recording {
     name: String,
     bytes_total: Option<u64>,
     opened: Opened,
+    /// Pairs read to tell the resolution, and not yet delivered.
+    head: std::vec::IntoIter<[f32; 2]>,
+    /// The step of text and floats.
+    step: Option<f32>,
     /// The pairs delivered.
     delivered: u64,
     not_finite: NotFinite,
     /// Met while there were still good pairs to deliver.
     fault: Option<InputError>,
     ended: bool,
-}
-
-/// Where the bytes come from.
-type Stream = Box<dyn Read + Send>;
-
-/// A format's way to deliver pairs.
-trait Source: Send {
-    /// Appends pairs until there are `capacity`; none at the end. Good pairs come before an error.
-    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), InputError>;
-
-    /// The bytes read so far, the header included.
-    fn bytes_read(&self) -> u64;
-
-    /// The line and column of the first sample that is not a finite number, where there are lines.
-    fn not_finite_place(&self) -> Option<Place> {
-        None
-    }
-}
-
-/// What is known of a stream beside its bytes.
-#[derive(Default)]
-struct Kind {
-    /// False for standard input.
-    is_named: bool,
-    /// In lower case.
-    extension: String,
-    /// Of a file.
-    length: Option<u64>,
-    /// The file once more, to be sought in.
-    again: Option<File>,
-}
-
-/// A source, and what its header tells.
-struct Opened {
-    source: Box<dyn Source>,
-    /// What it is, in words.
-    format: String,
-    sample_rate: Option<f64>,
-    /// The time of the first pair, s.
-    start: f64,
-    warning: Option<String>,
-    pairs: Option<u64>,
-    full_scale: Option<f32>,
 }
 
 impl Recording {
@@ -181,11 +144,32 @@ impl Recording {
             name,
             bytes_total,
             opened,
+            head: Vec::new().into_iter(),
+            step: None,
             delivered: 0,
             not_finite: NotFinite::default(),
             fault: None,
             ended: false,
         }
+        .with_step()
+    }
+
+    /// Tells the step of text and floats from their first samples.
+    fn with_step(mut self) -> Self {
+        if self.opened.full_scale.is_some() {
+            return self;
+        }
+        if self.bytes_total.is_some() {
+            let mut head = Vec::with_capacity(BLOCK_PAIRS);
+            self.fault = self.opened.source.fill(&mut head, BLOCK_PAIRS).err();
+
+            self.step = resolution::resolution(&head);
+            self.head = head.into_iter();
+        } else {
+            // A pipe must not wait, and what has come by now is chance, but for what its source needs.
+            self.step = resolution::resolution(self.opened.source.ahead());
+        }
+        self
     }
 
     /// The path, or "standard input".
@@ -235,6 +219,15 @@ impl Recording {
         self.opened.full_scale
     }
 
+    /// The step between two codes of the converter: of integers, and of text and floats that lie on one.
+    ///
+    /// A pipe tells it only where it is text with a time, of which many lines are read ahead.
+    pub fn resolution(&self) -> Option<f32> {
+        // Integer full scale reads as 1: the largest code is a step below it.
+        let of_integers = self.full_scale().map(|largest| 1.0 - largest);
+        of_integers.filter(|&step| step > 0.0).or(self.step)
+    }
+
     /// What is wrong with the samples read so far that are not finite numbers, if there are any.
     pub fn not_finite(&self) -> Option<InputError> {
         let first = self.not_finite.first?;
@@ -258,8 +251,9 @@ impl Recording {
         if buffer.capacity() == 0 {
             buffer.reserve_exact(BLOCK_PAIRS);
         }
+        let capacity = buffer.capacity();
+        buffer.extend(self.head.by_ref().take(capacity));
         if self.fault.is_none() && !self.ended {
-            let capacity = buffer.capacity();
             self.fault = self.opened.source.fill(buffer, capacity).err();
         }
         if buffer.is_empty() {

@@ -1,0 +1,154 @@
+//! The step between a converter's codes, found in samples that came as text or floats.
+
+/// Samples of a channel for each of its values, where these are few: a wave without noise repeats a few values too.
+const SAMPLES_A_VALUE: usize = 8;
+/// Values that are too few to tell a step.
+const FEWEST: usize = 8;
+/// As many values as these lie on a grid by chance less than once in 10³⁰ times.
+const MANY: usize = 64;
+/// How far the distance of two values may be from whole steps, in steps.
+const TOLERANCE: f64 = 0.125;
+/// Steps of fewer units in the last place of the largest sample are those of single precision itself.
+const LEAST_UNITS: f32 = 4.0;
+
+/// The step of which the samples of both channels are whole multiples, the greater one where they differ.
+///
+/// None for a continuous signal, however it was rounded: single precision's own steps are none of a converter.
+pub(super) fn resolution(pairs: &[[f32; 2]]) -> Option<f32> {
+    let steps = [0, 1].map(|channel| step(pairs.iter().map(|pair| pair[channel])));
+    steps.into_iter().flatten().reduce(f32::max)
+}
+
+/// The greatest step of which all distances between samples are whole multiples, within the rounding of the text.
+fn step(samples: impl Iterator<Item = f32>) -> Option<f32> {
+    let mut values: Vec<f32> = samples.filter(|sample| sample.is_finite()).collect();
+    let count = values.len();
+    values.sort_unstable_by(f32::total_cmp);
+    // Zeros of both signs are one.
+    values.dedup_by(|a, b| a == b);
+    if values.len() < FEWEST {
+        return None;
+    }
+    let largest = values[0].abs().max(values[values.len() - 1].abs());
+    let mut distances: Vec<(f64, f64)> = values
+        .windows(2)
+        .map(|pair| {
+            let [low, high] = [pair[0], pair[1]].map(f64::from);
+            let rounding = f64::from(f32::EPSILON) * low.abs().max(high.abs());
+            (high - low, rounding)
+        })
+        .collect();
+    distances.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    if distances[0].0 <= f64::from(LEAST_UNITS * f32::EPSILON * largest) {
+        return None;
+    }
+    // The short distances tell the step to a part of itself; all of them together tell it ever better.
+    let (mut length, mut steps) = (0.0, 0.0);
+    for &(distance, rounding) in &distances {
+        let step = if steps > 0.0 {
+            length / steps
+        } else {
+            distance
+        };
+        let whole = (distance / step).round();
+        if (distance - whole * step).abs() > TOLERANCE * step + rounding {
+            return None;
+        }
+        (length, steps) = (length + distance, steps + whole);
+    }
+    let is_filled = steps <= 2.0 * values.len() as f64 && count >= SAMPLES_A_VALUE * values.len();
+    (values.len() >= MANY || is_filled).then_some((length / steps) as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use antinode_sim::{Flaws, Gyro, Wave};
+
+    use super::*;
+
+    /// A wave in noise, each sample as `print` has it.
+    fn printed(main_amplitude: f64, noise: f64, print: impl Fn(f64) -> f32) -> Vec<[f32; 2]> {
+        let wave = Wave {
+            main_amplitude,
+            quadrature_amplitude: 0.01 * main_amplitude,
+            ..Wave::default()
+        };
+        let flaws = Flaws {
+            noise,
+            ..Flaws::default()
+        };
+        let gyro = Gyro::new(wave, flaws, 1e5, 1).expect("a valid gyro");
+        gyro.take(1 << 14)
+            .map(|pair| [print(pair.c), print(pair.d)])
+            .collect()
+    }
+
+    #[test]
+    fn the_steps_of_a_converter_are_found() {
+        let volts = 3.3 / 4096.0;
+        for (amplitude, step, decimals) in [
+            (0.9, 1.0 / 32_768.0, 17),
+            (0.9, 1.0 / 32_768.0, 6),
+            (0.9, 1.0 / 2_097_152.0, 17),
+            (6e-4, 1.0 / 32_768.0, 17),
+            (1.2, volts, 17),
+            (1.2, volts, 4),
+            (9000.0, 1.0, 0),
+            (12.0, 1.0, 0),
+        ] {
+            for (noise, offset) in [(0.0, 0.0), (0.3, 0.0), (3.0, 100.0)] {
+                let print = |value: f64| {
+                    let code = step * (value / step + offset).round();
+                    format!("{code:.decimals$}").parse().expect("a number")
+                };
+                let found = resolution(&printed(amplitude, noise * step, print));
+                let found = f64::from(found.unwrap_or(f32::NAN)) / step;
+                assert!(
+                    (found - 1.0).abs() < 1e-2,
+                    "{amplitude} {step} {decimals} {noise}: {found}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_continuous_signal_has_none() {
+        for noise in [0.0, 1e-6, 1e-3] {
+            assert_eq!(resolution(&printed(0.5, noise, |x| x as f32)), None);
+            let digits = |x: f64| format!("{x:.8e}").parse().expect("a number");
+            assert_eq!(resolution(&printed(0.5, noise, digits)), None);
+            let decimals = |x: f64| format!("{x:.9}").parse().expect("a number");
+            assert_eq!(resolution(&printed(0.5, noise, decimals)), None);
+            // What the text itself rounds to is a step too, and here too small to matter.
+            let coarse = |x: f64| format!("{x:.6}").parse().expect("a number");
+            let found = resolution(&printed(0.5, noise, coarse));
+            assert!(found.is_none_or(|step| step < 1.01e-6), "{found:?}");
+        }
+        // The same few values over and over, as a wave without noise has them.
+        for period in 4..200 {
+            for phase in 0..20 {
+                let sample = |k: usize| {
+                    (TAU * (k % period) as f64 / period as f64 + 0.1 * phase as f64).cos() as f32
+                };
+                let pairs: Vec<[f32; 2]> = (0..1 << 14).map(|k| [sample(k), 0.0]).collect();
+                assert_eq!(resolution(&pairs), None, "{period} {phase}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_and_what_stands_still_tell_nothing() {
+        assert_eq!(resolution(&[]), None);
+        assert_eq!(resolution(&[[1.0, f32::NAN]; 1000]), None);
+        let mut pairs = printed(0.5, 0.0, |x| (x * 64.0).round() as f32 / 64.0);
+        for (k, pair) in pairs.iter_mut().enumerate() {
+            pair[1] = 7.0;
+            if k % 1000 == 0 {
+                pair[0] = f32::INFINITY;
+            }
+        }
+        assert_eq!(resolution(&pairs), Some(1.0 / 64.0));
+    }
+}

@@ -1,0 +1,54 @@
+//! What every format of recordings is to be read by.
+
+use std::fs::File;
+use std::io::Read;
+
+use super::error::{InputError, Place};
+
+/// Where the bytes come from.
+pub(super) type Stream = Box<dyn Read + Send>;
+
+/// A format's way to deliver pairs.
+pub(super) trait Source: Send {
+    /// Appends pairs until there are `capacity`; none at the end. Good pairs come before an error.
+    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), InputError>;
+
+    /// The bytes read so far, the header included.
+    fn bytes_read(&self) -> u64;
+
+    /// Pairs that are read, and not yet delivered.
+    fn ahead(&self) -> &[[f32; 2]] {
+        &[]
+    }
+
+    /// The line and column of the first sample that is not a finite number, where there are lines.
+    fn not_finite_place(&self) -> Option<Place> {
+        None
+    }
+}
+
+/// What is known of a stream beside its bytes.
+#[derive(Default)]
+pub(super) struct Kind {
+    /// False for standard input.
+    pub is_named: bool,
+    /// In lower case.
+    pub extension: String,
+    /// Of a file.
+    pub length: Option<u64>,
+    /// The file once more, to be sought in.
+    pub again: Option<File>,
+}
+
+/// A source, and what its header tells.
+pub(super) struct Opened {
+    pub source: Box<dyn Source>,
+    /// What it is, in words.
+    pub format: String,
+    pub sample_rate: Option<f64>,
+    /// The time of the first pair, s.
+    pub start: f64,
+    pub warning: Option<String>,
+    pub pairs: Option<u64>,
+    pub full_scale: Option<f32>,
+}

@@ -138,6 +138,10 @@ fn identify(
     if is_watched && recording.pairs().is_none() {
         eprintln!("{name}: {} sample pairs", core.index());
     }
+    if let Some(warning) = recording.late_warning() {
+        rows.flush()?;
+        eprintln!("warning: {warning}");
+    }
     let failure = match fault {
         Some(error) => Some(error.into()),
         None if rows.count() > 0 => None,

@@ -69,6 +69,34 @@ fn single_precision_is_as_good() {
 }
 
 #[test]
+fn a_clock_that_warms_up_is_told_and_costs_no_row() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let steady = text(&WAVE.codes(400_000));
+    let expected = found(here, &steady, "");
+    // 3 ppm a second: 12 ppm in the end.
+    let text = timed("time,c,d\n", 400_000, |t| {
+        format!("{:.9}", t - 1.5e-6 * t * t)
+    });
+    fs::write(here.join("a.csv"), text).unwrap();
+    let run = run(here, "identify a.csv --output csv");
+    assert_eq!(run.code, 0, "{}", run.err);
+    let told = "warning: a.csv: in the time column the sample rate has gone slowly from 100000.";
+    assert!(
+        run.err.starts_with(told) && run.err.lines().count() == 1,
+        "{}",
+        run.err
+    );
+    assert!(run.err.contains(" s before that"), "{}", run.err);
+    let rows = Row::all(&run.out);
+    assert_eq!(rows.len(), expected.len());
+    for (row, expected) in rows.iter().zip(&expected) {
+        let off = row.number("time_s") / expected.number("time_s") - 1.0;
+        assert!(off.abs() < 2e-6, "{off}");
+    }
+}
+
+#[test]
 fn every_fault_of_the_time_names_the_way_around_it() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

@@ -243,6 +243,19 @@ impl Source for Delimited {
         self.ahead.as_slice()
     }
 
+    fn late_warning(&self) -> Option<String> {
+        let axis = self.axis.as_ref()?;
+        let (rate, late) = axis.drift()?;
+        let side = if late < 0.0 { "before" } else { "after" };
+        Some(format!(
+            "{}: in the time column the sample rate has gone slowly from {:.3} Hz to {rate:.3} Hz; times and frequencies of rows are by \
+             the first of them, and the last sample's own time is {:.1e} s {side} that: resample it to a constant rate where that matters",
+            self.file,
+            axis.rate(),
+            late.abs()
+        ))
+    }
+
     fn not_finite_place(&self) -> Option<Place> {
         self.not_finite
     }

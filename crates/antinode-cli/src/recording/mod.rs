@@ -197,6 +197,11 @@ impl Recording {
         self.opened.warning.as_deref()
     }
 
+    /// What is to be known once all is read.
+    pub fn late_warning(&self) -> Option<String> {
+        self.opened.source.late_warning()
+    }
+
     /// The number of pairs, where the format tells it: those that are there, if the header promises more.
     pub fn pairs(&self) -> Option<u64> {
         self.opened.pairs

@@ -21,6 +21,11 @@ pub(super) trait Source: Send {
         &[]
     }
 
+    /// What is to be known of the samples delivered, and could not be known before.
+    fn late_warning(&self) -> Option<String> {
+        None
+    }
+
     /// The line and column of the first sample that is not a finite number, where there are lines.
     fn not_finite_place(&self) -> Option<Place> {
         None

@@ -12,9 +12,17 @@ const COARSE: f64 = 0.25;
 /// How many lines the rate is averaged over before it is compared.
 const RATE_LINES: u64 = 1 << 16;
 
-/// A constant sample rate, and the last time that kept to it.
+/// A sample rate as steady as a clock, and the last time that kept to it.
 pub(super) struct TimeAxis {
+    /// The rate of the first lines, and its uncertainty as a step.
     rate: f64,
+    rate_uncertainty: f64,
+    start: f64,
+    /// The lines after the first.
+    count: u64,
+    /// The latest average of the rate that is no longer that of the first lines.
+    drifted: Option<f64>,
+    /// The step of the stretch before this one.
     step: f64,
     last: f64,
     /// The step between numbers printed near the last.
@@ -22,7 +30,7 @@ pub(super) struct TimeAxis {
     /// Where the current average of the rate begins.
     anchor: f64,
     lines: u64,
-    /// The uncertainty of `step` from the rounding of the first lines.
+    /// The uncertainty of `step` from the rounding of the first lines; a stretch's ends are rounded as those of the next.
     uncertainty: f64,
     /// Up to here, the rounding does no harm: the first steps are even in spite of it.
     harmless: f64,
@@ -56,6 +64,10 @@ impl TimeAxis {
         let rounding = printed.step(*start);
         Some(Self {
             rate,
+            rate_uncertainty: uncertainty,
+            start: *start,
+            count: 0,
+            drifted: None,
             step: 1.0 / rate,
             last: *start,
             rounding,
@@ -71,7 +83,7 @@ impl TimeAxis {
         })
     }
 
-    /// The sample rate in Hz.
+    /// The sample rate of the first lines in Hz.
     pub fn rate(&self) -> f64 {
         self.rate
     }
@@ -79,6 +91,13 @@ impl TimeAxis {
     /// True where time goes up by one whole second a line, as an index does.
     pub fn is_like_index(&self, printed: Printed) -> bool {
         self.rate == 1.0 && printed.is_whole()
+    }
+
+    /// The rate that the recording came to, where it is no longer that of the first lines, and how much later, s, its last line is than
+    /// by that.
+    pub fn drift(&self) -> Option<(f64, f64)> {
+        let late = self.last - self.start - self.count as f64 / self.rate;
+        self.drifted.map(|rate| (rate, late))
     }
 
     /// Takes the next line, or says how it breaks the rate.
@@ -93,17 +112,27 @@ impl TimeAxis {
         self.last = now;
         self.rounding = printed;
         self.lines += 1;
+        self.count += 1;
         if self.lines < RATE_LINES {
             return Ok(());
         }
         let length = now - self.anchor;
         let lines = self.lines as f64;
         // A few ppm of drift are the clock's; half a sample in this many is not.
-        let allowed = (0.5 + 2.0 * rounding) * self.step + 2.0 * lines * self.uncertainty;
-        if (length - lines * self.step).abs() > allowed {
-            let (from, to) = (self.rate, lines / length);
+        let is_off = |step: f64, uncertainty: f64| {
+            let allowed = (0.5 + 2.0 * rounding) * step + 2.0 * lines * uncertainty;
+            (length - lines * step).abs() > allowed
+        };
+        if is_off(self.step, self.uncertainty) {
+            let (from, to) = (1.0 / self.step, lines / length);
             return Err(TimeFault::Drift { from, to });
         }
+        if is_off(1.0 / self.rate, self.rate_uncertainty) {
+            self.drifted = Some(lines / length);
+        }
+        // A clock that warms up goes far in the end, but never at once.
+        self.step = length / lines;
+        self.uncertainty = 0.0;
         self.anchor = now;
         self.lines = 0;
         Ok(())

@@ -2,8 +2,13 @@
 
 use super::*;
 
-/// Reads times as they are printed, the first `head` of them ahead.
+/// The rate of times as they are printed, the first `head` of them read ahead.
 fn run(times: &[String], head: usize) -> Result<Option<f64>, (usize, String)> {
+    axis(times, head).map(|axis| Some(axis.rate()))
+}
+
+/// What is left when all of them are read.
+fn axis(times: &[String], head: usize) -> Result<TimeAxis, (usize, String)> {
     let mut printed = Printed::default();
     let mut first = Vec::new();
     for text in &times[..head.min(times.len())] {
@@ -21,7 +26,7 @@ fn run(times: &[String], head: usize) -> Result<Option<f64>, (usize, String)> {
         axis.check(time, printed)
             .map_err(|fault| (index, fault.to_string()))?;
     }
-    Ok(Some(axis.rate()))
+    Ok(axis)
 }
 
 fn times(count: usize, rate: f64, start: f64, print: impl Fn(f64) -> String) -> Vec<String> {
@@ -202,6 +207,43 @@ fn a_rate_that_creeps_away_is_named() {
         .map(|k| format!("{:.12}", k * 1e-5 * (1.0 + 1e-12 * k)))
         .collect();
     assert!(run(&text, HEAD).is_ok());
+}
+
+#[test]
+fn a_slow_drift_is_followed_and_told() {
+    // Parts of the rate by which it grows from line to line.
+    let times = |growth: f64, count: usize| -> Vec<String> {
+        let time = |k: f64| 7.0 + k * 1e-5 * (1.0 - 0.5 * growth * k);
+        (0..count)
+            .map(|k| format!("{:.9}", time(k as f64)))
+            .collect()
+    };
+    for (growth, count) in [(1e-11, 1_000_000), (-3e-11, 1_500_000)] {
+        let mut text = times(growth, count);
+        let axis = axis(&text, HEAD).unwrap();
+        let (rate, late) = axis.drift().expect("a drift");
+        // The mean rate of the first lines is that of their middle.
+        let lines = count as f64;
+        let rate_off = growth * 1e5 * lines;
+        let late_off = -1e-5 * growth * lines * (0.5 * lines - 0.5 * HEAD as f64);
+        assert!(
+            (rate - 1e5 - rate_off).abs() < 0.12 * rate_off.abs(),
+            "{rate}"
+        );
+        assert!((late / late_off - 1.0).abs() < 0.01, "{late} {late_off}");
+        // What is lost or doubled shows all the same.
+        let doubled = text[count - 1000].clone();
+        text.insert(count - 1000, doubled);
+        assert_eq!(run(&text, HEAD).unwrap_err().0, count - 999);
+        text.drain(count - 1000..count - 998);
+        let (index, fault) = run(&text, HEAD).unwrap_err();
+        assert!(
+            index == count - 1000 && fault.starts_with("1 sample is lost"),
+            "{index} {fault}"
+        );
+    }
+    let steady = axis(&times(1e-12, 300_000), HEAD).unwrap();
+    assert_eq!(steady.drift(), None);
 }
 
 #[test]

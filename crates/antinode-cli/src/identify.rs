@@ -61,6 +61,7 @@ fn identify(
     let open = OpenOptions {
         raw: options.raw.map(Into::into),
         columns: options.columns.clone(),
+        rate: options.rate,
     };
     let mut recording = Recording::open(path, &open)?;
     let name = recording.name().to_owned();

@@ -40,7 +40,7 @@ pub enum Command {
     /// Identifies the wave in recordings, one row a window.
     ///
     /// A row's time is that of the window's middle, from the first sample on; where the recording has a time column, that column's
-    /// first value is added.
+    /// first value is added, unless it goes up by 1 a line and --rate makes it an index.
     Identify(Box<Identify>),
     /// Writes a simulated recording, and the truth beside it as JSON.
     Simulate(Box<super::simulate::Simulate>),

@@ -132,17 +132,57 @@ fn every_fault_of_the_time_names_the_way_around_it() {
     }
 }
 
+/// The one warning of a run that succeeds, and its rows.
+fn warned(directory: &Path, arguments: &str) -> (String, Vec<Row>) {
+    let run = run(
+        directory,
+        &format!("identify a.csv --output csv {arguments}"),
+    );
+    assert_eq!((run.code, run.err.lines().count()), (0, 1), "{}", run.err);
+    (run.err, Row::all(&run.out))
+}
+
 #[test]
 fn an_index_is_warned_of() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    let text = timed("zeit,c,d\n", 5000, |t| format!("{:.0}", 1e5 * t));
-    fs::write(here.join("a.csv"), text).unwrap();
-    let run = run(here, "identify a.csv --output csv");
-    assert_eq!(run.code, 0);
+    let expected = found(here, &text(&WAVE.codes(5000)), "");
+    let index = |t: f64| format!("{:.0}", 1e5 * t + 500_000.0);
+    fs::write(here.join("a.csv"), timed("zeit,c,d\n", 5000, index)).unwrap();
+    let (told, _) = warned(here, "");
+    assert!(told.starts_with("warning: a.csv: the time column goes up by 1 a line"));
+    assert!(told.ends_with("with --columns 2,3 --rate HZ\n"), "{told}");
+    // A rate makes it an index, whose start is no time.
+    let (told, rows) = warned(here, "--rate 1e5");
     assert!(
-        run.err
-            .starts_with("warning: a.csv: the time column goes up by 1 a line")
+        told.contains("taken for an index") && told.contains("from the first sample on"),
+        "{told}"
     );
-    assert!(run.err.ends_with("with --columns 2,3 --rate HZ\n") && run.err.lines().count() == 1);
+    same(&rows, &expected, 0.0);
+    // And the rate of seconds leaves it seconds.
+    let seconds = common::rows(here, "a.csv --rate 1");
+    assert!(seconds[0].number("time_s") > 500_000.0);
+}
+
+#[test]
+fn times_that_contradict_the_rate_are_warned_of() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = found(here, &text(&WAVE.codes(5000)), "");
+    let (told, rows) = warned(here, "--rate 100200");
+    let both = "by the time column the sample rate is 100000 Hz, but --rate makes it 100200 Hz";
+    assert!(
+        told.contains(both) && told.ends_with("--columns 2,3 --rate HZ\n"),
+        "{told}"
+    );
+    assert_eq!(rows.len(), expected.len());
+    same(&common::rows(here, "a.csv --rate 1e5"), &expected, 0.0);
+    assert_eq!(
+        common::rows(here, "a.csv --rate 100050").len(),
+        expected.len()
+    );
+    assert_eq!(
+        common::rows(here, "a.csv --columns 2,3 --rate 100200").len(),
+        expected.len()
+    );
 }

@@ -6,8 +6,8 @@ use super::header::{Header, lossy};
 use super::lines::Lines;
 use super::printed::Printed;
 use super::text::number;
-use super::time::{TimeAxis, standstill};
-use super::{Opened, Source, Stream};
+use super::time::{Meaning, TimeAxis, standstill};
+use super::{OpenOptions, Opened, Source, Stream};
 
 /// The lines read ahead to tell the sample rate, whose times are rounded as they are printed.
 const HEAD_LINES: usize = 1 << 16;
@@ -15,14 +15,14 @@ const HEAD_LINES: usize = 1 << 16;
 /// As much of a bad field as an error shows.
 const SHOWN_LETTERS: usize = 40;
 
-/// Opens text; `chosen` are the columns the user asks for, and a `live` stream is handed over as it comes.
+/// Opens text; a `live` stream is handed over as it comes.
 pub(super) fn open(
     file: &str,
     stream: Stream,
-    chosen: Option<&Columns>,
+    options: &OpenOptions,
     live: bool,
 ) -> Result<Opened, InputError> {
-    let mut source = Delimited::open(file, stream, chosen)?;
+    let mut source = Delimited::open(file, stream, options.columns.as_ref())?;
     source.live = live;
     source.read_ahead();
     if source.ahead.len() == 0 {
@@ -31,11 +31,18 @@ pub(super) fn open(
         };
         return Err(source.fault.take().unwrap_or(none));
     }
+    let meaning = source
+        .axis
+        .as_ref()
+        .map(|axis| axis.meaning(source.printed, options.rate));
+    if meaning == Some(Meaning::Index) {
+        source.start = 0.0;
+    }
     Ok(Opened {
         format: "CSV".to_owned(),
         sample_rate: source.axis.as_ref().map(TimeAxis::rate),
         start: source.start,
-        warning: source.warning(),
+        warning: meaning.and_then(|meaning| source.warning(meaning)),
         source: Box::new(source),
         pairs: None,
         full_scale: None,
@@ -117,16 +124,24 @@ impl Delimited {
     }
 
     /// What is understood, but hardly meant.
-    fn warning(&self) -> Option<String> {
-        let axis = self.axis.as_ref()?;
-        axis.is_like_index(self.printed).then(|| {
-            format!(
-                "{}: the time column goes up by 1 a line, and is read as seconds; if it is an index, ignore it \
-                 with {COLUMNS_OPTION} {} {RATE_OPTION} HZ",
-                self.file,
-                self.header.samples()
-            )
-        })
+    fn warning(&self, meaning: Meaning) -> Option<String> {
+        let samples = self.header.samples();
+        let ignored = format!("ignore it with {COLUMNS_OPTION} {samples} {RATE_OPTION} HZ");
+        let told = match meaning {
+            Meaning::Time => return None,
+            Meaning::PerhapsIndex => format!(
+                "the time column goes up by 1 a line, and is read as seconds; if it is an index, {ignored}"
+            ),
+            Meaning::Index => format!(
+                "the time column goes up by 1 a line, and is taken for an index because of {RATE_OPTION}: times of rows \
+                 are from the first sample on; if it is seconds, leave {RATE_OPTION} out"
+            ),
+            Meaning::OtherRate { own, asked } => format!(
+                "by the time column the sample rate is {own} Hz, but {RATE_OPTION} makes it {asked} Hz, and goes before; \
+                 leave {RATE_OPTION} out, or if the column is wrong, {ignored}"
+            ),
+        };
+        Some(format!("{}: {told}", self.file))
     }
 
     fn row(&mut self) -> Result<Option<Row>, InputError> {

@@ -42,6 +42,8 @@ pub struct OpenOptions {
     pub raw: Option<RawFormat>,
     /// The columns of a text recording; by default, they are told from the header or their number.
     pub columns: Option<Columns>,
+    /// The sample rate that goes before the recording's own, Hz.
+    pub rate: Option<f64>,
 }
 
 /// A recording of S_C and S_D, read once from its beginning to its end in constant memory.
@@ -111,9 +113,9 @@ impl Recording {
         kind: Kind,
         options: &OpenOptions,
     ) -> Result<Opened, InputError> {
-        let (columns, length) = (options.columns.as_ref(), kind.length);
+        let length = kind.length;
         let is_text = matches!(kind.extension.as_str(), "csv" | "tsv" | "txt")
-            || columns.is_some() && options.raw.is_none();
+            || options.columns.is_some() && options.raw.is_none();
         let (content, stream) = Content::look(stream, !is_text && options.raw.is_none())
             .map_err(|fault| InputError::io(name, fault))?;
         let file = name.to_owned();
@@ -131,7 +133,7 @@ impl Recording {
             }),
             (Content::Utf16, ..) if is_text => Err(InputError::Utf16 { file }),
             _ if is_text || content == Content::Text => {
-                delimited::open(name, stream, columns, length.is_none())
+                delimited::open(name, stream, options, length.is_none())
             }
             (_, _, Some(format)) => Ok(raw::open(name, stream, format, length)),
             _ if kind.is_named => Err(InputError::Unknown { file }),
@@ -187,7 +189,7 @@ impl Recording {
         self.opened.sample_rate
     }
 
-    /// The time of the first pair in the recording's own time column, s; 0 where there is none.
+    /// The time of the first pair in the recording's own time column, s; 0 where there is none, or an index.
     pub fn start(&self) -> f64 {
         self.opened.start
     }

@@ -195,7 +195,10 @@ fn a_raw_file_is_read_in_the_format_given() {
 #[test]
 fn a_stream_needs_a_format_unless_it_is_a_file() {
     let open = |bytes: &[u8], raw| {
-        let options = OpenOptions { raw, columns: None };
+        let options = OpenOptions {
+            raw,
+            ..OpenOptions::default()
+        };
         let stream = Box::new(Cursor::new(bytes.to_vec()));
         Recording::stream("standard input", stream, Kind::default(), &options)
             .map(|opened| opened.full_scale)
@@ -264,7 +267,7 @@ proptest! {
         rest in prop_oneof![proptest::collection::vec(any::<u8>(), 0..300), text()],
     ) {
         bytes.extend_from_slice(&rest);
-        let options = OpenOptions { raw: Some(RawFormat::F32), columns: None };
+        let options = OpenOptions { raw: Some(RawFormat::F32), ..OpenOptions::default() };
         let (pairs, fault) = read_with(name, &bytes, &options);
         prop_assert!(fault.is_some() || !pairs.is_empty());
     }

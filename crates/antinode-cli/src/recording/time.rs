@@ -12,6 +12,22 @@ const COARSE: f64 = 0.25;
 /// How many lines the rate is averaged over before it is compared.
 const RATE_LINES: u64 = 1 << 16;
 
+/// Rates that differ by no more than this are the same one.
+const SAME_RATE: f64 = 1e-3;
+
+/// What a time column is, beside the rate that was asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Meaning {
+    /// The samples' times.
+    Time,
+    /// Seconds, or the numbers of the lines.
+    PerhapsIndex,
+    /// The numbers of the lines.
+    Index,
+    /// Times of another rate.
+    OtherRate { own: f64, asked: f64 },
+}
+
 /// A sample rate as steady as a clock, and the last time that kept to it.
 pub(super) struct TimeAxis {
     /// The rate of the first lines, and its uncertainty as a step.
@@ -88,9 +104,18 @@ impl TimeAxis {
         self.rate
     }
 
-    /// True where time goes up by one whole second a line, as an index does.
-    pub fn is_like_index(&self, printed: Printed) -> bool {
-        self.rate == 1.0 && printed.is_whole()
+    /// What the column is beside the rate `asked` for.
+    pub fn meaning(&self, printed: Printed, asked: Option<f64>) -> Meaning {
+        let own = self.rate;
+        // An index goes up by one whole a line; so may seconds.
+        let is_like_index = own == 1.0 && printed.is_whole();
+        match asked {
+            None if is_like_index => Meaning::PerhapsIndex,
+            Some(asked) if (asked / own - 1.0).abs() <= SAME_RATE => Meaning::Time,
+            Some(_) if is_like_index => Meaning::Index,
+            Some(asked) => Meaning::OtherRate { own, asked },
+            None => Meaning::Time,
+        }
     }
 
     /// The rate that the recording came to, where it is no longer that of the first lines, and how much later, s, its last line is than

@@ -50,8 +50,8 @@ fn every_separator_is_understood() {
 #[test]
 fn columns_can_be_chosen() {
     let options = |columns: &str| OpenOptions {
-        raw: None,
         columns: Some(columns.parse().unwrap()),
+        ..OpenOptions::default()
     };
     let text = b"n,heat,d,c\n1,20,0.2,0.1\n";
     assert_eq!(

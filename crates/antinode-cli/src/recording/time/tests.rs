@@ -218,7 +218,7 @@ fn a_slow_drift_is_followed_and_told() {
             .map(|k| format!("{:.9}", time(k as f64)))
             .collect()
     };
-    for (growth, count) in [(1e-11, 1_000_000), (-3e-11, 1_500_000)] {
+    for (growth, count) in [(2e-11, 600_000), (-4e-11, 525_000)] {
         let mut text = times(growth, count);
         let axis = axis(&text, HEAD).unwrap();
         let (rate, late) = axis.drift().expect("a drift");

@@ -1,7 +1,12 @@
-//! Numbers for reading: fixed notation, to the digits that their deviation leaves.
+//! Numbers to the digits that mean something: for reading, in fixed notation, those that their deviation leaves.
 
 /// Decimals beyond these are below any deviation that single precision leaves.
 const MOST_DECIMALS: f64 = 9.0;
+
+/// A number rounded to so many digits, 1 or more, whatever its size.
+pub fn significant(x: f64, digits: usize) -> f64 {
+    format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
+}
 
 /// The decimals that show two digits of a standard deviation.
 fn decimals(std: f64) -> usize {
@@ -52,6 +57,18 @@ pub fn heading(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn digits_are_kept_whatever_the_size() {
+        for (x, rounded) in [
+            (0.012_345_678_901_26, 0.012_345_678_901_3),
+            (-5.0e7 / 3.0, -16_666_666.7),
+        ] {
+            let digits = if x > 0.0 { 12 } else { 9 };
+            assert_eq!(significant(x, digits), rounded);
+        }
+        assert!(significant(f64::NAN, 9).is_nan());
+    }
 
     #[test]
     fn two_digits_of_the_deviation_are_shown() {

@@ -3,6 +3,7 @@
 use antinode::methods::comparison::{Comparison, Method};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
+use crate::fixed::significant;
 use crate::methods::Methods;
 
 /// A value of a column.
@@ -93,7 +94,7 @@ pub fn fields(methods: Option<&Methods>) -> Vec<Field> {
 
 /// Nine significant digits; zero has no sign.
 fn rounded(x: f64) -> f64 {
-    format!("{x:.8e}").parse().unwrap_or(x) + 0.0
+    significant(x, 9) + 0.0
 }
 
 /// The largest difference from the exact solution that leakage and noise do not explain, in what they may leave.

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use antinode::Estimate;
 use serde::Serialize;
 
-use crate::fixed::{heading, with_std};
+use crate::fixed::{heading, significant, with_std};
 use crate::method_rows::{self, Columns};
 use crate::method_table;
 use crate::methods::Methods;
@@ -39,7 +39,7 @@ struct Row<'a> {
 
 impl<'a> Row<'a> {
     fn new(file: &'a str, flags: &'a str, e: &Estimate) -> Self {
-        // Nine decimals are beyond every bound, and twelve beyond every clock; more would be digits of nothing.
+        // Nine decimals of an angle are beyond every bound, and twelve of a time beyond every clock; more would be digits of nothing.
         let to = |x: f64, unit: f64| (x * unit).round() / unit;
         Self {
             time_s: to(e.time, 1e12),
@@ -48,7 +48,8 @@ impl<'a> Row<'a> {
             quadrature_amplitude: e.quadrature_amplitude,
             angle_rad: to(e.angle, 1e9),
             phase_rad: e.phase,
-            frequency_hz: to(e.frequency, 1e9),
+            // A share of the rate, which may be 1 Hz or 10 GHz.
+            frequency_hz: significant(e.frequency, 13),
             angle_rate_rad_s: e.angle_rate,
             decay_rate_s: e.decay_rate,
             main_amplitude_std: e.main_amplitude_std,

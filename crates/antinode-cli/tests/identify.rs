@@ -219,3 +219,21 @@ fn windows_are_as_long_as_asked() {
         );
     }
 }
+
+#[test]
+fn a_low_frequency_has_all_its_digits() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let frequency = 0.0123456789012;
+    let slow = format!(
+        "simulate -o a.csv --rate 1 --seconds 400000 --frequency {frequency} --noise 1e-4 --sample f32"
+    );
+    assert_eq!(run(here, &slow).code, 0);
+    let made = run(here, "identify a.csv --rate 1 --periods 1000 --output csv");
+    let rows = Row::all(&made.out);
+    assert!(rows.len() >= 4, "{}", made.err);
+    for row in &rows {
+        let off = row.number("frequency_hz") - frequency;
+        assert!(off.abs() < 5.0 * row.number("frequency_std_hz"), "{off}");
+    }
+}

@@ -4,6 +4,7 @@ mod fields;
 mod options;
 
 use std::io::{self, Write};
+use std::path::PathBuf;
 
 use antinode_sim::{Flaws, Gyro, Wave};
 use serde::Serialize;
@@ -48,7 +49,10 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
         flaws: &flaws,
     };
     let text = serde_json::to_string_pretty(&truth).map_err(io::Error::from)?;
-    let beside = options.to.with_extension("json");
+    // The whole name: recordings that differ in their extension alone have each their own.
+    let mut beside = options.to.clone().into_os_string();
+    beside.push(".json");
+    let beside = PathBuf::from(beside);
     // Written before the samples: what cannot be is found at once, and not after a long recording.
     let beside_whole = WholeFile::text(&beside, &(text + "\n"))?;
     let mut beyond = 0u64;

@@ -62,7 +62,7 @@ fn the_truth_agrees_with_what_is_identified() {
                    --phase -2 --frequency 4987.6 --frequency-rate 0.8 --angle-rate -0.6 --decay-rate 0.4 --offset-c 0.02";
     for (name, rate) in [("a.wav", ""), ("b.csv", ""), ("c.npy", "--rate 1e5")] {
         simulate(here, &format!("-o {name} {options}"));
-        let truth = truth(here, &name.replace(&name[1..], ".json"));
+        let truth = truth(here, &format!("{name}.json"));
         assert_eq!(truth["sample_rate_hz"], 100_000.0);
         assert_eq!(truth["sample_pairs"], 50_000);
         assert_eq!(truth["seed"], 7);
@@ -97,7 +97,11 @@ fn the_same_seed_gives_the_same_bytes() {
         assert_eq!(bytes("a"), bytes("b"), "{extension}");
         assert_ne!(bytes("a"), bytes("c"), "{extension}");
     }
-    assert_eq!(truth(here, "a.json"), truth(here, "b.json"));
+    // Each recording has a truth of its own.
+    simulate(here, "-o a.wav --seconds 0.02 --seed 9");
+    assert_eq!(truth(here, "a.wav.json")["seed"], 9);
+    assert_eq!(truth(here, "a.csv.json"), truth(here, "b.npy.json"));
+    assert!(!here.join("a.json").exists());
 }
 
 #[test]
@@ -108,7 +112,7 @@ fn calibration_undoes_the_flaws() {
         here,
         "-o plain.wav --seconds 0.3 --noise 0.002 --angle-rate 1",
     );
-    let ideal = truth(here, "plain.json");
+    let ideal = truth(here, "plain.wav.json");
     for option in [
         "--gain-ratio 1.05",
         "--skew-ns 700",

@@ -91,7 +91,7 @@ fn files_are_replaced_only_when_whole() {
         names
     };
     fs::write(here.join("a.npy"), "good").unwrap();
-    fs::write(here.join("a.json"), "true").unwrap();
+    fs::write(here.join("a.npy.json"), "true").unwrap();
     // The noise leaves single precision after some samples.
     let overflow = run(
         here,
@@ -104,30 +104,34 @@ fn files_are_replaced_only_when_whole() {
         overflow.err
     );
     assert_eq!(fs::read(here.join("a.npy")).unwrap(), b"good");
-    assert_eq!(fs::read(here.join("a.json")).unwrap(), b"true");
-    assert_eq!(names(here), ["a.json", "a.npy"]);
+    assert_eq!(fs::read(here.join("a.npy.json")).unwrap(), b"true");
+    assert_eq!(names(here), ["a.npy", "a.npy.json"]);
     // Where the truth cannot stand, there is no recording either.
-    fs::remove_file(here.join("a.json")).unwrap();
-    fs::create_dir(here.join("a.json")).unwrap();
+    fs::remove_file(here.join("a.npy.json")).unwrap();
+    fs::create_dir(here.join("a.npy.json")).unwrap();
     let taken = run(here, "simulate -o a.npy --seconds 0.01");
     assert_eq!(taken.code, 1);
-    assert!(taken.err.starts_with("error: a.json: "), "{}", taken.err);
+    assert!(
+        taken.err.starts_with("error: a.npy.json: "),
+        "{}",
+        taken.err
+    );
     assert_eq!(fs::read(here.join("a.npy")).unwrap(), b"good");
-    assert_eq!(names(here), ["a.json", "a.npy"]);
+    assert_eq!(names(here), ["a.npy", "a.npy.json"]);
     // Whole ones replace what was there.
-    fs::remove_dir(here.join("a.json")).unwrap();
+    fs::remove_dir(here.join("a.npy.json")).unwrap();
     let whole = run(here, "simulate -o a.npy --seconds 0.01");
     assert_eq!((whole.code, whole.err.as_str()), (0, ""));
     assert_eq!(
         whole.out,
-        "a.npy: 1000 sample pairs at 100000 Hz; the truth is in a.json\n"
+        "a.npy: 1000 sample pairs at 100000 Hz; the truth is in a.npy.json\n"
     );
     assert!(
         fs::read(here.join("a.npy"))
             .unwrap()
             .starts_with(b"\x93NUMPY")
     );
-    assert!(fs::read(here.join("a.json")).unwrap().starts_with(b"{"));
+    assert!(fs::read(here.join("a.npy.json")).unwrap().starts_with(b"{"));
 }
 
 #[test]

@@ -13,7 +13,7 @@ use crate::recording::WavSample;
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub struct Simulate {
-    /// The recording to write: .wav, .csv or .npy. The truth goes beside it, under the same name with .json.
+    /// The recording to write: .wav, .csv or .npy. The truth goes beside it, under its name and .json.
     #[arg(short = 'o', long = "to", value_name = "FILE")]
     pub to: PathBuf,
     /// Length, s.

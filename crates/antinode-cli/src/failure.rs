@@ -7,7 +7,7 @@ use antinode::SettingsError;
 
 use crate::recording::{InputError, OutputError};
 
-/// A failure, and so an exit code: 1 for what was found in the data or the system, 2 for what was asked.
+/// A failure, and so an exit code: 1 for what was found in the data or the system, 2 for what was asked, 130 for an interruption.
 #[derive(Debug)]
 pub enum Failure {
     /// A recording is at fault.
@@ -18,6 +18,11 @@ pub enum Failure {
     Recording(String),
     /// What was asked makes no sense.
     Usage(String),
+    /// Ctrl-C, or the system, came before a recording was whole.
+    Interrupted {
+        /// The recording.
+        file: String,
+    },
     /// The reader of our output has gone: nothing is wrong.
     Closed,
     /// The system failed while writing rows.
@@ -30,6 +35,8 @@ impl Failure {
         match self {
             Self::Closed => 0,
             Self::Usage(_) => 2,
+            // What a shell says of Ctrl-C; which signal it was is not known.
+            Self::Interrupted { .. } => 130,
             Self::Output(error) if error.is_usage() => 2,
             _ => 1,
         }
@@ -42,6 +49,9 @@ impl fmt::Display for Failure {
             Self::Input(error) => error.fmt(f),
             Self::Output(error) => error.fmt(f),
             Self::Recording(message) | Self::Usage(message) => f.write_str(message),
+            Self::Interrupted { file } => {
+                write!(f, "{file}: interrupted, and not written; run it again")
+            }
             Self::Closed => Ok(()),
             Self::Rows(error) => write!(
                 f,

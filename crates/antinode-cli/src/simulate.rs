@@ -5,6 +5,8 @@ mod options;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use antinode_sim::{Flaws, Gyro, Wave};
 use serde::Serialize;
@@ -40,6 +42,9 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     }
     let pairs = pairs as u64;
     options.check_places(pairs)?;
+    options.check_frequency()?;
+    // Files that have no name yet go as they are dropped, but not with a process that is killed.
+    let interrupted = interrupted()?;
     let mut writer = RecordingWriter::create(&options.to, options.rate, options.sample.into())?;
     let truth = Truth {
         sample_rate_hz: options.rate,
@@ -57,6 +62,10 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     let beside_whole = WholeFile::text(&beside, &(text + "\n"))?;
     let mut beyond = 0u64;
     for pair in gyro.take(pairs as usize) {
+        if interrupted.load(Ordering::Relaxed) {
+            let file = options.to.display().to_string();
+            return Err(Failure::Interrupted { file });
+        }
         beyond += u64::from(pair.c.abs() > 1.0 || pair.d.abs() > 1.0);
         writer.write([pair.c, pair.d])?;
     }
@@ -76,4 +85,13 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
         beside.display()
     )?;
     Ok(())
+}
+
+/// What becomes true when the user or the system ends the command.
+fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&interrupted);
+    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
+        .map_err(|error| Failure::Recording(format!("Ctrl-C cannot be caught: {error}")))?;
+    Ok(interrupted)
 }

@@ -33,6 +33,12 @@ fn what_makes_no_sense_is_refused() {
             "--quadrature-amplitude: ",
         ),
         ("-o a.wav --frequency 0", "--frequency: it must be"),
+        ("-o a.wav --frequency 50000", "half of --rate, 50000 Hz"),
+        ("-o a.wav --frequency 20000 --rate 39000", "raise --rate"),
+        (
+            "-o a.wav --frequency 49999 --frequency-rate 2",
+            "--frequency: from 49999 Hz it comes to 50001 Hz",
+        ),
         ("-o a.wav --noise -0.1", "--noise: it must be"),
         ("-o a.wav --skew-ns nan", "--skew-ns: it must be"),
         ("-o a.wav --jitter-ns -1", "--jitter-ns: it must be"),
@@ -143,4 +149,45 @@ fn a_directory_that_is_not_there_is_told() {
         run.err,
         "error: none/a.wav: there is no directory `none`; make it first, or correct the path\n"
     );
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interruption_leaves_nothing_behind() {
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    for signal in ["-INT", "-TERM"] {
+        let directory = tempfile::tempdir().unwrap();
+        let here = directory.path();
+        fs::write(here.join("a.wav"), "good").unwrap();
+        let child = Command::new(env!("CARGO_BIN_EXE_antinode"))
+            .current_dir(here)
+            .args(["simulate", "-o", "a.wav", "--seconds", "10000"])
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // Both files are begun before the first sample.
+        let begun = Instant::now();
+        while fs::read_dir(here).unwrap().count() < 3 {
+            assert!(begun.elapsed() < Duration::from_secs(10));
+        }
+        let id = child.id().to_string();
+        assert!(
+            Command::new("kill")
+                .args([signal, &id])
+                .status()
+                .unwrap()
+                .success()
+        );
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(130), "{signal}");
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(
+            told,
+            "error: a.wav: interrupted, and not written; run it again\n"
+        );
+        assert_eq!(fs::read_dir(here).unwrap().count(), 1, "{signal}");
+        assert_eq!(fs::read(here.join("a.wav")).unwrap(), b"good");
+    }
 }

@@ -51,7 +51,7 @@ struct WaveOptions {
     /// Phase at the start, rad.
     #[arg(long, default_value_t = std::f64::consts::FRAC_PI_6, value_name = "RAD")]
     phase: f64,
-    /// Frequency at the start, Hz.
+    /// Frequency at the start, Hz, below half of the rate.
     #[arg(long, default_value_t = 5332.0, value_name = "HZ")]
     frequency: f64,
     /// Drift of the frequency, Hz/s.
@@ -160,6 +160,20 @@ impl Simulate {
     /// True for samples that end at full scale.
     pub fn is_integer(&self) -> bool {
         !matches!(self.sample, Sample::F32 | Sample::F64)
+    }
+
+    /// Refuses a frequency whose samples would be those of another one.
+    pub fn check_frequency(&self) -> Result<(), Failure> {
+        let (first, half) = (self.wave.frequency, 0.5 * self.rate);
+        let last = first + self.wave.frequency_rate * self.seconds;
+        let [lowest, highest] = [first.min(last), first.max(last)];
+        if highest < half && lowest > -half {
+            return Ok(());
+        }
+        Err(Failure::Usage(format!(
+            "--frequency: from {first} Hz it comes to {last} Hz, but must stay below half of --rate, {half} Hz: its samples \
+             would be those of another frequency; lower it, or raise --rate"
+        )))
     }
 
     /// Refuses what would begin only after the last sample.

@@ -2,7 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use antinode::methods::comparison::{Comparison, Conditions, Reference, Sums, compare};
+use antinode::methods::comparison::{
+    Comparison, Conditions, DISAGREEMENT, Reference, Sums, compare,
+};
 use antinode::methods::{Delayed, Moments, Products, algorithm2};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 use host_tests::{Core, RATE, windows};
@@ -80,6 +82,57 @@ fn methods_agree_in_white_noise() {
                 loud * 1000 <= count,
                 "noise {noise}, {periods} periods: {loud}"
             );
+        }
+    }
+    assert!(total > 10_000);
+}
+
+#[test]
+fn methods_agree_on_the_axes_and_tell_of_a_wrong_angle_there() {
+    let mut total = 0;
+    for angle in [0.0, FRAC_PI_2 / 2.0, FRAC_PI_2] {
+        for quadrature_amplitude in [0.0, 0.02] {
+            for noise in [1e-3, 0.04] {
+                let wave = Wave {
+                    angle,
+                    quadrature_amplitude,
+                    ..Wave::default()
+                };
+                let flaws = Flaws {
+                    noise: noise * wave.main_amplitude,
+                    ..Flaws::default()
+                };
+                let found = |seed: u64, spoil: &dyn Fn(usize, [f64; 2]) -> [f64; 2]| {
+                    comparisons(wave, &flaws, 10, 90_000, seed, spoil)
+                };
+                let clean: Vec<Comparison> = (1..4)
+                    .flat_map(|seed| found(seed, &|_, pair| pair))
+                    .collect();
+                let loud = disagree(&clean);
+                assert_eq!(loud, 0, "{angle} {quadrature_amplitude} {noise}");
+                total += clean.len();
+                // What only one pick-off sees turns the angle of (12), and is no wave of the others.
+                let tone = 10.0 * noise * wave.main_amplitude;
+                let turned = found(1, &|k, [c, d]| {
+                    let beside = tone * (TAU * 0.137 * k as f64).sin();
+                    if angle == FRAC_PI_2 / 2.0 {
+                        [c + beside, d]
+                    } else {
+                        [c, d + beside]
+                    }
+                });
+                let told = |comparison: &&Comparison| {
+                    comparison.methods[0].unexplained[2].abs() > DISAGREEMENT
+                };
+                let share = turned.iter().filter(told).count() as f64 / turned.len() as f64;
+                println!(
+                    "{angle} {quadrature_amplitude} {noise}: {share} of the turned angles are told"
+                );
+                assert!(
+                    share > 0.7,
+                    "{angle} {quadrature_amplitude} {noise}: {share}"
+                );
+            }
         }
     }
     assert!(total > 10_000);

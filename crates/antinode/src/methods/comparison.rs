@@ -179,9 +179,15 @@ fn changing(leakage: f64, omega: f64, count: u32) -> f64 {
     leakage.max(0.5 * (cosine - sine / x).abs() / x)
 }
 
-/// What the methods may differ by without a fault, beside `explained`: the exact solution's own deviations, how little the noise and
+/// What the method of this place may differ by without a fault, beside `explained`: the exact solution's own deviations, how little the noise and
 /// its mean square over the window are known, and what turning, decay and f32 rounding leave.
-fn scatter(explained: &Shape, reference: &Reference, count: u32, changing: f64) -> [f64; 3] {
+fn scatter(
+    place: usize,
+    explained: &Shape,
+    reference: &Reference,
+    count: u32,
+    changing: f64,
+) -> [f64; 3] {
     let square = reference.noise_uncertainty * reference.noise_uncertainty + 2.0 / f64::from(count);
     let [of_c, of_d, _] = reference.noise.moments;
     let noise = of_c.max(of_d) * libm::sqrt(square);
@@ -189,6 +195,14 @@ fn scatter(explained: &Shape, reference: &Reference, count: u32, changing: f64) 
     let rest = slow(reference.turn, reference.decay, changing);
     let [a, b, angle] = reference.deviations;
     let quadrature = explained.quadrature_amplitude.abs().max(b);
+    // (12) takes the angle from the root of a mean square, which is all noise where a pick-off sees nothing else.
+    let root = if place == NO_QUADRATURE {
+        let (sine, cosine) = libm::sincos(2.0 * explained.angle);
+        let least = core::f64::consts::FRAC_1_SQRT_2 * sine.abs().min(cosine.abs());
+        noise / (size * (least * explained.main_amplitude).max(angle * size))
+    } else {
+        0.0
+    };
     let sum = |x: f64, y: f64, z: f64| libm::sqrt(x * x + y * y + z * z);
     // (22) adds the noise's square to a_B's: a small quadrature and a little excess make a large difference.
     [
@@ -198,7 +212,7 @@ fn scatter(explained: &Shape, reference: &Reference, count: u32, changing: f64) 
             noise / quadrature,
             rest * size * (1.0 + rest * size / quadrature),
         ),
-        sum(angle, 0.0, rest),
+        sum(angle, root, rest),
     ]
 }
 
@@ -256,7 +270,7 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
             // So is the side of the pick-off's axis on which (12) sees the wave.
             seen.angle = libm::copysign(seen.angle, explained.shape.angle);
         }
-        let unit = scatter(&explained.shape, reference, count, changing);
+        let unit = scatter(i, &explained.shape, reference, count, changing);
         Method {
             wave: wave.near(exact.shape.angle),
             j: functional::above_zero(functional::squares(&wave, &sums.moments, &sums.products)),

@@ -1,5 +1,7 @@
 //! `antinode identify`: recordings in, rows out, as a stream.
 
+mod search;
+
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::Path;
 
@@ -8,9 +10,10 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
 use crate::methods::History;
-use crate::options::{Detector, Format, Identify, MOST_PERIODS, Methods};
+use crate::options::{Format, Identify, MOST_PERIODS, Methods};
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
+use search::Search;
 
 /// Periods of up to 256 samples, windows of up to 1022 periods.
 type Core = Identifier<f32, 256, { MOST_PERIODS as usize + 2 }>;
@@ -103,6 +106,7 @@ fn identify(
             Ok(_) => {}
             Err(error) => break Some(error),
         }
+        search.begin(&buffer);
         let mut pairs = buffer.as_slice();
         while !pairs.is_empty() {
             // Until the first row, what becomes of the search is to be seen.
@@ -146,7 +150,7 @@ fn identify(
     let failure = match fault {
         Some(error) => Some(error.into()),
         None if rows.count() > 0 => None,
-        None => Some(no_rows(&name, rate, &core, search, options)),
+        None => Some(search.no_rows(&name, rate, &core, options)),
     };
     match (recording.not_finite(), failure) {
         (None, failure) => failure.map_or(Ok(()), Err),
@@ -157,49 +161,6 @@ fn identify(
             Err(failure)
         }
     }
-}
-
-/// What became of the search for a period.
-#[derive(Debug, Clone, Copy, Default)]
-struct Search {
-    has_found: bool,
-    /// Periods whose first window was no wave.
-    refused: u64,
-}
-
-impl Search {
-    /// Takes a look at the core.
-    fn see(&mut self, is_searching: bool) {
-        self.refused += u64::from(self.has_found && is_searching);
-        self.has_found = !is_searching;
-    }
-}
-
-/// Why a recording that was read to its end gave no row.
-fn no_rows(name: &str, rate: f64, core: &Core, search: Search, options: &Identify) -> Failure {
-    let (pairs, seconds) = (core.index(), core.index() as f64 / rate);
-    let periods = options.periods;
-    Failure::Recording(if search.refused > 0 {
-        format!(
-            "{name}: a period was found, but no window of {periods} periods in {pairs} sample pairs ({seconds:.4} s) is mostly \
-             one wave; look for a second tone, and check the scale of the samples, --full-scale and --resolution"
-        )
-    } else if core.is_searching() {
-        let other = match options.detector {
-            Detector::Difference => "mean-return",
-            Detector::MeanReturn => "difference",
-        };
-        format!(
-            "{name}: no period found in {pairs} sample pairs ({seconds:.4} s): no wave of 4 to 200 samples a period \
-             stands out of the noise; check the sample rate, the channels and the signal, or try --detector {other}, \
-             as a second tone may hide the period"
-        )
-    } else {
-        format!(
-            "{name}: a period was found, but {pairs} sample pairs ({seconds:.4} s) hold no window of {periods} periods; \
-             record longer or give a smaller --periods"
-        )
-    })
 }
 
 /// The rate that was asked for, or else the recording's own.

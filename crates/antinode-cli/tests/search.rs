@@ -39,7 +39,11 @@ fn windows_that_are_no_wave_are_told_from_too_few_samples() {
     let here = directory.path();
     let refused = "a period was found, but no window of 10 periods in 20000 sample pairs";
     tones(&here.join("two.wav"), &[(5321.7, 0.45), (7000.0, 0.45)]);
-    fault(here, "two.wav", &[refused, "second tone"]);
+    fault(
+        here,
+        "two.wav",
+        &[refused, "second tone", "fewer than 4 samples a period"],
+    );
     tones(&here.join("one.wav"), &[(5321.7, 1.0)]);
     fault(here, "one.wav --resolution 1", &[refused, "--resolution"]);
     assert!(rows(here, "one.wav --full-scale 2").len() > 90);
@@ -53,6 +57,47 @@ fn windows_that_are_no_wave_are_told_from_too_few_samples() {
     let short = "hold no window of 1022 periods; record longer or give a smaller --periods";
     fs::write(here.join("short.wav"), wav(&common::WAVE.codes(5000))).unwrap();
     fault(here, "short.wav --periods 1022", &[short]);
+}
+
+#[test]
+fn too_few_samples_a_period_are_named() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for samples in [2.5, 2.6, 2.7] {
+        tones(&here.join("a.wav"), &[(RATE / samples, 0.9)]);
+        fault(
+            here,
+            "a.wav",
+            &["4 to 200 samples a period", "check the sample rate"],
+        );
+    }
+}
+
+#[test]
+fn an_offset_that_drowns_the_wave_is_named() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let write = |offset: f64| {
+        let mut lines = String::new();
+        for k in 0..20_000 {
+            let (sine, cosine) = (TAU * 5321.7 * f64::from(k) / RATE).sin_cos();
+            lines += &format!(
+                "{:.6},{:.6}\n",
+                offset + 0.5 * cosine,
+                offset + 0.2 * cosine + 0.1 * sine
+            );
+        }
+        fs::write(here.join("a.csv"), lines).unwrap();
+    };
+    write(1000.0);
+    let told = "the samples lie about an offset of 1.4142e3 and only 3.9e-1 rms off it";
+    fault(
+        here,
+        "a.csv --rate 1e5",
+        &["no period found", told, "take the offset off"],
+    );
+    write(10.0);
+    assert!(rows(here, "a.csv --rate 1e5").len() > 90);
 }
 
 #[test]

@@ -106,6 +106,19 @@ fn the_columns_stand_in_their_order() {
 }
 
 #[test]
+fn the_readme_names_every_column() {
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("a.wav"), wav(&WAVE.codes(2000))).unwrap();
+    let csv = run(directory.path(), "identify a.wav --output csv").out;
+    let readme =
+        fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../README.md")).unwrap();
+    for column in csv.lines().next().unwrap().split(',') {
+        let is_named = readme.contains(&format!("`{column}`"));
+        assert!(is_named, "{column} is not in the README");
+    }
+}
+
+#[test]
 fn every_format_gives_the_same_rows() {
     let directory = tempfile::tempdir().unwrap();
     let path = |name| directory.path().join(name);

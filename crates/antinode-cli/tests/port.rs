@@ -38,6 +38,11 @@ fn pair() -> (TTYPort, String) {
 impl Device {
     /// A device with a ring of 64 blocks; `loud` ones say other things before every answer.
     fn start(loud: bool) -> Self {
+        Self::hearing(loud, 0)
+    }
+
+    /// The same, that does not hear so many of its first commands.
+    fn hearing(loud: bool, mut unheard: u32) -> Self {
         let (mut port, path) = pair();
         let (asked_sender, asked) = channel();
         let (reports, reported) = channel::<Report>();
@@ -64,6 +69,10 @@ impl Device {
                     let Some(Ok(CommandFrame { id, command })) = commands.push(byte) else {
                         continue;
                     };
+                    if unheard > 0 {
+                        unheard -= 1;
+                        continue;
+                    }
                     if loud {
                         let _ = port.write_all(b"noise\0");
                         send(&mut port, Report::State(State::Tracking));
@@ -196,6 +205,27 @@ fn silence_is_told_after_the_time_out() {
         "{}",
         asked.err
     );
+}
+
+#[test]
+fn a_command_that_is_not_heard_is_sent_again() {
+    let device = Device::hearing(true, 2);
+    let window = device.command("--timeout 0.3 window 20");
+    assert_eq!((window.code, window.err.as_str()), (0, ""));
+    assert_eq!(device.asked.try_iter().count(), 1);
+    let deaf = Device::hearing(false, 3);
+    let get = deaf.command("--timeout 0.1 get");
+    let told = "no acknowledgement within 0.1 s, asked 3 times; nothing came";
+    assert!(get.code == 1 && get.err.contains(told), "{}", get.err);
+    // A second reset is not the same as one.
+    let deaf = Device::hearing(false, 1);
+    let restart = deaf.command("--timeout 0.1 restart");
+    assert!(
+        restart.code == 1 && !restart.err.contains("times"),
+        "{}",
+        restart.err
+    );
+    assert_eq!(deaf.asked.try_iter().count(), 0);
 }
 
 /// An estimate of a noise-free wave.

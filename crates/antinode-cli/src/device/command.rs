@@ -8,7 +8,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use antinode::Calibration;
 use antinode_telemetry::{
-    Acknowledgement, Command, CommandFrame, Hello, MAX_FRAME, Receiver, Report, frame,
+    Command, CommandError, CommandFrame, Hello, MAX_FRAME, Receiver, Report, frame,
 };
 use clap::{Args, Subcommand, ValueEnum, value_parser};
 use serialport::SerialPort;
@@ -26,13 +26,16 @@ pub struct Options {
     /// Speed of the port, baud (bits a second; 8N1).
     #[arg(long, global = true, default_value_t = BAUD, value_name = "BAUD", value_parser = value_parser!(u32).range(1..))]
     pub baud: u32,
-    /// How long to wait for an answer, s; 0.01 to 3600.
+    /// How long to wait for an answer, s; 0.01 to 3600. Without one a command is sent again, three times in all; `restart` is sent once.
     #[arg(long, global = true, default_value_t = 2.0, value_name = "SECONDS", value_parser = ranges::seconds)]
     pub timeout: f64,
     /// What the device is to do.
     #[command(subcommand)]
     pub ask: Ask,
 }
+
+/// How often a command is sent that changes no more the second time than the first.
+const SENDS: u32 = 3;
 
 /// What can be asked of a device.
 #[derive(Debug, Subcommand)]
@@ -187,33 +190,51 @@ impl Line {
 
     /// Sends a command and waits for its answer; gives the Hello that came on the way, and waits for one where it is wanted.
     fn ask(&mut self, command: Command, wanted: bool) -> Result<Option<Hello>, Failure> {
+        // One id for all: a late answer to the first is good for the others.
         let id = fresh_id();
         let mut buffer = [0; MAX_FRAME];
         let request = frame(&CommandFrame { id, command }, &mut buffer)
             .map_err(|error| Failure::Recording(format!("{}: {error}", self.name)))?;
-        self.port
-            .write_all(request)
-            .map_err(|error| self.gone(&error))?;
+        let sends = if command == Command::Restart {
+            1
+        } else {
+            SENDS
+        };
         let (mut hello, mut done) = (None, false);
-        let end = Instant::now() + self.patience;
-        while Instant::now() < end {
-            for report in self.read()? {
-                match report {
-                    Report::Hello(told) => hello = Some(told),
-                    Report::Acknowledgement(Acknowledgement { id: of, result }) if of == id => {
-                        result.map_err(|error| {
-                            Failure::Recording(format!("{}: refused: {error}", self.name))
-                        })?;
-                        done = true;
+        for send in 1..=sends {
+            self.port
+                .write_all(request)
+                .map_err(|error| self.gone(&error))?;
+            let end = Instant::now() + self.patience;
+            while Instant::now() < end {
+                for report in self.read()? {
+                    match report {
+                        Report::Hello(told) => hello = Some(told),
+                        Report::Acknowledgement(answer) if answer.id == id => {
+                            match answer.result {
+                                Ok(()) => done = true,
+                                // It may be busy with the same command, whose answer was lost.
+                                Err(CommandError::Busy) if send < sends => {}
+                                Err(error) => return Err(self.refused(error)),
+                            }
+                        }
+                        _ => {}
                     }
-                    _ => {}
+                }
+                if done && (hello.is_some() || !wanted) {
+                    return Ok(hello);
                 }
             }
-            if done && (hello.is_some() || !wanted) {
-                return Ok(hello);
-            }
         }
-        if done { Ok(None) } else { Err(self.silent()) }
+        if done {
+            Ok(None)
+        } else {
+            Err(self.silent(sends))
+        }
+    }
+
+    fn refused(&self, error: CommandError) -> Failure {
+        Failure::Recording(format!("{}: refused: {error}", self.name))
     }
 
     /// The reports that have come, after waiting a little where none have.
@@ -244,7 +265,7 @@ impl Line {
     }
 
     /// Nothing was acknowledged: what did come tells why.
-    fn silent(&self) -> Failure {
+    fn silent(&self, sends: u32) -> Failure {
         let (reports, bytes) = (self.receiver.reports(), self.bytes);
         let why = if bytes == 0 {
             "nothing came at all: check that the device runs, and the wiring".to_owned()
@@ -259,9 +280,14 @@ impl Line {
             )
         };
         Failure::Recording(format!(
-            "{}: no acknowledgement within {} s; {why}",
+            "{}: no acknowledgement within {} s{}; {why}",
             self.name,
-            self.patience.as_secs_f64()
+            self.patience.as_secs_f64(),
+            if sends > 1 {
+                format!(", asked {sends} times")
+            } else {
+                String::new()
+            }
         ))
     }
 }

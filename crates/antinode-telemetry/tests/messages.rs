@@ -157,7 +157,7 @@ fn a_frame_is_laid_out_as_documented() {
         number: 0,
         report: Report::State(State::Tracking),
     });
-    // Python: zlib.crc32(bytes([2, 0, 2, 2])) is 0x57751439.
-    let expected = [0, 2, 2, 7, 2, 2, 0x39, 0x14, 0x75, 0x57, 0];
+    // Python: zlib.crc32(bytes([4, 0, 2, 2])) is 0x721e4be5.
+    let expected = [0, 2, 4, 7, 2, 2, 0xe5, 0x4b, 0x1e, 0x72, 0];
     assert_eq!(sent, expected);
 }

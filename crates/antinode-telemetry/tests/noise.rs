@@ -157,7 +157,7 @@ fn another_version_is_named() {
 #[test]
 fn content_beyond_this_version_is_told() {
     // No such report; a report with a byte too many; one too few.
-    for content in [&[2, 0, 99][..], &[2, 0, 2, 2, 0], &[2, 0, 2]] {
+    for content in [&[4, 0, 99][..], &[4, 0, 2, 2, 0], &[4, 0, 2]] {
         assert_eq!(
             decode::<ReportFrame>(&checked(content)),
             [Err(Damage::Content)]

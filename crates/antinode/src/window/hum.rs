@@ -17,29 +17,26 @@ pub(super) fn take_slopes(
     blocks: &[Seen],
     here: &mut [Here],
 ) {
-    for (channel, prediction) in predictions.iter().enumerate() {
-        // The one before the last, and the last.
-        let (mut far, mut near) = (None, None);
-        for i in 0..=blocks.len() {
-            let next = blocks.get(i).zip(here.get(i));
-            let next =
-                next.map(|(block, here)| prediction.mean_rest(&block.whitened[channel], here));
-            if let Some(slope) = slope(far, near, next)
-                && let Some(here) = here.get_mut(i.wrapping_sub(1))
-            {
-                here.slopes[channel] = model.basis.ramp * slope;
-            }
-            (far, near) = (near, next);
-        }
+    if blocks.len() < 2 {
+        return;
     }
-}
-
-/// The slope at the middle one of three, of which the first and the last may be missing.
-fn slope(before: Option<f32>, here: Option<f32>, after: Option<f32>) -> Option<f32> {
-    match (before, here?, after) {
-        (Some(before), _, Some(after)) => Some(0.5 * (after - before)),
-        (Some(before), here, None) => Some(here - before),
-        (None, here, Some(after)) => Some(after - here),
-        (None, _, None) => None,
+    for (channel, prediction) in predictions.iter().enumerate() {
+        let (mut before, mut now) = (0.0, 0.0);
+        for i in 0..=blocks.len() {
+            let next = match (blocks.get(i), here.get(i)) {
+                (Some(block), Some(here)) => {
+                    prediction.mean_rest(&block.whitened[channel & 1], here)
+                }
+                // One more after the last, in line with the two before it; and one before the first.
+                _ => 2.0 * now - before,
+            };
+            if i == 1 {
+                before = 2.0 * now - next;
+            }
+            if let Some(here) = here.get_mut(i.wrapping_sub(1)) {
+                here.slopes[channel & 1] = model.basis.ramp * (next - before);
+            }
+            (before, now) = (now, next);
+        }
     }
 }

@@ -17,7 +17,7 @@ pub(crate) struct Basis {
     cosine: f32,
     cosine_mean: f32,
     sine: f32,
-    /// What a slope adds to the odd sum, of one from mean to mean of neighbouring blocks.
+    /// What a slope adds to the odd sum, of one over two blocks.
     pub ramp: f32,
     /// One over the layout's scale.
     pub unit: f32,
@@ -90,7 +90,7 @@ impl Basis {
             cosine,
             cosine_mean,
             sine,
-            ramp: 0.5 * slope.get() * sine * one / n,
+            ramp: 0.25 * slope.get() * sine * one / n,
             unit: 1.0 / layout.one(),
             rank: 1 + u8::from(cosine > 0.0) + u8::from(sine > 0.0),
         }

@@ -147,16 +147,9 @@ impl<S: Sample> Octave<S> {
 /// Adds the squared differences of two samples from all those before them. A lag that is there for the first time begins its sum.
 #[inline(always)]
 fn add_lags<S: Sample>(sums: &mut Lags<S>, now: Two<S>, before: &[Two<S>]) {
-    const { assert!(LAGS == 10, "lags are taken in twos, five times") };
+    const { assert!(LAGS.is_multiple_of(2), "lags are taken in twos") };
     let [first, second] = now;
     let (twos, _) = sums.as_chunks_mut();
-    if let ([a, b, c, d, e], Some([j, i, h, g, f])) = (&mut *twos, before.last_chunk()) {
-        // Most often all lags are there, and a loop over them would take as long again as the sums.
-        let last = add_two_lags::<S>(b, now, g, add_two_lags::<S>(a, now, f, first));
-        let last = add_two_lags::<S>(d, now, i, add_two_lags::<S>(c, now, h, last));
-        add_two_lags::<S>(e, now, j, last);
-        return;
-    }
     let mut last = first;
     for (sums, before) in twos.iter_mut().zip(before.iter().rev()) {
         last = add_two_lags::<S>(sums, now, before, last);

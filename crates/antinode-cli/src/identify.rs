@@ -5,7 +5,7 @@ mod search;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::Path;
 
-use antinode::{Estimate, Identifier};
+use antinode::{Estimate, Flags, Identifier};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
@@ -23,6 +23,9 @@ const GLANCE: usize = 8;
 
 /// Recordings longer than this show how far they have come.
 const LONG: u64 = 32 << 20;
+
+/// Windows flagged as misfit from which on a remedy is named, where they are a quarter of all.
+const MANY: u64 = 20;
 
 /// Identifies every file; a fault in one does not keep the others from being read.
 pub fn run(options: &Identify) -> Result<(), Failure> {
@@ -100,6 +103,7 @@ fn identify(
 
     let live = io::stdout().is_terminal();
     let mut search = Search::default();
+    let mut misfits = 0;
     let fault = loop {
         match recording.read(&mut buffer) {
             Ok(0) => break None,
@@ -130,6 +134,7 @@ fn identify(
                     time: estimate.time + recording.start(),
                     ..estimate
                 };
+                misfits += u64::from(estimate.flags.contains(Flags::MISFIT));
                 rows.print(&name, &estimate, methods.as_ref())?;
             }
         }
@@ -142,6 +147,13 @@ fn identify(
     bar.finish_and_clear();
     if is_watched && recording.pairs().is_none() {
         eprintln!("{name}: {} sample pairs", core.index());
+    }
+    if !options.hum && misfits >= MANY && 4 * misfits > rows.count() {
+        rows.flush()?;
+        eprintln!(
+            "warning: {name}: {misfits} of {} rows are flagged misfit; where it is mains hum or an offset that wanders, --hum takes it out",
+            rows.count()
+        );
     }
     if let Some(warning) = recording.late_warning() {
         rows.flush()?;

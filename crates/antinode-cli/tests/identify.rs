@@ -250,3 +250,24 @@ fn a_low_frequency_has_all_its_digits() {
         assert!(off.abs() < 5.0 * row.number("frequency_std_hz"), "{off}");
     }
 }
+
+#[test]
+fn hum_is_named_and_taken_out() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut codes = WAVE.codes(100_000);
+    for (k, pair) in codes.iter_mut().enumerate() {
+        let phase = TAU * 50.0 * k as f64 / RATE;
+        // One per cent of full scale, on both pick-offs.
+        *pair = pair.map(|code| code + (327.0 * phase.sin()) as i16);
+    }
+    fs::write(directory.path().join("hum.wav"), wav(&codes)).unwrap();
+    let plain = run(directory.path(), "identify --periods 50 --output csv hum.wav");
+    assert_eq!(plain.code, 0);
+    let told = plain.err;
+    assert!(
+        told.contains("hum.wav") && told.contains("misfit") && told.contains("--hum"),
+        "{told}"
+    );
+    let clean = rows(directory.path(), "hum.wav --periods 50 --hum");
+    assert!(clean.len() > 100 && clean.iter().all(|row| row.text("flags").is_empty()));
+}

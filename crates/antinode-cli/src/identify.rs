@@ -134,7 +134,7 @@ fn identify(
                     time: estimate.time + recording.start(),
                     ..estimate
                 };
-                misfits += u64::from(estimate.flags.contains(Flags::MISFIT));
+                misfits += u64::from(estimate.flags == Flags::MISFIT);
                 rows.print(&name, &estimate, methods.as_ref())?;
             }
         }
@@ -151,7 +151,7 @@ fn identify(
     if !options.hum && misfits >= MANY && 4 * misfits > rows.count() {
         rows.flush()?;
         eprintln!(
-            "warning: {name}: {misfits} of {} rows are flagged misfit; where it is mains hum or an offset that wanders, --hum takes it out",
+            "warning: {name}: {misfits} of {} rows are flagged misfit alone; where it is mains hum or an offset that wanders, --hum takes it out",
             rows.count()
         );
     }

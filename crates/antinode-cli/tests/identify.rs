@@ -261,7 +261,10 @@ fn hum_is_named_and_taken_out() {
         *pair = pair.map(|code| code + (327.0 * phase.sin()) as i16);
     }
     fs::write(directory.path().join("hum.wav"), wav(&codes)).unwrap();
-    let plain = run(directory.path(), "identify --periods 50 --output csv hum.wav");
+    let plain = run(
+        directory.path(),
+        "identify --periods 50 --output csv hum.wav",
+    );
     assert_eq!(plain.code, 0);
     let told = plain.err;
     assert!(

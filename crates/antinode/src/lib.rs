@@ -56,13 +56,14 @@
 //! | white noise of 0.1 to 20 % of a_A, 2 to 50 periods a window, from cold | rms 0.98 to 1.05 of the Cramér–Rao bound |
 //! | turning at 6 rad/s, decaying with τ = 0.3 s, drifting 2 Hz/s, 0.2 % noise, 10 periods | rms 1.00 to 1.05 of the bound |
 //!
-//! Standard deviations are stated within 3 % of the scatter. The bound is that of seven constant parameters, offsets and frequency
+//! Standard deviations are stated within 4 % of the scatter. The bound is that of seven constant parameters, offsets and frequency
 //! among them. All of this is asserted, with a margin, by the tests of `host-tests`.
 //!
 //! # Limits
 //!
 //! Phase wraps at 2π and θ is known modulo π/2: only continuity makes θ run on. A frequency that drifts so fast that it bends the
-//! phase within one window beyond the noise (2 Hz/s in a window of 60 ms, say) is flagged as a misfit. Periods are 4 to 200 samples.
+//! phase within one window beyond the noise (2 Hz/s in a window of 60 ms, say) is flagged as a misfit, and so is mains hum unless
+//! [`Settings::hum`] takes it out. Periods are 4 to 200 samples.
 #![no_std]
 
 #[cfg(test)]

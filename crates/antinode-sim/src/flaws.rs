@@ -29,6 +29,10 @@ pub struct Flaws {
     pub offset_c: f64,
     /// Offset of channel D, input units.
     pub offset_d: f64,
+    /// Amplitude of the mains hum on both channels, a sine from t = 0 on, input units, signed.
+    pub hum: f64,
+    /// Frequency of the hum, Hz.
+    pub hum_frequency: f64,
     /// Gain of channel D over that of channel C, above 0; 1 = equal. C's gain is 1.
     ///
     /// For 1 + g: a_A + g a_A (1 - cos 4 theta) / 2, theta + g (E/D) sin 4 theta / 4.
@@ -66,12 +70,14 @@ pub struct Flaws {
 }
 
 impl Default for Flaws {
-    /// No flaws.
+    /// No flaws; 50 Hz for a hum.
     fn default() -> Self {
         Flaws {
             noise: 0.0,
             offset_c: 0.0,
             offset_d: 0.0,
+            hum: 0.0,
+            hum_frequency: 50.0,
             gain_ratio: 1.0,
             skew: 0.0,
             pick_off_error: 0.0,
@@ -99,6 +105,8 @@ impl Flaws {
         for (what, value) in [
             ("offset_c", self.offset_c),
             ("offset_d", self.offset_d),
+            ("hum", self.hum),
+            ("hum_frequency", self.hum_frequency),
             ("skew", self.skew),
             ("pick_off_error", self.pick_off_error),
             ("cubic", self.cubic),
@@ -180,6 +188,20 @@ mod tests {
                     ..none()
                 },
                 "offset_d",
+            ),
+            (
+                Flaws {
+                    hum: f64::NAN,
+                    ..none()
+                },
+                "hum",
+            ),
+            (
+                Flaws {
+                    hum_frequency: f64::INFINITY,
+                    ..none()
+                },
+                "hum_frequency",
             ),
             (
                 Flaws {

@@ -1,4 +1,4 @@
-//! From the resonator to the converter's input: jitter, pick-offs, distortion, gain, offset and noise.
+//! From the resonator to the converter's input: jitter, pick-offs, distortion, gain, offset, hum and noise.
 
 use crate::carrier::Carrier;
 use crate::flaws::Flaws;
@@ -13,7 +13,7 @@ use libm::sincos;
 pub(crate) struct Input {
     /// The whole of it.
     pub signal: Pair,
-    /// What is left of it without the wave: offset and noise.
+    /// What is left of it without the wave: offset, hum and noise.
     pub floor: Pair,
 }
 
@@ -39,6 +39,8 @@ pub(crate) struct Front {
     bend: f64,
     gain: f64,
     offset: Pair,
+    /// Amplitude of the hum and its turns a sample.
+    hum: Option<(f64, f64)>,
     noise: Option<(f64, Normals)>,
 }
 
@@ -64,6 +66,7 @@ impl Front {
                 c: flaws.offset_c,
                 d: flaws.offset_d,
             },
+            hum: (flaws.hum != 0.0).then(|| (flaws.hum, flaws.hum_frequency / sample_rate)),
             noise: normals(flaws.noise, Stream::Noise),
         }
     }
@@ -71,6 +74,12 @@ impl Front {
     pub fn at(&mut self, index: u64) -> Input {
         let seen = self.pick_offs(index);
         let mut floor = self.offset;
+        if let Some((amplitude, turns)) = self.hum {
+            let turns = turns * index as f64;
+            let hum = amplitude * sincos(core::f64::consts::TAU * (turns - libm::floor(turns))).0;
+            floor.c += hum;
+            floor.d += hum;
+        }
         if let Some((rms, normals)) = &mut self.noise {
             let (c, d) = normals.pair(index);
             floor.c += *rms * c;
@@ -115,6 +124,21 @@ mod tests {
     fn first(wave: Wave, flaws: Flaws, n: u64) -> Vec<Pair> {
         let mut front = Front::new(wave, &flaws, 100_000.0, 1);
         (0..n).map(|k| front.at(k).signal).collect()
+    }
+
+    #[test]
+    fn hum_is_added_to_both() {
+        let wave = Wave::default();
+        let flaws = Flaws {
+            hum: 0.1,
+            hum_frequency: 60.0,
+            ..Flaws::default()
+        };
+        let clean = first(wave, Flaws::default(), 3000);
+        for (k, (a, b)) in clean.iter().zip(first(wave, flaws, 3000)).enumerate() {
+            let hum = 0.1 * libm::sin(core::f64::consts::TAU * 60.0 * k as f64 / 100_000.0);
+            assert!((b.c - a.c - hum).abs() < 1e-12 && (b.d - a.d - hum).abs() < 1e-12);
+        }
     }
 
     #[test]

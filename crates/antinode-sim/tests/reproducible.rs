@@ -16,6 +16,8 @@ fn everything() -> Flaws {
     Flaws {
         noise: 0.05,
         offset_c: 0.01,
+        hum: 0.0,
+        hum_frequency: 50.0,
         offset_d: -0.02,
         gain_ratio: 1.01,
         skew: 1e-6,

@@ -78,6 +78,12 @@ struct FlawOptions {
     /// Offset of S_D, in the units of the amplitudes.
     #[arg(long, default_value_t = 0.0, value_name = "LEVEL")]
     offset_d: f64,
+    /// Amplitude of the mains hum on both pick-offs, in the units of the amplitudes.
+    #[arg(long, default_value_t = 0.0, value_name = "LEVEL")]
+    hum: f64,
+    /// Frequency of the hum, Hz.
+    #[arg(long, default_value_t = 50.0, value_name = "HZ")]
+    hum_frequency: f64,
     /// Gain of pick-off D over that of C.
     #[arg(long, default_value_t = 1.0, value_name = "RATIO")]
     gain_ratio: f64,
@@ -215,6 +221,8 @@ impl Simulate {
             noise: self.flaws.noise,
             offset_c: self.flaws.offset_c,
             offset_d: self.flaws.offset_d,
+            hum: self.flaws.hum,
+            hum_frequency: self.flaws.hum_frequency,
             gain_ratio: self.flaws.gain_ratio,
             skew: self.flaws.skew_ns * 1e-9,
             pick_off_error: self.flaws.pick_off_angle,

@@ -80,3 +80,24 @@ pub fn stream(wave: Wave, flaws: Flaws, samples: usize, seed: u64) -> Vec<[f32; 
         .map(|pair| [pair.c as f32, pair.d as f32])
         .collect()
 }
+
+/// Runs a gyro through the core with `change` applied to every pair; gives the estimates.
+pub fn changed(
+    seed: u64,
+    noise: f64,
+    periods: u16,
+    samples: usize,
+    change: impl Fn(usize, [f64; 2]) -> [f64; 2],
+) -> Vec<Estimate> {
+    let (wave, mut flaws) = gyro(seed);
+    flaws.noise = noise * wave.main_amplitude;
+    let mut core = Core::new(windows(periods)).unwrap();
+    let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
+    let pairs = gyro
+        .take(samples)
+        .enumerate()
+        .map(|(k, pair)| change(k, [pair.c, pair.d]));
+    pairs
+        .filter_map(|[c, d]| core.push([c as f32, d as f32]))
+        .collect()
+}

@@ -1,24 +1,17 @@
-//! What a window must satisfy to be believed: general tests on its residuals and on its continuity with the window before.
+//! What a window must satisfy by itself to be believed, and beside the noise of those before: general tests on its residuals.
 //!
 //! Every threshold is a false-alarm rate below 10⁻⁹ a window for white noise, plus a floor under which a deviation is no fault.
 
-use super::record::Record;
 use crate::arch::square_root;
 use crate::estimate::Flags;
 use crate::order::{greater, lesser};
-use crate::wave::{Standing, wrap};
+use crate::wave::Standing;
 use crate::window::{Covariance, Fit, Model, Remains};
 
 /// Standard deviations of an innocent deviation.
-const SIGMAS: f32 = 7.0;
+pub(super) const SIGMAS: f32 = 7.0;
 /// Standard deviations of an innocent variance: three in 10¹⁰, as a window has several parts.
 const REACH: f32 = 6.2;
-/// Below this share of a_A a step of an amplitude or an offset between windows is no fault.
-const AMPLITUDE_FLOOR: f32 = 2e-3;
-/// Below this a step of the pattern angle between windows is no fault, rad.
-const ANGLE_FLOOR: f32 = 2e-3;
-/// Below this a step of the phase is no fault, rad: a lost sample makes 2π/200 or more.
-const PHASE_FLOOR: f32 = 0.02;
 /// Third harmonic, as a share of a_A, that common electronics may have.
 const HARMONIC_FLOOR: f32 = 1e-3;
 /// Residual, as a share of a_A, that rounding and converters may leave: (2·10⁻⁴)².
@@ -211,129 +204,6 @@ fn limit(freedom: f32, other: f32) -> f32 {
         square_root(own * other_mean * other_mean + others * mean * mean - squared * own * others);
     let root = (mean * other_mean + REACH * deviation) / known;
     root * root * root
-}
-
-/// Tests of a window against the clean one before.
-pub(crate) fn between(before: &Record, now: &Record) -> Flags {
-    let passed = Passed::new(before, now);
-    let phase = wrap(now.phase_advance(before));
-    let phase_variance = passed.variance(
-        before.phase_variance + now.phase_variance,
-        before.drift_variance + now.drift_variance,
-    );
-    let jump = phase_variance < 0.3 * 0.3 && beyond(phase, phase_variance, PHASE_FLOOR);
-
-    let amplitude_floor = AMPLITUDE_FLOOR * before.main;
-    let main = passed.change(
-        [before.main, now.main],
-        [before.main_rate, now.main_rate],
-        before.main_variance + now.main_variance,
-        before.main_rate_variance + now.main_rate_variance,
-        amplitude_floor,
-    );
-    let quadrature = passed.change(
-        [before.quadrature, now.quadrature],
-        [before.quadrature_rate, now.quadrature_rate],
-        before.quadrature_variance + now.quadrature_variance,
-        before.quadrature_rate_variance + now.quadrature_rate_variance,
-        amplitude_floor,
-    );
-    let angle = beyond(
-        now.angle.less(before.angle) - passed.promised([before.turning, now.turning]),
-        passed.variance(
-            now.angle_variance + before.angle_variance,
-            now.turning_variance + before.turning_variance,
-        ),
-        ANGLE_FLOOR,
-    );
-    let offsets = (0..2).any(|i| {
-        beyond(
-            now.offsets[i] - before.offsets[i],
-            now.offset_variance[i] + before.offset_variance[i],
-            amplitude_floor,
-        )
-    });
-    Flags::empty()
-        .with_if(jump, Flags::PHASE_JUMP)
-        .with_if(angle || offsets, Flags::STEP)
-        .with(main)
-        .with(quadrature)
-}
-
-/// What lies between the middles of two windows.
-struct Passed {
-    samples: f32,
-    /// Half the later window.
-    half: f32,
-    /// Growth of the main amplitude, a share of itself a sample, in both windows: a wave that rings down has the same all along.
-    growth: [f32; 2],
-    /// The factor that makes of an amplitude from one middle to the other.
-    factor: f32,
-}
-
-impl Passed {
-    fn new(before: &Record, now: &Record) -> Self {
-        let samples = 0.5 * (now.middle.wrapping_sub(before.middle)) as f32;
-        let growth = [before, now].map(|record| record.main_rate / record.main);
-        // Beyond these the wave has died.
-        let exponent = lesser(
-            greater(0.5 * (growth[0] + growth[1]) * samples, -20.0),
-            20.0,
-        );
-        Self {
-            samples,
-            half: 0.5 * now.samples as f32,
-            growth,
-            factor: libm::expf(exponent),
-        }
-    }
-
-    /// The change that both windows' own rates promise, as a trapezoid: exact for a rate that itself changes steadily.
-    fn promised(&self, rates: [f32; 2]) -> f32 {
-        0.5 * (rates[0] + rates[1]) * self.samples
-    }
-
-    /// The variance of a change from what is promised, from those of both levels and both rates.
-    fn variance(&self, levels: f32, rates: f32) -> f32 {
-        levels + 0.25 * self.samples * self.samples * rates
-    }
-
-    /// Tests an amplitude and its rate: before and now, and the sums of their variances.
-    #[inline(never)]
-    fn change(
-        &self,
-        values: [f32; 2],
-        rates: [f32; 2],
-        variance: f32,
-        rate_variance: f32,
-        floor: f32,
-    ) -> Flags {
-        // Beside the growth that both amplitudes share, as a trapezoid.
-        let own: [f32; 2] = core::array::from_fn(|i| rates[i] - self.growth[i] * values[i]);
-        let beside = self.promised([self.factor * own[0], own[1]]);
-        let step = beyond(
-            values[1] - self.factor * values[0] - beside,
-            self.variance(variance, rate_variance),
-            floor,
-        );
-        // A step within a window also looks like growth that the window before did not have.
-        let bent = self.samples <= 4.0 * self.half
-            && beyond(
-                self.half * (rates[1] - self.factor * rates[0]),
-                self.half * self.half * rate_variance,
-                floor,
-            );
-        Flags::empty()
-            .with_if(step, Flags::STEP)
-            .with_if(bent, Flags::MISFIT)
-    }
-}
-
-/// True where a step is more than chance and a floor explain, or no number.
-#[inline(never)]
-fn beyond(step: f32, variance: f32, floor: f32) -> bool {
-    let rest = step.abs() - floor;
-    rest > 0.0 && rest * rest > SIGMAS * SIGMAS * variance || step.is_nan()
 }
 
 #[cfg(test)]

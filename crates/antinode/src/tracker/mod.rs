@@ -1,5 +1,6 @@
 //! Blocks become estimates of a tracked wave: windows are cut, solved, checked, and joined to those before.
 
+mod between;
 mod checks;
 mod converter;
 mod record;
@@ -217,7 +218,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let mut record = Record::new(model, &fit, &wave, own, middle, angle, phase);
         let mut between = Flags::empty();
         if let Some(before) = &self.before {
-            between = checks::between(before, &record);
+            between = between::flags(before, &record);
             // A circular pattern has neither an angle nor a phase of its own.
             if !flags.intersects(Flags::CIRCULAR.with(Flags::LOST)) {
                 flags = flags.with(between);

@@ -1,0 +1,181 @@
+//! What electronics do to a window by itself: flattened crests, harmonics, tones, and pick-offs that are dead.
+
+use antinode::{Calibration, Estimate, Flags, Settings};
+use antinode_sim::{Flaws, Gyro, Wave};
+use host_tests::{Core, RATE, changed, gyro, identify, windows};
+
+#[test]
+fn flattened_crests_are_flagged_in_noise_without_a_known_rail() {
+    for seed in 0..10 {
+        let (wave, _) = gyro(seed);
+        let (s2, c2) = (2.0 * wave.at(0.5).angle).sin_cos();
+        let level = 0.75 * wave.at(0.5).main_amplitude * s2.abs().max(c2.abs());
+        let estimates = changed(seed, 0.1, 10, 90_000, |k, pair| {
+            if (40_000..60_000).contains(&k) {
+                pair.map(|s| s.clamp(-level, level))
+            } else {
+                pair
+            }
+        });
+        for estimate in touched(&estimates, 40_200, 59_800) {
+            assert!(
+                estimate.flags.contains(Flags::CLIPPED),
+                "seed {seed}: {estimate:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_limiter_before_the_noise_is_flagged_by_its_harmonic() {
+    for seed in 0..10 {
+        let wave = Wave {
+            angle_rate: 0.0,
+            ..gyro(seed).0
+        };
+        let a = wave.main_amplitude;
+        let (s2, c2) = (2.0 * wave.at(0.3).angle).sin_cos();
+        let level = 0.9 * a * s2.abs().max(c2.abs());
+        let mut state = 77 + seed;
+        let mut noise = move || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            0.01 * a * ((state >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
+        };
+        // Limited amplifiers ahead of a noisy converter: no two samples are equal.
+        let mut core = Core::new(windows(10)).unwrap();
+        let gyro = Gyro::new(wave, Flaws::default(), RATE, seed).unwrap();
+        let mut estimates = Vec::new();
+        for (k, pair) in gyro.take(60_000).enumerate() {
+            let limit = if k < 30_000 { f64::INFINITY } else { level };
+            let [c, d] = [pair.c, pair.d].map(|s| (s.clamp(-limit, limit) + noise()) as f32);
+            estimates.extend(core.push([c, d]));
+        }
+        for estimate in &estimates {
+            if estimate.start >= 30_000 {
+                assert!(
+                    estimate.flags.contains(Flags::CLIPPED),
+                    "seed {seed}: {estimate:?}"
+                );
+            } else if estimate.start + u64::from(estimate.samples) < 30_000 {
+                assert!(estimate.flags.is_empty(), "seed {seed}: {}", estimate.flags);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_pick_off_that_was_dead_from_the_start_is_flagged() {
+    for value in [0.0, 0.3] {
+        let estimates = changed(4, 0.01, 10, 20_000, |_, [c, _]| [c, value]);
+        assert!(estimates.len() > 90);
+        assert!(
+            estimates
+                .iter()
+                .all(|e| e.flags.contains(Flags::DEAD_CHANNEL))
+        );
+    }
+}
+
+#[test]
+fn a_tone_that_whole_blocks_do_not_see_is_flagged() {
+    // 3/2, 2 and 5/2 of the wave's frequency: the sums of blocks of two periods hide them.
+    for multiple in [1.5, 2.0, 2.5] {
+        for seed in 0..5 {
+            let (wave, _) = gyro(seed);
+            let size = 0.1 * wave.main_amplitude;
+            let estimates = changed(seed, 0.001, 10, 20_000, |k, [c, d]| {
+                let advance = multiple * std::f64::consts::TAU * wave.frequency / RATE;
+                let tone = size * (advance * k as f64 + 0.7).cos();
+                [c + tone, d - 0.5 * tone]
+            });
+            assert!(estimates.len() > 90);
+            let unseen = estimates
+                .iter()
+                .filter(|e| !e.flags.contains(Flags::MISFIT));
+            // Twice the frequency may lie so that it hardly raises the crests.
+            let unseen = unseen.count();
+            assert!(unseen < 20, "{multiple}, seed {seed}: {unseen}");
+        }
+    }
+}
+
+#[test]
+fn a_pick_off_that_dies_is_told_whatever_its_gain() {
+    for gain_ratio in [0.1, 1.0, 10.0] {
+        let (wave, _) = gyro(3);
+        let wave = Wave { angle: 0.3, ..wave };
+        let flaws = Flaws {
+            gain_ratio,
+            noise: 0.005 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let settings = antinode::Settings {
+            calibration: antinode::Calibration {
+                gain_ratio: gain_ratio as f32,
+                ..antinode::Calibration::IDEAL
+            },
+            ..windows(10)
+        };
+        let silence = Flaws {
+            noise: flaws.noise,
+            ..Flaws::default()
+        };
+        let still = Wave {
+            main_amplitude: 1e-12,
+            quadrature_amplitude: 0.0,
+            ..wave
+        };
+        let gyro = Gyro::new(wave, flaws, RATE, 1).unwrap();
+        let dead = Gyro::new(still, silence, RATE, 2).unwrap();
+        let mut core = Core::new(settings).unwrap();
+        let pairs = gyro.zip(dead).take(40_000).enumerate();
+        let estimates = pairs.filter_map(|(k, (pair, dead))| {
+            let d = if k < 20_000 { pair.d } else { dead.d };
+            core.push([pair.c as f32, d as f32])
+        });
+        let after: Vec<_> = estimates.filter(|e| e.start > 20_200).collect();
+        assert!(after.len() > 90);
+        let told = |e: &&Estimate| e.flags.contains(Flags::DEAD_CHANNEL);
+        assert_eq!(
+            after.iter().filter(told).count(),
+            after.len(),
+            "gain {gain_ratio}"
+        );
+    }
+}
+
+#[test]
+fn a_gain_that_is_corrected_neither_makes_a_harmonic_nor_hides_one() {
+    for (gain, cubic) in [(3.0, 0.0), (0.3, 0.0), (0.3, 0.03), (3.0, 0.03)] {
+        let (mut clipped, mut rows) = (0, 0);
+        for seed in 0..4 {
+            let (mut wave, _) = gyro(seed);
+            wave.angle = std::f64::consts::FRAC_PI_4;
+            let flaws = Flaws {
+                noise: if cubic == 0.0 { 0.1 } else { 5e-4 } * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let settings = Settings {
+                calibration: Calibration {
+                    gain_ratio: gain as f32,
+                    ..Calibration::IDEAL
+                },
+                ..windows(10)
+            };
+            let mut core = Core::new(settings).unwrap();
+            for pair in Gyro::new(wave, flaws, RATE, seed).unwrap().take(100_000) {
+                let share = pair.d / wave.main_amplitude;
+                let d = gain * (pair.d + cubic * wave.main_amplitude * share.powi(3));
+                if let Some(estimate) = core.push([pair.c as f32, d as f32]) {
+                    rows += 1;
+                    clipped += usize::from(estimate.flags.contains(Flags::CLIPPED));
+                }
+            }
+        }
+        println!("gain {gain}, cubic {cubic}: {clipped} of {rows} clipped");
+        let expected = if cubic == 0.0 { 0 } else { rows };
+        assert_eq!(clipped, expected, "gain {gain}, cubic {cubic}");
+    }
+}

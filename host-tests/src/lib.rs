@@ -101,3 +101,14 @@ pub fn changed(
         .filter_map(|[c, d]| core.push([c as f32, d as f32]))
         .collect()
 }
+
+/// The windows that a stretch of samples touches by at least a block.
+pub fn touched(estimates: &[Estimate], from: usize, to: usize) -> Vec<&Estimate> {
+    let block = 19;
+    estimates
+        .iter()
+        .filter(|e| {
+            e.start + block < to as u64 && e.start + u64::from(e.samples) > from as u64 + block
+        })
+        .collect()
+}

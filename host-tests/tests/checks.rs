@@ -2,18 +2,7 @@
 
 use antinode::{Estimate, Flags};
 use antinode_sim::{Flaws, Loss, Wave};
-use host_tests::{RATE, changed, gyro, identify, windows};
-
-/// The windows that a stretch of samples touches by at least a block, and the flags of all others.
-fn touched(estimates: &[Estimate], from: usize, to: usize) -> Vec<&Estimate> {
-    let block = 19;
-    estimates
-        .iter()
-        .filter(|e| {
-            e.start + block < to as u64 && e.start + u64::from(e.samples) > from as u64 + block
-        })
-        .collect()
-}
+use host_tests::{RATE, changed, gyro, identify, touched, windows};
 
 #[test]
 fn a_sample_lost_between_two_windows_is_flagged() {

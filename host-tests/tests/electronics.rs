@@ -2,7 +2,7 @@
 
 use antinode::{Calibration, Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Gyro, Wave};
-use host_tests::{Core, RATE, changed, gyro, identify, windows};
+use host_tests::{Core, RATE, changed, gyro, touched, windows};
 
 #[test]
 fn flattened_crests_are_flagged_in_noise_without_a_known_rail() {

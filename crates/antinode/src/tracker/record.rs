@@ -1,7 +1,7 @@
 //! One window as the tracker remembers it: values at its middle, rates a sample, variances.
 
 use crate::arch::square_root;
-use crate::double::{self, reciprocal, to_single};
+use crate::double::{self, reciprocal, scaled, to_single};
 use crate::estimate::{Estimate, Flags};
 use crate::order::greater;
 use crate::phase::PhaseStep;
@@ -33,8 +33,8 @@ impl Units {
     pub(crate) fn at(sample_rate: f64) -> Self {
         Self {
             sample_rate: to_single(sample_rate),
-            half_sample: 0.5 * reciprocal(sample_rate),
-            turn: sample_rate * (1.0 / 18_446_744_073_709_551_616.0),
+            half_sample: scaled(reciprocal(sample_rate), -1),
+            turn: scaled(sample_rate, -64),
         }
     }
 }

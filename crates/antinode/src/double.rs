@@ -18,18 +18,18 @@ pub(crate) fn units(count: i64, unit: f64) -> f64 {
     }
     let bits = unit.to_bits();
     let shift = size.leading_zeros();
-    let (a, b) = (size << shift, bits << 11 | 1 << 63);
+    let (a, b) = (size << shift, (bits << 11) | (1 << 63));
     // The upper half of the product: of what is left out, less than three of its units.
     let halves = |x: u64| [x & 0xffff_ffff, x >> 32];
     let ([a_low, a_high], [b_low, b_high]) = (halves(a), halves(b));
-    let product = a_high * b_high + (a_high * b_low >> 32) + (a_low * b_high >> 32);
+    let product = a_high * b_high + ((a_high * b_low) >> 32) + ((a_low * b_high) >> 32);
     let lead = product.leading_zeros();
     let fraction = product << lead;
     // Rounding may carry into the exponent, as it should; the leading one is taken off it.
-    let rounded = (fraction >> 11) + (fraction >> 10 & 1);
+    let rounded = (fraction >> 11) + ((fraction >> 10) & 1);
     let exponent = (bits >> 52) + 63 - u64::from(shift + lead);
-    let sign = count as u64 & 1 << 63;
-    f64::from_bits((exponent << 52) + rounded | sign)
+    let sign = count as u64 & (1 << 63);
+    f64::from_bits(((exponent << 52) + rounded) | sign)
 }
 
 /// A number times 2 to the power of `exponent`.
@@ -58,7 +58,7 @@ pub(crate) fn reciprocal(x: f64) -> f64 {
 /// The product of two numbers.
 fn product(x: f64, y: f64) -> f64 {
     let bits = x.to_bits();
-    let fraction = bits & ((1 << 52) - 1) | 1 << 52;
+    let fraction = (bits & ((1 << 52) - 1)) | (1 << 52);
     scaled(units(fraction as i64, y), (bits >> 52) as i64 - 1075)
 }
 
@@ -75,7 +75,7 @@ mod tests {
                 .wrapping_add(1_442_695_040_888_963_407);
             // 10⁻³ to 10¹², all bits of the fraction.
             let exponent = 1023 - 10 + i % 50;
-            let x = f64::from_bits(exponent << 52 | seed >> 12);
+            let x = f64::from_bits((exponent << 52) | (seed >> 12));
             assert_eq!(to_single(x).to_bits(), (x as f32).to_bits(), "{x}");
             let apart = (reciprocal(x) * x - 1.0).abs();
             assert!(apart < 5e-16, "{x}: {apart}");

@@ -79,6 +79,7 @@ pub mod regrid;
 mod calibration;
 mod double;
 mod estimate;
+mod exponential;
 mod front;
 mod identifier;
 mod order;

@@ -95,9 +95,9 @@ struct Row {
 
 impl Row {
     fn new(step: PhaseStep, length: usize) -> Self {
-        let length = length as i64;
+        let length = length as i32;
         Self {
-            unit: step.after_half_samples(length - 1).unit(),
+            unit: step.after_half_samples(i64::from(length) - 1).unit(),
             turn: step.after_half_samples(-2).unit(),
             u: (1 - length) as f32 / length as f32,
             advance: 2.0 / length as f32,

@@ -5,7 +5,7 @@
 use super::checks::SIGMAS;
 use super::record::Record;
 use crate::estimate::Flags;
-use crate::order::{greater, lesser};
+use crate::exponential::exponential;
 use crate::wave::wrap;
 
 /// Below this share of a_A a step of an amplitude or an offset between windows is no fault.
@@ -77,16 +77,11 @@ impl Passed {
     fn new(before: &Record, now: &Record) -> Self {
         let samples = 0.5 * (now.middle.wrapping_sub(before.middle)) as f32;
         let growth = [before, now].map(|record| record.main_rate / record.main);
-        // Beyond these the wave has died.
-        let exponent = lesser(
-            greater(0.5 * (growth[0] + growth[1]) * samples, -20.0),
-            20.0,
-        );
         Self {
             samples,
             half: 0.5 * now.samples as f32,
             growth,
-            factor: libm::expf(exponent),
+            factor: exponential(0.5 * (growth[0] + growth[1]) * samples),
         }
     }
 

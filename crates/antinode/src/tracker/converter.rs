@@ -2,6 +2,7 @@
 
 use crate::arch::square_root;
 use crate::estimate::Flags;
+use crate::exponential::exponential;
 use crate::order::{greater, lesser};
 use crate::phase::PhaseStep;
 use crate::settings::Settings;
@@ -27,7 +28,7 @@ impl Coding {
         let own = square / 12.0;
         // The steps' own noise does not break up anything.
         let apart = greater(noise - own, 0.0);
-        let repeated = libm::expf(-39.5 * apart / square);
+        let repeated = exponential(-39.5 * apart / square);
         let white = greater(own - noise, 0.0);
         let most = white + 0.09 * square * repeated * model.half;
         let mut expected = white;

@@ -4,6 +4,7 @@ use num_complex::Complex32;
 
 use super::model::Model;
 use super::waves::Waves;
+use crate::exponential::growth;
 use crate::phase::Phase;
 
 /// Blocks from one exact exponential to the next; between them a recursion.
@@ -156,27 +157,6 @@ fn bend(here: &mut [Here], rest: [Complex32; 2]) {
             *wave += rest * here.unit * here.u;
         }
     }
-}
-
-/// e^x − 1 for |x| up to 1: within 3·10⁻⁶ there, and 10⁻⁸ up to 0.5.
-#[inline(never)]
-fn growth(x: Complex32) -> Complex32 {
-    const INVERSE: [f32; 7] = [
-        1.0 / 8.0,
-        1.0 / 7.0,
-        1.0 / 6.0,
-        1.0 / 5.0,
-        1.0 / 4.0,
-        1.0 / 3.0,
-        1.0 / 2.0,
-    ];
-    // Three terms leave 3·10⁻⁹ here.
-    let small = x.norm_sqr() < 0.05 * 0.05;
-    let terms = if small { &INVERSE[4..] } else { &INVERSE[..] };
-    let series = terms
-        .iter()
-        .fold(Complex32::ONE, |sum, &inverse| sum * x * inverse + 1.0);
-    series * x
 }
 
 #[cfg(test)]

@@ -26,10 +26,24 @@ pub fn identify(
     samples: usize,
     seed: u64,
 ) -> Vec<Estimate> {
+    identify_changed(wave, flaws, settings, samples, seed, |_, pair| pair)
+}
+
+/// As [`identify`], with `change` applied to every pair; it is told the pair's index.
+pub fn identify_changed(
+    wave: Wave,
+    flaws: &Flaws,
+    settings: Settings,
+    samples: usize,
+    seed: u64,
+    change: impl Fn(usize, [f64; 2]) -> [f64; 2],
+) -> Vec<Estimate> {
     let mut core = Core::new(settings).expect("the test's settings are valid");
     let gyro = Gyro::new(wave, flaws.clone(), RATE, seed).expect("the test's gyro is valid");
     gyro.take(samples)
-        .filter_map(|pair| core.push([pair.c as f32, pair.d as f32]))
+        .enumerate()
+        .map(|(k, pair)| change(k, [pair.c, pair.d]))
+        .filter_map(|pair| core.push(pair.map(|x| x as f32)))
         .collect()
 }
 
@@ -91,15 +105,7 @@ pub fn changed(
 ) -> Vec<Estimate> {
     let (wave, mut flaws) = gyro(seed);
     flaws.noise = noise * wave.main_amplitude;
-    let mut core = Core::new(windows(periods)).unwrap();
-    let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
-    let pairs = gyro
-        .take(samples)
-        .enumerate()
-        .map(|(k, pair)| change(k, [pair.c, pair.d]));
-    pairs
-        .filter_map(|[c, d]| core.push([c as f32, d as f32]))
-        .collect()
+    identify_changed(wave, &flaws, windows(periods), samples, seed, change)
 }
 
 /// The windows that a stretch of samples touches by at least a block.

@@ -3,7 +3,7 @@
 use antinode::{Estimate, Settings};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 use host_tests::score::{errors, stated};
-use host_tests::{Core, RATE, angle_error, identify, stream, windows};
+use host_tests::{Core, RATE, angle_error, identify, identify_changed, stream, windows};
 
 #[test]
 fn the_angle_runs_on_over_many_turns() {
@@ -308,26 +308,18 @@ fn the_angle_does_not_slip_at_the_end_of_a_ring_down() {
             noise: 1.1,
             ..Flaws::default()
         };
-        let mut core = Core::new(Settings {
+        let settings = Settings {
             start_angle: 0.3,
             ..windows(10)
-        })
-        .unwrap();
-        let (mut rows, mut slipped) = (0, 0);
-        let pairs = Gyro::new(wave, flaws, RATE, seed).unwrap().take(3_000_000);
-        for (k, pair) in pairs.enumerate() {
-            // The wave is found while it is loud.
-            let gain = 1.0 + 5.0 * (-(k as f64) / 30_000.0).exp();
+        };
+        // The wave is found while it is loud.
+        let found = identify_changed(wave, &flaws, settings, 3_000_000, seed, |k, [c, d]| {
+            let more = 5.0 * (-(k as f64) / 30_000.0).exp();
             let clean = wave.pick_offs(k as f64 / RATE);
-            let pair = [
-                pair.c + (gain - 1.0) * clean.0,
-                pair.d + (gain - 1.0) * clean.1,
-            ];
-            if let Some(estimate) = core.push(pair.map(|x| x as f32)) {
-                rows += 1;
-                slipped += usize::from((estimate.angle - 0.3).abs() > 0.8);
-            }
-        }
+            [c + more * clean.0, d + more * clean.1]
+        });
+        let slips = found.iter().filter(|e| (e.angle - 0.3).abs() > 0.8);
+        let (rows, slipped) = (found.len(), slips.count());
         println!("seed {seed}: {rows} windows, {slipped} off by a quarter turn");
         assert!(rows > 3_000 && slipped == 0);
     }

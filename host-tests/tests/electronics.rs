@@ -2,7 +2,7 @@
 
 use antinode::{Calibration, Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Gyro, Wave};
-use host_tests::{Core, RATE, changed, gyro, touched, windows};
+use host_tests::{Core, RATE, changed, gyro, identify_changed, touched, windows};
 
 #[test]
 fn flattened_crests_are_flagged_in_noise_without_a_known_rail() {
@@ -164,15 +164,15 @@ fn a_gain_that_is_corrected_neither_makes_a_harmonic_nor_hides_one() {
                 },
                 ..windows(10)
             };
-            let mut core = Core::new(settings).unwrap();
-            for pair in Gyro::new(wave, flaws, RATE, seed).unwrap().take(100_000) {
-                let share = pair.d / wave.main_amplitude;
-                let d = gain * (pair.d + cubic * wave.main_amplitude * share.powi(3));
-                if let Some(estimate) = core.push([pair.c as f32, d as f32]) {
-                    rows += 1;
-                    clipped += usize::from(estimate.flags.contains(Flags::CLIPPED));
-                }
-            }
+            let main = wave.main_amplitude;
+            let found = identify_changed(wave, &flaws, settings, 100_000, seed, |_, [c, d]| {
+                [c, gain * (d + cubic * main * (d / main).powi(3))]
+            });
+            rows += found.len();
+            clipped += found
+                .iter()
+                .filter(|e| e.flags.contains(Flags::CLIPPED))
+                .count();
         }
         println!("gain {gain}, cubic {cubic}: {clipped} of {rows} clipped");
         let expected = if cubic == 0.0 { 0 } else { rows };

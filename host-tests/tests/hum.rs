@@ -1,9 +1,9 @@
 //! Signals with mains hum: with the setting for it the bound is reached, faults are still told, and a ring-down is followed to its end.
 
 use antinode::{Estimate, Flags, Settings};
-use antinode_sim::{Flaws, Gyro, Loss, Wave, random_wave};
+use antinode_sim::{Flaws, Loss, Wave, random_wave};
 use host_tests::score::{NAMES, Score};
-use host_tests::{Core, RATE, windows};
+use host_tests::{RATE, identify_changed, windows};
 
 /// Hum of 50 Hz on both pick-offs, of this amplitude, and a third of it at 150 Hz.
 fn hum(k: usize, size: f64) -> [f64; 2] {
@@ -20,13 +20,10 @@ fn identified(
     settings: Settings,
     seed: u64,
 ) -> Vec<Estimate> {
-    let mut core = Core::new(settings).unwrap();
-    let pairs = Gyro::new(wave, flaws, RATE, seed).unwrap().take(samples);
-    let pairs = pairs.enumerate().map(|(k, pair)| {
+    identify_changed(wave, &flaws, settings, samples, seed, |k, pair| {
         let [c, d] = hum(k, size);
-        [(pair.c + c) as f32, (pair.d + d) as f32]
-    });
-    pairs.filter_map(|pair| core.push(pair)).collect()
+        [pair[0] + c, pair[1] + d]
+    })
 }
 
 fn settings(periods: u16, hum: bool) -> Settings {

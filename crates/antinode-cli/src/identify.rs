@@ -110,7 +110,9 @@ fn identify(
             Ok(_) => {}
             Err(error) => break Some(error),
         }
-        search.begin(&buffer);
+        if core.index() == 0 {
+            search.begin(&buffer);
+        }
         let mut pairs = buffer.as_slice();
         while !pairs.is_empty() {
             // Until the first row, what becomes of the search is to be seen.

@@ -6,6 +6,7 @@ mod failure;
 mod fixed;
 mod ideal;
 mod identify;
+mod interrupt;
 mod method_rows;
 mod method_table;
 mod methods;

@@ -12,6 +12,7 @@ use antinode_sim::{Flaws, Gyro, Wave};
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::interrupt::on_interrupt;
 use crate::recording::{RecordingWriter, WholeFile};
 pub use options::Simulate;
 
@@ -91,7 +92,6 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
 fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
-    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
-        .map_err(|error| Failure::Recording(format!("Ctrl-C cannot be caught: {error}")))?;
+    on_interrupt(move || flag.store(true, Ordering::Relaxed))?;
     Ok(interrupted)
 }

@@ -1,7 +1,7 @@
 //! f64 at the interface: whole numbers times a unit, and what makes units. On a core without f64 its arithmetic is 2.5 KB of code, and
 //! this a tenth of it.
 //!
-//! Numbers here are positive and within 10⁻³⁰ to 10³⁰, so there is no rounding to nothing, no infinity and nothing that is no number.
+//! Units and numbers here are positive and within 10⁻³⁰ to 10³⁰, so there is no rounding to nothing, no infinity and nothing that is no number.
 
 /// The bits of one.
 const ONE: i64 = 0x3ff0_0000_0000_0000;

@@ -177,6 +177,29 @@ struct Line {
     bytes: u64,
 }
 
+/// What came of a command.
+#[derive(Default)]
+struct Heard {
+    hello: Option<Hello>,
+    /// True when it was acknowledged.
+    is_done: bool,
+}
+
+impl Heard {
+    /// Takes a report after the command of this id was sent.
+    fn take(&mut self, report: Report, id: u16) -> Result<(), CommandError> {
+        match report {
+            Report::Hello(told) => self.hello = Some(told),
+            Report::Acknowledgement(answer) if answer.id == id => {
+                answer.result?;
+                self.is_done = true;
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
 impl Line {
     /// Who the device is.
     fn hello(&mut self) -> Result<Hello, Failure> {
@@ -200,7 +223,7 @@ impl Line {
         } else {
             SENDS
         };
-        let (mut hello, mut done) = (None, false);
+        let mut heard = Heard::default();
         for send in 1..=sends {
             self.port
                 .write_all(request)
@@ -208,25 +231,19 @@ impl Line {
             let end = Instant::now() + self.patience;
             while Instant::now() < end {
                 for report in self.read()? {
-                    match report {
-                        Report::Hello(told) => hello = Some(told),
-                        Report::Acknowledgement(answer) if answer.id == id => {
-                            match answer.result {
-                                Ok(()) => done = true,
-                                // It may be busy with the same command, whose answer was lost.
-                                Err(CommandError::Busy) if send < sends => {}
-                                Err(error) => return Err(self.refused(error)),
-                            }
-                        }
-                        _ => {}
+                    match heard.take(report, id) {
+                        Ok(()) => {}
+                        // It may be busy with the same command, whose answer was lost.
+                        Err(CommandError::Busy) if send < sends => {}
+                        Err(error) => return Err(self.refused(error)),
                     }
                 }
-                if done && (hello.is_some() || !wanted) {
-                    return Ok(hello);
+                if heard.is_done && (heard.hello.is_some() || !wanted) {
+                    return Ok(heard.hello);
                 }
             }
         }
-        if done {
+        if heard.is_done {
             Ok(None)
         } else {
             Err(self.silent(sends))

@@ -8,6 +8,7 @@ use std::thread;
 
 use super::port;
 use crate::failure::Failure;
+use crate::interrupt::on_interrupt;
 use crate::recording::InputError;
 
 /// What comes from a source.
@@ -37,10 +38,9 @@ impl Source {
         // A few chunks ahead: a file of any size keeps memory as it is.
         let (sender, input) = sync_channel(4);
         let interrupt = sender.clone();
-        ctrlc::set_handler(move || {
+        on_interrupt(move || {
             let _ = interrupt.send(Input::Interrupted);
-        })
-        .map_err(|error| Failure::Recording(format!("Ctrl-C cannot be caught: {error}")))?;
+        })?;
         if path == Path::new("-") {
             thread::spawn(move || read(io::stdin(), &sender));
             let name = "standard input".to_owned();

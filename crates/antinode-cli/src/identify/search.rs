@@ -13,17 +13,14 @@ pub(super) struct Search {
     has_found: bool,
     /// Periods whose first window was no wave.
     refused: u64,
-    has_begun: bool,
     /// The mean of the first samples, and their rms about it, where that is much less.
     offset: Option<[f64; 2]>,
 }
 
 impl Search {
-    /// Takes the next pairs; the first of them tell the offset.
+    /// Takes the first pairs, which tell the offset.
     pub fn begin(&mut self, pairs: &[[f32; 2]]) {
-        if !std::mem::replace(&mut self.has_begun, true) {
-            self.offset = large_offset(pairs);
-        }
+        self.offset = large_offset(pairs);
     }
 
     /// Takes a look at the core.

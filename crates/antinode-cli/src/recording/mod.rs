@@ -164,7 +164,6 @@ impl Recording {
         if self.bytes_total.is_some() {
             let mut head = Vec::with_capacity(BLOCK_PAIRS);
             self.fault = self.opened.source.fill(&mut head, BLOCK_PAIRS).err();
-
             self.step = resolution::resolution(&head);
             self.head = head.into_iter();
         } else {

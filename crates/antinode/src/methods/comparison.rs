@@ -179,8 +179,8 @@ fn changing(leakage: f64, omega: f64, count: u32) -> f64 {
     leakage.max(0.5 * (cosine - sine / x).abs() / x)
 }
 
-/// What the method of this place may differ by without a fault, beside `explained`: the exact solution's own deviations, how little the noise and
-/// its mean square over the window are known, and what turning, decay and f32 rounding leave.
+/// What the method of this place may differ by without a fault, beside `explained`: the exact solution's own deviations, how little
+/// the noise and its mean square over the window are known, and what turning, decay and f32 rounding leave.
 fn scatter(
     place: usize,
     explained: &Shape,

@@ -26,20 +26,20 @@ pub(super) fn flags(before: &Record, now: &Record) -> Flags {
     let jump = phase_variance < 0.3 * 0.3 && beyond(phase, phase_variance, PHASE_FLOOR);
 
     let amplitude_floor = AMPLITUDE_FLOOR * before.main;
-    let main = passed.change(
-        [before.main, now.main],
-        [before.main_rate, now.main_rate],
-        before.main_variance + now.main_variance,
-        before.main_rate_variance + now.main_rate_variance,
-        amplitude_floor,
-    );
-    let quadrature = passed.change(
-        [before.quadrature, now.quadrature],
-        [before.quadrature_rate, now.quadrature_rate],
-        before.quadrature_variance + now.quadrature_variance,
-        before.quadrature_rate_variance + now.quadrature_rate_variance,
-        amplitude_floor,
-    );
+    let change =
+        |of: fn(&Record) -> Amplitude| passed.change(&of(before), &of(now), amplitude_floor);
+    let main = change(|record| Amplitude {
+        value: record.main,
+        rate: record.main_rate,
+        variance: record.main_variance,
+        rate_variance: record.main_rate_variance,
+    });
+    let quadrature = change(|record| Amplitude {
+        value: record.quadrature,
+        rate: record.quadrature_rate,
+        variance: record.quadrature_variance,
+        rate_variance: record.quadrature_rate_variance,
+    });
     let angle = beyond(
         now.angle.less(before.angle) - passed.promised([before.turning, now.turning]),
         passed.variance(
@@ -60,6 +60,14 @@ pub(super) fn flags(before: &Record, now: &Record) -> Flags {
         .with_if(angle || offsets, Flags::STEP)
         .with(main)
         .with(quadrature)
+}
+
+/// An amplitude of a window, its rate a sample, and their variances.
+struct Amplitude {
+    value: f32,
+    rate: f32,
+    variance: f32,
+    rate_variance: f32,
 }
 
 /// What lies between the middles of two windows.
@@ -95,22 +103,17 @@ impl Passed {
         levels + 0.25 * self.samples * self.samples * rates
     }
 
-    /// Tests an amplitude and its rate: before and now, and the sums of their variances.
+    /// Tests an amplitude and its rate.
     #[inline(never)]
-    fn change(
-        &self,
-        values: [f32; 2],
-        rates: [f32; 2],
-        variance: f32,
-        rate_variance: f32,
-        floor: f32,
-    ) -> Flags {
+    fn change(&self, before: &Amplitude, now: &Amplitude, floor: f32) -> Flags {
+        let (values, rates) = ([before.value, now.value], [before.rate, now.rate]);
+        let rate_variance = before.rate_variance + now.rate_variance;
         // Beside the growth that both amplitudes share, as a trapezoid.
         let own: [f32; 2] = core::array::from_fn(|i| rates[i] - self.growth[i] * values[i]);
         let beside = self.promised([self.factor * own[0], own[1]]);
         let step = beyond(
             values[1] - self.factor * values[0] - beside,
-            self.variance(variance, rate_variance),
+            self.variance(before.variance + now.variance, rate_variance),
             floor,
         );
         // A step within a window also looks like growth that the window before did not have.

@@ -90,6 +90,8 @@ impl Record {
     ) -> Self {
         let per_half = model.per_half;
         let squared = per_half * per_half;
+        let (turning, turning_variance) =
+            (wave.turning * per_half, wave.turning_variance * squared);
         let [d, c_on_d] = model.correction.noise_gains();
         let variance =
             wave.noise * greater(model.covariance.even[0][0], model.covariance.odd[0][0]);
@@ -102,10 +104,10 @@ impl Record {
             drift_variance: wave.drift_variance * squared,
             angle,
             angle_variance: wave.angle_variance,
-            turning: wave.turning * per_half,
-            turning_variance: wave.turning_variance * squared,
-            promised: wave.turning * per_half,
-            promised_variance: wave.turning_variance * squared,
+            turning,
+            turning_variance,
+            promised: turning,
+            promised_variance: turning_variance,
             phase,
             phase_variance: wave.phase_variance,
             main: wave.main,

@@ -89,9 +89,10 @@ impl Model {
 
     /// Degrees of freedom that the residual of both pick-offs has.
     pub(super) fn freedom(&self) -> f32 {
-        let rank = f32::from(self.basis.rank) - 1.0 + self.shared;
-        let parameters = PARAMETERS as f32 - 1.0 + self.shared;
-        2.0 * greater(rank * f32::from(self.blocks) - parameters, 0.5)
+        // An offset that a block has to itself takes its mean, and is no parameter of the window.
+        let own = 1.0 - self.shared;
+        let sums = (f32::from(self.basis.rank) - own) * f32::from(self.blocks);
+        2.0 * greater(sums - (PARAMETERS as f32 - own), 0.5)
     }
 
     /// Blocks, twice, from the middle of the window to that of block `index`.

@@ -100,14 +100,18 @@ impl PhaseStep {
         self.0 as f32 * (TAU / TURN)
     }
 
-    /// The frequency in Hz plus `offset` radians a sample (within ±3), at full resolution; `unit` is sample rate · 2⁻⁶⁴, in Hz.
+    /// The frequency in Hz plus `offset` radians a sample, at full resolution; `unit` is sample rate · 2⁻⁶⁴, in Hz.
+    ///
+    /// An offset beyond ±3, as where there is no wave, gives a number that means nothing.
     pub fn hertz(self, offset: f32, unit: f64) -> f64 {
         // The offset in units of 2⁻²⁹ rad, of which each is 2³⁵/2π of 2⁻⁶⁴ turn, and what is beyond: no digit of it is lost.
         let scaled = offset * 536_870_912.0;
         let whole = scaled as i32;
         let rest = ((scaled - whole as f32) * (2.0 * TURN / TAU)) as i32;
-        let offset = i64::from(whole) * 5_468_522_205 + (i64::from(rest) << 2);
-        units((i64::from(self.0) << 32) + offset, unit)
+        let offset = i64::from(whole)
+            .wrapping_mul(5_468_522_205)
+            .wrapping_add(i64::from(rest) << 2);
+        units((i64::from(self.0) << 32).wrapping_add(offset), unit)
     }
 
     /// This step moved by `offset` radians a sample, to within half a unit and f32 rounding of the offset.
@@ -174,6 +178,15 @@ mod tests {
                 (added - wanted).abs() < 1e-11 + 1e-9 * wanted.abs(),
                 "{added} {wanted}"
             );
+        }
+    }
+
+    #[test]
+    fn no_offset_is_too_large_to_be_added() {
+        for offset in [3.1f32, -3.9, 1e9, f32::MAX, f32::INFINITY, f32::NAN] {
+            for offset in [offset, -offset] {
+                assert!(PhaseStep(u32::MAX).hertz(offset, 1e-15).is_finite());
+            }
         }
     }
 

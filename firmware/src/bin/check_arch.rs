@@ -183,8 +183,56 @@ fn add_floats(random: &mut Random, codes: &[[i16; 2]], weights: &[u32], index: u
         sum: small(sums.sum as u32),
     });
     let factors = factors.get(..weights.len()).unwrap_or(&[]);
+    let mut rough = floats;
+    if let Some(pair) = rough.get_mut(random.word() as usize % LONGEST) {
+        let any = FLOATS.get(random.word() as usize % FLOATS.len());
+        *pair = [f32::from_bits(*any.unwrap_or(&0)), pair[0]];
+    }
     let floats = floats.get(..codes.len()).unwrap_or(&[]);
-    same_floats(sums, codes, factors, index) && same_floats(sums, floats, factors, index)
+    let rough = rough.get(..codes.len()).unwrap_or(&[]);
+    same_floats(sums, codes, factors, index)
+        && same_floats(sums, floats, factors, index)
+        && same_watch(random, codes, factors, index)
+        && same_watch(random, floats, factors, index)
+        && same_watch(random, rough, factors, index)
+}
+
+/// Pairs between others, half of which are so coarse that many are equal to those before.
+fn same_watch(
+    random: &mut Random,
+    pairs: &[impl SamplePair<f32>],
+    weights: &[[f32; 2]],
+    index: u16,
+) -> bool {
+    let kept = if random.word() & 1 == 0 {
+        !0
+    } else {
+        0x8001_0003
+    };
+    let mut coarse = [[0; 2]; LONGEST];
+    for coarse in &mut coarse {
+        let word = random.rough_word() & kept;
+        *coarse = [word as i16, (word >> 16) as i16];
+    }
+    let coarse = coarse.get(..pairs.len()).unwrap_or(&[]);
+    let mut state = ([ChannelSums::empty(); 2], [ChannelWatch::empty(); 2]);
+    portable::watch_floats(&mut state.0, &mut state.1, coarse, weights, 0);
+    let mut twin = state;
+    arch::watch_floats(&mut state.0, &mut state.1, pairs, weights, index);
+    portable::watch_floats(&mut twin.0, &mut twin.1, pairs, weights, index);
+    arch::watch_floats(&mut state.0, &mut state.1, coarse, weights, index);
+    portable::watch_floats(&mut twin.0, &mut twin.1, coarse, weights, index);
+    // What a NaN carries is left open by IEEE 754.
+    let bits = |x: f32| if x.is_nan() { 0 } else { x.to_bits() };
+    let all = |(sums, watch): ([ChannelSums<f32>; 2], [ChannelWatch<f32>; 2])| {
+        (
+            sums.map(|sums| [sums.cosine, sums.sine, sums.sum].map(bits)),
+            watch.map(|watch| [watch.third_cosine, watch.third_sine].map(bits)),
+            watch.map(|watch| [watch.low, watch.high, watch.last()].map(bits)),
+            watch.map(|watch| watch.longest()),
+        )
+    };
+    all(state) == all(twin)
 }
 
 fn same_floats(

@@ -16,6 +16,8 @@ mod fpu;
     allow(dead_code, reason = "the instructions take their place")
 )]
 pub mod portable;
+#[cfg(all(has_dsp, has_vsqrt))]
+mod watched;
 
 #[cfg(has_dsp)]
 pub use dsp::{
@@ -32,6 +34,11 @@ pub use portable::{
 pub use fpu::{add_floats, square_root};
 #[cfg(not(has_vsqrt))]
 pub use portable::{add_floats, square_root};
+
+#[cfg(not(all(has_dsp, has_vsqrt)))]
+pub use portable::watch_floats;
+#[cfg(all(has_dsp, has_vsqrt))]
+pub use watched::watch_floats;
 
 #[cfg(test)]
 mod tests {

@@ -135,6 +135,46 @@ pub fn add_floats<P: SamplePair<f32>>(
     *sums = now;
 }
 
+/// Adds pairs as [`add_floats`] does, and watches them.
+#[inline(never)]
+pub fn watch_floats<P: SamplePair<f32>>(
+    sums: &mut [ChannelSums<f32>; 2],
+    watch: &mut [ChannelWatch<f32>; 2],
+    pairs: &[P],
+    weights: &[[f32; 2]],
+    index: u16,
+) {
+    let Some(weights) = weights.get(usize::from(index)..) else {
+        return;
+    };
+    if pairs.is_empty() || pairs.len() > weights.len() {
+        return;
+    }
+    if index == 0 {
+        *sums = [ChannelSums::empty(); 2];
+        *watch = [ChannelWatch::empty(); 2];
+    }
+    for ((pair, [cosine, sine]), index) in pairs.iter().zip(weights).zip(index..) {
+        // cos 3φ = cos φ (4 cos² φ − 3), sin 3φ = sin φ (4 cos² φ − 1).
+        let square = 4.0 * cosine * cosine;
+        let (of_cosine, of_sine) = (square - 3.0, square - 1.0);
+        for ((sums, watch), sample) in sums.iter_mut().zip(&mut *watch).zip(pair.pair()) {
+            let (even, odd) = (sample * cosine, sample * sine);
+            sums.cosine += even;
+            sums.sine += odd;
+            sums.sum += sample;
+            watch.third_cosine += even * of_cosine;
+            watch.third_sine += odd * of_sine;
+            // What is not a number is no extreme.
+            watch.reach(sample, sample);
+            if sample == watch.last() {
+                watch.see_again(sample, index);
+            }
+            watch.end(sample);
+        }
+    }
+}
+
 /// Pairs with a cosine and a sine for each, where there are weights for all.
 #[inline(always)]
 fn weighted<P: Copy>(

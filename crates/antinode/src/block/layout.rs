@@ -74,8 +74,7 @@ impl Layout {
 }
 
 /// cos 3φ and sin 3φ from cos φ and sin φ.
-#[inline(always)]
-pub(crate) fn third_harmonic([cosine, sine]: [f32; 2]) -> [f32; 2] {
+fn third_harmonic([cosine, sine]: [f32; 2]) -> [f32; 2] {
     let square = 4.0 * cosine * cosine;
     [cosine * (square - 3.0), sine * (square - 1.0)]
 }

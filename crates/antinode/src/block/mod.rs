@@ -5,11 +5,12 @@
 //! fit the period, and no weight need be exact, because the window solution takes exact sums of the very weights for any length.
 
 mod layout;
+mod runs;
 mod sums;
 
 pub use layout::Layout;
-pub(crate) use layout::third_harmonic;
-pub use sums::{ChannelSums, ChannelWatch, Runs};
+pub use runs::Runs;
+pub use sums::{ChannelSums, ChannelWatch};
 
 use crate::sample::{Sample, SamplePair};
 
@@ -171,10 +172,8 @@ impl<S: Sample, const N: usize> Summing<S, N> {
             self.extend_table();
         }
         let index = index as u16;
-        S::add_slice(&mut self.block.sums, pairs, &self.table, index);
-        if let Some(watch) = &mut self.block.watch {
-            S::watch_slice(watch, pairs, (&self.table, &self.third), index);
-        }
+        let Block { sums, watch, .. } = &mut self.block;
+        S::add_slice(sums, watch, pairs, (&self.table, &self.third), index);
         (pairs.len(), count == length)
     }
 

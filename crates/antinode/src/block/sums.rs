@@ -44,18 +44,6 @@ pub struct ChannelWatch<S: Sample> {
     pub runs: S::Runs,
 }
 
-/// How long samples of f32 stayed at their extremes.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Runs {
-    /// Most samples in a row that were equal to the least: one, unless the signal is cut off.
-    pub low: u16,
-    /// Most samples in a row that were equal to the greatest.
-    pub high: u16,
-    /// The runs that go on at the last samples: their length, and the index after them.
-    pub(crate) low_now: (u16, u16),
-    pub(crate) high_now: (u16, u16),
-}
-
 impl<S: Sample> ChannelWatch<S> {
     /// The watch of no samples.
     pub fn empty() -> Self {

@@ -45,7 +45,7 @@ impl Sample for i16 {
     }
 
     #[inline(always)]
-    fn runs(_: &()) -> [u16; 2] {
+    fn runs(_: &ChannelWatch<Self>) -> [u16; 2] {
         [1; 2]
     }
 
@@ -79,21 +79,15 @@ impl Sample for i16 {
     #[inline(always)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
+        watch: &mut Option<[ChannelWatch<Self>; 2]>,
         pairs: &[P],
-        table: &[u32],
+        (carrier, third): (&[u32], &[u32]),
         index: u16,
     ) {
-        arch::add_pairs(sums, pairs, table, index);
-    }
-
-    #[inline(always)]
-    fn watch_slice<P: SamplePair<Self>>(
-        watch: &mut [ChannelWatch<Self>; 2],
-        pairs: &[P],
-        (_, table): (&[u32], &[u32]),
-        index: u16,
-    ) {
-        arch::watch_pairs(watch, pairs, table, index);
+        arch::add_pairs(sums, pairs, carrier, index);
+        if let Some(watch) = watch {
+            arch::watch_pairs(watch, pairs, third, index);
+        }
     }
 
     #[inline(always)]

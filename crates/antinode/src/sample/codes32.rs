@@ -36,7 +36,7 @@ impl Sample for i32 {
     }
 
     #[inline(always)]
-    fn runs(_: &()) -> [u16; 2] {
+    fn runs(_: &ChannelWatch<Self>) -> [u16; 2] {
         [1; 2]
     }
 
@@ -56,53 +56,18 @@ impl Sample for i32 {
         Self::set_weight(table, index, weight);
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
+        watch: &mut Option<[ChannelWatch<Self>; 2]>,
         pairs: &[P],
-        table: &[[i16; 2]],
+        (carrier, third): (&[[i16; 2]], &[[i16; 2]]),
         index: u16,
     ) {
-        let [mut c, mut d] = if index == 0 {
-            [ChannelSums::empty(); 2]
-        } else {
-            *sums
-        };
-        for (pair, &weight) in pairs
-            .iter()
-            .zip(table.get(usize::from(index)..).unwrap_or(&[]))
-        {
-            let [on_c, on_d] = pair.pair();
-            c.add(on_c, weight);
-            d.add(on_d, weight);
+        add_pairs(sums, pairs, carrier, index);
+        if let Some(watch) = watch {
+            watch_pairs(watch, pairs, third, index);
         }
-        *sums = [c, d];
-    }
-
-    #[inline(never)]
-    fn watch_slice<P: SamplePair<Self>>(
-        watch: &mut [ChannelWatch<Self>; 2],
-        pairs: &[P],
-        (_, table): (&[[i16; 2]], &[[i16; 2]]),
-        index: u16,
-    ) {
-        let [mut c, mut d] = if index == 0 {
-            [ChannelWatch::empty(); 2]
-        } else {
-            *watch
-        };
-        for (pair, &[cosine, sine]) in pairs
-            .iter()
-            .zip(table.get(usize::from(index)..).unwrap_or(&[]))
-        {
-            for (channel, sample) in [&mut c, &mut d].into_iter().zip(pair.pair()) {
-                channel.third_cosine += product(sample, cosine);
-                channel.third_sine += product(sample, sine);
-                channel.high = channel.high.max(sample);
-                channel.low = channel.low.min(sample);
-            }
-        }
-        *watch = [c, d];
     }
 
     #[inline(always)]
@@ -183,11 +148,49 @@ impl Sample for i32 {
     }
 }
 
-impl ChannelSums<i32> {
-    #[inline(always)]
-    fn add(&mut self, sample: i32, [cosine, sine]: [i16; 2]) {
-        self.cosine += product(sample, cosine);
-        self.sine += product(sample, sine);
-        self.sum += i64::from(sample);
+#[inline(never)]
+fn add_pairs<P: SamplePair<i32>>(
+    sums: &mut [ChannelSums<i32>; 2],
+    pairs: &[P],
+    table: &[[i16; 2]],
+    index: u16,
+) {
+    let mut now = if index == 0 {
+        [ChannelSums::empty(); 2]
+    } else {
+        *sums
+    };
+    let weights = table.get(usize::from(index)..).unwrap_or(&[]);
+    for (pair, &[cosine, sine]) in pairs.iter().zip(weights) {
+        for (sums, sample) in now.iter_mut().zip(pair.pair()) {
+            sums.cosine += product(sample, cosine);
+            sums.sine += product(sample, sine);
+            sums.sum += i64::from(sample);
+        }
     }
+    *sums = now;
+}
+
+#[inline(never)]
+fn watch_pairs<P: SamplePair<i32>>(
+    watch: &mut [ChannelWatch<i32>; 2],
+    pairs: &[P],
+    table: &[[i16; 2]],
+    index: u16,
+) {
+    let mut now = if index == 0 {
+        [ChannelWatch::empty(); 2]
+    } else {
+        *watch
+    };
+    let weights = table.get(usize::from(index)..).unwrap_or(&[]);
+    for (pair, &[cosine, sine]) in pairs.iter().zip(weights) {
+        for (watch, sample) in now.iter_mut().zip(pair.pair()) {
+            watch.third_cosine += product(sample, cosine);
+            watch.third_sine += product(sample, sine);
+            watch.high = watch.high.max(sample);
+            watch.low = watch.low.min(sample);
+        }
+    }
+    *watch = now;
 }

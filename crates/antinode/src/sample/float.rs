@@ -2,7 +2,7 @@
 
 use super::{Sample, SamplePair};
 use crate::arch;
-use crate::block::{ChannelSums, ChannelWatch, Runs, third_harmonic};
+use crate::block::{ChannelSums, ChannelWatch, Runs};
 use crate::period::{FRAME, Lags};
 use crate::sum::{self, Sum};
 
@@ -17,7 +17,7 @@ impl Sample for f32 {
     type Delayed = [Sum; 2];
     type Level = f32;
 
-    const WATCHED_AT_ONCE: u16 = 14;
+    const WATCHED_AT_ONCE: u16 = 9;
     const EXTREMES: [Self; 2] = [f32::NEG_INFINITY, f32::INFINITY];
 
     #[inline(always)]
@@ -31,8 +31,8 @@ impl Sample for f32 {
     }
 
     #[inline(always)]
-    fn runs(runs: &Runs) -> [u16; 2] {
-        [runs.low, runs.high]
+    fn runs(watch: &ChannelWatch<Self>) -> [u16; 2] {
+        watch.longest()
     }
 
     fn scale(_: u16) -> u16 {
@@ -52,36 +52,15 @@ impl Sample for f32 {
     #[inline(always)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
-        pairs: &[P],
-        table: &[[f32; 2]],
-        index: u16,
-    ) {
-        arch::add_floats(sums, pairs, table, index);
-    }
-
-    #[inline(never)]
-    fn watch_slice<P: SamplePair<Self>>(
-        watch: &mut [ChannelWatch<Self>; 2],
+        watch: &mut Option<[ChannelWatch<Self>; 2]>,
         pairs: &[P],
         (table, _): (&[[f32; 2]], &[()]),
         index: u16,
     ) {
-        let [mut c, mut d] = if index == 0 {
-            [ChannelWatch::empty(); 2]
-        } else {
-            *watch
-        };
-        let table = table.get(usize::from(index)..).unwrap_or(&[]);
-        for ((pair, &reference), index) in pairs.iter().zip(table).zip(index..) {
-            let (pair, [cosine, sine]) = (pair.pair(), third_harmonic(reference));
-            c.third_cosine += pair[0] * cosine;
-            c.third_sine += pair[0] * sine;
-            d.third_cosine += pair[1] * cosine;
-            d.third_sine += pair[1] * sine;
-            c.see(pair[0], index);
-            d.see(pair[1], index);
+        match watch {
+            Some(watch) => arch::watch_floats(sums, watch, pairs, table, index),
+            None => arch::add_floats(sums, pairs, table, index),
         }
-        *watch = [c, d];
     }
 
     #[inline(always)]
@@ -164,30 +143,3 @@ static RECIPROCALS: [f32; FRAME] = {
     }
     table
 };
-
-impl ChannelWatch<f32> {
-    #[inline(always)]
-    fn see(&mut self, sample: f32, index: u16) {
-        // Few samples of a block are an extreme so far: only those cost more than two comparisons.
-        if sample >= self.high {
-            let runs = &mut self.runs;
-            (runs.high, runs.high_now) = run(sample > self.high, runs.high, runs.high_now, index);
-            self.high = sample;
-        }
-        if sample <= self.low {
-            let runs = &mut self.runs;
-            (runs.low, runs.low_now) = run(sample < self.low, runs.low, runs.low_now, index);
-            self.low = sample;
-        }
-    }
-}
-
-/// The longest run at an extreme and the present one, after sample `index`, which is a new extreme or equals the last.
-#[inline(always)]
-fn run(is_new: bool, longest: u16, now: (u16, u16), index: u16) -> (u16, (u16, u16)) {
-    if is_new {
-        return (1, (1, index + 1));
-    }
-    let length = if now.1 == index { now.0 + 1 } else { 1 };
-    (longest.max(length), (length, index + 1))
-}

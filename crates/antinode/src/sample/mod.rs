@@ -105,27 +105,21 @@ pub trait Sample: Copy + Debug + Default + PartialEq + Send + sealed::Sealed + '
     /// Puts the weights of the third harmonic into their table, where there is one.
     #[doc(hidden)]
     fn set_third(table: &mut [Self::Third], index: usize, weight: [f32; 2]);
-    /// Adds pairs, the first of which is sample `index` of its block, to the carrier's sums, which begin anew at 0.
+    /// Adds pairs, the first of which is sample `index` of its block, to sums and watch, which begin anew at 0. The tables are those of
+    /// the reference and of its third harmonic.
     ///
-    /// Nothing is done where the table is too short.
+    /// Nothing is done where a table is too short.
     #[doc(hidden)]
     fn add_slice<P: SamplePair<Self>>(
         sums: &mut [ChannelSums<Self>; 2],
-        pairs: &[P],
-        table: &[Self::Weight],
-        index: u16,
-    );
-    /// Watches pairs, as [`add_slice`](Self::add_slice) adds them; the tables are those of the reference and of its third harmonic.
-    #[doc(hidden)]
-    fn watch_slice<P: SamplePair<Self>>(
-        watch: &mut [ChannelWatch<Self>; 2],
+        watch: &mut Option<[ChannelWatch<Self>; 2]>,
         pairs: &[P],
         tables: (&[Self::Weight], &[Self::Third]),
         index: u16,
     );
     /// The longest runs at the extremes, low and high: 1 where they are not counted.
     #[doc(hidden)]
-    fn runs(runs: &Self::Runs) -> [u16; 2];
+    fn runs(watch: &ChannelWatch<Self>) -> [u16; 2];
     /// Single pairs that are summed and watched together, at most 32: no more than fit between two samples of a fast converter.
     #[doc(hidden)]
     const WATCHED_AT_ONCE: u16;

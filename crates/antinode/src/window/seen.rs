@@ -75,7 +75,7 @@ impl Model {
 
 #[inline(always)]
 fn extremes<S: Sample>(watch: &ChannelWatch<S>) -> Extremes {
-    let [low_run, high_run] = S::runs(&watch.runs);
+    let [low_run, high_run] = S::runs(watch);
     Extremes {
         low: watch.low.to_f32(),
         high: watch.high.to_f32(),

@@ -1,0 +1,358 @@
+//! Sums and the watch in f32, in one pass: the floating-point unit, and for 16-bit codes the DSP extension beside it.
+
+use core::arch::naked_asm;
+
+use crate::block::{ChannelSums, ChannelWatch};
+use crate::sample::{Form, SamplePair};
+
+/// The portable kernel of the same name.
+#[inline(always)]
+pub fn watch_floats<P: SamplePair<f32>>(
+    sums: &mut [ChannelSums<f32>; 2],
+    watch: &mut [ChannelWatch<f32>; 2],
+    pairs: &[P],
+    weights: &[[f32; 2]],
+    index: u16,
+) {
+    const { assert!(size_of::<[ChannelSums<f32>; 2]>() == 24) };
+    const { assert!(size_of::<ChannelWatch<f32>>() == WATCH as usize) };
+    if P::FORM == Form::Other {
+        return super::portable::watch_floats(sums, watch, pairs, weights, index);
+    }
+    let (Some(by), [first, .., last] | [first @ last]) = (weights.get(usize::from(index)..), pairs)
+    else {
+        return;
+    };
+    if pairs.len() > by.len() {
+        return;
+    }
+    if index == 0 {
+        *sums = [ChannelSums::empty(); 2];
+        *watch = [ChannelWatch::empty(); 2];
+    }
+    for (watch, sample) in watch.iter_mut().zip(first.pair()) {
+        if sample == watch.last() {
+            watch.see_again(sample, index);
+        }
+    }
+    let place = (pairs.len() as u32) << 16 | u32::from(index);
+    let (from, by) = (pairs.as_ptr(), by.as_ptr());
+    if P::FORM == Form::Codes {
+        // SAFETY: the pairs are words of memory, weights for all are there, sums and watch are what their names say.
+        let extremes = unsafe { watch_codes(sums, from.cast(), by, place, watch) };
+        let halves = |word: u32| [f32::from(word as i16), f32::from((word >> 16) as i16)];
+        let (most, least) = (halves(extremes as u32), halves((extremes >> 32) as u32));
+        for (watch, (low, high)) in watch.iter_mut().zip(least.into_iter().zip(most)) {
+            watch.reach(low, high);
+        }
+    } else {
+        // SAFETY: as above, and a pair is two words.
+        unsafe { watch_pairs(sums, from.cast(), by, place, watch) };
+    }
+    for (watch, sample) in watch.iter_mut().zip(last.pair()) {
+        watch.end(sample);
+    }
+}
+
+/// Bytes of what is watched of one pick-off.
+const WATCH: u32 = 40;
+
+/// Sees the second of two pairs, of which a sample, or both, are equal to those of the first.
+extern "C" fn see_again<P: SamplePair<f32>>(
+    watch: &mut [ChannelWatch<f32>; 2],
+    pairs: &[P; 2],
+    index: u32,
+) {
+    let [before, pair] = pairs.map(P::pair);
+    for (watch, (before, sample)) in watch.iter_mut().zip(before.into_iter().zip(pair)) {
+        if sample == before {
+            watch.see_again(sample, index as u16);
+        }
+    }
+}
+
+/// Adds a pair to the sums, s16 to s21, and to those of the third harmonic, s22 to s25; three and one are in s26 and s27.
+macro_rules! add {
+    () => {
+        ".macro ADD cosine, sine, c, d
+        vadd.f32 s8, \\cosine, \\cosine
+        vmul.f32 s10, \\c, \\cosine
+        vmul.f32 s11, \\c, \\sine
+        vmul.f32 s8, s8, s8
+        vmul.f32 s12, \\d, \\cosine
+        vmul.f32 s13, \\d, \\sine
+        vsub.f32 s9, s8, s27
+        vsub.f32 s8, s8, s26
+        vadd.f32 s16, s16, s10
+        vadd.f32 s17, s17, s11
+        vadd.f32 s18, s18, \\c
+        vmul.f32 s10, s10, s8
+        vmul.f32 s11, s11, s9
+        vadd.f32 s19, s19, s12
+        vadd.f32 s20, s20, s13
+        vadd.f32 s21, s21, \\d
+        vmul.f32 s12, s12, s8
+        vmul.f32 s13, s13, s9
+        vadd.f32 s22, s22, s10
+        vadd.f32 s23, s23, s11
+        vadd.f32 s24, s24, s12
+        vadd.f32 s25, s25, s13
+        .endm"
+    };
+}
+
+/// r0: six sums; r1: words of two codes, which need no alignment; r2: their weights; r3: their count, at least one, in the high half and
+/// the first one's index in its block in the low half; on the stack: the watch.
+///
+/// Gives the greatest of the codes in r0 and the least in r1. Of runs it sees all but the first pair, of which it does not know what
+/// was before.
+#[unsafe(naked)]
+unsafe extern "C" fn watch_codes(
+    sums: *mut [ChannelSums<f32>; 2],
+    pairs: *const u32,
+    weights: *const [f32; 2],
+    place: u32,
+    watch: *mut [ChannelWatch<f32>; 2],
+) -> u64 {
+    naked_asm!(
+        ".fpu fpv4-sp-d16",
+        add!(),
+        ".macro CONVERT c, d, word",
+        "asr r12, \\word, #16",
+        "vmov \\c, \\d, \\word, r12",
+        // Of 16 bits: it takes the low half of the register as it is.
+        "vcvt.f32.s16 \\c, \\c, #0",
+        "vcvt.f32.s16 \\d, \\d, #0",
+        ".endm",
+        // r7, r8: greatest and least.
+        ".macro REACH most, least",
+        "ssub16 r12, \\most, r7",
+        "sel r7, \\most, r7",
+        "ssub16 r12, r8, \\least",
+        "sel r8, \\least, r8",
+        ".endm",
+        // r4: pairs, r5: weights, r6: how many are left, r9: the pair before, r10: two ones, r11: the index.
+        "push {{r0, r4-r11, lr}}",
+        "vpush {{s16-s27}}",
+        "mov r4, r1",
+        "mov r5, r2",
+        "lsrs r6, r3, #16",
+        "uxth r11, r3",
+        "ldr r1, [sp, #88]",
+        "vldmia r0, {{s16-s21}}",
+        "vldmia r1, {{s22-s23}}",
+        "add r1, r1, #{watch}",
+        "vldmia r1, {{s24-s25}}",
+        "vmov.f32 s26, #3.0",
+        "vmov.f32 s27, #1.0",
+        "mov r10, #0x00010001",
+        "ldr r7, [r4]",
+        "mov r8, r7",
+        "mvn r9, r7",
+        "subs r6, #2",
+        "blo 3f",
+        "1:",
+        "ldr r1, [r4, #4]",
+        "ldr r0, [r4], #8",
+        // A half of the difference that is zero leaves a one.
+        "eor r2, r0, r9",
+        "eor r3, r1, r0",
+        "uqsub16 r2, r10, r2",
+        "uqsub16 r3, r10, r3",
+        "orrs r12, r2, r3",
+        "bne 6f",
+        "2:",
+        "mov r9, r1",
+        "ssub16 r12, r0, r1",
+        "sel r2, r0, r1",
+        "sel r3, r1, r0",
+        "REACH r2, r3",
+        "CONVERT s0, s1, r0",
+        "CONVERT s2, s3, r1",
+        "vldmia r5!, {{s4-s7}}",
+        "add r11, r11, #2",
+        "ADD s4, s5, s0, s1",
+        "ADD s6, s7, s2, s3",
+        "subs r6, #2",
+        "bhs 1b",
+        "3:",
+        "lsls r6, r6, #31",
+        "beq 5f",
+        "ldr r0, [r4]",
+        "eor r2, r0, r9",
+        "uqsub16 r2, r10, r2",
+        "cmp r2, #0",
+        "bne 7f",
+        "4:",
+        "REACH r0, r0",
+        "CONVERT s0, s1, r0",
+        "vldmia r5, {{s4-s5}}",
+        "ADD s4, s5, s0, s1",
+        "5:",
+        "ldr r0, [sp, #48]",
+        "ldr r1, [sp, #88]",
+        "vstmia r0, {{s16-s21}}",
+        "vstmia r1, {{s22-s23}}",
+        "add r1, r1, #{watch}",
+        "vstmia r1, {{s24-s25}}",
+        "mov r0, r7",
+        "mov r1, r8",
+        "vpop {{s16-s27}}",
+        "pop {{r3, r4-r11, pc}}",
+        // What a call keeps is all that is needed of the pairs.
+        "6:",
+        "cbz r2, 8f",
+        "ldr r0, [sp, #88]",
+        "sub r1, r4, #12",
+        "mov r2, r11",
+        "bl {again}",
+        "8:",
+        "ldr r0, [sp, #88]",
+        "sub r1, r4, #8",
+        "add r2, r11, #1",
+        "bl {again}",
+        "ldr r0, [r4, #-8]",
+        "ldr r1, [r4, #-4]",
+        "b 2b",
+        "7:",
+        "ldr r0, [sp, #88]",
+        "sub r1, r4, #4",
+        "mov r2, r11",
+        "bl {again}",
+        "ldr r0, [r4]",
+        "b 4b",
+        ".purgem ADD",
+        ".purgem CONVERT",
+        ".purgem REACH",
+        watch = const WATCH,
+        again = sym see_again::<[i16; 2]>,
+    )
+}
+
+/// As `watch_codes`, of pairs of f32; it sees the extremes itself. What is not a number is none.
+#[unsafe(naked)]
+unsafe extern "C" fn watch_pairs(
+    sums: *mut [ChannelSums<f32>; 2],
+    pairs: *const [f32; 2],
+    weights: *const [f32; 2],
+    place: u32,
+    watch: *mut [ChannelWatch<f32>; 2],
+) {
+    naked_asm!(
+        ".fpu fpv4-sp-d16",
+        add!(),
+        ".macro REACH sample, least, most",
+        "vcmp.f32 \\sample, \\least",
+        "vmrs APSR_nzcv, fpscr",
+        "it mi",
+        "vmovmi.f32 \\least, \\sample",
+        "vcmp.f32 \\sample, \\most",
+        "vmrs APSR_nzcv, fpscr",
+        "it gt",
+        "vmovgt.f32 \\most, \\sample",
+        ".endm",
+        ".macro COMPARE c, d, before_c, before_d, equal",
+        "vcmp.f32 \\c, \\before_c",
+        "vmrs APSR_nzcv, fpscr",
+        "beq \\equal",
+        "vcmp.f32 \\d, \\before_d",
+        "vmrs APSR_nzcv, fpscr",
+        "beq \\equal",
+        ".endm",
+        // s28, s29: least and greatest of C; s30, s31: of D; s14, s15: the pair before. r4: pairs, r5: weights, r6: how many are
+        // left, r7: the watch, r8: the index, r9: sums.
+        "push {{r4-r9, lr}}",
+        "ldr r7, [sp, #28]",
+        "sub sp, #4",
+        "vpush {{s16-s31}}",
+        "mov r4, r1",
+        "mov r5, r2",
+        "mov r9, r0",
+        "lsrs r6, r3, #16",
+        "uxth r8, r3",
+        "vldmia r0, {{s16-s21}}",
+        "vldmia r7, {{s22-s23}}",
+        "vldr s28, [r7, #8]",
+        "vldr s29, [r7, #12]",
+        "vldr s24, [r7, #{watch}]",
+        "vldr s25, [r7, #{watch} + 4]",
+        "vldr s30, [r7, #{watch} + 8]",
+        "vldr s31, [r7, #{watch} + 12]",
+        "vmov.f32 s26, #3.0",
+        "vmov.f32 s27, #1.0",
+        "mvn r0, #0",
+        "vmov s14, s15, r0, r0",
+        "subs r6, #2",
+        "blo 4f",
+        "1:",
+        "vldmia r4!, {{s0-s3}}",
+        "COMPARE s0, s1, s14, s15, 6f",
+        "2:",
+        "COMPARE s2, s3, s0, s1, 7f",
+        "3:",
+        "vmov.f32 s14, s2",
+        "vmov.f32 s15, s3",
+        "REACH s0, s28, s29",
+        "REACH s1, s30, s31",
+        "REACH s2, s28, s29",
+        "REACH s3, s30, s31",
+        "vldmia r5!, {{s4-s7}}",
+        "add r8, r8, #2",
+        "ADD s4, s5, s0, s1",
+        "ADD s6, s7, s2, s3",
+        "subs r6, #2",
+        "bhs 1b",
+        "4:",
+        "lsls r6, r6, #31",
+        "beq 5f",
+        "vldmia r4!, {{s0-s1}}",
+        "COMPARE s0, s1, s14, s15, 9f",
+        "8:",
+        "REACH s0, s28, s29",
+        "REACH s1, s30, s31",
+        "vldmia r5, {{s4-s5}}",
+        "ADD s4, s5, s0, s1",
+        "5:",
+        "vstmia r9, {{s16-s21}}",
+        "vstmia r7, {{s22-s23}}",
+        "vstr s28, [r7, #8]",
+        "vstr s29, [r7, #12]",
+        "vstr s24, [r7, #{watch}]",
+        "vstr s25, [r7, #{watch} + 4]",
+        "vstr s30, [r7, #{watch} + 8]",
+        "vstr s31, [r7, #{watch} + 12]",
+        "vpop {{s16-s31}}",
+        "add sp, #4",
+        "pop {{r4-r9, pc}}",
+        // A call keeps no sample.
+        "6:",
+        "sub r1, r4, #24",
+        "mov r2, r8",
+        "mov r0, r7",
+        "bl {again}",
+        "sub r1, r4, #16",
+        "vldmia r1, {{s0-s3}}",
+        "b 2b",
+        "7:",
+        "sub r1, r4, #16",
+        "add r2, r8, #1",
+        "mov r0, r7",
+        "bl {again}",
+        "sub r1, r4, #16",
+        "vldmia r1, {{s0-s3}}",
+        "b 3b",
+        "9:",
+        "sub r1, r4, #16",
+        "mov r2, r8",
+        "mov r0, r7",
+        "bl {again}",
+        "sub r1, r4, #8",
+        "vldmia r1, {{s0-s1}}",
+        "b 8b",
+        ".purgem ADD",
+        ".purgem REACH",
+        ".purgem COMPARE",
+        watch = const WATCH,
+        again = sym see_again::<[f32; 2]>,
+    )
+}

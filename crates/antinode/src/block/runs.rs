@@ -40,6 +40,18 @@ impl Default for Runs {
 }
 
 impl Runs {
+    /// The longest run at an extreme, from the longest of those that have ended, `length` at `value`.
+    #[inline(always)]
+    fn longest_at(&self, extreme: f32, value: f32, length: u16) -> u16 {
+        let ended = if value == extreme { length } else { 1 };
+        let last = if self.now.value == extreme {
+            self.now.to - self.now.from
+        } else {
+            1
+        };
+        ended.max(last)
+    }
+
     /// Takes the last run to the others.
     #[inline(never)]
     fn take_last(&mut self) {
@@ -60,24 +72,15 @@ impl ChannelWatch<f32> {
         if self.runs.now.to == 0 {
             return [1; 2];
         }
-        self.longest_of_some()
-    }
-
-    #[inline(never)]
-    fn longest_of_some(&self) -> [u16; 2] {
-        let mut runs = self.runs;
-        runs.take_last();
         let Runs {
-            values, lengths, ..
-        } = runs;
-        let at = |end: usize, extreme: f32| {
-            if values[end] == extreme {
-                lengths[end]
-            } else {
-                1
-            }
-        };
-        [at(0, self.low), at(1, self.high)]
+            values: [low, high],
+            lengths: [at_low, at_high],
+            ..
+        } = self.runs;
+        [
+            self.runs.longest_at(self.low, low, at_low),
+            self.runs.longest_at(self.high, high, at_high),
+        ]
     }
 
     /// Looks at sample `index`, which is equal to the one before. Few are, and those that go on take little.

@@ -35,6 +35,13 @@ const _: () = assert!(
     "the watchdog resets before a dead crystal can be told"
 );
 
+/// Waits until the clocks just switched on have reached their peripherals: a write before that is lost.
+///
+/// Errata ES0182, "Delay after an RCC peripheral clock enabling"; of the remedies there, reading back was seen to fail on the chip.
+pub fn settle() {
+    cortex_m::asm::dsb();
+}
+
 /// Starts the clocks; false where the crystal is dead: then they come from the chip's own oscillator, which serves the line only.
 pub fn start(rcc: &RCC, flash: &FLASH) -> bool {
     // CR.HSEON: the crystal's oscillator.

@@ -14,7 +14,7 @@ use antinode::Packed;
 use stm32f4xx_hal::gpio::{Analog, PA1, PA2};
 use stm32f4xx_hal::pac::{ADC_COMMON, ADC1, ADC2, DMA2, RCC, TIM2, TIM3};
 
-use crate::hardware::clock::{APB1_TIMERS, APB2};
+use crate::hardware::clock::{self, APB1_TIMERS, APB2};
 use crate::hardware::pair_clock::{PairClock, Trigger};
 use crate::hardware::ring::{Memory, Origin, Ring};
 use crate::hardware::sampler::{Converter, Sampler};
@@ -67,6 +67,7 @@ impl DualAdc {
         rcc.apb1enr().modify(|_, w| w.tim3en().set_bit());
         rcc.apb2enr()
             .modify(|_, w| w.adc1en().set_bit().adc2en().set_bit());
+        clock::settle();
         let register = common.cdr().as_ptr() as u32;
         let adc = Self {
             first,

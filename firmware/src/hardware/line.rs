@@ -9,7 +9,7 @@
 
 use stm32f4xx_hal::pac::{DMA2, RCC, USART1};
 
-use crate::hardware::clock::APB2;
+use crate::hardware::clock::{self, APB2};
 use crate::inbox::Inbox;
 use crate::link::{Outgoing, Run};
 use crate::settings::{BAUD, INBOX};
@@ -57,6 +57,7 @@ impl Line {
         // APB2ENR.USART1EN, AHB1ENR.DMA2EN: their clocks.
         rcc.apb2enr().modify(|_, w| w.usart1en().set_bit());
         rcc.ahb1enr().modify(|_, w| w.dma2en().set_bit());
+        clock::settle();
         // SAFETY: the USART is off, and the divider within its 16 bits.
         usart.brr().write(|w| unsafe { w.bits(DIVIDER as u16) });
         let by_dma = by == By::Dma;

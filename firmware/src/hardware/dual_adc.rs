@@ -25,7 +25,7 @@ use crate::settings::{DUAL_ADC_RAILS, SAMPLE_RATE};
 const TICKS: u32 = APB1_TIMERS / SAMPLE_RATE;
 /// The converters' clock, Hz: at most 36 MHz.
 const ADC_CLOCK: u32 = APB2 / 4;
-/// A conversion: 84 cycles of sampling, enough for a source of 90 kΩ, and 12 for the 12 bits.
+/// A conversion: 84 cycles of sampling, ample for the source of 10 kΩ that the chip's accuracy is given for, and 12 for the 12 bits.
 const CONVERSION: u32 = (84 + 12) * (APB1_TIMERS / ADC_CLOCK);
 /// When nothing is under way, in ticks after a trigger: the conversion has ended, and the next trigger is a microsecond away.
 const QUIET: [u32; 2] = [CONVERSION + 40, TICKS.saturating_sub(84)];
@@ -131,9 +131,9 @@ impl Converter for DualAdc {
         // At most two periods, and for ever neither: a dead timer must not hang the interrupt.
         let _ =
             (0..4 * TICKS).any(|_| (QUIET[0]..QUIET[1]).contains(&self.timer.cnt().read().bits()));
-        // SR.OVR: forgotten, else DMA requests stay blocked.
-        self.first.sr().modify(|_, w| w.ovr().clear_bit());
-        self.second.sr().modify(|_, w| w.ovr().clear_bit());
+        // SR 0: OVR is forgotten, else DMA requests stay blocked, and EOC of a result that nobody fetched, else it asks or overruns anew.
+        self.first.sr().reset();
+        self.second.sr().reset();
         // SAFETY: each value is one that RM0090 lists for its field.
         unsafe {
             // CCR.MULTI 6: regular simultaneous mode. DMA 2: one word a pair, ADC2 in its upper half. DDS: requests go on after the

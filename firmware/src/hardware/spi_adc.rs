@@ -270,6 +270,8 @@ impl SpiDevice for Device<'_> {
             Ok(())
         };
         let result = run();
+        // SR.BSY: the last byte is there half a clock before its frame has ended.
+        let _ = (0..CORE / 1_000_000).any(|_| self.spi.sr().read().bsy().bit_is_clear());
         self.cs.set_high();
         // CS is high for 10 ns at least.
         cortex_m::asm::delay(8);

@@ -196,6 +196,8 @@ impl Converter for SpiAdc {
             let _ = self.spi.sr().read();
         }
         self.spi.cr2().modify(|_, w| w.rxdmaen().set_bit());
+        // SR 0: the compare events of past frames are forgotten, lest they ask for their writes now.
+        self.timer.sr().reset();
         self.timer
             .dier()
             .modify(|_, w| w.cc2de().set_bit().cc3de().set_bit());

@@ -86,11 +86,16 @@ impl Line {
 
     /// Serves the line's interrupts, of which the main loop pends one when there may be bytes to send; `open` false holds them back.
     pub fn serve(&mut self, open: bool) {
+        let status = self.usart.sr().read();
         if self.by == By::Dma {
+            if status.ore().bit_is_set() {
+                // SR.ORE: after an overrun nothing arrives any more until SR and then DR are read.
+                let _ = self.usart.dr().read();
+            }
             // NDTR: places left before the ring's end. What it counts has long been written when the main loop comes to it.
             self.inbox
                 .left(dma().st(5).ndtr().read().ndt().bits().into());
-        } else if self.usart.sr().read().rxne().bit_is_set() {
+        } else if status.rxne().bit_is_set() {
             // SR.RXNE: a byte is there.
             self.inbox.put(self.usart.dr().read().bits() as u8);
         }

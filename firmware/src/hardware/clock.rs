@@ -65,7 +65,7 @@ pub fn start(rcc: &RCC, flash: &FLASH) -> bool {
         w.icen().set_bit();
         w.dcen().set_bit()
     });
-    // CFGR: APB1 at 42 MHz, APB2 at 84 MHz, their most.
+    // CFGR: APB1 at 42 MHz, APB2 at 84 MHz, their most (data sheet DocID022152, table 14).
     rcc.cfgr().modify(|_, w| w.ppre1().div4().ppre2().div2());
     // CR.PLLON, then CFGR.SW: on to the PLL once it has locked.
     rcc.cr().modify(|_, w| w.pllon().set_bit());

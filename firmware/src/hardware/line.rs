@@ -29,7 +29,7 @@ const _: () = {
 /// How bytes leave and arrive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum By {
-    /// Streams 7 and 5 of DMA2.
+    /// Streams 7 and 5 of DMA2, channel 4 (RM0090, table 43).
     Dma,
     /// One after the other: the emulator has no DMA, its USART takes a byte at once, and keeps one until it is read.
     Hand,

@@ -7,7 +7,7 @@ use crate::hardware::clock;
 /// The timer whose update is the sampling trigger, as TIM2's internal trigger input (RM0090, table 97).
 #[derive(Debug, Clone, Copy)]
 pub enum Trigger {
-    /// ITR0.
+    /// ITR0. An update counts once though TIM1 has twice TIM2's clock, as in ST's example TIM_Synchronization for the STM32F407.
     Tim1 = 0,
     /// ITR2.
     Tim3 = 2,

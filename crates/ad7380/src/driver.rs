@@ -11,8 +11,9 @@ use crate::timing::{POWER_UP_MS, RESET_US};
 
 /// The SPI mode: the clock idles high, and its falling edge takes the data, highest bit first.
 ///
-/// As in Analog Devices' AD738x-FMC user guide and no-OS example for it; the example of Linux's binding has mode 3. With a mode
-/// that does not work [`Ad7380::new`] says [`Error::ReadBack`].
+/// As in Analog Devices' AD738x-FMC user guide. Their no-OS example for it, which runs on an STM32F4 too, has mode 1, where the falling
+/// edge takes the data as well; the example of Linux's binding has mode 3. With a mode that does not work [`Ad7380::new`] says
+/// [`Error::ReadBack`].
 pub const SPI_MODE: Mode = MODE_2;
 
 /// An AD7380, configured, in 1-wire mode.

@@ -66,9 +66,10 @@ mod app {
             // Pulled up: without a bridge it would float, and noise be bytes.
             pins.pa10.into_alternate::<7>().internal_pull_up(true),
         );
-        // After a reset pins are at their slowest, which 10.5 MHz are too fast for; the edge of CS is when both inputs are sampled.
+        // After a reset pins are at their slowest, which 10.5 MHz are too fast for. A slow SCK costs the last bit of each word, however
+        // slow the clock (ES0182, "Corrupted last bit of data"), and the edge of CS is when both inputs are sampled.
         let data = (
-            pins.pa5.into_alternate::<5>().speed(Speed::High),
+            pins.pa5.into_alternate::<5>().speed(Speed::VeryHigh),
             pins.pa6.into_alternate::<5>(),
             pins.pa7.into_alternate::<5>().speed(Speed::High),
         );

@@ -35,15 +35,29 @@ const _: () = assert!(
     "the watchdog resets before a dead crystal can be told"
 );
 
+/// Waits until the clocks just switched on have reached their peripherals: a write before that is lost.
+///
+/// Errata ES0182, "Delay after an RCC peripheral clock enabling"; of the remedies there, reading back was seen to fail on the chip.
+pub fn settle() {
+    cortex_m::asm::dsb();
+}
+
 /// Starts the clocks; false where the crystal is dead: then they come from the chip's own oscillator, which serves the line only.
 pub fn start(rcc: &RCC, flash: &FLASH) -> bool {
     // CR.HSEON: the crystal's oscillator.
     rcc.cr().modify(|_, w| w.hseon().set_bit());
     let crystal = (0..PATIENCE).any(|_| rcc.cr().read().hserdy().bit_is_set());
     let source = if crystal { CRYSTAL_MHZ } else { HSI_MHZ };
-    // PLLCFGR: 1 MHz into the PLL, 336 MHz in it, 168 MHz out of P, 48 MHz out of Q. PLLP 0 stands for 2.
-    let crystal_bit = u32::from(crystal) << 22;
-    set(7 << 24 | crystal_bit | 336 << 6 | source, rcc);
+    // PLLCFGR: 1 MHz into the PLL, 336 MHz in it, 168 MHz out of P, 48 MHz out of Q. The rest as after a reset: P divides by 2, and
+    // bit 29 must stay 1.
+    #[allow(unsafe_code, reason = "the fields take any bits")]
+    // SAFETY: the PLL is off after a reset, and the factors are within the limits of RM0090, 7.3.2.
+    rcc.pllcfgr().write(|w| unsafe {
+        w.pllsrc().bit(crystal);
+        w.pllm().bits(source as u8);
+        w.plln().bits(336);
+        w.pllq().bits(7)
+    });
     // ACR: five wait states at 168 MHz and 3.3 V, hidden by prefetch and both caches.
     flash.acr().modify(|_, w| {
         w.latency().ws5();
@@ -51,7 +65,7 @@ pub fn start(rcc: &RCC, flash: &FLASH) -> bool {
         w.icen().set_bit();
         w.dcen().set_bit()
     });
-    // CFGR: APB1 at 42 MHz, APB2 at 84 MHz, their most.
+    // CFGR: APB1 at 42 MHz, APB2 at 84 MHz, their most (data sheet DocID022152, table 14).
     rcc.cfgr().modify(|_, w| w.ppre1().div4().ppre2().div2());
     // CR.PLLON, then CFGR.SW: on to the PLL once it has locked.
     rcc.cr().modify(|_, w| w.pllon().set_bit());
@@ -62,12 +76,6 @@ pub fn start(rcc: &RCC, flash: &FLASH) -> bool {
     // CR.CSSON: should the crystal stop, an NMI says so.
     rcc.cr().modify(|_, w| w.csson().bit(crystal));
     crystal && locked
-}
-
-#[allow(unsafe_code, reason = "the register takes any bits")]
-fn set(pllcfgr: u32, rcc: &RCC) {
-    // SAFETY: the PLL is off after a reset, and the factors are within the limits of RM0090, 7.3.2.
-    rcc.pllcfgr().write(|w| unsafe { w.bits(pllcfgr) });
 }
 
 static MILLISECONDS: AtomicU32 = AtomicU32::new(0);

@@ -14,7 +14,7 @@ use antinode::Packed;
 use stm32f4xx_hal::gpio::{Analog, PA1, PA2};
 use stm32f4xx_hal::pac::{ADC_COMMON, ADC1, ADC2, DMA2, RCC, TIM2, TIM3};
 
-use crate::hardware::clock::{APB1_TIMERS, APB2};
+use crate::hardware::clock::{self, APB1_TIMERS, APB2};
 use crate::hardware::pair_clock::{PairClock, Trigger};
 use crate::hardware::ring::{Memory, Origin, Ring};
 use crate::hardware::sampler::{Converter, Sampler};
@@ -25,7 +25,7 @@ use crate::settings::{DUAL_ADC_RAILS, SAMPLE_RATE};
 const TICKS: u32 = APB1_TIMERS / SAMPLE_RATE;
 /// The converters' clock, Hz: at most 36 MHz.
 const ADC_CLOCK: u32 = APB2 / 4;
-/// A conversion: 84 cycles of sampling, enough for a source of 90 kΩ, and 12 for the 12 bits.
+/// A conversion: 84 cycles of sampling, ample for the source of 10 kΩ that the chip's accuracy is given for, and 12 for the 12 bits.
 const CONVERSION: u32 = (84 + 12) * (APB1_TIMERS / ADC_CLOCK);
 /// When nothing is under way, in ticks after a trigger: the conversion has ended, and the next trigger is a microsecond away.
 const QUIET: [u32; 2] = [CONVERSION + 40, TICKS.saturating_sub(84)];
@@ -67,6 +67,7 @@ impl DualAdc {
         rcc.apb1enr().modify(|_, w| w.tim3en().set_bit());
         rcc.apb2enr()
             .modify(|_, w| w.adc1en().set_bit().adc2en().set_bit());
+        clock::settle();
         let register = common.cdr().as_ptr() as u32;
         let adc = Self {
             first,
@@ -130,9 +131,9 @@ impl Converter for DualAdc {
         // At most two periods, and for ever neither: a dead timer must not hang the interrupt.
         let _ =
             (0..4 * TICKS).any(|_| (QUIET[0]..QUIET[1]).contains(&self.timer.cnt().read().bits()));
-        // SR.OVR: forgotten, else DMA requests stay blocked.
-        self.first.sr().modify(|_, w| w.ovr().clear_bit());
-        self.second.sr().modify(|_, w| w.ovr().clear_bit());
+        // SR 0: OVR is forgotten, else DMA requests stay blocked, and EOC of a result that nobody fetched, else it asks or overruns anew.
+        self.first.sr().reset();
+        self.second.sr().reset();
         // SAFETY: each value is one that RM0090 lists for its field.
         unsafe {
             // CCR.MULTI 6: regular simultaneous mode. DMA 2: one word a pair, ADC2 in its upper half. DDS: requests go on after the

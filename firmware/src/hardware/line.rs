@@ -9,7 +9,7 @@
 
 use stm32f4xx_hal::pac::{DMA2, RCC, USART1};
 
-use crate::hardware::clock::APB2;
+use crate::hardware::clock::{self, APB2};
 use crate::inbox::Inbox;
 use crate::link::{Outgoing, Run};
 use crate::settings::{BAUD, INBOX};
@@ -29,7 +29,7 @@ const _: () = {
 /// How bytes leave and arrive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum By {
-    /// Streams 7 and 5 of DMA2.
+    /// Streams 7 and 5 of DMA2, channel 4 (RM0090, table 43).
     Dma,
     /// One after the other: the emulator has no DMA, its USART takes a byte at once, and keeps one until it is read.
     Hand,
@@ -57,6 +57,7 @@ impl Line {
         // APB2ENR.USART1EN, AHB1ENR.DMA2EN: their clocks.
         rcc.apb2enr().modify(|_, w| w.usart1en().set_bit());
         rcc.ahb1enr().modify(|_, w| w.dma2en().set_bit());
+        clock::settle();
         // SAFETY: the USART is off, and the divider within its 16 bits.
         usart.brr().write(|w| unsafe { w.bits(DIVIDER as u16) });
         let by_dma = by == By::Dma;
@@ -85,11 +86,16 @@ impl Line {
 
     /// Serves the line's interrupts, of which the main loop pends one when there may be bytes to send; `open` false holds them back.
     pub fn serve(&mut self, open: bool) {
+        let status = self.usart.sr().read();
         if self.by == By::Dma {
+            if status.ore().bit_is_set() {
+                // SR.ORE: after an overrun nothing arrives any more until SR and then DR are read.
+                let _ = self.usart.dr().read();
+            }
             // NDTR: places left before the ring's end. What it counts has long been written when the main loop comes to it.
             self.inbox
                 .left(dma().st(5).ndtr().read().ndt().bits().into());
-        } else if self.usart.sr().read().rxne().bit_is_set() {
+        } else if status.rxne().bit_is_set() {
             // SR.RXNE: a byte is there.
             self.inbox.put(self.usart.dr().read().bits() as u8);
         }

@@ -2,10 +2,12 @@
 
 use stm32f4xx_hal::pac::{RCC, TIM2};
 
+use crate::hardware::clock;
+
 /// The timer whose update is the sampling trigger, as TIM2's internal trigger input (RM0090, table 97).
 #[derive(Debug, Clone, Copy)]
 pub enum Trigger {
-    /// ITR0.
+    /// ITR0. An update counts once though TIM1 has twice TIM2's clock, as in ST's example TIM_Synchronization for the STM32F407.
     Tim1 = 0,
     /// ITR2.
     Tim3 = 2,
@@ -20,6 +22,7 @@ impl PairClock {
     pub fn new(timer: TIM2, rcc: &RCC, trigger: Trigger) -> Self {
         // APB1ENR.TIM2EN: its clock.
         rcc.apb1enr().modify(|_, w| w.tim2en().set_bit());
+        clock::settle();
         // SAFETY: SMCR.TS is the trigger's number, and SMS 7 external clock mode 1: each trigger counts.
         timer
             .smcr()

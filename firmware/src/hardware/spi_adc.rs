@@ -24,7 +24,7 @@ use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
 use stm32f4xx_hal::gpio::{Alternate, Output, PA5, PA6, PA7, PA8};
 use stm32f4xx_hal::pac::{DMA2, RCC, SPI1, TIM1, TIM2};
 
-use crate::hardware::clock::{APB2, APB2_TIMERS, CORE};
+use crate::hardware::clock::{self, APB2, APB2_TIMERS, CORE};
 use crate::hardware::pair_clock::{PairClock, Trigger};
 use crate::hardware::ring::{Memory, Origin, Ring};
 use crate::hardware::sampler::{Converter, Sampler};
@@ -95,6 +95,7 @@ impl SpiAdc {
         rcc.ahb1enr().modify(|_, w| w.dma2en().set_bit());
         rcc.apb2enr()
             .modify(|_, w| w.spi1en().set_bit().tim1en().set_bit());
+        clock::settle();
         cs.set_high();
         // CR1: master, CPOL 1 and CPHA 0 (the chip's mode 2), BR 2: APB2 over 8. SSM, SSI: CS is ours. DFF 0: bytes.
         spi.cr1().write(|w| {
@@ -195,6 +196,8 @@ impl Converter for SpiAdc {
             let _ = self.spi.sr().read();
         }
         self.spi.cr2().modify(|_, w| w.rxdmaen().set_bit());
+        // SR 0: the compare events of past frames are forgotten, lest they ask for their writes now.
+        self.timer.sr().reset();
         self.timer
             .dier()
             .modify(|_, w| w.cc2de().set_bit().cc3de().set_bit());
@@ -269,6 +272,8 @@ impl SpiDevice for Device<'_> {
             Ok(())
         };
         let result = run();
+        // SR.BSY: the last byte is there half a clock before its frame has ended.
+        let _ = (0..CORE / 1_000_000).any(|_| self.spi.sr().read().bsy().bit_is_clear());
         self.cs.set_high();
         // CS is high for 10 ns at least.
         cortex_m::asm::delay(8);

@@ -14,29 +14,14 @@ pub fn watch_floats<P: SamplePair<f32>>(
     weights: &[[f32; 2]],
     index: u16,
 ) {
-    const { assert!(size_of::<[ChannelSums<f32>; 2]>() == 24) };
-    const { assert!(size_of::<ChannelWatch<f32>>() == WATCH as usize) };
     if P::FORM == Form::Other {
         return super::portable::watch_floats(sums, watch, pairs, weights, index);
     }
-    let (Some(by), [first, .., last] | [first @ last]) = (weights.get(usize::from(index)..), pairs)
-    else {
+    let Some(by) = begin(sums, watch, pairs, weights, index) else {
         return;
     };
-    if pairs.len() > by.len() {
-        return;
-    }
-    if index == 0 {
-        *sums = [ChannelSums::empty(); 2];
-        *watch = [ChannelWatch::empty(); 2];
-    }
-    for (watch, sample) in watch.iter_mut().zip(first.pair()) {
-        if sample == watch.last() {
-            watch.see_again(sample, index);
-        }
-    }
-    let place = (pairs.len() as u32) << 16 | u32::from(index);
     let (from, by) = (pairs.as_ptr(), by.as_ptr());
+    let place = (pairs.len() as u32) << 16 | u32::from(index);
     if P::FORM == Form::Codes {
         // SAFETY: the pairs are words of memory, weights for all are there, sums and watch are what their names say.
         let extremes = unsafe { watch_codes(sums, from.cast(), by, place, watch) };
@@ -49,13 +34,42 @@ pub fn watch_floats<P: SamplePair<f32>>(
         // SAFETY: as above, and a pair is two words.
         unsafe { watch_pairs(sums, from.cast(), by, place, watch) };
     }
-    for (watch, sample) in watch.iter_mut().zip(last.pair()) {
-        watch.end(sample);
+    if let Some(last) = pairs.last() {
+        for (watch, sample) in watch.iter_mut().zip(last.pair()) {
+            watch.end(sample);
+        }
     }
+}
+
+/// Begins sums and watch where a block begins, and looks whether the first pair is equal to the last. Gives the weights, where they are
+/// there for all.
+#[inline(always)]
+fn begin<'w, P: SamplePair<f32>>(
+    sums: &mut [ChannelSums<f32>; 2],
+    watch: &mut [ChannelWatch<f32>; 2],
+    pairs: &[P],
+    weights: &'w [[f32; 2]],
+    index: u16,
+) -> Option<&'w [[f32; 2]]> {
+    let by = weights.get(usize::from(index)..)?;
+    let first = pairs.first().filter(|_| pairs.len() <= by.len())?;
+    if index == 0 {
+        *sums = [ChannelSums::empty(); 2];
+        *watch = [ChannelWatch::empty(); 2];
+    }
+    for (watch, sample) in watch.iter_mut().zip(first.pair()) {
+        if sample == watch.last() {
+            watch.see_again(sample, index);
+        }
+    }
+    Some(by)
 }
 
 /// Bytes of what is watched of one pick-off.
 const WATCH: u32 = 40;
+
+const _: () = assert!(size_of::<ChannelWatch<f32>>() == WATCH as usize);
+const _: () = assert!(size_of::<[ChannelSums<f32>; 2]>() == 24);
 
 /// Sees the second of two pairs, of which a sample, or both, are equal to those of the first.
 extern "C" fn see_again<P: SamplePair<f32>>(
@@ -101,15 +115,15 @@ macro_rules! add {
     };
 }
 
-/// r0: six sums; r1: words of two codes, which need no alignment; r2: their weights; r3: their count, at least one, in the high half and
-/// the first one's index in its block in the low half; on the stack: the watch.
+/// r0: six sums; r1: at least one word of two codes, which need no alignment; r2: their weights; r3: the count of pairs in
+/// the high half, and the index of the first in the low half; on the stack: the watch.
 ///
 /// Gives the greatest of the codes in r0 and the least in r1. Of runs it sees all but the first pair, of which it does not know what
 /// was before.
 #[unsafe(naked)]
 unsafe extern "C" fn watch_codes(
     sums: *mut [ChannelSums<f32>; 2],
-    pairs: *const u32,
+    pairs: *const [i16; 2],
     weights: *const [f32; 2],
     place: u32,
     watch: *mut [ChannelWatch<f32>; 2],
@@ -251,14 +265,6 @@ unsafe extern "C" fn watch_pairs(
         "it gt",
         "vmovgt.f32 \\most, \\sample",
         ".endm",
-        ".macro COMPARE c, d, before_c, before_d, equal",
-        "vcmp.f32 \\c, \\before_c",
-        "vmrs APSR_nzcv, fpscr",
-        "beq \\equal",
-        "vcmp.f32 \\d, \\before_d",
-        "vmrs APSR_nzcv, fpscr",
-        "beq \\equal",
-        ".endm",
         // s28, s29: least and greatest of C; s30, s31: of D; s14, s15: the pair before. r4: pairs, r5: weights, r6: how many are
         // left, r7: the watch, r8: the index, r9: sums.
         "push {{r4-r9, lr}}",
@@ -282,37 +288,24 @@ unsafe extern "C" fn watch_pairs(
         "vmov.f32 s27, #1.0",
         "mvn r0, #0",
         "vmov s14, s15, r0, r0",
-        "subs r6, #2",
-        "blo 4f",
         "1:",
-        "vldmia r4!, {{s0-s3}}",
-        "COMPARE s0, s1, s14, s15, 6f",
-        "2:",
-        "COMPARE s2, s3, s0, s1, 7f",
-        "3:",
-        "vmov.f32 s14, s2",
-        "vmov.f32 s15, s3",
-        "REACH s0, s28, s29",
-        "REACH s1, s30, s31",
-        "REACH s2, s28, s29",
-        "REACH s3, s30, s31",
-        "vldmia r5!, {{s4-s7}}",
-        "add r8, r8, #2",
-        "ADD s4, s5, s0, s1",
-        "ADD s6, s7, s2, s3",
-        "subs r6, #2",
-        "bhs 1b",
-        "4:",
-        "lsls r6, r6, #31",
-        "beq 5f",
         "vldmia r4!, {{s0-s1}}",
-        "COMPARE s0, s1, s14, s15, 9f",
-        "8:",
+        "vcmp.f32 s0, s14",
+        "vmrs APSR_nzcv, fpscr",
+        "beq 3f",
+        "vcmp.f32 s1, s15",
+        "vmrs APSR_nzcv, fpscr",
+        "beq 3f",
+        "2:",
+        "vmov.f32 s14, s0",
+        "vmov.f32 s15, s1",
         "REACH s0, s28, s29",
         "REACH s1, s30, s31",
-        "vldmia r5, {{s4-s5}}",
+        "vldmia r5!, {{s4-s5}}",
+        "add r8, r8, #1",
         "ADD s4, s5, s0, s1",
-        "5:",
+        "subs r6, #1",
+        "bne 1b",
         "vstmia r9, {{s16-s21}}",
         "vstmia r7, {{s22-s23}}",
         "vstr s28, [r7, #8]",
@@ -325,33 +318,16 @@ unsafe extern "C" fn watch_pairs(
         "add sp, #4",
         "pop {{r4-r9, pc}}",
         // A call keeps no sample.
-        "6:",
-        "sub r1, r4, #24",
-        "mov r2, r8",
+        "3:",
         "mov r0, r7",
-        "bl {again}",
-        "sub r1, r4, #16",
-        "vldmia r1, {{s0-s3}}",
-        "b 2b",
-        "7:",
-        "sub r1, r4, #16",
-        "add r2, r8, #1",
-        "mov r0, r7",
-        "bl {again}",
-        "sub r1, r4, #16",
-        "vldmia r1, {{s0-s3}}",
-        "b 3b",
-        "9:",
         "sub r1, r4, #16",
         "mov r2, r8",
-        "mov r0, r7",
         "bl {again}",
         "sub r1, r4, #8",
         "vldmia r1, {{s0-s1}}",
-        "b 8b",
+        "b 2b",
         ".purgem ADD",
         ".purgem REACH",
-        ".purgem COMPARE",
         watch = const WATCH,
         again = sym see_again::<[f32; 2]>,
     )

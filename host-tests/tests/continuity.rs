@@ -324,3 +324,32 @@ fn the_angle_does_not_slip_at_the_end_of_a_ring_down() {
         assert!(rows > 3_000 && slipped == 0);
     }
 }
+
+#[test]
+fn noise_is_no_step_over_a_gap() {
+    // In 5 % noise a window knows how fast the wave decays to 10 1/s, and the next one comes 0.38 s later.
+    let settings = Settings {
+        hop: Some(2000),
+        ..windows(10)
+    };
+    for seed in 0..4 {
+        let flaws = Flaws {
+            noise: 0.05,
+            ..Flaws::default()
+        };
+        let wave = Wave {
+            main_amplitude: 1.0,
+            ..Wave::default()
+        };
+        let estimates = identify(wave, &flaws, settings, 3_000_000, seed);
+        assert!(estimates.len() > 70);
+        for estimate in &estimates {
+            assert!(
+                !estimate.flags.contains(antinode::Flags::STEP),
+                "seed {seed}: {} at {} s",
+                estimate.flags,
+                estimate.time
+            );
+        }
+    }
+}

@@ -6,6 +6,7 @@ use super::checks::SIGMAS;
 use super::record::Record;
 use crate::estimate::Flags;
 use crate::exponential::exponential;
+use crate::order::greater;
 use crate::wave::wrap;
 
 /// Below this share of a_A a step of an amplitude or an offset between windows is no fault.
@@ -111,9 +112,11 @@ impl Passed {
         // Beside the growth that both amplitudes share, as a trapezoid.
         let own: [f32; 2] = core::array::from_fn(|i| rates[i] - self.growth[i] * values[i]);
         let beside = self.promised([self.factor * own[0], own[1]]);
+        // What is not known of the growth makes more of an amplitude the more it has grown.
+        let grown = greater(self.factor * self.factor, 1.0);
         let step = beyond(
             values[1] - self.factor * values[0] - beside,
-            self.variance(before.variance + now.variance, rate_variance),
+            grown * self.variance(before.variance + now.variance, rate_variance),
             floor,
         );
         // A step within a window also looks like growth that the window before did not have.

@@ -16,8 +16,9 @@ const ANGLE_FLOOR: f32 = 2e-3;
 /// Below this a step of the phase is no fault, rad: a lost sample makes 2π/200 or more.
 const PHASE_FLOOR: f32 = 0.02;
 
-/// Tests of a window against the clean one before.
-pub(super) fn flags(before: &Record, now: &Record) -> Flags {
+/// Tests of a window against the clean one before; of an angle that is known modulo π/2 only, and the phase that goes with it, nothing
+/// is asked.
+pub(super) fn flags(before: &Record, now: &Record, knows_angle: bool) -> Flags {
     let passed = Passed::new(before, now);
     let phase = wrap(now.phase_advance(before));
     let phase_variance = passed.variance(
@@ -57,8 +58,8 @@ pub(super) fn flags(before: &Record, now: &Record) -> Flags {
         )
     });
     Flags::empty()
-        .with_if(jump, Flags::PHASE_JUMP)
-        .with_if(angle || offsets, Flags::STEP)
+        .with_if(knows_angle && jump, Flags::PHASE_JUMP)
+        .with_if(knows_angle && angle || offsets, Flags::STEP)
         .with(main)
         .with(quadrature)
 }

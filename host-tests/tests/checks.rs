@@ -1,7 +1,7 @@
 //! Each check of a window by itself: a fault that hardly any other check would see.
 
 use antinode::{Estimate, Flags};
-use antinode_sim::{Flaws, Loss, Wave};
+use antinode_sim::{Flaws, Loss, Wave, random_wave};
 use host_tests::{RATE, changed, gyro, identify, touched, windows};
 
 #[test]
@@ -184,6 +184,23 @@ fn a_fast_ring_down_is_no_fault() {
                     );
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn white_noise_is_no_fault_at_few_samples_a_period() {
+    // Windows of nine samples, in blocks of one: the sums about the third harmonic tell nothing that the others do not.
+    for seed in 0..20 {
+        let wave = random_wave(seed, RATE / 4.3, 0.2);
+        let flaws = Flaws {
+            noise: 0.02 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let estimates = identify(wave, &flaws, windows(2), 90_000, seed);
+        assert!(estimates.len() > 9_900);
+        for estimate in &estimates {
+            assert!(estimate.flags.is_empty(), "seed {seed}: {estimate:?}");
         }
     }
 }

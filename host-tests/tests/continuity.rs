@@ -324,3 +324,75 @@ fn the_angle_does_not_slip_at_the_end_of_a_ring_down() {
         assert!(rows > 3_000 && slipped == 0);
     }
 }
+
+#[test]
+fn gaps_in_which_the_pattern_turns_unseen_leave_no_angle_that_is_wrong_and_clean() {
+    // A window every 0.95 s, each of which knows the rate to 0.5 rad/s: the quarter turn that the angle lies in is not known.
+    let settings = Settings {
+        hop: Some(5000),
+        ..windows(10)
+    };
+    for (seed, angle_rate) in [0.0, 0.5, 1.0, 1.5, 2.0, 3.0].into_iter().enumerate() {
+        let wave = Wave {
+            main_amplitude: 1.0,
+            quadrature_amplitude: 0.3,
+            angle_rate,
+            ..Wave::default()
+        };
+        let flaws = Flaws {
+            noise: 0.005,
+            ..Flaws::default()
+        };
+        let estimates = identify(wave, &flaws, settings, 4_000_000, seed as u64);
+        assert!(estimates.len() > 40);
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let mut square = 0.0;
+        for pair in estimates.windows(2) {
+            let turned = pair[1].angle - pair[0].angle;
+            let expected = angle_rate * (pair[1].time - pair[0].time);
+            let is_right = ((turned - expected) / quarter).round() == 0.0;
+            let flags = pair[1].flags;
+            assert!(
+                is_right || flags.contains(antinode::Flags::REACQUIRED),
+                "{angle_rate} rad/s: turned by {turned}, not {expected}: {flags}"
+            );
+            // Nor is anything missing.
+            assert!(
+                !flags.intersects(antinode::Flags::PHASE_JUMP.with(antinode::Flags::STEP)),
+                "{angle_rate} rad/s: {flags}"
+            );
+            square += (errors(&pair[1], &wave)[3] / stated(&pair[1])[3]).powi(2);
+        }
+        let ratio = (square / (estimates.len() - 1) as f64).sqrt();
+        assert!(ratio < 1.4, "{angle_rate} rad/s: frequency {ratio:.2}");
+    }
+}
+
+#[test]
+fn noise_is_no_step_over_a_gap() {
+    // In 5 % noise a window knows how fast the wave decays to 10 1/s, and the next one comes 0.38 s later.
+    let settings = Settings {
+        hop: Some(2000),
+        ..windows(10)
+    };
+    for seed in 0..4 {
+        let flaws = Flaws {
+            noise: 0.05,
+            ..Flaws::default()
+        };
+        let wave = Wave {
+            main_amplitude: 1.0,
+            ..Wave::default()
+        };
+        let estimates = identify(wave, &flaws, settings, 3_000_000, seed);
+        assert!(estimates.len() > 70);
+        for estimate in &estimates {
+            assert!(
+                !estimate.flags.contains(antinode::Flags::STEP),
+                "seed {seed}: {} at {} s",
+                estimate.flags,
+                estimate.time
+            );
+        }
+    }
+}

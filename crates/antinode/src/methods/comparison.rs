@@ -116,7 +116,7 @@ impl Reference {
 pub struct Method {
     /// What it found.
     pub wave: Wave,
-    /// J of (6), input units squared.
+    /// J of (6) at the frequency of the sums' products, input units squared.
     pub j: f64,
     /// a_A, a_B and θ less those of the exact solution, in its standard deviations.
     pub differences: [f64; 3],

@@ -6,6 +6,7 @@ use super::checks::SIGMAS;
 use super::record::Record;
 use crate::estimate::Flags;
 use crate::exponential::exponential;
+use crate::order::greater;
 use crate::wave::wrap;
 
 /// Below this share of a_A a step of an amplitude or an offset between windows is no fault.
@@ -15,8 +16,9 @@ const ANGLE_FLOOR: f32 = 2e-3;
 /// Below this a step of the phase is no fault, rad: a lost sample makes 2π/200 or more.
 const PHASE_FLOOR: f32 = 0.02;
 
-/// Tests of a window against the clean one before.
-pub(super) fn flags(before: &Record, now: &Record) -> Flags {
+/// Tests of a window against the clean one before; of an angle that is known modulo π/2 only, and the phase that goes with it, nothing
+/// is asked.
+pub(super) fn flags(before: &Record, now: &Record, knows_angle: bool) -> Flags {
     let passed = Passed::new(before, now);
     let phase = wrap(now.phase_advance(before));
     let phase_variance = passed.variance(
@@ -56,8 +58,8 @@ pub(super) fn flags(before: &Record, now: &Record) -> Flags {
         )
     });
     Flags::empty()
-        .with_if(jump, Flags::PHASE_JUMP)
-        .with_if(angle || offsets, Flags::STEP)
+        .with_if(knows_angle && jump, Flags::PHASE_JUMP)
+        .with_if(knows_angle && angle || offsets, Flags::STEP)
         .with(main)
         .with(quadrature)
 }
@@ -111,9 +113,11 @@ impl Passed {
         // Beside the growth that both amplitudes share, as a trapezoid.
         let own: [f32; 2] = core::array::from_fn(|i| rates[i] - self.growth[i] * values[i]);
         let beside = self.promised([self.factor * own[0], own[1]]);
+        // What is not known of the growth makes more of an amplitude the more it has grown.
+        let grown = greater(self.factor * self.factor, 1.0);
         let step = beyond(
             values[1] - self.factor * values[0] - beside,
-            self.variance(before.variance + now.variance, rate_variance),
+            grown * self.variance(before.variance + now.variance, rate_variance),
             floor,
         );
         // A step within a window also looks like growth that the window before did not have.

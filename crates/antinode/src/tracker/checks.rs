@@ -113,8 +113,10 @@ pub(crate) fn within(
         && beyond > COLOUR * remains.third_noise
         && beyond > limit(remains.freedom, remains.third_freedom) * remains.third_noise;
     // What is white is seen better in both together.
-    let wide_freedom = remains.freedom + remains.third_freedom;
-    let wide = (remains.residual + remains.third_noise * remains.third_freedom) / wide_freedom;
+    let both = remains.freedom + remains.third_freedom;
+    let wide = (remains.residual + remains.third_noise * remains.third_freedom) / both;
+    // Blocks of a few samples have more sums than samples: no more is known than these tell, less ten unknowns.
+    let wide_freedom = lesser(both, 4.0 * model.half - 10.0);
     let louder = known
         && (noise.is_exceeded(variance, remains.freedom, floor)
             || is_louder(wide - floor, noise.wide, wide_freedom, noise.freedom));

@@ -218,7 +218,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let mut record = Record::new(model, &fit, &wave, own, middle, angle, phase);
         let mut between = Flags::empty();
         if let Some(before) = &self.before {
-            between = between::flags(before, &record);
+            between = between::flags(before, &record, is_certain);
             // A circular pattern has neither an angle nor a phase of its own.
             if !flags.intersects(Flags::CIRCULAR.with(Flags::LOST)) {
                 flags = flags.with(between);
@@ -230,7 +230,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             Flags::DEAD_CHANNEL,
         );
         let is_circular = flags.contains(Flags::CIRCULAR);
-        if is_circular {
+        // Of an angle that is known modulo π/2 only those before tell no rate.
+        if is_circular || !is_certain {
             self.trend.clear();
         }
         // A wave's first window takes its pattern to stand still, and so does one that cannot see it turn.

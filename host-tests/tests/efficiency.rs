@@ -1,7 +1,7 @@
 //! Noisy waves: rms error over the Cramér–Rao bound, and stated standard deviations over it, from cold.
 
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::score::{NAMES, Score};
+use host_tests::score::{NAMES, Score, errors, stated};
 use host_tests::{RATE, identify, windows};
 
 /// Period of the paper's gyro, samples.
@@ -149,6 +149,46 @@ fn rates_scatter_as_stated() {
             (0.93..1.07).contains(&ratio),
             "{ratio:.3} of the stated scatter"
         );
+    }
+}
+
+#[test]
+fn a_window_in_which_the_pattern_turns_far_is_not_smeared() {
+    // 0.5 rad in each window, or 0.6 of its amplitude lost.
+    for periods in [2, 10, 50] {
+        let window = f64::from(periods) / 5332.0;
+        for (turn, loss) in [(0.5, 0.0), (-0.5, 0.0), (0.0, 0.9), (0.4, 0.5)] {
+            let (mut squares, mut count) = ([0.0; 4], 0.0);
+            for seed in 0..100 {
+                let wave = Wave {
+                    angle_rate: turn / window,
+                    decay_rate: loss / window,
+                    ..random_wave(seed, 5332.0, 0.3)
+                };
+                let flaws = Flaws {
+                    noise: 1e-3 * wave.main_amplitude,
+                    ..Flaws::default()
+                };
+                let samples = (4.5 * window * RATE) as usize + 100;
+                // The first window takes its pattern to stand still.
+                for estimate in identify(wave, &flaws, windows(periods), samples, seed)
+                    .iter()
+                    .skip(1)
+                {
+                    let (errors, stated) = (errors(estimate, &wave), stated(estimate));
+                    for i in 0..4 {
+                        squares[i] += (errors[i] / stated[i]).powi(2);
+                    }
+                    count += 1.0;
+                }
+            }
+            let ratios = squares.map(|square: f64| (square / count).sqrt());
+            println!("{periods} periods, turning by {turn} rad, decaying by {loss}: {ratios:.2?}");
+            assert!(
+                ratios.iter().all(|ratio| (0.88..1.2).contains(ratio)),
+                "{periods} periods, {turn} rad, {loss}: {ratios:.2?}"
+            );
+        }
     }
 }
 

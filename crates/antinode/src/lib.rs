@@ -65,8 +65,8 @@
 //! phase within one window beyond the noise (2 Hz/s in a window of 60 ms, say) is flagged as a misfit, and so is mains hum unless
 //! [`Settings::hum`] takes it out. Periods are 4 to 200 samples.
 //!
-//! Within one window the pattern may turn by 0.2 rad and the wave lose 0.4 of its amplitude: 100 rad/s and 260 1/s in ten periods of 5332 Hz,
-//! 1 rad/s and 2.6 1/s in a thousand. Beyond about 0.3 rad amplitudes are some per cent off, which windows of more than ten periods flag
+//! Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: 260 rad/s and 480 1/s in ten periods of 5332 Hz,
+//! 2.6 rad/s and 4.8 1/s in a thousand. Beyond about 0.6 rad amplitudes are some per cent off, which windows of more than ten periods flag
 //! as a misfit and shorter ones may not. Amplitudes are 10⁻¹⁵ to 10¹⁷ input units, so that their squares are numbers of f32.
 #![no_std]
 

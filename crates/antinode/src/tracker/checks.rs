@@ -133,7 +133,9 @@ pub(crate) fn within(
             && part > limit(degrees, freedom) * degrees * level + floor
     };
     // One block out of line with all others: a step, a spike or a short dropout.
-    let outlier = stands_out(remains.worst_block, 6.0, 6.0 * floor);
+    // Of both pick-offs' sums of a block, those that its own offsets leave.
+    let sums = 4.0 + 2.0 * model.shared;
+    let outlier = stands_out(remains.worst_block, sums, 6.0 * floor);
     // A step within the window, or any course that bends.
     let stepped = stands_out(remains.step, 4.0, (8.0 + 0.1 * remains.freedom) * floor);
     let misfit = coloured || louder || outlier || stepped || !fit.settled;

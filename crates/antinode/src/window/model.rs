@@ -23,7 +23,7 @@ pub(crate) struct Model {
     sample_rate: f32,
     pub(super) basis: Basis,
     /// 1 where the blocks of a window share an offset, 0 where each has its own.
-    pub(super) shared: f32,
+    pub(crate) shared: f32,
     pub(super) response: Response,
     /// Half the window, in samples, and one over it.
     pub half: f32,

@@ -84,13 +84,15 @@ impl Waves {
         self.change = travelling(parameters.slope);
     }
 
-    /// Takes the changes apart into what is exponential and what is not.
+    /// Takes the changes apart into what is exponential and what is not: a change of half a wave, or of most of one that is no small
+    /// part of both, is.
     pub(super) fn take_course(&mut self) {
+        let small = 0.01 * self.power();
         for w in 0..2 {
             let (value, change) = (self.value[w], self.change[w]);
             let power = value.norm_sqr();
-            let is_steady = change.norm_sqr() < 0.25 * power;
-            (self.slope[w], self.rest[w]) = if is_steady {
+            let share = if power > small { 0.81 } else { 0.25 };
+            (self.slope[w], self.rest[w]) = if change.norm_sqr() < share * power {
                 (change * value.conj() * (1.0 / power), Complex32::ZERO)
             } else {
                 (Complex32::ZERO, change)

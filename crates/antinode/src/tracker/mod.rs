@@ -234,6 +234,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         if is_circular || !is_certain {
             self.trend.clear();
         }
+        if let (false, Some(before)) = (is_certain, &self.before) {
+            record.average_rate(before);
+        }
         // A wave's first window takes its pattern to stand still, and so does one that cannot see it turn.
         if is_circular || self.before.is_none() || !self.trend.is_empty() {
             let drift = record.drift;

@@ -11,6 +11,9 @@ use crate::window::{Fit, Model};
 /// Deviation of a promised angle, rad, of which six reach the next angle that looks the same.
 const UNKNOWN_TURN: f32 = 0.13;
 
+/// Windows over whose gaps rates are averaged at most.
+const AVERAGED: f32 = 8.0;
+
 /// What turns samples into seconds and Hz, made once: f64 is slow on a core without it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Units {
@@ -173,6 +176,21 @@ impl Record {
             0.0
         };
         (self.angle.plus(turned), is_certain)
+    }
+
+    /// Promises the rate that the windows before have too, each by itself: over gaps of unknown turns no angles tell it.
+    pub(crate) fn average_rate(&mut self, before: &Self) {
+        let apart = self.turning - before.promised;
+        let known = greater(
+            before.promised_variance,
+            self.turning_variance / (AVERAGED - 1.0),
+        );
+        let spread = self.turning_variance + known;
+        if apart * apart < 16.0 * spread {
+            let share = self.turning_variance / spread;
+            self.promised -= share * apart;
+            self.promised_variance = share * known;
+        }
     }
 
     /// True when pick-off `channel` shows no wave.

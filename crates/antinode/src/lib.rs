@@ -63,7 +63,9 @@
 //!
 //! Phase wraps at 2π and θ is known modulo π/2: only continuity makes θ run on. A frequency that drifts so fast that it bends the
 //! phase within one window beyond the noise (2 Hz/s in a window of 60 ms, say) is flagged as a misfit, and so is mains hum unless
-//! [`Settings::hum`] takes it out. Periods are 4 to 200 samples.
+//! [`Settings::hum`] takes it out. Periods are 4 to 200 samples. Deviations and flags take noise to be white, independent, and as large
+//! in both pick-offs: of ten times as much in one of them a window in some ten thousand is flagged, of noise that both share
+//! deviations are a tenth too small, and of noise without low frequencies windows are misfits.
 //!
 //! Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: 260 rad/s and 480 1/s in ten periods of 5332 Hz,
 //! 2.6 rad/s and 4.8 1/s in a thousand. Beyond about 0.6 rad amplitudes are some per cent off, which windows of more than ten periods flag

@@ -45,6 +45,24 @@ pub fn add_floats<P: SamplePair<f32>>(
     }
 }
 
+/// Adds a pair to the sums, s0 to s5.
+macro_rules! add {
+    () => {
+        ".macro ADD cosine, sine, c, d
+        vmul.f32 s14, \\c, \\cosine
+        vmul.f32 s15, \\c, \\sine
+        vadd.f32 s0, s0, s14
+        vmul.f32 s14, \\d, \\cosine
+        vadd.f32 s1, s1, s15
+        vmul.f32 s15, \\d, \\sine
+        vadd.f32 s2, s2, \\c
+        vadd.f32 s3, s3, s14
+        vadd.f32 s4, s4, s15
+        vadd.f32 s5, s5, \\d
+        .endm"
+    };
+}
+
 /// r0: six sums; r1: words of two codes, which need no alignment; r2: weights; r3: pairs, at least one, doubled, and one more where the
 /// sums begin.
 #[unsafe(naked)]
@@ -56,18 +74,7 @@ unsafe extern "C" fn add_codes(
 ) {
     naked_asm!(
         ".fpu fpv4-sp-d16",
-        ".macro ADD cosine, sine, c, d",
-        "vmul.f32 s14, \\c, \\cosine",
-        "vmul.f32 s15, \\c, \\sine",
-        "vadd.f32 s0, s0, s14",
-        "vmul.f32 s14, \\d, \\cosine",
-        "vadd.f32 s1, s1, s15",
-        "vmul.f32 s15, \\d, \\sine",
-        "vadd.f32 s2, s2, \\c",
-        "vadd.f32 s3, s3, s14",
-        "vadd.f32 s4, s4, s15",
-        "vadd.f32 s5, s5, \\d",
-        ".endm",
+        add!(),
         ".macro LOAD c, d, word, high",
         "asr \\high, \\word, #16",
         "vmov \\c, \\d, \\word, \\high",
@@ -132,18 +139,7 @@ unsafe extern "C" fn add_pairs(
 ) {
     naked_asm!(
         ".fpu fpv4-sp-d16",
-        ".macro ADD cosine, sine, c, d",
-        "vmul.f32 s14, \\c, \\cosine",
-        "vmul.f32 s15, \\c, \\sine",
-        "vadd.f32 s0, s0, s14",
-        "vmul.f32 s14, \\d, \\cosine",
-        "vadd.f32 s1, s1, s15",
-        "vmul.f32 s15, \\d, \\sine",
-        "vadd.f32 s2, s2, \\c",
-        "vadd.f32 s3, s3, s14",
-        "vadd.f32 s4, s4, s15",
-        "vadd.f32 s5, s5, \\d",
-        ".endm",
+        add!(),
         "lsrs r3, r3, #1",
         "bcs 5f",
         "vldmia r0, {{s0-s5}}",

@@ -52,7 +52,7 @@ mod app {
     ])]
     fn init(c: init::Context) -> (Shared, Local) {
         let device = c.device;
-        let watchdog = Watchdog::start(device.IWDG);
+        let watchdog = Watchdog::start(device.IWDG, &device.DBGMCU);
         let (cause, place) = reset::started(&device.RCC);
         log::started(cause, place);
         log::supply(&device.FLASH);

@@ -2,7 +2,7 @@
 
 #![allow(unsafe_code, reason = "the registers take any bits")]
 
-use stm32f4xx_hal::pac::IWDG;
+use stm32f4xx_hal::pac::{DBGMCU, IWDG};
 
 use crate::settings::WATCHDOG_MS;
 
@@ -21,8 +21,10 @@ const PATIENCE: u32 = 40_000;
 pub struct Watchdog(IWDG);
 
 impl Watchdog {
-    /// Starts it.
-    pub fn start(iwdg: IWDG) -> Self {
+    /// Starts it; it stands still while a debugger halts the core.
+    pub fn start(iwdg: IWDG, debug: &DBGMCU) -> Self {
+        // APB1_FZ.DBG_IWDG_STOP.
+        debug.apb1_fz().modify(|_, w| w.dbg_iwdg_stop().set_bit());
         // SAFETY: keys and values are those of RM0090, 21.4.
         unsafe {
             // KR 0xCCCC starts it, 0x5555 opens PR and RLR, 0xAAAA loads the counter.

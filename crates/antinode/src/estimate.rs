@@ -1,6 +1,7 @@
 //! What a window says of the wave.
 
 use core::fmt;
+use core::ops::{BitOr, BitOrAssign};
 
 /// What is wrong or noteworthy about a window. A clean window has none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
@@ -59,12 +60,14 @@ impl Flags {
         self.0 & other.0 != 0
     }
 
-    /// Both sets together.
+    /// Both sets together, as `|` gives them.
+    #[must_use]
     pub const fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
     /// This set but for the flags of `other`.
+    #[must_use]
     pub const fn without(self, other: Self) -> Self {
         Self(self.0 & !other.0)
     }
@@ -82,6 +85,20 @@ impl Flags {
     /// The flags of [`Flags::bits`]; bits that are no flag are dropped.
     pub const fn from_bits_truncate(bits: u16) -> Self {
         Self(bits & ((1 << Self::NAMES.len()) - 1))
+    }
+}
+
+impl BitOr for Flags {
+    type Output = Self;
+
+    fn bitor(self, other: Self) -> Self {
+        self.with(other)
+    }
+}
+
+impl BitOrAssign for Flags {
+    fn bitor_assign(&mut self, other: Self) {
+        *self = self.with(other);
     }
 }
 
@@ -157,7 +174,9 @@ mod tests {
 
     #[test]
     fn bits_give_their_flags_back() {
-        let flags = Flags::CLIPPED.with(Flags::NOT_FINITE);
+        let mut flags = Flags::CLIPPED;
+        flags |= Flags::NOT_FINITE;
+        assert_eq!(flags, Flags::CLIPPED.with(Flags::NOT_FINITE));
         assert_eq!(Flags::from_bits_truncate(flags.bits()), flags);
         assert_eq!(flags.to_string(), "clipped+not_finite");
         // Every bit that is kept has a name, and no other.

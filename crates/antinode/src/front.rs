@@ -133,6 +133,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     }
 
     /// Takes one sample pair; gives the block that it finished.
+    #[must_use = "the next pair overwrites the block"]
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<&Block<S>> {
         if !self.gathers() {
@@ -146,6 +147,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Takes pairs from the start of a slice up to the end of a block; gives how many it took and the block if one is finished.
     ///
     /// Call it again with the rest until it has taken all: results are the same to the bit however a stream is cut.
+    #[must_use = "it stops at the end of a block: call it again with the rest, and hand the block on"]
     #[inline]
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
         if !self.gathers() {

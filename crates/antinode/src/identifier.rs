@@ -34,6 +34,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     /// Takes pairs from the start of a slice up to the end of a window; gives how many it took and the estimate, if any.
     ///
     /// Call it again with the rest until it has taken all: results are the same to the bit however a stream is cut.
+    #[must_use = "it stops at the end of a window: call it again with the rest"]
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<Estimate>) {
         let mut taken = 0;
         while let Some(rest) = pairs.get(taken..).filter(|rest| !rest.is_empty()) {

@@ -89,6 +89,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     }
 
     /// Takes one sample pair; gives the block that it finished.
+    #[must_use = "the next pair overwrites the block"]
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<&Block<S>> {
         let held = self.held;
@@ -105,6 +106,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     /// Takes the first pairs of a slice up to the end of the present block; gives how many it took and the block if it is finished.
     ///
     /// Call it again with the rest: the sums are the same to the bit however a stream is cut.
+    #[must_use = "it stops at the end of a block: call it again with the rest, and hand the block on"]
     #[inline]
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
         // While slices come nothing is held back. The next single pair is not either: by then there is room.

@@ -61,7 +61,12 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     ///
     /// A length beyond 1…`N` is brought into it; the scale is that of `S`.
     pub fn new(layout: Layout, start: u64, watch: bool) -> Self {
-        const { assert!(N.is_multiple_of(2), "weights stand in twos") };
+        const {
+            assert!(
+                N.is_multiple_of(2),
+                "N, the most sample pairs of a block, must be even"
+            )
+        };
         let mut demodulator = Self {
             held: 0,
             room: 0,

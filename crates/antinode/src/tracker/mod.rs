@@ -61,7 +61,12 @@ pub struct Tracker<const BLOCKS: usize> {
 impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// A tracker that waits for its first block.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        const { assert!(BLOCKS >= MOST_BLOCKS as usize && BLOCKS <= u16::MAX as usize) };
+        const {
+            assert!(
+                BLOCKS >= MOST_BLOCKS as usize && BLOCKS <= u16::MAX as usize,
+                "BLOCKS, the length of the ring, must be 11 to 65 535"
+            );
+        }
         settings.check(BLOCKS)?;
         Ok(Self {
             settings,

@@ -9,6 +9,7 @@ use crate::phase::PhaseStep;
 
 /// How the period is found from cold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Detection {
     /// Formula (10): about three periods, any offset, 20 % noise and more.
     #[default]

@@ -8,9 +8,9 @@ use core::ops::{BitOr, BitOrAssign};
 pub struct Flags(u16);
 
 impl Flags {
-    /// Samples at the converter's rail, or the third harmonic that a limiter leaves: amplitudes are wrong.
+    /// Samples at the converter's rail, or flattened crests, or the third harmonic that a limiter leaves: amplitudes are wrong.
     pub const CLIPPED: Self = Self(1);
-    /// No significant wave: nothing in the row is meant.
+    /// No significant wave: the other numbers mean nothing.
     pub const LOST: Self = Self(1 << 1);
     /// The phase does not continue that of the last window without a misfit: samples are missing between or within them.
     pub const PHASE_JUMP: Self = Self(1 << 2);

@@ -117,11 +117,26 @@ impl fmt::Display for Flags {
     }
 }
 
+#[cfg(feature = "defmt")]
+impl defmt::Format for Flags {
+    /// As [`Display`](fmt::Display).
+    fn format(&self, f: defmt::Formatter<'_>) {
+        let mut join = "";
+        for (bit, name) in Self::NAMES.iter().enumerate() {
+            if self.0 >> bit & 1 == 1 {
+                defmt::write!(f, "{=str}{=str}", join, name);
+                join = "+";
+            }
+        }
+    }
+}
+
 /// The wave over one window, at the window's middle. Amplitudes, offsets and residual are in input units.
 ///
 /// Each `_std` is one standard deviation, from the information in the window's samples and their noise: that of its own residual and
 /// of the clean windows before, which count twice as much at most, unless it has grown beyond them.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Estimate {
     /// Index in the stream of the window's first sample pair.
     pub start: u64,

@@ -9,6 +9,7 @@ use crate::phase::PhaseStep;
 
 /// How the period is found from cold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Detection {
     /// Formula (10): about three periods, any offset, 20 % noise and more.
@@ -21,6 +22,7 @@ pub enum Detection {
 
 /// Settings of an identification. Start from [`Settings::new`] and change what differs.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Settings {
     /// Sample rate in Hz, 10⁻³ to 10¹².
     pub sample_rate: f64,
@@ -53,6 +55,7 @@ pub struct Settings {
 
 /// Settings that cannot work.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum SettingsError {
     /// The sample rate is not a number from 10⁻³ to 10¹² Hz.

@@ -172,15 +172,12 @@ fn nothing_overflows_at_full_scale() {
 }
 
 #[test]
-fn packed_codes_and_single_pushes_give_the_same_blocks() {
+fn packed_codes_and_single_words_give_the_same_blocks() {
     let layout = Layout::new::<i16>(PhaseStep::from_period(18.75), 19);
     let pairs: Vec<[i16; 2]> = (0..2_000)
         .map(|k: i32| [(k * 7_919) as i16, (k * 104_729) as i16])
         .collect();
-    let packed: Vec<Packed> = pairs
-        .iter()
-        .map(|&[c, d]| Packed(u32::from(c as u16) | u32::from(d as u16) << 16))
-        .collect();
+    let packed: Vec<Packed> = pairs.iter().map(|&pair| pair.into()).collect();
     let mut single = Demodulator::<i16, 64>::new(layout, 0, true);
     let expected: Vec<_> = pairs
         .iter()
@@ -192,7 +189,7 @@ fn packed_codes_and_single_pushes_give_the_same_blocks() {
         let mut found = Vec::new();
         for (i, part) in packed.chunks(cut).enumerate() {
             if i % 3 == 2 {
-                found.extend(part.iter().filter_map(|&pair| mixed.push(pair).copied()));
+                found.extend(part.iter().filter_map(|word| mixed.push(word.0).copied()));
                 continue;
             }
             let mut part = part;

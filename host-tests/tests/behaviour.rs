@@ -1,6 +1,6 @@
 //! What users lean on: the same results however a stream is cut, calibration, other detectors, settings.
 
-use antinode::{Calibration, Detection, Estimate, Front, Settings, SettingsError, Tracker};
+use antinode::{Calibration, Detection, Estimate, Flags, Front, Settings, SettingsError, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::{errors, stated};
 use host_tests::{Core, identify, stream, windows};
@@ -246,6 +246,48 @@ fn other_settings_in_place_do_what_a_new_start_does() {
     let (mut front, mut tracker) = (Front::new(second).unwrap(), Tracker::new(second).unwrap());
     assert_eq!(run(&mut front, &mut tracker), changed);
     assert!(first.len() > 60 && changed.len() > 100);
+}
+
+#[test]
+fn an_identification_takes_a_calibration_and_settings_on_its_way() {
+    let wave = Wave::default();
+    let calibration = Calibration {
+        gain_ratio: 1.1,
+        ..Calibration::IDEAL
+    };
+    let flaws = Flaws {
+        gain_ratio: 1.1,
+        noise: 0.001,
+        ..Flaws::default()
+    };
+    let pairs = stream(wave, flaws, 3_000, 2);
+    let mut core = Core::new(windows(5)).unwrap();
+    let run = |core: &mut Core| {
+        let mut found = Vec::new();
+        core.extend(&pairs, |estimate| found.push(estimate));
+        found
+    };
+    let (raw, ideal) = (run(&mut core), wave.main_amplitude as f32);
+    assert!((raw[5].main_amplitude - ideal).abs() > 0.05);
+    assert!(
+        core.calibrate(Calibration {
+            gain_ratio: 0.0,
+            ..calibration
+        })
+        .is_err()
+    );
+    core.calibrate(calibration).unwrap();
+    assert!(!core.is_searching());
+    let calibrated = run(&mut core);
+    assert!(calibrated[0].flags.contains(Flags::REACQUIRED));
+    assert!((calibrated[5].main_amplitude - ideal).abs() < 0.01);
+    // The calibration is one of the settings.
+    assert!(core.configure(windows(1)).is_err() && !core.is_searching());
+    core.configure(windows(20)).unwrap();
+    assert!(core.is_searching() && core.index() == 6_000);
+    let changed = run(&mut core);
+    assert!(changed[0].start > 6_000 && changed[0].samples > 370);
+    assert!((changed[2].main_amplitude - ideal).abs() > 0.05);
 }
 
 #[test]

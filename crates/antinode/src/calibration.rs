@@ -9,6 +9,7 @@ use crate::phase::Phase;
 ///
 /// The raw signal is S_D(t) = g·[D cos 2ε − C sin 2ε](t + Δ), with D and C of formula (3).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Calibration {
     /// g, gain of channel D over that of channel C. 0.1 to 10; 1 is ideal.
     pub gain_ratio: f32,

@@ -1,15 +1,16 @@
 //! What a window says of the wave.
 
 use core::fmt;
+use core::ops::{BitOr, BitOrAssign};
 
 /// What is wrong or noteworthy about a window. A clean window has none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub struct Flags(u16);
 
 impl Flags {
-    /// Samples at the converter's rail, or the third harmonic that a limiter leaves: amplitudes are wrong.
+    /// Samples at the converter's rail, or flattened crests, or the third harmonic that a limiter leaves: amplitudes are wrong.
     pub const CLIPPED: Self = Self(1);
-    /// No significant wave: nothing in the row is meant.
+    /// No significant wave: the other numbers mean nothing.
     pub const LOST: Self = Self(1 << 1);
     /// The phase does not continue that of the last window without a misfit: samples are missing between or within them.
     pub const PHASE_JUMP: Self = Self(1 << 2);
@@ -59,12 +60,14 @@ impl Flags {
         self.0 & other.0 != 0
     }
 
-    /// Both sets together.
+    /// Both sets together, as `|` gives them.
+    #[must_use]
     pub const fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
     /// This set but for the flags of `other`.
+    #[must_use]
     pub const fn without(self, other: Self) -> Self {
         Self(self.0 & !other.0)
     }
@@ -85,6 +88,20 @@ impl Flags {
     }
 }
 
+impl BitOr for Flags {
+    type Output = Self;
+
+    fn bitor(self, other: Self) -> Self {
+        self.with(other)
+    }
+}
+
+impl BitOrAssign for Flags {
+    fn bitor_assign(&mut self, other: Self) {
+        *self = self.with(other);
+    }
+}
+
 impl fmt::Display for Flags {
     /// The names joined by `+`; nothing when clean.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -100,11 +117,26 @@ impl fmt::Display for Flags {
     }
 }
 
+#[cfg(feature = "defmt")]
+impl defmt::Format for Flags {
+    /// As [`Display`](fmt::Display).
+    fn format(&self, f: defmt::Formatter<'_>) {
+        let mut join = "";
+        for (bit, name) in Self::NAMES.iter().enumerate() {
+            if self.0 >> bit & 1 == 1 {
+                defmt::write!(f, "{=str}{=str}", join, name);
+                join = "+";
+            }
+        }
+    }
+}
+
 /// The wave over one window, at the window's middle. Amplitudes, offsets and residual are in input units.
 ///
 /// Each `_std` is one standard deviation, from the information in the window's samples and their noise: that of its own residual and
 /// of the clean windows before, which count twice as much at most, unless it has grown beyond them.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Estimate {
     /// Index in the stream of the window's first sample pair.
     pub start: u64,
@@ -157,7 +189,9 @@ mod tests {
 
     #[test]
     fn bits_give_their_flags_back() {
-        let flags = Flags::CLIPPED.with(Flags::NOT_FINITE);
+        let mut flags = Flags::CLIPPED;
+        flags |= Flags::NOT_FINITE;
+        assert_eq!(flags, Flags::CLIPPED.with(Flags::NOT_FINITE));
         assert_eq!(Flags::from_bits_truncate(flags.bits()), flags);
         assert_eq!(flags.to_string(), "clipped+not_finite");
         // Every bit that is kept has a name, and no other.

@@ -51,8 +51,11 @@ enum Stage {
     Gathering,
 }
 
-/// The sample-rate half of an identification on samples of type `S`, for blocks of up to `N` sample pairs; `N` bounds the period
-/// (200 for all).
+/// The sample-rate half of an identification on samples of type `S`, for blocks of up to `N` sample pairs.
+///
+/// `N` is even, and bounds the period: 200 is for all, 40 for waves of 4 to 40 samples a period. Blocks are two periods long where
+/// they have room; above `N`/2 samples a period they are shorter, more of them make a window, and one may be up to a tenth off the
+/// length asked.
 #[derive(Debug, Clone)]
 pub struct Front<S: Sample, const N: usize> {
     settings: Settings,
@@ -65,7 +68,11 @@ pub struct Front<S: Sample, const N: usize> {
 }
 
 impl<S: Sample, const N: usize> Front<S, N> {
-    /// A front that searches for a period.
+    /// A front that searches for a period, with the settings that its [`Tracker`](crate::Tracker) has.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Settings::check`], but for the periods that a ring holds: that is the tracker's.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
         settings.check(usize::from(u16::MAX))?;
         Ok(Self {
@@ -82,7 +89,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     ///
     /// # Errors
     ///
-    /// Those of [`Settings::check`]; nothing is changed then.
+    /// Those of [`Front::new`]; nothing is changed then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check(usize::from(u16::MAX))?;
         if settings.detection == self.settings.detection {
@@ -133,6 +140,9 @@ impl<S: Sample, const N: usize> Front<S, N> {
     }
 
     /// Takes one sample pair; gives the block that it finished.
+    ///
+    /// [`push_slice`](Self::push_slice) costs far less a pair.
+    #[must_use = "the next pair overwrites the block"]
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<&Block<S>> {
         if !self.gathers() {
@@ -146,6 +156,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Takes pairs from the start of a slice up to the end of a block; gives how many it took and the block if one is finished.
     ///
     /// Call it again with the rest until it has taken all: results are the same to the bit however a stream is cut.
+    #[must_use = "it stops at the end of a block: call it again with the rest, and hand the block on"]
     #[inline]
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
         if !self.gathers() {

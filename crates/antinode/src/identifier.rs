@@ -1,5 +1,6 @@
 //! The whole path in one: samples in, estimates out.
 
+use crate::calibration::Calibration;
 use crate::estimate::Estimate;
 use crate::front::Front;
 use crate::sample::{Sample, SamplePair};
@@ -8,8 +9,8 @@ use crate::tracker::Tracker;
 
 /// Identifies the wave in a stream of sample pairs: a [`Front`] and a [`Tracker`] in one thread.
 ///
-/// `S` is the type of its samples, `f32`, `i16` or `i32`. `N` is the most sample pairs a block may have, and so the longest period, 200 for all; `BLOCKS` is the length of the ring, a
-/// little more than the periods of a window.
+/// `S` is the type of its samples, `f32`, `i16` or `i32`. `N` is the most sample pairs a block may have, and so the longest period,
+/// as of a [`Front`]. `BLOCKS` is the length of the ring, as of a [`Tracker`]: two more than the periods of a window, and 11 at least.
 #[derive(Debug, Clone)]
 pub struct Identifier<S: Sample, const N: usize, const BLOCKS: usize> {
     front: Front<S, N>,
@@ -18,11 +19,35 @@ pub struct Identifier<S: Sample, const N: usize, const BLOCKS: usize> {
 
 impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     /// An identification from cold.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Settings::check`].
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
         Ok(Self {
             front: Front::new(settings)?,
             tracker: Tracker::new(settings)?,
         })
+    }
+
+    /// Begins anew from cold with other settings, in place. The count of sample pairs goes on.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Settings::check`]; nothing is changed then.
+    pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        // The tracker's check is the narrower one.
+        self.tracker.configure(settings)?;
+        self.front.configure(settings)
+    }
+
+    /// Changes the calibration and keeps the period: see [`Tracker::calibrate`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Settings::check`]; nothing is changed then.
+    pub fn calibrate(&mut self, calibration: Calibration) -> Result<(), SettingsError> {
+        self.tracker.calibrate(calibration)
     }
 
     /// Takes one sample pair; gives the estimate of the window that it completes.
@@ -34,6 +59,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     /// Takes pairs from the start of a slice up to the end of a window; gives how many it took and the estimate, if any.
     ///
     /// Call it again with the rest until it has taken all: results are the same to the bit however a stream is cut.
+    #[must_use = "it stops at the end of a window: call it again with the rest"]
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<Estimate>) {
         let mut taken = 0;
         while let Some(rest) = pairs.get(taken..).filter(|rest| !rest.is_empty()) {
@@ -69,7 +95,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         self.front.skip(count);
     }
 
-    /// True while no wave is tracked.
+    /// True while a period is searched: at the start, and from the loss of a wave on.
     pub fn is_searching(&self) -> bool {
         self.front.is_searching()
     }

@@ -19,9 +19,8 @@
 //! | block sums become a window's waves | window rate | [`Tracker`]: an exact least-squares fit over the blocks |
 //! | waves become a tracked wave with flags | window rate | [`Tracker`]: [`Estimate`], [`Flags`] |
 //!
-//! [`Identifier`] is all of it in one thread. In firmware a [`Front`] gathers blocks in the interrupt, hands each [`Block`] over a
-//! queue, and a [`Tracker`] solves them in thread context; when [`Tracker::has_lost`] says so, call [`Front::search`] and
-//! [`Tracker::forget`].
+//! [`Identifier`] is all of it in one thread. In firmware a [`Front`] gathers blocks in the interrupt, and a [`Tracker`] solves them
+//! in thread context: see [on a microcontroller](#on-a-microcontroller).
 //!
 //! # Example
 //!
@@ -47,6 +46,94 @@
 //! assert_eq!(windows, 10);
 //! # Ok::<(), antinode::SettingsError>(())
 //! ```
+//!
+//! # On a microcontroller
+//!
+//! A [`Front`] in the interrupt, a [`Tracker`] in the main loop, both with the same [`Settings`], and between them a queue of
+//! [`Block`]s. Here it is the one of `heapless`, and one flag goes the other way:
+//!
+//! ```
+//! use core::sync::atomic::{AtomicBool, Ordering::Relaxed};
+//!
+//! use antinode::{Block, Front, Settings, Tracker};
+//! use heapless::spsc::Queue;
+//!
+//! static SEARCH: AtomicBool = AtomicBool::new(false);
+//!
+//! let settings = Settings { rails: Some([-32768.0, 32767.0]), resolution: Some(1.0), ..Settings::new(100_000.0) };
+//! let mut front = Front::<i16, 200>::new(settings)?;
+//! let mut tracker = Tracker::<16>::new(settings)?;
+//! let mut queue = Queue::<Block<i16>, 8>::new();
+//! let (mut blocks, mut gathered) = queue.split();
+//!
+//! // Whenever the DMA has filled half of its buffer. A timer's interrupt would `Front::push` each pair.
+//! let mut interrupt = |mut pairs: &[[i16; 2]]| {
+//!     if SEARCH.load(Relaxed) {
+//!         SEARCH.store(false, Relaxed);
+//!         front.search();
+//!     }
+//!     while !pairs.is_empty() {
+//!         let (taken, block) = front.push_slice(pairs);
+//!         pairs = &pairs[taken..];
+//!         if let Some(block) = block {
+//!             // A block that finds the queue full costs its window, no more: the tracker sees that it is missing.
+//!             let _ = blocks.enqueue(*block);
+//!         }
+//!     }
+//! };
+//! let mut main_loop = || {
+//!     let mut latest = None;
+//!     while let Some(block) = gathered.dequeue() {
+//!         latest = tracker.push(&block).or(latest);
+//!         // After every block: it may be so without an estimate.
+//!         if tracker.has_lost() {
+//!             SEARCH.store(true, Relaxed);
+//!             // What was gathered before the search is of no use.
+//!             while gathered.dequeue().is_some() {}
+//!             tracker.forget();
+//!         }
+//!     }
+//!     latest
+//! };
+//!
+//! # let signal = |k: usize| {
+//! #     let (sine, cosine) = (core::f64::consts::TAU * 0.05332 * k as f64).sin_cos();
+//! #     let (s2, c2) = 0.6f64.sin_cos();
+//! #     [cosine * c2 - 0.1 * sine * s2, cosine * s2 + 0.1 * sine * c2].map(|x| (20_000.0 * x) as i16)
+//! # };
+//! let mut found = None;
+//! for half in 0..10 {
+//!     let codes: Vec<[i16; 2]> = (0..128).map(|i| signal(128 * half + i)).collect();
+//!     interrupt(&codes);
+//!     found = main_loop().or(found);
+//! }
+//! let estimate = found.expect("a window");
+//! assert!(estimate.flags.is_empty() && (estimate.main_amplitude - 20_000.0).abs() < 2.0);
+//! # Ok::<(), antinode::SettingsError>(())
+//! ```
+//!
+//! Calibration and settings are changed in place, [`Tracker::calibrate`] in the main loop alone, `configure` on both sides. Samples that
+//! the interrupt missed are told to [`Front::skip`].
+//!
+//! | bytes of RAM on a 32-bit core | `i16` | `f32` | `i32` |
+//! |---|---|---|---|
+//! | [`Front`], with `N` the most sample pairs of a block | 1704 + 8 `N` | 2784 + 8 `N` | 3016 + 8 `N` |
+//! | [`Block`], each in the queue | 72 | 128 | 120 |
+//! | [`Tracker`], with `BLOCKS` the length of its ring | 672 + 68 `BLOCKS` | the same | the same |
+//!
+//! `opt-level = 2` is as fast as 3 and smaller. On a Cortex-M4 give rustc `-Ctarget-cpu=cortex-m4`: without it multiply-accumulates of
+//! three cycles are taken for ones of a single cycle.
+//!
+//! # Features
+//!
+//! | feature | on by default | what it adds |
+//! |---|---|---|
+//! | `fixed` | yes | pairs of `I1F15` and `I1F31` of the crate `fixed`: [`SamplePair`] |
+//! | `mean-return` | yes | the period detector of formula (9): `Detection::MeanReturn`, `period::MeanReturnDetector` |
+//! | `defmt` | no | `defmt::Format` of [`Estimate`], [`Flags`], [`Settings`], [`SettingsError`], [`Calibration`] and [`Detection`] |
+//!
+//! Firmware that needs none takes `default-features = false`. To send estimates and settings over a line, or to keep them, take
+//! the crate `antinode-telemetry`.
 //!
 //! # Accuracy
 //!
@@ -111,3 +198,21 @@ pub use tracker::Tracker;
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_take_the_memory_that_is_told() {
+        // Here a word may have 64 bits.
+        let near = |size: usize, told: usize| assert!((told..told + 64).contains(&size), "{size}");
+        near(size_of::<Front<i16, 200>>(), 1704 + 8 * 200);
+        near(size_of::<Front<f32, 200>>(), 2784 + 8 * 200);
+        near(size_of::<Front<i32, 200>>(), 3016 + 8 * 200);
+        near(size_of::<Tracker<64>>(), 672 + 68 * 64);
+        near(size_of::<Block<i16>>(), 72);
+        near(size_of::<Block<f32>>(), 128);
+        near(size_of::<Block<i32>>(), 120);
+    }
+}

@@ -103,7 +103,7 @@ impl PhaseStep {
     /// The frequency in Hz plus `offset` radians a sample, at full resolution; `unit` is sample rate · 2⁻⁶⁴, in Hz.
     ///
     /// An offset beyond ±3, as where there is no wave, gives a number that means nothing.
-    pub fn hertz(self, offset: f32, unit: f64) -> f64 {
+    pub(crate) fn hertz(self, offset: f32, unit: f64) -> f64 {
         // The offset in units of 2⁻²⁹ rad, of which each is 2³⁵/2π of 2⁻⁶⁴ turn, and what is beyond: no digit of it is lost.
         let scaled = offset * 536_870_912.0;
         let whole = scaled as i32;

@@ -7,6 +7,26 @@
 //! Each output is one product with a row of filter taps, a windowed sinc whose response at the wave's own frequency is made exactly 1;
 //! rows stand at 64 places between two samples, with straight lines between them. The wave itself passes with an error below
 //! (2π/64P)²/8 of itself, P samples a period: 3.5·10⁻⁶ at 18.75.
+//!
+//! # Example
+//!
+//! ```
+//! use antinode::methods::{Products, algorithm4};
+//! use antinode::regrid::Regrid;
+//!
+//! // From 18.75 samples a period to 20, by a filter of two periods.
+//! let mut regrid = Regrid::<38>::new(18.75, 20, 2.0)?;
+//! let mut pairs = Vec::new();
+//! for k in 0..200 {
+//!     let (sine, cosine) = (core::f32::consts::TAU / 18.75 * k as f32).sin_cos();
+//!     let (s2, c2) = 0.6f32.sin_cos();
+//!     regrid.push([cosine * c2 - 0.1 * sine * s2, cosine * s2 + 0.1 * sine * c2], |pair| pairs.push(pair));
+//! }
+//! // One period is 20 samples now: nothing leaks.
+//! let wave = algorithm4::wave(&Products::of(&pairs[..20], core::f64::consts::TAU / 20.0));
+//! assert!((wave.shape.main_amplitude - 1.0).abs() < 1e-5);
+//! # Ok::<(), antinode::regrid::RegridError>(())
+//! ```
 
 use core::fmt;
 
@@ -74,6 +94,10 @@ impl<const TAPS: usize> Regrid<TAPS> {
     /// A grid of `per_period` samples for a wave of `period` input samples, low-passed at `cut_off` times the wave's frequency.
     ///
     /// A filter is only as steep as it is long: one of 2 periods makes a cut-off of 2 a real one.
+    ///
+    /// # Errors
+    ///
+    /// The first value, or `TAPS`, that cannot be.
     pub fn new(period: f32, per_period: u16, cut_off: f32) -> Result<Self, RegridError> {
         if !(2.5..=1000.0).contains(&period) {
             return Err(RegridError::Period(period));

@@ -9,6 +9,8 @@ use crate::phase::PhaseStep;
 
 /// How the period is found from cold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub enum Detection {
     /// Formula (10): about three periods, any offset, 20 % noise and more.
     #[default]
@@ -20,21 +22,24 @@ pub enum Detection {
 
 /// Settings of an identification. Start from [`Settings::new`] and change what differs.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Settings {
     /// Sample rate in Hz, 10⁻³ to 10¹².
     pub sample_rate: f64,
-    /// Length of a window in periods, 2 to two less than the ring of blocks holds; see [`Settings::layout`].
+    /// Length of a window in periods, 2 to two less than the ring of blocks holds. A window is a whole number of blocks, up to a tenth
+    /// off this length; see [`Settings::layout`].
     pub periods: u16,
-    /// Blocks from the start of one window to the start of the next; `None`: windows follow each other without gap or overlap, and
-    /// have half as many blocks.
+    /// Blocks from the start of one window to the start of the next, 1 or more; a block then is about one period, or a tenth of a
+    /// window of less than 10. A hop beyond the window leaves gaps. `None`: windows follow each other without gap or overlap, and have half as
+    /// many blocks.
     pub hop: Option<u16>,
     /// The pattern angle nearest to which the first window's angle is chosen, rad; π/4 puts it in 0…π/2.
     pub start_angle: f32,
     /// The least and the greatest sample that the converter gives, input units: at or beyond them a window is flagged as clipped.
-    /// `None` where they are not known.
+    /// `None` where they are not known. A signed converter of 12 bits, taken as codes, has −2048 and 2047.
     pub rails: Option<[f32; 2]>,
     /// Step between neighbouring codes of the converter, input units, where it is known. A signal with less noise than a step has
-    /// errors that repeat with it and do not average: with this they count in the standard deviations.
+    /// errors that repeat with it and do not average: with this they count in the standard deviations. Of codes it is 1.
     pub resolution: Option<f32>,
     /// How the period is found from cold.
     pub detection: Detection,
@@ -50,6 +55,7 @@ pub struct Settings {
 
 /// Settings that cannot work.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum SettingsError {
     /// The sample rate is not a number from 10⁻³ to 10¹² Hz.
@@ -151,7 +157,11 @@ impl Settings {
         }
     }
 
-    /// Checks every value for a ring of `blocks`.
+    /// Checks every value for a ring of `blocks`, the `BLOCKS` of a [`Tracker`](crate::Tracker).
+    ///
+    /// # Errors
+    ///
+    /// The first value that cannot be; its message says what could.
     pub fn check(&self, blocks: usize) -> Result<(), SettingsError> {
         let within = |x: f32, least: f32, most: f32| x >= least && x <= most;
         let most = blocks.saturating_sub(2).min(60_000) as u16;

@@ -34,8 +34,8 @@ pub fn hello(hello: &Hello) -> String {
         )),
         level("resolution", s.resolution),
         match s.detection {
-            Detection::Difference => "",
             Detection::MeanReturn => ", detector mean-return",
+            _ => "",
         },
         if s.watch { "" } else { ", samples not watched" },
         if s.hum { ", hum" } else { "" },

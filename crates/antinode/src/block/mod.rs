@@ -61,7 +61,12 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     ///
     /// A length beyond 1…`N` is brought into it; the scale is that of `S`.
     pub fn new(layout: Layout, start: u64, watch: bool) -> Self {
-        const { assert!(N.is_multiple_of(2), "weights stand in twos") };
+        const {
+            assert!(
+                N.is_multiple_of(2),
+                "N, the most sample pairs of a block, must be even"
+            )
+        };
         let mut demodulator = Self {
             held: 0,
             room: 0,
@@ -89,6 +94,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     }
 
     /// Takes one sample pair; gives the block that it finished.
+    #[must_use = "the next pair overwrites the block"]
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<&Block<S>> {
         let held = self.held;
@@ -105,6 +111,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     /// Takes the first pairs of a slice up to the end of the present block; gives how many it took and the block if it is finished.
     ///
     /// Call it again with the rest: the sums are the same to the bit however a stream is cut.
+    #[must_use = "it stops at the end of a block: call it again with the rest, and hand the block on"]
     #[inline]
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
         // While slices come nothing is held back. The next single pair is not either: by then there is room.

@@ -1,4 +1,47 @@
 //! All four methods beside the exact solution: their differences, whom to trust, and whether something is wrong.
+//!
+//! # Example
+//!
+//! ```
+//! use antinode::methods::comparison::{Reference, Sums, compare};
+//! use antinode::methods::{DelayedSums, Moments, Products, algorithm2};
+//! use antinode::{Identifier, Settings};
+//!
+//! # let omega = core::f64::consts::TAU * 0.05332;
+//! # let signal = |k: u32| {
+//! #     let (sine, cosine) = (omega * f64::from(k)).sin_cos();
+//! #     let (s2, c2) = 0.6f64.sin_cos();
+//! #     // Noise of 0.3 %, rms.
+//! #     let noise = |seed: u32| 1e-2 * (f64::from((k ^ seed).wrapping_mul(0x9e37_79b9).rotate_left(9).wrapping_mul(0x85eb_ca6b)) / 2f64.powi(32) - 0.5);
+//! #     [cosine * c2 - 0.1 * sine * s2 + noise(1 << 20), cosine * s2 + 0.1 * sine * c2 + noise(1 << 24)].map(|x| x as f32)
+//! # };
+//! let sample_rate = 100_000.0;
+//! let pairs: Vec<[f32; 2]> = (0..1000).map(signal).collect();
+//! let mut identifier = Identifier::<f32, 200, 16>::new(Settings::new(sample_rate))?;
+//! let mut estimates = Vec::new();
+//! identifier.extend(&pairs, |estimate| estimates.push(estimate));
+//! let estimate = estimates[1];
+//!
+//! // The window's samples, and as many before it as the delay is long.
+//! let omega = core::f64::consts::TAU * estimate.frequency / sample_rate;
+//! let lag = algorithm2::quarter_lag((sample_rate / estimate.frequency) as f32);
+//! let (start, end) = (estimate.start as usize, estimate.start as usize + estimate.samples as usize);
+//! let mut delayed = DelayedSums::<50>::new(lag, estimate.offsets);
+//! delayed.extend(&pairs[start - usize::from(lag)..end]);
+//!
+//! let centred: Vec<[f32; 2]> =
+//!     pairs[start..end].iter().map(|[c, d]| [c - estimate.offsets[0], d - estimate.offsets[1]]).collect();
+//! let sums = Sums {
+//!     moments: Moments::of(&centred),
+//!     delayed: delayed.take(),
+//!     products: Products::of(&centred, omega),
+//! };
+//! assert_eq!(sums.delayed.count, estimate.samples);
+//! let comparison = compare(&sums, &Reference::of(&estimate, sample_rate));
+//! assert!(!comparison.disagree);
+//! assert!(comparison.methods[1].conditions.of_the_method_hold());
+//! # Ok::<(), antinode::SettingsError>(())
+//! ```
 
 use super::conditions;
 pub use super::conditions::{CONDITION, Conditions};
@@ -26,7 +69,8 @@ const AXES: usize = 2;
 pub struct Sums {
     /// Second moments.
     pub moments: Moments,
-    /// Delayed products.
+    /// Delayed products, as many as the window has pairs: the first of them reach back to the pairs before it. The conditions (17) and
+    /// (20) fail without reason where they are of other pairs.
     pub delayed: Delayed,
     /// Products with the reference, at the wave's frequency.
     pub products: Products,

@@ -73,7 +73,8 @@ impl Delayed {
 
 /// Gathers [`Delayed`] at sample rate: about as much work as [`MomentSums`](super::MomentSums), and a delay line of up to `LAGS` pairs.
 ///
-/// A quarter of the longest period, 200 samples, takes 50.
+/// A quarter of the longest period, 200 samples, takes 50. It runs over the whole stream: a window's first products take pairs before
+/// the window.
 #[derive(Debug, Clone)]
 pub struct DelayedSums<const LAGS: usize, S: Sample = f32> {
     offsets: S::Centred,

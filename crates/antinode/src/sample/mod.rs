@@ -21,6 +21,9 @@ mod sealed {
     impl Pair for super::Packed {
         const FORM: super::Form = super::Form::Codes;
     }
+    impl Pair for u32 {
+        const FORM: super::Form = super::Form::Codes;
+    }
     impl<S: Sealed> Pair for [S; 2] {
         const FORM: super::Form = S::FORM;
     }
@@ -74,20 +77,27 @@ pub trait Sample: Copy + Debug + Default + PartialEq + Send + sealed::Sealed + '
     /// A running sum of weighted samples.
     type Sum: Copy + Debug + PartialEq + Default + Send;
     /// The reference at one sample of a block: cosine and sine.
+    #[doc(hidden)]
     type Weight: Copy + Debug + Default + Send;
     /// The reference's third harmonic at one sample of a block, where it is not made of the reference itself.
+    #[doc(hidden)]
     type Third: Copy + Debug + Default + Send;
     /// What is kept of runs of equal samples.
     type Runs: Copy + Debug + PartialEq + Default + Send;
     /// A running sum of squared differences.
+    #[doc(hidden)]
     type Square: Copy + Debug + Default + Send;
     /// A pair less its offsets, as the sums of products take it.
+    #[doc(hidden)]
     type Centred: Copy + Debug + Default + Send;
     /// Three running sums of products.
+    #[doc(hidden)]
     type Products: Copy + Debug + Default + Send;
     /// Two running sums of products with what was before.
+    #[doc(hidden)]
     type Delayed: Copy + Debug + Default + Send;
     /// A mean squared difference, to be compared with others.
+    #[doc(hidden)]
     type Level: Copy + Debug + PartialOrd + Send;
 
     /// The sample in f32.
@@ -174,9 +184,11 @@ pub trait Sample: Copy + Debug + Default + PartialEq + Send + sealed::Sealed + '
 ///
 /// | for | forms |
 /// |---|---|
-/// | `f32` | `[f32; 2]`, `[i16; 2]`, `[u16; 2]`, `[i8; 2]`, [`Packed`] |
-/// | `i16` | `[i16; 2]`, `[I1F15; 2]`, [`Packed`] |
-/// | `i32` | `[i32; 2]`, `[i16; 2]`, `[u16; 2]`, `[I1F31; 2]`, [`Packed`] |
+/// | `f32` | `[f32; 2]`, `[i16; 2]`, `[u16; 2]`, `[i8; 2]`, [`Packed`], `u32` |
+/// | `i16` | `[i16; 2]`, `[I1F15; 2]`, [`Packed`], `u32` |
+/// | `i32` | `[i32; 2]`, `[i16; 2]`, `[u16; 2]`, `[I1F31; 2]`, [`Packed`], `u32` |
+///
+/// A `u32` is what a [`Packed`] holds: a DMA's buffer of words is taken as it is.
 ///
 /// No other type can be one. `I1F15` and `I1F31` are those of the crate `fixed`, with the feature of that name; a unit of the estimates is then 2⁻¹⁵ or 2⁻³¹.
 pub trait SamplePair<S>: Copy + sealed::Pair {
@@ -185,9 +197,19 @@ pub trait SamplePair<S>: Copy + sealed::Pair {
 }
 
 /// A pair of 16-bit codes in one word, S_C in its low half: as a dual converter's DMA leaves it.
+///
+/// The codes are signed. Unsigned ones of up to 15 bits are the same; of 16 bits, `word ^ 0x8000_8000` makes them signed, and the
+/// offsets of the estimates are then less by 32 768.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(transparent)]
 pub struct Packed(pub u32);
+
+impl From<[i16; 2]> for Packed {
+    /// S_C and S_D in one word.
+    fn from([c, d]: [i16; 2]) -> Self {
+        Self(u32::from(c as u16) | u32::from(d as u16) << 16)
+    }
+}
 
 impl<S> SamplePair<S> for [S; 2]
 where
@@ -217,6 +239,16 @@ impl SamplePair<i32> for Packed {
     #[inline(always)]
     fn pair(self) -> [i32; 2] {
         SamplePair::<i16>::pair(self).map(i32::from)
+    }
+}
+
+impl<S> SamplePair<S> for u32
+where
+    Packed: SamplePair<S>,
+{
+    #[inline(always)]
+    fn pair(self) -> [S; 2] {
+        Packed(self).pair()
     }
 }
 

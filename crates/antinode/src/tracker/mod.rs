@@ -32,6 +32,8 @@ const GIVE_UP: u8 = 2;
 
 /// Cuts the stream of blocks into windows and tracks the wave over them. Holds up to `BLOCKS` blocks, 11 to 65 535.
 ///
+/// A window has as many blocks as periods at most, or 11 where that is more; `BLOCKS` is two more than the periods.
+///
 /// It works at block rate and may run in thread context while blocks are gathered in an interrupt.
 #[derive(Debug, Clone)]
 pub struct Tracker<const BLOCKS: usize> {
@@ -59,9 +61,18 @@ pub struct Tracker<const BLOCKS: usize> {
 }
 
 impl<const BLOCKS: usize> Tracker<BLOCKS> {
-    /// A tracker that waits for its first block.
+    /// A tracker that waits for its first block, with the settings that its [`Front`](crate::Front) has.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Settings::check`].
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        const { assert!(BLOCKS >= MOST_BLOCKS as usize && BLOCKS <= u16::MAX as usize) };
+        const {
+            assert!(
+                BLOCKS >= MOST_BLOCKS as usize && BLOCKS <= u16::MAX as usize,
+                "BLOCKS, the length of the ring, must be 11 to 65 535"
+            );
+        }
         settings.check(BLOCKS)?;
         Ok(Self {
             settings,
@@ -113,19 +124,28 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         estimate
     }
 
-    /// True when the wave has been lost for so long that a new period must be searched.
+    /// True when the wave has been lost for so long that a new period must be searched: two windows, or the first one where that shows
+    /// no wave. Ask after every block: a first window without a wave gives no estimate.
+    ///
+    /// Then call [`Front::search`](crate::Front::search), drop the blocks that were gathered before it, and [`forget`](Self::forget).
     pub fn has_lost(&self) -> bool {
         self.failures >= GIVE_UP
     }
 
-    /// Drops the wave, but not its angle: the next block starts a new search's first window.
+    /// Drops the wave and the blocks gathered, but not the angle: with the next block a first window begins, and the angle found there is
+    /// the one nearest to the last.
     pub fn forget(&mut self) {
         self.model = None;
         self.gathered.clear();
         self.failures = 0;
     }
 
-    /// Changes the calibration: the next block starts a new first window, flagged [`Flags::REACQUIRED`], its angle continued.
+    /// Changes the calibration: the next block starts a new first window, flagged [`Flags::REACQUIRED`], its angle continued. The front
+    /// goes on as it is.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Settings::check`]; nothing is changed then.
     pub fn calibrate(&mut self, calibration: Calibration) -> Result<(), SettingsError> {
         let settings = Settings {
             calibration,

@@ -3,7 +3,7 @@
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Channel, ClipSpan, Dropout, DropoutKind, Flaws, Loss, Wave};
 use host_tests::score::{errors, stated};
-use host_tests::{Core, RATE, gyro, identify, windows};
+use host_tests::{Core, RATE, gyro, identify, stream, windows};
 
 /// Length of the streams, sample pairs.
 const STREAM: usize = 400_000;
@@ -273,4 +273,60 @@ fn a_step_between_or_within_windows_is_flagged() {
             }
         }
     }
+}
+
+#[test]
+fn a_wave_of_another_frequency_in_its_place_is_found() {
+    // Whatever the sums at the old frequency make of it: of the half, of the double, of anything between.
+    for noise in [0.0, 1e-3, 0.02] {
+        for (from, to) in [
+            (5332.0, 8000.0),
+            (5332.0, 10_664.0),
+            (10_664.0, 5332.0),
+            (20_000.0, 10_000.0),
+            (18_000.0, 9100.0),
+            (25_000.0, 13_350.0),
+            (24_000.0, 12_000.0),
+            (1000.0, 5332.0),
+        ] {
+            for periods in [2, 10, 50] {
+                let wave = |frequency| Wave {
+                    main_amplitude: 1.0,
+                    quadrature_amplitude: 0.1,
+                    frequency,
+                    ..Wave::default()
+                };
+                let flaws = Flaws {
+                    noise,
+                    ..Flaws::default()
+                };
+                let mut pairs = stream(wave(from), flaws.clone(), 20_000, 1);
+                pairs.extend(stream(wave(to), flaws, 40_000, 2));
+                let mut core = Core::new(windows(periods)).unwrap();
+                let after: Vec<Estimate> = pairs
+                    .into_iter()
+                    .filter_map(|pair| core.push(pair))
+                    .filter(|estimate| estimate.start >= 20_000)
+                    .collect();
+                let faults = after.iter().take_while(|row| !is_of(row, to)).count();
+                assert!(
+                    faults <= 10 && after.len() > faults + 4,
+                    "{from} to {to} Hz, noise {noise}, {periods} periods: {faults} of {}",
+                    after.len()
+                );
+                for row in &after[..faults] {
+                    assert!(!row.flags.is_empty(), "{from} to {to} Hz: {row:?}");
+                }
+                for row in &after[faults..] {
+                    assert!(is_of(row, to), "{from} to {to} Hz: {row:?}");
+                }
+            }
+        }
+    }
+}
+
+/// True of a row without a fault, the first of its wave or not, at a frequency.
+fn is_of(row: &Estimate, frequency: f64) -> bool {
+    row.flags.without(Flags::REACQUIRED).is_empty()
+        && (row.frequency - frequency).abs() < 0.01 * frequency
 }

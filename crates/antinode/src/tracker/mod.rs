@@ -27,8 +27,12 @@ const BROKEN: Flags = Flags::LOST
     .with(Flags::MISFIT)
     .with(Flags::NOT_FINITE)
     .with(Flags::DEAD_CHANNEL);
-/// Windows without a wave after which the search starts anew.
-const GIVE_UP: u8 = 2;
+/// Failures after which the search starts anew: two windows without a wave, or eight with as much else beside it.
+const GIVE_UP: u8 = 8;
+/// What may be left of a wave's amplitude after a fault.
+const LEFT: f32 = 0.25;
+/// Failures that a window without a wave counts for.
+const LOSS: u8 = 4;
 
 /// Cuts the stream of blocks into windows and tracks the wave over them. Holds up to `BLOCKS` blocks, 11 to 65 535.
 ///
@@ -209,8 +213,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let coding = Coding::new(&self.settings, noise, model, &fit);
         let errors = rounding * rounding * (1.0 + half) + coding.expected;
         let wave = Standing::new(model, &fit, noise + errors);
-        if self.before.is_none() && checks::is_no_wave(&fit, &wave, self.count, model.layout.length)
-        {
+        let is_no_wave = checks::is_no_wave(&fit, &wave, self.count, model.layout.length);
+        if self.before.is_none() && is_no_wave {
             // The detector was deceived: nothing is reported, and the search goes on.
             self.failures = GIVE_UP;
             return None;
@@ -269,9 +273,18 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
 
         if flags.contains(Flags::LOST) {
-            self.failures = self.failures.saturating_add(1);
+            self.failures = self.failures.saturating_add(LOSS);
         } else if fit.settled {
-            self.failures = 0;
+            // Noise that was there before is no failure, however much it is, and what little is left of a wave is none.
+            let left = self
+                .before
+                .as_ref()
+                .is_some_and(|before| wave.main < LEFT * before.main);
+            self.failures = if flags.contains(Flags::MISFIT) && (is_no_wave || left) {
+                self.failures.saturating_add(1)
+            } else {
+                0
+            };
             let is_clean = !flags.intersects(BROKEN);
             if self.lost || !is_certain && is_clean {
                 flags = flags.with(Flags::REACQUIRED);
@@ -280,7 +293,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             }
             self.ever = true;
         } else {
-            self.failures = self.failures.saturating_add(1);
+            self.failures = self.failures.saturating_add(LOSS);
         }
         let drift = if is_circular {
             fit.waves.drift() * model.per_half

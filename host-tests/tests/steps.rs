@@ -1,0 +1,110 @@
+//! A step exactly between two windows, of one quantity by itself: the window after it says so, and nothing else is flagged.
+
+use antinode::{Estimate, Flags};
+use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::{Core, stream, windows};
+
+/// Windows of ten periods before the step.
+const BEFORE: usize = 80;
+
+fn flaws(wave: &Wave) -> Flaws {
+    Flaws {
+        noise: 0.002 * wave.main_amplitude,
+        ..Flaws::default()
+    }
+}
+
+/// The estimates of a stream that from the start of a window on is that of another wave with the same noise.
+fn stepped(wave: Wave, to: Wave, more: Flaws, seed: u64) -> Vec<Estimate> {
+    let count = 190 * (2 * BEFORE);
+    let (one, two) = (
+        stream(wave, flaws(&wave), count, seed),
+        stream(to, more, count, seed),
+    );
+    let mut plain = Core::new(windows(10)).unwrap();
+    let mut clean = Vec::new();
+    plain.extend(&one, |e| clean.push(e));
+    assert!(clean.iter().all(|e| e.flags.is_empty()));
+    let at = clean[BEFORE].start as usize;
+    let mut core = Core::new(windows(10)).unwrap();
+    let mut found = Vec::new();
+    core.extend(&one[..at], |e| found.push(e));
+    core.extend(&two[at..], |e| found.push(e));
+    found
+}
+
+fn check(found: &[Estimate], flag: Flags, name: &str) {
+    for (i, estimate) in found.iter().enumerate() {
+        if i == BEFORE {
+            assert!(
+                estimate.flags.contains(flag) && !estimate.flags.contains(Flags::MISFIT),
+                "{name}: {}",
+                estimate.flags
+            );
+        } else {
+            assert!(
+                estimate.flags.is_empty(),
+                "{name}, window {i}: {}",
+                estimate.flags
+            );
+        }
+    }
+}
+
+#[test]
+fn a_step_of_either_amplitude_or_of_the_angle_is_a_step() {
+    for seed in 0..10 {
+        let wave = random_wave(seed, 5332.0, 0.3);
+        let a = wave.main_amplitude;
+        let main = Wave {
+            main_amplitude: 1.05 * a,
+            ..wave
+        };
+        let quadrature = Wave {
+            quadrature_amplitude: wave.quadrature_amplitude + 0.05 * a,
+            ..wave
+        };
+        let angle = Wave {
+            angle: wave.angle + 0.05,
+            ..wave
+        };
+        for (to, name) in [(main, "main"), (quadrature, "quadrature"), (angle, "angle")] {
+            let found = stepped(wave, to, flaws(&wave), seed);
+            check(&found, Flags::STEP, &format!("{name}, seed {seed}"));
+        }
+    }
+}
+
+#[test]
+fn a_step_of_either_offset_is_a_step() {
+    for seed in 0..10 {
+        let wave = random_wave(seed, 5332.0, 0.3);
+        let size = 0.05 * wave.main_amplitude;
+        for (offset_c, offset_d) in [(size, 0.0), (0.0, size)] {
+            let more = Flaws {
+                offset_c,
+                offset_d,
+                ..flaws(&wave)
+            };
+            let found = stepped(wave, wave, more, seed);
+            let name = format!("offsets of {offset_c} and {offset_d}, seed {seed}");
+            check(&found, Flags::STEP, &name);
+        }
+    }
+}
+
+#[test]
+fn a_step_of_the_phase_is_a_jump() {
+    for seed in 0..10 {
+        for step in [0.1, -0.1, 1.0, -3.0] {
+            let wave = random_wave(seed, 5332.0, 0.3);
+            let to = Wave {
+                phase: wave.phase + step,
+                ..wave
+            };
+            let found = stepped(wave, to, flaws(&wave), seed);
+            let name = format!("phase by {step}, seed {seed}");
+            check(&found, Flags::PHASE_JUMP, &name);
+        }
+    }
+}

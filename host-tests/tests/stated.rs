@@ -1,0 +1,47 @@
+//! What an estimate states beside the four main quantities: phase, rates and offsets, against the truth and their own deviations.
+
+use std::f64::consts::FRAC_PI_2;
+
+use antinode::Estimate;
+use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::{angle_error, identify, windows};
+
+/// The error of α, which goes with the angle's choice, rad.
+fn error_of_phase(estimate: &Estimate, wave: &Wave) -> f64 {
+    let truth = wave.at(estimate.time);
+    let quarters = ((estimate.angle - truth.angle) / FRAC_PI_2).round();
+    let shift = std::f64::consts::PI * quarters.rem_euclid(2.0);
+    let error = f64::from(estimate.phase) - truth.phase - shift;
+    assert!(angle_error(estimate.angle, truth.angle).abs() < 0.5);
+    error - (error / std::f64::consts::TAU).round() * std::f64::consts::TAU
+}
+
+#[test]
+fn phases_scatter_as_stated() {
+    for (periods, quadrature) in [(2, 0.1), (10, 0.1), (10, 0.7), (50, 0.4)] {
+        let (mut square, mut rows) = (0.0, 0.0);
+        for seed in 0..200 {
+            let wave = random_wave(seed, 5332.0, 0.1);
+            let wave = Wave {
+                quadrature_amplitude: quadrature * wave.main_amplitude,
+                ..wave
+            };
+            let flaws = Flaws {
+                noise: 0.01 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let samples = 19 * usize::from(periods) * 8 + 300;
+            for estimate in identify(wave, &flaws, windows(periods), samples, seed) {
+                let error = error_of_phase(&estimate, &wave);
+                square += (error / f64::from(estimate.phase_std)).powi(2);
+                rows += 1.0;
+            }
+        }
+        let ratio = f64::sqrt(square / rows);
+        println!("{periods} periods, a_B of {quadrature} a_A: phase error over stated {ratio:.3}");
+        assert!(
+            rows > 1000.0 && (0.93..1.07).contains(&ratio),
+            "{periods} periods, {quadrature}: {ratio}"
+        );
+    }
+}

@@ -217,3 +217,29 @@ fn one_end_of_one_pick_off_is_enough_to_be_clipped() {
         }
     }
 }
+
+#[test]
+fn a_pick_off_in_a_node_does_not_die_of_a_fault_of_the_other() {
+    let wave = Wave {
+        angle: 0.0,
+        quadrature_amplitude: 0.0,
+        ..Wave::default()
+    };
+    let flaws = Flaws {
+        noise: 0.01,
+        ..Flaws::default()
+    };
+    // A spike every third window, on the pick-off that has the wave.
+    let found = identify_changed(wave, &flaws, windows(10), 200_000, 1, |k, [c, d]| {
+        let is_spike = k > 20_000 && k % 570 == 100;
+        [if is_spike { c + 1.0 } else { c }, d]
+    });
+    let told = found.iter().filter(|e| e.flags.contains(Flags::MISFIT));
+    assert!(told.count() > 300);
+    for estimate in &found {
+        assert!(
+            !estimate.flags.contains(Flags::DEAD_CHANNEL),
+            "{estimate:?}"
+        );
+    }
+}

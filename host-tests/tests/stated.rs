@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use antinode::Estimate;
 use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::score::{errors, stated};
 use host_tests::{angle_error, identify, windows};
 
 /// The error of α, which goes with the angle's choice, rad.
@@ -44,4 +45,33 @@ fn phases_scatter_as_stated() {
             "{periods} periods, {quadrature}: {ratio}"
         );
     }
+}
+
+#[test]
+fn deviations_are_stated_where_there_is_no_noise_but_rounding() {
+    let (mut worst, mut most) = ([0f64; 4], 0f64);
+    for seed in 0..60 {
+        for periods in [2, 10, 100] {
+            let wave = random_wave(seed, 5332.0, 0.3);
+            let flaws = Flaws {
+                offset_c: wave.main_amplitude,
+                ..Flaws::default()
+            };
+            for estimate in identify(
+                wave,
+                &flaws,
+                windows(periods),
+                19 * usize::from(periods) * 4 + 300,
+                seed,
+            ) {
+                let (errors, stated) = (errors(&estimate, &wave), stated(&estimate));
+                for i in 0..4 {
+                    worst[i] = worst[i].max(errors[i].abs() / stated[i]);
+                }
+                most = most.max(stated[0] / wave.main_amplitude);
+            }
+        }
+    }
+    println!("errors over stated {worst:.2?}, stated at most {most:e} of a_A");
+    assert!(worst.iter().all(|&worst| worst < 3.0) && most < 1e-6);
 }

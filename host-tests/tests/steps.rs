@@ -1,4 +1,4 @@
-//! A step exactly between two windows, of one quantity by itself: the window after it says so, and nothing else is flagged.
+//! A step of one quantity by itself, between two windows or within one: a single window says so.
 
 use antinode::{Estimate, Flags};
 use antinode_sim::{Flaws, Wave, random_wave};
@@ -16,6 +16,11 @@ fn flaws(wave: &Wave) -> Flaws {
 
 /// The estimates of a stream that from the start of a window on is that of another wave with the same noise.
 fn stepped(wave: Wave, to: Wave, more: Flaws, seed: u64) -> Vec<Estimate> {
+    stepped_at(wave, to, more, seed, 0)
+}
+
+/// As [`stepped`], so many pairs after the start of the window.
+fn stepped_at(wave: Wave, to: Wave, more: Flaws, seed: u64, depth: usize) -> Vec<Estimate> {
     let count = 190 * (2 * BEFORE);
     let (one, two) = (
         stream(wave, flaws(&wave), count, seed),
@@ -25,7 +30,7 @@ fn stepped(wave: Wave, to: Wave, more: Flaws, seed: u64) -> Vec<Estimate> {
     let mut clean = Vec::new();
     plain.extend(&one, |e| clean.push(e));
     assert!(clean.iter().all(|e| e.flags.is_empty()));
-    let at = clean[BEFORE].start as usize;
+    let at = clean[BEFORE].start as usize + depth;
     let mut core = Core::new(windows(10)).unwrap();
     let mut found = Vec::new();
     core.extend(&one[..at], |e| found.push(e));
@@ -37,7 +42,8 @@ fn check(found: &[Estimate], flag: Flags, name: &str) {
     for (i, estimate) in found.iter().enumerate() {
         if i == BEFORE {
             assert!(
-                estimate.flags.contains(flag) && !estimate.flags.contains(Flags::MISFIT),
+                estimate.flags.contains(flag)
+                    && (flag == Flags::MISFIT || !estimate.flags.contains(Flags::MISFIT)),
                 "{name}: {}",
                 estimate.flags
             );
@@ -105,6 +111,37 @@ fn a_step_of_the_phase_is_a_jump() {
             let found = stepped(wave, to, flaws(&wave), seed);
             let name = format!("phase by {step}, seed {seed}");
             check(&found, Flags::PHASE_JUMP, &name);
+        }
+    }
+}
+
+#[test]
+fn a_step_within_a_window_costs_that_window_alone() {
+    for seed in 0..10 {
+        let wave = random_wave(seed, 5332.0, 0.3);
+        let a = wave.main_amplitude;
+        let steps = [
+            (1.2, 0.0, 0.0, 0.0),
+            (1.0, 0.2, 0.0, 0.0),
+            (1.0, 0.0, 0.2, 0.0),
+            (1.0, 0.0, 0.0, 0.2),
+            (1.0, 0.0, 0.0, -0.2),
+        ];
+        for (gain, quadrature, angle, offset) in steps {
+            let to = Wave {
+                main_amplitude: gain * a,
+                quadrature_amplitude: gain * wave.quadrature_amplitude + quadrature * a,
+                angle: wave.angle + angle,
+                ..wave
+            };
+            let more = Flaws {
+                offset_c: f64::max(offset, 0.0) * a,
+                offset_d: f64::min(offset, 0.0) * a,
+                ..flaws(&wave)
+            };
+            let found = stepped_at(wave, to, more, seed, 95);
+            let name = format!("{gain} {quadrature} {angle} {offset}, seed {seed}");
+            check(&found, Flags::MISFIT, &name);
         }
     }
 }

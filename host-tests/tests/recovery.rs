@@ -153,3 +153,40 @@ fn pairs_lost_during_the_search_are_no_part_of_it() {
         assert_eq!(found[0].start, wanted[0].start + 28 + lost as u64);
     }
 }
+
+#[test]
+fn a_wave_whose_frequency_leaps_is_found_again() {
+    // The last three look like a poor wave of the old frequency in some windows, but not in all.
+    let near = [4000.0, 5400.0, 5550.0, 6400.0];
+    let near = [2, 5, 10, 50]
+        .into_iter()
+        .flat_map(|n| near.map(|f| (n, f)));
+    let far = [(10, 8018.73), (5, 11_441.0), (5, 16_323.0)];
+    for (periods, frequency) in near.chain(far) {
+        let (wave, flaws) = gyro(41);
+        let other = Wave { frequency, ..wave };
+        let (one, two) = (
+            stream(wave, flaws.clone(), 20_000, 1),
+            stream(other, flaws, 60_000, 1),
+        );
+        let mut core = Core::new(windows(periods)).unwrap();
+        let mut found = Vec::new();
+        core.extend(&one, |e| found.push(e));
+        core.extend(&two[20_000..], |e| found.push(e));
+        let is_right = |e: &Estimate| (e.frequency - frequency).abs() < 0.01 * frequency;
+        let clean = found
+            .iter()
+            .filter(|e| e.start > 20_000 && e.flags.is_empty());
+        assert!(
+            clean.clone().all(is_right),
+            "{periods} periods, {frequency} Hz"
+        );
+        let late = clean
+            .map(|e| (e.start - 20_000) / (19 * u64::from(periods)))
+            .next();
+        assert!(
+            late.is_some_and(|late| late < 20),
+            "{periods} periods, {frequency} Hz: after {late:?} windows"
+        );
+    }
+}

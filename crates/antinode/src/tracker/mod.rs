@@ -248,8 +248,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         if flags.contains(Flags::LOST) {
             self.failures = self.failures.saturating_add(1);
         } else if fit.settled {
-            self.failures = 0;
             let is_clean = !flags.intersects(BROKEN);
+            // What only looks like a wave now and then is none.
+            if is_clean {
+                self.failures = 0;
+            }
             if self.lost || !is_certain && is_clean {
                 flags = flags.with(Flags::REACQUIRED);
                 self.trend.clear();

@@ -2,10 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use antinode::Estimate;
+use antinode::{Estimate, Flags};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::{errors, stated};
-use host_tests::{angle_error, identify, windows};
+use host_tests::{Core, angle_error, identify, identify_changed, stream, windows};
 
 /// The error of α, which goes with the angle's choice, rad.
 fn error_of_phase(estimate: &Estimate, wave: &Wave) -> f64 {
@@ -74,4 +74,68 @@ fn deviations_are_stated_where_there_is_no_noise_but_rounding() {
     }
     println!("errors over stated {worst:.2?}, stated at most {most:e} of a_A");
     assert!(worst.iter().all(|&worst| worst < 3.0) && most < 1e-6);
+}
+
+#[test]
+fn deviations_hold_in_the_first_windows_of_more_noise() {
+    let (mut squares, mut count) = ([0f64; 4], 0.0);
+    for seed in 0..400 {
+        let wave = random_wave(seed, 5332.0, 0.3);
+        let flaws = |share: f64| Flaws {
+            noise: share * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let quiet = stream(wave, flaws(0.002), 5000, seed);
+        let loud = stream(wave, flaws(0.02), 6000, seed);
+        let mut core = Core::new(windows(10)).unwrap();
+        let mut found = Vec::new();
+        core.extend(&quiet, |e| found.push(e));
+        core.extend(&loud[5000..], |e| found.push(e));
+        for estimate in found.iter().filter(|e| e.start >= 5000).take(2) {
+            let (errors, stated) = (errors(estimate, &wave), stated(estimate));
+            for i in 0..4 {
+                squares[i] += (errors[i] / stated[i]).powi(2);
+            }
+            count += 1.0;
+        }
+    }
+    let ratios = squares.map(|square| f64::sqrt(square / count));
+    println!("ten times the noise: errors over stated {ratios:.2?}");
+    assert!(ratios.iter().all(|ratio| (0.9..1.15).contains(ratio)));
+}
+
+#[test]
+fn a_bad_first_window_spoils_none_after_it() {
+    // The wave is found while it is still being driven: it grows by half in the first window.
+    let (mut squares, mut count) = ([0f64; 4], 0.0);
+    for seed in 0..40 {
+        let wave = random_wave(seed, 5332.0, 0.3);
+        let flaws = Flaws {
+            noise: 0.002 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let found = identify_changed(wave, &flaws, windows(10), 8000, seed, |k, pair| {
+            let gain = if k < 150 { 0.7 } else { 1.0 };
+            // A spike in every third window, once it is over.
+            let spike = if k > 4000 && k % 570 == 0 { 0.3 } else { 0.0 };
+            [gain * pair[0] + spike * wave.main_amplitude, gain * pair[1]]
+        });
+        for estimate in &found[2..] {
+            let spikes = (estimate.start..estimate.start + u64::from(estimate.samples))
+                .filter(|k| *k > 4000 && k % 570 == 0);
+            if spikes.count() > 0 {
+                assert!(estimate.flags.contains(Flags::MISFIT), "{estimate:?}");
+                continue;
+            }
+            assert!(estimate.flags.is_empty(), "{estimate:?}");
+            let (errors, stated) = (errors(estimate, &wave), stated(estimate));
+            for i in 0..4 {
+                squares[i] += (errors[i] / stated[i]).powi(2);
+            }
+            count += 1.0;
+        }
+    }
+    let ratios = squares.map(|square| f64::sqrt(square / count));
+    println!("after a bad first window: errors over stated {ratios:.2?}");
+    assert!(ratios.iter().all(|ratio| (0.85..1.15).contains(ratio)));
 }

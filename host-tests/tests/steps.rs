@@ -2,7 +2,7 @@
 
 use antinode::{Estimate, Flags};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::{Core, stream, windows};
+use host_tests::{Core, RATE, identify_changed, stream, windows};
 
 /// Windows of ten periods before the step.
 const BEFORE: usize = 80;
@@ -143,5 +143,74 @@ fn a_step_within_a_window_costs_that_window_alone() {
             let name = format!("{gain} {quadrature} {angle} {offset}, seed {seed}");
             check(&found, Flags::MISFIT, &name);
         }
+    }
+}
+
+#[test]
+fn a_step_within_a_long_first_window_is_flagged() {
+    for (periods, noise) in [(50, 0.002), (50, 0.02)] {
+        for seed in 0..10 {
+            let wave = random_wave(seed, 5332.0, 0.3);
+            let flaws = Flaws {
+                noise: noise * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let louder = Wave {
+                main_amplitude: 1.5 * wave.main_amplitude,
+                quadrature_amplitude: 1.5 * wave.quadrature_amplitude,
+                ..wave
+            };
+            let turned = Wave {
+                angle: wave.angle + 0.3,
+                ..wave
+            };
+            let window = 19 * usize::from(periods);
+            for (to, name) in [(louder, "louder"), (turned, "turned")] {
+                for part in [3, 5, 7] {
+                    let at = 50 + window * part / 10;
+                    let one = stream(wave, flaws.clone(), at, seed);
+                    let two = stream(to, flaws.clone(), 4 * window, seed);
+                    let mut core = Core::new(windows(periods)).unwrap();
+                    let mut found = Vec::new();
+                    core.extend(&one, |e| found.push(e));
+                    core.extend(&two[at..], |e| found.push(e));
+                    let first = &found[0];
+                    assert!(first.start < 70);
+                    assert!(
+                        first.flags.contains(Flags::MISFIT),
+                        "{periods} periods, noise {noise}, {name} at {part}, seed {seed}: {}",
+                        first.flags
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_quadrature_that_grows_by_itself_is_no_step() {
+    let wave = Wave {
+        main_amplitude: 1.0,
+        quadrature_amplitude: 0.0,
+        ..Wave::default()
+    };
+    let full = Wave {
+        quadrature_amplitude: 1.0,
+        ..wave
+    };
+    let flaws = Flaws {
+        noise: 2e-4,
+        ..Flaws::default()
+    };
+    // By 0.01 a_A a window, up and down, as a control loop may drive it.
+    let found = identify_changed(wave, &flaws, windows(10), 60_000, 1, |k, [c, d]| {
+        let time = k as f64 / RATE;
+        let share = 0.5 + 0.4 * (12.0 * time).sin();
+        let (one, none) = (full.pick_offs(time), wave.pick_offs(time));
+        [c + share * (one.0 - none.0), d + share * (one.1 - none.1)]
+    });
+    assert!(found.len() > 300);
+    for estimate in &found {
+        assert!(estimate.flags.is_empty(), "{estimate:?}");
     }
 }

@@ -112,8 +112,8 @@ fn a_tracker_that_has_lost_its_wave_says_so_until_it_is_told_to_forget_it() {
     assert!(follow(&mut front, &mut tracker, &pairs).len() > 40);
     assert!(!tracker.has_lost());
     // One window without a wave is no loss, nor are two that do not follow each other.
-    let silence = vec![[0.0; 2]; 190];
-    for _ in 0..3 {
+    let silence = vec![[0.0; 2]; 285];
+    for _ in 0..8 {
         follow(&mut front, &mut tracker, &silence);
         follow(&mut front, &mut tracker, &pairs[..1900]);
         assert!(!tracker.has_lost());
@@ -188,5 +188,50 @@ fn a_wave_whose_frequency_leaps_is_found_again() {
             late.is_some_and(|late| late < 20),
             "{periods} periods, {frequency} Hz: after {late:?} windows"
         );
+    }
+}
+
+#[test]
+fn a_front_that_is_set_anew_amid_its_search_forgets_what_it_saw() {
+    let pairs = stream(random_wave(4, 5332.0, 0.3), Flaws::default(), 3000, 4);
+    let run = |front: &mut Front<f32, 200>, from: usize| {
+        let mut tracker = Tracker::new(windows(10)).unwrap();
+        let found = follow(front, &mut tracker, &pairs[from..]);
+        let values = |e: &Estimate| (e.main_amplitude, e.angle, e.frequency, e.flags);
+        found.iter().map(values).collect::<Vec<_>>()
+    };
+    let mut front = Front::new(windows(10)).unwrap();
+    front.push_slice(&pairs[..28]);
+    assert!(front.is_searching());
+    front.configure(windows(10)).unwrap();
+    let found = run(&mut front, 37);
+    assert!(found.len() > 10);
+    assert_eq!(found, run(&mut Front::new(windows(10)).unwrap(), 37));
+}
+
+#[test]
+fn a_watch_that_is_set_in_place_watches() {
+    let wave = Wave {
+        angle: 0.3,
+        ..Wave::default()
+    };
+    let flaws = Flaws {
+        noise: 0.002,
+        clip: Some(1.2),
+        ..Flaws::default()
+    };
+    let pairs = stream(wave, flaws, 10_000, 1);
+    let blind = Settings {
+        watch: false,
+        ..windows(10)
+    };
+    let (mut front, mut tracker) = (Front::new(blind).unwrap(), Tracker::new(blind).unwrap());
+    for (settings, is_watched) in [(blind, false), (windows(10), true), (blind, false)] {
+        front.configure(settings).unwrap();
+        tracker.configure(settings).unwrap();
+        let found = follow(&mut front, &mut tracker, &pairs);
+        let clipped = found.iter().filter(|e| e.flags.contains(Flags::CLIPPED));
+        assert!(found.len() > 40);
+        assert_eq!(clipped.count(), if is_watched { found.len() } else { 0 });
     }
 }

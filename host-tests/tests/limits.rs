@@ -1,9 +1,9 @@
 //! Settings at the ends of what is allowed work, and what lies just beyond them is refused.
 
-use antinode::{Calibration, Settings, Tracker};
+use antinode::{Calibration, Identifier, Settings, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::errors;
-use host_tests::{Core, RATE, identify, windows};
+use host_tests::{Core, RATE, identify, stream, windows};
 
 /// True when the core takes windows of ten periods with this change.
 fn is_taken(change: impl Fn(&mut Settings)) -> bool {
@@ -91,6 +91,26 @@ fn calibrations_at_the_ends_of_their_ranges_correct() {
                 "{gain_ratio}, {skew} s, {pick_off_error} rad: {main:e} {quadrature:e} {angle:e}"
             );
             assert!(frequency.abs() < 1e-8 * RATE, "{frequency:e}");
+        }
+    }
+}
+
+#[test]
+fn a_front_takes_periods_up_to_its_capacity_and_none_beyond() {
+    for (period, is_taken) in [(38.0, true), (39.7, true), (41.5, false), (60.0, false)] {
+        let wave = Wave {
+            frequency: RATE / period,
+            ..Wave::default()
+        };
+        let mut core = Identifier::<f32, 40, 16>::new(windows(10)).unwrap();
+        let mut found = Vec::new();
+        let pairs = stream(wave, Flaws::default(), 20_000, 1);
+        core.extend(&pairs, |e| found.push(e));
+        assert_eq!(found.len() > 40, is_taken, "{period} samples a period");
+        assert_eq!(core.is_searching(), !is_taken);
+        for estimate in found {
+            assert!(estimate.flags.is_empty());
+            assert!((estimate.frequency - wave.frequency).abs() < 1e-3);
         }
     }
 }

@@ -139,3 +139,28 @@ fn a_bad_first_window_spoils_none_after_it() {
     println!("after a bad first window: errors over stated {ratios:.2?}");
     assert!(ratios.iter().all(|ratio| (0.85..1.15).contains(ratio)));
 }
+
+#[test]
+fn rates_are_exact_without_noise() {
+    for (periods, angle_rate, decay_rate) in
+        [(10, 5.0, 20.0), (10, -20.0, 100.0), (50, -5.0, -10.0)]
+    {
+        for seed in 0..5 {
+            let wave = Wave {
+                angle_rate,
+                decay_rate,
+                ..random_wave(seed, 5332.0, 0.5)
+            };
+            let found = identify(wave, &Flaws::default(), windows(periods), 8000, seed);
+            assert!(found.len() > 5);
+            for estimate in &found {
+                let turning = f64::from(estimate.angle_rate) - angle_rate;
+                let decay = f64::from(estimate.decay_rate) - decay_rate;
+                assert!(
+                    turning.abs() < 5e-3 && decay.abs() < 2e-2,
+                    "{turning} {decay} {estimate:?}"
+                );
+            }
+        }
+    }
+}

@@ -214,3 +214,19 @@ fn a_quadrature_that_grows_by_itself_is_no_step() {
         assert!(estimate.flags.is_empty(), "{estimate:?}");
     }
 }
+
+#[test]
+fn a_small_turn_within_a_window_is_flagged() {
+    // Far below what the residual as a whole tells from noise, and no amplitude grows by it.
+    for seed in 0..20 {
+        let wave = random_wave(seed, 5332.0, 0.1);
+        for turn in [0.008, 0.012, -0.012] {
+            let to = Wave {
+                angle: wave.angle + turn,
+                ..wave
+            };
+            let found = stepped_at(wave, to, flaws(&wave), seed, 95);
+            check(&found, Flags::MISFIT, &format!("{turn} rad, seed {seed}"));
+        }
+    }
+}

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use antinode::{Estimate, Flags};
+use antinode::{Calibration, Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::{errors, stated};
 use host_tests::{Core, angle_error, identify, identify_changed, stream, windows};
@@ -44,6 +44,48 @@ fn phases_scatter_as_stated() {
             rows > 1000.0 && (0.93..1.07).contains(&ratio),
             "{periods} periods, {quadrature}: {ratio}"
         );
+    }
+}
+
+#[test]
+fn phases_scatter_as_stated_with_pick_offs_that_are_corrected() {
+    for (gain_ratio, pick_off_error) in [(1.0, 0.3), (1.0, -0.3), (2.0, 0.0), (0.5, 0.2)] {
+        for angle in [0.0, 0.4, 0.8] {
+            let (mut square, mut rows) = (0.0, 0.0);
+            for seed in 0..100 {
+                let wave = Wave {
+                    angle,
+                    main_amplitude: 1.0,
+                    quadrature_amplitude: 0.3,
+                    phase: 0.1 * seed as f64,
+                    ..Wave::default()
+                };
+                let flaws = Flaws {
+                    noise: 0.01,
+                    gain_ratio,
+                    pick_off_error,
+                    ..Flaws::default()
+                };
+                let settings = Settings {
+                    calibration: Calibration {
+                        gain_ratio: gain_ratio as f32,
+                        pick_off_angle: pick_off_error as f32,
+                        ..Calibration::IDEAL
+                    },
+                    ..windows(10)
+                };
+                for estimate in identify(wave, &flaws, settings, 2000, seed) {
+                    let error = error_of_phase(&estimate, &wave);
+                    square += (error / f64::from(estimate.phase_std)).powi(2);
+                    rows += 1.0;
+                }
+            }
+            let ratio = f64::sqrt(square / rows);
+            assert!(
+                rows > 900.0 && (0.9..1.1).contains(&ratio),
+                "gain {gain_ratio}, {pick_off_error} rad, angle {angle}: {ratio}"
+            );
+        }
     }
 }
 

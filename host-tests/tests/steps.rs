@@ -2,6 +2,7 @@
 
 use antinode::{Estimate, Flags};
 use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::score::{errors, stated};
 use host_tests::{Core, RATE, identify_changed, stream, windows};
 
 /// Windows of ten periods before the step.
@@ -216,17 +217,58 @@ fn a_quadrature_that_grows_by_itself_is_no_step() {
 }
 
 #[test]
-fn a_small_turn_within_a_window_is_flagged() {
-    // Far below what the residual as a whole tells from noise, and no amplitude grows by it.
-    for seed in 0..20 {
-        let wave = random_wave(seed, 5332.0, 0.1);
-        for turn in [0.008, 0.012, -0.012] {
+fn a_small_turn_within_a_long_window_is_flagged() {
+    // The residual as a whole hardly rises, no amplitude grows, and no block stands out.
+    for (noise, turn) in [(0.002, 0.002), (0.02, 0.02), (0.02, -0.02)] {
+        for seed in 0..10 {
+            let wave = random_wave(seed, 5332.0, 0.1);
             let to = Wave {
                 angle: wave.angle + turn,
                 ..wave
             };
-            let found = stepped_at(wave, to, flaws(&wave), seed, 95);
-            check(&found, Flags::MISFIT, &format!("{turn} rad, seed {seed}"));
+            let flaws = Flaws {
+                noise: noise * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let (one, two) = (
+                stream(wave, flaws.clone(), 15_000, seed),
+                stream(to, flaws, 20_000, seed),
+            );
+            let at = 53 + 950 * 15 + 475;
+            let mut core = Core::new(windows(50)).unwrap();
+            let mut found = Vec::new();
+            core.extend(&one[..at], |e| found.push(e));
+            core.extend(&two[at..], |e| found.push(e));
+            for (i, estimate) in found.iter().enumerate() {
+                let is_told = estimate.flags.contains(Flags::MISFIT);
+                assert_eq!(is_told, i == 15, "{turn} rad, seed {seed}: {estimate:?}");
+            }
         }
+    }
+}
+
+#[test]
+fn a_step_of_the_angle_does_not_spoil_the_frequencies_after_it() {
+    // With quadrature a turning pattern looks like another frequency, and a step like a turn.
+    for turn in [0.01, 0.02, 0.05] {
+        let (mut square, mut count) = (0.0, 0.0);
+        for seed in 0..20 {
+            let wave = random_wave(seed, 5332.0, 0.1);
+            let wave = Wave {
+                quadrature_amplitude: 0.6 * wave.main_amplitude,
+                ..wave
+            };
+            let to = Wave {
+                angle: wave.angle + turn,
+                ..wave
+            };
+            let found = stepped(wave, to, flaws(&wave), seed);
+            for estimate in &found[BEFORE + 1..BEFORE + 7] {
+                square += (errors(estimate, &to)[3] / stated(estimate)[3]).powi(2);
+                count += 1.0;
+            }
+        }
+        let ratio = f64::sqrt(square / count);
+        assert!((0.85..1.2).contains(&ratio), "{turn} rad: {ratio}");
     }
 }

@@ -1,9 +1,9 @@
 //! Signals through a converter: its steps are counted in what is stated, and a clean signal is never flagged for them.
 
-use antinode::Settings;
+use antinode::{Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::{errors, stated};
-use host_tests::{RATE, identify, windows};
+use host_tests::{RATE, identify, identify_changed, windows};
 
 #[test]
 fn steps_are_errors_that_are_stated() {
@@ -94,5 +94,42 @@ fn the_residual_is_that_of_the_samples_whatever_the_window() {
         let mean = estimates.iter().map(square).sum::<f64>() / estimates.len() as f64;
         let ratio = mean.sqrt() / step / f64::sqrt(0.05f64.powi(2) + 1.0 / 12.0);
         assert!((0.9..1.1).contains(&ratio), "{periods} periods: {ratio}");
+    }
+}
+
+#[test]
+fn crests_of_few_steps_are_not_clipped() {
+    // A slow wave of 30 steps, all of whose crests are one code, and a pick-off in a node, whose whole signal is a few codes.
+    for (period, steps, angle, is_known) in [(120.0, 30.0, 0.3, true), (18.75, 1000.0, 1e-3, false)]
+    {
+        for noise in [0.0, 0.3] {
+            let wave = Wave {
+                main_amplitude: 1.0,
+                quadrature_amplitude: 1e-3,
+                angle,
+                frequency: RATE / period,
+                ..Wave::default()
+            };
+            let step = 1.0 / steps;
+            let flaws = Flaws {
+                noise: noise * step,
+                ..Flaws::default()
+            };
+            let settings = Settings {
+                resolution: is_known.then_some(step as f32),
+                ..windows(10)
+            };
+            let samples = (period * 400.0) as usize;
+            let found = identify_changed(wave, &flaws, settings, samples, 1, |_, pair| {
+                pair.map(|s| (s / step).round() * step)
+            });
+            assert!(found.len() > 30);
+            for estimate in &found {
+                assert!(
+                    !estimate.flags.contains(Flags::CLIPPED),
+                    "{period} samples a period, {steps} steps, noise of {noise}: {estimate:?}"
+                );
+            }
+        }
     }
 }

@@ -222,3 +222,23 @@ fn the_first_window_of_a_turning_wave_states_its_frequency() {
         assert!(ratio < 1.9 && worst < 8.0, "{ratio} {worst}");
     }
 }
+
+#[test]
+fn a_long_window_in_much_noise_does_not_slip_a_turn_from_cold() {
+    for periods in [100u16, 250] {
+        for seed in 0..40 {
+            let wave = random_wave(seed, 5332.0, 0.3);
+            let flaws = Flaws {
+                noise: 0.2 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let samples = 19 * usize::from(periods) + 400;
+            let first = identify(wave, &flaws, windows(periods), samples, seed)[0];
+            let error = errors(&first, &wave)[3] / stated(&first)[3];
+            assert!(
+                first.flags.is_empty() && error.abs() < 6.0,
+                "{periods} periods, seed {seed}: {error:.1}, {first:?}"
+            );
+        }
+    }
+}

@@ -179,3 +179,67 @@ fn a_gain_that_is_corrected_neither_makes_a_harmonic_nor_hides_one() {
         assert_eq!(clipped, expected, "gain {gain}, cubic {cubic}");
     }
 }
+
+#[test]
+fn one_end_of_one_pick_off_is_enough_to_be_clipped() {
+    // Both pick-offs have 1.41, and one of them an offset towards one end.
+    let wave = Wave {
+        angle: std::f64::consts::PI / 8.0,
+        quadrature_amplitude: 0.0,
+        ..Wave::default()
+    };
+    // Where the rails are not known crests must be flat; the noise hides their harmonic.
+    for (is_known, level, noise) in [(false, 1.5, 0.1), (true, 1.65, 0.005)] {
+        let flaws = Flaws {
+            noise,
+            ..Flaws::default()
+        };
+        for (channel, side) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
+            for is_cut in [false, true] {
+                let level = if is_cut { level } else { 3.0 };
+                let settings = Settings {
+                    rails: is_known.then_some([-level as f32, level as f32]),
+                    ..windows(10)
+                };
+                let found = identify_changed(wave, &flaws, settings, 10_000, 2, |_, mut pair| {
+                    pair[channel] += 0.3 * side;
+                    pair[channel] = pair[channel].clamp(-level, level);
+                    pair
+                });
+                assert!(found.len() > 45);
+                let clipped = found.iter().filter(|e| e.flags.contains(Flags::CLIPPED));
+                assert_eq!(
+                    clipped.count(),
+                    if is_cut { found.len() } else { 0 },
+                    "channel {channel}, side {side}, known rails {is_known}, cut {is_cut}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_pick_off_in_a_node_does_not_die_of_a_fault_of_the_other() {
+    let wave = Wave {
+        angle: 0.0,
+        quadrature_amplitude: 0.0,
+        ..Wave::default()
+    };
+    let flaws = Flaws {
+        noise: 0.01,
+        ..Flaws::default()
+    };
+    // A spike every third window, on the pick-off that has the wave.
+    let found = identify_changed(wave, &flaws, windows(10), 200_000, 1, |k, [c, d]| {
+        let is_spike = k > 20_000 && k % 570 == 100;
+        [if is_spike { c + 1.0 } else { c }, d]
+    });
+    let told = found.iter().filter(|e| e.flags.contains(Flags::MISFIT));
+    assert!(told.count() > 300);
+    for estimate in &found {
+        assert!(
+            !estimate.flags.contains(Flags::DEAD_CHANNEL),
+            "{estimate:?}"
+        );
+    }
+}

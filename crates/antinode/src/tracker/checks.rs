@@ -52,6 +52,10 @@ impl Noise {
 
     /// Takes the noise of a window that is otherwise clean.
     fn learn(&mut self, variance: f32, wide: f32, freedom: f32) {
+        // What is so much more than this was no noise, but a fault that a first window could not tell.
+        if is_louder(self.variance, variance, self.freedom, freedom) {
+            self.freedom = 0.0;
+        }
         self.freedom = lesser(self.freedom + freedom, Self::MEMORY * freedom);
         let share = freedom / self.freedom;
         self.variance += (variance - self.variance) * share;

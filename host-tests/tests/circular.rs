@@ -1,0 +1,86 @@
+//! Patterns near a circle: when they are told from others, and what runs on over them.
+
+use antinode::{Flags, Settings};
+use antinode_sim::{Flaws, Wave};
+use host_tests::{RATE, identify, identify_changed, windows};
+
+#[test]
+fn a_pattern_is_circular_where_noise_or_rounding_hides_its_angle() {
+    // The share of a_B in a_A and the noise.
+    for (share, noise, is_circular) in [
+        (0.98, 0.05, true),
+        (-0.98, 0.05, true),
+        (0.98, 0.001, false),
+        (-0.98, 0.001, false),
+        (0.9985, 0.0, true),
+        (-0.9985, 0.0, true),
+        (0.99, 0.0, false),
+    ] {
+        let wave = Wave {
+            main_amplitude: 1.0,
+            quadrature_amplitude: share,
+            ..Wave::default()
+        };
+        let flaws = Flaws {
+            noise,
+            ..Flaws::default()
+        };
+        let found = identify(wave, &flaws, windows(10), 40_000, 2);
+        assert!(found.len() > 200);
+        let wanted = Flags::empty();
+        let wanted = if is_circular { Flags::CIRCULAR } else { wanted };
+        for estimate in &found {
+            assert_eq!(
+                estimate.flags, wanted,
+                "{share}, noise {noise}: {estimate:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_angle_runs_on_over_a_stretch_in_which_the_pattern_is_circular() {
+    for seed in 0..5 {
+        for side in [1.0, -1.0] {
+            let wave = Wave {
+                main_amplitude: 1.0,
+                quadrature_amplitude: 0.0,
+                angle: 0.3 * seed as f64,
+                ..Wave::default()
+            };
+            let flaws = Flaws {
+                noise: 0.002,
+                ..Flaws::default()
+            };
+            let settings = Settings {
+                start_angle: 5.0,
+                ..windows(10)
+            };
+            // The quadrature grows until it is as large as the wave, stays, and shrinks again.
+            let full = Wave {
+                quadrature_amplitude: side,
+                ..wave
+            };
+            let found = identify_changed(wave, &flaws, settings, 200_000, seed, |k, [c, d]| {
+                let time = k as f64 / RATE;
+                let share = (2.0 - (2.0 * time - 2.0).abs() * 2.0).clamp(0.0, 1.0);
+                let (one, none) = (full.pick_offs(time), wave.pick_offs(time));
+                [c + share * (one.0 - none.0), d + share * (one.1 - none.1)]
+            });
+            let circular = found.iter().filter(|e| e.flags == Flags::CIRCULAR).count();
+            assert!(circular > 200, "{circular}");
+            for estimate in &found {
+                assert!(
+                    Flags::CIRCULAR.contains(estimate.flags),
+                    "seed {seed}, side {side}: {} at {} s",
+                    estimate.flags,
+                    estimate.time
+                );
+                let error = estimate.frequency - wave.frequency;
+                assert!(error.abs() < 7.0 * f64::from(estimate.frequency_std));
+            }
+            let (first, last) = (&found[0], &found[found.len() - 1]);
+            assert!(last.flags.is_empty() && (last.angle - first.angle).abs() < 0.01);
+        }
+    }
+}

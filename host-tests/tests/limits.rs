@@ -1,0 +1,121 @@
+//! Settings at the ends of what is allowed work, and what lies just beyond them is refused.
+
+use antinode::{Calibration, Identifier, Settings, Tracker};
+use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::score::errors;
+use host_tests::{Core, RATE, identify, stream, windows};
+
+/// True when the core takes windows of ten periods with this change.
+fn is_taken(change: impl Fn(&mut Settings)) -> bool {
+    let mut settings = windows(10);
+    change(&mut settings);
+    Core::new(settings).is_ok()
+}
+
+#[test]
+fn every_range_holds_its_ends_and_nothing_beyond() {
+    type Put = fn(&mut Settings, f64);
+    let ranges: [(Put, f64, f64); 5] = [
+        (|s, x| s.sample_rate = x, 1e-3, 1e12),
+        (|s, x| s.start_angle = x as f32, -1e4, 1e4),
+        (|s, x| s.calibration.gain_ratio = x as f32, 0.1, 10.0),
+        (|s, x| s.calibration.skew = x as f32, -1e-3, 1e-3),
+        (|s, x| s.calibration.pick_off_angle = x as f32, -0.3, 0.3),
+    ];
+    for (i, (put, least, most)) in ranges.into_iter().enumerate() {
+        let past = 1e-6 * (most - least).min(least.abs());
+        for (value, wanted) in [
+            (least, true),
+            (most, true),
+            (least - past, false),
+            (most + 1e-6 * most, false),
+            (f64::NAN, false),
+            (f64::INFINITY, false),
+            (f64::NEG_INFINITY, false),
+        ] {
+            assert_eq!(is_taken(|s| put(s, value)), wanted, "range {i}: {value}");
+        }
+    }
+    for rails in [[0.0, 0.0], [f32::NAN, 1.0], [-1.0, f32::NAN]] {
+        assert!(!is_taken(|s| s.rails = Some(rails)));
+    }
+    for resolution in [-1.0, f32::NAN, f32::INFINITY] {
+        assert!(!is_taken(|s| s.resolution = Some(resolution)));
+    }
+    assert!(is_taken(|s| s.rails = Some([-f32::MAX, f32::MAX])));
+    assert!(is_taken(|s| s.resolution = Some(f32::MIN_POSITIVE)));
+}
+
+#[test]
+fn a_ring_takes_windows_of_two_blocks_less() {
+    for (periods, wanted) in [(1, false), (2, true), (14, true), (15, false)] {
+        assert_eq!(Tracker::<16>::new(windows(periods)).is_ok(), wanted);
+    }
+}
+
+#[test]
+fn calibrations_at_the_ends_of_their_ranges_correct() {
+    for (gain_ratio, skew, pick_off_error) in [
+        (0.1, 0.0, 0.3),
+        (10.0, 0.0, -0.3),
+        (1.0, 1e-4, 0.3),
+        (0.1, -1e-4, 0.0),
+        // Over five turns of the wave.
+        (1.0, 1e-3, -0.1),
+        (1.0, -1e-3, 0.1),
+    ] {
+        let wave = Wave {
+            angle_rate: 1.0,
+            decay_rate: 1.0,
+            ..random_wave(3, 5332.0, 0.3)
+        };
+        let flaws = Flaws {
+            gain_ratio,
+            skew,
+            pick_off_error,
+            ..Flaws::default()
+        };
+        let settings = Settings {
+            calibration: Calibration {
+                gain_ratio: gain_ratio as f32,
+                skew: skew as f32,
+                pick_off_angle: pick_off_error as f32,
+            },
+            ..windows(50)
+        };
+        let found = identify(wave, &flaws, settings, 20_000, 0);
+        assert!(found.len() > 15);
+        for estimate in found {
+            let [main, quadrature, angle, frequency] = errors(&estimate, &wave);
+            let size = wave.main_amplitude;
+            // Numbers of several turns have fewer digits.
+            let limit = 1e-6 + 3e-3 * skew.abs();
+            assert!(estimate.flags.is_empty(), "{estimate:?}");
+            assert!(
+                main.abs().max(quadrature.abs()) < limit * size && angle.abs() < limit,
+                "{gain_ratio}, {skew} s, {pick_off_error} rad: {main:e} {quadrature:e} {angle:e}"
+            );
+            assert!(frequency.abs() < 1e-8 * RATE, "{frequency:e}");
+        }
+    }
+}
+
+#[test]
+fn a_front_takes_periods_up_to_its_capacity_and_none_beyond() {
+    for (period, is_taken) in [(38.0, true), (39.7, true), (41.5, false), (60.0, false)] {
+        let wave = Wave {
+            frequency: RATE / period,
+            ..Wave::default()
+        };
+        let mut core = Identifier::<f32, 40, 16>::new(windows(10)).unwrap();
+        let mut found = Vec::new();
+        let pairs = stream(wave, Flaws::default(), 20_000, 1);
+        core.extend(&pairs, |e| found.push(e));
+        assert_eq!(found.len() > 40, is_taken, "{period} samples a period");
+        assert_eq!(core.is_searching(), !is_taken);
+        for estimate in found {
+            assert!(estimate.flags.is_empty());
+            assert!((estimate.frequency - wave.frequency).abs() < 1e-3);
+        }
+    }
+}

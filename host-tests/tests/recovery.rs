@@ -1,0 +1,237 @@
+//! After a loss, a skip or a change of settings: what the next windows say, and what they keep of those before.
+
+use std::f64::consts::FRAC_PI_2;
+
+use antinode::{Calibration, Estimate, Flags, Front, Settings, Tracker};
+use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::score::errors;
+use host_tests::{Core, gyro, identify_changed, stream, windows};
+
+#[test]
+fn a_wave_that_comes_back_is_reacquired_once_and_its_angle_runs_on() {
+    // Silence of both pick-offs for 0.1 s, of a pattern whose angle has run over several quarter turns.
+    for seed in 0..5 {
+        let wave = Wave {
+            angle_rate: 8.0,
+            ..random_wave(seed, 5332.0, 0.3)
+        };
+        let flaws = Flaws {
+            noise: 0.002 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let found = identify_changed(wave, &flaws, windows(10), 150_000, seed, |k, pair| {
+            if (90_000..100_000).contains(&k) {
+                [0.0; 2]
+            } else {
+                pair
+            }
+        });
+        let back = found.iter().position(|e| e.start >= 100_000).unwrap();
+        let (before, after) = found.split_at(back);
+        assert!(after[0].flags.contains(Flags::REACQUIRED), "{:?}", after[0]);
+        assert!(after.len() > 200 && after[1..].iter().all(|e| e.flags.is_empty()));
+        // Nearest to the last angle that was known.
+        let last = before.iter().rev().find(|e| e.flags.is_empty()).unwrap();
+        let apart = (after[0].angle - last.angle).abs();
+        assert!(apart < 0.5 * FRAC_PI_2 + 0.05, "seed {seed}: {apart}");
+        assert!((last.angle - found[0].angle).abs() > 6.0);
+    }
+}
+
+/// Runs pairs through a front and a tracker that stay on one wave.
+fn follow(
+    front: &mut Front<f32, 200>,
+    tracker: &mut Tracker<16>,
+    mut pairs: &[[f32; 2]],
+) -> Vec<Estimate> {
+    let mut found = Vec::new();
+    while !pairs.is_empty() {
+        let (taken, block) = front.push_slice(pairs);
+        pairs = &pairs[taken..];
+        found.extend(block.and_then(|block| tracker.push(block)));
+    }
+    found
+}
+
+#[test]
+fn a_calibration_that_is_changed_holds_from_the_next_window_on() {
+    let wave = Wave {
+        angle: 0.3,
+        ..Wave::default()
+    };
+    let flaws = Flaws {
+        gain_ratio: 1.2,
+        noise: 1e-3,
+        ..Flaws::default()
+    };
+    let pairs = stream(wave, flaws, 20_000, 1);
+    let settings = Settings {
+        start_angle: 7.0,
+        ..windows(10)
+    };
+    let (mut front, mut tracker) = (
+        Front::new(settings).unwrap(),
+        Tracker::new(settings).unwrap(),
+    );
+    let before = follow(&mut front, &mut tracker, &pairs[..10_000]);
+    let unusable = Calibration {
+        gain_ratio: 0.0,
+        ..Calibration::IDEAL
+    };
+    assert!(tracker.calibrate(unusable).is_err());
+    tracker
+        .calibrate(Calibration {
+            gain_ratio: 1.2,
+            ..Calibration::IDEAL
+        })
+        .unwrap();
+    let after = follow(&mut front, &mut tracker, &pairs[10_000..]);
+    assert!(before.len() > 40 && after.len() > 40);
+    assert!(before.iter().all(|e| errors(e, &wave)[2].abs() > 0.03));
+    assert_eq!(after[0].flags, Flags::REACQUIRED);
+    assert!(after[0].start >= 10_000 - 38);
+    for estimate in &after {
+        let [main, quadrature, angle, _] = errors(estimate, &wave);
+        assert!(
+            main.abs() < 1e-3 && quadrature.abs() < 1e-3 && angle.abs() < 1e-3,
+            "{estimate:?}"
+        );
+        assert!((estimate.angle - before[0].angle).abs() < 0.1);
+    }
+    assert!(after[1..].iter().all(|e| e.flags.is_empty()));
+}
+
+#[test]
+fn a_tracker_that_has_lost_its_wave_says_so_until_it_is_told_to_forget_it() {
+    let (wave, flaws) = gyro(2);
+    let mut pairs = stream(wave, flaws, 10_000, 2);
+    let (mut front, mut tracker) = (
+        Front::new(windows(10)).unwrap(),
+        Tracker::new(windows(10)).unwrap(),
+    );
+    assert!(follow(&mut front, &mut tracker, &pairs).len() > 40);
+    assert!(!tracker.has_lost());
+    // One window without a wave is no loss, nor are two that do not follow each other.
+    let silence = vec![[0.0; 2]; 285];
+    for _ in 0..8 {
+        follow(&mut front, &mut tracker, &silence);
+        follow(&mut front, &mut tracker, &pairs[..1900]);
+        assert!(!tracker.has_lost());
+    }
+    follow(&mut front, &mut tracker, &vec![[0.0; 2]; 800]);
+    assert!(tracker.has_lost());
+    tracker.forget();
+    assert!(!tracker.has_lost());
+    front.search();
+    pairs.truncate(5000);
+    let again = follow(&mut front, &mut tracker, &pairs);
+    assert_eq!(again[0].flags, Flags::REACQUIRED);
+    assert!(again.len() > 20 && again[1..].iter().all(|e| e.flags.is_empty()));
+}
+
+#[test]
+fn pairs_lost_during_the_search_are_no_part_of_it() {
+    // Half a period is lost after one and a half: what was seen before is of another phase.
+    for lost in [5usize, 10] {
+        let wave = random_wave(4, 5332.0, 0.3);
+        let pairs = stream(wave, Flaws::default(), 3000, 4);
+        let mut core = Core::new(windows(5)).unwrap();
+        let mut found = Vec::new();
+        core.extend(&pairs[..28], |e| found.push(e));
+        assert!(core.is_searching());
+        core.skip(lost as u64);
+        core.extend(&pairs[28 + lost..], |e| found.push(e));
+        // As when the stream had begun there.
+        let mut fresh = Core::new(windows(5)).unwrap();
+        let mut wanted = Vec::new();
+        fresh.extend(&pairs[28 + lost..], |e| wanted.push(e));
+        let values = |e: &Estimate| (e.main_amplitude, e.angle, e.frequency, e.flags);
+        assert_eq!(
+            found.iter().map(values).collect::<Vec<_>>(),
+            wanted.iter().map(values).collect::<Vec<_>>()
+        );
+        assert_eq!(found[0].start, wanted[0].start + 28 + lost as u64);
+    }
+}
+
+#[test]
+fn a_wave_whose_frequency_leaps_is_found_again() {
+    // The last three look like a poor wave of the old frequency in some windows, but not in all.
+    let near = [4000.0, 5400.0, 5550.0, 6400.0];
+    let near = [2, 5, 10, 50]
+        .into_iter()
+        .flat_map(|n| near.map(|f| (n, f)));
+    let far = [(10, 8018.73), (5, 11_441.0), (5, 16_323.0)];
+    for (periods, frequency) in near.chain(far) {
+        let (wave, flaws) = gyro(41);
+        let other = Wave { frequency, ..wave };
+        let (one, two) = (
+            stream(wave, flaws.clone(), 20_000, 1),
+            stream(other, flaws, 60_000, 1),
+        );
+        let mut core = Core::new(windows(periods)).unwrap();
+        let mut found = Vec::new();
+        core.extend(&one, |e| found.push(e));
+        core.extend(&two[20_000..], |e| found.push(e));
+        let is_right = |e: &Estimate| (e.frequency - frequency).abs() < 0.01 * frequency;
+        let clean = found
+            .iter()
+            .filter(|e| e.start > 20_000 && e.flags.is_empty());
+        assert!(
+            clean.clone().all(is_right),
+            "{periods} periods, {frequency} Hz"
+        );
+        let late = clean
+            .map(|e| (e.start - 20_000) / (19 * u64::from(periods)))
+            .next();
+        assert!(
+            late.is_some_and(|late| late < 20),
+            "{periods} periods, {frequency} Hz: after {late:?} windows"
+        );
+    }
+}
+
+#[test]
+fn a_front_that_is_set_anew_amid_its_search_forgets_what_it_saw() {
+    let pairs = stream(random_wave(4, 5332.0, 0.3), Flaws::default(), 3000, 4);
+    let run = |front: &mut Front<f32, 200>, from: usize| {
+        let mut tracker = Tracker::new(windows(10)).unwrap();
+        let found = follow(front, &mut tracker, &pairs[from..]);
+        let values = |e: &Estimate| (e.main_amplitude, e.angle, e.frequency, e.flags);
+        found.iter().map(values).collect::<Vec<_>>()
+    };
+    let mut front = Front::new(windows(10)).unwrap();
+    front.push_slice(&pairs[..28]);
+    assert!(front.is_searching());
+    front.configure(windows(10)).unwrap();
+    let found = run(&mut front, 37);
+    assert!(found.len() > 10);
+    assert_eq!(found, run(&mut Front::new(windows(10)).unwrap(), 37));
+}
+
+#[test]
+fn a_watch_that_is_set_in_place_watches() {
+    let wave = Wave {
+        angle: 0.3,
+        ..Wave::default()
+    };
+    let flaws = Flaws {
+        noise: 0.002,
+        clip: Some(1.2),
+        ..Flaws::default()
+    };
+    let pairs = stream(wave, flaws, 10_000, 1);
+    let blind = Settings {
+        watch: false,
+        ..windows(10)
+    };
+    let (mut front, mut tracker) = (Front::new(blind).unwrap(), Tracker::new(blind).unwrap());
+    for (settings, is_watched) in [(blind, false), (windows(10), true), (blind, false)] {
+        front.configure(settings).unwrap();
+        tracker.configure(settings).unwrap();
+        let found = follow(&mut front, &mut tracker, &pairs);
+        let clipped = found.iter().filter(|e| e.flags.contains(Flags::CLIPPED));
+        assert!(found.len() > 40);
+        assert_eq!(clipped.count(), if is_watched { found.len() } else { 0 });
+    }
+}

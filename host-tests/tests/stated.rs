@@ -1,0 +1,208 @@
+//! What an estimate states beside the four main quantities: phase, rates and offsets, against the truth and their own deviations.
+
+use std::f64::consts::FRAC_PI_2;
+
+use antinode::{Calibration, Estimate, Flags, Settings};
+use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::score::{errors, stated};
+use host_tests::{Core, angle_error, identify, identify_changed, stream, windows};
+
+/// The error of α, which goes with the angle's choice, rad.
+fn error_of_phase(estimate: &Estimate, wave: &Wave) -> f64 {
+    let truth = wave.at(estimate.time);
+    let quarters = ((estimate.angle - truth.angle) / FRAC_PI_2).round();
+    let shift = std::f64::consts::PI * quarters.rem_euclid(2.0);
+    let error = f64::from(estimate.phase) - truth.phase - shift;
+    assert!(angle_error(estimate.angle, truth.angle).abs() < 0.5);
+    error - (error / std::f64::consts::TAU).round() * std::f64::consts::TAU
+}
+
+#[test]
+fn phases_scatter_as_stated() {
+    for (periods, quadrature) in [(2, 0.1), (10, 0.1), (10, 0.7), (50, 0.4)] {
+        let (mut square, mut rows) = (0.0, 0.0);
+        for seed in 0..200 {
+            let wave = random_wave(seed, 5332.0, 0.1);
+            let wave = Wave {
+                quadrature_amplitude: quadrature * wave.main_amplitude,
+                ..wave
+            };
+            let flaws = Flaws {
+                noise: 0.01 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let samples = 19 * usize::from(periods) * 8 + 300;
+            for estimate in identify(wave, &flaws, windows(periods), samples, seed) {
+                let error = error_of_phase(&estimate, &wave);
+                square += (error / f64::from(estimate.phase_std)).powi(2);
+                rows += 1.0;
+            }
+        }
+        let ratio = f64::sqrt(square / rows);
+        println!("{periods} periods, a_B of {quadrature} a_A: phase error over stated {ratio:.3}");
+        assert!(
+            rows > 1000.0 && (0.93..1.07).contains(&ratio),
+            "{periods} periods, {quadrature}: {ratio}"
+        );
+    }
+}
+
+#[test]
+fn phases_scatter_as_stated_with_pick_offs_that_are_corrected() {
+    for (gain_ratio, pick_off_error) in [(1.0, 0.3), (1.0, -0.3), (2.0, 0.0), (0.5, 0.2)] {
+        for angle in [0.0, 0.4, 0.8] {
+            let (mut square, mut rows) = (0.0, 0.0);
+            for seed in 0..100 {
+                let wave = Wave {
+                    angle,
+                    main_amplitude: 1.0,
+                    quadrature_amplitude: 0.3,
+                    phase: 0.1 * seed as f64,
+                    ..Wave::default()
+                };
+                let flaws = Flaws {
+                    noise: 0.01,
+                    gain_ratio,
+                    pick_off_error,
+                    ..Flaws::default()
+                };
+                let settings = Settings {
+                    calibration: Calibration {
+                        gain_ratio: gain_ratio as f32,
+                        pick_off_angle: pick_off_error as f32,
+                        ..Calibration::IDEAL
+                    },
+                    ..windows(10)
+                };
+                for estimate in identify(wave, &flaws, settings, 2000, seed) {
+                    let error = error_of_phase(&estimate, &wave);
+                    square += (error / f64::from(estimate.phase_std)).powi(2);
+                    rows += 1.0;
+                }
+            }
+            let ratio = f64::sqrt(square / rows);
+            assert!(
+                rows > 900.0 && (0.9..1.1).contains(&ratio),
+                "gain {gain_ratio}, {pick_off_error} rad, angle {angle}: {ratio}"
+            );
+        }
+    }
+}
+
+#[test]
+fn deviations_are_stated_where_there_is_no_noise_but_rounding() {
+    let (mut worst, mut most) = ([0f64; 4], 0f64);
+    for seed in 0..60 {
+        for periods in [2, 10, 100] {
+            let wave = random_wave(seed, 5332.0, 0.3);
+            let flaws = Flaws {
+                offset_c: wave.main_amplitude,
+                ..Flaws::default()
+            };
+            for estimate in identify(
+                wave,
+                &flaws,
+                windows(periods),
+                19 * usize::from(periods) * 4 + 300,
+                seed,
+            ) {
+                let (errors, stated) = (errors(&estimate, &wave), stated(&estimate));
+                for i in 0..4 {
+                    worst[i] = worst[i].max(errors[i].abs() / stated[i]);
+                }
+                most = most.max(stated[0] / wave.main_amplitude);
+            }
+        }
+    }
+    println!("errors over stated {worst:.2?}, stated at most {most:e} of a_A");
+    assert!(worst.iter().all(|&worst| worst < 3.0) && most < 1e-6);
+}
+
+#[test]
+fn deviations_hold_in_the_first_windows_of_more_noise() {
+    let (mut squares, mut count) = ([0f64; 4], 0.0);
+    for seed in 0..400 {
+        let wave = random_wave(seed, 5332.0, 0.3);
+        let flaws = |share: f64| Flaws {
+            noise: share * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let quiet = stream(wave, flaws(0.002), 5000, seed);
+        let loud = stream(wave, flaws(0.02), 6000, seed);
+        let mut core = Core::new(windows(10)).unwrap();
+        let mut found = Vec::new();
+        core.extend(&quiet, |e| found.push(e));
+        core.extend(&loud[5000..], |e| found.push(e));
+        for estimate in found.iter().filter(|e| e.start >= 5000).take(2) {
+            let (errors, stated) = (errors(estimate, &wave), stated(estimate));
+            for i in 0..4 {
+                squares[i] += (errors[i] / stated[i]).powi(2);
+            }
+            count += 1.0;
+        }
+    }
+    let ratios = squares.map(|square| f64::sqrt(square / count));
+    println!("ten times the noise: errors over stated {ratios:.2?}");
+    assert!(ratios.iter().all(|ratio| (0.9..1.15).contains(ratio)));
+}
+
+#[test]
+fn a_bad_first_window_spoils_none_after_it() {
+    // The wave is found while it is still being driven: it grows by half in the first window.
+    let (mut squares, mut count) = ([0f64; 4], 0.0);
+    for seed in 0..40 {
+        let wave = random_wave(seed, 5332.0, 0.3);
+        let flaws = Flaws {
+            noise: 0.002 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let found = identify_changed(wave, &flaws, windows(10), 8000, seed, |k, pair| {
+            let gain = if k < 150 { 0.7 } else { 1.0 };
+            // A spike in every third window, once it is over.
+            let spike = if k > 4000 && k % 570 == 0 { 0.3 } else { 0.0 };
+            [gain * pair[0] + spike * wave.main_amplitude, gain * pair[1]]
+        });
+        for estimate in &found[2..] {
+            let spikes = (estimate.start..estimate.start + u64::from(estimate.samples))
+                .filter(|k| *k > 4000 && k % 570 == 0);
+            if spikes.count() > 0 {
+                assert!(estimate.flags.contains(Flags::MISFIT), "{estimate:?}");
+                continue;
+            }
+            assert!(estimate.flags.is_empty(), "{estimate:?}");
+            let (errors, stated) = (errors(estimate, &wave), stated(estimate));
+            for i in 0..4 {
+                squares[i] += (errors[i] / stated[i]).powi(2);
+            }
+            count += 1.0;
+        }
+    }
+    let ratios = squares.map(|square| f64::sqrt(square / count));
+    println!("after a bad first window: errors over stated {ratios:.2?}");
+    assert!(ratios.iter().all(|ratio| (0.85..1.15).contains(ratio)));
+}
+
+#[test]
+fn rates_are_exact_without_noise() {
+    for (periods, angle_rate, decay_rate) in
+        [(10, 5.0, 20.0), (10, -20.0, 100.0), (50, -5.0, -10.0)]
+    {
+        for seed in 0..5 {
+            let wave = Wave {
+                angle_rate,
+                decay_rate,
+                ..random_wave(seed, 5332.0, 0.5)
+            };
+            let found = identify(wave, &Flaws::default(), windows(periods), 8000, seed);
+            assert!(found.len() > 5);
+            for estimate in &found {
+                let turning = f64::from(estimate.angle_rate) - angle_rate;
+                let decay = f64::from(estimate.decay_rate) - decay_rate;
+                assert!(
+                    turning.abs() < 5e-3 && decay.abs() < 2e-2,
+                    "{turning} {decay} {estimate:?}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! A step of one quantity by itself, between two windows or within one: a single window says so.
+
+use antinode::{Estimate, Flags};
+use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::score::{errors, stated};
+use host_tests::{Core, RATE, identify_changed, stream, windows};
+
+/// Windows of ten periods before the step.
+const BEFORE: usize = 80;
+
+fn flaws(wave: &Wave) -> Flaws {
+    Flaws {
+        noise: 0.002 * wave.main_amplitude,
+        ..Flaws::default()
+    }
+}
+
+/// The estimates of a stream that from the start of a window on is that of another wave with the same noise.
+fn stepped(wave: Wave, to: Wave, more: Flaws, seed: u64) -> Vec<Estimate> {
+    stepped_at(wave, to, more, seed, 0)
+}
+
+/// As [`stepped`], so many pairs after the start of the window.
+fn stepped_at(wave: Wave, to: Wave, more: Flaws, seed: u64, depth: usize) -> Vec<Estimate> {
+    let count = 190 * (2 * BEFORE);
+    let (one, two) = (
+        stream(wave, flaws(&wave), count, seed),
+        stream(to, more, count, seed),
+    );
+    let mut plain = Core::new(windows(10)).unwrap();
+    let mut clean = Vec::new();
+    plain.extend(&one, |e| clean.push(e));
+    assert!(clean.iter().all(|e| e.flags.is_empty()));
+    let at = clean[BEFORE].start as usize + depth;
+    let mut core = Core::new(windows(10)).unwrap();
+    let mut found = Vec::new();
+    core.extend(&one[..at], |e| found.push(e));
+    core.extend(&two[at..], |e| found.push(e));
+    found
+}
+
+fn check(found: &[Estimate], flag: Flags, name: &str) {
+    for (i, estimate) in found.iter().enumerate() {
+        if i == BEFORE {
+            assert!(
+                estimate.flags.contains(flag)
+                    && (flag == Flags::MISFIT || !estimate.flags.contains(Flags::MISFIT)),
+                "{name}: {}",
+                estimate.flags
+            );
+        } else {
+            assert!(
+                estimate.flags.is_empty(),
+                "{name}, window {i}: {}",
+                estimate.flags
+            );
+        }
+    }
+}
+
+#[test]
+fn a_step_of_either_amplitude_or_of_the_angle_is_a_step() {
+    for seed in 0..10 {
+        let wave = random_wave(seed, 5332.0, 0.3);
+        let a = wave.main_amplitude;
+        let main = Wave {
+            main_amplitude: 1.05 * a,
+            ..wave
+        };
+        let quadrature = Wave {
+            quadrature_amplitude: wave.quadrature_amplitude + 0.05 * a,
+            ..wave
+        };
+        let angle = Wave {
+            angle: wave.angle + 0.05,
+            ..wave
+        };
+        for (to, name) in [(main, "main"), (quadrature, "quadrature"), (angle, "angle")] {
+            let found = stepped(wave, to, flaws(&wave), seed);
+            check(&found, Flags::STEP, &format!("{name}, seed {seed}"));
+        }
+    }
+}
+
+#[test]
+fn a_step_of_either_offset_is_a_step() {
+    for seed in 0..10 {
+        let wave = random_wave(seed, 5332.0, 0.3);
+        let size = 0.05 * wave.main_amplitude;
+        for (offset_c, offset_d) in [(size, 0.0), (0.0, size)] {
+            let more = Flaws {
+                offset_c,
+                offset_d,
+                ..flaws(&wave)
+            };
+            let found = stepped(wave, wave, more, seed);
+            let name = format!("offsets of {offset_c} and {offset_d}, seed {seed}");
+            check(&found, Flags::STEP, &name);
+        }
+    }
+}
+
+#[test]
+fn a_step_of_the_phase_is_a_jump() {
+    for seed in 0..10 {
+        for step in [0.1, -0.1, 1.0, -3.0] {
+            let wave = random_wave(seed, 5332.0, 0.3);
+            let to = Wave {
+                phase: wave.phase + step,
+                ..wave
+            };
+            let found = stepped(wave, to, flaws(&wave), seed);
+            let name = format!("phase by {step}, seed {seed}");
+            check(&found, Flags::PHASE_JUMP, &name);
+        }
+    }
+}
+
+#[test]
+fn a_step_within_a_window_costs_that_window_alone() {
+    for seed in 0..10 {
+        let wave = random_wave(seed, 5332.0, 0.3);
+        let a = wave.main_amplitude;
+        let steps = [
+            (1.2, 0.0, 0.0, 0.0),
+            (1.0, 0.2, 0.0, 0.0),
+            (1.0, 0.0, 0.2, 0.0),
+            (1.0, 0.0, 0.0, 0.2),
+            (1.0, 0.0, 0.0, -0.2),
+        ];
+        for (gain, quadrature, angle, offset) in steps {
+            let to = Wave {
+                main_amplitude: gain * a,
+                quadrature_amplitude: gain * wave.quadrature_amplitude + quadrature * a,
+                angle: wave.angle + angle,
+                ..wave
+            };
+            let more = Flaws {
+                offset_c: f64::max(offset, 0.0) * a,
+                offset_d: f64::min(offset, 0.0) * a,
+                ..flaws(&wave)
+            };
+            let found = stepped_at(wave, to, more, seed, 95);
+            let name = format!("{gain} {quadrature} {angle} {offset}, seed {seed}");
+            check(&found, Flags::MISFIT, &name);
+        }
+    }
+}
+
+#[test]
+fn a_step_within_a_long_first_window_is_flagged() {
+    for (periods, noise) in [(50, 0.002), (50, 0.02)] {
+        for seed in 0..10 {
+            let wave = random_wave(seed, 5332.0, 0.3);
+            let flaws = Flaws {
+                noise: noise * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let louder = Wave {
+                main_amplitude: 1.5 * wave.main_amplitude,
+                quadrature_amplitude: 1.5 * wave.quadrature_amplitude,
+                ..wave
+            };
+            let turned = Wave {
+                angle: wave.angle + 0.3,
+                ..wave
+            };
+            let window = 19 * usize::from(periods);
+            for (to, name) in [(louder, "louder"), (turned, "turned")] {
+                for part in [3, 5, 7] {
+                    let at = 50 + window * part / 10;
+                    let one = stream(wave, flaws.clone(), at, seed);
+                    let two = stream(to, flaws.clone(), 4 * window, seed);
+                    let mut core = Core::new(windows(periods)).unwrap();
+                    let mut found = Vec::new();
+                    core.extend(&one, |e| found.push(e));
+                    core.extend(&two[at..], |e| found.push(e));
+                    let first = &found[0];
+                    assert!(first.start < 70);
+                    assert!(
+                        first.flags.contains(Flags::MISFIT),
+                        "{periods} periods, noise {noise}, {name} at {part}, seed {seed}: {}",
+                        first.flags
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_quadrature_that_grows_by_itself_is_no_step() {
+    let wave = Wave {
+        main_amplitude: 1.0,
+        quadrature_amplitude: 0.0,
+        ..Wave::default()
+    };
+    let full = Wave {
+        quadrature_amplitude: 1.0,
+        ..wave
+    };
+    let flaws = Flaws {
+        noise: 2e-4,
+        ..Flaws::default()
+    };
+    // By 0.01 a_A a window, up and down, as a control loop may drive it.
+    let found = identify_changed(wave, &flaws, windows(10), 60_000, 1, |k, [c, d]| {
+        let time = k as f64 / RATE;
+        let share = 0.5 + 0.4 * (12.0 * time).sin();
+        let (one, none) = (full.pick_offs(time), wave.pick_offs(time));
+        [c + share * (one.0 - none.0), d + share * (one.1 - none.1)]
+    });
+    assert!(found.len() > 300);
+    for estimate in &found {
+        assert!(estimate.flags.is_empty(), "{estimate:?}");
+    }
+}
+
+#[test]
+fn a_small_turn_within_a_long_window_is_flagged() {
+    // The residual as a whole hardly rises, no amplitude grows, and no block stands out.
+    for (noise, turn) in [(0.002, 0.002), (0.02, 0.02), (0.02, -0.02)] {
+        for seed in 0..10 {
+            let wave = random_wave(seed, 5332.0, 0.1);
+            let to = Wave {
+                angle: wave.angle + turn,
+                ..wave
+            };
+            let flaws = Flaws {
+                noise: noise * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let (one, two) = (
+                stream(wave, flaws.clone(), 15_000, seed),
+                stream(to, flaws, 20_000, seed),
+            );
+            let at = 53 + 950 * 15 + 475;
+            let mut core = Core::new(windows(50)).unwrap();
+            let mut found = Vec::new();
+            core.extend(&one[..at], |e| found.push(e));
+            core.extend(&two[at..], |e| found.push(e));
+            for (i, estimate) in found.iter().enumerate() {
+                let is_told = estimate.flags.contains(Flags::MISFIT);
+                assert_eq!(is_told, i == 15, "{turn} rad, seed {seed}: {estimate:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_step_of_the_angle_does_not_spoil_the_frequencies_after_it() {
+    // With quadrature a turning pattern looks like another frequency, and a step like a turn.
+    for turn in [0.01, 0.02, 0.05] {
+        let (mut square, mut count) = (0.0, 0.0);
+        for seed in 0..20 {
+            let wave = random_wave(seed, 5332.0, 0.1);
+            let wave = Wave {
+                quadrature_amplitude: 0.6 * wave.main_amplitude,
+                ..wave
+            };
+            let to = Wave {
+                angle: wave.angle + turn,
+                ..wave
+            };
+            let found = stepped(wave, to, flaws(&wave), seed);
+            for estimate in &found[BEFORE + 1..BEFORE + 7] {
+                square += (errors(estimate, &to)[3] / stated(estimate)[3]).powi(2);
+                count += 1.0;
+            }
+        }
+        let ratio = f64::sqrt(square / count);
+        assert!((0.85..1.2).contains(&ratio), "{turn} rad: {ratio}");
+    }
+}

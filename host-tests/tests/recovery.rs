@@ -201,7 +201,7 @@ fn a_front_that_is_set_anew_amid_its_search_forgets_what_it_saw() {
         found.iter().map(values).collect::<Vec<_>>()
     };
     let mut front = Front::new(windows(10)).unwrap();
-    front.push_slice(&pairs[..28]);
+    let _ = front.push_slice(&pairs[..28]);
     assert!(front.is_searching());
     front.configure(windows(10)).unwrap();
     let found = run(&mut front, 37);

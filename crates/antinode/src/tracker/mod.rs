@@ -3,6 +3,7 @@
 mod between;
 mod checks;
 mod converter;
+mod failures;
 mod record;
 mod trend;
 
@@ -17,6 +18,7 @@ use crate::wave::{Angle, Standing, wrap};
 use crate::window::{CARRIER_REACH, Fit, Gathered, Model, solve};
 use checks::Noise;
 use converter::Coding;
+use failures::{Failures, LEFT};
 use record::{Record, Units};
 use trend::Trend;
 
@@ -27,13 +29,6 @@ const BROKEN: Flags = Flags::LOST
     .with(Flags::MISFIT)
     .with(Flags::NOT_FINITE)
     .with(Flags::DEAD_CHANNEL);
-/// Failures after which the search starts anew: two windows without a wave, or eight with as much else beside it.
-const GIVE_UP: u8 = 8;
-/// What may be left of a wave's amplitude after a fault.
-const LEFT: f32 = 0.25;
-/// Failures that a window without a wave counts for.
-const LOSS: u8 = 4;
-
 /// Cuts the stream of blocks into windows and tracks the wave over them. Holds up to `BLOCKS` blocks, 11 to 65 535.
 ///
 /// A window has as many blocks as periods at most, or 11 where that is more; `BLOCKS` is two more than the periods.
@@ -59,7 +54,7 @@ pub struct Tracker<const BLOCKS: usize> {
     /// True from the loss of a wave to the first window after it.
     lost: bool,
     ever: bool,
-    failures: u8,
+    failures: Failures,
     /// True while a fault lies between the last clean window and the next.
     broken: bool,
 }
@@ -91,7 +86,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             angle: Angle::new(settings.start_angle),
             lost: false,
             ever: false,
-            failures: 0,
+            failures: Failures::NONE,
             broken: false,
         })
     }
@@ -133,7 +128,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     ///
     /// Then call [`Front::search`](crate::Front::search), drop the blocks that were gathered before it, and [`forget`](Self::forget).
     pub fn has_lost(&self) -> bool {
-        self.failures >= GIVE_UP
+        self.failures.are_enough()
     }
 
     /// Drops the wave and the blocks gathered, but not the angle: with the next block a first window begins, and the angle found there is
@@ -141,7 +136,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     pub fn forget(&mut self) {
         self.model = None;
         self.gathered.clear();
-        self.failures = 0;
+        self.failures = Failures::NONE;
     }
 
     /// Changes the calibration: the next block starts a new first window, flagged [`Flags::REACQUIRED`], its angle continued. The front
@@ -195,7 +190,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.trend.clear();
         self.before = None;
         self.lost = self.ever;
-        self.failures = 0;
+        self.failures = Failures::NONE;
     }
 
     /// Solves the window gathered.
@@ -216,7 +211,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let is_no_wave = checks::is_no_wave(&fit, &wave, self.count, model.layout.length);
         if self.before.is_none() && is_no_wave {
             // The detector was deceived: nothing is reported, and the search goes on.
-            self.failures = GIVE_UP;
+            self.failures = Failures::ENOUGH;
             return None;
         }
 
@@ -272,19 +267,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             }
         }
 
-        if flags.contains(Flags::LOST) {
-            self.failures = self.failures.saturating_add(LOSS);
-        } else if fit.settled {
-            // Noise that was there before is no failure, however much it is, and what little is left of a wave is none.
-            let left = self
-                .before
-                .as_ref()
-                .is_some_and(|before| wave.main < LEFT * before.main);
-            self.failures = if flags.contains(Flags::MISFIT) && (is_no_wave || left) {
-                self.failures.saturating_add(1)
-            } else {
-                0
-            };
+        let left = |before: &Record| wave.main < LEFT * before.main;
+        let is_little = is_no_wave || self.before.as_ref().is_some_and(left);
+        self.failures.take(flags, fit.settled, is_little);
+        if fit.settled && !flags.contains(Flags::LOST) {
             let is_clean = !flags.intersects(BROKEN);
             if self.lost || !is_certain && is_clean {
                 flags = flags.with(Flags::REACQUIRED);
@@ -292,8 +278,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
                 self.lost = false;
             }
             self.ever = true;
-        } else {
-            self.failures = self.failures.saturating_add(LOSS);
         }
         let drift = if is_circular {
             fit.waves.drift() * model.per_half

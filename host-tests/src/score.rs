@@ -57,6 +57,29 @@ impl Score {
     }
 }
 
+/// Squares of errors over what the core says they are, gathered over many windows.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Honesty {
+    windows: f64,
+    squares: [f64; 4],
+}
+
+impl Honesty {
+    /// Adds a window of a wave.
+    pub fn add(&mut self, estimate: &Estimate, wave: &Wave) {
+        let stated = stated(estimate);
+        self.windows += 1.0;
+        for (i, error) in errors(estimate, wave).into_iter().enumerate() {
+            self.squares[i] += (error / stated[i]).powi(2);
+        }
+    }
+
+    /// Rms error over the stated standard deviation.
+    pub fn ratios(&self) -> [f64; 4] {
+        self.squares.map(|sum| (sum / self.windows).sqrt())
+    }
+}
+
 /// Errors of a_A, a_B (input units), θ (rad) and f (Hz) of an estimate, at its own time.
 pub fn errors(estimate: &Estimate, wave: &Wave) -> [f64; 4] {
     let truth = wave.at(estimate.time);

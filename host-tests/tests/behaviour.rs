@@ -2,7 +2,7 @@
 
 use antinode::{Calibration, Detection, Estimate, Flags, Front, Settings, SettingsError, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::score::{errors, stated};
+use host_tests::score::{Honesty, errors};
 use host_tests::{Core, identify, stream, windows};
 use proptest::prelude::*;
 
@@ -61,15 +61,11 @@ fn stated_deviations_hold_for_pick_offs_that_are_corrected() {
             },
             ..windows(10)
         };
-        let (mut squares, mut rows) = ([0.0; 4], 0.0);
+        let mut honesty = Honesty::default();
         for estimate in identify(wave, &flaws, settings, 500_000, 7) {
-            let found = errors(&estimate, &wave).into_iter().zip(stated(&estimate));
-            for (square, (error, deviation)) in squares.iter_mut().zip(found) {
-                *square += (error / deviation).powi(2);
-            }
-            rows += 1.0;
+            honesty.add(&estimate, &wave);
         }
-        let ratios = squares.map(|square| f64::sqrt(square / rows));
+        let ratios = honesty.ratios();
         println!("gain {gain_ratio}, {pick_off_error} rad: error over stated {ratios:.3?}");
         assert!(ratios.iter().all(|ratio| (0.94..1.06).contains(ratio)));
     }

@@ -1,7 +1,7 @@
 //! Noisy waves: rms error over the Cramér–Rao bound, and stated standard deviations over it, from cold.
 
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::score::{NAMES, Score, errors, stated};
+use host_tests::score::{Honesty, NAMES, Score, errors, stated};
 use host_tests::{RATE, identify, windows};
 
 /// Period of the paper's gyro, samples.
@@ -158,7 +158,7 @@ fn a_window_in_which_the_pattern_turns_far_is_not_smeared() {
     for periods in [2, 10, 50] {
         let window = f64::from(periods) / 5332.0;
         for (turn, loss) in [(0.5, 0.0), (-0.5, 0.0), (0.0, 0.9), (0.4, 0.5)] {
-            let (mut squares, mut count) = ([0.0; 4], 0.0);
+            let mut honesty = Honesty::default();
             for seed in 0..100 {
                 let wave = Wave {
                     angle_rate: turn / window,
@@ -175,14 +175,10 @@ fn a_window_in_which_the_pattern_turns_far_is_not_smeared() {
                     .iter()
                     .skip(1)
                 {
-                    let (errors, stated) = (errors(estimate, &wave), stated(estimate));
-                    for i in 0..4 {
-                        squares[i] += (errors[i] / stated[i]).powi(2);
-                    }
-                    count += 1.0;
+                    honesty.add(estimate, &wave);
                 }
             }
-            let ratios = squares.map(|square: f64| (square / count).sqrt());
+            let ratios = honesty.ratios();
             println!("{periods} periods, turning by {turn} rad, decaying by {loss}: {ratios:.2?}");
             assert!(
                 ratios.iter().all(|ratio| (0.88..1.2).contains(ratio)),

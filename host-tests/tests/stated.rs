@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use antinode::{Calibration, Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::score::{errors, stated};
+use host_tests::score::{Honesty, errors, stated};
 use host_tests::{Core, angle_error, identify, identify_changed, stream, windows};
 
 /// The error of α, which goes with the angle's choice, rad.
@@ -120,7 +120,7 @@ fn deviations_are_stated_where_there_is_no_noise_but_rounding() {
 
 #[test]
 fn deviations_hold_in_the_first_windows_of_more_noise() {
-    let (mut squares, mut count) = ([0f64; 4], 0.0);
+    let mut honesty = Honesty::default();
     for seed in 0..400 {
         let wave = random_wave(seed, 5332.0, 0.3);
         let flaws = |share: f64| Flaws {
@@ -134,14 +134,10 @@ fn deviations_hold_in_the_first_windows_of_more_noise() {
         core.extend(&quiet, |e| found.push(e));
         core.extend(&loud[5000..], |e| found.push(e));
         for estimate in found.iter().filter(|e| e.start >= 5000).take(2) {
-            let (errors, stated) = (errors(estimate, &wave), stated(estimate));
-            for i in 0..4 {
-                squares[i] += (errors[i] / stated[i]).powi(2);
-            }
-            count += 1.0;
+            honesty.add(estimate, &wave);
         }
     }
-    let ratios = squares.map(|square| f64::sqrt(square / count));
+    let ratios = honesty.ratios();
     println!("ten times the noise: errors over stated {ratios:.2?}");
     assert!(ratios.iter().all(|ratio| (0.9..1.15).contains(ratio)));
 }
@@ -149,7 +145,7 @@ fn deviations_hold_in_the_first_windows_of_more_noise() {
 #[test]
 fn a_bad_first_window_spoils_none_after_it() {
     // The wave is found while it is still being driven: it grows by half in the first window.
-    let (mut squares, mut count) = ([0f64; 4], 0.0);
+    let mut honesty = Honesty::default();
     for seed in 0..40 {
         let wave = random_wave(seed, 5332.0, 0.3);
         let flaws = Flaws {
@@ -170,14 +166,10 @@ fn a_bad_first_window_spoils_none_after_it() {
                 continue;
             }
             assert!(estimate.flags.is_empty(), "{estimate:?}");
-            let (errors, stated) = (errors(estimate, &wave), stated(estimate));
-            for i in 0..4 {
-                squares[i] += (errors[i] / stated[i]).powi(2);
-            }
-            count += 1.0;
+            honesty.add(estimate, &wave);
         }
     }
-    let ratios = squares.map(|square| f64::sqrt(square / count));
+    let ratios = honesty.ratios();
     println!("after a bad first window: errors over stated {ratios:.2?}");
     assert!(ratios.iter().all(|ratio| (0.85..1.15).contains(ratio)));
 }

@@ -7,6 +7,7 @@ pub mod printed;
 pub mod score;
 pub mod table;
 
+use antinode::Calibration;
 use antinode::Estimate;
 use antinode::Identifier;
 use antinode::Settings;
@@ -52,6 +53,18 @@ pub fn windows(periods: u16) -> Settings {
     Settings {
         periods,
         ..Settings::new(RATE)
+    }
+}
+
+/// Settings with windows of `periods` that know what the pick-offs are.
+pub fn calibrated(flaws: &Flaws, periods: u16) -> Settings {
+    Settings {
+        calibration: Calibration {
+            gain_ratio: flaws.gain_ratio as f32,
+            skew: flaws.skew as f32,
+            pick_off_angle: flaws.pick_off_error as f32,
+        },
+        ..windows(periods)
     }
 }
 

@@ -3,7 +3,7 @@
 use antinode::{Calibration, Detection, Estimate, Flags, Front, Settings, SettingsError, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::{Honesty, errors};
-use host_tests::{Core, identify, stream, windows};
+use host_tests::{Core, calibrated, identify, stream, windows};
 use proptest::prelude::*;
 
 proptest! {
@@ -53,14 +53,7 @@ fn stated_deviations_hold_for_pick_offs_that_are_corrected() {
             noise: 0.004 * wave.main_amplitude,
             ..Flaws::default()
         };
-        let settings = Settings {
-            calibration: Calibration {
-                gain_ratio: gain_ratio as f32,
-                pick_off_angle: pick_off_error as f32,
-                ..Calibration::IDEAL
-            },
-            ..windows(10)
-        };
+        let settings = calibrated(&flaws, 10);
         let mut honesty = Honesty::default();
         for estimate in identify(wave, &flaws, settings, 500_000, 7) {
             honesty.add(&estimate, &wave);
@@ -86,11 +79,7 @@ fn calibration_undoes_the_pick_offs() {
             pick_off_error,
             ..Flaws::default()
         };
-        let calibration = Calibration {
-            gain_ratio: gain_ratio as f32,
-            skew: skew as f32,
-            pick_off_angle: pick_off_error as f32,
-        };
+        let calibration = calibrated(&flaws, 10).calibration;
         let raw = identify(wave, &flaws, windows(10), 4000, 0);
         let mut worst = 0f64;
         for estimate in &raw {

@@ -2,7 +2,7 @@
 
 use antinode::{Calibration, Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Gyro, Wave};
-use host_tests::{Core, RATE, changed, gyro, identify_changed, touched, windows};
+use host_tests::{Core, RATE, calibrated, changed, gyro, identify_changed, touched, windows};
 
 #[test]
 fn flattened_crests_are_flagged_in_noise_without_a_known_rail() {
@@ -111,13 +111,7 @@ fn a_pick_off_that_dies_is_told_whatever_its_gain() {
             noise: 0.005 * wave.main_amplitude,
             ..Flaws::default()
         };
-        let settings = antinode::Settings {
-            calibration: antinode::Calibration {
-                gain_ratio: gain_ratio as f32,
-                ..antinode::Calibration::IDEAL
-            },
-            ..windows(10)
-        };
+        let settings = calibrated(&flaws, 10);
         let silence = Flaws {
             noise: flaws.noise,
             ..Flaws::default()

@@ -1,9 +1,9 @@
 //! Settings at the ends of what is allowed work, and what lies just beyond them is refused.
 
-use antinode::{Calibration, Identifier, Settings, Tracker};
+use antinode::{Identifier, Settings, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::errors;
-use host_tests::{Core, RATE, identify, stream, windows};
+use host_tests::{Core, RATE, calibrated, identify, stream, windows};
 
 /// True when the core takes windows of ten periods with this change.
 fn is_taken(change: impl Fn(&mut Settings)) -> bool {
@@ -75,14 +75,7 @@ fn calibrations_at_the_ends_of_their_ranges_correct() {
             pick_off_error,
             ..Flaws::default()
         };
-        let settings = Settings {
-            calibration: Calibration {
-                gain_ratio: gain_ratio as f32,
-                skew: skew as f32,
-                pick_off_angle: pick_off_error as f32,
-            },
-            ..windows(50)
-        };
+        let settings = calibrated(&flaws, 50);
         let found = identify(wave, &flaws, settings, 20_000, 0);
         assert!(found.len() > 15);
         for estimate in found {

@@ -2,10 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use antinode::{Calibration, Estimate, Flags, Settings};
+use antinode::{Estimate, Flags};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::{Honesty, errors, stated};
-use host_tests::{Core, angle_error, identify, identify_changed, stream, windows};
+use host_tests::{Core, angle_error, calibrated, identify, identify_changed, stream, windows};
 
 /// The error of α, which goes with the angle's choice, rad.
 fn error_of_phase(estimate: &Estimate, wave: &Wave) -> f64 {
@@ -66,14 +66,7 @@ fn phases_scatter_as_stated_with_pick_offs_that_are_corrected() {
                     pick_off_error,
                     ..Flaws::default()
                 };
-                let settings = Settings {
-                    calibration: Calibration {
-                        gain_ratio: gain_ratio as f32,
-                        pick_off_angle: pick_off_error as f32,
-                        ..Calibration::IDEAL
-                    },
-                    ..windows(10)
-                };
+                let settings = calibrated(&flaws, 10);
                 for estimate in identify(wave, &flaws, settings, 2000, seed) {
                     let error = error_of_phase(&estimate, &wave);
                     square += (error / f64::from(estimate.phase_std)).powi(2);

@@ -165,12 +165,7 @@ pub fn watch_floats<P: SamplePair<f32>>(
             sums.sum += sample;
             watch.third_cosine += even * of_cosine;
             watch.third_sine += odd * of_sine;
-            // What is not a number is no extreme.
-            watch.reach(sample, sample);
-            if sample == watch.last() {
-                watch.see_again(sample, index);
-            }
-            watch.end(sample);
+            watch.see(sample, index);
         }
     }
 }

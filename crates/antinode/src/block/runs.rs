@@ -83,6 +83,17 @@ impl ChannelWatch<f32> {
         ]
     }
 
+    /// Looks at sample `index`. What is not a number is no extreme.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub fn see(&mut self, sample: f32, index: u16) {
+        if sample == self.last() {
+            self.see_again(sample, index);
+        }
+        self.reach(sample, sample);
+        self.end(sample);
+    }
+
     /// Looks at sample `index`, which is equal to the one before. Few are, and those that go on take little.
     #[doc(hidden)]
     #[inline(always)]
@@ -145,11 +156,7 @@ mod tests {
             });
             let mut watch = ChannelWatch::<f32>::empty();
             for (&sample, index) in samples.iter().zip(0..) {
-                if sample == watch.last() {
-                    watch.see_again(sample, index);
-                }
-                watch.reach(sample, sample);
-                watch.end(sample);
+                watch.see(sample, index);
             }
             let low = samples.iter().copied().fold(f32::INFINITY, f32::min);
             let high = samples.iter().copied().fold(f32::NEG_INFINITY, f32::max);
@@ -168,11 +175,7 @@ mod tests {
     fn what_is_no_number_is_no_extreme() {
         let mut watch = ChannelWatch::<f32>::empty();
         for (sample, index) in [2.0, f32::NAN, f32::NAN, -1.0].into_iter().zip(0..) {
-            if sample == watch.last() {
-                watch.see_again(sample, index);
-            }
-            watch.reach(sample, sample);
-            watch.end(sample);
+            watch.see(sample, index);
         }
         assert_eq!([watch.low, watch.high], [-1.0, 2.0]);
         assert_eq!(watch.longest(), [1, 1]);

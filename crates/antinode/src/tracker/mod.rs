@@ -29,6 +29,7 @@ const BROKEN: Flags = Flags::LOST
     .with(Flags::MISFIT)
     .with(Flags::NOT_FINITE)
     .with(Flags::DEAD_CHANNEL);
+
 /// Cuts the stream of blocks into windows and tracks the wave over them. Holds up to `BLOCKS` blocks, 11 to 65 535.
 ///
 /// A window has as many blocks as periods at most, or 11 where that is more; `BLOCKS` is two more than the periods.
@@ -123,8 +124,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         estimate
     }
 
-    /// True when the wave has been lost for so long that a new period must be searched: two windows, or the first one where that shows
-    /// no wave. Ask after every block: a first window without a wave gives no estimate.
+    /// True when the wave has been lost for so long that a new period must be searched: two windows, or eight with little of the wave
+    /// beside all else, or the first one where that shows no wave. Ask after every block: a first window without a wave gives no estimate.
     ///
     /// Then call [`Front::search`](crate::Front::search), drop the blocks that were gathered before it, and [`forget`](Self::forget).
     pub fn has_lost(&self) -> bool {

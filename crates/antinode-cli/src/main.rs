@@ -1,5 +1,6 @@
 //! The `antinode` command.
 
+mod calibrate;
 mod demonstration;
 mod device;
 mod failure;
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
     let result = match Options::parse().command {
         None => demonstration::run(),
         Some(Command::Identify(options)) => identify::run(&options),
+        Some(Command::Calibrate(options)) => calibrate::run(&options),
         Some(Command::Simulate(options)) => simulate::run(&options),
         Some(Command::Study(options)) => study::run(&options),
         Some(Command::Monitor(options)) => device::monitor::run(&options),

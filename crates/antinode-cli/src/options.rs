@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use antinode::{Calibration, Detection, Settings};
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 
+use crate::calibrate::Calibrate;
 use crate::ranges;
 use crate::recording::{Columns, RawFormat};
 
@@ -16,6 +17,7 @@ Examples:
   antinode identify --output csv a.wav b.npy > rows.csv
   antinode identify --rate 100000 --columns t,C,D log.csv
   recorder | antinode identify --raw i16 --rate 100000 -
+  antinode identify --output csv one_way.wav other_way.wav | antinode calibrate -
   antinode simulate -o ring.wav --noise 0.005 --decay-rate 0.5
   antinode monitor /dev/ttyACM0 --format csv > rows.csv
   antinode command /dev/ttyACM0 window 20";
@@ -42,6 +44,14 @@ pub enum Command {
     /// A row's time is that of the window's middle, from the first sample on; where the recording has a time column, that column's
     /// first value is added, unless it goes up by 1 a line and --rate makes it an index.
     Identify(Box<Identify>),
+    /// Finds the calibration of the pick-offs from rows of a gyro whose pattern turned, and prints it as options.
+    ///
+    /// Let the gyro ring down on a table that turns until the pattern has turned by 90° or more, and once more the other way around;
+    /// identify both recordings in windows that do not overlap. Energy and quadrature then depend on the angle only by what is
+    /// to be calibrated. The options are printed alone on standard output, their deviations on standard error.
+    ///
+    /// Rows that were identified with a calibration already: give it here too; what is printed takes its place.
+    Calibrate(Calibrate),
     /// Writes a simulated recording, and the truth beside it as JSON.
     Simulate(Box<super::simulate::Simulate>),
     /// Computes the paper's comparison of its four methods anew: figures, tables, and its conclusions checked.
@@ -106,33 +116,8 @@ pub struct Identify {
     #[arg(long, value_name = "RAD", value_parser = ranges::start_angle)]
     pub start_angle: Option<f32>,
 
-    /// Gain of pick-off D over that of C, 0.1 to 10.
-    #[arg(
-        long,
-        default_value_t = 1.0,
-        value_name = "RATIO",
-        value_parser = ranges::gain_ratio,
-        help_heading = "Calibration"
-    )]
-    pub gain_ratio: f32,
-    /// How much later than C pick-off D is sampled, ns, within ±1000000.
-    #[arg(
-        long,
-        default_value_t = 0.0,
-        value_name = "NS",
-        value_parser = ranges::skew_ns,
-        help_heading = "Calibration"
-    )]
-    pub skew_ns: f32,
-    /// Pick-off D stands at 45° plus this angle from C, rad, within ±0.3.
-    #[arg(
-        long,
-        default_value_t = 0.0,
-        value_name = "RAD",
-        value_parser = ranges::pick_off_angle,
-        help_heading = "Calibration"
-    )]
-    pub pick_off_angle: f32,
+    #[command(flatten)]
+    pub corrected: Corrected,
     /// |sample| at which the converter is at its rail, above 0 [default: known for integers, none for others].
     #[arg(long, value_name = "LEVEL", value_parser = ranges::positive, help_heading = "Calibration")]
     pub full_scale: Option<f32>,
@@ -141,6 +126,36 @@ pub struct Identify {
     /// Text and floats have one where their first samples all lie on its multiples; of pipes, text with a time alone.
     #[arg(long, value_name = "STEP", value_parser = ranges::positive, help_heading = "Calibration")]
     pub resolution: Option<f32>,
+}
+
+/// How the pick-offs differ from ideal ones.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(allow_negative_numbers = true, next_help_heading = "Calibration")]
+pub struct Corrected {
+    /// Gain of pick-off D over that of C, 0.1 to 10.
+    #[arg(
+        long,
+        default_value_t = 1.0,
+        value_name = "RATIO",
+        value_parser = ranges::gain_ratio
+    )]
+    pub gain_ratio: f32,
+    /// How much later than C pick-off D is sampled, ns, within ±1000000.
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        value_name = "NS",
+        value_parser = ranges::skew_ns
+    )]
+    pub skew_ns: f32,
+    /// Pick-off D stands at 45° plus this angle from C, rad, within ±0.3.
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        value_name = "RAD",
+        value_parser = ranges::pick_off_angle
+    )]
+    pub pick_off_angle: f32,
 }
 
 /// Which methods a row shows.
@@ -199,6 +214,17 @@ pub fn seconds(skew_ns: f32) -> f32 {
     (f64::from(skew_ns) * 1e-9) as f32
 }
 
+impl Corrected {
+    /// The same in the core's units.
+    pub fn calibration(&self) -> Calibration {
+        Calibration {
+            gain_ratio: self.gain_ratio,
+            skew: seconds(self.skew_ns),
+            pick_off_angle: self.pick_off_angle,
+        }
+    }
+}
+
 impl Identify {
     /// The core's settings for a recording of this sample rate, full scale and resolution.
     pub fn settings(
@@ -219,11 +245,7 @@ impl Identify {
                 Detector::MeanReturn => Detection::MeanReturn,
             },
             hum: self.hum,
-            calibration: Calibration {
-                gain_ratio: self.gain_ratio,
-                skew: seconds(self.skew_ns),
-                pick_off_angle: self.pick_off_angle,
-            },
+            calibration: self.corrected.calibration(),
             ..plain
         }
     }

@@ -1,0 +1,260 @@
+//! Runs become a calibration, by least squares.
+//!
+//! While a pattern turns and decays, its energy E = a_A² + a_B² decays evenly and its quadrature Q = 2 a_A a_B keeps its share of it,
+//! wherever the pattern stands. What flawed pick-offs show swings with the angle instead: with R = (a_A² − a_B²) cos 4θ and
+//! S = (a_A² − a_B²) sin 4θ, a gain of D moves ln E by −R/E, a turned pick-off by −2S/E, and a skew moves Q/E by S/E.
+//!
+//! A resonator that damps or rings unlike along two axes does the like, but by the integrals of R/E and S/E over time, which change
+//! their sign with the turning: turned both ways, the two are told apart.
+
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::{Complex, DMatrix, DVector};
+
+use super::history::Run;
+use crate::failure::Failure;
+use crate::options::Corrected;
+
+/// Unknowns of the pick-offs: ln g, 2πf·Δ and ε.
+const FLAWS: usize = 3;
+/// Unknowns of the resonator: its splits of damping and of frequency, each along two axes.
+const SPLITS: usize = 4;
+/// Of a run: ln E and Q/E at its middle, and their slopes.
+const OWN: usize = 4;
+/// The least turn: 4θ goes around once.
+const LEAST_TURN: f64 = FRAC_PI_2;
+/// Steps at most; four do where the pick-offs are nearly ideal.
+const STEPS: usize = 50;
+/// A step below this is none, whatever the noise.
+const SETTLED: f64 = 1e-10;
+
+/// How pick-off D differs from an ideal one, as the core's `Calibration` has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PickOffs {
+    pub gain_ratio: f64,
+    /// How much later than C it is sampled, s.
+    pub skew: f64,
+    /// What its angle from C is beyond 45°, rad.
+    pub angle: f64,
+}
+
+impl From<&Corrected> for PickOffs {
+    fn from(corrected: &Corrected) -> Self {
+        Self {
+            gain_ratio: corrected.gain_ratio.into(),
+            skew: f64::from(corrected.skew_ns) * 1e-9,
+            angle: corrected.pick_off_angle.into(),
+        }
+    }
+}
+
+impl PickOffs {
+    /// Phasors as these pick-offs show them, of those of ideal ones.
+    pub fn distort(&self, [c, d]: [Complex<f64>; 2], omega: f64) -> [Complex<f64>; 2] {
+        let (sine, cosine) = (2.0 * self.angle).sin_cos();
+        let lag = Complex::from_polar(self.gain_ratio, omega * self.skew);
+        [c, lag * (d * cosine - c * sine)]
+    }
+
+    /// Phasors of ideal pick-offs, of those that these show.
+    fn correct(&self, [c, d]: [Complex<f64>; 2], omega: f64) -> [Complex<f64>; 2] {
+        let (sine, cosine) = (2.0 * self.angle).sin_cos();
+        let lag = Complex::from_polar(self.gain_ratio, omega * self.skew);
+        [c, (d / lag + c * sine) / cosine]
+    }
+}
+
+/// What was found.
+#[derive(Debug)]
+pub struct Found {
+    pub pick_offs: PickOffs,
+    /// One standard deviation each of gain ratio, skew and angle.
+    pub deviations: [f64; 3],
+    /// The rms residual over the rows' own deviations: 1 where there is nothing but noise.
+    pub residual: f64,
+    /// True when the resonator's splits are among the unknowns.
+    pub knows_splits: bool,
+    /// The most that a run turns backwards, at most 0, and forwards, rad.
+    pub turned: [f64; 2],
+    /// Rows used.
+    pub rows: usize,
+}
+
+/// Why nothing was found.
+#[derive(Debug, PartialEq)]
+pub enum Fault {
+    /// No run of clean rows is long enough.
+    NoRows,
+    /// The most that a run turns, rad.
+    Still(f64),
+    /// The steps do not settle.
+    Unsettled,
+}
+
+impl Fault {
+    /// The failure of a file.
+    pub fn of(&self, name: &str) -> Failure {
+        Failure::Recording(match self {
+            Self::NoRows => format!(
+                "{name}: no dozen of clean rows in which the pattern turns by less than 0.1 rad from row to row; see their flags, and shorten \
+                 the windows where it turns faster"
+            ),
+            Self::Still(turned) => format!(
+                "{name}: the pattern turns by {:.1}° only, but must by 90° or more: turn the gyro while it rings down",
+                turned.to_degrees()
+            ),
+            Self::Unsettled => format!(
+                "{name}: no calibration explains the rows: see that columns C and D are the pick-offs, and that nothing but the gyro's turning \
+                 moves the pattern"
+            ),
+        })
+    }
+}
+
+/// Finds the calibration that lets energy and quadrature run evenly; `start` is where the search begins.
+pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
+    if runs.is_empty() {
+        return Err(Fault::NoRows);
+    }
+    let turned = runs.iter().fold([0f64; 2], |[back, forth], run| {
+        [back.min(run.turned), forth.max(run.turned)]
+    });
+    let [back, forth] = turned.map(|turned| turned.abs() >= LEAST_TURN);
+    if !back && !forth {
+        return Err(Fault::Still(turned[1].max(-turned[0])));
+    }
+    let knows_splits = back && forth;
+    let rows: usize = runs.iter().map(|run| run.moments.len()).sum();
+    let mut pick_offs = start;
+    for _ in 0..STEPS {
+        let normal = Normal::of(runs, &pick_offs, knows_splits);
+        let unknowns = normal.matrix.nrows();
+        let Some(factors) = normal.matrix.cholesky() else {
+            return Err(Fault::Unsettled);
+        };
+        let step = factors.solve(&normal.right);
+        let omega = normal.omega;
+        pick_offs.gain_ratio *= step[0].exp();
+        pick_offs.skew += step[1] / omega;
+        pick_offs.angle += step[2];
+        let sense = pick_offs.gain_ratio.is_finite() && pick_offs.angle.abs() < 0.7;
+        if !sense {
+            return Err(Fault::Unsettled);
+        }
+        if (0..FLAWS).all(|i| step[i].abs() < SETTLED) {
+            // What is left once the step is made, per degree of freedom.
+            let left = (normal.squares - normal.right.dot(&step)).max(0.0);
+            let residual = (left / (2 * rows - unknowns) as f64).sqrt();
+            let inverse = factors.inverse();
+            let deviation = |i: usize| inverse[(i, i)].sqrt() * residual.max(1.0);
+            return Ok(Found {
+                pick_offs,
+                deviations: [
+                    pick_offs.gain_ratio * deviation(0),
+                    deviation(1) / omega,
+                    deviation(2),
+                ],
+                residual,
+                knows_splits,
+                turned,
+                rows,
+            });
+        }
+    }
+    Err(Fault::Unsettled)
+}
+
+/// The normal equations of all runs, about a calibration.
+struct Normal {
+    matrix: DMatrix<f64>,
+    right: DVector<f64>,
+    /// The weighted squares of what is to be explained.
+    squares: f64,
+    /// 2πf, the mean.
+    omega: f64,
+}
+
+impl Normal {
+    fn of(runs: &[Run], pick_offs: &PickOffs, knows_splits: bool) -> Self {
+        let shared = FLAWS + if knows_splits { SPLITS } else { 0 };
+        let unknowns = shared + OWN * runs.len();
+        let mut normal = Self {
+            matrix: DMatrix::zeros(unknowns, unknowns),
+            right: DVector::zeros(unknowns),
+            squares: 0.0,
+            omega: 0.0,
+        };
+        let span = |run: &Run| run.moments[run.moments.len() - 1].time - run.moments[0].time;
+        let longest = runs.iter().map(span).fold(0.0, f64::max);
+        for (index, run) in runs.iter().enumerate() {
+            let own = shared + OWN * index;
+            let middle = run.moments[0].time + 0.5 * span(run);
+            let mut sums = Sums::default();
+            for moment in &run.moments {
+                let [energy, r, s, q] = shares(pick_offs.correct(moment.raw, moment.omega));
+                sums.advance(moment.time, [r, s, q * r, q * s]);
+                let [to_r, to_s, to_qr, to_qs] = sums.value.map(|sum| sum / longest);
+                let time = 2.0 * (moment.time - middle) / longest;
+                // Both are known to the same deviation.
+                let weight = 0.25 * energy / (moment.deviation * moment.deviation);
+                let of_energy = [-r, 0.0, -2.0 * s, to_r, to_s, 0.0, 0.0];
+                let of_quadrature = [q * r, s, 2.0 * q * s, -to_qr, -to_qs, to_r, to_s];
+                for (row, seen, first) in
+                    [(of_energy, energy.ln(), own), (of_quadrature, q, own + 2)]
+                {
+                    let columns = (0..shared).chain([first, first + 1]);
+                    let entries = row.into_iter().take(shared).chain([1.0, time]);
+                    normal.add(columns.zip(entries), seen, weight);
+                }
+                normal.omega += moment.omega;
+            }
+        }
+        normal.omega /= runs.iter().map(|run| run.moments.len()).sum::<usize>() as f64;
+        normal
+    }
+
+    /// Adds one equation, whose entries are named by their columns.
+    fn add(&mut self, entries: impl Iterator<Item = (usize, f64)> + Clone, seen: f64, weight: f64) {
+        for (i, left) in entries.clone() {
+            self.right[i] += weight * left * seen;
+            for (j, right) in entries.clone() {
+                self.matrix[(i, j)] += weight * left * right;
+            }
+        }
+        self.squares += weight * seen * seen;
+    }
+}
+
+/// E, and R/E, S/E and Q/E, of the phasors of ideal pick-offs; Q is −2 a_A a_B here.
+fn shares([c, d]: [Complex<f64>; 2]) -> [f64; 4] {
+    let [of_c, of_d] = [c.norm_sqr(), d.norm_sqr()];
+    let energy = of_c + of_d;
+    let product = c.conj() * d;
+    [
+        energy,
+        (of_c - of_d) / energy,
+        2.0 * product.re / energy,
+        2.0 * product.im / energy,
+    ]
+}
+
+/// Integrals over time, by the trapezoidal rule.
+#[derive(Default)]
+struct Sums {
+    value: [f64; SPLITS],
+    last: Option<(f64, [f64; SPLITS])>,
+}
+
+impl Sums {
+    fn advance(&mut self, time: f64, now: [f64; SPLITS]) {
+        if let Some((before, last)) = self.last {
+            for ((value, last), now) in self.value.iter_mut().zip(last).zip(now) {
+                *value += 0.5 * (time - before) * (last + now);
+            }
+        }
+        self.last = Some((time, now));
+    }
+}
+
+#[cfg(test)]
+mod tests;

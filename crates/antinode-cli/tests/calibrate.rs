@@ -58,6 +58,13 @@ fn flaws_are_found_to_their_deviations_and_taken_out() {
     for ((found, truth), deviation) in found.iter().zip([1.012, 130.0, 0.008]).zip(deviations) {
         assert!((found - truth).abs() < 4.0 * deviation, "{}", both.err);
     }
+    // Three digits of the deviation, and no more.
+    let digits = both.out.split_whitespace().map(|word| {
+        word.split_once('.')
+            .map_or(0, |(_, decimals)| decimals.len())
+    });
+    let digits: Vec<_> = digits.collect();
+    assert_eq!([digits[1], digits[3], digits[5]], [7, 2, 7], "{}", both.out);
     let limits = [1e-4, 3.0, 5e-5];
     assert!(deviations.iter().zip(limits).all(|(std, most)| *std < most));
     assert!(!both.err.contains("warning"), "{}", both.err);
@@ -104,6 +111,26 @@ fn one_way_alone_is_warned_of() {
         one.err.contains("warning: the pattern turns one way only"),
         "{}",
         one.err
+    );
+}
+
+#[test]
+fn what_no_calibration_explains_is_warned_of() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // Amplitudes that a nonlinear amplifier changes with the angle.
+    let made = run(
+        here,
+        &format!("simulate -o bent.wav --angle-rate 0.7 --seconds 3 --cubic -0.1 {FLAWS}"),
+    );
+    assert_eq!(made.code, 0);
+    let rows = run(here, "identify --output csv bent.wav");
+    let bent = run_with(here, "calibrate -", rows.out.replace("clipped", "").into());
+    assert!(
+        bent.err.contains("times their noise"),
+        "{}{}",
+        bent.err,
+        bent.out
     );
 }
 

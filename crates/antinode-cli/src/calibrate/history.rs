@@ -93,7 +93,7 @@ impl History {
             let row = Row::parse(&record, places).ok_or_else(|| {
                 let line = record.position().map_or(0, csv::Position::line);
                 Failure::Recording(format!(
-                    "{name}, line {line}: a time, amplitude, angle or frequency is no number; leave the line out"
+                    "{name}, line {line}: a time, amplitude, angle, frequency or deviation is no number, or an amplitude or a deviation not above 0; leave the line out"
                 ))
             })?;
             if !record[flags].is_empty() {

@@ -38,6 +38,11 @@ fn a_run_ends_with_its_file() {
     assert_eq!(history.rows, 50);
     assert!((history.runs[0].turned - 19.0 * 0.05).abs() < 1e-9);
     assert!((history.runs[1].turned + 29.0 * 0.04).abs() < 1e-9);
+    // A file that goes on where the last one ended is another recording.
+    let one = rows("a", 40, 0.01, |_| "");
+    let (first, rest) = one.split_at(one.match_indices("a,0.2,").next().unwrap().0);
+    let history = read(&(first.to_owned() + &rest.replace("a,", "b,")));
+    assert_eq!(lengths(&history), [20, 20]);
     let mut history = History::new(IDEAL);
     for turn in [0.05, -0.05] {
         let text = HEADER.to_owned() + &rows("a", 20, turn, |_| "");

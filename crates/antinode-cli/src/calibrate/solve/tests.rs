@@ -217,6 +217,20 @@ fn stated_deviations_are_the_rms_errors() {
 }
 
 #[test]
+fn what_else_moves_widens_the_deviations() {
+    let honest = run(&ROUND, 0.2, &IDEAL, 1e-3, 1);
+    let mut boastful = honest.clone();
+    for moment in &mut boastful.moments {
+        moment.deviation *= 0.1;
+    }
+    let [honest, boastful] = [honest, boastful].map(|run| solve(&[run], IDEAL).unwrap());
+    assert!((boastful.residual / honest.residual - 10.0).abs() < 1e-6);
+    for (wide, deviation) in boastful.deviations.iter().zip(honest.deviations) {
+        assert!((wide / deviation - 1.0).abs() < 0.05, "{boastful:?}");
+    }
+}
+
+#[test]
 fn what_cannot_be_known_is_refused() {
     assert_eq!(solve(&[], IDEAL).unwrap_err(), Fault::NoRows);
     let still = run(&ROUND, 0.1, &IDEAL, 1e-3, 1);

@@ -51,7 +51,7 @@ impl Default for Calibration {
 }
 
 /// A [`Calibration`] made ready for one frequency: D_raw = lag·(cosine·D − sine·C).
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Correction {
     /// Skew in samples: the slow course of the wave goes on during it.
     pub delay: f32,

@@ -3,7 +3,7 @@
 //! Thresholds are as those of a window by itself.
 
 use super::checks::SIGMAS;
-use super::record::Record;
+use super::record::{Amplitude, Record};
 use crate::estimate::Flags;
 use crate::exponential::exponential;
 use crate::order::greater;
@@ -27,21 +27,9 @@ pub(super) fn flags(before: &Record, now: &Record, knows_angle: bool) -> Flags {
     );
     let jump = phase_variance < 0.3 * 0.3 && beyond(phase, phase_variance, PHASE_FLOOR);
 
-    let amplitude_floor = AMPLITUDE_FLOOR * before.main;
-    let change =
-        |of: fn(&Record) -> Amplitude| passed.change(&of(before), &of(now), amplitude_floor);
-    let main = change(|record| Amplitude {
-        value: record.main,
-        rate: record.main_rate,
-        variance: record.main_variance,
-        rate_variance: record.main_rate_variance,
-    });
-    let quadrature = change(|record| Amplitude {
-        value: record.quadrature,
-        rate: record.quadrature_rate,
-        variance: record.quadrature_variance,
-        rate_variance: record.quadrature_rate_variance,
-    });
+    let amplitude_floor = AMPLITUDE_FLOOR * before.main.value;
+    let main = passed.change(&before.main, &now.main, amplitude_floor);
+    let quadrature = passed.change(&before.quadrature, &now.quadrature, amplitude_floor);
     let angle = beyond(
         now.angle.less(before.angle) - passed.promised([before.turning, now.turning]),
         passed.variance(
@@ -64,14 +52,6 @@ pub(super) fn flags(before: &Record, now: &Record, knows_angle: bool) -> Flags {
         .with(quadrature)
 }
 
-/// An amplitude of a window, its rate a sample, and their variances.
-struct Amplitude {
-    value: f32,
-    rate: f32,
-    variance: f32,
-    rate_variance: f32,
-}
-
 /// What lies between the middles of two windows.
 struct Passed {
     samples: f32,
@@ -86,7 +66,7 @@ struct Passed {
 impl Passed {
     fn new(before: &Record, now: &Record) -> Self {
         let samples = 0.5 * (now.middle.wrapping_sub(before.middle)) as f32;
-        let growth = [before, now].map(|record| record.main_rate / record.main);
+        let growth = [before, now].map(|record| record.main.rate / record.main.value);
         Self {
             samples,
             half: 0.5 * now.samples as f32,

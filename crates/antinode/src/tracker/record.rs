@@ -42,6 +42,15 @@ impl Units {
     }
 }
 
+/// An amplitude of a window, its rate a sample, and their variances.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Amplitude {
+    pub value: f32,
+    pub rate: f32,
+    pub variance: f32,
+    pub rate_variance: f32,
+}
+
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Record {
     /// Middle of the window, half samples from the start of the stream.
@@ -64,14 +73,8 @@ pub(crate) struct Record {
     /// α, paired with `angle`.
     pub phase: f32,
     pub phase_variance: f32,
-    pub main: f32,
-    pub main_variance: f32,
-    pub main_rate: f32,
-    pub main_rate_variance: f32,
-    pub quadrature: f32,
-    pub quadrature_variance: f32,
-    pub quadrature_rate: f32,
-    pub quadrature_rate_variance: f32,
+    pub main: Amplitude,
+    pub quadrature: Amplitude,
     /// Power of each ideal pick-off's phasor, and the variance of a part of it.
     pub channel_power: [f32; 2],
     pub channel_variance: [f32; 2],
@@ -113,14 +116,18 @@ impl Record {
             promised_variance: turning_variance,
             phase,
             phase_variance: wave.phase_variance,
-            main: wave.main,
-            main_variance: wave.main_variance,
-            main_rate: wave.main_change * per_half,
-            main_rate_variance: wave.main_change_variance * squared,
-            quadrature: wave.quadrature,
-            quadrature_variance: wave.quadrature_variance,
-            quadrature_rate: wave.quadrature_change * per_half,
-            quadrature_rate_variance: wave.quadrature_change_variance * squared,
+            main: Amplitude {
+                value: wave.main,
+                rate: wave.main_change * per_half,
+                variance: wave.main_variance,
+                rate_variance: wave.main_change_variance * squared,
+            },
+            quadrature: Amplitude {
+                value: wave.quadrature,
+                rate: wave.quadrature_change * per_half,
+                variance: wave.quadrature_variance,
+                rate_variance: wave.quadrature_change_variance * squared,
+            },
             channel_power: fit.channel_power(),
             channel_variance: [variance, variance * (d * d + c_on_d * c_on_d)],
             offsets: fit.offsets,
@@ -136,26 +143,26 @@ impl Record {
     pub(crate) fn estimate(&self, units: &Units, flags: Flags) -> Estimate {
         let rate = units.sample_rate;
         let root = square_root;
-        let share = rate / self.main;
+        let share = rate / self.main.value;
         Estimate {
             start: (self.middle + 1 - u64::from(self.samples)) / 2,
             samples: self.samples,
             time: double::units(self.middle as i64, units.half_sample),
-            main_amplitude: self.main,
-            quadrature_amplitude: self.quadrature,
+            main_amplitude: self.main.value,
+            quadrature_amplitude: self.quadrature.value,
             angle: self.angle.radians(),
             phase: self.phase,
             frequency: self.carrier.hertz(self.drift, units.turn),
             angle_rate: self.turning * rate,
-            decay_rate: -self.main_rate * share,
+            decay_rate: -self.main.rate * share,
             offsets: self.offsets,
-            main_amplitude_std: root(self.main_variance),
-            quadrature_amplitude_std: root(self.quadrature_variance),
+            main_amplitude_std: root(self.main.variance),
+            quadrature_amplitude_std: root(self.quadrature.variance),
             angle_std: root(self.angle_variance),
             phase_std: root(self.phase_variance),
             frequency_std: root(self.drift_variance) * rate * (1.0 / core::f32::consts::TAU),
             angle_rate_std: root(self.turning_variance) * rate,
-            decay_rate_std: root(self.main_rate_variance) * share,
+            decay_rate_std: root(self.main.rate_variance) * share,
             residual_rms: root(self.residual),
             flags,
         }
@@ -196,7 +203,7 @@ impl Record {
     /// True when pick-off `channel` shows no wave.
     pub(crate) fn is_silent(&self, channel: usize) -> bool {
         self.channel_power[channel]
-            < 36.0 * self.channel_variance[channel] + 1e-6 * self.main * self.main
+            < 36.0 * self.channel_variance[channel] + 1e-6 * self.main.value * self.main.value
     }
 
     /// By how much the phase has run beyond what the mean frequency of both windows explains, rad, not wrapped.

@@ -54,7 +54,7 @@ pub(super) fn examine(
     let is_watched = blocks.first().is_some_and(|block| block.watched.is_some());
     let mut thirds = is_watched.then(|| Thirds::new(model, &mixing, offsets));
     let mut course = Course::new(model, waves);
-    let mut views = Views::new(model.blocks);
+    let mut views = Views::new(model);
     let mut gradients = [Gradient::default(); 2];
     let mut wander = [0.0; 2];
     let mut here = [Here::default(); CHUNK];
@@ -62,11 +62,11 @@ pub(super) fn examine(
         let here = here.get_mut(..chunk.len()).unwrap_or_default();
         course.next(here);
         if model.shared == 0.0 {
-            take_slopes(model, &predictions, chunk, here);
+            take_slopes(model, &predictions, chunk, here, &mut wander);
         }
         for (channel, prediction) in predictions.iter().enumerate() {
             let gradient = &mut gradients[channel];
-            wander[channel] += rest(model, prediction, channel, chunk, here, gradient);
+            rest(model, prediction, channel, chunk, here, gradient);
         }
         for here in &*here {
             views.take(here);
@@ -76,16 +76,14 @@ pub(super) fn examine(
         }
     }
     views.conclude(model, remains);
-    let per_sample = 0.5 * model.per_half * (1.0 - model.shared);
-    remains.wander = wander.map(|sum| sum * per_sample);
+    remains.wander = wander.map(|sum| sum * (0.5 * model.per_half));
     if let Some(thirds) = thirds {
-        thirds.conclude(remains, f32::from(model.layout.length));
+        thirds.conclude(remains, model.per_half * f32::from(model.blocks));
     }
     gradients
 }
 
-/// Takes what one pick-off leaves of a run of blocks: one at a time, so that its constants stay in registers. Gives the squares of what
-/// it leaves of the means.
+/// Takes what one pick-off leaves of a run of blocks: one at a time, so that its constants stay in registers.
 #[inline(never)]
 fn rest(
     model: &Model,
@@ -94,22 +92,19 @@ fn rest(
     blocks: &[Seen],
     here: &mut [Here],
     gradient: &mut Gradient,
-) -> f32 {
-    let (half, response, prediction) = (model.half, model.response, *prediction);
-    let shared = model.shared;
+) {
+    let (shared, response, prediction) = (model.shared, model.response, *prediction);
     let mut sums = *gradient;
-    let mut wander = 0.0;
     for (block, here) in blocks.iter().zip(here) {
         let mut rest = prediction.rest(&block.whitened[channel & 1], here);
         rest.odd -= here.slopes[channel & 1];
-        sums.take(&response, &rest, here.u * half, here.unit);
-        let mean = rest.mean * rest.mean;
-        wander += mean;
-        here.power += shared * mean + rest.even * rest.even + rest.odd * rest.odd;
+        // Of an offset that the block has to itself the mean says nothing else.
+        let known = shared * rest.mean;
+        sums.take(&response, &rest, known, here.u, here.unit);
+        here.power += known * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
         here.run += sums.level.norm_sqr();
     }
     *gradient = sums;
-    wander
 }
 
 /// The residual as a whole, by blocks, and as a step of the phasors between two blocks.
@@ -128,12 +123,12 @@ struct Views {
 }
 
 impl Views {
-    fn new(blocks: u16) -> Self {
-        let blocks = f32::from(blocks);
+    fn new(model: &Model) -> Self {
+        let per_block = 0.5 * model.advance;
         Self {
             room: 1.0,
-            per_spread: 3.0 / (blocks - 1.0 / blocks),
-            per_block: 1.0 / blocks,
+            per_spread: 3.0 / (f32::from(model.blocks) - per_block),
+            per_block,
             ..Self::default()
         }
     }
@@ -156,11 +151,11 @@ impl Views {
 
     fn conclude(&self, model: &Model, remains: &mut Remains) {
         let Response {
-            known, even, odd, ..
+            mean, even, odd, ..
         } = &model.response;
         // Mean weight of z in a block, over all phases of the carrier.
-        let weight =
-            0.5 * (known.level * known.level + even.level * even.level + odd.level * odd.level);
+        let known = model.shared * mean.level;
+        let weight = 0.5 * (known * mean.level + even.level * even.level + odd.level * odd.level);
         remains.residual = self.residual;
         remains.freedom = model.freedom();
         remains.worst_block = self.worst_block;

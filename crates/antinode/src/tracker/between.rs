@@ -6,7 +6,7 @@ use super::checks::SIGMAS;
 use super::record::{Amplitude, Record};
 use crate::estimate::Flags;
 use crate::exponential::exponential;
-use crate::order::greater;
+use crate::order::{greater, long};
 use crate::wave::wrap;
 
 /// Below this share of a_A a step of an amplitude or an offset between windows is no fault.
@@ -65,7 +65,7 @@ struct Passed {
 
 impl Passed {
     fn new(before: &Record, now: &Record) -> Self {
-        let samples = 0.5 * (now.middle.wrapping_sub(before.middle)) as f32;
+        let samples = 0.5 * long(now.middle.wrapping_sub(before.middle));
         let growth = [before, now].map(|record| record.main.rate / record.main.value);
         Self {
             samples,

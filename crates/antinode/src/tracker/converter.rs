@@ -111,7 +111,7 @@ struct Range {
 }
 
 impl Range {
-    #[inline(never)]
+    #[inline]
     fn of(blocks: &[Seen]) -> Self {
         let mut range = Self {
             low: [f32::INFINITY; 2],

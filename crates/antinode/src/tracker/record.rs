@@ -3,7 +3,7 @@
 use crate::arch::square_root;
 use crate::double::{self, reciprocal, scaled, to_single};
 use crate::estimate::{Estimate, Flags};
-use crate::order::greater;
+use crate::order::{greater, long};
 use crate::phase::PhaseStep;
 use crate::wave::{Angle, Standing};
 use crate::window::{Fit, Model};
@@ -98,7 +98,7 @@ impl Record {
         let squared = per_half * per_half;
         let (turning, turning_variance) =
             (wave.turning * per_half, wave.turning_variance * squared);
-        let [d, c_on_d] = model.correction.noise_gains();
+        let [d, c_on_d] = model.correction.noise_gains;
         let variance =
             wave.noise * greater(model.covariance.even[0][0], model.covariance.odd[0][0]);
         Self {
@@ -171,7 +171,7 @@ impl Record {
     /// The angle that this window promises one of `samples` about `middle`, and whether it knows it to less than a quarter turn: over
     /// a gap it may not.
     pub(crate) fn angle_at(&self, middle: u64, samples: u32) -> (Angle, bool) {
-        let passed = 0.5 * middle.wrapping_sub(self.middle) as f32;
+        let passed = 0.5 * long(middle.wrapping_sub(self.middle));
         let is_certain = passed < 1.5 * samples as f32
             || self.promised_variance * passed * passed < UNKNOWN_TURN * UNKNOWN_TURN;
         // As much of the turning as stands out of its noise: in much of it a pattern that stands still would be promised a quarter turn.
@@ -211,7 +211,7 @@ impl Record {
         let half_samples = self.middle.wrapping_sub(before.middle);
         let whole = before.carrier.after_half_samples(half_samples as i64);
         let beyond = before.drift + self.frequency_less(before);
-        let run = 0.25 * half_samples as f32 * (beyond + before.drift);
+        let run = 0.25 * long(half_samples) * (beyond + before.drift);
         let whole = (whole.0 as i32) as f32 * (core::f32::consts::TAU / 4_294_967_296.0);
         (before.phase - self.phase) - whole - run
     }

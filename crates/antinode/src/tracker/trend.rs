@@ -87,12 +87,7 @@ impl Trend {
 
     /// Takes the share of a turning pattern out of a window's frequency, with what the angles of the windows before promise.
     pub(crate) fn take_turning_out(&self, record: &mut Record, wave: &Standing, model: &Model) {
-        let rate = self.rate(
-            record.middle,
-            record.samples,
-            record.angle,
-            record.angle_variance,
-        );
+        let rate = self.rate(record, 0.25 * model.per_half);
         let apart = record.turning - rate.value;
         let spread = record.turning_variance + rate.variance;
         if rate.variance > 0.0 {
@@ -113,24 +108,28 @@ impl Trend {
 
     /// The rate at the middle of a window, from its own angle and the angles before: constant through three points, linear in time
     /// through more. With none before, the pattern is taken to stand still until a window shows that it does not.
-    fn rate(&self, middle: u64, samples: u32, angle: Angle, variance: f32) -> Rate {
+    ///
+    /// `per_window` is one over the window's half samples.
+    fn rate(&self, record: &Record, per_window: f32) -> Rate {
         // Sums of weight·timeⁿ and of weight·timeⁿ·angle; the window itself is at time and angle 0, and its weight is one.
-        let own = greater(variance, LEAST);
+        let own = greater(record.angle_variance, LEAST);
         let mut powers = [1.0, 0.0, 0.0, 0.0, 0.0];
         let mut values = [0.0; 3];
-        let per_window = 0.5 / samples as f32;
         let mut used = 1;
         for point in self.known() {
             // Not overlapping, and so near that 32 bits hold it.
-            let passed = middle.saturating_sub(point.middle).min(u64::from(u32::MAX)) as u32;
-            if passed < 2 * samples {
+            let passed = record
+                .middle
+                .saturating_sub(point.middle)
+                .min(u64::from(u32::MAX)) as u32;
+            if passed < 2 * record.samples {
                 continue;
             }
             let time = -(passed as f32) * per_window;
             if time < -OLDEST {
                 continue;
             }
-            let angle = point.angle.less(angle);
+            let angle = point.angle.less(record.angle);
             let mut weight = point.weight * own;
             for (n, power) in powers.iter_mut().enumerate() {
                 *power += weight;

@@ -64,10 +64,7 @@ pub(super) fn examine(
         if model.shared == 0.0 {
             take_slopes(model, &predictions, chunk, here, &mut wander);
         }
-        for (channel, prediction) in predictions.iter().enumerate() {
-            let gradient = &mut gradients[channel];
-            rest(model, prediction, channel, chunk, here, gradient);
-        }
+        rest(model, &predictions, chunk, here, &mut gradients);
         for here in &*here {
             views.take(here);
         }
@@ -83,28 +80,29 @@ pub(super) fn examine(
     gradients
 }
 
-/// Takes what one pick-off leaves of a run of blocks: one at a time, so that its constants stay in registers.
+/// Takes what the pick-offs leave of a run of blocks: one after the other, so that its constants stay in registers.
 #[inline(never)]
 fn rest(
     model: &Model,
-    prediction: &Prediction,
-    channel: usize,
+    predictions: &[Prediction; 2],
     blocks: &[Seen],
     here: &mut [Here],
-    gradient: &mut Gradient,
+    gradients: &mut [Gradient; 2],
 ) {
-    let (shared, response, prediction) = (model.shared, model.response, *prediction);
-    let mut sums = *gradient;
-    for (block, here) in blocks.iter().zip(here) {
-        let mut rest = prediction.rest(&block.whitened[channel & 1], here);
-        rest.odd -= here.slopes[channel & 1];
-        // Of an offset that the block has to itself the mean says nothing else.
-        let known = shared * rest.mean;
-        sums.take(&response, &rest, known, here.u, here.unit);
-        here.power += known * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
-        here.run += sums.level.norm_sqr();
+    let (shared, response) = (model.shared, model.response);
+    for (channel, prediction) in predictions.iter().enumerate() {
+        let (prediction, mut sums) = (*prediction, gradients[channel]);
+        for (block, here) in blocks.iter().zip(&mut *here) {
+            let mut rest = prediction.rest(&block.whitened[channel], here);
+            rest.odd -= here.slopes[channel];
+            // Of an offset that the block has to itself the mean says nothing else.
+            let known = shared * rest.mean;
+            sums.take(&response, &rest, known, here.u, here.unit);
+            here.power += known * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
+            here.run += sums.level.norm_sqr();
+        }
+        gradients[channel] = sums;
     }
-    *gradient = sums;
 }
 
 /// The residual as a whole, by blocks, and as a step of the phasors between two blocks.

@@ -38,17 +38,14 @@ pub(super) struct Mixing([Mixed; 2]);
 impl Mixing {
     pub(super) fn new(model: &Model, waves: &Waves) -> Self {
         let delay = model.correction.delay * model.per_half;
-        let mixed = |slope: Complex32, ideal: Complex32| {
-            let [_, d] = model.correction.distort([Complex32::ONE, ideal]);
-            Mixed {
-                factor: d * (slope * delay + 1.0),
-                slope,
-                square: slope * slope,
-            }
+        let mixed = |slope: Complex32, d: Complex32| Mixed {
+            factor: d * (slope * delay + 1.0),
+            slope,
+            square: slope * slope,
         };
-        // z₊ = z_C + j z_D and z₋ = z_C − j z_D.
         let [plus, minus] = waves.slope;
-        Self([mixed(plus, -Complex32::I), mixed(minus, Complex32::I)])
+        let [d_plus, d_minus] = model.correction.of_waves;
+        Self([mixed(plus, d_plus), mixed(minus, d_minus)])
     }
 
     /// The gains of each pick-off in a sum that is even in time.

@@ -94,7 +94,8 @@ impl Waves {
     pub(super) fn set(&mut self, model: &Model, parameters: &Parameters) {
         let correction = &model.correction;
         let travelling = |raw: [Complex32; 2]| {
-            let [c, d] = correction.correct(raw);
+            let [c, d] = raw;
+            let d = correction.correct(c, d);
             let turned = Complex32::new(-d.im, d.re);
             [c + turned, c - turned]
         };

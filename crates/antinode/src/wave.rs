@@ -193,7 +193,7 @@ pub(crate) struct Angle {
 }
 
 impl Angle {
-    #[inline(never)]
+    #[inline]
     pub(crate) fn new(radians: f32) -> Self {
         let quarters = nearest(radians * FRAC_2_PI);
         Self {

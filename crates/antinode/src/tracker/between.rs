@@ -86,7 +86,7 @@ impl Passed {
     }
 
     /// Tests an amplitude and its rate.
-    #[inline(never)]
+    #[inline]
     fn change(&self, before: &Amplitude, now: &Amplitude, floor: f32) -> Flags {
         let (values, rates) = ([before.value, now.value], [before.rate, now.rate]);
         let rate_variance = before.rate_variance + now.rate_variance;
@@ -114,7 +114,7 @@ impl Passed {
 }
 
 /// True where a step is more than chance and a floor explain, or no number.
-#[inline(never)]
+#[inline(always)]
 fn beyond(step: f32, variance: f32, floor: f32) -> bool {
     let rest = step.abs() - floor;
     rest > 0.0 && rest * rest > SIGMAS * SIGMAS * variance || step.is_nan()

@@ -31,11 +31,13 @@ struct Point {
     weight: f32,
 }
 
-/// Angles of the last clean windows that do not overlap, the oldest first.
+/// Angles of the last clean windows that do not overlap.
 #[derive(Debug, Clone)]
 pub(crate) struct Trend {
     points: [Point; KEPT],
-    length: usize,
+    length: u16,
+    /// Where the last one is.
+    last: u16,
 }
 
 impl Trend {
@@ -50,6 +52,7 @@ impl Trend {
                 weight: 0.0,
             }; KEPT],
             length: 0,
+            last: 0,
         }
     }
 
@@ -64,25 +67,33 @@ impl Trend {
     /// Keeps a clean window of `samples`, unless it overlaps the last one kept.
     pub(crate) fn keep(&mut self, middle: u64, samples: u32, angle: Angle, variance: f32) {
         let overlaps = |last: &Point| middle < last.middle + 2 * u64::from(samples);
-        if self.known().last().is_some_and(overlaps) {
+        if self
+            .known()
+            .get(usize::from(self.last))
+            .is_some_and(overlaps)
+        {
             return;
         }
-        if self.length == KEPT {
-            self.points.copy_within(1.., 0);
-            self.length -= 1;
-        }
-        if let Some(place) = self.points.get_mut(self.length) {
+        // In the place of the oldest where all are taken.
+        let next = self.last + 1;
+        self.last = if self.length == 0 || next == KEPT as u16 {
+            0
+        } else {
+            next
+        };
+        self.length = (self.length + 1).min(KEPT as u16);
+        if let Some(place) = self.points.get_mut(usize::from(self.last)) {
             *place = Point {
                 middle,
                 angle,
                 weight: 1.0 / greater(variance, LEAST),
             };
-            self.length += 1;
         }
     }
 
     fn known(&self) -> &[Point] {
-        self.points.get(..self.length).unwrap_or(&self.points)
+        let length = usize::from(self.length);
+        self.points.get(..length).unwrap_or(&self.points)
     }
 
     /// Takes the share of a turning pattern out of a window's frequency, with what the angles of the windows before promise.

@@ -48,14 +48,15 @@ pub(super) fn examine(
     waves: &Waves,
     offsets: [f32; 2],
     remains: &mut Remains,
-) -> [Gradient; 2] {
+    gradients: &mut [Gradient; 2],
+) {
     let mixing = Mixing::new(model, waves);
     let predictions = Prediction::new(model, &mixing, offsets);
     let is_watched = blocks.first().is_some_and(|block| block.watched.is_some());
     let mut thirds = is_watched.then(|| Thirds::new(model, &mixing, offsets));
     let mut course = Course::new(model, waves);
     let mut views = Views::new(model);
-    let mut gradients = [Gradient::default(); 2];
+    *gradients = Default::default();
     let mut wander = [0.0; 2];
     let mut here = [Here::default(); CHUNK];
     for chunk in blocks.chunks(CHUNK) {
@@ -64,7 +65,7 @@ pub(super) fn examine(
         if model.shared == 0.0 {
             take_slopes(model, &predictions, chunk, here, &mut wander);
         }
-        rest(model, &predictions, chunk, here, &mut gradients);
+        rest(model, &predictions, chunk, here, gradients);
         for here in &*here {
             views.take(here);
         }
@@ -77,7 +78,6 @@ pub(super) fn examine(
     if let Some(thirds) = thirds {
         thirds.conclude(remains, model.per_half * f32::from(model.blocks));
     }
-    gradients
 }
 
 /// Takes what the pick-offs leave of a run of blocks: one after the other, so that its constants stay in registers.

@@ -48,7 +48,7 @@ impl Gradient {
 }
 
 /// The right-hand sides of both pick-offs' sums, nothing taken off them.
-#[inline(never)]
+#[inline]
 pub(super) fn of_sums(model: &Model, blocks: &[Seen]) -> [Gradient; 2] {
     let mut gradients = [Gradient::default(); 2];
     let mut carrier = Carrier::new(model);

@@ -28,7 +28,7 @@ impl Thirds {
     }
 
     /// Takes a run of blocks.
-    #[inline(never)]
+    #[inline]
     pub(super) fn add(&mut self, blocks: &[Seen], here: &[Here]) {
         for (block, here) in blocks.iter().zip(here) {
             let Some(seen) = &block.watched else {

@@ -90,7 +90,7 @@ pub(crate) struct Waves {
 
 impl Waves {
     /// Moves to the waves of ideal pick-offs that the raw parameters are.
-    #[inline(never)]
+    #[inline]
     pub(super) fn set(&mut self, model: &Model, parameters: &Parameters) {
         let correction = &model.correction;
         let travelling = |raw: [Complex32; 2]| {
@@ -123,6 +123,7 @@ impl Waves {
     }
 
     /// |z₊|² + |z₋|².
+    #[inline]
     pub(crate) fn power(&self) -> f32 {
         self.value[0].norm_sqr() + self.value[1].norm_sqr()
     }

@@ -70,11 +70,11 @@ const SIGMAS: f32 = 8.0;
 /// How far samples may lie beyond the wave and its noise, as a share of a_A: common electronics have harmonics.
 const BEYOND: f32 = 0.01;
 
-/// Faults that single samples show, in a window of blocks of a wave of `period` samples and with a noise variance of `noise`.
+/// Faults that single samples show, in a window of blocks of a wave of `step` a sample and with a noise variance of `noise`.
 pub(super) fn sample_flags(
     settings: &Settings,
     blocks: &[Seen],
-    period: f32,
+    step: PhaseStep,
     fit: &Fit,
     wave: &Standing,
     noise: f32,
@@ -85,12 +85,16 @@ pub(super) fn sample_flags(
     if range.longest == 0 {
         return flags;
     }
-    // Where no rail is known, samples that stay at the extreme for longer than a crest does show one.
-    let crest = greater(period / 16.0, 2.0) as u16;
     let fine = wave.main > 100.0 * settings.resolution.unwrap_or(0.0);
     let clipped = match settings.rails {
         Some([least, most]) => (0..2).any(|i| range.high[i] >= most || range.low[i] <= least),
-        None => range.longest > crest && fine && range.is_flat(blocks, wave.main, crest),
+        // Where no rail is known, samples that stay at the extreme for longer than a crest does show one.
+        None => {
+            range.longest > 2 && fine && {
+                let crest = greater(step.period() / 16.0, 2.0) as u16;
+                range.longest > crest && range.is_flat(blocks, wave.main, crest)
+            }
+        }
     };
     let apart = SIGMAS * square_root(noise) + BEYOND * wave.main;
     flags

@@ -236,7 +236,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         flags = flags.with(converter::sample_flags(
             &self.settings,
             self.gathered.blocks(),
-            model.layout.step.period(),
+            model.layout.step,
             fit,
             &wave,
             greater(own, wave.noise),

@@ -129,10 +129,10 @@ impl Trend {
         let mut used = 1;
         for point in self.known() {
             // Not overlapping, and so near that 32 bits hold it.
-            let passed = record
-                .middle
-                .saturating_sub(point.middle)
-                .min(u64::from(u32::MAX)) as u32;
+            let passed = record.middle.wrapping_sub(point.middle);
+            let Ok(passed) = u32::try_from(passed) else {
+                continue;
+            };
             if passed < 2 * record.samples {
                 continue;
             }

@@ -113,20 +113,16 @@ struct Views {
     /// The sum of the residuals up to a block, squared, and what noise would make it: where it is most beyond.
     run: f32,
     room: f32,
-    /// 1/Σu² over the window, u being the blocks' middles; and one over the blocks.
+    /// 1/Σu² over the window, u being the blocks' middles.
     per_spread: f32,
-    per_block: f32,
-    count: f32,
     time: f32,
 }
 
 impl Views {
     fn new(model: &Model) -> Self {
-        let per_block = 0.5 * model.advance;
         Self {
             room: 1.0,
-            per_spread: 3.0 / (f32::from(model.blocks) - per_block),
-            per_block,
+            per_spread: 3.0 / (f32::from(model.blocks) - 0.5 * model.advance),
             ..Self::default()
         }
     }
@@ -136,12 +132,10 @@ impl Views {
     fn take(&mut self, rest: &Here) {
         self.residual += rest.power;
         self.worst_block = greater(rest.power, self.worst_block);
-        self.count += 1.0;
         self.time += rest.u;
-        // A step is known by what of it is neither constant nor slope.
-        let room = self.count
-            - self.count * self.count * self.per_block
-            - self.time * self.time * self.per_spread;
+        // A step is known by what of it is neither constant nor slope. After n blocks of N it is n − n²/N that is not constant: the sum
+        // of their times, but for the sign.
+        let room = -self.time * (1.0 + self.time * self.per_spread);
         if room > 0.2 && rest.run * self.room > self.run * room {
             (self.run, self.room) = (rest.run, room);
         }

@@ -71,6 +71,7 @@ const SIGMAS: f32 = 8.0;
 const BEYOND: f32 = 0.01;
 
 /// Faults that single samples show, in a window of blocks of a wave of `step` a sample and with a noise variance of `noise`.
+#[inline]
 pub(super) fn sample_flags(
     settings: &Settings,
     blocks: &[Seen],

@@ -65,6 +65,7 @@ impl Trend {
     }
 
     /// Keeps a clean window of `samples`, unless it overlaps the last one kept.
+    #[inline]
     pub(crate) fn keep(&mut self, middle: u64, samples: u32, angle: Angle, variance: f32) {
         let overlaps = |last: &Point| middle < last.middle + 2 * u64::from(samples);
         if self
@@ -97,6 +98,7 @@ impl Trend {
     }
 
     /// Takes the share of a turning pattern out of a window's frequency, with what the angles of the windows before promise.
+    #[inline]
     pub(crate) fn take_turning_out(&self, record: &mut Record, wave: &Standing, model: &Model) {
         let rate = self.rate(record, 0.25 * model.per_half);
         let apart = record.turning - rate.value;

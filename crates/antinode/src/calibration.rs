@@ -2,7 +2,6 @@
 
 use num_complex::Complex32;
 
-use crate::arch::square_root;
 use crate::phase::Phase;
 
 /// How the D pick-off differs from an ideal one that stands 45° from C, has C's gain and is sampled with C.
@@ -31,15 +30,17 @@ impl Calibration {
     /// The correction for a wave of `cycles_per_sample`, at a sample rate in Hz.
     pub(crate) fn at(&self, cycles_per_sample: f32, sample_rate: f32) -> Correction {
         let turns = cycles_per_sample * sample_rate * self.skew;
-        let lag = Phase::from_turns(turns).unit() * self.gain_ratio;
+        let lag = Phase::from_turns(turns).unit();
         let turned = Phase::from_radians(2.0 * self.pick_off_angle).unit();
-        let ideal = *self == Self::IDEAL;
+        let per_cosine = 1.0 / turned.re;
+        let noise_gains = [per_cosine / self.gain_ratio, turned.im * per_cosine];
         Correction {
             delay: self.skew * sample_rate,
-            lag,
-            cosine: turned.re,
-            sine: turned.im,
-            ideal,
+            // Of −j and j: z₊ = z_C + j z_D and z₋ = z_C − j z_D.
+            of_waves: [-1.0, 1.0]
+                .map(|d| lag * Complex32::new(-turned.im, d * turned.re) * self.gain_ratio),
+            lead: lag.conj() * (noise_gains[0] / lag.norm_sqr()),
+            noise_gains,
         }
     }
 }
@@ -51,47 +52,23 @@ impl Default for Calibration {
 }
 
 /// A [`Calibration`] made ready for one frequency: D_raw = lag·(cosine·D − sine·C).
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Correction {
     /// Skew in samples: the slow course of the wave goes on during it.
     pub delay: f32,
-    lag: Complex32,
-    cosine: f32,
-    sine: f32,
-    ideal: bool,
+    /// What raw pick-off D sees of each travelling wave of which C sees one.
+    pub of_waves: [Complex32; 2],
+    /// 1/(lag·cosine).
+    lead: Complex32,
+    /// What correcting makes of noise: by how much it amplifies that of channel D, and the share of C's that it adds there.
+    pub noise_gains: [f32; 2],
 }
 
 impl Correction {
-    /// Phasors of ideal pick-offs from raw ones.
-    pub(crate) fn correct(&self, raw: [Complex32; 2]) -> [Complex32; 2] {
-        if self.ideal {
-            return raw;
-        }
-        let [c, d] = raw;
-        let d = d * self.lag.conj() / self.lag.norm_sqr();
-        [c, (d + c * self.sine) / self.cosine]
-    }
-
-    /// Raw phasors from those of ideal pick-offs.
+    /// The phasor of an ideal pick-off D from raw ones: that of C is what it was.
     #[inline]
-    pub(crate) fn distort(&self, ideal: [Complex32; 2]) -> [Complex32; 2] {
-        if self.ideal {
-            return ideal;
-        }
-        let [c, d] = ideal;
-        [c, self.lag * (d * self.cosine - c * self.sine)]
-    }
-
-    /// What correcting makes of noise: by how much it amplifies that of channel D, and the share of C's that it adds there.
-    pub(crate) fn noise_gains(&self) -> [f32; 2] {
-        if self.ideal {
-            return [1.0, 0.0];
-        }
-        let per_cosine = 1.0 / self.cosine;
-        [
-            per_cosine / square_root(self.lag.norm_sqr()),
-            self.sine * per_cosine,
-        ]
+    pub(crate) fn correct(&self, c: Complex32, d: Complex32) -> Complex32 {
+        d * self.lead + c * self.noise_gains[1]
     }
 }
 
@@ -107,11 +84,20 @@ mod tests {
             pick_off_angle: 0.02,
         };
         let correction = calibration.at(0.05332, 1e5);
-        let wave = [Complex32::new(0.3, -1.2), Complex32::new(-0.7, 0.4)];
-        let raw = correction.distort(wave);
-        assert!((raw[1] - wave[1]).norm_sqr() > 1e-3);
-        for (back, wave) in correction.correct(raw).iter().zip(wave) {
-            assert!((back - wave).norm_sqr() < 1e-12);
-        }
+        let (c, d) = (Complex32::new(0.3, -1.2), Complex32::new(-0.7, 0.4));
+        let turned = Complex32::I * d;
+        let [plus, minus] = correction.of_waves;
+        let raw = (plus * (c + turned) + minus * (c - turned)) * 0.5;
+        assert!((raw - d).norm_sqr() > 1e-3);
+        assert!((correction.correct(c, raw) - d).norm_sqr() < 1e-12);
+    }
+
+    #[test]
+    fn an_ideal_pick_off_is_left_as_it_is() {
+        let correction = Calibration::IDEAL.at(0.05332, 1e5);
+        let (c, d) = (Complex32::new(0.3, -1.2), Complex32::new(-0.7, 0.4));
+        assert_eq!(correction.correct(c, d), d);
+        assert_eq!(correction.of_waves, [-Complex32::I, Complex32::I]);
+        assert_eq!(correction.noise_gains, [1.0, 0.0]);
     }
 }

@@ -10,6 +10,7 @@ use num_complex::Complex32;
 use crate::arch::square_root;
 use crate::double::units;
 use crate::order::{greater, lesser, nearest};
+use crate::phase::argument;
 use crate::window::{Covariance, Fit, Model};
 
 /// The standing wave at the middle of a window, with its rates per half window, and variances for the fit's own noise.
@@ -75,7 +76,7 @@ impl Variances {
 struct Shares([Variances; 2]);
 
 impl Shares {
-    /// The gains are those of [`Correction::noise_gains`](crate::calibration::Correction::noise_gains).
+    /// The gains are those of a [`Correction`](crate::calibration::Correction).
     fn along(plus: Complex32, minus: Complex32, [d, c_on_d]: [f32; 2]) -> Self {
         // z₊ = z_C + j z_D and z₋ = z_C − j z_D: what a component sees of z_D, and of D and C in it.
         let (plus_d, minus_d) = (
@@ -118,31 +119,32 @@ impl Standing {
         let [plus, minus] = fit.waves.value;
         let [plus_change, minus_change] = fit.waves.change;
         let absolute = |z: Complex32| square_root(z.norm_sqr());
-        let arg = |z: Complex32| libm::atan2f(z.im, z.re);
-        let (plus_angle, minus_angle) = (arg(plus), arg(minus));
+        let (plus_angle, minus_angle) = (argument(plus), argument(minus));
         let (p, m) = (absolute(plus), absolute(minus));
-        let along = |z: Complex32, size: f32| {
-            if size > 0.0 {
-                z * (1.0 / size)
+        // A wave of less than this beside the other has no direction.
+        let least = greater(1e-12 * (p + m), f32::MIN_POSITIVE);
+        let per_size = [p, m].map(|size| 1.0 / greater(size, least));
+        let along = |z: Complex32, size: f32, per_size: f32| {
+            if size > least {
+                z * per_size
             } else {
                 Complex32::ONE
             }
         };
-        let (e_plus, e_minus) = (along(plus, p), along(minus, m));
+        let e_plus = along(plus, p, per_size[0]);
+        let e_minus = along(minus, m, per_size[1]);
         // The component of a change along a wave and across it: how its size and its phase move, the latter the more the smaller it is.
         let grown = |change: Complex32, e: Complex32| change.re * e.re + change.im * e.im;
         let turned = |change: Complex32, e: Complex32| change.im * e.re - change.re * e.im;
         let (plus_growth, minus_growth) =
             (grown(plus_change, e_plus), grown(minus_change, e_minus));
-        let least = greater(1e-12 * (p + m), f32::MIN_POSITIVE);
-        let per_size = [p, m].map(|size| 1.0 / greater(size, least));
         let plus_turn = turned(plus_change, e_plus) * per_size[0];
         let minus_turn = turned(minus_change, e_minus) * per_size[1];
 
         let Covariance { even, odd } = &model.covariance;
         let levels = [noise * even[0][0], noise * odd[0][0]];
         let slopes = [noise * odd[1][1], noise * even[1][1]];
-        let shares = Shares::along(e_plus, e_minus, model.correction.noise_gains());
+        let shares = Shares::along(e_plus, e_minus, model.correction.noise_gains);
         let (size, growth) = (shares.of(levels), shares.of(slopes));
         let phase = shares.across(levels).times(per_size);
         let turn = shares.across(slopes).times(per_size);
@@ -191,7 +193,7 @@ pub(crate) struct Angle {
 }
 
 impl Angle {
-    #[inline(never)]
+    #[inline]
     pub(crate) fn new(radians: f32) -> Self {
         let quarters = nearest(radians * FRAC_2_PI);
         Self {

@@ -3,10 +3,10 @@
 //! Thresholds are as those of a window by itself.
 
 use super::checks::SIGMAS;
-use super::record::Record;
+use super::record::{Amplitude, Record};
 use crate::estimate::Flags;
 use crate::exponential::exponential;
-use crate::order::greater;
+use crate::order::{greater, long};
 use crate::wave::wrap;
 
 /// Below this share of a_A a step of an amplitude or an offset between windows is no fault.
@@ -27,21 +27,9 @@ pub(super) fn flags(before: &Record, now: &Record, knows_angle: bool) -> Flags {
     );
     let jump = phase_variance < 0.3 * 0.3 && beyond(phase, phase_variance, PHASE_FLOOR);
 
-    let amplitude_floor = AMPLITUDE_FLOOR * before.main;
-    let change =
-        |of: fn(&Record) -> Amplitude| passed.change(&of(before), &of(now), amplitude_floor);
-    let main = change(|record| Amplitude {
-        value: record.main,
-        rate: record.main_rate,
-        variance: record.main_variance,
-        rate_variance: record.main_rate_variance,
-    });
-    let quadrature = change(|record| Amplitude {
-        value: record.quadrature,
-        rate: record.quadrature_rate,
-        variance: record.quadrature_variance,
-        rate_variance: record.quadrature_rate_variance,
-    });
+    let amplitude_floor = AMPLITUDE_FLOOR * before.main.value;
+    let main = passed.change(&before.main, &now.main, amplitude_floor);
+    let quadrature = passed.change(&before.quadrature, &now.quadrature, amplitude_floor);
     let angle = beyond(
         now.angle.less(before.angle) - passed.promised([before.turning, now.turning]),
         passed.variance(
@@ -64,14 +52,6 @@ pub(super) fn flags(before: &Record, now: &Record, knows_angle: bool) -> Flags {
         .with(quadrature)
 }
 
-/// An amplitude of a window, its rate a sample, and their variances.
-struct Amplitude {
-    value: f32,
-    rate: f32,
-    variance: f32,
-    rate_variance: f32,
-}
-
 /// What lies between the middles of two windows.
 struct Passed {
     samples: f32,
@@ -85,8 +65,8 @@ struct Passed {
 
 impl Passed {
     fn new(before: &Record, now: &Record) -> Self {
-        let samples = 0.5 * (now.middle.wrapping_sub(before.middle)) as f32;
-        let growth = [before, now].map(|record| record.main_rate / record.main);
+        let samples = 0.5 * long(now.middle.wrapping_sub(before.middle));
+        let growth = [before, now].map(|record| record.main.rate / record.main.value);
         Self {
             samples,
             half: 0.5 * now.samples as f32,
@@ -106,7 +86,7 @@ impl Passed {
     }
 
     /// Tests an amplitude and its rate.
-    #[inline(never)]
+    #[inline]
     fn change(&self, before: &Amplitude, now: &Amplitude, floor: f32) -> Flags {
         let (values, rates) = ([before.value, now.value], [before.rate, now.rate]);
         let rate_variance = before.rate_variance + now.rate_variance;
@@ -134,7 +114,7 @@ impl Passed {
 }
 
 /// True where a step is more than chance and a floor explain, or no number.
-#[inline(never)]
+#[inline(always)]
 fn beyond(step: f32, variance: f32, floor: f32) -> bool {
     let rest = step.abs() - floor;
     rest > 0.0 && rest * rest > SIGMAS * SIGMAS * variance || step.is_nan()

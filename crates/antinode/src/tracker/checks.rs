@@ -180,7 +180,7 @@ fn has_harmonic(
     let Covariance { even, odd } = &model.covariance;
     let share = greater(even[0][0], odd[0][0]);
     let floor = HARMONIC_FLOOR * wave.main;
-    let [per_gain, _] = model.correction.noise_gains();
+    let [per_gain, _] = model.correction.noise_gains;
     [floor, floor / per_gain]
         .iter()
         .zip(&remains.third)

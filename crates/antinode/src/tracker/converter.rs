@@ -70,11 +70,12 @@ const SIGMAS: f32 = 8.0;
 /// How far samples may lie beyond the wave and its noise, as a share of a_A: common electronics have harmonics.
 const BEYOND: f32 = 0.01;
 
-/// Faults that single samples show, in a window of blocks of a wave of `period` samples and with a noise variance of `noise`.
+/// Faults that single samples show, in a window of blocks of a wave of `step` a sample and with a noise variance of `noise`.
+#[inline]
 pub(super) fn sample_flags(
     settings: &Settings,
     blocks: &[Seen],
-    period: f32,
+    step: PhaseStep,
     fit: &Fit,
     wave: &Standing,
     noise: f32,
@@ -85,12 +86,16 @@ pub(super) fn sample_flags(
     if range.longest == 0 {
         return flags;
     }
-    // Where no rail is known, samples that stay at the extreme for longer than a crest does show one.
-    let crest = greater(period / 16.0, 2.0) as u16;
     let fine = wave.main > 100.0 * settings.resolution.unwrap_or(0.0);
     let clipped = match settings.rails {
         Some([least, most]) => (0..2).any(|i| range.high[i] >= most || range.low[i] <= least),
-        None => range.longest > crest && fine && range.is_flat(blocks, wave.main, crest),
+        // Where no rail is known, samples that stay at the extreme for longer than a crest does show one.
+        None => {
+            range.longest > 2 && fine && {
+                let crest = greater(step.period() / 16.0, 2.0) as u16;
+                range.longest > crest && range.is_flat(blocks, wave.main, crest)
+            }
+        }
     };
     let apart = SIGMAS * square_root(noise) + BEYOND * wave.main;
     flags
@@ -111,7 +116,7 @@ struct Range {
 }
 
 impl Range {
-    #[inline(never)]
+    #[inline]
     fn of(blocks: &[Seen]) -> Self {
         let mut range = Self {
             low: [f32::INFINITY; 2],
@@ -147,9 +152,10 @@ impl Range {
     fn is_beyond(&self, fit: &Fit, apart: f32) -> bool {
         (0..2).any(|i| {
             let (above, below) = (self.high[i] - fit.offsets[i], fit.offsets[i] - self.low[i]);
+            let rest = greater(above, below) - apart;
+            let is_more = |rest: f32| rest > 0.0 && rest * rest > fit.reach[i];
             // Hum lies as far beyond again.
-            let rest = greater(above, below) - apart - 4.0 * square_root(fit.remains.wander[i]);
-            rest > 0.0 && rest * rest > fit.reach[i]
+            is_more(rest) && is_more(rest - 4.0 * square_root(fit.remains.wander[i]))
         })
     }
 }

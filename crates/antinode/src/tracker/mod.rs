@@ -199,6 +199,12 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     fn estimate(&mut self) -> Option<Estimate> {
         let mut fit = Fit::default();
         self.fit(&mut fit);
+        self.judge(&fit)
+    }
+
+    /// Makes an estimate of a fit: by itself, so that what it needs of the stack is not there while the window is fitted.
+    #[inline(never)]
+    fn judge(&mut self, fit: &Fit) -> Option<Estimate> {
         let model = self.model.as_ref()?;
         let half = model.half;
         let own = fit.remains.variance();
@@ -206,10 +212,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         // Rounding of f32 sums is an error too, where there is no other, and part of it does not average.
         let size = fit.offsets[0].abs() + fit.offsets[1].abs() + square_root(fit.waves.power());
         let rounding = 1e-7 * size;
-        let coding = Coding::new(&self.settings, noise, model, &fit);
+        let coding = Coding::new(&self.settings, noise, model, fit);
         let errors = rounding * rounding * (1.0 + half) + coding.expected;
-        let wave = Standing::new(model, &fit, noise + errors);
-        let is_no_wave = checks::is_no_wave(&fit, &wave, self.count, model.layout.length);
+        let wave = Standing::new(model, fit, noise + errors);
+        let is_no_wave = checks::is_no_wave(fit, &wave, self.count, model.layout.length);
         if self.before.is_none() && is_no_wave {
             // The detector was deceived: nothing is reported, and the search goes on.
             self.failures = Failures::ENOUGH;
@@ -226,16 +232,16 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let (angle, quarters) = expected.nearest(wave.angle);
         let phase = wrap(wave.phase + (quarters & 1) as f32 * core::f32::consts::PI);
 
-        let mut flags = checks::within(model, &fit, &wave, coding.most, &mut self.noise);
+        let mut flags = checks::within(model, fit, &wave, coding.most, &mut self.noise);
         flags = flags.with(converter::sample_flags(
             &self.settings,
             self.gathered.blocks(),
-            model.layout.step.period(),
-            &fit,
+            model.layout.step,
+            fit,
             &wave,
             greater(own, wave.noise),
         ));
-        let mut record = Record::new(model, &fit, &wave, own, middle, angle, phase);
+        let mut record = Record::new(model, fit, &wave, own, middle, angle, phase);
         let mut between = Flags::empty();
         if let Some(before) = &self.before {
             between = between::flags(before, &record, is_certain);
@@ -268,7 +274,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             }
         }
 
-        let left = |before: &Record| wave.main < LEFT * before.main;
+        let left = |before: &Record| wave.main < LEFT * before.main.value;
         let is_little = is_no_wave || self.before.as_ref().is_some_and(left);
         self.failures.take(flags, fit.settled, is_little);
         if fit.settled && !flags.contains(Flags::LOST) {
@@ -285,7 +291,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         } else {
             record.drift
         };
-        self.remember(record, flags, between, drift);
+        self.remember(&record, flags, between, drift);
         Some(record.estimate(&self.units, flags))
     }
 
@@ -330,7 +336,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Keeps what the next windows need; `drift` is the frequency beyond the carrier weighted by power, rad a sample.
-    fn remember(&mut self, record: Record, flags: Flags, between: Flags, drift: f32) {
+    fn remember(&mut self, record: &Record, flags: Flags, between: Flags, drift: f32) {
         self.broken = flags.intersects(BROKEN);
         if self.broken {
             // The next window is judged by itself: what lies between it and the last clean one is already flagged.
@@ -340,10 +346,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
                 if flags.intersects(BROKEN.without(Flags::MISFIT)) {
                     before.phase_variance = f32::INFINITY;
                 }
-                before.main_variance = f32::INFINITY;
-                before.quadrature_variance = f32::INFINITY;
-                before.main_rate_variance = f32::INFINITY;
-                before.quadrature_rate_variance = f32::INFINITY;
+                for amplitude in [&mut before.main, &mut before.quadrature] {
+                    amplitude.variance = f32::INFINITY;
+                    amplitude.rate_variance = f32::INFINITY;
+                }
                 before.angle_variance = f32::INFINITY;
                 before.offset_variance = [f32::INFINITY; 2];
             }
@@ -362,7 +368,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.angle = record.angle;
         }
         let angle = self.angle;
-        let before = self.before.insert(record);
+        let before = self.before.insert(*record);
         if flags.contains(Flags::CIRCULAR) {
             // It has neither an angle nor a phase of its own, and of its two waves one knows the frequency.
             before.drift = drift;

@@ -3,7 +3,7 @@
 use crate::arch::square_root;
 use crate::double::{self, reciprocal, scaled, to_single};
 use crate::estimate::{Estimate, Flags};
-use crate::order::greater;
+use crate::order::{greater, long};
 use crate::phase::PhaseStep;
 use crate::wave::{Angle, Standing};
 use crate::window::{Fit, Model};
@@ -42,6 +42,15 @@ impl Units {
     }
 }
 
+/// An amplitude of a window, its rate a sample, and their variances.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Amplitude {
+    pub value: f32,
+    pub rate: f32,
+    pub variance: f32,
+    pub rate_variance: f32,
+}
+
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Record {
     /// Middle of the window, half samples from the start of the stream.
@@ -64,14 +73,8 @@ pub(crate) struct Record {
     /// α, paired with `angle`.
     pub phase: f32,
     pub phase_variance: f32,
-    pub main: f32,
-    pub main_variance: f32,
-    pub main_rate: f32,
-    pub main_rate_variance: f32,
-    pub quadrature: f32,
-    pub quadrature_variance: f32,
-    pub quadrature_rate: f32,
-    pub quadrature_rate_variance: f32,
+    pub main: Amplitude,
+    pub quadrature: Amplitude,
     /// Power of each ideal pick-off's phasor, and the variance of a part of it.
     pub channel_power: [f32; 2],
     pub channel_variance: [f32; 2],
@@ -95,7 +98,7 @@ impl Record {
         let squared = per_half * per_half;
         let (turning, turning_variance) =
             (wave.turning * per_half, wave.turning_variance * squared);
-        let [d, c_on_d] = model.correction.noise_gains();
+        let [d, c_on_d] = model.correction.noise_gains;
         let variance =
             wave.noise * greater(model.covariance.even[0][0], model.covariance.odd[0][0]);
         Self {
@@ -113,14 +116,18 @@ impl Record {
             promised_variance: turning_variance,
             phase,
             phase_variance: wave.phase_variance,
-            main: wave.main,
-            main_variance: wave.main_variance,
-            main_rate: wave.main_change * per_half,
-            main_rate_variance: wave.main_change_variance * squared,
-            quadrature: wave.quadrature,
-            quadrature_variance: wave.quadrature_variance,
-            quadrature_rate: wave.quadrature_change * per_half,
-            quadrature_rate_variance: wave.quadrature_change_variance * squared,
+            main: Amplitude {
+                value: wave.main,
+                rate: wave.main_change * per_half,
+                variance: wave.main_variance,
+                rate_variance: wave.main_change_variance * squared,
+            },
+            quadrature: Amplitude {
+                value: wave.quadrature,
+                rate: wave.quadrature_change * per_half,
+                variance: wave.quadrature_variance,
+                rate_variance: wave.quadrature_change_variance * squared,
+            },
             channel_power: fit.channel_power(),
             channel_variance: [variance, variance * (d * d + c_on_d * c_on_d)],
             offsets: fit.offsets,
@@ -136,26 +143,26 @@ impl Record {
     pub(crate) fn estimate(&self, units: &Units, flags: Flags) -> Estimate {
         let rate = units.sample_rate;
         let root = square_root;
-        let share = rate / self.main;
+        let share = rate / self.main.value;
         Estimate {
             start: (self.middle + 1 - u64::from(self.samples)) / 2,
             samples: self.samples,
             time: double::units(self.middle as i64, units.half_sample),
-            main_amplitude: self.main,
-            quadrature_amplitude: self.quadrature,
+            main_amplitude: self.main.value,
+            quadrature_amplitude: self.quadrature.value,
             angle: self.angle.radians(),
             phase: self.phase,
             frequency: self.carrier.hertz(self.drift, units.turn),
             angle_rate: self.turning * rate,
-            decay_rate: -self.main_rate * share,
+            decay_rate: -self.main.rate * share,
             offsets: self.offsets,
-            main_amplitude_std: root(self.main_variance),
-            quadrature_amplitude_std: root(self.quadrature_variance),
+            main_amplitude_std: root(self.main.variance),
+            quadrature_amplitude_std: root(self.quadrature.variance),
             angle_std: root(self.angle_variance),
             phase_std: root(self.phase_variance),
             frequency_std: root(self.drift_variance) * rate * (1.0 / core::f32::consts::TAU),
             angle_rate_std: root(self.turning_variance) * rate,
-            decay_rate_std: root(self.main_rate_variance) * share,
+            decay_rate_std: root(self.main.rate_variance) * share,
             residual_rms: root(self.residual),
             flags,
         }
@@ -164,7 +171,7 @@ impl Record {
     /// The angle that this window promises one of `samples` about `middle`, and whether it knows it to less than a quarter turn: over
     /// a gap it may not.
     pub(crate) fn angle_at(&self, middle: u64, samples: u32) -> (Angle, bool) {
-        let passed = 0.5 * middle.wrapping_sub(self.middle) as f32;
+        let passed = 0.5 * long(middle.wrapping_sub(self.middle));
         let is_certain = passed < 1.5 * samples as f32
             || self.promised_variance * passed * passed < UNKNOWN_TURN * UNKNOWN_TURN;
         // As much of the turning as stands out of its noise: in much of it a pattern that stands still would be promised a quarter turn.
@@ -196,7 +203,7 @@ impl Record {
     /// True when pick-off `channel` shows no wave.
     pub(crate) fn is_silent(&self, channel: usize) -> bool {
         self.channel_power[channel]
-            < 36.0 * self.channel_variance[channel] + 1e-6 * self.main * self.main
+            < 36.0 * self.channel_variance[channel] + 1e-6 * self.main.value * self.main.value
     }
 
     /// By how much the phase has run beyond what the mean frequency of both windows explains, rad, not wrapped.
@@ -204,7 +211,7 @@ impl Record {
         let half_samples = self.middle.wrapping_sub(before.middle);
         let whole = before.carrier.after_half_samples(half_samples as i64);
         let beyond = before.drift + self.frequency_less(before);
-        let run = 0.25 * half_samples as f32 * (beyond + before.drift);
+        let run = 0.25 * long(half_samples) * (beyond + before.drift);
         let whole = (whole.0 as i32) as f32 * (core::f32::consts::TAU / 4_294_967_296.0);
         (before.phase - self.phase) - whole - run
     }

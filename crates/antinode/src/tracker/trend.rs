@@ -31,11 +31,13 @@ struct Point {
     weight: f32,
 }
 
-/// Angles of the last clean windows that do not overlap, the oldest first.
+/// Angles of the last clean windows that do not overlap.
 #[derive(Debug, Clone)]
 pub(crate) struct Trend {
     points: [Point; KEPT],
-    length: usize,
+    length: u16,
+    /// Where the last one is.
+    last: u16,
 }
 
 impl Trend {
@@ -50,6 +52,7 @@ impl Trend {
                 weight: 0.0,
             }; KEPT],
             length: 0,
+            last: 0,
         }
     }
 
@@ -62,37 +65,42 @@ impl Trend {
     }
 
     /// Keeps a clean window of `samples`, unless it overlaps the last one kept.
+    #[inline]
     pub(crate) fn keep(&mut self, middle: u64, samples: u32, angle: Angle, variance: f32) {
         let overlaps = |last: &Point| middle < last.middle + 2 * u64::from(samples);
-        if self.known().last().is_some_and(overlaps) {
+        if self
+            .known()
+            .get(usize::from(self.last))
+            .is_some_and(overlaps)
+        {
             return;
         }
-        if self.length == KEPT {
-            self.points.copy_within(1.., 0);
-            self.length -= 1;
-        }
-        if let Some(place) = self.points.get_mut(self.length) {
+        // In the place of the oldest where all are taken.
+        let next = self.last + 1;
+        self.last = if self.length == 0 || next == KEPT as u16 {
+            0
+        } else {
+            next
+        };
+        self.length = (self.length + 1).min(KEPT as u16);
+        if let Some(place) = self.points.get_mut(usize::from(self.last)) {
             *place = Point {
                 middle,
                 angle,
                 weight: 1.0 / greater(variance, LEAST),
             };
-            self.length += 1;
         }
     }
 
     fn known(&self) -> &[Point] {
-        self.points.get(..self.length).unwrap_or(&self.points)
+        let length = usize::from(self.length);
+        self.points.get(..length).unwrap_or(&self.points)
     }
 
     /// Takes the share of a turning pattern out of a window's frequency, with what the angles of the windows before promise.
+    #[inline]
     pub(crate) fn take_turning_out(&self, record: &mut Record, wave: &Standing, model: &Model) {
-        let rate = self.rate(
-            record.middle,
-            record.samples,
-            record.angle,
-            record.angle_variance,
-        );
+        let rate = self.rate(record, 0.25 * model.per_half);
         let apart = record.turning - rate.value;
         let spread = record.turning_variance + rate.variance;
         if rate.variance > 0.0 {
@@ -113,24 +121,28 @@ impl Trend {
 
     /// The rate at the middle of a window, from its own angle and the angles before: constant through three points, linear in time
     /// through more. With none before, the pattern is taken to stand still until a window shows that it does not.
-    fn rate(&self, middle: u64, samples: u32, angle: Angle, variance: f32) -> Rate {
+    ///
+    /// `per_window` is one over the window's half samples.
+    fn rate(&self, record: &Record, per_window: f32) -> Rate {
         // Sums of weight·timeⁿ and of weight·timeⁿ·angle; the window itself is at time and angle 0, and its weight is one.
-        let own = greater(variance, LEAST);
+        let own = greater(record.angle_variance, LEAST);
         let mut powers = [1.0, 0.0, 0.0, 0.0, 0.0];
         let mut values = [0.0; 3];
-        let per_window = 0.5 / samples as f32;
         let mut used = 1;
         for point in self.known() {
             // Not overlapping, and so near that 32 bits hold it.
-            let passed = middle.saturating_sub(point.middle).min(u64::from(u32::MAX)) as u32;
-            if passed < 2 * samples {
+            let passed = record.middle.wrapping_sub(point.middle);
+            let Ok(passed) = u32::try_from(passed) else {
+                continue;
+            };
+            if passed < 2 * record.samples {
                 continue;
             }
             let time = -(passed as f32) * per_window;
             if time < -OLDEST {
                 continue;
             }
-            let angle = point.angle.less(angle);
+            let angle = point.angle.less(record.angle);
             let mut weight = point.weight * own;
             for (n, power) in powers.iter_mut().enumerate() {
                 *power += weight;

@@ -17,7 +17,7 @@ pub(super) struct Here {
     pub u: f32,
     /// The carrier at the block's middle.
     pub unit: Complex32,
-    /// z₊ and z₋ there, turned with the carrier.
+    /// z₊ and z₋ there, turned with the carrier: their halves, which is what C sees of each.
     pub waves: [Complex32; 2],
     /// What a slope of the offset of each pick-off adds to its odd sum there.
     pub slopes: [f32; 2],
@@ -40,6 +40,7 @@ impl<'a> Carrier<'a> {
     }
 
     /// Time and carrier of the first block of the next [`CHUNK`], exactly.
+    #[inline]
     pub(super) fn next(&mut self) -> (f32, Complex32) {
         let index = self.index;
         self.index += CHUNK as u16;
@@ -124,7 +125,8 @@ impl<'a> Course<'a> {
         let (mut u, mut unit) = self.carrier.next();
         // Only residuals are turned by it: they have no digits to lose.
         let turn = turn.rounded();
-        let at = |w: usize| waves.value[w & 1] * (growth(waves.slope[w & 1] * u) + 1.0) * unit;
+        let half = unit * 0.5;
+        let at = |w: usize| waves.value[w & 1] * (growth(waves.slope[w & 1] * u) + 1.0) * half;
         let mut running = [at(0), at(1)];
         for here in &mut *here {
             *here = Here {
@@ -154,7 +156,7 @@ impl<'a> Course<'a> {
 fn bend(here: &mut [Here], rest: [Complex32; 2]) {
     for here in here {
         for (wave, rest) in here.waves.iter_mut().zip(rest) {
-            *wave += rest * here.unit * here.u;
+            *wave += rest * here.unit * (0.5 * here.u);
         }
     }
 }
@@ -212,7 +214,7 @@ mod tests {
                 let (sine, cosine) = libm::sincos(phase);
                 let long = |z: Complex32| Complex64::new(f64::from(z.re), f64::from(z.im));
                 let grown = Complex64::new(cosine, sine) * libm::exp(u * f64::from(slope.re));
-                let truth = long(value) * grown;
+                let truth = long(value) * grown * 0.5;
                 let error = long(here[CHUNK - 1].waves[0]) - truth;
                 squares += error.norm_sqr() / truth.norm_sqr();
             }

@@ -48,26 +48,24 @@ pub(super) fn examine(
     waves: &Waves,
     offsets: [f32; 2],
     remains: &mut Remains,
-) -> [Gradient; 2] {
+    gradients: &mut [Gradient; 2],
+) {
     let mixing = Mixing::new(model, waves);
     let predictions = Prediction::new(model, &mixing, offsets);
     let is_watched = blocks.first().is_some_and(|block| block.watched.is_some());
     let mut thirds = is_watched.then(|| Thirds::new(model, &mixing, offsets));
     let mut course = Course::new(model, waves);
-    let mut views = Views::new(model.blocks);
-    let mut gradients = [Gradient::default(); 2];
+    let mut views = Views::new(model);
+    *gradients = Default::default();
     let mut wander = [0.0; 2];
     let mut here = [Here::default(); CHUNK];
     for chunk in blocks.chunks(CHUNK) {
         let here = here.get_mut(..chunk.len()).unwrap_or_default();
         course.next(here);
         if model.shared == 0.0 {
-            take_slopes(model, &predictions, chunk, here);
+            take_slopes(model, &predictions, chunk, here, &mut wander);
         }
-        for (channel, prediction) in predictions.iter().enumerate() {
-            let gradient = &mut gradients[channel];
-            wander[channel] += rest(model, prediction, channel, chunk, here, gradient);
-        }
+        rest(model, &predictions, chunk, here, gradients);
         for here in &*here {
             views.take(here);
         }
@@ -76,40 +74,35 @@ pub(super) fn examine(
         }
     }
     views.conclude(model, remains);
-    let per_sample = 0.5 * model.per_half * (1.0 - model.shared);
-    remains.wander = wander.map(|sum| sum * per_sample);
+    remains.wander = wander.map(|sum| sum * (0.5 * model.per_half));
     if let Some(thirds) = thirds {
-        thirds.conclude(remains, f32::from(model.layout.length));
+        thirds.conclude(remains, model.per_half * f32::from(model.blocks));
     }
-    gradients
 }
 
-/// Takes what one pick-off leaves of a run of blocks: one at a time, so that its constants stay in registers. Gives the squares of what
-/// it leaves of the means.
+/// Takes what the pick-offs leave of a run of blocks: one after the other, so that its constants stay in registers.
 #[inline(never)]
 fn rest(
     model: &Model,
-    prediction: &Prediction,
-    channel: usize,
+    predictions: &[Prediction; 2],
     blocks: &[Seen],
     here: &mut [Here],
-    gradient: &mut Gradient,
-) -> f32 {
-    let (half, response, prediction) = (model.half, model.response, *prediction);
-    let shared = model.shared;
-    let mut sums = *gradient;
-    let mut wander = 0.0;
-    for (block, here) in blocks.iter().zip(here) {
-        let mut rest = prediction.rest(&block.whitened[channel & 1], here);
-        rest.odd -= here.slopes[channel & 1];
-        sums.take(&response, &rest, here.u * half, here.unit);
-        let mean = rest.mean * rest.mean;
-        wander += mean;
-        here.power += shared * mean + rest.even * rest.even + rest.odd * rest.odd;
-        here.run += sums.level.norm_sqr();
+    gradients: &mut [Gradient; 2],
+) {
+    let (shared, response) = (model.shared, model.response);
+    for (channel, prediction) in predictions.iter().enumerate() {
+        let (prediction, mut sums) = (*prediction, gradients[channel]);
+        for (block, here) in blocks.iter().zip(&mut *here) {
+            let mut rest = prediction.rest(&block.whitened[channel], here);
+            rest.odd -= here.slopes[channel];
+            // Of an offset that the block has to itself the mean says nothing else.
+            let known = shared * rest.mean;
+            sums.take(&response, &rest, known, here.u, here.unit);
+            here.power += known * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
+            here.run += sums.level.norm_sqr();
+        }
+        gradients[channel] = sums;
     }
-    *gradient = sums;
-    wander
 }
 
 /// The residual as a whole, by blocks, and as a step of the phasors between two blocks.
@@ -120,20 +113,16 @@ struct Views {
     /// The sum of the residuals up to a block, squared, and what noise would make it: where it is most beyond.
     run: f32,
     room: f32,
-    /// 1/Σu² over the window, u being the blocks' middles; and one over the blocks.
+    /// 1/Σu² over the window, u being the blocks' middles.
     per_spread: f32,
-    per_block: f32,
-    count: f32,
     time: f32,
 }
 
 impl Views {
-    fn new(blocks: u16) -> Self {
-        let blocks = f32::from(blocks);
+    fn new(model: &Model) -> Self {
         Self {
             room: 1.0,
-            per_spread: 3.0 / (blocks - 1.0 / blocks),
-            per_block: 1.0 / blocks,
+            per_spread: 3.0 / (f32::from(model.blocks) - 0.5 * model.advance),
             ..Self::default()
         }
     }
@@ -143,12 +132,10 @@ impl Views {
     fn take(&mut self, rest: &Here) {
         self.residual += rest.power;
         self.worst_block = greater(rest.power, self.worst_block);
-        self.count += 1.0;
         self.time += rest.u;
-        // A step is known by what of it is neither constant nor slope.
-        let room = self.count
-            - self.count * self.count * self.per_block
-            - self.time * self.time * self.per_spread;
+        // A step is known by what of it is neither constant nor slope. After n blocks of N it is n − n²/N that is not constant: the sum
+        // of their times, but for the sign.
+        let room = -self.time * (1.0 + self.time * self.per_spread);
         if room > 0.2 && rest.run * self.room > self.run * room {
             (self.run, self.room) = (rest.run, room);
         }
@@ -156,11 +143,11 @@ impl Views {
 
     fn conclude(&self, model: &Model, remains: &mut Remains) {
         let Response {
-            known, even, odd, ..
+            mean, even, odd, ..
         } = &model.response;
         // Mean weight of z in a block, over all phases of the carrier.
-        let weight =
-            0.5 * (known.level * known.level + even.level * even.level + odd.level * odd.level);
+        let known = model.shared * mean.level;
+        let weight = 0.5 * (known * mean.level + even.level * even.level + odd.level * odd.level);
         remains.residual = self.residual;
         remains.freedom = model.freedom();
         remains.worst_block = self.worst_block;

@@ -53,14 +53,21 @@ impl Model {
     /// Fits `blocks`, which are as many as the model was built for.
     #[inline(never)]
     fn fit(&self, blocks: &[Seen], fit: &mut Fit) {
-        let mut parameters = Parameters::default();
-        parameters.add(self, &gradient::of_sums(self, blocks));
+        let mut gradients = gradient::of_sums(self, blocks);
+        let mut parameters = Parameters::solving(self, &gradients);
         fit.waves.set(self, &parameters);
         fit.offsets = parameters.offset;
         for pass in 0..STEPS {
             fit.waves.take_course();
-            let gradients = examine(self, blocks, &fit.waves, fit.offsets, &mut fit.remains);
-            let step = parameters.add(self, &gradients);
+            examine(
+                self,
+                blocks,
+                &fit.waves,
+                fit.offsets,
+                &mut fit.remains,
+                &mut gradients,
+            );
+            let step = parameters.step(self, &gradients);
             fit.waves.set(self, &parameters);
             fit.offsets = parameters.offset;
             fit.settled = step.moved <= NEAR * NEAR * step.size;

@@ -4,7 +4,6 @@ use num_complex::Complex32;
 
 use super::course::{CHUNK, Carrier};
 use super::model::Model;
-use super::normal::Row;
 use super::response::{Response, Whitened};
 use super::seen::Seen;
 
@@ -13,59 +12,53 @@ use super::seen::Seen;
 pub(super) struct Gradient {
     /// Along z, block for block.
     pub level: Complex32,
-    /// Along z′ a sample.
-    slope: Complex32,
-    mean: f32,
+    /// Along z′.
+    pub slope: Complex32,
+    /// Of the means: an offset is so often in it.
+    pub mean: f32,
 }
 
 impl Gradient {
-    /// Takes a block whose middle lies `time` samples from that of the window, where the carrier is `unit`.
+    /// Takes a block in whose middle, at time `u`, the carrier is `unit`; `known` is what its mean says of the wave.
     #[inline(always)]
     pub(super) fn take(
         &mut self,
         response: &Response,
         sums: &Whitened,
-        time: f32,
+        known: f32,
+        u: f32,
         unit: Complex32,
     ) {
         let Response {
-            known, even, odd, ..
+            mean, even, odd, ..
         } = response;
         let along = Complex32::new(
-            known.level * sums.mean + even.level * sums.even,
+            mean.level * known + even.level * sums.even,
             odd.level * sums.odd,
         );
         let across = Complex32::new(
-            odd.slope * sums.odd,
-            known.slope * sums.mean + even.slope * sums.even,
+            -odd.slope * sums.odd,
+            mean.slope * known + even.slope * sums.even,
         );
         let back = unit.conj();
         self.level += along * back;
-        self.slope += (along * time + across) * back;
+        self.slope += (along * u + across) * back;
         self.mean += sums.mean;
-    }
-
-    /// The right-hand side, even and odd, its slope scaled to half windows.
-    pub(super) fn sides(&self, model: &Model) -> [Row; 2] {
-        let slope = self.slope * model.per_half;
-        [
-            [self.level.re, slope.im, model.response.offset * self.mean],
-            [self.level.im, slope.re, 0.0],
-        ]
     }
 }
 
 /// The right-hand sides of both pick-offs' sums, nothing taken off them.
-#[inline(never)]
+#[inline]
 pub(super) fn of_sums(model: &Model, blocks: &[Seen]) -> [Gradient; 2] {
     let mut gradients = [Gradient::default(); 2];
     let mut carrier = Carrier::new(model);
-    let (half, advance, turn) = (model.half, model.advance, model.turn.rounded());
+    let (response, shared) = (model.response, model.shared);
+    let (advance, turn) = (model.advance, model.turn.rounded());
     for chunk in blocks.chunks(CHUNK) {
         let (mut u, mut unit) = carrier.next();
         for block in chunk {
             for (gradient, sums) in gradients.iter_mut().zip(&block.whitened) {
-                gradient.take(&model.response, sums, u * half, unit);
+                gradient.take(&response, sums, shared * sums.mean, u, unit);
             }
             u += advance;
             unit *= turn;

@@ -5,7 +5,8 @@ use super::model::Model;
 use super::prediction::Prediction;
 use super::seen::Seen;
 
-/// Fills in what the slopes of both pick-offs' offsets add to the odd sums of a run of blocks that have offsets of their own.
+/// Fills in what the slopes of both pick-offs' offsets add to the odd sums of a run of blocks that have offsets of their own, and adds
+/// the squares of these to `wander`.
 ///
 /// The slope of a block is that between its neighbours' offsets, less what the wave puts there; of the first and the last it is that
 /// to the only one.
@@ -16,16 +17,22 @@ pub(super) fn take_slopes(
     predictions: &[Prediction; 2],
     blocks: &[Seen],
     here: &mut [Here],
+    wander: &mut [f32; 2],
 ) {
-    if blocks.len() < 2 {
-        return;
-    }
+    // A block alone has no slope.
+    let ramp = if blocks.len() < 2 {
+        0.0
+    } else {
+        model.basis.ramp
+    };
     for (channel, prediction) in predictions.iter().enumerate() {
         let (mut before, mut now) = (0.0, 0.0);
         for i in 0..=blocks.len() {
             let next = match (blocks.get(i), here.get(i)) {
                 (Some(block), Some(here)) => {
-                    prediction.mean_rest(&block.whitened[channel & 1], here)
+                    let rest = prediction.mean_rest(&block.whitened[channel & 1], here);
+                    wander[channel & 1] += rest * rest;
+                    rest
                 }
                 // One more after the last, in line with the two before it; and one before the first.
                 _ => 2.0 * now - before,
@@ -34,7 +41,7 @@ pub(super) fn take_slopes(
                 before = 2.0 * now - next;
             }
             if let Some(here) = here.get_mut(i.wrapping_sub(1)) {
-                here.slopes[channel & 1] = model.basis.ramp * (next - before);
+                here.slopes[channel & 1] = ramp * (next - before);
             }
             (before, now) = (now, next);
         }

@@ -4,7 +4,7 @@ use num_complex::Complex32;
 
 use super::course::Turn;
 use super::normal::{Covariance, Normal, PARAMETERS, Row};
-use super::response::{Basis, Response};
+use super::response::{Answer, Basis, Response};
 use crate::block::Layout;
 use crate::calibration::{Calibration, Correction};
 use crate::order::greater;
@@ -57,15 +57,15 @@ impl Model {
             carrier,
             calibration,
             sample_rate,
-            response: Response::new(layout, &basis, carrier, shared),
             basis,
             shared,
+            response: Response::default(),
             half: 0.0,
             per_half: 0.0,
             advance: 0.0,
             turn: Turn::NONE,
             first: Complex32::ONE,
-            correction: calibration.at(1.0 / carrier.period(), sample_rate),
+            correction: Correction::default(),
             covariance: Covariance::default(),
         };
         model.build();
@@ -74,17 +74,10 @@ impl Model {
 
     /// Moves the carrier, or changes the number of blocks.
     pub(crate) fn retune(&mut self, carrier: PhaseStep, blocks: u16) {
-        if carrier != self.carrier {
-            self.carrier = carrier;
-            self.response = Response::new(self.layout, &self.basis, carrier, self.shared);
-            self.correction = self
-                .calibration
-                .at(1.0 / carrier.period(), self.sample_rate);
-        } else if blocks == self.blocks {
-            return;
+        if carrier != self.carrier || blocks != self.blocks {
+            (self.carrier, self.blocks) = (carrier, blocks);
+            self.build();
         }
-        self.blocks = blocks;
-        self.build();
     }
 
     /// Degrees of freedom that the residual of both pick-offs has.
@@ -115,21 +108,23 @@ impl Model {
     /// The design rows of a block, for its mean, even and odd sums: each as its even and its odd side.
     fn rows(&self, u: f32, unit: Complex32) -> [[Row; 2]; 3] {
         let (c, s) = (unit.re, unit.im);
-        let even = |level: f32, slope: f32, offset: f32| {
-            let (l, k) = (level * u, slope * self.per_half);
+        let even = |answer: &Answer, share: f32, offset: f32| {
+            let (level, k) = (answer.level * share, answer.slope * share);
+            let l = level * u;
             [
                 [level * c, k * c - l * s, offset],
                 [-level * s, l * c + k * s, 0.0],
             ]
         };
         let r = &self.response;
-        let (l, k) = (r.odd.level * u, r.odd.slope * self.per_half);
+        let (l, k) = (r.odd.level * u, r.odd.slope);
         [
-            even(r.known.level, r.known.slope, r.offset),
-            even(r.even.level, r.even.slope, 0.0),
+            // Where each block has its own offset, its mean says nothing of the wave.
+            even(&r.mean, self.shared, r.offset),
+            even(&r.even, 1.0, 0.0),
             [
-                [r.odd.level * s, l * c - k * s, 0.0],
-                [r.odd.level * c, l * s + k * c, 0.0],
+                [r.odd.level * s, l * c + k * s, 0.0],
+                [r.odd.level * c, l * s - k * c, 0.0],
             ],
         ]
     }
@@ -137,6 +132,10 @@ impl Model {
     fn build(&mut self) {
         self.half = 0.5 * f32::from(self.blocks) * f32::from(self.layout.length);
         self.per_half = 1.0 / self.half;
+        self.response = Response::new(self.layout, &self.basis, self.carrier, self.per_half);
+        self.correction = self
+            .calibration
+            .at(1.0 / self.carrier.period(), self.sample_rate);
         self.advance = 2.0 / f32::from(self.blocks);
         let block = 2 * i64::from(self.layout.length);
         self.turn = Turn::by(self.carrier.after_half_samples(block));

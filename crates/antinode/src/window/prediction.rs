@@ -9,7 +9,7 @@ use super::model::Model;
 use super::response::{Answer, Whitened};
 use super::waves::Waves;
 
-/// The constants by which one sum of one pick-off answers to z₊ and z₋: it is the real part of their products.
+/// The constants by which one sum of one pick-off answers to both waves in C: it is the real part of their products.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gains([Complex32; 2]);
 
@@ -22,51 +22,53 @@ impl Gains {
     }
 }
 
-/// What the two waves make of the pick-offs: raw z_C and z_D are these factors times z₊ and z₋.
-pub(super) struct Mixing {
-    /// Of each pick-off, for each wave.
-    factors: [[Complex32; 2]; 2],
-    /// z′/z of each wave, a sample, and its square.
-    slope: [[Complex32; 2]; 2],
+/// What a wave makes of the pick-offs.
+#[derive(Clone, Copy)]
+struct Mixed {
+    /// Raw z_D for a z_C of one.
+    factor: Complex32,
+    /// z′/z, and its square.
+    slope: Complex32,
+    square: Complex32,
 }
+
+/// What the two waves make of the pick-offs.
+pub(super) struct Mixing([Mixed; 2]);
 
 impl Mixing {
     pub(super) fn new(model: &Model, waves: &Waves) -> Self {
-        let slope = waves.slope.map(|slope| slope * model.per_half);
-        let mut factors = [[Complex32::ZERO; 2]; 2];
-        for (w, side) in [1.0, -1.0].into_iter().enumerate() {
-            let ideal = [Complex32::new(0.5, 0.0), Complex32::new(0.0, -0.5 * side)];
-            let [c, d] = model.correction.distort(ideal);
-            factors[0][w] = c;
-            factors[1][w] = d * (slope[w] * model.correction.delay + 1.0);
-        }
-        Self {
-            factors,
-            slope: slope.map(|s| [s, s * s]),
-        }
+        let delay = model.correction.delay * model.per_half;
+        let mixed = |slope: Complex32, d: Complex32| Mixed {
+            factor: d * (slope * delay + 1.0),
+            slope,
+            square: slope * slope,
+        };
+        let [plus, minus] = waves.slope;
+        let [d_plus, d_minus] = model.correction.of_waves;
+        Self([mixed(plus, d_plus), mixed(minus, d_minus)])
     }
 
-    /// The gains of each pick-off in a sum that is even in time: level·Re v₀ + slope·Im v₁ + curve·Re v₂.
+    /// The gains of each pick-off in a sum that is even in time.
+    #[inline(always)]
     pub(super) fn even(&self, answer: &Answer) -> [Gains; 2] {
-        self.gains(self.slope.map(|[s, square]| {
-            let turned = Complex32::new(s.im, -s.re) * answer.slope;
-            turned + square * answer.curve + answer.level
-        }))
+        self.gains(answer, |gain| gain)
     }
 
-    /// The gains of each pick-off in a sum that is odd in time: level·Im v₀ + slope·Re v₁ + curve·Im v₂.
+    /// The gains of each pick-off in a sum that is odd in time.
+    #[inline(always)]
     pub(super) fn odd(&self, answer: &Answer) -> [Gains; 2] {
-        self.gains(self.slope.map(|[s, square]| {
-            let turned = Complex32::new(-s.im, s.re) * answer.slope;
-            let gain = turned + square * answer.curve + answer.level;
-            // The imaginary part of a number is the real part of −j times it.
-            Complex32::new(gain.im, -gain.re)
-        }))
+        // The imaginary part of a number is the real part of −j times it.
+        self.gains(answer, |gain| Complex32::new(gain.im, -gain.re))
     }
 
-    fn gains(&self, of_waves: [Complex32; 2]) -> [Gains; 2] {
-        self.factors
-            .map(|factors| Gains([factors[0] * of_waves[0], factors[1] * of_waves[1]]))
+    #[inline(always)]
+    fn gains(&self, answer: &Answer, part: impl Fn(Complex32) -> Complex32) -> [Gains; 2] {
+        let c = self.0.map(|Mixed { slope, square, .. }| {
+            let turned = Complex32::new(slope.im, -slope.re) * answer.slope;
+            part(turned + square * answer.curve + answer.level)
+        });
+        let [plus, minus] = &self.0;
+        [Gains(c), Gains([plus.factor * c[0], minus.factor * c[1]])]
     }
 }
 
@@ -81,6 +83,7 @@ pub(super) struct Prediction {
 
 impl Prediction {
     /// For both pick-offs.
+    #[inline(always)]
     pub(super) fn new(model: &Model, mixing: &Mixing, offsets: [f32; 2]) -> [Self; 2] {
         let response = &model.response;
         let [mean_c, mean_d] = mixing.even(&response.mean);

@@ -33,7 +33,8 @@ pub(crate) struct Whitened {
     pub odd: f32,
 }
 
-/// How one even whitened sum answers to v: `level`·Re v₀ + `slope`·Im v₁ + `curve`·Re v₂; an odd one to Im v₀, Re v₁, Im v₂.
+/// How one whitened sum answers to v, in half windows: an even one is the real part of `level`·v₀ − j·`slope`·v₁ + `curve`·v₂, an odd
+/// one the imaginary part.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Answer {
     pub level: f32,
@@ -42,11 +43,9 @@ pub(crate) struct Answer {
 }
 
 /// The answers of all sums of a block at one carrier.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Response {
     pub mean: Answer,
-    /// What the mean says of the wave: nothing where each block has its own offset.
-    pub known: Answer,
     pub even: Answer,
     pub odd: Answer,
     /// What an offset of one adds to the mean: √length.
@@ -107,15 +106,15 @@ impl Basis {
 }
 
 impl Response {
-    /// The answers of blocks of `layout` to a wave at `carrier`.
-    pub(crate) fn new(layout: Layout, basis: &Basis, carrier: PhaseStep, shared: f32) -> Self {
+    /// The answers of blocks of `layout` to a wave at `carrier`, in windows of which `per_half` is one over the half.
+    pub(crate) fn new(layout: Layout, basis: &Basis, carrier: PhaseStep, per_half: f32) -> Self {
         let mut sums = [[Sum::default(); 3]; 5];
         let mut third_offset = Sum::default();
         let unit = 1.0 / layout.one();
         for k in 0..layout.length {
             let reference = layout.reference(k);
             let twice = layout.twice_from_middle(k);
-            let t = 0.5 * twice as i32 as f32;
+            let t = 0.5 * per_half * twice as i32 as f32;
             let wave = carrier.after_half_samples(twice).unit();
             let weights = [
                 (basis.one, false),
@@ -126,7 +125,7 @@ impl Response {
             ];
             for (sums, (weight, odd)) in sums.iter_mut().zip(weights) {
                 let (level, slope) = if odd {
-                    (-wave.im, wave.re)
+                    (-wave.im, -wave.re)
                 } else {
                     (wave.re, -wave.im)
                 };
@@ -141,14 +140,8 @@ impl Response {
             slope: s[1].get(),
             curve: s[2].get(),
         };
-        let mean = answer(&sums[0]);
         Self {
-            mean,
-            known: Answer {
-                level: shared * mean.level,
-                slope: shared * mean.slope,
-                curve: shared * mean.curve,
-            },
+            mean: answer(&sums[0]),
             even: answer(&sums[1]),
             odd: answer(&sums[2]),
             offset: square_root(f32::from(layout.length)),

@@ -28,7 +28,7 @@ impl Thirds {
     }
 
     /// Takes a run of blocks.
-    #[inline(never)]
+    #[inline]
     pub(super) fn add(&mut self, blocks: &[Seen], here: &[Here]) {
         for (block, here) in blocks.iter().zip(here) {
             let Some(seen) = &block.watched else {
@@ -47,18 +47,18 @@ impl Thirds {
         }
     }
 
-    /// The amplitudes and their noise, for blocks of `length` samples.
-    pub(super) fn conclude(&self, remains: &mut Remains, length: f32) {
-        let count = f32::from(self.watched.max(1));
-        let coherent = (self.sum[0].norm_sqr() + self.sum[1].norm_sqr()) / count;
+    /// The amplitudes and their noise; `doubled` is two over the samples of a block.
+    pub(super) fn conclude(&self, remains: &mut Remains, doubled: f32) {
+        let per_count = 1.0 / f32::from(self.watched.max(1));
+        let coherent = (self.sum[0].norm_sqr() + self.sum[1].norm_sqr()) * per_count;
         let incoherent = if self.power > coherent {
             self.power - coherent
         } else {
             0.0
         };
         let freedom = 4.0 * f32::from(self.watched.saturating_sub(1));
-        remains.third = self.sum.map(|sum| sum * (2.0 / (count * length)));
-        remains.third_noise = incoherent / (0.5 * length * greater(freedom, 1.0));
+        remains.third = self.sum.map(|sum| sum * (doubled * per_count));
+        remains.third_noise = incoherent * doubled / greater(freedom, 1.0);
         remains.third_freedom = freedom;
     }
 }

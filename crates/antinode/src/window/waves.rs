@@ -8,7 +8,7 @@ use super::model::Model;
 use super::normal::{Covariance, Row};
 
 /// The raw parameters of both pick-offs, as they stand in the normal equations.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Parameters {
     pub z: [Complex32; 2],
     pub slope: [Complex32; 2],
@@ -16,7 +16,6 @@ pub(super) struct Parameters {
 }
 
 /// How far the parameters were moved.
-#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Step {
     /// Σ|Δz|² + Σ|Δz′|² and Σ|z|².
     pub moved: f32,
@@ -26,28 +25,50 @@ pub(super) struct Step {
 }
 
 impl Parameters {
-    /// Moves to where the gradients vanish, but for what is not linear.
+    /// Those that make the right-hand sides, but for what is not linear.
     #[inline(never)]
-    pub(super) fn add(&mut self, model: &Model, gradients: &[Gradient; 2]) -> Step {
-        let product =
-            |row: &Row, side: &Row| row[0] * side[0] + row[1] * side[1] + row[2] * side[2];
+    pub(super) fn solving(model: &Model, gradients: &[Gradient; 2]) -> Self {
         let Covariance { even, odd } = &model.covariance;
-        let mut step = Step::default();
+        let per_mean = model.response.offset;
+        let [(c, slope_c, offset_c), (d, slope_d, offset_d)] = gradients.each_ref().map(|side| {
+            let Gradient { level, slope, mean } = side;
+            let mean = per_mean * mean;
+            let of_even = |row: &Row| row[0] * level.re + row[1] * slope.im + row[2] * mean;
+            let of_odd = |row: &Row| row[0] * level.im + row[1] * slope.re;
+            (
+                Complex32::new(of_even(&even[0]), of_odd(&odd[0])),
+                Complex32::new(of_odd(&odd[1]), of_even(&even[1])),
+                of_even(&even[2]),
+            )
+        });
+        Self {
+            z: [c, d],
+            slope: [slope_c, slope_d],
+            offset: [offset_c, offset_d],
+        }
+    }
+
+    /// Moves to where the gradients vanish, but for what is not linear.
+    pub(super) fn step(&mut self, model: &Model, gradients: &[Gradient; 2]) -> Step {
+        let by = Self::solving(model, gradients);
+        // An offset that every block has to itself has no part in the residual.
+        let per_mean = model.response.offset * model.shared;
+        let dot = |a: Complex32, b: Complex32| a.re * b.re + a.im * b.im;
+        let mut step = Step {
+            moved: 0.0,
+            size: 0.0,
+            explained: 0.0,
+        };
         for (channel, gradient) in gradients.iter().enumerate() {
-            let [of_even, of_odd] = gradient.sides(model);
-            let [level, across, offset] = even.each_ref().map(|row| product(row, &of_even));
-            let [beside, growth, _] = odd.each_ref().map(|row| product(row, &of_odd));
-            let z = Complex32::new(level, beside);
-            let slope = Complex32::new(growth, across);
+            let (z, slope, offset) = (by.z[channel], by.slope[channel], by.offset[channel]);
             self.z[channel] += z;
             self.slope[channel] += slope;
             self.offset[channel] += offset;
             step.moved += z.norm_sqr() + slope.norm_sqr();
             step.size += self.z[channel].norm_sqr();
-            // An offset that every block has to itself has no part in the residual.
-            let shared = offset * model.shared;
-            step.explained += product(&of_even, &[level, across, shared])
-                + product(&of_odd, &[beside, growth, 0.0]);
+            step.explained += dot(gradient.level, z)
+                + dot(gradient.slope, slope)
+                + per_mean * gradient.mean * offset;
         }
         step
     }
@@ -69,11 +90,12 @@ pub(crate) struct Waves {
 
 impl Waves {
     /// Moves to the waves of ideal pick-offs that the raw parameters are.
-    #[inline(never)]
+    #[inline]
     pub(super) fn set(&mut self, model: &Model, parameters: &Parameters) {
         let correction = &model.correction;
         let travelling = |raw: [Complex32; 2]| {
-            let [c, d] = correction.correct(raw);
+            let [c, d] = raw;
+            let d = correction.correct(c, d);
             let turned = Complex32::new(-d.im, d.re);
             [c + turned, c - turned]
         };
@@ -101,6 +123,7 @@ impl Waves {
     }
 
     /// |z₊|² + |z₋|².
+    #[inline]
     pub(crate) fn power(&self) -> f32 {
         self.value[0].norm_sqr() + self.value[1].norm_sqr()
     }

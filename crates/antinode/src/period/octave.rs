@@ -1,6 +1,8 @@
 //! One octave of the stream, and its D(T).
 
-use crate::phase::Phase;
+use num_complex::Complex32;
+
+use crate::phase::{Phase, argument};
 use crate::sample::Sample;
 
 /// Lags of an octave.
@@ -139,7 +141,7 @@ impl<S: Sample> Octave<S> {
         let ratio = (after - before) / (after + before - 2.0 * here);
         let omega = core::f32::consts::TAU / (lag - 0.5 * ratio);
         let half = Phase::from_radians(0.5 * omega).unit();
-        let period = lag - libm::atan2f(ratio * half.im, half.re) / omega;
+        let period = lag - argument(Complex32::new(half.re, ratio * half.im)) / omega;
         (RANGE.contains(&period) && HELD * period <= f32::from(self.count)).then_some(period)
     }
 }
@@ -168,9 +170,11 @@ fn add_lags<S: Sample>(sums: &mut Lags<S>, now: Two<S>, before: &[Two<S>]) {
 fn add_two_lags<S: Sample>(
     [odd, even]: &mut [S::Square; 2],
     [first, second]: Two<S>,
-    &[far, near]: &Two<S>,
+    &[[far_c, far_d], near]: &Two<S>,
     last: [S; 2],
 ) -> [S; 2] {
+    // Number by number: as a pair it would be loaded into a register of whole numbers.
+    let far = [far_c, far_d];
     S::add_difference(odd, first, near);
     S::add_difference(odd, second, last);
     S::add_difference(even, first, far);

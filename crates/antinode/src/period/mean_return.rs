@@ -10,6 +10,7 @@ use core::f32::consts::TAU;
 use super::PERIODS;
 use super::confirm::Trial;
 use crate::block::Pair;
+use crate::order::{greater, lesser};
 
 /// Whole periods that the mean and the return are measured over.
 const SPAN: u16 = 2;
@@ -108,8 +109,8 @@ impl MeanReturnDetector {
                 crossings,
             } => {
                 for i in 0..2 {
-                    low[i] = low[i].min(pair[i]);
-                    high[i] = high[i].max(pair[i]);
+                    low[i] = lesser(pair[i], low[i]);
+                    high[i] = greater(pair[i], high[i]);
                     let (middle, swing) = (0.5 * (high[i] + low[i]), 0.5 * (high[i] - low[i]));
                     crossings[i] += u8::from(upward[i].crossed(pair[i] - middle, 0.25 * swing));
                 }
@@ -194,7 +195,7 @@ impl MeanReturnDetector {
                 }
                 (*returns == SPAN).then(|| {
                     let late = if step > 0.0 {
-                        (*sum / step).min(1.0)
+                        lesser(*sum / step, 1.0)
                     } else {
                         0.0
                     };

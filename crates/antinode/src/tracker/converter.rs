@@ -152,10 +152,11 @@ impl Range {
     fn is_beyond(&self, fit: &Fit, apart: f32) -> bool {
         (0..2).any(|i| {
             let (above, below) = (self.high[i] - fit.offsets[i], fit.offsets[i] - self.low[i]);
-            let rest = greater(above, below) - apart;
-            let is_more = |rest: f32| rest > 0.0 && rest * rest > fit.reach[i];
+            let (rest, reach) = (greater(above, below) - apart, fit.reach[i]);
             // Hum lies as far beyond again.
-            is_more(rest) && is_more(rest - 4.0 * square_root(fit.remains.wander[i]))
+            let hum = 4.0 * square_root(fit.remains.wander[i]);
+            let is_more = |rest: f32| rest > 0.0 && rest * rest > reach;
+            is_more(rest) && is_more(rest - hum)
         })
     }
 }

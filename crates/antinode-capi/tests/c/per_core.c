@@ -1,0 +1,72 @@
+/*
+ * What a core costs that is given as TARGET: instructions per sample pair of _push_block_packed, without the watch and with it, and
+ * thousands of instructions per window of _solve, of 10 and of 50 periods.
+ *
+ * In QEMU with -icount shift=0,align=off,sleep=off every instruction takes 1 ns, and SysTick counts the 168 MHz of the core.
+ */
+#include "counts.h"
+
+enum { RING = 1406, HALF_BUFFER = 64, FIRST = 2000, PAIRS = 16384 };
+
+extern const uint32_t _binary_codes_bin_start[RING];
+
+static state_t gyro;
+
+/* Ticks that pushing and solving took, and windows solved. */
+struct cost {
+    uint64_t pushing, solving;
+    uint32_t windows;
+};
+
+static struct cost run(uint32_t at, uint32_t to)
+{
+    struct cost cost = {0, 0, 0};
+    antinode_estimate_t estimate;
+    while (at < to) {
+        const uint32_t from = at % RING;
+        uint32_t count = to - at < HALF_BUFFER ? to - at : HALF_BUFFER;
+        uint32_t begin;
+        if (count > RING - from)
+            count = RING - from;
+        begin = now();
+        CALL(push_block_packed)(&gyro, _binary_codes_bin_start + from, count);
+        cost.pushing += (begin - now()) & 0xffffffu;
+        begin = now();
+        while (CALL(solve)(&gyro, &estimate) == ANTINODE_ESTIMATE)
+            cost.windows++;
+        cost.solving += (begin - now()) & 0xffffffu;
+        at += count;
+    }
+    return cost;
+}
+
+int main(void)
+{
+    static const uint32_t watches[] = {0, 1, 1}, periods[] = {10, 10, 50};
+    struct cost cost[3];
+    uint32_t tenths[2], thousands[2];
+    int i;
+
+    SYSTICK[1] = 0xffffffu;
+    SYSTICK[2] = 0;
+    SYSTICK[0] = 5; /* on, at the core's clock */
+    for (i = 0; i < 3; i++) {
+        antinode_settings_t settings = antinode_settings_default(100e3);
+        settings.watch = watches[i];
+        settings.periods = periods[i];
+        if (CALL(init)(&gyro, &settings) != ANTINODE_OK)
+            return 1;
+        run(0, FIRST);
+        cost[i] = run(FIRST, FIRST + PAIRS);
+        if (cost[i].windows == 0)
+            return 1;
+    }
+    for (i = 0; i < 2; i++) {
+        tenths[i] = (uint32_t)(cost[i].pushing * 10000 / 168 / PAIRS);
+        thousands[i] = (uint32_t)(cost[i + 1].solving * 10 / 168 / cost[i + 1].windows);
+    }
+    printf("%s %lu.%lu %lu.%lu %lu.%lu %lu.%lu\n", NAME, (unsigned long)tenths[0] / 10, (unsigned long)tenths[0] % 10,
+           (unsigned long)tenths[1] / 10, (unsigned long)tenths[1] % 10, (unsigned long)thousands[0] / 10, (unsigned long)thousands[0] % 10,
+           (unsigned long)thousands[1] / 10, (unsigned long)thousands[1] % 10);
+    return 0;
+}

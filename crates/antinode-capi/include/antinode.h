@@ -66,7 +66,7 @@
 // Samples at the converter's rail, or the third harmonic that a limiter leaves: amplitudes are wrong.
 #define ANTINODE_FLAG_CLIPPED 1u
 
-// No significant wave: nothing in the estimate is meant.
+// No significant wave: nothing in the estimate is meant; an amplitude may be 0, all else NaN or infinite.
 #define ANTINODE_FLAG_LOST 2u
 
 // The phase does not continue that of the last window without a misfit: samples are missing between or within them.

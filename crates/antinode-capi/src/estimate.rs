@@ -6,7 +6,7 @@ use antinode::Flags;
 
 /// Samples at the converter's rail, or the third harmonic that a limiter leaves: amplitudes are wrong.
 pub const ANTINODE_FLAG_CLIPPED: u32 = 0x001_u32;
-/// No significant wave: nothing in the estimate is meant.
+/// No significant wave: nothing in the estimate is meant; an amplitude may be 0, all else NaN or infinite.
 pub const ANTINODE_FLAG_LOST: u32 = 0x002_u32;
 /// The phase does not continue that of the last window without a misfit: samples are missing between or within them.
 pub const ANTINODE_FLAG_PHASE_JUMP: u32 = 0x004_u32;

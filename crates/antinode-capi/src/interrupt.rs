@@ -30,13 +30,14 @@ impl<S: Slow> Interrupt<S> {
     /// `place` is writable and nobody else's.
     #[inline(never)]
     pub(crate) unsafe fn write(place: *mut Self, settings: Settings) -> Result<(), Status> {
-        // Here, for speed rather than for size: otherwise the stack would hold it four times.
-        let front = Front::new(settings)?;
+        // What is all zeros is cleared where it stands: the stack never holds it.
         // SAFETY: the caller's contract.
-        unsafe {
-            (&raw mut (*place).front).write(front);
+        let interrupt = unsafe {
+            (&raw mut (*place).front).write(Front::UNSET);
             (&raw mut (*place).search).write(0);
-        }
+            &mut *place
+        };
+        interrupt.front.configure(settings)?;
         Ok(())
     }
 

@@ -133,12 +133,13 @@ impl Thread {
     #[inline(never)]
     pub(crate) unsafe fn write(place: *mut Self, settings: Settings) -> Result<(), Status> {
         // As the interrupt's front.
-        let tracker = Tracker::new(settings)?;
         // SAFETY: the caller's contract.
-        unsafe {
-            (&raw mut (*place).tracker).write(tracker);
+        let thread = unsafe {
+            (&raw mut (*place).tracker).write(Tracker::UNSET);
             (&raw mut (*place).settings).write(settings);
-        }
+            &mut *place
+        };
+        thread.tracker.configure(settings)?;
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! Samples become blocks, from cold: the period is searched, then blocks are gathered. This is what runs in an interrupt.
 
-use crate::block::{Block, Demodulator, Layout};
+use crate::block::{Block, Demodulator};
 use crate::period::DifferenceDetector;
 #[cfg(feature = "mean-return")]
 use crate::period::MeanReturnDetector;
@@ -16,9 +16,11 @@ enum Detector<S: Sample> {
 }
 
 impl<S: Sample> Detector<S> {
+    const NEW: Self = Self::Difference(DifferenceDetector::NEW);
+
     fn new(detection: Detection) -> Self {
         match detection {
-            Detection::Difference => Self::Difference(DifferenceDetector::new()),
+            Detection::Difference => Self::NEW,
             #[cfg(feature = "mean-return")]
             Detection::MeanReturn => Self::MeanReturn(MeanReturnDetector::new()),
         }
@@ -45,6 +47,8 @@ impl<S: Sample> Detector<S> {
 /// What a front does with its pairs.
 #[derive(Debug, Clone, Copy)]
 enum Stage {
+    /// It has no settings yet.
+    Unset,
     Searching,
     /// From this period the next pair begins the first block: to begin it at once would make the longest call longer.
     Found(f32),
@@ -68,20 +72,26 @@ pub struct Front<S: Sample, const N: usize> {
 }
 
 impl<S: Sample, const N: usize> Front<S, N> {
+    /// A front without settings: it counts its pairs, and finds nothing until [`configure`](Self::configure) gives it some.
+    ///
+    /// It is all zeros: as a static it takes no flash and is nowhere on the stack, as what [`new`](Self::new) gives is.
+    pub const UNSET: Self = Self {
+        settings: Settings::UNSET,
+        detector: Detector::NEW,
+        demodulator: Demodulator::UNSET,
+        stage: Stage::Unset,
+        index: 0,
+    };
+
     /// A front that searches for a period, with the settings that its [`Tracker`](crate::Tracker) has.
     ///
     /// # Errors
     ///
     /// Those of [`Settings::check`], but for the periods that a ring holds: that is the tracker's.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        settings.check(usize::from(u16::MAX))?;
-        Ok(Self {
-            settings,
-            detector: Detector::new(settings.detection),
-            demodulator: Demodulator::new(Layout::NONE, 0, settings.watch),
-            stage: Stage::Searching,
-            index: 0,
-        })
+        let mut front = Self::UNSET;
+        front.configure(settings)?;
+        Ok(front)
     }
 
     /// Searches anew with other settings, in place: a new front in this one's place would take its size in stack. The count of
@@ -112,8 +122,10 @@ impl<S: Sample, const N: usize> Front<S, N> {
 
     /// Drops the period and searches anew.
     pub fn search(&mut self) {
-        self.detector.restart();
-        self.stage = Stage::Searching;
+        if !matches!(self.stage, Stage::Unset) {
+            self.detector.restart();
+            self.stage = Stage::Searching;
+        }
     }
 
     /// True while a period is searched.
@@ -134,7 +146,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
         self.index += count;
         match self.stage {
             Stage::Searching => self.search(),
-            Stage::Found(_) => {}
+            Stage::Unset | Stage::Found(_) => {}
             Stage::Gathering => self.demodulator.restart(self.index),
         }
     }
@@ -189,7 +201,8 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Takes pairs until a period is found; gives how many.
     #[inline(never)]
     fn search_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> usize {
-        for (taken, &pair) in (1..).zip(pairs) {
+        let searched = if self.is_searching() { pairs } else { &[] };
+        for (taken, &pair) in (1..).zip(searched) {
             if let Some(period) = self.detector.push(pair) {
                 self.index += taken as u64;
                 // The ring of blocks is made for blocks of a period.

@@ -141,6 +141,24 @@ pub(crate) const MOST_BLOCKS: u16 = 11;
 const NEAR: f32 = 0.05;
 
 impl Settings {
+    /// Those of what has none yet: zeros.
+    pub(crate) const UNSET: Self = Self {
+        sample_rate: 0.0,
+        periods: 0,
+        hop: None,
+        start_angle: 0.0,
+        rails: None,
+        resolution: None,
+        detection: Detection::Difference,
+        watch: false,
+        hum: false,
+        calibration: Calibration {
+            gain_ratio: 0.0,
+            skew: 0.0,
+            pick_off_angle: 0.0,
+        },
+    };
+
     /// Windows of 10 periods that follow each other, ideal pick-offs, no known rails, everything watched.
     pub const fn new(sample_rate: f64) -> Self {
         Self {

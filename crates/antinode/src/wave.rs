@@ -193,6 +193,11 @@ pub(crate) struct Angle {
 }
 
 impl Angle {
+    pub(crate) const ZERO: Self = Self {
+        quarters: 0,
+        rest: 0.0,
+    };
+
     #[inline]
     pub(crate) fn new(radians: f32) -> Self {
         let quarters = nearest(radians * FRAC_2_PI);

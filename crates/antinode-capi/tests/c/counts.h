@@ -1,4 +1,4 @@
-/* What the counts on a Cortex-M4 share: the arithmetic they are built for, and ticks. */
+/* What the counts share: the arithmetic they are built for, ticks, and a gauge of the stack. */
 #ifndef COUNTS_H
 #define COUNTS_H
 
@@ -20,5 +20,28 @@ typedef antinode_fixed_t state_t;
 
 #define SYSTICK ((volatile uint32_t *)0xE000E010u)
 static uint32_t now(void) { return SYSTICK[2]; }
+
+/* Words below the stack pointer that are painted, more than any call takes. */
+enum { PAINTED = 2560 };
+static const uint32_t PAINT = 0x5afe5afeu;
+
+/* Paints what lies below the stack pointer, and gives where that begins. */
+static inline __attribute__((always_inline)) volatile uint32_t *paint_stack(void)
+{
+    volatile uint32_t *top, *word;
+    __asm volatile("mov %0, sp" : "=r"(top));
+    for (word = top - PAINTED; word < top; word++)
+        *word = PAINT;
+    return top;
+}
+
+/* Bytes below `top` that are no longer as they were painted. */
+static inline __attribute__((always_inline)) uint32_t stack_taken(volatile uint32_t *top)
+{
+    volatile uint32_t *word;
+    for (word = top - PAINTED; word < top && *word == PAINT; word++)
+        ;
+    return (uint32_t)(top - word) * 4;
+}
 
 #endif

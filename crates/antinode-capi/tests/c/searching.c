@@ -5,7 +5,7 @@
  */
 #include "counts.h"
 
-enum { RING = 1406, HALF_BUFFER = 128, PAIRS = 16384, FROM_COLD = 100, PAINTED = 1024 };
+enum { RING = 1406, HALF_BUFFER = 128, PAIRS = 16384, FROM_COLD = 100 };
 enum form { PACKED, INTERLEAVED, SEPARATE, SINGLE };
 
 extern const uint32_t _binary_codes_bin_start[RING];
@@ -27,16 +27,13 @@ static void fpu(int on)
 /* Pushes, and sees how much of the painted stack is no longer as it was. */
 static __attribute__((noinline)) void push(enum form form, uint32_t count)
 {
-    const uint32_t paint = 0x5afe5afeu;
-    volatile uint32_t *bottom, *top;
-    uint32_t begin, i;
+    volatile uint32_t *top;
+    uint32_t begin, taken, i;
 
     if (CALL(health)(&gyro, &health) == ANTINODE_OK && sizeof(sample_t) == 2)
         fpu(health.searching || is_told);
     is_told = 0;
-    __asm volatile("mov %0, sp" : "=r"(top));
-    for (bottom = top - PAINTED; bottom < top; bottom++)
-        *bottom = paint;
+    top = paint_stack();
     begin = now();
     if (form == PACKED)
         CALL(push_block_packed)(&gyro, words, count);
@@ -50,10 +47,9 @@ static __attribute__((noinline)) void push(enum form form, uint32_t count)
     ticks += (begin - now()) & 0xffffffu;
     pairs += count;
     fpu(1);
-    for (bottom = top - PAINTED; bottom < top && *bottom == paint; bottom++)
-        ;
-    if ((uint32_t)(top - bottom) * 4 > most_stack)
-        most_stack = (uint32_t)(top - bottom) * 4;
+    taken = stack_taken(top);
+    if (taken > most_stack)
+        most_stack = taken;
 }
 
 static void take(const uint32_t *from, uint32_t count)

@@ -27,7 +27,7 @@ impl Layout {
     /// That of a demodulator which has not begun.
     pub(crate) const NONE: Self = Self {
         step: PhaseStep(0),
-        length: 1,
+        length: 0,
         scale: 0,
     };
 

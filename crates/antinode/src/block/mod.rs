@@ -12,7 +12,7 @@ pub use layout::Layout;
 pub use runs::Runs;
 pub use sums::{ChannelSums, ChannelWatch};
 
-use crate::sample::{Sample, SamplePair};
+use crate::sample::{Sample, SamplePair, Zero};
 
 /// One sample pair in f32: pick-offs S_C and S_D, sampled together, in input units.
 pub type Pair = [f32; 2];
@@ -57,33 +57,37 @@ struct Summing<S: Sample, const N: usize> {
 }
 
 impl<S: Sample, const N: usize> Demodulator<S, N> {
-    /// A demodulator whose first block starts at sample pair `start` of the stream, and which watches the samples or does not.
-    ///
-    /// A length beyond 1…`N` is brought into it; the scale is that of `S`.
-    pub fn new(layout: Layout, start: u64, watch: bool) -> Self {
-        const {
-            assert!(
-                N.is_multiple_of(2),
-                "N, the most sample pairs of a block, must be even"
-            )
-        };
-        let mut demodulator = Self {
+    /// A demodulator that has not begun, of zeros.
+    pub(crate) const UNSET: Self = {
+        assert!(
+            N.is_multiple_of(2),
+            "N, the most sample pairs of a block, must be even"
+        );
+        Self {
             held: 0,
             room: 0,
-            holding: [[S::default(); 2]; HELD],
+            holding: [[S::ZERO; 2]; HELD],
             summing: Summing {
                 count: 0,
                 known: 0,
                 block: Block {
                     start: 0,
-                    layout,
-                    sums: [ChannelSums::empty(); 2],
-                    watch: watch.then_some([ChannelWatch::empty(); 2]),
+                    layout: Layout::NONE,
+                    sums: [ChannelSums::EMPTY; 2],
+                    watch: None,
                 },
-                table: [S::Weight::default(); N],
-                third: [S::Third::default(); N],
+                table: [S::Weight::ZERO; N],
+                third: [S::Third::ZERO; N],
             },
-        };
+        }
+    };
+
+    /// A demodulator whose first block starts at sample pair `start` of the stream, and which watches the samples or does not.
+    ///
+    /// A length beyond 1…`N` is brought into it; the scale is that of `S`.
+    pub fn new(layout: Layout, start: u64, watch: bool) -> Self {
+        let mut demodulator = Self::UNSET;
+        demodulator.set_watch(watch);
         demodulator.begin(layout, start);
         demodulator
     }

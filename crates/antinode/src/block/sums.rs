@@ -1,6 +1,6 @@
 //! What a block keeps of its samples.
 
-use crate::sample::Sample;
+use crate::sample::{Sample, Zero};
 
 /// The running sums of one pick-off over one block: formula (24), in input units times the layout's scale.
 ///
@@ -19,12 +19,15 @@ pub struct ChannelSums<S: Sample> {
 
 impl<S: Sample> ChannelSums<S> {
     /// The sums of no samples.
-    pub fn empty() -> Self {
-        Self {
-            cosine: S::Sum::default(),
-            sine: S::Sum::default(),
-            sum: S::Sum::default(),
-        }
+    pub(crate) const EMPTY: Self = Self {
+        cosine: S::Sum::ZERO,
+        sine: S::Sum::ZERO,
+        sum: S::Sum::ZERO,
+    };
+
+    /// The sums of no samples.
+    pub const fn empty() -> Self {
+        Self::EMPTY
     }
 }
 

@@ -1,7 +1,7 @@
 //! A frame of the search that may hold a wave, tried a few samples at a time: no single call pays for all of it.
 
 use super::confirm::{Fitted, Rests, Trial};
-use super::octave::{FRAME, Frame, Two};
+use super::octave::{FRAME, Frame};
 use crate::sample::Sample;
 
 /// Samples tried in one call, an even number.
@@ -30,16 +30,14 @@ pub(super) enum Verdict {
 
 impl<S: Sample> Attempt<S> {
     /// An attempt at nothing.
-    pub(super) fn new() -> Self {
-        Self {
-            frame: [Two::<S>::default(); FRAME / 2],
-            length: 0,
-            period: 4.0,
-            seen: 0,
-            trial: Trial::NONE,
-            doubt: None,
-        }
-    }
+    pub(super) const NONE: Self = Self {
+        frame: [[[S::ZERO; 2]; 2]; FRAME / 2],
+        length: 0,
+        period: 0.0,
+        seen: 0,
+        trial: Trial::NONE,
+        doubt: None,
+    };
 
     /// Begins an attempt at a wave of `period` samples in the first `length` of `frame`, an even number. Nothing is tried yet: to
     /// find the frame took long enough.
@@ -105,7 +103,7 @@ impl<S: Sample> Attempt<S> {
     fn judge(&mut self) -> Verdict {
         match self.trial.fitted() {
             None => Verdict::Refused,
-            Some(fitted) if fitted.is_doubtful => {
+            Some(fitted) if fitted.doubt > 0.0 => {
                 self.seen = 0;
                 let rests = self.trial.again();
                 self.doubt = Some((fitted, rests));

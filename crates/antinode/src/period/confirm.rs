@@ -121,8 +121,9 @@ pub(crate) struct Fitted {
     pub period: f32,
     /// Variance of the samples, both pick-offs together.
     pub power: f32,
-    /// True when what the wave leaves must still be shown to be noise, not a second tone.
-    pub is_doubtful: bool,
+    /// What the wave leaves, as a share of the power, beyond what may be left without doubt: above 0 it must still be shown to be noise,
+    /// not a second tone.
+    pub doubt: f32,
     parameters: [[f32; 5]; 2],
 }
 
@@ -240,7 +241,7 @@ impl Trial {
         Some(Fitted {
             period,
             power: power / n,
-            is_doubtful: rest > tone,
+            doubt: rest - tone,
             parameters,
         })
     }

@@ -60,18 +60,21 @@ pub struct DifferenceDetector<S: Sample> {
 }
 
 impl<S: Sample> DifferenceDetector<S> {
+    /// A detector at rest, of zeros.
+    pub const NEW: Self = Self {
+        octaves: [Octave::EMPTY; OCTAVES],
+        waiting: 0,
+        candidate: Candidate {
+            is_open: false,
+            attempt: Attempt::NONE,
+            halvings: 0,
+            lost: 0.0,
+        },
+    };
+
     /// A detector at rest.
-    pub fn new() -> Self {
-        Self {
-            octaves: [Octave::new(); OCTAVES],
-            waiting: 0,
-            candidate: Candidate {
-                is_open: false,
-                attempt: Attempt::new(),
-                halvings: 0,
-                lost: 0.0,
-            },
-        }
+    pub const fn new() -> Self {
+        Self::NEW
     }
 
     /// Forgets all samples.

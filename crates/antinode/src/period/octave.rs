@@ -3,7 +3,7 @@
 use num_complex::Complex32;
 
 use crate::phase::{Phase, argument};
-use crate::sample::Sample;
+use crate::sample::{Sample, Zero};
 
 /// Lags of an octave.
 pub(crate) const LAGS: usize = 10;
@@ -38,14 +38,12 @@ pub(super) struct Octave<S: Sample> {
 
 impl<S: Sample> Octave<S> {
     /// An octave of no samples.
-    pub(super) fn new() -> Self {
-        Self {
-            frame: [Two::<S>::default(); FRAME / 2],
-            count: 0,
-            differences: Lags::<S>::default(),
-            last: 0.0,
-        }
-    }
+    pub(super) const EMPTY: Self = Self {
+        frame: [[[S::ZERO; 2]; 2]; FRAME / 2],
+        count: 0,
+        differences: [S::Square::ZERO; LAGS],
+        last: 0.0,
+    };
 
     /// Forgets all samples.
     pub(super) fn restart(&mut self) {

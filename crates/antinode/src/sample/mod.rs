@@ -4,11 +4,13 @@ mod codes;
 mod codes16;
 mod codes32;
 mod float;
+mod zero;
 
 use core::fmt::Debug;
 
 use crate::block::{ChannelSums, ChannelWatch};
 use crate::period::Lags;
+pub use zero::Zero;
 
 mod sealed {
     pub trait Sealed {
@@ -73,20 +75,22 @@ pub enum Form {
 ///
 /// With integers the input unit is the code. All three reach the same accuracy: the reference's own rounding is part of the
 /// window's equations. Integers need no floating point at sample rate.
-pub trait Sample: Copy + Debug + Default + PartialEq + Send + sealed::Sealed + 'static {
+pub trait Sample:
+    Copy + Debug + Default + PartialEq + Send + Zero + sealed::Sealed + 'static
+{
     /// A running sum of weighted samples.
-    type Sum: Copy + Debug + PartialEq + Default + Send;
+    type Sum: Copy + Debug + PartialEq + Default + Send + Zero;
     /// The reference at one sample of a block: cosine and sine.
     #[doc(hidden)]
-    type Weight: Copy + Debug + Default + Send;
+    type Weight: Copy + Debug + Send + Zero;
     /// The reference's third harmonic at one sample of a block, where it is not made of the reference itself.
     #[doc(hidden)]
-    type Third: Copy + Debug + Default + Send;
+    type Third: Copy + Debug + Send + Zero;
     /// What is kept of runs of equal samples.
     type Runs: Copy + Debug + PartialEq + Default + Send;
     /// A running sum of squared differences.
     #[doc(hidden)]
-    type Square: Copy + Debug + Default + Send;
+    type Square: Copy + Debug + Default + Send + Zero;
     /// A pair less its offsets, as the sums of products take it.
     #[doc(hidden)]
     type Centred: Copy + Debug + Default + Send;

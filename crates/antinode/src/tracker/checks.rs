@@ -34,6 +34,13 @@ pub(crate) struct Noise {
 }
 
 impl Noise {
+    /// None known.
+    pub(crate) const NONE: Self = Self {
+        variance: 0.0,
+        wide: 0.0,
+        freedom: 0.0,
+        refused: 0,
+    };
     /// Windows that raise their residual together are a new level of noise, if the third harmonic's neighbourhood agrees.
     const NEW_LEVEL: u8 = 3;
     /// Degrees of freedom remembered, in windows.

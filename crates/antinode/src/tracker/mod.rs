@@ -61,35 +61,42 @@ pub struct Tracker<const BLOCKS: usize> {
 }
 
 impl<const BLOCKS: usize> Tracker<BLOCKS> {
+    /// A tracker without settings: nothing may be pushed before [`configure`](Self::configure) has given it some; an estimate would mean
+    /// nothing.
+    ///
+    /// It is all zeros: as a static it takes no flash and is nowhere on the stack, as what [`new`](Self::new) gives is.
+    pub const UNSET: Self = {
+        assert!(
+            BLOCKS >= MOST_BLOCKS as usize && BLOCKS <= u16::MAX as usize,
+            "BLOCKS, the length of the ring, must be 11 to 65 535"
+        );
+        Self {
+            settings: Settings::UNSET,
+            units: Units::NONE,
+            gathered: Gathered::new(),
+            end: 0,
+            model: None,
+            count: 0,
+            noise: Noise::NONE,
+            trend: Trend::new(),
+            before: None,
+            angle: Angle::ZERO,
+            lost: false,
+            ever: false,
+            failures: Failures::NONE,
+            broken: false,
+        }
+    };
+
     /// A tracker that waits for its first block, with the settings that its [`Front`](crate::Front) has.
     ///
     /// # Errors
     ///
     /// Those of [`Settings::check`].
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        const {
-            assert!(
-                BLOCKS >= MOST_BLOCKS as usize && BLOCKS <= u16::MAX as usize,
-                "BLOCKS, the length of the ring, must be 11 to 65 535"
-            );
-        }
-        settings.check(BLOCKS)?;
-        Ok(Self {
-            settings,
-            units: Units::NONE,
-            gathered: Gathered::new(),
-            end: 0,
-            model: None,
-            count: 0,
-            noise: Noise::default(),
-            trend: Trend::new(),
-            before: None,
-            angle: Angle::new(settings.start_angle),
-            lost: false,
-            ever: false,
-            failures: Failures::NONE,
-            broken: false,
-        })
+        let mut tracker = Self::UNSET;
+        tracker.configure(settings)?;
+        Ok(tracker)
     }
 
     /// Waits for its first block anew with other settings, in place: a new tracker in this one's place would take its size in stack.

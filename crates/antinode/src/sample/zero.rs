@@ -1,0 +1,20 @@
+//! Zero as a constant: a static of zeros takes neither flash nor stack.
+
+/// Numbers of samples and sums that are nothing.
+#[doc(hidden)]
+pub trait Zero: Copy {
+    /// Nothing.
+    const ZERO: Self;
+}
+
+macro_rules! zero {
+    ($($number:ty: $zero:expr),*) => {
+        $(
+            impl Zero for $number {
+                const ZERO: Self = $zero;
+            }
+        )*
+    };
+}
+
+zero!(i16: 0, i32: 0, i64: 0, u32: 0, u64: 0, f32: 0.0, (): (), [f32; 2]: [0.0; 2], [i16; 2]: [0; 2]);

@@ -3,7 +3,7 @@
 use core::mem::MaybeUninit;
 
 use antinode::block::ChannelWatch;
-use antinode::{Block, Front, Sample, SamplePair, Settings, SettingsError};
+use antinode::{Block, Front, Sample, SamplePair, Settings};
 use antinode_telemetry::Cause;
 use heapless::spsc::{Consumer, Producer};
 
@@ -145,30 +145,26 @@ impl<S: Sample> Outlet<'_, S> {
 
 /// Gathers blocks at sample rate. It never waits.
 pub struct Gatherer<'q, S: Sample> {
-    front: Front<S, LONGEST_PERIOD>,
+    front: &'q mut Front<S, LONGEST_PERIOD>,
     methods: Gathering<S>,
     requests: Consumer<'q, Request, REQUESTS>,
     outlet: Outlet<'q, S>,
 }
 
 impl<'q, S: Sample> Gatherer<'q, S> {
-    /// Makes in `place` a gatherer that searches for a period.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Settings::check`].
+    /// Makes in `place` a gatherer of a front that has its settings.
     // Not inlined, nor is the instrument's: the stack holds one part at a time.
     #[cold]
     #[inline(never)]
     pub fn make(
         place: &'q mut MaybeUninit<Self>,
-        settings: Settings,
+        front: &'q mut Front<S, LONGEST_PERIOD>,
         items: Producer<'q, Item<S>, QUEUE>,
         requests: Consumer<'q, Request, REQUESTS>,
         counts: &'q Counts,
-    ) -> Result<&'q mut Self, SettingsError> {
-        Ok(place.write(Self {
-            front: Front::new(settings)?,
+    ) -> &'q mut Self {
+        place.write(Self {
+            front,
             methods: Gathering::new(),
             requests,
             outlet: Outlet {
@@ -178,7 +174,7 @@ impl<'q, S: Sample> Gatherer<'q, S> {
                 answer: None,
                 saturated: false,
             },
-        }))
+        })
     }
 
     /// Serves the source's interrupt: obeys requests, then takes what the source has.

@@ -4,7 +4,7 @@ mod commands;
 
 use core::mem::MaybeUninit;
 
-use antinode::{Estimate, Sample, SettingsError, Tracker};
+use antinode::{Estimate, Sample, Tracker};
 use antinode_telemetry::{Cause, Configuration, Counters, Hello, Methods, Report, State};
 use heapless::spsc::{Consumer, Producer};
 
@@ -34,7 +34,7 @@ pub enum Event {
 
 /// Solves, tracks and reports.
 pub struct Instrument<'q, S: Sample> {
-    tracker: Tracker<RING>,
+    tracker: &'q mut Tracker<RING>,
     items: Consumer<'q, Item<S>, QUEUE>,
     requests: Producer<'q, Request, REQUESTS>,
     counts: &'q Counts,
@@ -59,24 +59,21 @@ pub struct Instrument<'q, S: Sample> {
 }
 
 impl<'q, S: Sample> Instrument<'q, S> {
-    /// Makes in `place` an instrument that has seen nothing; it says hello, and why it has started.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`antinode::Settings::check`] for [`RING`].
+    /// Makes in `place` an instrument that has seen nothing, of a tracker that has the configuration's settings; it says hello, and why it
+    /// has started.
     #[cold]
     #[inline(never)]
     pub fn make(
         place: &'q mut MaybeUninit<Self>,
-        configuration: Configuration,
+        (tracker, configuration): (&'q mut Tracker<RING>, Configuration),
         items: Consumer<'q, Item<S>, QUEUE>,
         requests: Producer<'q, Request, REQUESTS>,
         counts: &'q Counts,
         link: Link<'q>,
         cause: Cause,
-    ) -> Result<&'q mut Self, SettingsError> {
+    ) -> &'q mut Self {
         let instrument = place.write(Self {
-            tracker: Tracker::new(configuration.settings)?,
+            tracker,
             items,
             requests,
             counts,
@@ -97,7 +94,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
         });
         instrument.hello();
         instrument.link.send(&Report::State(State::Started(cause)));
-        Ok(instrument)
+        instrument
     }
 
     /// One round of the main loop at `now`, ms since the start: everything that waits is worked off, but not what comes meanwhile.

@@ -5,7 +5,7 @@
 use core::hint::black_box;
 use core::mem::MaybeUninit;
 
-use antinode::Packed;
+use antinode::{Front, Packed};
 use antinode_telemetry::{Cause, Configuration, FrontEnd};
 use heapless::spsc::Queue;
 use stm32f4xx_hal::pac::Peripherals;
@@ -107,11 +107,12 @@ pub fn interrupt_alone(name: &'static str) -> ! {
     let (sender, mut blocks) = items.split();
     let (_, asked) = requests.split();
     let settings = configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS).settings;
-    let mut place = MaybeUninit::<Gatherer<Arithmetic>>::uninit();
-    let state = size_of_val(&place);
-    let Ok(gatherer) = Gatherer::make(&mut place, settings, sender, asked, &counts) else {
+    let (mut front, mut place) = (Front::UNSET, MaybeUninit::<Gatherer<Arithmetic>>::uninit());
+    let state = size_of_val(&front) + size_of_val(&place);
+    if front.configure(settings).is_err() {
         leave()
-    };
+    }
+    let gatherer = Gatherer::make(&mut place, &mut front, sender, asked, &counts);
     measure(name, state, || {
         interrupt(gatherer, &mut source);
         while blocks.dequeue().is_some() {}

@@ -2,7 +2,7 @@
 
 use core::mem::MaybeUninit;
 
-use antinode::{Sample, SettingsError};
+use antinode::{Front, Sample, SettingsError, Tracker};
 use antinode_telemetry::{Cause, Configuration};
 use heapless::spsc::Queue;
 
@@ -11,7 +11,7 @@ use crate::gather::{Gatherer, Item, Request};
 use crate::inbox::Inbox;
 use crate::instrument::Instrument;
 use crate::link::{Link, Outbox, Outgoing};
-use crate::settings::{QUEUE, REQUESTS};
+use crate::settings::{LONGEST_PERIOD, QUEUE, REQUESTS, RING};
 
 /// The queues between the contexts; each image has one, in a static.
 pub struct Queues<S: Sample> {
@@ -25,6 +25,8 @@ pub struct Queues<S: Sample> {
 
 /// Where the large parts are made and stay; each image has one, in a static.
 pub struct Places<'q, S: Sample> {
+    front: Front<S, LONGEST_PERIOD>,
+    tracker: Tracker<RING>,
     gatherer: MaybeUninit<Gatherer<'q, S>>,
     instrument: MaybeUninit<Instrument<'q, S>>,
 }
@@ -33,6 +35,8 @@ impl<S: Sample> Places<'_, S> {
     /// Places for a pipeline that is still to come.
     pub const fn new() -> Self {
         Self {
+            front: Front::UNSET,
+            tracker: Tracker::UNSET,
             gatherer: MaybeUninit::uninit(),
             instrument: MaybeUninit::uninit(),
         }
@@ -87,10 +91,24 @@ impl<S: Sample> Queues<S> {
         let link = Link::new(&self.out, &self.sent, inbox);
         let counts = &self.counts;
         let settings = configuration.settings;
-        let gatherer = Gatherer::make(&mut places.gatherer, settings, items, asked, counts)?;
-        let place = &mut places.instrument;
-        let instrument =
-            Instrument::make(place, configuration, taken, requests, counts, link, cause)?;
+        let Places {
+            front,
+            tracker,
+            gatherer,
+            instrument,
+        } = places;
+        front.configure(settings)?;
+        tracker.configure(settings)?;
+        let gatherer = Gatherer::make(gatherer, front, items, asked, counts);
+        let instrument = Instrument::make(
+            instrument,
+            (tracker, configuration),
+            taken,
+            requests,
+            counts,
+            link,
+            cause,
+        );
         Ok(Parts {
             gatherer,
             instrument,

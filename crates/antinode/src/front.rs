@@ -16,11 +16,9 @@ enum Detector<S: Sample> {
 }
 
 impl<S: Sample> Detector<S> {
-    const NEW: Self = Self::Difference(DifferenceDetector::NEW);
-
     fn new(detection: Detection) -> Self {
         match detection {
-            Detection::Difference => Self::NEW,
+            Detection::Difference => Self::Difference(DifferenceDetector::new()),
             #[cfg(feature = "mean-return")]
             Detection::MeanReturn => Self::MeanReturn(MeanReturnDetector::new()),
         }
@@ -75,13 +73,18 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// A front without settings: it counts its pairs, and finds nothing until [`configure`](Self::configure) gives it some.
     ///
     /// It is all zeros: as a static it takes no flash and is nowhere on the stack, as what [`new`](Self::new) gives is.
-    pub const UNSET: Self = Self {
-        settings: Settings::UNSET,
-        detector: Detector::NEW,
-        demodulator: Demodulator::UNSET,
-        stage: Stage::Unset,
-        index: 0,
-    };
+    pub const UNSET: Self = Self::unset();
+
+    /// In code, where the constant would be copied from flash.
+    const fn unset() -> Self {
+        Self {
+            settings: Settings::UNSET,
+            detector: Detector::Difference(DifferenceDetector::new()),
+            demodulator: Demodulator::unset(),
+            stage: Stage::Unset,
+            index: 0,
+        }
+    }
 
     /// A front that searches for a period, with the settings that its [`Tracker`](crate::Tracker) has.
     ///
@@ -89,7 +92,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     ///
     /// Those of [`Settings::check`], but for the periods that a ring holds: that is the tracker's.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        let mut front = Self::UNSET;
+        let mut front = Self::unset();
         front.configure(settings)?;
         Ok(front)
     }

@@ -58,11 +58,13 @@ struct Summing<S: Sample, const N: usize> {
 
 impl<S: Sample, const N: usize> Demodulator<S, N> {
     /// A demodulator that has not begun, of zeros.
-    pub(crate) const UNSET: Self = {
-        assert!(
-            N.is_multiple_of(2),
-            "N, the most sample pairs of a block, must be even"
-        );
+    pub(crate) const fn unset() -> Self {
+        const {
+            assert!(
+                N.is_multiple_of(2),
+                "N, the most sample pairs of a block, must be even"
+            );
+        }
         Self {
             held: 0,
             room: 0,
@@ -80,13 +82,13 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
                 third: [S::Third::ZERO; N],
             },
         }
-    };
+    }
 
     /// A demodulator whose first block starts at sample pair `start` of the stream, and which watches the samples or does not.
     ///
     /// A length beyond 1…`N` is brought into it; the scale is that of `S`.
     pub fn new(layout: Layout, start: u64, watch: bool) -> Self {
-        let mut demodulator = Self::UNSET;
+        let mut demodulator = Self::unset();
         demodulator.set_watch(watch);
         demodulator.begin(layout, start);
         demodulator

@@ -30,14 +30,16 @@ pub(super) enum Verdict {
 
 impl<S: Sample> Attempt<S> {
     /// An attempt at nothing.
-    pub(super) const NONE: Self = Self {
-        frame: [[[S::ZERO; 2]; 2]; FRAME / 2],
-        length: 0,
-        period: 0.0,
-        seen: 0,
-        trial: Trial::NONE,
-        doubt: None,
-    };
+    pub(super) const fn new() -> Self {
+        Self {
+            frame: [[[S::ZERO; 2]; 2]; FRAME / 2],
+            length: 0,
+            period: 0.0,
+            seen: 0,
+            trial: Trial::NONE,
+            doubt: None,
+        }
+    }
 
     /// Begins an attempt at a wave of `period` samples in the first `length` of `frame`, an even number. Nothing is tried yet: to
     /// find the frame took long enough.

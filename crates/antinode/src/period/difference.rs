@@ -21,17 +21,17 @@ const STRANGER: f32 = 0.4;
 #[derive(Debug, Clone)]
 struct Candidate<S: Sample> {
     is_open: bool,
-    attempt: Attempt<S>,
-    halvings: usize,
+    halvings: u8,
     /// Power that the octaves below lost.
     lost: f32,
+    attempt: Attempt<S>,
 }
 
 impl<S: Sample> Candidate<S> {
     /// The period in samples of the stream, where halving took little of the wave found: it takes all of a faster one that folds
     /// down to the same period or hides it.
     fn accept(&self, period: f32, power: f32) -> Option<f32> {
-        let scale = (1u32 << self.halvings.min(OCTAVES)) as f32;
+        let scale = (1u32 << self.halvings.min(OCTAVES as u8)) as f32;
         let found = period * scale;
         // cos ½t cos ¼t … is sin t over all halvings of t and the sine of what is left: a small angle.
         let turn = core::f32::consts::PI / period;
@@ -60,21 +60,18 @@ pub struct DifferenceDetector<S: Sample> {
 }
 
 impl<S: Sample> DifferenceDetector<S> {
-    /// A detector at rest, of zeros.
-    pub const NEW: Self = Self {
-        octaves: [Octave::EMPTY; OCTAVES],
-        waiting: 0,
-        candidate: Candidate {
-            is_open: false,
-            attempt: Attempt::NONE,
-            halvings: 0,
-            lost: 0.0,
-        },
-    };
-
-    /// A detector at rest.
+    /// A detector at rest, all zeros.
     pub const fn new() -> Self {
-        Self::NEW
+        Self {
+            octaves: [Octave::new(); OCTAVES],
+            waiting: 0,
+            candidate: Candidate {
+                is_open: false,
+                halvings: 0,
+                lost: 0.0,
+                attempt: Attempt::new(),
+            },
+        }
     }
 
     /// Forgets all samples.
@@ -158,7 +155,7 @@ impl<S: Sample> DifferenceDetector<S> {
             candidate
                 .attempt
                 .begin(&octave.frame, usize::from(octave.count), period);
-            candidate.halvings = halvings;
+            candidate.halvings = halvings as u8;
             candidate.lost = lost;
             candidate.is_open = true;
         }

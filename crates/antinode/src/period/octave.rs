@@ -38,12 +38,14 @@ pub(super) struct Octave<S: Sample> {
 
 impl<S: Sample> Octave<S> {
     /// An octave of no samples.
-    pub(super) const EMPTY: Self = Self {
-        frame: [[[S::ZERO; 2]; 2]; FRAME / 2],
-        count: 0,
-        differences: [S::Square::ZERO; LAGS],
-        last: 0.0,
-    };
+    pub(super) const fn new() -> Self {
+        Self {
+            frame: [[[S::ZERO; 2]; 2]; FRAME / 2],
+            count: 0,
+            differences: [S::Square::ZERO; LAGS],
+            last: 0.0,
+        }
+    }
 
     /// Forgets all samples.
     pub(super) fn restart(&mut self) {

@@ -65,11 +65,16 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// nothing.
     ///
     /// It is all zeros: as a static it takes no flash and is nowhere on the stack, as what [`new`](Self::new) gives is.
-    pub const UNSET: Self = {
-        assert!(
-            BLOCKS >= MOST_BLOCKS as usize && BLOCKS <= u16::MAX as usize,
-            "BLOCKS, the length of the ring, must be 11 to 65 535"
-        );
+    pub const UNSET: Self = Self::unset();
+
+    /// In code, where the constant would be copied from flash.
+    const fn unset() -> Self {
+        const {
+            assert!(
+                BLOCKS >= MOST_BLOCKS as usize && BLOCKS <= u16::MAX as usize,
+                "BLOCKS, the length of the ring, must be 11 to 65 535"
+            );
+        }
         Self {
             settings: Settings::UNSET,
             units: Units::NONE,
@@ -86,7 +91,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             failures: Failures::NONE,
             broken: false,
         }
-    };
+    }
 
     /// A tracker that waits for its first block, with the settings that its [`Front`](crate::Front) has.
     ///
@@ -94,7 +99,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     ///
     /// Those of [`Settings::check`].
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        let mut tracker = Self::UNSET;
+        let mut tracker = Self::unset();
         tracker.configure(settings)?;
         Ok(tracker)
     }

@@ -179,14 +179,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let settings = &self.settings;
         self.units = Units::at(settings.sample_rate);
         self.count = settings.blocks(layout).clamp(1, BLOCKS as u16);
-        self.model = Some(Model::new(
-            layout,
-            layout.step,
-            self.count,
-            settings.calibration,
-            self.units.sample_rate,
-            settings.hum,
-        ));
+        let rate = self.units.sample_rate;
+        self.model
+            .insert(Model::empty(layout, settings.calibration, rate))
+            .begin(layout.step, self.count, settings.hum);
         self.noise = Noise::default();
         self.trend.clear();
         self.before = None;

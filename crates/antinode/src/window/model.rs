@@ -39,6 +39,7 @@ pub(crate) struct Model {
 }
 
 impl Model {
+    #[cfg(test)]
     pub(crate) fn new(
         layout: Layout,
         carrier: PhaseStep,
@@ -47,18 +48,22 @@ impl Model {
         sample_rate: f32,
         hum: bool,
     ) -> Self {
-        let basis = Basis::new(layout);
-        // It costs a block of a period or more next to nothing, and a shorter one what it knows of the wave.
-        let is_long = f32::from(layout.length) > LEAST_PERIODS * carrier.period();
-        let shared = if hum && is_long { 0.0 } else { 1.0 };
-        let mut model = Self {
+        let mut model = Self::empty(layout, calibration, sample_rate);
+        model.begin(carrier, blocks, hum);
+        model
+    }
+
+    /// A model to be built in its place by [`Model::begin`]: a copy of it would take its size in stack.
+    #[inline(always)]
+    pub(crate) fn empty(layout: Layout, calibration: Calibration, sample_rate: f32) -> Self {
+        Self {
             layout,
-            blocks,
-            carrier,
+            blocks: 0,
+            carrier: layout.step,
             calibration,
             sample_rate,
-            basis,
-            shared,
+            basis: Basis::default(),
+            shared: 1.0,
             response: Response::default(),
             half: 0.0,
             per_half: 0.0,
@@ -67,9 +72,16 @@ impl Model {
             first: Complex32::ONE,
             correction: Correction::default(),
             covariance: Covariance::default(),
-        };
-        model.build();
-        model
+        }
+    }
+
+    /// Builds all of it.
+    pub(crate) fn begin(&mut self, carrier: PhaseStep, blocks: u16, hum: bool) {
+        self.basis = Basis::new(self.layout);
+        // It costs a block of a period or more next to nothing, and a shorter one what it knows of the wave.
+        let is_long = f32::from(self.layout.length) > LEAST_PERIODS * carrier.period();
+        self.shared = if hum && is_long { 0.0 } else { 1.0 };
+        self.retune(carrier, blocks);
     }
 
     /// Moves the carrier, or changes the number of blocks.
@@ -140,6 +152,12 @@ impl Model {
         let block = 2 * i64::from(self.layout.length);
         self.turn = Turn::by(self.carrier.after_half_samples(block));
         self.first = self.phase(0).unit();
+        self.covariance = self.covariance();
+    }
+
+    /// That of the parameters, from the design rows of all blocks.
+    #[inline(never)]
+    fn covariance(&self) -> Covariance {
         let [mut even, mut odd] = [Normal::ZERO; 2];
         for index in 0..self.blocks {
             for [even_row, odd_row] in &self.rows(self.time(index), self.phase(index).unit()) {
@@ -147,9 +165,9 @@ impl Model {
                 odd.add(odd_row);
             }
         }
-        self.covariance = Covariance {
+        Covariance {
             even: even.inverse(),
             odd: odd.inverse(),
-        };
+        }
     }
 }

@@ -307,9 +307,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let Some(model) = &mut self.model else {
             return;
         };
-        let rough = DETECTOR_UNCERTAINTY * model.layout.step.radians();
+        let rough = |model: &Model| DETECTOR_UNCERTAINTY * model.layout.step.radians();
         let (carrier, uncertainty) = match &self.before {
-            None => (model.layout.step, rough),
+            None => (model.layout.step, rough(model)),
             Some(before) => {
                 // A model that is near enough is kept: its matrix need not be built anew.
                 let drift = before.frequency_beyond(model.carrier);
@@ -326,7 +326,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         };
         let blocks = self.gathered.blocks();
         solve(model, blocks, carrier, uncertainty, fit);
-        if !fit.settled && uncertainty == 0.0 {
+        if !fit.settled && self.before.is_some() {
+            let rough = rough(model);
             solve(model, blocks, carrier, rough, fit);
         }
     }

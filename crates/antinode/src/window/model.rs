@@ -111,6 +111,18 @@ impl Model {
         0.5 * self.advance * self.twice_blocks(index) as f32
     }
 
+    /// Time and carrier in the middle of block `index`, exactly.
+    #[inline]
+    pub(super) fn carrier(&self, index: usize) -> (f32, Complex32) {
+        let index = index as u16;
+        let unit = if index == 0 {
+            self.first
+        } else {
+            self.phase(index).unit()
+        };
+        (self.time(index), unit)
+    }
+
     /// Phase of the carrier in the middle of block `index`, zero in the middle of the window.
     pub(super) fn phase(&self, index: u16) -> Phase {
         let half_samples = i64::from(self.twice_blocks(index)) * i64::from(self.layout.length);

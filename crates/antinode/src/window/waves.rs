@@ -49,6 +49,7 @@ impl Parameters {
     }
 
     /// Moves to where the gradients vanish, but for what is not linear.
+    #[inline]
     pub(super) fn step(&mut self, model: &Model, gradients: &[Gradient; 2]) -> Step {
         let by = Self::solving(model, gradients);
         // An offset that every block has to itself has no part in the residual.
@@ -108,6 +109,7 @@ impl Waves {
 
     /// Takes the changes apart into what is exponential and what is not: a change of half a wave, or of most of one that is no small
     /// part of both, is.
+    #[inline(never)]
     pub(super) fn take_course(&mut self) {
         let small = 0.01 * self.power();
         for w in 0..2 {

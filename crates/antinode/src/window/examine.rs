@@ -78,9 +78,7 @@ pub(super) fn examine(
             }
             rest(model, &prediction, channel, blocks, here, gradient);
         }
-        for here in &*here {
-            views.take(here);
-        }
+        views.take(here);
         if is_watched {
             thirds.add(model, waves, offsets, blocks, here);
         }
@@ -135,18 +133,22 @@ impl Views {
         }
     }
 
-    /// Takes what the next block leaves.
+    /// Takes what a run of blocks leaves.
     #[inline(never)]
-    fn take(&mut self, rest: &Here) {
-        self.residual += rest.power;
-        self.worst_block = greater(rest.power, self.worst_block);
-        self.time += rest.u;
-        // A step is known by what of it is neither constant nor slope. After n blocks of N it is n − n²/N that is not constant: the sum
-        // of their times, but for the sign.
-        let room = -self.time * (1.0 + self.time * self.per_spread);
-        if room > 0.2 && rest.run * self.room > self.run * room {
-            (self.run, self.room) = (rest.run, room);
+    fn take(&mut self, rests: &[Here]) {
+        let mut views = Self { ..*self };
+        for rest in rests {
+            views.residual += rest.power;
+            views.worst_block = greater(rest.power, views.worst_block);
+            views.time += rest.u;
+            // A step is known by what of it is neither constant nor slope. After n blocks of N it is n − n²/N that is not constant: the
+            // sum of their times, but for the sign.
+            let room = -views.time * (1.0 + views.time * views.per_spread);
+            if room > 0.2 && rest.run * views.room > views.run * room {
+                (views.run, views.room) = (rest.run, room);
+            }
         }
+        *self = views;
     }
 
     #[inline(never)]

@@ -16,6 +16,8 @@ use crate::phase::PhaseStep;
 
 /// Beyond this phase (rad) between a window's middle and its end the carrier is moved before the fit is believed.
 pub(crate) const CARRIER_REACH: f32 = 0.05;
+/// Beyond this phase the wave is nowhere near the carrier.
+const FARTHEST: f32 = 1.5;
 /// A fit that still moves by more than this share of the wave has found nothing.
 const NEAR: f32 = 0.01;
 /// Below this share of the wave the next step is rounding.
@@ -50,12 +52,22 @@ impl Fit {
 }
 
 impl Model {
-    /// Four standard deviations of the frequency, from the bound, rad a sample.
+    /// The carrier moved by `drift` rad a half window; none where that is too far.
     #[inline(never)]
-    fn uncertainty(&self, fit: &Fit) -> f32 {
+    fn moved(&self, drift: f32) -> Option<PhaseStep> {
+        (drift.abs() <= FARTHEST).then(|| self.carrier.shifted(drift * self.per_half))
+    }
+
+    /// How many blocks of `count` a carrier is good for that a fit of `span` of them found.
+    #[inline(never)]
+    fn next_span(&self, fit: &Fit, carrier: PhaseStep, span: u16, count: u16) -> u16 {
+        // Four standard deviations of the frequency, from the bound.
         let noise = fit.remains.variance();
         let variance = 2.0 * noise * self.covariance.even[1][1] / fit.waves.power();
-        4.0 * square_root(variance) * self.per_half
+        let uncertainty = 4.0 * square_root(variance) * self.per_half;
+        reach(self, count, carrier, uncertainty)
+            .max(span + 1)
+            .min(count)
     }
 
     /// Fits `blocks`, which are as many as the model was built for.
@@ -132,22 +144,19 @@ pub(crate) fn solve(
         if span == count && (drift.abs() <= CARRIER_REACH || moves >= 4) {
             return;
         }
-        if drift.abs() > 1.5 || !drift.is_finite() {
+        let Some(moved) = model.moved(drift) else {
             // The wave is nowhere near: the caller sees a fit that did not settle.
             model.retune(carrier, count);
             model.fit(blocks, fit);
             fit.settled = false;
             return;
-        }
-        carrier = carrier.shifted(drift * model.per_half);
+        };
+        carrier = moved;
         if span == count {
             moves += 1;
-            continue;
+        } else {
+            span = model.next_span(fit, carrier, span, count);
         }
-        let uncertainty = model.uncertainty(fit);
-        span = reach(model, count, carrier, uncertainty)
-            .max(span + 1)
-            .min(count);
     }
 }
 

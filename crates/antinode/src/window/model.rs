@@ -85,6 +85,7 @@ impl Model {
     }
 
     /// Moves the carrier, or changes the number of blocks.
+    #[inline]
     pub(crate) fn retune(&mut self, carrier: PhaseStep, blocks: u16) {
         if carrier != self.carrier || blocks != self.blocks {
             (self.carrier, self.blocks) = (carrier, blocks);
@@ -153,6 +154,7 @@ impl Model {
         ]
     }
 
+    #[inline(never)]
     fn build(&mut self) {
         self.half = 0.5 * f32::from(self.blocks) * f32::from(self.layout.length);
         self.per_half = 1.0 / self.half;

@@ -117,16 +117,17 @@ impl<'a> Course<'a> {
             unit *= turn;
             running = [turns[0].apply(running[0]), turns[1].apply(running[1])];
         }
-        if waves.rest != [Complex32::ZERO; 2] {
-            bend(here, waves.rest);
-        }
+        bend(here, waves);
     }
 }
 
 /// Adds to each wave what of its change is not exponential.
-#[cold]
 #[inline(never)]
-fn bend(here: &mut [Here], rest: [Complex32; 2]) {
+fn bend(here: &mut [Here], waves: &Waves) {
+    let rest = waves.rest();
+    if rest == [Complex32::ZERO; 2] {
+        return;
+    }
     for here in here {
         for (wave, rest) in here.waves.iter_mut().zip(rest) {
             *wave += rest * here.unit * (0.5 * here.u);

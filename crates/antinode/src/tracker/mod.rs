@@ -191,14 +191,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let settings = &self.settings;
         self.units = Units::at(settings.sample_rate);
         self.count = settings.blocks(layout).clamp(1, BLOCKS as u16);
-        self.model = Some(Model::new(
-            layout,
-            layout.step,
-            self.count,
-            settings.calibration,
-            self.units.sample_rate,
-            settings.hum,
-        ));
+        let rate = self.units.sample_rate;
+        self.model
+            .insert(Model::empty(layout, settings.calibration, rate))
+            .begin(layout.step, self.count, settings.hum);
         self.noise = Noise::default();
         self.trend.clear();
         self.before = None;
@@ -323,9 +319,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let Some(model) = &mut self.model else {
             return;
         };
-        let rough = DETECTOR_UNCERTAINTY * model.layout.step.radians();
+        let rough = |model: &Model| DETECTOR_UNCERTAINTY * model.layout.step.radians();
         let (carrier, uncertainty) = match &self.before {
-            None => (model.layout.step, rough),
+            None => (model.layout.step, rough(model)),
             Some(before) => {
                 // A model that is near enough is kept: its matrix need not be built anew.
                 let drift = before.frequency_beyond(model.carrier);
@@ -342,7 +338,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         };
         let blocks = self.gathered.blocks();
         solve(model, blocks, carrier, uncertainty, fit);
-        if !fit.settled && uncertainty == 0.0 {
+        if !fit.settled && self.before.is_some() {
+            let rough = rough(model);
             solve(model, blocks, carrier, rough, fit);
         }
     }

@@ -10,7 +10,7 @@ use crate::phase::Phase;
 /// Blocks from one exact exponential to the next; between them a recursion.
 pub(super) const CHUNK: usize = 5;
 
-/// One block's phasors.
+/// One block's phasors, and what is left of its sums.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Here {
     /// Time of the block's middle, −1 to 1 over the window.
@@ -19,38 +19,12 @@ pub(super) struct Here {
     pub unit: Complex32,
     /// z₊ and z₋ there, turned with the carrier: their halves, which is what C sees of each.
     pub waves: [Complex32; 2],
-    /// What a slope of the offset of each pick-off adds to its odd sum there.
-    pub slopes: [f32; 2],
+    /// What a slope of the offset of the pick-off looked at adds to its odd sum there.
+    pub slope: f32,
     /// What both pick-offs leave beside the waves: the sum of the squares.
     pub power: f32,
     /// The squared sums, from the first block to this one, of what is left along z.
     pub run: f32,
-}
-
-/// The carrier in the middle of the blocks of a window.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Carrier<'a> {
-    model: &'a Model,
-    index: u16,
-}
-
-impl<'a> Carrier<'a> {
-    pub(super) fn new(model: &'a Model) -> Self {
-        Self { model, index: 0 }
-    }
-
-    /// Time and carrier of the first block of the next [`CHUNK`], exactly.
-    #[inline]
-    pub(super) fn next(&mut self) -> (f32, Complex32) {
-        let index = self.index;
-        self.index += CHUNK as u16;
-        let unit = if index == 0 {
-            self.model.first
-        } else {
-            self.model.phase(index).unit()
-        };
-        (self.model.time(index), unit)
-    }
 }
 
 /// A factor near 1, j, −1 or −j, and what it is beyond that: its own rounding, the same at every block, is then no bias.
@@ -101,28 +75,30 @@ impl Turn {
 
 /// Walks through the blocks of a window.
 pub(super) struct Course<'a> {
-    carrier: Carrier<'a>,
+    model: &'a Model,
     waves: &'a Waves,
-    /// What a block does to each wave.
-    turns: [Turn; 2],
+    /// What a block does to each wave beyond what it does to the carrier.
+    beyond: [Complex32; 2],
 }
 
 impl<'a> Course<'a> {
+    #[inline(never)]
     pub(super) fn new(model: &'a Model, waves: &'a Waves) -> Self {
         let turn = |slope: Complex32| model.turn.grown(growth(slope * model.advance));
         Self {
-            carrier: Carrier::new(model),
+            model,
             waves,
-            turns: waves.slope.map(turn),
+            beyond: [turn(waves.slope[0]).beyond, turn(waves.slope[1]).beyond],
         }
     }
 
-    /// Fills in the next blocks, up to [`CHUNK`].
+    /// Fills in the blocks from block `index` on, up to [`CHUNK`].
     #[inline(never)]
-    pub(super) fn next(&mut self, here: &mut [Here]) {
+    pub(super) fn fill(&self, index: usize, here: &mut [Here]) {
         let waves = self.waves;
-        let Model { advance, turn, .. } = *self.carrier.model;
-        let (mut u, mut unit) = self.carrier.next();
+        let Model { advance, turn, .. } = *self.model;
+        let turns = self.beyond.map(|beyond| Turn { beyond, ..turn });
+        let (mut u, mut unit) = self.model.carrier(index);
         // Only residuals are turned by it: they have no digits to lose.
         let turn = turn.rounded();
         let half = unit * 0.5;
@@ -133,27 +109,25 @@ impl<'a> Course<'a> {
                 u,
                 unit,
                 waves: running,
-                slopes: [0.0; 2],
+                slope: 0.0,
                 power: 0.0,
                 run: 0.0,
             };
             u += advance;
             unit *= turn;
-            running = [
-                self.turns[0].apply(running[0]),
-                self.turns[1].apply(running[1]),
-            ];
+            running = [turns[0].apply(running[0]), turns[1].apply(running[1])];
         }
-        if waves.rest != [Complex32::ZERO; 2] {
-            bend(here, waves.rest);
-        }
+        bend(here, waves);
     }
 }
 
 /// Adds to each wave what of its change is not exponential.
-#[cold]
 #[inline(never)]
-fn bend(here: &mut [Here], rest: [Complex32; 2]) {
+fn bend(here: &mut [Here], waves: &Waves) {
+    let rest = waves.rest();
+    if rest == [Complex32::ZERO; 2] {
+        return;
+    }
     for here in here {
         for (wave, rest) in here.waves.iter_mut().zip(rest) {
             *wave += rest * here.unit * (0.5 * here.u);
@@ -205,7 +179,7 @@ mod tests {
                     ..Waves::default()
                 };
                 let mut here = [Here::default(); CHUNK];
-                Course::new(&model, &waves).next(&mut here);
+                Course::new(&model, &waves).fill(0, &mut here);
                 // The last block is the worst.
                 let u = 1.0 - 1.0 / CHUNK as f64;
                 let samples = f64::from(length) * 0.5 * (CHUNK - 1) as f64;

@@ -6,7 +6,7 @@ use super::course::{CHUNK, Course, Here};
 use super::gradient::Gradient;
 use super::hum::take_slopes;
 use super::model::Model;
-use super::prediction::{Mixing, Prediction};
+use super::prediction::Prediction;
 use super::response::Response;
 use super::seen::Seen;
 use super::third::Thirds;
@@ -41,68 +41,76 @@ impl Remains {
 }
 
 /// Passes over the blocks of a window with the waves and offsets found: what they leave, and which way they must still move.
+///
+/// What it calls is not inlined: it keeps only what one part needs of another, for its stack is the deepest of a window's solution.
 #[inline(never)]
 pub(super) fn examine(
     model: &Model,
     blocks: &[Seen],
     waves: &Waves,
-    offsets: [f32; 2],
+    offsets: &[f32; 2],
     remains: &mut Remains,
     gradients: &mut [Gradient; 2],
 ) {
-    let mixing = Mixing::new(model, waves);
-    let predictions = Prediction::new(model, &mixing, offsets);
     let is_watched = blocks.first().is_some_and(|block| block.watched.is_some());
-    let mut thirds = is_watched.then(|| Thirds::new(model, &mixing, offsets));
-    let mut course = Course::new(model, waves);
+    let has_own = model.shared == 0.0;
+    let mut thirds = Thirds::default();
+    let course = Course::new(model, waves);
     let mut views = Views::new(model);
     *gradients = Default::default();
-    let mut wander = [0.0; 2];
+    remains.wander = [0.0; 2];
     let mut here = [Here::default(); CHUNK];
-    for chunk in blocks.chunks(CHUNK) {
-        let here = here.get_mut(..chunk.len()).unwrap_or_default();
-        course.next(here);
-        if model.shared == 0.0 {
-            take_slopes(model, &predictions, chunk, here, &mut wander);
+    for (chunk, blocks) in blocks.chunks(CHUNK).enumerate() {
+        let here = here.get_mut(..blocks.len()).unwrap_or_default();
+        course.fill(chunk * CHUNK, here);
+        let mut prediction = Prediction::of_c(model, waves, offsets);
+        for (channel, gradient) in gradients.iter_mut().enumerate() {
+            if channel > 0 {
+                prediction.change_to_d(model, waves, offsets);
+            }
+            if has_own {
+                take_slopes(
+                    model,
+                    &prediction,
+                    channel,
+                    blocks,
+                    here,
+                    &mut remains.wander,
+                );
+            }
+            rest(model, &prediction, channel, blocks, here, gradient);
         }
-        rest(model, &predictions, chunk, here, gradients);
-        for here in &*here {
-            views.take(here);
-        }
-        if let Some(thirds) = &mut thirds {
-            thirds.add(chunk, here);
+        views.take(here);
+        if is_watched {
+            thirds.add(model, waves, offsets, blocks, here);
         }
     }
     views.conclude(model, remains);
-    remains.wander = wander.map(|sum| sum * (0.5 * model.per_half));
-    if let Some(thirds) = thirds {
-        thirds.conclude(remains, model.per_half * f32::from(model.blocks));
-    }
+    thirds.conclude(model, remains);
 }
 
-/// Takes what the pick-offs leave of a run of blocks: one after the other, so that its constants stay in registers.
+/// Takes what pick-off `channel` leaves of a run of blocks: by itself, so that its constants stay in registers.
 #[inline(never)]
 fn rest(
     model: &Model,
-    predictions: &[Prediction; 2],
+    prediction: &Prediction,
+    channel: usize,
     blocks: &[Seen],
     here: &mut [Here],
-    gradients: &mut [Gradient; 2],
+    gradient: &mut Gradient,
 ) {
     let (shared, response) = (model.shared, model.response);
-    for (channel, prediction) in predictions.iter().enumerate() {
-        let (prediction, mut sums) = (*prediction, gradients[channel]);
-        for (block, here) in blocks.iter().zip(&mut *here) {
-            let mut rest = prediction.rest(&block.whitened[channel], here);
-            rest.odd -= here.slopes[channel];
-            // Of an offset that the block has to itself the mean says nothing else.
-            let known = shared * rest.mean;
-            sums.take(&response, &rest, known, here.u, here.unit);
-            here.power += known * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
-            here.run += sums.level.norm_sqr();
-        }
-        gradients[channel] = sums;
+    let (prediction, mut sums) = (*prediction, *gradient);
+    for (block, here) in blocks.iter().zip(here) {
+        let mut rest = prediction.rest(&block.whitened[channel & 1], here);
+        rest.odd -= here.slope;
+        // Of an offset that the block has to itself the mean says nothing else.
+        let known = shared * rest.mean;
+        sums.take(&response, &rest, known, here.u, here.unit);
+        here.power += known * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
+        here.run += sums.level.norm_sqr();
     }
+    *gradient = sums;
 }
 
 /// The residual as a whole, by blocks, and as a step of the phasors between two blocks.
@@ -127,20 +135,25 @@ impl Views {
         }
     }
 
-    /// Takes what the next block leaves.
-    #[inline(always)]
-    fn take(&mut self, rest: &Here) {
-        self.residual += rest.power;
-        self.worst_block = greater(rest.power, self.worst_block);
-        self.time += rest.u;
-        // A step is known by what of it is neither constant nor slope. After n blocks of N it is n − n²/N that is not constant: the sum
-        // of their times, but for the sign.
-        let room = -self.time * (1.0 + self.time * self.per_spread);
-        if room > 0.2 && rest.run * self.room > self.run * room {
-            (self.run, self.room) = (rest.run, room);
+    /// Takes what a run of blocks leaves.
+    #[inline(never)]
+    fn take(&mut self, rests: &[Here]) {
+        let mut views = Self { ..*self };
+        for rest in rests {
+            views.residual += rest.power;
+            views.worst_block = greater(rest.power, views.worst_block);
+            views.time += rest.u;
+            // A step is known by what of it is neither constant nor slope. After n blocks of N it is n − n²/N that is not constant: the
+            // sum of their times, but for the sign.
+            let room = -views.time * (1.0 + views.time * views.per_spread);
+            if room > 0.2 && rest.run * views.room > views.run * room {
+                (views.run, views.room) = (rest.run, room);
+            }
         }
+        *self = views;
     }
 
+    #[inline(never)]
     fn conclude(&self, model: &Model, remains: &mut Remains) {
         let Response {
             mean, even, odd, ..
@@ -148,6 +161,7 @@ impl Views {
         // Mean weight of z in a block, over all phases of the carrier.
         let known = model.shared * mean.level;
         let weight = 0.5 * (known * mean.level + even.level * even.level + odd.level * odd.level);
+        remains.wander = remains.wander.map(|sum| sum * (0.5 * model.per_half));
         remains.residual = self.residual;
         remains.freedom = model.freedom();
         remains.worst_block = self.worst_block;

@@ -6,7 +6,7 @@
 //! linear solution comes first, and a wave that holds still leaves one step to do, in the pass that looks at its residual anyway.
 
 use super::examine::{Remains, examine};
-use super::gradient;
+use super::gradient::{self, Gradient};
 use super::model::Model;
 use super::seen::Seen;
 use super::waves::{Parameters, Waves};
@@ -16,6 +16,8 @@ use crate::phase::PhaseStep;
 
 /// Beyond this phase (rad) between a window's middle and its end the carrier is moved before the fit is believed.
 pub(crate) const CARRIER_REACH: f32 = 0.05;
+/// Beyond this phase the wave is nowhere near the carrier.
+const FARTHEST: f32 = 1.5;
 /// A fit that still moves by more than this share of the wave has found nothing.
 const NEAR: f32 = 0.01;
 /// Below this share of the wave the next step is rounding.
@@ -50,6 +52,24 @@ impl Fit {
 }
 
 impl Model {
+    /// The carrier moved by `drift` rad a half window; none where that is too far.
+    #[inline(never)]
+    fn moved(&self, drift: f32) -> Option<PhaseStep> {
+        (drift.abs() <= FARTHEST).then(|| self.carrier.shifted(drift * self.per_half))
+    }
+
+    /// How many blocks of `count` a carrier is good for that a fit of `span` of them found.
+    #[inline(never)]
+    fn next_span(&self, fit: &Fit, carrier: PhaseStep, span: u16, count: u16) -> u16 {
+        // Four standard deviations of the frequency, from the bound.
+        let noise = fit.remains.variance();
+        let variance = 2.0 * noise * self.covariance.even[1][1] / fit.waves.power();
+        let uncertainty = 4.0 * square_root(variance) * self.per_half;
+        reach(self, count, carrier, uncertainty)
+            .max(span + 1)
+            .min(count)
+    }
+
     /// Fits `blocks`, which are as many as the model was built for.
     #[inline(never)]
     fn fit(&self, blocks: &[Seen], fit: &mut Fit) {
@@ -63,24 +83,11 @@ impl Model {
                 self,
                 blocks,
                 &fit.waves,
-                fit.offsets,
+                &fit.offsets,
                 &mut fit.remains,
                 &mut gradients,
             );
-            let step = parameters.step(self, &gradients);
-            fit.waves.set(self, &parameters);
-            fit.offsets = parameters.offset;
-            fit.settled = step.moved <= NEAR * NEAR * step.size;
-            // What is left has no part along the parameters: this much less than before the step.
-            let explained = lesser(step.explained, fit.remains.residual);
-            fit.remains.residual -= explained;
-            let negligible = explained <= NEGLIGIBLE * fit.remains.variance();
-            // With offsets of their own the linear solution does not know what the waves put into the blocks' means.
-            let knows_offset = pass > 0 || self.shared > 0.0;
-            if fit.settled
-                && knows_offset
-                && (negligible || step.moved <= SETTLED * SETTLED * step.size)
-            {
+            if self.step(&gradients, pass, &mut parameters, fit) {
                 break;
             }
         }
@@ -88,6 +95,28 @@ impl Model {
             // (|z| + |z′|)² is not more than that: half a per cent of |z| more where nothing changes.
             *reach = 1.01 * parameters.z[i].norm_sqr() + 101.0 * parameters.slope[i].norm_sqr();
         }
+    }
+
+    /// Moves to where the gradients vanish; true when no further step is needed.
+    #[inline(never)]
+    fn step(
+        &self,
+        gradients: &[Gradient; 2],
+        pass: usize,
+        parameters: &mut Parameters,
+        fit: &mut Fit,
+    ) -> bool {
+        let step = parameters.step(self, gradients);
+        fit.waves.set(self, parameters);
+        fit.offsets = parameters.offset;
+        fit.settled = step.moved <= NEAR * NEAR * step.size;
+        // What is left has no part along the parameters: this much less than before the step.
+        let explained = lesser(step.explained, fit.remains.residual);
+        fit.remains.residual -= explained;
+        let negligible = explained <= NEGLIGIBLE * fit.remains.variance();
+        // With offsets of their own the linear solution does not know what the waves put into the blocks' means.
+        let knows_offset = pass > 0 || self.shared > 0.0;
+        fit.settled && knows_offset && (negligible || step.moved <= SETTLED * SETTLED * step.size)
     }
 }
 
@@ -98,20 +127,11 @@ pub(crate) fn solve(
     model: &mut Model,
     blocks: &[Seen],
     mut carrier: PhaseStep,
-    mut uncertainty: f32,
+    uncertainty: f32,
     fit: &mut Fit,
 ) {
     let count = blocks.len() as u16;
-    let length = f32::from(model.layout.length);
-    let reach = |carrier: PhaseStep, uncertainty: f32| {
-        let whole = uncertainty * length;
-        if whole * f32::from(count) <= 1.0 {
-            return count;
-        }
-        let shortest = (2.5 * carrier.period() / length) as u16 + 1;
-        ((1.0 / whole) as u16).max(shortest.max(4)).min(count)
-    };
-    let mut span = reach(carrier, uncertainty);
+    let mut span = reach(model, count, carrier, uncertainty);
     let mut moves = 0;
     loop {
         model.retune(carrier, span);
@@ -124,22 +144,30 @@ pub(crate) fn solve(
         if span == count && (drift.abs() <= CARRIER_REACH || moves >= 4) {
             return;
         }
-        if drift.abs() > 1.5 || !drift.is_finite() {
+        let Some(moved) = model.moved(drift) else {
             // The wave is nowhere near: the caller sees a fit that did not settle.
             model.retune(carrier, count);
             model.fit(blocks, fit);
             fit.settled = false;
             return;
-        }
-        carrier = carrier.shifted(drift * model.per_half);
+        };
+        carrier = moved;
         if span == count {
             moves += 1;
-            continue;
+        } else {
+            span = model.next_span(fit, carrier, span, count);
         }
-        // Four standard deviations of the frequency, from the bound.
-        let noise = fit.remains.variance();
-        let variance = 2.0 * noise * model.covariance.even[1][1] / fit.waves.power();
-        uncertainty = 4.0 * square_root(variance) * model.per_half;
-        span = reach(carrier, uncertainty).max(span + 1).min(count);
     }
+}
+
+/// How many blocks of `count` a carrier known to `uncertainty` rad a sample is good for.
+#[inline(never)]
+fn reach(model: &Model, count: u16, carrier: PhaseStep, uncertainty: f32) -> u16 {
+    let length = f32::from(model.layout.length);
+    let whole = uncertainty * length;
+    if whole * f32::from(count) <= 1.0 {
+        return count;
+    }
+    let shortest = (2.5 * carrier.period() / length) as u16 + 1;
+    ((1.0 / whole) as u16).max(shortest.max(4)).min(count)
 }

@@ -2,7 +2,7 @@
 
 use num_complex::Complex32;
 
-use super::course::{CHUNK, Carrier};
+use super::course::CHUNK;
 use super::model::Model;
 use super::response::{Response, Whitened};
 use super::seen::Seen;
@@ -48,15 +48,14 @@ impl Gradient {
 }
 
 /// The right-hand sides of both pick-offs' sums, nothing taken off them.
-#[inline]
+#[inline(never)]
 pub(super) fn of_sums(model: &Model, blocks: &[Seen]) -> [Gradient; 2] {
     let mut gradients = [Gradient::default(); 2];
-    let mut carrier = Carrier::new(model);
     let (response, shared) = (model.response, model.shared);
     let (advance, turn) = (model.advance, model.turn.rounded());
-    for chunk in blocks.chunks(CHUNK) {
-        let (mut u, mut unit) = carrier.next();
-        for block in chunk {
+    for (chunk, blocks) in blocks.chunks(CHUNK).enumerate() {
+        let (mut u, mut unit) = model.carrier(chunk * CHUNK);
+        for block in blocks {
             for (gradient, sums) in gradients.iter_mut().zip(&block.whitened) {
                 gradient.take(&response, sums, shared * sums.mean, u, unit);
             }

@@ -5,8 +5,8 @@ use super::model::Model;
 use super::prediction::Prediction;
 use super::seen::Seen;
 
-/// Fills in what the slopes of both pick-offs' offsets add to the odd sums of a run of blocks that have offsets of their own, and adds
-/// the squares of these to `wander`.
+/// Fills in what the slopes of the offset of pick-off `channel` add to the odd sums of a run of blocks that have offsets of their own,
+/// and adds the squares of these to `wander`.
 ///
 /// The slope of a block is that between its neighbours' offsets, less what the wave puts there; of the first and the last it is that
 /// to the only one.
@@ -14,7 +14,8 @@ use super::seen::Seen;
 #[inline(never)]
 pub(super) fn take_slopes(
     model: &Model,
-    predictions: &[Prediction; 2],
+    prediction: &Prediction,
+    channel: usize,
     blocks: &[Seen],
     here: &mut [Here],
     wander: &mut [f32; 2],
@@ -25,25 +26,23 @@ pub(super) fn take_slopes(
     } else {
         model.basis.ramp
     };
-    for (channel, prediction) in predictions.iter().enumerate() {
-        let (mut before, mut now) = (0.0, 0.0);
-        for i in 0..=blocks.len() {
-            let next = match (blocks.get(i), here.get(i)) {
-                (Some(block), Some(here)) => {
-                    let rest = prediction.mean_rest(&block.whitened[channel & 1], here);
-                    wander[channel & 1] += rest * rest;
-                    rest
-                }
-                // One more after the last, in line with the two before it; and one before the first.
-                _ => 2.0 * now - before,
-            };
-            if i == 1 {
-                before = 2.0 * now - next;
+    let (mut before, mut now) = (0.0, 0.0);
+    for i in 0..=blocks.len() {
+        let next = match (blocks.get(i), here.get(i)) {
+            (Some(block), Some(here)) => {
+                let rest = prediction.mean_rest(&block.whitened[channel & 1], here);
+                wander[channel & 1] += rest * rest;
+                rest
             }
-            if let Some(here) = here.get_mut(i.wrapping_sub(1)) {
-                here.slopes[channel & 1] = ramp * (next - before);
-            }
-            (before, now) = (now, next);
+            // One more after the last, in line with the two before it; and one before the first.
+            _ => 2.0 * now - before,
+        };
+        if i == 1 {
+            before = 2.0 * now - next;
         }
+        if let Some(here) = here.get_mut(i.wrapping_sub(1)) {
+            here.slope = ramp * (next - before);
+        }
+        (before, now) = (now, next);
     }
 }

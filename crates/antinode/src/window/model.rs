@@ -39,6 +39,7 @@ pub(crate) struct Model {
 }
 
 impl Model {
+    #[cfg(test)]
     pub(crate) fn new(
         layout: Layout,
         carrier: PhaseStep,
@@ -47,18 +48,22 @@ impl Model {
         sample_rate: f32,
         hum: bool,
     ) -> Self {
-        let basis = Basis::new(layout);
-        // It costs a block of a period or more next to nothing, and a shorter one what it knows of the wave.
-        let is_long = f32::from(layout.length) > LEAST_PERIODS * carrier.period();
-        let shared = if hum && is_long { 0.0 } else { 1.0 };
-        let mut model = Self {
+        let mut model = Self::empty(layout, calibration, sample_rate);
+        model.begin(carrier, blocks, hum);
+        model
+    }
+
+    /// A model to be built in its place by [`Model::begin`]: a copy of it would take its size in stack.
+    #[inline(always)]
+    pub(crate) fn empty(layout: Layout, calibration: Calibration, sample_rate: f32) -> Self {
+        Self {
             layout,
-            blocks,
-            carrier,
+            blocks: 0,
+            carrier: layout.step,
             calibration,
             sample_rate,
-            basis,
-            shared,
+            basis: Basis::default(),
+            shared: 1.0,
             response: Response::default(),
             half: 0.0,
             per_half: 0.0,
@@ -67,12 +72,20 @@ impl Model {
             first: Complex32::ONE,
             correction: Correction::default(),
             covariance: Covariance::default(),
-        };
-        model.build();
-        model
+        }
+    }
+
+    /// Builds all of it.
+    pub(crate) fn begin(&mut self, carrier: PhaseStep, blocks: u16, hum: bool) {
+        self.basis = Basis::new(self.layout);
+        // It costs a block of a period or more next to nothing, and a shorter one what it knows of the wave.
+        let is_long = f32::from(self.layout.length) > LEAST_PERIODS * carrier.period();
+        self.shared = if hum && is_long { 0.0 } else { 1.0 };
+        self.retune(carrier, blocks);
     }
 
     /// Moves the carrier, or changes the number of blocks.
+    #[inline]
     pub(crate) fn retune(&mut self, carrier: PhaseStep, blocks: u16) {
         if carrier != self.carrier || blocks != self.blocks {
             (self.carrier, self.blocks) = (carrier, blocks);
@@ -97,6 +110,18 @@ impl Model {
     #[inline]
     pub(super) fn time(&self, index: u16) -> f32 {
         0.5 * self.advance * self.twice_blocks(index) as f32
+    }
+
+    /// Time and carrier in the middle of block `index`, exactly.
+    #[inline]
+    pub(super) fn carrier(&self, index: usize) -> (f32, Complex32) {
+        let index = index as u16;
+        let unit = if index == 0 {
+            self.first
+        } else {
+            self.phase(index).unit()
+        };
+        (self.time(index), unit)
     }
 
     /// Phase of the carrier in the middle of block `index`, zero in the middle of the window.
@@ -129,6 +154,7 @@ impl Model {
         ]
     }
 
+    #[inline(never)]
     fn build(&mut self) {
         self.half = 0.5 * f32::from(self.blocks) * f32::from(self.layout.length);
         self.per_half = 1.0 / self.half;
@@ -140,6 +166,12 @@ impl Model {
         let block = 2 * i64::from(self.layout.length);
         self.turn = Turn::by(self.carrier.after_half_samples(block));
         self.first = self.phase(0).unit();
+        self.covariance = self.covariance();
+    }
+
+    /// That of the parameters, from the design rows of all blocks.
+    #[inline(never)]
+    fn covariance(&self) -> Covariance {
         let [mut even, mut odd] = [Normal::ZERO; 2];
         for index in 0..self.blocks {
             for [even_row, odd_row] in &self.rows(self.time(index), self.phase(index).unit()) {
@@ -147,9 +179,9 @@ impl Model {
                 odd.add(odd_row);
             }
         }
-        self.covariance = Covariance {
+        Covariance {
             even: even.inverse(),
             odd: odd.inverse(),
-        };
+        }
     }
 }

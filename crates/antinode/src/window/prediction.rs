@@ -9,66 +9,63 @@ use super::model::Model;
 use super::response::{Answer, Whitened};
 use super::waves::Waves;
 
-/// The constants by which one sum of one pick-off answers to both waves in C: it is the real part of their products.
+/// The constants by which one sum of a pick-off answers to both waves, as it sees them: it is the real part of their products.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gains([Complex32; 2]);
 
 impl Gains {
     #[inline(always)]
-    pub(super) fn of(&self, here: &Here) -> f32 {
+    pub(super) fn of(&self, [plus, minus]: &[Complex32; 2]) -> f32 {
         let [p, m] = &self.0;
-        let [plus, minus] = &here.waves;
         p.re * plus.re - p.im * plus.im + m.re * minus.re - m.im * minus.im
     }
+
+    /// Those of what C sees, where pick-off D sees `factors` times that.
+    #[inline(always)]
+    fn through(&self, [plus, minus]: &[Complex32; 2]) -> Self {
+        Self([self.0[0] * plus, self.0[1] * minus])
+    }
 }
 
-/// What a wave makes of the pick-offs.
-#[derive(Clone, Copy)]
-struct Mixed {
-    /// Raw z_D for a z_C of one.
-    factor: Complex32,
-    /// z′/z, and its square.
-    slope: Complex32,
-    square: Complex32,
-}
+/// z′/z of each wave, and its square.
+pub(super) struct Slopes([[Complex32; 2]; 2]);
 
-/// What the two waves make of the pick-offs.
-pub(super) struct Mixing([Mixed; 2]);
-
-impl Mixing {
-    pub(super) fn new(model: &Model, waves: &Waves) -> Self {
-        let delay = model.correction.delay * model.per_half;
-        let mixed = |slope: Complex32, d: Complex32| Mixed {
-            factor: d * (slope * delay + 1.0),
-            slope,
-            square: slope * slope,
-        };
+impl Slopes {
+    #[inline(always)]
+    pub(super) fn new(waves: &Waves) -> Self {
         let [plus, minus] = waves.slope;
-        let [d_plus, d_minus] = model.correction.of_waves;
-        Self([mixed(plus, d_plus), mixed(minus, d_minus)])
+        Self([[plus, plus * plus], [minus, minus * minus]])
     }
 
-    /// The gains of each pick-off in a sum that is even in time.
+    /// The gains in a sum that is even in time.
     #[inline(always)]
-    pub(super) fn even(&self, answer: &Answer) -> [Gains; 2] {
-        self.gains(answer, |gain| gain)
-    }
-
-    /// The gains of each pick-off in a sum that is odd in time.
-    #[inline(always)]
-    pub(super) fn odd(&self, answer: &Answer) -> [Gains; 2] {
-        // The imaginary part of a number is the real part of −j times it.
-        self.gains(answer, |gain| Complex32::new(gain.im, -gain.re))
-    }
-
-    #[inline(always)]
-    fn gains(&self, answer: &Answer, part: impl Fn(Complex32) -> Complex32) -> [Gains; 2] {
-        let c = self.0.map(|Mixed { slope, square, .. }| {
+    pub(super) fn even(&self, answer: &Answer) -> Gains {
+        let gain = |[slope, square]: [Complex32; 2]| {
             let turned = Complex32::new(slope.im, -slope.re) * answer.slope;
-            part(turned + square * answer.curve + answer.level)
-        });
-        let [plus, minus] = &self.0;
-        [Gains(c), Gains([plus.factor * c[0], minus.factor * c[1]])]
+            turned + square * answer.curve + answer.level
+        };
+        let [plus, minus] = self.0;
+        Gains([gain(plus), gain(minus)])
+    }
+
+    /// The gains in a sum that is odd in time.
+    #[inline(always)]
+    pub(super) fn odd(&self, answer: &Answer) -> Gains {
+        // The imaginary part of a number is the real part of −j times it.
+        let Gains(gains) = self.even(answer);
+        Gains(gains.map(|gain| Complex32::new(gain.im, -gain.re)))
+    }
+
+    /// What raw pick-off D sees of each wave, for a C of one.
+    #[inline(always)]
+    pub(super) fn factors(&self, model: &Model) -> [Complex32; 2] {
+        let delay = model.correction.delay * model.per_half;
+        let [[plus, _], [minus, _]] = self.0;
+        let [d_plus, d_minus] = model.correction.of_waves;
+        [
+            d_plus * (plus * delay + 1.0),
+            d_minus * (minus * delay + 1.0),
+        ]
     }
 }
 
@@ -82,33 +79,33 @@ pub(super) struct Prediction {
 }
 
 impl Prediction {
-    /// For both pick-offs.
-    #[inline(always)]
-    pub(super) fn new(model: &Model, mixing: &Mixing, offsets: [f32; 2]) -> [Self; 2] {
+    /// Of pick-off C.
+    #[inline(never)]
+    pub(super) fn of_c(model: &Model, waves: &Waves, offsets: &[f32; 2]) -> Self {
+        let slopes = Slopes::new(waves);
         let response = &model.response;
-        let [mean_c, mean_d] = mixing.even(&response.mean);
-        let [even_c, even_d] = mixing.even(&response.even);
-        let [odd_c, odd_d] = mixing.odd(&response.odd);
-        let [offset_c, offset_d] = offsets.map(|offset| response.offset * offset);
-        [
-            Self {
-                mean: mean_c,
-                even: even_c,
-                odd: odd_c,
-                offset: offset_c,
-            },
-            Self {
-                mean: mean_d,
-                even: even_d,
-                odd: odd_d,
-                offset: offset_d,
-            },
-        ]
+        Self {
+            mean: slopes.even(&response.mean),
+            even: slopes.even(&response.even),
+            odd: slopes.odd(&response.odd),
+            offset: response.offset * offsets[0],
+        }
+    }
+
+    /// Becomes that of pick-off D.
+    #[inline(never)]
+    pub(super) fn change_to_d(&mut self, model: &Model, waves: &Waves, offsets: &[f32; 2]) {
+        let factors = Slopes::new(waves).factors(model);
+        for gains in [&mut self.mean, &mut self.even, &mut self.odd] {
+            *gains = gains.through(&factors);
+        }
+        self.offset = model.response.offset * offsets[1];
     }
 
     /// The mean alone, less what is predicted here.
+    #[inline(always)]
     pub(super) fn mean_rest(&self, seen: &Whitened, here: &Here) -> f32 {
-        seen.mean - self.offset - self.mean.of(here)
+        seen.mean - self.offset - self.mean.of(&here.waves)
     }
 
     /// The sums less what is predicted here.
@@ -116,8 +113,8 @@ impl Prediction {
     pub(super) fn rest(&self, seen: &Whitened, here: &Here) -> Whitened {
         Whitened {
             mean: self.mean_rest(seen, here),
-            even: seen.even - self.even.of(here),
-            odd: seen.odd - self.odd.of(here),
+            even: seen.even - self.even.of(&here.waves),
+            odd: seen.odd - self.odd.of(&here.waves),
         }
     }
 }

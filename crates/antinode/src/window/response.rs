@@ -11,7 +11,7 @@ use crate::sum::Sum;
 /// Turns the three correlated sums of a block into independent numbers of equal noise: the noise of one sample.
 ///
 /// The vectors are 1, the cosine less its mean, and the sine, each scaled to length one.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Basis {
     one: f32,
     cosine: f32,
@@ -56,6 +56,7 @@ pub(crate) struct Response {
 }
 
 impl Basis {
+    #[inline(never)]
     pub(crate) fn new(layout: Layout) -> Self {
         let n = f32::from(layout.length);
         let mut mean = Sum::default();
@@ -107,6 +108,7 @@ impl Basis {
 
 impl Response {
     /// The answers of blocks of `layout` to a wave at `carrier`, in windows of which `per_half` is one over the half.
+    #[inline(never)]
     pub(crate) fn new(layout: Layout, basis: &Basis, carrier: PhaseStep, per_half: f32) -> Self {
         let mut sums = [[Sum::default(); 3]; 5];
         let mut third_offset = Sum::default();

@@ -5,50 +5,68 @@ use num_complex::Complex32;
 use super::course::Here;
 use super::examine::Remains;
 use super::model::Model;
-use super::prediction::{Gains, Mixing};
+use super::prediction::Slopes;
 use super::seen::Seen;
+use super::waves::Waves;
 use crate::order::greater;
 
-/// Gathers the third-harmonic sums of the blocks, turned back by the carrier.
+/// Gathers the third-harmonic sums of the blocks, turned back by the carrier, less what the wave itself puts there in blocks that do
+/// not fit its period.
+#[derive(Default)]
 pub(super) struct Thirds {
-    predictions: [Third; 2],
     sum: [Complex32; 2],
     power: f32,
     watched: u16,
 }
 
 impl Thirds {
-    pub(super) fn new(model: &Model, mixing: &Mixing, offsets: [f32; 2]) -> Self {
-        Self {
-            predictions: Third::new(model, mixing, offsets),
-            sum: [Complex32::ZERO; 2],
-            power: 0.0,
-            watched: 0,
-        }
-    }
-
     /// Takes a run of blocks.
-    #[inline]
-    pub(super) fn add(&mut self, blocks: &[Seen], here: &[Here]) {
+    #[inline(never)]
+    pub(super) fn add(
+        &mut self,
+        model: &Model,
+        waves: &Waves,
+        offsets: &[f32; 2],
+        blocks: &[Seen],
+        here: &[Here],
+    ) {
+        let slopes = Slopes::new(waves);
+        let response = &model.response;
+        let (cosine, sine) = (
+            slopes.even(&response.third_even),
+            slopes.odd(&response.third_odd),
+        );
+        let factors = slopes.factors(model);
+        let offsets = offsets.map(|offset| response.third_offset * offset);
+        let mut sums = self.sum;
         for (block, here) in blocks.iter().zip(here) {
             let Some(seen) = &block.watched else {
                 continue;
             };
             let back = here.unit.conj();
             let back = back * back * back;
-            for ((prediction, sum), &third) in
-                self.predictions.iter().zip(&mut self.sum).zip(&seen.third)
-            {
-                let rest = prediction.rest(third, here);
+            let [plus, minus] = here.waves;
+            let waves = [here.waves, [plus * factors[0], minus * factors[1]]];
+            for (channel, sum) in sums.iter_mut().enumerate() {
+                let (third, waves) = (seen.third[channel], &waves[channel]);
+                // Σ S e^(−3jφ).
+                let rest = Complex32::new(
+                    third.re - offsets[channel] - cosine.of(waves),
+                    sine.of(waves) - third.im,
+                );
                 *sum += rest * back;
                 self.power += rest.norm_sqr();
             }
             self.watched += 1;
         }
+        self.sum = sums;
     }
 
-    /// The amplitudes and their noise; `doubled` is two over the samples of a block.
-    pub(super) fn conclude(&self, remains: &mut Remains, doubled: f32) {
+    /// The amplitudes and their noise.
+    #[inline(never)]
+    pub(super) fn conclude(&self, model: &Model, remains: &mut Remains) {
+        // Two over the samples of a block.
+        let doubled = model.per_half * f32::from(model.blocks);
         let per_count = 1.0 / f32::from(self.watched.max(1));
         let coherent = (self.sum[0].norm_sqr() + self.sum[1].norm_sqr()) * per_count;
         let incoherent = if self.power > coherent {
@@ -60,44 +78,5 @@ impl Thirds {
         remains.third = self.sum.map(|sum| sum * (doubled * per_count));
         remains.third_noise = incoherent * doubled / greater(freedom, 1.0);
         remains.third_freedom = freedom;
-    }
-}
-
-/// Predicts the third-harmonic sums of one pick-off: what the wave itself puts there in blocks that do not fit its period.
-struct Third {
-    cosine: Gains,
-    sine: Gains,
-    offset: f32,
-}
-
-impl Third {
-    fn new(model: &Model, mixing: &Mixing, offsets: [f32; 2]) -> [Self; 2] {
-        let response = &model.response;
-        let [cosine_c, cosine_d] = mixing.even(&response.third_even);
-        let [sine_c, sine_d] = mixing.odd(&response.third_odd);
-        let [offset_c, offset_d] = offsets.map(|offset| response.third_offset * offset);
-        [
-            Self {
-                cosine: cosine_c,
-                sine: sine_c,
-                offset: offset_c,
-            },
-            Self {
-                cosine: cosine_d,
-                sine: sine_d,
-                offset: offset_d,
-            },
-        ]
-    }
-}
-
-impl Third {
-    /// The sums less what is predicted here: Σ S e^(−3jφ).
-    #[inline(always)]
-    fn rest(&self, seen: Complex32, here: &Here) -> Complex32 {
-        Complex32::new(
-            seen.re - self.offset - self.cosine.of(here),
-            self.sine.of(here) - seen.im,
-        )
     }
 }

@@ -49,6 +49,7 @@ impl Parameters {
     }
 
     /// Moves to where the gradients vanish, but for what is not linear.
+    #[inline]
     pub(super) fn step(&mut self, model: &Model, gradients: &[Gradient; 2]) -> Step {
         let by = Self::solving(model, gradients);
         // An offset that every block has to itself has no part in the residual.
@@ -81,11 +82,9 @@ pub(crate) struct Waves {
     pub value: [Complex32; 2],
     /// z₊′ and z₋′ for each half window.
     pub change: [Complex32; 2],
-    /// What of the change is exponential: z′/z, or nothing where a wave is too small to have a course of its own. This and the
-    /// next are made by [`Waves::take_course`].
+    /// Where the change is exponential z′/z, else zero, as where a wave is too small to have a course of its own: the change runs
+    /// linearly then. Made by [`Waves::take_course`].
     pub(super) slope: [Complex32; 2],
-    /// What is left of the change: it runs linearly.
-    pub(super) rest: [Complex32; 2],
 }
 
 impl Waves {
@@ -106,20 +105,33 @@ impl Waves {
         self.change = travelling(parameters.slope);
     }
 
-    /// Takes the changes apart into what is exponential and what is not: a change of half a wave, or of most of one that is no small
-    /// part of both, is.
+    /// Tells which changes are exponential: a change of half a wave, or of most of one that is no small part of both, is.
+    #[inline(never)]
     pub(super) fn take_course(&mut self) {
         let small = 0.01 * self.power();
         for w in 0..2 {
             let (value, change) = (self.value[w], self.change[w]);
             let power = value.norm_sqr();
             let share = if power > small { 0.81 } else { 0.25 };
-            (self.slope[w], self.rest[w]) = if change.norm_sqr() < share * power {
-                (change * value.conj() * (1.0 / power), Complex32::ZERO)
+            self.slope[w] = if change.norm_sqr() < share * power {
+                change * value.conj() * (1.0 / power)
             } else {
-                (Complex32::ZERO, change)
+                Complex32::ZERO
             };
         }
+    }
+
+    /// What of the changes is not exponential.
+    #[inline]
+    pub(super) fn rest(&self) -> [Complex32; 2] {
+        let rest = |w: usize| {
+            if self.slope[w] == Complex32::ZERO {
+                self.change[w]
+            } else {
+                Complex32::ZERO
+            }
+        };
+        [rest(0), rest(1)]
     }
 
     /// |z₊|² + |z₋|².

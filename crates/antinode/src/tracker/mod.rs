@@ -122,6 +122,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Takes a block; gives the estimate of the window that it completes.
     ///
     /// A block of another layout, or one that does not follow the last, starts a new window.
+    #[inline(never)]
     pub fn push<S: Sample>(&mut self, block: &Block<S>) -> Option<Estimate> {
         self.follow(block.layout, block.start);
         self.end = block.start + u64::from(block.layout.length);

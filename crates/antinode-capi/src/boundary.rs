@@ -114,7 +114,7 @@ pub(crate) unsafe fn reset<S: Arithmetic, O>(opaque: *mut O) -> Status {
     status(unsafe { open::<S, O>(opaque).and_then(|state| start(state, (*state).thread.settings)) })
 }
 
-/// Writes a state part by part, each by a function of its own, so that the stack holds one part at a time.
+/// Writes a state part by part, each in its place.
 ///
 /// # Safety
 /// `state` points to memory for one that nobody else uses.

@@ -51,7 +51,7 @@ impl<S: Slow> Interrupt<S> {
         }
     }
 
-    /// Rare, and a front on the stack is large: no interrupt reserves that stack for nothing.
+    /// Rare: its code is out of the way of the rest.
     #[cold]
     #[inline(never)]
     fn search_anew(&mut self, shared: &Shared<S>, wanted: u32) {

@@ -221,3 +221,44 @@ impl<S: Sample, const N: usize> Front<S, N> {
         pairs.len()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::phase::PhaseStep;
+
+    #[test]
+    fn without_settings_nothing_is_found_and_with_them_it_is_as_new() {
+        let step = PhaseStep::from_period(18.75);
+        let pairs: [[i16; 2]; 1000] = core::array::from_fn(|index| {
+            let unit = step.after_half_samples(2 * index as i64).unit();
+            [(10_000.0 * unit.re) as i16, (7_000.0 * unit.re) as i16]
+        });
+        let settings = Settings::new(1e5);
+        let blocks = |front: &mut Front<i16, 200>| {
+            let (mut pairs, mut found) = (pairs.as_slice(), 0);
+            let mut last = None;
+            while !pairs.is_empty() {
+                let (taken, block) = front.push_slice(pairs);
+                pairs = &pairs[taken..];
+                if let Some(block) = block {
+                    found += 1;
+                    last = Some((block.layout, block.sums, block.watch));
+                }
+            }
+            (found, last)
+        };
+        let mut front = Front::UNSET;
+        assert_eq!(blocks(&mut front), (0, None));
+        front.search();
+        assert!(front.push(pairs[0]).is_none());
+        assert!(!front.is_searching());
+        assert_eq!(front.index(), 1001);
+        front.configure(settings).unwrap();
+        assert!(front.is_searching());
+        let configured = blocks(&mut front);
+        assert!(configured.0 > 20, "{configured:?}");
+        assert_eq!(configured, blocks(&mut Front::new(settings).unwrap()));
+        assert_eq!(front.index(), 2001);
+    }
+}

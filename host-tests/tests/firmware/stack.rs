@@ -122,7 +122,7 @@ fn it_stays_within_what_is_stated() {
     let functions = functions("stm32f405");
     let mut known = HashMap::new();
     // At the start, in the main loop, and in the converters' interrupt, which is that of their DMA too.
-    for (root, most) in [("main", 3900), ("stm32f405::app::idle", 2300), ("ADC", 750)] {
+    for (root, most) in [("main", 1400), ("stm32f405::app::idle", 1400), ("ADC", 650)] {
         let (&address, _) = functions
             .iter()
             .find(|(_, function)| function.name == root)

@@ -61,33 +61,36 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     /// Call it again with the rest until it has taken all: results are the same to the bit however a stream is cut.
     #[must_use = "it stops at the end of a window: call it again with the rest"]
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<Estimate>) {
-        let mut taken = 0;
-        while let Some(rest) = pairs.get(taken..).filter(|rest| !rest.is_empty()) {
-            let (count, block) = self.front.push_slice(rest);
-            taken += count;
-            if let Some(block) = block {
-                let estimate = self.tracker.push(block);
-                if self.tracker.has_lost() {
-                    self.front.search();
-                    self.tracker.forget();
-                }
-                if estimate.is_some() {
-                    return (taken, estimate);
-                }
+        let mut rest = pairs;
+        while !rest.is_empty() {
+            let estimate = self.push_block(&mut rest);
+            if estimate.is_some() {
+                return (pairs.len() - rest.len(), estimate);
             }
         }
-        (taken, None)
+        (pairs.len(), None)
     }
 
     /// Takes all pairs of a slice and hands every estimate to `report`.
     pub fn extend<P: SamplePair<S>>(&mut self, mut pairs: &[P], mut report: impl FnMut(Estimate)) {
         while !pairs.is_empty() {
-            let (taken, estimate) = self.push_slice(pairs);
-            pairs = pairs.get(taken..).unwrap_or(&[]);
-            if let Some(estimate) = estimate {
+            if let Some(estimate) = self.push_block(&mut pairs) {
                 report(estimate);
             }
         }
+    }
+
+    /// Takes pairs from the start of a slice up to the end of a block, and leaves the rest there.
+    #[inline]
+    fn push_block<P: SamplePair<S>>(&mut self, pairs: &mut &[P]) -> Option<Estimate> {
+        let (taken, block) = self.front.push_slice(pairs);
+        *pairs = pairs.get(taken..).unwrap_or(&[]);
+        let estimate = self.tracker.push(block?);
+        if self.tracker.has_lost() {
+            self.front.search();
+            self.tracker.forget();
+        }
+        estimate
     }
 
     /// Tells that `count` sample pairs were lost before the next one; the window that they would have been part of is dropped.

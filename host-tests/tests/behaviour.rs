@@ -273,6 +273,17 @@ fn an_identification_takes_a_calibration_and_settings_on_its_way() {
     let changed = run(&mut core);
     assert!(changed[0].start > 6_000 && changed[0].samples > 370);
     assert!((changed[2].main_amplitude - ideal).abs() > 0.05);
+    // Without settings nothing is found; with them it is as new.
+    let mut core = Core::UNSET;
+    assert!(run(&mut core).is_empty() && !core.is_searching());
+    core.configure(windows(20)).unwrap();
+    let found = run(&mut core);
+    assert_eq!(found.len(), changed.len());
+    for (found, changed) in found.iter().zip(&changed) {
+        assert_eq!(found.start + 3_000, changed.start);
+        assert_eq!(found.main_amplitude, changed.main_amplitude);
+        assert_eq!(found.flags, changed.flags);
+    }
 }
 
 #[test]

@@ -18,6 +18,13 @@ pub struct Identifier<S: Sample, const N: usize, const BLOCKS: usize> {
 }
 
 impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
+    /// An identification without settings: a [`Front::UNSET`] and a [`Tracker::UNSET`]. It finds nothing until
+    /// [`configure`](Self::configure) gives it some.
+    pub const UNSET: Self = Self {
+        front: Front::UNSET,
+        tracker: Tracker::UNSET,
+    };
+
     /// An identification from cold.
     ///
     /// # Errors

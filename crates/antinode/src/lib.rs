@@ -121,7 +121,8 @@
 //! | [`Block`], each in the queue | 72 | 128 | 120 |
 //! | [`Tracker`], with `BLOCKS` the length of its ring | 672 + 68 `BLOCKS` | the same | the same |
 //!
-//! [`Front::UNSET`] and [`Tracker::UNSET`] are all zeros: statics of them take neither flash nor stack, and `configure` makes them work.
+//! [`Front::UNSET`], [`Tracker::UNSET`] and [`Identifier::UNSET`] are all zeros: statics of them take neither flash nor stack, and
+//! `configure` makes them work.
 //!
 //! `opt-level = 2` is as fast as 3 and smaller. On a Cortex-M4 give rustc `-Ctarget-cpu=cortex-m4`: without it multiply-accumulates of
 //! three cycles are taken for ones of a single cycle.

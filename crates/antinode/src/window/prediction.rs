@@ -1,6 +1,6 @@
 //! What blocks would sum of a window's waves.
 //!
-//! Every sum of every block is the real part of a constant times each wave's phasor there: the constants are made once a pass.
+//! Every sum of every block is the real part of a constant times each wave's phasor there: the constants are made for a run of blocks.
 
 use num_complex::Complex32;
 

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::failure::Failure;
-use crate::fixed::with_std;
+use crate::fixed::{decimals, with_std};
 use crate::options::Corrected;
 use history::History;
 use solve::{Found, PickOffs};
@@ -41,22 +41,26 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
     }
     let name = names.join(", ");
     let found = history.solve().map_err(|fault| fault.of(&name))?;
-    let mut report = io::stderr().lock();
-    // Nobody need see the report: the result is on the other stream.
-    let _ = tell(&mut report, &name, &history, &found);
     let PickOffs {
         gain_ratio,
         skew,
         angle,
     } = found.pick_offs;
-    let [gain_std, skew_std, angle_std] = found.deviations;
-    writeln!(
-        io::stdout(),
-        "--gain-ratio {} --skew-ns {} --pick-off-angle {}",
-        rounded(gain_ratio, gain_std),
-        rounded(skew * 1e9, skew_std * 1e9),
-        rounded(angle, angle_std)
-    )?;
+    let [of_gain, of_skew, of_angle] = found.deviations;
+    let quantities = [
+        ("gain ratio", "--gain-ratio", gain_ratio, of_gain),
+        ("skew, ns", "--skew-ns", skew * 1e9, of_skew * 1e9),
+        ("pick-off angle, rad", "--pick-off-angle", angle, of_angle),
+    ];
+    let mut report = io::stderr().lock();
+    // Nobody need see the report: the result is on the other stream.
+    let _ = tell(&mut report, &name, &history, &found, &quantities);
+    // One digit more than the report's two of the deviation.
+    let options = quantities.map(|(_, option, value, deviation)| {
+        let decimals = decimals(deviation) + 1;
+        format!("{option} {value:.decimals$}")
+    });
+    writeln!(io::stdout(), "{}", options.join(" "))?;
     Ok(())
 }
 
@@ -77,14 +81,17 @@ fn open(path: &Path) -> Result<(String, Box<dyn Read>), Failure> {
     }
 }
 
+/// A quantity's name, its option, its value and its standard deviation.
+type Quantity = (&'static str, &'static str, f64, f64);
+
 /// Tells what was found, and how well.
-fn tell(out: &mut impl Write, name: &str, history: &History, found: &Found) -> io::Result<()> {
-    let [gain, skew, angle] = found.deviations;
-    let PickOffs {
-        gain_ratio,
-        skew: late,
-        angle: turned,
-    } = found.pick_offs;
+fn tell(
+    out: &mut impl Write,
+    name: &str,
+    history: &History,
+    found: &Found,
+    quantities: &[Quantity],
+) -> io::Result<()> {
     let turns = found
         .turned
         .iter()
@@ -100,13 +107,9 @@ fn tell(out: &mut impl Write, name: &str, history: &History, found: &Found) -> i
         history.rows,
         turns.join(" and ")
     )?;
-    writeln!(out, "gain ratio           {}", with_std(gain_ratio, gain))?;
-    writeln!(
-        out,
-        "skew, ns             {}",
-        with_std(late * 1e9, skew * 1e9)
-    )?;
-    writeln!(out, "pick-off angle, rad  {}", with_std(turned, angle))?;
+    for &(quantity, _, value, deviation) in quantities {
+        writeln!(out, "{quantity:<20} {}", with_std(value, deviation))?;
+    }
     if !found.knows_splits {
         writeln!(
             out,
@@ -123,10 +126,4 @@ fn tell(out: &mut impl Write, name: &str, history: &History, found: &Found) -> i
         )?;
     }
     Ok(())
-}
-
-/// A number to the digits that its deviation leaves, and one more.
-fn rounded(value: f64, deviation: f64) -> String {
-    let decimals = (2.0 - deviation.log10()).ceil().clamp(0.0, 9.0) as usize;
-    format!("{value:.decimals$}")
 }

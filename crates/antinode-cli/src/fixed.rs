@@ -9,7 +9,7 @@ pub fn significant(x: f64, digits: usize) -> f64 {
 }
 
 /// The decimals that show two digits of a standard deviation.
-fn decimals(std: f64) -> usize {
+pub fn decimals(std: f64) -> usize {
     if std > 0.0 && std.is_finite() {
         (1.0 - std.log10()).ceil().clamp(0.0, MOST_DECIMALS) as usize
     } else {

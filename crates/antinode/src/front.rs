@@ -16,7 +16,7 @@ enum Detector<S: Sample> {
 }
 
 impl<S: Sample> Detector<S> {
-    fn new(detection: Detection) -> Self {
+    const fn new(detection: Detection) -> Self {
         match detection {
             Detection::Difference => Self::Difference(DifferenceDetector::new()),
             #[cfg(feature = "mean-return")]
@@ -79,7 +79,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     const fn unset() -> Self {
         Self {
             settings: Settings::UNSET,
-            detector: Detector::Difference(DifferenceDetector::new()),
+            detector: Detector::new(Detection::Difference),
             demodulator: Demodulator::unset(),
             stage: Stage::Unset,
             index: 0,

@@ -1,4 +1,4 @@
-/* What the counts share: the arithmetic they are built for, ticks, and a gauge of the stack. */
+/* What the counts share: the arithmetic they are built for, the codes, ticks, and a gauge of the stack. */
 #ifndef COUNTS_H
 #define COUNTS_H
 
@@ -17,6 +17,17 @@ typedef antinode_fixed_t state_t;
 #define CALL(name) antinode_fixed_##name
 #define NAME "fixed"
 #endif
+
+/* Pairs of the ring of codes, of a measurement, and of a half-buffer. */
+enum { RING = 1406, PAIRS = 16384, HALF_BUFFER = 128 };
+extern const uint32_t _binary_codes_bin_start[RING];
+
+/* Pairs that come next at pair `at` of the endless stream: a half-buffer, or up to `to` or the ring's end. */
+static inline uint32_t next_pairs(uint32_t at, uint32_t to)
+{
+    const uint32_t left = RING - at % RING, count = to - at < HALF_BUFFER ? to - at : HALF_BUFFER;
+    return count < left ? count : left;
+}
 
 #define SYSTICK ((volatile uint32_t *)0xE000E010u)
 static uint32_t now(void) { return SYSTICK[2]; }

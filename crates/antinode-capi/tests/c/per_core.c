@@ -6,9 +6,8 @@
  */
 #include "counts.h"
 
-enum { RING = 1406, HALF_BUFFER = 64, FIRST = 2000, PAIRS = 16384 };
-
-extern const uint32_t _binary_codes_bin_start[RING];
+/* Pairs before the measurement. */
+enum { FIRST = 2000 };
 
 static state_t gyro;
 static antinode_estimate_t estimate;
@@ -50,12 +49,8 @@ static struct cost run(uint32_t at, uint32_t to)
 {
     struct cost cost = {0, 0, 0};
     while (at < to) {
-        const uint32_t from = at % RING;
-        uint32_t count = to - at < HALF_BUFFER ? to - at : HALF_BUFFER;
-        uint32_t begin;
-        if (count > RING - from)
-            count = RING - from;
-        begin = now();
+        const uint32_t from = at % RING, count = next_pairs(at, to);
+        const uint32_t begin = now();
         CALL(push_block_packed)(&gyro, _binary_codes_bin_start + from, count);
         cost.pushing += (begin - now()) & 0xffffffu;
         cost.windows += solve(&cost.solving);

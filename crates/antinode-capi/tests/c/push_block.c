@@ -6,10 +6,9 @@
  */
 #include "counts.h"
 
-enum { RING = 1406, HALF_BUFFER = 128, FIRST = 2000, PAIRS = 16384 };
+/* Pairs before the measurement. */
+enum { FIRST = 2000 };
 enum form { PACKED, INTERLEAVED, SEPARATE };
-
-extern const uint32_t _binary_codes_bin_start[RING];
 
 static state_t gyro;
 static sample_t interleaved[2 * RING], c[RING], d[RING];
@@ -20,12 +19,8 @@ static uint32_t run(enum form form, uint32_t at, uint32_t to)
     uint32_t ticks = 0;
     antinode_estimate_t estimate;
     while (at < to) {
-        const uint32_t from = at % RING;
-        uint32_t count = to - at < HALF_BUFFER ? to - at : HALF_BUFFER;
-        uint32_t begin;
-        if (count > RING - from)
-            count = RING - from;
-        begin = now();
+        const uint32_t from = at % RING, count = next_pairs(at, to);
+        const uint32_t begin = now();
         if (form == PACKED)
             CALL(push_block_packed)(&gyro, _binary_codes_bin_start + from, count);
         else if (form == INTERLEAVED)

@@ -5,10 +5,8 @@
  */
 #include "counts.h"
 
-enum { RING = 1406, HALF_BUFFER = 128, PAIRS = 16384, FROM_COLD = 100 };
+enum { FROM_COLD = 100 };
 enum form { PACKED, INTERLEAVED, SEPARATE, SINGLE };
-
-extern const uint32_t _binary_codes_bin_start[RING];
 
 static state_t gyro;
 static uint32_t words[HALF_BUFFER];
@@ -109,8 +107,7 @@ int main(void)
     for (form = PACKED; form <= SINGLE; form++) {
         CALL(init)(&gyro, &settings);
         for (at = 0; at < 4 * PAIRS; at += count) {
-            const uint32_t left = RING - at % RING;
-            count = left < HALF_BUFFER ? left : HALF_BUFFER;
+            count = next_pairs(at, UINT32_MAX);
             take(_binary_codes_bin_start + at % RING, count);
             push((enum form)form, count);
             if (at < 2 * PAIRS && at + count >= 2 * PAIRS) {

@@ -75,7 +75,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
                 block: Block {
                     start: 0,
                     layout: Layout::NONE,
-                    sums: [ChannelSums::EMPTY; 2],
+                    sums: [ChannelSums::empty(); 2],
                     watch: None,
                 },
                 table: [S::Weight::ZERO; N],

@@ -19,15 +19,12 @@ pub struct ChannelSums<S: Sample> {
 
 impl<S: Sample> ChannelSums<S> {
     /// The sums of no samples.
-    pub(crate) const EMPTY: Self = Self {
-        cosine: S::Sum::ZERO,
-        sine: S::Sum::ZERO,
-        sum: S::Sum::ZERO,
-    };
-
-    /// The sums of no samples.
     pub const fn empty() -> Self {
-        Self::EMPTY
+        Self {
+            cosine: S::Sum::ZERO,
+            sine: S::Sum::ZERO,
+            sum: S::Sum::ZERO,
+        }
     }
 }
 
@@ -52,8 +49,8 @@ impl<S: Sample> ChannelWatch<S> {
     pub fn empty() -> Self {
         let [high, low] = S::EXTREMES;
         Self {
-            third_cosine: S::Sum::default(),
-            third_sine: S::Sum::default(),
+            third_cosine: S::Sum::ZERO,
+            third_sine: S::Sum::ZERO,
             low,
             high,
             runs: S::Runs::default(),

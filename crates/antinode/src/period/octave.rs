@@ -104,7 +104,7 @@ impl<S: Sample> Octave<S> {
         let (shift, count) = (S::shift(&self.differences), usize::from(self.count));
         let level = |lag: usize| {
             let sum = self.differences.get(lag - 1).copied();
-            S::level(sum.unwrap_or_default(), shift, count - lag)
+            S::level(sum.unwrap_or(S::Square::ZERO), shift, count - lag)
         };
         // Of a wave that is too slow for this octave D(T) still rises at its fourth lag, and at its sixth is not yet below its third: of
         // one that the next octave cannot hold, of less than 7.4 samples, D(6) is below 0.4 of D(3). The frame begins anew, for a
@@ -159,7 +159,7 @@ fn add_lags<S: Sample>(sums: &mut Lags<S>, now: Two<S>, before: &[Two<S>]) {
     // The next two lags begin here: no sum is cleared beforehand.
     if let Some(new) = twos.get_mut(before.len()) {
         let oldest = before.first().map_or(first, |&[oldest, _]| oldest);
-        *new = [S::Square::default(); 2];
+        *new = [S::Square::ZERO; 2];
         S::add_difference(&mut new[0], second, oldest);
     }
 }

@@ -79,7 +79,7 @@ pub trait Sample:
     Copy + Debug + Default + PartialEq + Send + Zero + sealed::Sealed + 'static
 {
     /// A running sum of weighted samples.
-    type Sum: Copy + Debug + PartialEq + Default + Send + Zero;
+    type Sum: Copy + Debug + PartialEq + Send + Zero;
     /// The reference at one sample of a block: cosine and sine.
     #[doc(hidden)]
     type Weight: Copy + Debug + Send + Zero;
@@ -90,7 +90,7 @@ pub trait Sample:
     type Runs: Copy + Debug + PartialEq + Default + Send;
     /// A running sum of squared differences.
     #[doc(hidden)]
-    type Square: Copy + Debug + Default + Send + Zero;
+    type Square: Copy + Debug + Send + Zero;
     /// A pair less its offsets, as the sums of products take it.
     #[doc(hidden)]
     type Centred: Copy + Debug + Default + Send;

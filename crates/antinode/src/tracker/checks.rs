@@ -24,7 +24,7 @@ const COLOUR: f32 = 16.0;
 const RISE: f32 = 4.0;
 
 /// The noise variance of the clean windows before.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Noise {
     variance: f32,
     /// The mean of that and of the noise about the third harmonic, by degrees of freedom.
@@ -169,7 +169,7 @@ pub(crate) fn within(
     {
         noise.refused += 1;
         if noise.refused >= Noise::NEW_LEVEL {
-            *noise = Noise::default();
+            *noise = Noise::NONE;
         }
     }
     flags

@@ -196,7 +196,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.model
             .insert(Model::empty(layout, settings.calibration, rate))
             .begin(layout.step, self.count, settings.hum);
-        self.noise = Noise::default();
+        self.noise = Noise::NONE;
         self.trend.clear();
         self.before = None;
         self.lost = self.ever;

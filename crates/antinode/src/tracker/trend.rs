@@ -45,10 +45,7 @@ impl Trend {
         Self {
             points: [Point {
                 middle: 0,
-                angle: Angle {
-                    quarters: 0,
-                    rest: 0.0,
-                },
+                angle: Angle::ZERO,
                 weight: 0.0,
             }; KEPT],
             length: 0,

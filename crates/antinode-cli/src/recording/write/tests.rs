@@ -223,6 +223,7 @@ fn a_link_keeps_leading_to_its_file() {
 }
 
 #[test]
+#[ignore = "needs python3 with numpy and scipy"]
 fn scipy_and_numpy_read_what_is_written() {
     let directory = tempfile::tempdir().unwrap();
     let pairs = signal(500);
@@ -239,17 +240,11 @@ fn scipy_and_numpy_read_what_is_written() {
         for sample in &ALL[..4] {
             let path = directory.path().join(name);
             write(&path, 1e5, *sample, &pairs).unwrap();
-            if let Ok(output) = Command::new("python3")
+            let read = Command::new("python3")
                 .args(["-c", script])
                 .arg(&path)
-                .output()
-            {
-                let told = String::from_utf8_lossy(&output.stderr);
-                assert!(
-                    output.status.success() || told.contains("ModuleNotFoundError"),
-                    "{name} {sample:?}: {told}"
-                );
-            }
+                .status();
+            assert!(read.unwrap().success(), "{name} {sample:?}");
         }
     }
 }

@@ -1,20 +1,22 @@
 //! `antinode calibrate`: rows of a pattern that turned in, the pick-offs' calibration out.
 
-mod history;
+mod moments;
 mod solve;
 
-use std::fs::File;
-use std::io::{self, IsTerminal, Read, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Write};
+use std::path::PathBuf;
 
 use clap::Args;
 
 use crate::failure::Failure;
 use crate::fixed::{decimals, with_std};
 use crate::options::Corrected;
-use history::History;
-use solve::{Found, PickOffs};
+use crate::runs::Runs;
+use moments::Run;
+use solve::{Found, PickOffs, solve};
 
+/// The pattern turns by no more than this from row to row, rad: the sums over time are then good to 2 %.
+const MOST_TURN: f64 = 0.1;
 /// The residual over its stated noise from which on it is told that something else moves.
 const BEYOND_NOISE: f64 = 2.0;
 
@@ -32,15 +34,14 @@ pub struct Calibrate {
 
 /// Finds the calibration and prints it as options.
 pub fn run(options: &Calibrate) -> Result<(), Failure> {
-    let mut history = History::new(PickOffs::from(&options.corrected));
-    let mut names = Vec::new();
-    for path in &options.rows {
-        let (name, source) = open(path)?;
-        history.read(&name, source)?;
-        names.push(name);
-    }
-    let name = names.join(", ");
-    let found = history.solve().map_err(|fault| fault.of(&name))?;
+    let corrected = PickOffs::from(&options.corrected);
+    let (rows, name) = Runs::open(&options.rows, MOST_TURN)?;
+    let runs: Vec<_> = rows
+        .runs
+        .iter()
+        .map(|run| Run::new(run, &corrected))
+        .collect();
+    let found = solve(&runs, corrected).map_err(|fault| fault.of(&name))?;
     let PickOffs {
         gain_ratio,
         skew,
@@ -54,7 +55,7 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
     ];
     let mut report = io::stderr().lock();
     // Nobody need see the report: the result is on the other stream.
-    let _ = tell(&mut report, &name, &history, &found, &quantities);
+    let _ = tell(&mut report, &name, &rows, &found, &quantities);
     // One digit more than the report's two of the deviation.
     let options = quantities.map(|(_, option, value, deviation)| {
         let decimals = decimals(deviation) + 1;
@@ -64,23 +65,6 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The rows' name and bytes.
-fn open(path: &Path) -> Result<(String, Box<dyn Read>), Failure> {
-    if path == Path::new("-") {
-        if io::stdin().is_terminal() {
-            eprintln!("reading rows from standard input; Ctrl-D ends them");
-        }
-        return Ok(("standard input".to_owned(), Box::new(io::stdin())));
-    }
-    let name = path.display().to_string();
-    match File::open(path) {
-        Ok(file) => Ok((name, Box::new(file))),
-        Err(error) => Err(Failure::Recording(format!(
-            "{name}: {error}; give the CSV file of rows that `antinode identify --output csv` printed"
-        ))),
-    }
-}
-
 /// A quantity's name, its option, its value and its standard deviation.
 type Quantity = (&'static str, &'static str, f64, f64);
 
@@ -88,7 +72,7 @@ type Quantity = (&'static str, &'static str, f64, f64);
 fn tell(
     out: &mut impl Write,
     name: &str,
-    history: &History,
+    rows: &Runs,
     found: &Found,
     quantities: &[Quantity],
 ) -> io::Result<()> {
@@ -103,8 +87,8 @@ fn tell(
     writeln!(
         out,
         "{name}: {} of {} rows; the pattern turns by {}",
-        found.rows,
-        history.rows,
+        rows.used(),
+        rows.rows,
         turns.join(" and ")
     )?;
     for &(quantity, _, value, deviation) in quantities {

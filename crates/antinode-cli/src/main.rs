@@ -14,7 +14,9 @@ mod methods;
 mod options;
 mod ranges;
 mod recording;
+mod resonator;
 mod rows;
+mod runs;
 mod simulate;
 mod study;
 
@@ -28,6 +30,7 @@ fn main() -> ExitCode {
         None => demonstration::run(),
         Some(Command::Identify(options)) => identify::run(&options),
         Some(Command::Calibrate(options)) => calibrate::run(&options),
+        Some(Command::Resonator(options)) => resonator::run(&options),
         Some(Command::Simulate(options)) => simulate::run(&options),
         Some(Command::Study(options)) => study::run(&options),
         Some(Command::Monitor(options)) => device::monitor::run(&options),

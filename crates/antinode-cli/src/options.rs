@@ -8,6 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use crate::calibrate::Calibrate;
 use crate::ranges;
 use crate::recording::{Columns, RawFormat};
+use crate::resonator::Resonator;
 
 /// Under the help of the whole.
 const EXAMPLES: &str = "\
@@ -18,6 +19,7 @@ Examples:
   antinode identify --rate 100000 --columns t,C,D log.csv
   recorder | antinode identify --raw i16 --rate 100000 -
   antinode identify --output csv one_way.wav other_way.wav | antinode calibrate -
+  antinode identify --output csv --periods 1000 long.wav | antinode resonator -
   antinode simulate -o ring.wav --noise 0.005 --decay-rate 0.5
   antinode monitor /dev/ttyACM0 --format csv > rows.csv
   antinode command /dev/ttyACM0 window 20";
@@ -52,6 +54,13 @@ pub enum Command {
     ///
     /// Rows that were identified with a calibration already: give it here too; what is printed takes its place.
     Calibrate(Calibrate),
+    /// Finds the resonator's quality factor and the splits of its damping and frequency from rows of ring-downs.
+    ///
+    /// Calibrate the pick-offs first, and identify in windows that do not overlap: of a record of hours, as long as the pattern turns by
+    /// less than 22.5° in one. A pattern at rest tells the decay time along it. Ring-downs at pattern angles of 0°, 22.5° and 45°, or of a
+    /// pattern that turns, tell both splits too: how far the decay rates and the frequencies of the two modes are apart, and the
+    /// pattern angle at which each is greatest. What rotation turns each run's pattern by is found beside them.
+    Resonator(Resonator),
     /// Writes a simulated recording, and the truth beside it as JSON.
     Simulate(Box<super::simulate::Simulate>),
     /// Computes the paper's comparison of its four methods anew: figures, tables, and its conclusions checked.

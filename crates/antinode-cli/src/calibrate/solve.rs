@@ -11,7 +11,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use super::history::Run;
+use super::moments::Run;
 use crate::failure::Failure;
 use crate::options::Corrected;
 
@@ -76,8 +76,6 @@ pub struct Found {
     pub knows_splits: bool,
     /// The most that a run turns backwards, at most 0, and forwards, rad.
     pub turned: [f64; 2],
-    /// Rows used.
-    pub rows: usize,
 }
 
 /// Why nothing was found.
@@ -157,7 +155,6 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
                 residual,
                 knows_splits,
                 turned,
-                rows,
             });
         }
     }

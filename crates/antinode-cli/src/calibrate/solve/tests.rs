@@ -1,7 +1,7 @@
 //! Histories made from the averaged equations of a resonator, with splits, flawed pick-offs and noise.
 
 use super::*;
-use crate::calibrate::history::Moment;
+use crate::calibrate::moments::Moment;
 
 /// Seconds of a run, and rows in it.
 const SECONDS: f64 = 20.0;

@@ -1,72 +1,68 @@
 use super::*;
 
-const HEADER: &str = "file,time_s,main_amplitude,quadrature_amplitude,angle_rad,frequency_hz,main_amplitude_std,flags\n";
-
-const IDEAL: PickOffs = PickOffs {
-    gain_ratio: 1.0,
-    skew: 0.0,
-    angle: 0.0,
-};
+const HEADER: &str = "file,time_s,main_amplitude,quadrature_amplitude,angle_rad,frequency_hz,main_amplitude_std,quadrature_amplitude_std,angle_std_rad,flags\n";
 
 /// Rows of one file, 10 ms apart, that turn by `turn` rad each.
 fn rows(file: &str, count: usize, turn: f64, flags: impl Fn(usize) -> &'static str) -> String {
     (0..count)
         .map(|k| {
             let (time, angle) = (0.01 * k as f64, turn * k as f64);
-            format!("{file},{time},0.5,0.02,{angle},5332,0.001,{}\n", flags(k))
+            format!(
+                "{file},{time},0.5,0.02,{angle},5332,0.001,0.001,0.001,{}\n",
+                flags(k)
+            )
         })
         .collect()
 }
 
-fn read(rows: &str) -> History {
-    let mut history = History::new(IDEAL);
-    history
-        .read("rows", (HEADER.to_owned() + rows).as_bytes())
+fn read(rows: &str) -> Runs {
+    let mut all = Runs::new(0.1);
+    all.read("rows", (HEADER.to_owned() + rows).as_bytes())
         .unwrap();
-    history
+    all
 }
 
 /// Rows of each run.
-fn lengths(history: &History) -> Vec<usize> {
-    history.runs.iter().map(|run| run.moments.len()).collect()
+fn lengths(all: &Runs) -> Vec<usize> {
+    all.runs.iter().map(|run| run.rows.len()).collect()
 }
 
 #[test]
 fn a_run_ends_with_its_file() {
-    let history = read(&(rows("a", 20, 0.05, |_| "") + &rows("b", 30, -0.04, |_| "")));
-    assert_eq!(lengths(&history), [20, 30]);
-    assert_eq!(history.rows, 50);
-    assert!((history.runs[0].turned - 19.0 * 0.05).abs() < 1e-9);
-    assert!((history.runs[1].turned + 29.0 * 0.04).abs() < 1e-9);
+    let all = read(&(rows("a", 20, 0.05, |_| "") + &rows("b", 30, -0.04, |_| "")));
+    assert_eq!(lengths(&all), [20, 30]);
+    assert_eq!(all.rows, 50);
+    assert!((all.runs[0].turned - 19.0 * 0.05).abs() < 1e-9);
+    assert!((all.runs[1].turned + 29.0 * 0.04).abs() < 1e-9);
     // A file that goes on where the last one ended is another recording.
     let one = rows("a", 40, 0.01, |_| "");
     let (first, rest) = one.split_at(one.match_indices("a,0.2,").next().unwrap().0);
-    let history = read(&(first.to_owned() + &rest.replace("a,", "b,")));
-    assert_eq!(lengths(&history), [20, 20]);
-    let mut history = History::new(IDEAL);
+    let all = read(&(first.to_owned() + &rest.replace("a,", "b,")));
+    assert_eq!(lengths(&all), [20, 20]);
+    let mut all = Runs::new(0.1);
     for turn in [0.05, -0.05] {
         let text = HEADER.to_owned() + &rows("a", 20, turn, |_| "");
-        history.read("rows", text.as_bytes()).unwrap();
+        all.read("rows", text.as_bytes()).unwrap();
     }
-    assert_eq!((lengths(&history), history.rows), (vec![20, 20], 40));
+    assert_eq!((lengths(&all), all.rows), (vec![20, 20], 40));
     // Time that goes back is another recording too, whatever it is called.
-    let history = read(&(rows("a", 20, 0.0, |_| "") + &rows("a", 30, 0.0, |_| "")));
-    assert_eq!(lengths(&history), [20, 30]);
+    let all = read(&(rows("a", 20, 0.0, |_| "") + &rows("a", 30, 0.0, |_| "")));
+    assert_eq!(lengths(&all), [20, 30]);
 }
 
 #[test]
 fn flagged_rows_are_left_out() {
-    let history = read(&rows("a", 40, 0.02, |k| if k == 5 { "misfit" } else { "" }));
-    assert_eq!(lengths(&history), [39]);
+    let all = read(&rows("a", 40, 0.02, |k| if k == 5 { "misfit" } else { "" }));
+    assert_eq!(lengths(&all), [39]);
     // What turned meanwhile is not known.
     let lost = |k| match k {
         15..20 => "lost",
         20 => "reacquired",
         _ => "",
     };
-    let history = read(&rows("a", 40, 0.002, lost));
-    assert_eq!(lengths(&history), [15, 19]);
-    assert!((history.runs[1].turned - 18.0 * 0.002).abs() < 1e-9);
+    let all = read(&rows("a", 40, 0.002, lost));
+    assert_eq!(lengths(&all), [15, 19]);
+    assert!((all.runs[1].turned - 18.0 * 0.002).abs() < 1e-9);
 }
 
 #[test]
@@ -75,9 +71,9 @@ fn an_angle_is_known_modulo_a_quarter_turn() {
     let text = rows("a", 41, 0.08, |_| "");
     assert_ne!(wrapped(&text), text);
     for text in [wrapped(&text), text] {
-        let history = read(&text);
-        assert_eq!(lengths(&history), [41]);
-        assert!((history.runs[0].turned - 3.2).abs() < 1e-9);
+        let all = read(&text);
+        assert_eq!(lengths(&all), [41]);
+        assert!((all.runs[0].turned - 3.2).abs() < 1e-9);
     }
 }
 
@@ -91,14 +87,14 @@ fn too_fast_a_turn_and_too_few_rows_are_no_run() {
 #[test]
 fn what_is_no_row_is_told_with_its_line() {
     let text = HEADER.to_owned() + &rows("a", 3, 0.01, |_| "").replace("0.01,0.5", "0.01,x");
-    let fault = History::new(IDEAL).read("it", text.as_bytes()).unwrap_err();
+    let fault = Runs::new(0.1).read("it", text.as_bytes()).unwrap_err();
     assert!(fault.to_string().contains("it, line 3: "), "{fault}");
     for (before, after, told) in [
         ("frequency_hz", "f", "no column frequency_hz"),
         ("flags", "state", "no column flags"),
     ] {
         let text = HEADER.replace(before, after);
-        let fault = History::new(IDEAL).read("it", text.as_bytes()).unwrap_err();
+        let fault = Runs::new(0.1).read("it", text.as_bytes()).unwrap_err();
         assert!(fault.to_string().contains(told), "{fault}");
     }
 }

@@ -1,70 +1,91 @@
-//! Rows become runs: spans of time in which the pattern turns without a break.
+//! Rows that `antinode identify` printed become runs: spans of time in which the pattern moves without a break.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
-use std::io::Read;
+use std::f64::consts::FRAC_PI_2;
+use std::fs::File;
+use std::io::{self, IsTerminal, Read};
+use std::path::{Path, PathBuf};
 
 use csv::StringRecord;
-use nalgebra::Complex;
 
-use super::solve::{Fault, Found, PickOffs, solve};
 use crate::failure::Failure;
 
 /// The least rows of a run: four unknowns are its own.
 const LEAST_ROWS: usize = 12;
-/// The pattern turns by no more than this from row to row, rad: the sums over time are then good to 2 %.
-const MOST_TURN: f64 = 0.1;
 /// Columns that are read.
-const COLUMNS: [&str; 6] = [
+const COLUMNS: [&str; 8] = [
     "time_s",
     "main_amplitude",
     "quadrature_amplitude",
     "angle_rad",
     "frequency_hz",
     "main_amplitude_std",
+    "quadrature_amplitude_std",
+    "angle_std_rad",
 ];
 
-/// A window's wave as the pick-offs show it.
+/// What is used of a row.
 #[derive(Debug, Clone, Copy)]
-pub struct Moment {
-    /// Time, s.
+pub struct Row {
+    /// s.
     pub time: f64,
-    /// Phasors of both pick-offs, in the samples' unit; their common phase is anything.
-    pub raw: [Complex<f64>; 2],
-    /// 2πf, rad/s.
-    pub omega: f64,
-    /// Standard deviation of an amplitude, in the samples' unit.
-    pub deviation: f64,
+    /// a_A and a_B, in the samples' unit.
+    pub main: f64,
+    pub quadrature: f64,
+    /// θ_A, rad.
+    pub angle: f64,
+    /// Hz.
+    pub frequency: f64,
+    /// One standard deviation each of a_A, a_B and θ_A.
+    pub deviations: [f64; 3],
 }
 
 /// A span of rows without a break.
 #[derive(Debug, Clone, Default)]
 pub struct Run {
-    pub moments: Vec<Moment>,
+    pub rows: Vec<Row>,
     /// By how much the pattern turns, rad.
     pub turned: f64,
 }
 
 /// All that the rows tell.
 #[derive(Debug)]
-pub struct History {
-    runs: Vec<Run>,
+pub struct Runs {
+    pub runs: Vec<Run>,
     /// Rows read, flagged ones among them.
     pub rows: usize,
-    corrected: PickOffs,
+    /// By how much the pattern turns from row to row at most, rad.
+    most_turn: f64,
 }
 
-impl History {
-    /// Nothing yet; the rows to come were identified with this calibration.
-    pub fn new(corrected: PickOffs) -> Self {
+impl Runs {
+    /// Reads files of rows, `-` being standard input; gives their names too. A run ends where the pattern turns by more than `most_turn` rad
+    /// from row to row.
+    pub fn open(paths: &[PathBuf], most_turn: f64) -> Result<(Self, String), Failure> {
+        let mut runs = Self::new(most_turn);
+        let mut names = Vec::new();
+        for path in paths {
+            let (name, source) = open(path)?;
+            runs.read(&name, source)?;
+            names.push(name);
+        }
+        Ok((runs, names.join(", ")))
+    }
+
+    fn new(most_turn: f64) -> Self {
         Self {
             runs: Vec::new(),
             rows: 0,
-            corrected,
+            most_turn,
         }
     }
 
+    /// Rows in runs.
+    pub fn used(&self) -> usize {
+        self.runs.iter().map(|run| run.rows.len()).sum()
+    }
+
     /// Adds the rows of a file.
-    pub fn read(&mut self, name: &str, source: impl Read) -> Result<(), Failure> {
+    fn read(&mut self, name: &str, source: impl Read) -> Result<(), Failure> {
         let mut reader = csv::Reader::from_reader(source);
         let unreadable = |error: csv::Error| {
             Failure::Recording(format!(
@@ -111,12 +132,12 @@ impl History {
                 }
                 _ => f64::INFINITY,
             };
-            if turn.abs() > MOST_TURN {
+            if turn.abs() > self.most_turn {
                 self.end(&mut run);
             } else {
                 run.turned += turn;
             }
-            run.moments.push(row.moment(&self.corrected));
+            run.rows.push(row);
             present = Some((from.to_owned(), row.angle));
         }
         self.end(&mut run);
@@ -126,37 +147,27 @@ impl History {
     /// Keeps a run that is long enough, and begins another.
     fn end(&mut self, run: &mut Run) {
         let run = std::mem::take(run);
-        if run.moments.len() >= LEAST_ROWS {
+        if run.rows.len() >= LEAST_ROWS {
             self.runs.push(run);
         }
-    }
-
-    /// Solves for the calibration.
-    pub fn solve(&self) -> Result<Found, Fault> {
-        solve(&self.runs, self.corrected)
     }
 }
 
 impl Run {
+    /// From the first row to the last, s.
+    pub fn seconds(&self) -> f64 {
+        self.rows[self.rows.len() - 1].time - self.rows[0].time
+    }
+
     /// True when the last row, if any, is earlier.
     fn is_before(&self, time: f64) -> bool {
-        self.moments.last().is_none_or(|last| last.time < time)
+        self.rows.last().is_none_or(|last| last.time < time)
     }
 }
 
 /// An angle's change, known modulo π/2: −π/4 to π/4.
-fn turn(change: f64) -> f64 {
+pub fn turn(change: f64) -> f64 {
     change - FRAC_PI_2 * (change / FRAC_PI_2).round()
-}
-
-/// What is used of a row.
-struct Row {
-    time: f64,
-    main: f64,
-    quadrature: f64,
-    angle: f64,
-    frequency: f64,
-    deviation: f64,
 }
 
 impl Row {
@@ -166,32 +177,43 @@ impl Row {
         for (number, place) in numbers.iter_mut().zip(places) {
             *number = record.get(place)?.parse().ok()?;
         }
-        let [time, main, quadrature, angle, frequency, deviation] = numbers;
-        let usable = numbers.iter().all(|number| number.is_finite()) && main > 0.0;
-        (usable && deviation > 0.0).then_some(Self {
+        let [
             time,
             main,
             quadrature,
             angle,
             frequency,
-            deviation,
+            of_main,
+            of_quadrature,
+            of_angle,
+        ] = numbers;
+        let deviations = [of_main, of_quadrature, of_angle];
+        let usable = numbers.iter().all(|number| number.is_finite()) && main > 0.0;
+        (usable && deviations.iter().all(|&deviation| deviation > 0.0)).then_some(Self {
+            time,
+            main,
+            quadrature,
+            angle,
+            frequency,
+            deviations,
         })
     }
+}
 
-    /// The phasors of (1) to (3), as pick-offs of this calibration show them.
-    fn moment(&self, corrected: &PickOffs) -> Moment {
-        let (sine, cosine) = (2.0 * self.angle).sin_cos();
-        let ideal = [
-            Complex::new(self.main * cosine, self.quadrature * sine),
-            Complex::new(self.main * sine, -self.quadrature * cosine),
-        ];
-        let omega = TAU * self.frequency;
-        Moment {
-            time: self.time,
-            raw: corrected.distort(ideal, omega),
-            omega,
-            deviation: self.deviation,
+/// The rows' name and bytes.
+fn open(path: &Path) -> Result<(String, Box<dyn Read>), Failure> {
+    if path == Path::new("-") {
+        if io::stdin().is_terminal() {
+            eprintln!("reading rows from standard input; Ctrl-D ends them");
         }
+        return Ok(("standard input".to_owned(), Box::new(io::stdin())));
+    }
+    let name = path.display().to_string();
+    match File::open(path) {
+        Ok(file) => Ok((name, Box::new(file))),
+        Err(error) => Err(Failure::Recording(format!(
+            "{name}: {error}; give the CSV file of rows that `antinode identify --output csv` printed"
+        ))),
     }
 }
 

@@ -1,0 +1,245 @@
+//! `antinode resonator`: rows of ring-downs in, quality factor and splits out.
+
+mod fit;
+mod model;
+mod motion;
+
+use std::f64::consts::{PI, TAU};
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::fixed::{significant, with_std};
+use crate::options::Format;
+use crate::runs::Runs;
+use fit::{Found, Measured, fit};
+
+/// The pattern turns by no more than this from row to row, rad: half of what leaves it known.
+const MOST_TURN: f64 = PI / 8.0;
+/// The residual over its stated noise from which on it is told that something else moves.
+const BEYOND_NOISE: f64 = 2.0;
+/// A split of fewer deviations than this has no angle.
+const SPLIT_SEEN: f64 = 3.0;
+/// A decay of fewer deviations than this is none.
+const DECAY_SEEN: f64 = 3.0;
+
+/// `antinode resonator`.
+#[derive(Debug, Args)]
+pub struct Resonator {
+    /// Rows of `antinode identify --output csv` or `antinode monitor --format csv`; `-` is standard input.
+    #[arg(required = true, value_name = "ROWS")]
+    pub rows: Vec<PathBuf>,
+    /// How the quantities are printed: a table in degrees, or CSV or JSON lines in radians.
+    #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
+    pub output: Format,
+}
+
+/// A kind of quantity: its name where angles are in radians, and where it is to be read, in units of which this many are one.
+struct Kind {
+    name: &'static str,
+    label: &'static str,
+    units: f64,
+}
+
+const fn kind(name: &'static str, label: &'static str, units: f64) -> Kind {
+    Kind { name, label, units }
+}
+
+const DEGREES: f64 = 180.0 / PI;
+const DECAY_TIME: Kind = kind("decay_time_s", "decay time, s", 1.0);
+const QUALITY_FACTOR: Kind = kind("quality_factor", "quality factor", 1.0);
+const ROTATION: Kind = kind("rotation_rad_s", "turned by rotation, °/s", DEGREES);
+const FREQUENCY: Kind = kind("frequency_hz", "mean frequency, Hz", 1.0);
+const DAMPING_SPLIT: Kind = kind("damping_split_s", "damping split, 1/s", 1.0);
+const MOST_DAMPED: Kind = kind("most_damped_at_rad", "most damped at, °", DEGREES);
+const FREQUENCY_SPLIT: Kind = kind("frequency_split_hz", "frequency split, Hz", 1.0);
+const HIGHEST: Kind = kind("highest_at_rad", "highest at, °", DEGREES);
+
+/// A quantity of the resonator, or of one run.
+struct Quantity {
+    /// The run, from 0; none where it is the resonator's.
+    run: Option<usize>,
+    kind: Kind,
+    value: f64,
+    /// One standard deviation; 0 of a mean frequency, which has none.
+    std: f64,
+}
+
+/// A quantity as CSV and JSON lines have it; the names are the columns.
+#[derive(Serialize)]
+struct Row {
+    /// From 1.
+    run: Option<usize>,
+    quantity: &'static str,
+    value: f64,
+    std: Option<f64>,
+}
+
+impl From<&Quantity> for Row {
+    fn from(quantity: &Quantity) -> Self {
+        Self {
+            run: quantity.run.map(|run| run + 1),
+            quantity: quantity.kind.name,
+            // More would be digits of nothing.
+            value: significant(quantity.value, 12),
+            std: (quantity.std > 0.0).then(|| significant(quantity.std, 6)),
+        }
+    }
+}
+
+/// Finds the resonator and prints it.
+pub fn run(options: &Resonator) -> Result<(), Failure> {
+    let (rows, name) = Runs::open(&options.rows, MOST_TURN)?;
+    if rows.runs.is_empty() {
+        return Err(Failure::Recording(format!(
+            "{name}: no dozen of clean rows in which the pattern turns by less than 22.5° from row to row; see their flags, and shorten the \
+             windows where it turns faster"
+        )));
+    }
+    let found = fit(&rows.runs).map_err(|_| {
+        Failure::Recording(format!(
+            "{name}: no resonator explains the rows: see that nothing drives the gyro while it rings down, and that its windows do not overlap"
+        ))
+    })?;
+    let quantities = quantities(&rows, &found);
+    let mut out = io::stdout().lock();
+    match options.output {
+        Format::Table => table(&mut out, &name, &rows, &quantities)?,
+        Format::Csv => {
+            let mut writer = csv::Writer::from_writer(&mut out);
+            for quantity in &quantities {
+                writer
+                    .serialize(Row::from(quantity))
+                    .map_err(io::Error::from)?;
+            }
+            writer.flush()?;
+        }
+        Format::Jsonl => {
+            for quantity in &quantities {
+                serde_json::to_writer(&mut out, &Row::from(quantity)).map_err(io::Error::from)?;
+                writeln!(out)?;
+            }
+        }
+    }
+    // Nobody need see what is told of the result.
+    let _ = tell(&mut io::stderr().lock(), &rows, &found);
+    Ok(())
+}
+
+/// All that was found, run by run and then of the resonator.
+fn quantities(rows: &Runs, found: &Found) -> Vec<Quantity> {
+    let mut list = Vec::new();
+    let mut add = |run, kind, (value, std): Measured| {
+        list.push(Quantity {
+            run,
+            kind,
+            value,
+            std,
+        });
+    };
+    let all = rows.runs.iter().flat_map(|run| &run.rows);
+    let frequency = all.map(|row| row.frequency).sum::<f64>() / rows.used() as f64;
+    for index in 0..rows.runs.len() {
+        let run = Some(index);
+        let decay_time = time(found.decay_of_run(index));
+        add(run, DECAY_TIME, decay_time);
+        add(run, QUALITY_FACTOR, scaled(decay_time, PI * frequency));
+        if let Some(rotation) = found.rotation(index) {
+            add(run, ROTATION, rotation);
+        }
+    }
+    add(None, FREQUENCY, (frequency, 0.0));
+    if let Some(decay) = found.decay() {
+        let decay_time = time(decay);
+        add(None, DECAY_TIME, decay_time);
+        add(None, QUALITY_FACTOR, scaled(decay_time, PI * frequency));
+    }
+    for (split, size, at, unit) in [
+        (found.damping_split(), DAMPING_SPLIT, MOST_DAMPED, 1.0),
+        (found.frequency_split(), FREQUENCY_SPLIT, HIGHEST, 1.0 / TAU),
+    ] {
+        if let Some([split, angle]) = split {
+            add(None, size, scaled(split, unit));
+            if split.0 > SPLIT_SEEN * split.1 {
+                add(None, at, angle);
+            }
+        }
+    }
+    list
+}
+
+/// The inverse of a rate.
+fn time((rate, std): Measured) -> Measured {
+    (1.0 / rate, std / (rate * rate))
+}
+
+fn scaled((value, std): Measured, by: f64) -> Measured {
+    (value * by, std * by)
+}
+
+/// Prints quantities to be read, with angles in degrees.
+fn table(out: &mut impl Write, name: &str, rows: &Runs, quantities: &[Quantity]) -> io::Result<()> {
+    writeln!(out, "{name}: {} of {} rows", rows.used(), rows.rows)?;
+    for of in quantities.chunk_by(|one, next| one.run == next.run) {
+        match of[0].run {
+            Some(index) => {
+                let run = &rows.runs[index];
+                writeln!(
+                    out,
+                    "run {}: {:.1} s, the pattern at {:.1}° turns by {:+.1}°",
+                    index + 1,
+                    run.seconds(),
+                    run.rows[0].angle.to_degrees(),
+                    run.turned.to_degrees()
+                )?;
+            }
+            None => writeln!(out, "resonator")?,
+        }
+        for Quantity {
+            kind, value, std, ..
+        } in of
+        {
+            let text = with_std(value * kind.units, std * kind.units);
+            writeln!(out, "  {:<24} {}", kind.label, text.trim_end())?;
+        }
+    }
+    Ok(())
+}
+
+/// Tells what the numbers leave open.
+fn tell(out: &mut impl Write, rows: &Runs, found: &Found) -> io::Result<()> {
+    for run in 0..rows.runs.len() {
+        let (decay, std) = found.decay_of_run(run);
+        if decay < DECAY_SEEN * std {
+            writeln!(
+                out,
+                "warning: the wave of run {} does not decay beyond its noise: its decay time and quality factor mean nothing; record longer",
+                run + 1
+            )?;
+        }
+    }
+    let unknown = match (found.model.damping, found.model.frequency) {
+        (true, true) => None,
+        (true, false) => Some("split of frequency"),
+        (false, true) => Some("split of damping"),
+        (false, false) => Some("splits of damping and frequency"),
+    };
+    if let Some(unknown) = unknown {
+        writeln!(
+            out,
+            "the rows do not tell the {unknown}: give ring-downs at pattern angles 22.5° apart, or of a pattern that turns by 45° and more"
+        )?;
+    }
+    if found.residual > BEYOND_NOISE {
+        writeln!(
+            out,
+            "warning: rows differ from the resonator's motion by {:.1} times their noise: the rotation or the damping changes meanwhile, or the \
+             pick-offs are not calibrated; the deviations above are wider by that",
+            found.residual
+        )?;
+    }
+    Ok(())
+}

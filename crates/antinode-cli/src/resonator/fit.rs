@@ -1,0 +1,360 @@
+//! Runs become a resonator, by least squares.
+//!
+//! Every row is a measurement of a_A, a_B and θ. First each run gets a decay, a rotation and a growth of its quadrature of its own, which
+//! any run tells. What the runs share, the splits of damping and frequency, takes their place where the runs together tell it: a pattern
+//! that stands still sees one side of each alone. The steps are those of Levenberg and Marquardt.
+
+use nalgebra::{Cholesky, Complex, DMatrix, DVector, Dyn};
+
+use super::model::Model;
+use super::motion::{Motion, PARAMETERS};
+use crate::runs::{Run, turn};
+
+/// From this residual over the rows' own deviations on runs are not each by themselves.
+const BEYOND_NOISE: f64 = 1.5;
+/// Below this all patterns are one, and what seems to tell them apart is noise: 3° between two runs, 5° of one that turns.
+const LEAST_SPREAD: f64 = 0.005;
+/// Steps at most; ten do.
+const STEPS: usize = 100;
+/// The last step takes less than this off the squares of the residual, in squares of deviations as they are stated: it moves by less than a
+/// hundredth of one.
+const SETTLED: f64 = 1e-4;
+/// Rows tell a split that they know to so many times the damping: that of damping, and that of frequency.
+const TOLD: [f64; 2] = [0.2, 1.0];
+/// Or, that of frequency, to this share of what is seen of it.
+const TOLD_SHARE: f64 = 0.1;
+
+/// What was found.
+#[derive(Debug)]
+pub struct Found {
+    /// What the runs share.
+    pub model: Model,
+    values: DVector<f64>,
+    /// Of the values, widened where the residual is beyond the rows' own deviations.
+    covariance: DMatrix<f64>,
+    /// The rms residual over the rows' own deviations: 1 where there is nothing but noise.
+    pub residual: f64,
+    /// The means of R/E and of S/E over each run.
+    shares: Vec<[f64; 2]>,
+}
+
+/// A value and its standard deviation.
+pub type Measured = (f64, f64);
+
+/// The steps do not settle.
+#[derive(Debug, PartialEq)]
+pub struct Unsettled;
+
+impl Found {
+    /// A value whose derivatives by the unknowns are these.
+    fn measured(&self, value: f64, gradient: &[(usize, f64)]) -> Measured {
+        let mut variance = 0.0;
+        for (i, left) in gradient {
+            for (j, right) in gradient {
+                variance += left * right * self.covariance[(*i, *j)];
+            }
+        }
+        (value, variance.max(0.0).sqrt())
+    }
+
+    /// A sum of unknowns.
+    fn sum(&self, terms: &[(usize, f64)]) -> Measured {
+        let value = terms.iter().map(|&(index, by)| by * self.values[index]);
+        self.measured(value.sum(), terms)
+    }
+
+    /// 1/τ along the pattern of a run, 1/s.
+    pub fn decay_of_run(&self, run: usize) -> Measured {
+        let decay = (self.model.decay_at(run), 1.0);
+        if self.model.damping {
+            let [r, s] = self.shares[run];
+            self.sum(&[
+                decay,
+                (Model::DAMPING + 1, 0.5 * r),
+                (Model::DAMPING + 2, 0.5 * s),
+            ])
+        } else {
+            self.sum(&[decay])
+        }
+    }
+
+    /// The mean 1/τ of both modes, 1/s, where the rows tell it.
+    pub fn decay(&self) -> Option<Measured> {
+        self.model
+            .damping
+            .then(|| self.sum(&[(Model::DAMPING, 1.0)]))
+    }
+
+    /// The split of damping, 1/s, and the angle at which damping is greatest, rad, where the rows tell them.
+    pub fn damping_split(&self) -> Option<[Measured; 2]> {
+        self.model.damping.then(|| self.split(Model::DAMPING + 1))
+    }
+
+    /// The split of frequency, rad/s, and the angle at which the frequency is highest, rad, where the rows tell them.
+    pub fn frequency_split(&self) -> Option<[Measured; 2]> {
+        let at = self.model.frequency_at();
+        self.model.frequency.then(|| self.split(at))
+    }
+
+    /// The size of a split whose parts along cosine and sine stand at `at`, and its angle.
+    fn split(&self, at: usize) -> [Measured; 2] {
+        let (c, s) = (self.values[at], self.values[at + 1]);
+        let size = c.hypot(s).max(f64::MIN_POSITIVE);
+        let (cosine, sine) = (c / size, s / size);
+        let turned = 0.25 / size;
+        [
+            self.measured(size, &[(at, cosine), (at + 1, sine)]),
+            self.measured(
+                0.25 * s.atan2(c),
+                &[(at, -turned * sine), (at + 1, turned * cosine)],
+            ),
+        ]
+    }
+
+    /// What rotation turns the pattern of a run by, rad/s, where the rows tell it from the splits.
+    pub fn rotation(&self, run: usize) -> Option<Measured> {
+        let knows = self.model.damping && self.model.frequency;
+        knows.then(|| self.sum(&[(self.model.own_at(run), -0.5)]))
+    }
+}
+
+/// Finds the resonator whose waves come nearest to the rows.
+pub fn fit(runs: &[Run]) -> Result<Found, Unsettled> {
+    let each = Model {
+        damping: false,
+        frequency: false,
+    };
+    let alone = settle(runs, each, start(runs))?;
+    // Beyond noise even one pattern that hardly moves shows how the splits move it.
+    if spread(runs) < LEAST_SPREAD && alone.residual < BEYOND_NOISE {
+        return Ok(alone);
+    }
+    for (damping, frequency) in [(true, true), (false, true), (true, false)] {
+        let model = Model { damping, frequency };
+        let values = carried(runs.len(), &alone, model);
+        let told = |covariance: &DMatrix<f64>| is_told(runs, model, covariance, &alone);
+        if Normal::of(runs, model, &values)
+            .covariance()
+            .is_some_and(|covariance| told(&covariance))
+            && let Ok(found) = settle(runs, model, values)
+            && told(&found.covariance)
+        {
+            return Ok(found);
+        }
+    }
+    Ok(alone)
+}
+
+/// How far the rows' patterns stand apart, 0 to 1: the circular variance of 4θ.
+fn spread(runs: &[Run]) -> f64 {
+    let (mut sum, mut count) = (Complex::new(0.0, 0.0), 0.0);
+    for row in runs.iter().flat_map(|run| &run.rows) {
+        sum += Complex::from_polar(1.0, 4.0 * row.angle);
+        count += 1.0;
+    }
+    1.0 - sum.norm() / count
+}
+
+/// Where the search begins: runs that decay and turn as their first and last rows do.
+fn start(runs: &[Run]) -> DVector<f64> {
+    let own = runs.iter().flat_map(|run| {
+        let (first, last) = (run.rows[0], run.rows[run.rows.len() - 1]);
+        let seconds = run.seconds();
+        let kappa = -2.0 * run.turned / seconds;
+        let decay = (first.main / last.main).ln() / seconds;
+        [kappa, first.main, first.quadrature, first.angle, decay, 0.0]
+    });
+    DVector::from_iterator(6 * runs.len(), own)
+}
+
+/// The values of runs alone as the start of a model: the mean of their decays, and no splits.
+fn carried(runs: usize, alone: &Found, model: Model) -> DVector<f64> {
+    let mut values = DVector::zeros(model.unknowns(runs));
+    for run in 0..runs {
+        let from = alone.model.own_at(run);
+        let to = model.own_at(run);
+        for offset in 0..4 {
+            values[to + offset] = alone.values[from + offset];
+        }
+        let decay = alone.values[from + 4];
+        if model.damping {
+            values[Model::DAMPING] += decay / runs as f64;
+        } else {
+            values[to + 4] = decay;
+        }
+        if !model.frequency {
+            values[model.own_at(run + 1) - 1] = alone.values[from + 5];
+        }
+    }
+    values
+}
+
+/// True where the rows tell all that a model has the runs share, of unknowns of this covariance.
+fn is_told(runs: &[Run], model: Model, covariance: &DMatrix<f64>, alone: &Found) -> bool {
+    let count = runs.len() as f64;
+    let own = |offset: usize| {
+        (0..runs.len()).map(move |run| alone.values[alone.model.own_at(run) + offset].abs())
+    };
+    let decay = own(4).sum::<f64>() / count;
+    let growth = own(5).fold(0.0, f64::max);
+    let knows = |at: usize, most: f64| (at..at + 2).all(|i| covariance[(i, i)] < most * most);
+    (!model.damping || knows(Model::DAMPING + 1, TOLD[0] * decay))
+        && (!model.frequency
+            || knows(
+                model.frequency_at(),
+                (TOLD[1] * decay).max(TOLD_SHARE * growth),
+            ))
+}
+
+/// Moves the values to where the squares of the residual are least.
+fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Result<Found, Unsettled> {
+    let mut normal = Normal::of(runs, model, &values);
+    let mut damping = 1e-3;
+    for _ in 0..STEPS {
+        let whole = normal.step(0.0).ok_or(Unsettled)?;
+        if normal.right.dot(&whole) < SETTLED * normal.widening(runs, &values) {
+            let values = values + whole;
+            return Normal::of(runs, model, &values).conclude(runs, model, values);
+        }
+        let moved = &values + normal.step(damping).ok_or(Unsettled)?;
+        let next = Normal::of(runs, model, &moved);
+        // Not a number is no less.
+        if next.squares < normal.squares {
+            (values, normal) = (moved, next);
+            damping *= 0.1;
+        } else {
+            damping *= 10.0;
+        }
+    }
+    Err(Unsettled)
+}
+
+/// The normal equations of all runs about some values.
+struct Normal {
+    matrix: DMatrix<f64>,
+    right: DVector<f64>,
+    /// What is left, in squares of deviations.
+    squares: f64,
+    shares: Vec<[f64; 2]>,
+}
+
+impl Normal {
+    fn of(runs: &[Run], model: Model, values: &DVector<f64>) -> Self {
+        let unknowns = values.len();
+        let mut normal = Self {
+            matrix: DMatrix::zeros(unknowns, unknowns),
+            right: DVector::zeros(unknowns),
+            squares: 0.0,
+            shares: Vec::with_capacity(runs.len()),
+        };
+        for (index, run) in runs.iter().enumerate() {
+            normal.add(run, &model.terms(index, run), values);
+        }
+        normal
+    }
+
+    /// Adds the rows of a run.
+    fn add(&mut self, run: &Run, terms: &[(usize, [f64; PARAMETERS])], values: &DVector<f64>) {
+        let mut parameters = [0.0; PARAMETERS];
+        for (place, direction) in terms {
+            for (parameter, by) in parameters.iter_mut().zip(direction) {
+                *parameter += by * values[*place];
+            }
+        }
+        let mut motion = Motion::new(&parameters);
+        let mut time = run.rows[0].time;
+        let mut shares = [0.0; 2];
+        // The run's own equations, for its unknowns in their order.
+        let count = terms.len();
+        let mut matrix = DMatrix::<f64>::zeros(count, count);
+        let mut right = DVector::<f64>::zeros(count);
+        let directions = DMatrix::from_fn(PARAMETERS, count, |i, j| terms[j].1[i]);
+        for row in &run.rows {
+            motion.advance(row.time - time);
+            time = row.time;
+            let (wave, by_parameters) = motion.wave();
+            let derivatives = by_parameters * &directions;
+            let rest = [
+                row.main - wave[0],
+                row.quadrature - wave[1],
+                turn(row.angle - wave[2]),
+            ];
+            for (line, (rest, deviation)) in rest.into_iter().zip(row.deviations).enumerate() {
+                let (rest, line) = (rest / deviation, derivatives.row(line) / deviation);
+                self.squares += rest * rest;
+                right += line.transpose() * rest;
+                matrix += line.transpose() * line;
+            }
+            for (sum, share) in shares.iter_mut().zip(motion.shares()) {
+                *sum += share / run.rows.len() as f64;
+            }
+        }
+        for (i, &(place, _)) in terms.iter().enumerate() {
+            self.right[place] += right[i];
+            for (j, &(other, _)) in terms.iter().enumerate() {
+                self.matrix[(place, other)] += matrix[(i, j)];
+            }
+        }
+        self.shares.push(shares);
+    }
+
+    /// The step that a damping leaves.
+    fn step(&self, damping: f64) -> Option<DVector<f64>> {
+        let mut matrix = self.matrix.clone();
+        for index in 0..matrix.nrows() {
+            matrix[(index, index)] *= 1.0 + damping;
+        }
+        let (factors, scale) = scaled(matrix)?;
+        let right = self.right.component_mul(&scale);
+        Some(factors.solve(&right).component_mul(&scale))
+    }
+
+    /// None where the rows leave an unknown open altogether.
+    fn covariance(&self) -> Option<DMatrix<f64>> {
+        let (factors, scale) = scaled(self.matrix.clone())?;
+        let scale = DMatrix::from_diagonal(&scale);
+        Some(&scale * factors.inverse() * &scale)
+    }
+
+    /// The rms residual over the rows' own deviations.
+    fn residual(&self, runs: &[Run], values: &DVector<f64>) -> f64 {
+        let rows: usize = runs.iter().map(|run| run.rows.len()).sum();
+        (self.squares / (3 * rows - values.len()) as f64).sqrt()
+    }
+
+    /// What variances are multiplied by where the residual is beyond the rows' own.
+    fn widening(&self, runs: &[Run], values: &DVector<f64>) -> f64 {
+        self.residual(runs, values).max(1.0).powi(2)
+    }
+
+    fn conclude(
+        self,
+        runs: &[Run],
+        model: Model,
+        values: DVector<f64>,
+    ) -> Result<Found, Unsettled> {
+        let covariance = self.covariance().ok_or(Unsettled)?;
+        let residual = self.residual(runs, &values);
+        Ok(Found {
+            model,
+            values,
+            covariance: covariance * residual.max(1.0).powi(2),
+            residual,
+            shares: self.shares,
+        })
+    }
+}
+
+/// The factors of a symmetric matrix whose unknowns are of very unlike sizes, scaled to a diagonal of ones, and the scale; none where it is
+/// not positive.
+fn scaled(mut matrix: DMatrix<f64>) -> Option<(Cholesky<f64, Dyn>, DVector<f64>)> {
+    let scale = matrix.diagonal().map(|entry| entry.sqrt().recip());
+    for (j, mut column) in matrix.column_iter_mut().enumerate() {
+        column.component_mul_assign(&scale);
+        column *= scale[j];
+    }
+    Some((matrix.cholesky()?, scale))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,199 @@
+//! Rows made from the averaged equations of a resonator, with noise.
+
+use super::*;
+use crate::runs::Row;
+
+/// 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω.
+const RESONATOR: [f64; 5] = [0.05, 0.006, -0.008, 0.03, 0.04];
+/// One without splits.
+const ROUND: [f64; 5] = [0.05, 0.0, 0.0, 0.0, 0.0];
+/// All splits told, and none.
+const BOTH: Model = Model {
+    damping: true,
+    frequency: true,
+};
+const NEITHER: Model = Model {
+    damping: false,
+    frequency: false,
+};
+/// A row's standard deviation of an amplitude.
+const NOISE: f64 = 1e-4;
+
+/// Normal deviates, by Box and Muller from a congruential generator.
+struct Noise(u64);
+
+impl Noise {
+    fn uniform(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 12) as f64 + 0.5) / (1u64 << 52) as f64
+    }
+
+    fn next(&mut self) -> f64 {
+        let radius = (-2.0 * self.uniform().ln()).sqrt();
+        radius * (std::f64::consts::TAU * self.uniform()).cos()
+    }
+}
+
+/// A run of `count` rows, `step` s apart.
+fn run(
+    resonator: &[f64; 5],
+    kappa: f64,
+    start: [f64; 3],
+    count: usize,
+    step: f64,
+    noise: f64,
+    seed: u64,
+) -> Run {
+    let mut random = Noise(seed);
+    let [decay, dc, ds, wc, ws] = *resonator;
+    let [main, quadrature, angle] = start;
+    let mut motion = Motion::new(&[decay, dc, ds, wc, ws, kappa, main, quadrature, angle]);
+    let (mut turned, mut before) = (0.0, angle);
+    let rows = (0..count)
+        .map(|index| {
+            if index > 0 {
+                motion.advance(step);
+            }
+            let (wave, _) = motion.wave();
+            turned += turn(wave[2] - before);
+            before = wave[2];
+            let (main, quadrature) = (wave[0], wave[1]);
+            let energy = main * main + quadrature * quadrature;
+            // The bounds of a window: θ: σ√(E/2n)/|D|, amplitudes: σ√(2/n).
+            let of_angle =
+                0.5 * noise * energy.sqrt() / (main * main - quadrature * quadrature).abs();
+            Row {
+                time: 7.0 + step * index as f64,
+                main: main + noise * random.next(),
+                quadrature: quadrature + noise * random.next(),
+                angle: wave[2] + of_angle * random.next(),
+                frequency: 5332.0,
+                deviations: [noise, noise, of_angle].map(|std| std.max(1e-9)),
+            }
+        })
+        .collect();
+    Run { rows, turned }
+}
+
+/// Ring-downs at rest at three angles 22.5° apart; a pattern at rest is turned by the Earth.
+fn at_three_angles(noise: f64, seed: u64) -> Vec<Run> {
+    [0.2, 0.59, 0.98]
+        .into_iter()
+        .enumerate()
+        .map(|(index, angle)| {
+            run(
+                &RESONATOR,
+                4e-5,
+                [1.0, 0.02, angle],
+                400,
+                0.1,
+                noise,
+                3 * seed + index as u64,
+            )
+        })
+        .collect()
+}
+
+#[test]
+fn without_noise_the_resonator_is_found() {
+    for runs in [
+        at_three_angles(0.0, 1),
+        // One that turns by half a circle and more.
+        vec![run(&RESONATOR, 0.2, [1.0, -0.05, 0.4], 400, 0.1, 0.0, 1)],
+        // Rows so far apart that splits and rotation move much between them.
+        vec![
+            run(&RESONATOR, 0.03, [0.5, 0.1, 0.4], 30, 5.0, 0.0, 1),
+            run(&RESONATOR, -0.03, [0.5, 0.1, 0.4], 30, 5.0, 0.0, 1),
+        ],
+    ] {
+        let found = fit(&runs).unwrap();
+        assert_eq!(found.model, BOTH);
+        for (value, truth) in found.values.iter().zip(RESONATOR) {
+            assert!((value - truth).abs() < 1e-7, "{value} {truth}");
+        }
+        for (index, run) in runs.iter().enumerate() {
+            let along = run.rows.iter().map(|row| {
+                let (sine, cosine) = (4.0 * row.angle).sin_cos();
+                let [main, quadrature] = [row.main * row.main, row.quadrature * row.quadrature];
+                let share = (main - quadrature) / (main + quadrature);
+                RESONATOR[0] + 0.5 * share * (RESONATOR[1] * cosine + RESONATOR[2] * sine)
+            });
+            let mean = along.sum::<f64>() / run.rows.len() as f64;
+            assert!((found.decay_of_run(index).0 - mean).abs() < 1e-7);
+        }
+        let [(damping, _), (damped_at, _)] = found.damping_split().unwrap();
+        assert!((damping - 0.01).abs() < 1e-7);
+        assert!((damped_at - 0.25 * (-0.8f64).atan2(0.6)).abs() < 1e-5);
+        let [(split, _), (highest_at, _)] = found.frequency_split().unwrap();
+        assert!((split - 0.05).abs() < 1e-7);
+        assert!((highest_at - 0.25 * 0.8f64.atan2(0.6)).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn stated_deviations_are_the_rms_errors() {
+    let mut squares = [0.0; 5 + 3];
+    let mut residuals = 0.0;
+    let trials = 100;
+    for seed in 0..trials {
+        let found = fit(&at_three_angles(NOISE, seed)).unwrap();
+        assert_eq!(found.model, BOTH);
+        let mut errors: Vec<_> = (0..5)
+            .map(|i| (found.values[i] - RESONATOR[i]) / found.covariance[(i, i)].sqrt())
+            .collect();
+        for run in 0..3 {
+            let (rotation, deviation) = found.rotation(run).unwrap();
+            errors.push((rotation + 2e-5) / deviation);
+        }
+        for (sum, error) in squares.iter_mut().zip(errors) {
+            *sum += error * error / trials as f64;
+        }
+        residuals += found.residual / trials as f64;
+    }
+    // Of 100 trials the rms scatters by 7 %.
+    for square in squares {
+        assert!((0.79..1.21).contains(&square.sqrt()), "{squares:?}");
+    }
+    assert!((residuals - 1.0).abs() < 0.01, "{residuals}");
+}
+
+#[test]
+fn a_pattern_at_rest_tells_the_decay_along_it_at_the_bound() {
+    let [mut errors, mut deviations] = [0.0; 2];
+    let trials = 100;
+    for seed in 0..trials {
+        // 6 decay times.
+        let runs = [run(&ROUND, 0.0, [1.0, 0.01, 0.2], 1200, 0.1, NOISE, seed)];
+        let found = fit(&runs).unwrap();
+        assert_eq!(found.model, NEITHER);
+        let (decay, deviation) = found.decay_of_run(0);
+        // σ_Q/Q = 4σ/(√E₀·√(fs τ)); a row of n samples knows an amplitude to σ√(2/n), so that this is 2√2 of it times √(Δt/τ).
+        let bound = 2.0 * 2f64.sqrt() * NOISE * (ROUND[0] * 0.1).sqrt();
+        errors += ((decay / ROUND[0] - 1.0) / bound).powi(2) / trials as f64;
+        deviations += deviation / ROUND[0] / bound / trials as f64;
+    }
+    assert!((0.99..1.02).contains(&deviations), "{deviations}");
+    // Of 100 trials the rms scatters by 7 %.
+    assert!((0.8..1.2).contains(&errors.sqrt()), "{errors}");
+}
+
+#[test]
+fn what_else_moves_widens_the_deviations() {
+    let honest = at_three_angles(NOISE, 1);
+    let mut boastful = honest.clone();
+    for row in boastful.iter_mut().flat_map(|run| &mut run.rows) {
+        row.deviations = row.deviations.map(|deviation| 0.1 * deviation);
+    }
+    let [honest, boastful] = [honest, boastful].map(|runs| fit(&runs).unwrap());
+    assert!((boastful.residual / honest.residual - 10.0).abs() < 1e-3);
+    for i in 0..5 {
+        let ratio = (boastful.covariance[(i, i)] / honest.covariance[(i, i)]).sqrt();
+        assert!(
+            (ratio / honest.residual.min(1.0) - 1.0).abs() < 0.05,
+            "{i}: {ratio}"
+        );
+    }
+}

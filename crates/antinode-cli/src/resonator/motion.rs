@@ -1,0 +1,144 @@
+//! How the standing wave of a resonator moves while it rings down, averaged over its periods.
+//!
+//! With E = a_A² + a_B², D = a_A² − a_B², R = D cos 4θ, S = D sin 4θ and Q = 2 a_A a_B the motion is linear (D. D. Lynch, *Vibratory gyro
+//! analysis by the method of averaging*, 1995):
+//!
+//!     Ė = −2E/τ − δ(c_τ R + s_τ S)              Ṙ = −2R/τ − δ c_τ E + 2κS + Δω s_ω Q
+//!     Q̇ = −2Q/τ − Δω(s_ω R − c_ω S)             Ṡ = −2S/τ − δ s_τ E − 2κR − Δω c_ω Q
+//!
+//! where 1/τ is the mean of the damping of both modes and δ its split, Δω the split of the frequencies in rad/s, c and s the cosine and sine
+//! of four times the angle at which the damping, or the frequency, is greatest, and −κ/2 what rotation turns the pattern by.
+
+use nalgebra::{Matrix3x4, Matrix4, Matrix4x3, SMatrix, Vector3, Vector4};
+
+/// What moves a wave: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, κ.
+pub const RATES: usize = 6;
+/// Those, and what a wave starts with: a_A, a_B, θ.
+pub const PARAMETERS: usize = RATES + 3;
+/// The state and its derivatives by all of these.
+const COLUMNS: usize = 1 + PARAMETERS;
+/// The fastest rate times a step of the integration is no more than this: the error of a step is its fifth power over 120.
+const STEP: f64 = 0.02;
+
+/// The state E, R, S, Q, and its derivatives by the rates and by what it started with.
+#[derive(Debug, Clone)]
+pub struct Motion {
+    columns: SMatrix<f64, 4, COLUMNS>,
+    rates: [f64; RATES],
+}
+
+impl Motion {
+    /// Of these parameters.
+    pub fn new(&[rates @ .., main, quadrature, angle]: &[f64; PARAMETERS]) -> Self {
+        let (sine, cosine) = (4.0 * angle).sin_cos();
+        let apart = main * main - quadrature * quadrature;
+        let state = Vector4::new(
+            main * main + quadrature * quadrature,
+            apart * cosine,
+            apart * sine,
+            2.0 * main * quadrature,
+        );
+        let by_start = Matrix4x3::new(
+            main,
+            quadrature,
+            0.0,
+            main * cosine,
+            -quadrature * cosine,
+            -2.0 * state[2],
+            main * sine,
+            -quadrature * sine,
+            2.0 * state[1],
+            quadrature,
+            main,
+            0.0,
+        ) * 2.0;
+        let mut columns = SMatrix::<f64, 4, COLUMNS>::zeros();
+        columns.set_column(0, &state);
+        columns
+            .fixed_columns_mut::<3>(1 + RATES)
+            .copy_from(&by_start);
+        Self { columns, rates }
+    }
+
+    /// Moves on by so many seconds, by Runge and Kutta's fourth order.
+    pub fn advance(&mut self, seconds: f64) {
+        let parts = parts();
+        let matrix = parts
+            .iter()
+            .zip(self.rates)
+            .fold(Matrix4::zeros(), |sum, (part, rate)| sum + part * rate);
+        let steps = (matrix.norm() * seconds / STEP).ceil().max(1.0);
+        let step = seconds / steps;
+        let slope = |columns: &SMatrix<f64, 4, COLUMNS>| {
+            let mut slope = matrix * columns;
+            let state = columns.column(0).into_owned();
+            for (index, part) in parts.iter().enumerate() {
+                let mut column = slope.column_mut(1 + index);
+                column += part * state;
+            }
+            slope
+        };
+        for _ in 0..steps as u64 {
+            let k1 = slope(&self.columns);
+            let k2 = slope(&(self.columns + k1 * (0.5 * step)));
+            let k3 = slope(&(self.columns + k2 * (0.5 * step)));
+            let k4 = slope(&(self.columns + k3 * step));
+            self.columns += (k1 + (k2 + k3) * 2.0 + k4) * (step / 6.0);
+        }
+    }
+
+    /// R/E and S/E.
+    pub fn shares(&self) -> [f64; 2] {
+        let state = self.columns.column(0);
+        [state[1] / state[0], state[2] / state[0]]
+    }
+
+    /// a_A, a_B and θ (−π/4 to π/4) now, and their derivatives by the rates and by what they started with.
+    pub fn wave(&self) -> (Vector3<f64>, SMatrix<f64, 3, PARAMETERS>) {
+        let [e, r, s, q] = self.columns.column(0).into_owned().into();
+        let apart = r.hypot(s);
+        let main = (0.5 * (e + apart)).sqrt();
+        let quadrature = 0.5 * q / main;
+        let wave = Vector3::new(main, quadrature, 0.25 * s.atan2(r));
+        let [by_e, by_r, by_s] = [1.0, r / apart, s / apart].map(|part| 0.25 * part / main);
+        let share = -quadrature / main;
+        let by_state = Matrix3x4::new(
+            by_e,
+            by_r,
+            by_s,
+            0.0,
+            share * by_e,
+            share * by_r,
+            share * by_s,
+            0.5 / main,
+            0.0,
+            -0.25 * s / (apart * apart),
+            0.25 * r / (apart * apart),
+            0.0,
+        );
+        (wave, by_state * self.columns.fixed_columns::<PARAMETERS>(1))
+    }
+}
+
+/// What each rate does to E, R, S and Q.
+fn parts() -> [Matrix4<f64>; RATES] {
+    let part = |entries: &[(usize, usize, f64)]| {
+        let mut part = Matrix4::zeros();
+        for &(row, column, entry) in entries {
+            part[(row, column)] = entry;
+        }
+        part
+    };
+    let [e, r, s, q] = [0, 1, 2, 3];
+    [
+        Matrix4::from_diagonal_element(-2.0),
+        part(&[(e, r, -1.0), (r, e, -1.0)]),
+        part(&[(e, s, -1.0), (s, e, -1.0)]),
+        part(&[(q, s, 1.0), (s, q, -1.0)]),
+        part(&[(q, r, -1.0), (r, q, 1.0)]),
+        part(&[(r, s, 2.0), (s, r, -2.0)]),
+    ]
+}
+
+#[cfg(test)]
+mod tests;

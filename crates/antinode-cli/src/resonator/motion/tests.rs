@@ -1,0 +1,118 @@
+//! Against the two modes' own equations of motion, and derivatives against differences.
+
+use super::*;
+
+/// A resonator with splits: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, κ.
+const RATES_OF_ALL: [f64; RATES] = [0.11, 0.05, -0.03, 0.2, 0.13, 0.3];
+
+#[test]
+fn as_the_two_modes_move() {
+    // Modes 1 and 2 stand along an angle ϑ and across it; what pick-off C sees is x, what D sees y.
+    let omega = std::f64::consts::TAU * 200.0;
+    let [decay, dc, ds, wc, ws, kappa] = RATES_OF_ALL;
+    let (delta, split) = (dc.hypot(ds), wc.hypot(ws));
+    let (damped, fast) = (0.5 * ds.atan2(dc), 0.5 * ws.atan2(wc));
+    // A symmetric matrix of these values along an angle and across it.
+    let matrix = |along: f64, across: f64, angle: f64| {
+        let (sine, cosine) = angle.sin_cos();
+        let (mean, half) = (0.5 * (along + across), 0.5 * (along - across));
+        let (c2, s2) = (cosine * cosine - sine * sine, 2.0 * sine * cosine);
+        [[mean + half * c2, half * s2], [half * s2, mean - half * c2]]
+    };
+    // 1/τ₁ = 1/τ + ½δ and 1/τ₂ = 1/τ − ½δ; a mode decays with 2/τ in its equation.
+    let damping = matrix(2.0 * decay + delta, 2.0 * decay - delta, damped);
+    let (fastest, slowest) = (omega + 0.5 * split, omega - 0.5 * split);
+    let stiffness = matrix(fastest * fastest, slowest * slowest, fast);
+    let acceleration = |[x, y, vx, vy]: [f64; 4]| {
+        [
+            vx,
+            vy,
+            -damping[0][0] * vx - damping[0][1] * vy - stiffness[0][0] * x - stiffness[0][1] * y
+                + 2.0 * kappa * vy,
+            -damping[1][0] * vx
+                - damping[1][1] * vy
+                - stiffness[1][0] * x
+                - stiffness[1][1] * y
+                - 2.0 * kappa * vx,
+        ]
+    };
+    let (main, quadrature, angle) = (1.0f64, 0.2f64, 0.35f64);
+    let (sine, cosine) = (2.0 * angle).sin_cos();
+    // (1) and (2) at τ = 0.
+    let mut state = [
+        main * cosine,
+        main * sine,
+        -omega * quadrature * sine,
+        omega * quadrature * cosine,
+    ];
+    let [a, b, c, d, e, f] = RATES_OF_ALL;
+    let mut motion = Motion::new(&[a, b, c, d, e, f, main, quadrature, angle]);
+    let step = 1.0 / (200.0 * 200.0);
+    for second in 0..4 {
+        let mut means = [0.0; 4];
+        let steps = 40_000;
+        for index in 0..steps {
+            let along =
+                |rates: [f64; 4], by: f64| std::array::from_fn(|i| state[i] + by * rates[i]);
+            let k1 = acceleration(state);
+            let k2 = acceleration(along(k1, 0.5 * step));
+            let k3 = acceleration(along(k2, 0.5 * step));
+            let k4 = acceleration(along(k3, step));
+            state = std::array::from_fn(|i| {
+                state[i] + step / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i])
+            });
+            // Over the last period only: E, R, S and Q wobble within each.
+            if index >= steps - 200 {
+                let [x, y, vx, vy] = state;
+                let (vx, vy) = (vx / omega, vy / omega);
+                for (mean, now) in means.iter_mut().zip([
+                    x * x + y * y + vx * vx + vy * vy,
+                    x * x + vx * vx - y * y - vy * vy,
+                    2.0 * (x * y + vx * vy),
+                    2.0 * (x * vy - vx * y),
+                ]) {
+                    *mean += now / 200.0;
+                }
+            }
+        }
+        // Half a period early.
+        motion.advance(if second == 0 { 1.0 - 0.0025 } else { 1.0 });
+        let averaged: [f64; 4] = motion.columns.column(0).into_owned().into();
+        for (averaged, mean) in averaged.iter().zip(means) {
+            assert!(
+                (averaged - mean).abs() < 3e-4,
+                "{second}: {averaged} {mean}"
+            );
+        }
+    }
+}
+
+#[test]
+fn derivatives_are_those_of_differences() {
+    let [a, b, c, d, e, f] = RATES_OF_ALL;
+    let parameters = [a, b, c, d, e, f, 0.8, -0.1, 0.6];
+    let after = |parameters: &[f64; PARAMETERS]| {
+        let mut motion = Motion::new(parameters);
+        for _ in 0..5 {
+            motion.advance(0.7);
+        }
+        motion.wave()
+    };
+    let (wave, derivatives) = after(&parameters);
+    // A pattern of E² = R² + S² + Q² stays one.
+    let mut motion = Motion::new(&parameters);
+    motion.advance(3.5);
+    let [e, r, s, q] = motion.columns.column(0).into_owned().into();
+    assert!((e * e - r * r - s * s - q * q).abs() < 1e-8 * e * e);
+    assert!((motion.wave().0 - wave).norm() < 1e-9);
+    for parameter in 0..PARAMETERS {
+        let moved = |by: f64| {
+            let mut parameters = parameters;
+            parameters[parameter] += by;
+            after(&parameters).0
+        };
+        let difference = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+        let apart = (difference - derivatives.column(parameter)).norm();
+        assert!(apart < 1e-7, "{parameter}: {apart:e}");
+    }
+}

@@ -1,0 +1,210 @@
+//! `antinode resonator`: what simulated resonators have is found to its deviations, in every format.
+
+mod common;
+
+use std::collections::HashMap;
+use std::fs;
+use std::path::Path;
+
+use common::{Run, run, run_with};
+
+/// Decay time and quality factor of a decay rate of 0.08 1/s at 5332 Hz.
+const TRUTH: [(&str, f64); 2] = [("decay_time_s", 12.5), ("quality_factor", 209_387.2)];
+
+/// Rows of a recording of 4 s.
+fn rows(here: &Path, wave: &str) -> String {
+    let made = run(
+        here,
+        &format!("simulate -o it.wav --seconds 4 --noise 0.002 {wave}"),
+    );
+    assert_eq!(made.code, 0, "{}", made.err);
+    let rows = run(here, "identify --periods 50 --output csv it.wav");
+    assert_eq!((rows.code, rows.err.as_str()), (0, ""));
+    rows.out
+}
+
+fn resonator(here: &Path, rows: &str, options: &str) -> Run {
+    run_with(
+        here,
+        &format!("resonator - {options}"),
+        rows.as_bytes().into(),
+    )
+}
+
+/// Values and deviations of CSV, by run and quantity.
+fn numbers(run: &Run) -> HashMap<(String, String), (f64, Option<f64>)> {
+    assert_eq!(run.code, 0, "{}", run.err);
+    let mut lines = run.out.lines();
+    assert_eq!(lines.next(), Some("run,quantity,value,std"));
+    lines
+        .map(|line| {
+            let fields: Vec<_> = line.split(',').collect();
+            let [run, quantity, value, std] = fields[..] else {
+                panic!("{line}");
+            };
+            let key = (run.to_owned(), quantity.to_owned());
+            (key, (value.parse().unwrap(), std.parse().ok()))
+        })
+        .collect()
+}
+
+#[test]
+fn a_pattern_that_turns_tells_everything() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let rows = rows(here, "--decay-rate 0.08 --angle-rate 0.4");
+    let found = resonator(here, &rows, "--output csv");
+    assert_eq!(found.err, "");
+    let numbers = numbers(&found);
+    let of = |run: &str, quantity: &str| numbers[&(run.to_owned(), quantity.to_owned())];
+    for run in ["1", ""] {
+        for (quantity, truth) in TRUTH {
+            let (value, std) = of(run, quantity);
+            let std = std.unwrap();
+            assert!(
+                (value - truth).abs() < 4.0 * std && std < 3e-4 * truth,
+                "{}",
+                found.out
+            );
+        }
+    }
+    let (rotation, std) = of("1", "rotation_rad_s");
+    assert!((rotation - 0.4).abs() < 4.0 * std.unwrap() && std.unwrap() < 2e-5);
+    // A resonator without splits: their sizes are not far beyond their deviations.
+    for (quantity, most) in [("damping_split_s", 3e-4), ("frequency_split_hz", 5e-5)] {
+        let (value, std) = of("", quantity);
+        assert!(
+            value < 4.0 * std.unwrap() && std.unwrap() < most,
+            "{}",
+            found.out
+        );
+    }
+    let (frequency, none) = of("", "frequency_hz");
+    assert!((frequency - 5332.0).abs() < 0.01 && none.is_none());
+
+    // The same as JSON lines, and to be read.
+    let lines = resonator(here, &rows, "--output jsonl").out;
+    assert_eq!(lines.lines().count(), numbers.len());
+    for line in lines.lines() {
+        let object: serde_json::Value = serde_json::from_str(line).unwrap();
+        let run = object["run"]
+            .as_u64()
+            .map_or(String::new(), |run| run.to_string());
+        let (value, std) = of(&run, object["quantity"].as_str().unwrap());
+        assert_eq!(
+            (object["value"].as_f64(), object["std"].as_f64()),
+            (Some(value), std)
+        );
+    }
+    let table = resonator(here, &rows, "").out;
+    for part in [
+        "standard input: ",
+        "run 1: ",
+        "turned by rotation, °/s",
+        "resonator\n",
+        "±",
+    ] {
+        assert!(table.contains(part), "{table}");
+    }
+}
+
+#[test]
+fn a_pattern_at_rest_tells_its_decay_and_that_no_more_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::write(
+        here.join("rest.csv"),
+        rows(here, "--decay-rate 0.08 --angle 0.3"),
+    )
+    .unwrap();
+    let found = run(here, "resonator rest.csv --output csv");
+    assert!(
+        found
+            .err
+            .contains("do not tell the splits of damping and frequency")
+            && found.err.contains("22.5° apart"),
+        "{}",
+        found.err
+    );
+    let numbers = numbers(&found);
+    assert_eq!(numbers.len(), 3, "{}", found.out);
+    let (value, std) = numbers[&("1".to_owned(), "decay_time_s".to_owned())];
+    assert!((value - 12.5).abs() < 4.0 * std.unwrap());
+}
+
+#[test]
+fn a_split_of_frequency_is_told_by_three_angles() {
+    let directory = tempfile::tempdir().unwrap();
+    // Along an axis of the frequencies nothing changes; between them energy goes from a_A to a_B and back, as that of two pendulums does.
+    let split = 0.03;
+    let mut rows = String::from(
+        "time_s,main_amplitude,quadrature_amplitude,angle_rad,frequency_hz,main_amplitude_std,quadrature_amplitude_std,angle_std_rad,flags,file\n",
+    );
+    let eighth = std::f64::consts::FRAC_PI_8;
+    for (angle, exchange) in [(0.0, 0.0), (eighth, 1.0), (2.0 * eighth, 0.0)] {
+        for index in 0..100 {
+            let time = 0.05 * f64::from(index);
+            let phase = exchange * std::f64::consts::PI * split * time;
+            let (sine, cosine) = phase.sin_cos();
+            let level = (-0.08 * time).exp();
+            rows += &format!(
+                "{time},{},{},{angle},5332,1e-5,1e-5,1e-5,,{angle}\n",
+                level * cosine,
+                level * sine
+            );
+        }
+    }
+    let found = resonator(directory.path(), &rows, "--output csv");
+    assert_eq!(found.err, "");
+    let numbers = numbers(&found);
+    let of = |quantity: &str| numbers[&(String::new(), quantity.to_owned())].0;
+    assert!(
+        (of("frequency_split_hz") - split).abs() < 1e-7,
+        "{}",
+        found.out
+    );
+    assert!(of("highest_at_rad").abs() < 1e-5, "{}", found.out);
+    assert!((of("decay_time_s") - 12.5).abs() < 1e-4, "{}", found.out);
+    assert!(of("damping_split_s") < 1e-6, "{}", found.out);
+    for run in ["1", "2", "3"] {
+        let (rotation, _) = numbers[&(run.to_owned(), "rotation_rad_s".to_owned())];
+        assert!(rotation.abs() < 1e-6, "{}", found.out);
+    }
+}
+
+#[test]
+fn what_is_wrong_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // A wave that is driven holds its amplitude.
+    let driven = rows(here, "--decay-rate 0");
+    let found = resonator(here, &driven, "");
+    assert!(
+        found.code == 0 && found.err.contains("run 1 does not decay beyond its noise"),
+        "{}",
+        found.err
+    );
+    // An amplitude that jumps is no decay.
+    let rows = rows(here, "--decay-rate 0.08");
+    let mut lines: Vec<_> = rows.lines().map(str::to_owned).collect();
+    let count = lines.len();
+    for line in &mut lines[count / 2..] {
+        let mut fields: Vec<_> = line.split(',').map(str::to_owned).collect();
+        fields[2] = (0.97 * fields[2].parse::<f64>().unwrap()).to_string();
+        *line = fields.join(",");
+    }
+    let found = resonator(here, &lines.join("\n"), "");
+    assert!(found.err.contains("times their noise"), "{}", found.err);
+    for (rows, told) in [
+        (lines[0].clone(), "no dozen of clean rows"),
+        ("a,b\n1,2\n".to_owned(), "no column time_s"),
+    ] {
+        let found = resonator(here, &rows, "");
+        assert_eq!((found.code, found.out.as_str()), (1, ""));
+        assert!(
+            found.err.starts_with("error: standard input: ") && found.err.contains(told),
+            "{}",
+            found.err
+        );
+    }
+}

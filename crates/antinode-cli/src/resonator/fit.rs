@@ -145,14 +145,15 @@ pub fn fit(runs: &[Run]) -> Result<Found, Unsettled> {
     Ok(alone)
 }
 
-/// How far the rows' patterns stand apart, 0 to 1: the circular variance of 4θ.
+/// How far the rows' patterns stand apart, up to 1: the circular variance of 4θ, less what noise makes of it.
 fn spread(runs: &[Run]) -> f64 {
-    let (mut sum, mut count) = (Complex::new(0.0, 0.0), 0.0);
+    let (mut sum, mut noise, mut count) = (Complex::new(0.0, 0.0), 0.0, 0.0);
     for row in runs.iter().flat_map(|run| &run.rows) {
         sum += Complex::from_polar(1.0, 4.0 * row.angle);
+        noise += 8.0 * row.deviations[2] * row.deviations[2];
         count += 1.0;
     }
-    1.0 - sum.norm() / count
+    1.0 - (sum.norm() + noise) / count
 }
 
 /// Where the search begins: runs that decay and turn as their first and last rows do.

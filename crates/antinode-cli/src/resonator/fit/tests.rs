@@ -197,3 +197,23 @@ fn what_else_moves_widens_the_deviations() {
         );
     }
 }
+
+#[test]
+fn noise_is_no_spread() {
+    for seed in 0..20 {
+        // 4θ scatters by 0.12 rad at first and 0.2 at the end: a circular variance of 0.013.
+        let noisy = [run(&ROUND, 0.0, [1.0, 0.01, 0.2], 1000, 0.01, 0.06, seed)];
+        assert!(
+            spread(&noisy).abs() < 0.3 * LEAST_SPREAD,
+            "{}",
+            spread(&noisy)
+        );
+    }
+    let apart = [0.2, 0.2 + 3f64.to_radians()]
+        .map(|angle| run(&ROUND, 0.0, [1.0, 0.0, angle], 20, 0.1, 0.0, 1));
+    assert!(
+        (spread(&apart) / LEAST_SPREAD - 1.1).abs() < 0.02,
+        "{}",
+        spread(&apart)
+    );
+}

@@ -81,8 +81,11 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     /// Takes all pairs of a slice and hands every estimate to `report`.
     pub fn extend<P: SamplePair<S>>(&mut self, mut pairs: &[P], mut report: impl FnMut(Estimate)) {
         while !pairs.is_empty() {
-            if let Some(estimate) = self.push_block(&mut pairs) {
-                report(estimate);
+            let (taken, block) = self.front.push_slice(pairs);
+            pairs = pairs.get(taken..).unwrap_or(&[]);
+            if let Some(block) = block {
+                self.tracker.push_to(block, &mut report);
+                self.search_if_lost();
             }
         }
     }
@@ -93,11 +96,17 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         let (taken, block) = self.front.push_slice(pairs);
         *pairs = pairs.get(taken..).unwrap_or(&[]);
         let estimate = self.tracker.push(block?);
+        self.search_if_lost();
+        estimate
+    }
+
+    /// Searches a new period where the wave is lost.
+    #[inline]
+    fn search_if_lost(&mut self) {
         if self.tracker.has_lost() {
             self.front.search();
             self.tracker.forget();
         }
-        estimate
     }
 
     /// Tells that `count` sample pairs were lost before the next one; the window that they would have been part of is dropped.

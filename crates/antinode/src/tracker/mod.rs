@@ -122,19 +122,70 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Takes a block; gives the estimate of the window that it completes.
     ///
     /// A block of another layout, or one that does not follow the last, starts a new window.
-    #[inline(never)]
+    #[inline]
     pub fn push<S: Sample>(&mut self, block: &Block<S>) -> Option<Estimate> {
-        self.follow(block.layout, block.start);
-        self.end = block.start + u64::from(block.layout.length);
-        let model = self.model.as_ref()?;
-        model.see(block, self.gathered.next()?);
-        if self.gathered.blocks().len() < usize::from(self.count) {
-            return None;
+        if self.gather(block) {
+            self.estimate()
+        } else {
+            None
         }
-        let estimate = self.estimate();
+    }
+
+    /// Solves the window gathered.
+    #[inline(never)]
+    fn estimate(&mut self) -> Option<Estimate> {
+        let mut fit = Fit::default();
+        self.fit(&mut fit);
+        let estimate = self.judge(&fit);
+        self.advance();
+        estimate
+    }
+
+    /// Begins the next window.
+    fn advance(&mut self) {
         self.gathered
             .advance(self.settings.hop.unwrap_or(self.count));
-        estimate
+    }
+
+    /// Takes a block and hands the estimate of the window that it completes to `report`: without room for it in the stack while the
+    /// window is fitted.
+    #[inline]
+    pub(crate) fn push_to<S: Sample>(
+        &mut self,
+        block: &Block<S>,
+        report: &mut impl FnMut(Estimate),
+    ) {
+        if self.gather(block) {
+            self.report(report);
+        }
+    }
+
+    #[inline(never)]
+    fn report(&mut self, report: &mut impl FnMut(Estimate)) {
+        let mut fit = Fit::default();
+        self.fit(&mut fit);
+        self.report_fit(&fit, report);
+    }
+
+    #[inline(never)]
+    fn report_fit(&mut self, fit: &Fit, report: &mut impl FnMut(Estimate)) {
+        let estimate = self.judge(fit);
+        self.advance();
+        if let Some(estimate) = estimate {
+            report(estimate);
+        }
+    }
+
+    /// Takes a block; true where it completes a window.
+    #[inline(never)]
+    fn gather<S: Sample>(&mut self, block: &Block<S>) -> bool {
+        self.follow(block.layout, block.start);
+        self.end = block.start + u64::from(block.layout.length);
+        let (Some(model), Some(place)) = (&self.model, self.gathered.next()) else {
+            return false;
+        };
+        model.see(block, place);
+        self.gathered.blocks().len() >= usize::from(self.count)
     }
 
     /// True when the wave has been lost for so long that a new period must be searched: two windows, or eight with little of the wave
@@ -201,14 +252,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.before = None;
         self.lost = self.ever;
         self.failures = Failures::NONE;
-    }
-
-    /// Solves the window gathered.
-    #[inline(never)]
-    fn estimate(&mut self) -> Option<Estimate> {
-        let mut fit = Fit::default();
-        self.fit(&mut fit);
-        self.judge(&fit)
     }
 
     /// Makes an estimate of a fit: by itself, so that what it needs of the stack is not there while the window is fitted.

@@ -11,40 +11,23 @@ use crate::arch::square_root;
 use crate::double::units;
 use crate::order::{greater, lesser, nearest};
 use crate::phase::argument;
+use crate::tracker::{Amplitude, Record};
 use crate::window::{Covariance, Fit, Model};
 
-/// The standing wave at the middle of a window, with its rates per half window, and variances for the fit's own noise.
+/// The standing wave at the middle of a window, with variances for the fit's own noise, and what only its own window asks.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Standing {
+    /// Of its angle and its phase, those of −π/4 to π/4 and −π to π that go together.
+    pub record: Record,
     /// The noise variance a sample that all variances are for.
     pub noise: f32,
-    pub main: f32,
-    pub quadrature: f32,
-    /// In (−π/2, π/2], modulo π/2.
-    pub angle: f32,
-    /// In (−π, π], paired with `angle`.
-    pub phase: f32,
-    /// Advance of the common phase beyond the carrier.
-    pub drift: f32,
-    pub turning: f32,
-    pub main_change: f32,
-    pub quadrature_change: f32,
     /// The smaller of |z₊|, |z₋|, with its variance.
     pub lesser: f32,
     pub lesser_variance: f32,
-    /// Of a_A and of a_B.
-    pub main_variance: f32,
-    pub quadrature_variance: f32,
-    pub angle_variance: f32,
-    pub phase_variance: f32,
-    pub drift_variance: f32,
-    pub turning_variance: f32,
-    /// Covariance of drift and turning: with quadrature, a turning pattern looks like another frequency.
+    /// Covariance of drift and turning, per half window: with quadrature, a turning pattern looks like another frequency.
     pub drift_turning: f32,
     /// The product of both variances less the square of that.
     pub turn_determinant: f32,
-    pub main_change_variance: f32,
-    pub quadrature_change_variance: f32,
 }
 
 /// Variances of the components of z₊ and of z₋ along two directions, and their covariance.
@@ -114,8 +97,9 @@ impl Shares {
 }
 
 impl Standing {
-    /// The standing wave of a fit whose noise variance a sample is `noise`.
-    pub(crate) fn new(model: &Model, fit: &Fit, noise: f32) -> Self {
+    /// The standing wave of a fit whose noise variance a sample is `noise`, and of which `residual` is left; `middle` is that of its window.
+    #[inline(never)]
+    pub(crate) fn new(model: &Model, fit: &Fit, noise: f32, residual: f32, middle: u64) -> Self {
         let [plus, minus] = fit.waves.value;
         let [plus_change, minus_change] = fit.waves.change;
         let absolute = |z: Complex32| square_root(z.norm_sqr());
@@ -152,28 +136,60 @@ impl Standing {
         let [main_change, quadrature_change] = growth.sum_and_difference();
         let [common, apart] = phase.sum_and_difference();
         let [drift, turning] = turn.sum_and_difference();
+        let per_half = model.per_half;
+        let squared = per_half * per_half;
+        let (turning_rate, turning_variance) = (
+            0.25 * (plus_turn - minus_turn) * per_half,
+            0.0625 * turning * squared,
+        );
+        let [d, c_on_d] = model.correction.noise_gains;
+        let variance = noise * greater(even[0][0], odd[0][0]);
         Self {
+            record: Record {
+                middle,
+                samples: u32::from(model.blocks) * u32::from(model.layout.length),
+                residual,
+                carrier: model.carrier,
+                drift: 0.5 * (plus_turn + minus_turn) * per_half,
+                drift_variance: 0.25 * drift * squared,
+                angle: Angle {
+                    quarters: 0,
+                    rest: 0.25 * (plus_angle - minus_angle),
+                },
+                angle_variance: 0.0625 * apart,
+                turning: turning_rate,
+                turning_variance,
+                promised: turning_rate,
+                promised_variance: turning_variance,
+                phase: -0.5 * (plus_angle + minus_angle),
+                phase_variance: 0.25 * common,
+                main: Amplitude {
+                    value: 0.5 * (p + m),
+                    rate: 0.5 * (plus_growth + minus_growth) * per_half,
+                    variance: 0.25 * main,
+                    rate_variance: 0.25 * main_change * squared,
+                },
+                quadrature: Amplitude {
+                    value: 0.5 * (p - m),
+                    rate: 0.5 * (plus_growth - minus_growth) * per_half,
+                    variance: 0.25 * quadrature,
+                    rate_variance: 0.25 * quadrature_change * squared,
+                },
+                channel_power: fit.channel_power(),
+                channel_variance: [variance, variance * (d * d + c_on_d * c_on_d)],
+                offsets: fit.offsets,
+                // A short window knows its offset worse than the mean of its samples. Of hum the offset moves by 2.5 deviations of its
+                // wander.
+                offset_variance: fit
+                    .remains
+                    .wander
+                    .map(|wander| 2.0 * noise * per_half + 0.25 * wander),
+            },
             noise,
-            main: 0.5 * (p + m),
-            quadrature: 0.5 * (p - m),
-            angle: 0.25 * (plus_angle - minus_angle),
-            phase: -0.5 * (plus_angle + minus_angle),
-            drift: 0.5 * (plus_turn + minus_turn),
-            turning: 0.25 * (plus_turn - minus_turn),
-            main_change: 0.5 * (plus_growth + minus_growth),
-            quadrature_change: 0.5 * (plus_growth - minus_growth),
             lesser: lesser(p, m),
             lesser_variance: if p < m { size.plus } else { size.minus },
-            main_variance: 0.25 * main,
-            quadrature_variance: 0.25 * quadrature,
-            angle_variance: 0.0625 * apart,
-            phase_variance: 0.25 * common,
-            drift_variance: 0.25 * drift,
-            turning_variance: 0.0625 * turning,
             drift_turning: 0.125 * (turn.plus - turn.minus),
             turn_determinant: 0.0625 * (turn.plus * turn.minus - turn.both * turn.both),
-            main_change_variance: 0.25 * main_change,
-            quadrature_change_variance: 0.25 * quadrature_change,
         }
     }
 }

@@ -66,7 +66,13 @@ struct Passed {
 impl Passed {
     fn new(before: &Record, now: &Record) -> Self {
         let samples = 0.5 * long(now.middle.wrapping_sub(before.middle));
-        let growth = [before, now].map(|record| record.main.rate / record.main.value);
+        // Each rate by its own amplitude: the other one times one over the product of both.
+        let values = [before.main.value, now.main.value];
+        let per_both = 1.0 / (values[0] * values[1]);
+        let growth = [
+            before.main.rate * (values[1] * per_both),
+            now.main.rate * (values[0] * per_both),
+        ];
         Self {
             samples,
             half: 0.5 * now.samples as f32,

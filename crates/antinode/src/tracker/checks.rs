@@ -49,6 +49,7 @@ impl Noise {
     const SHARE: f32 = 2.0;
 
     /// The noise variance of a window, from its own of `freedom` degrees and that of the windows before, unless it is a new one.
+    #[inline]
     pub(crate) fn beside(&self, variance: f32, freedom: f32) -> f32 {
         if self.is_exceeded(variance, freedom, 0.0) {
             return variance;
@@ -85,7 +86,10 @@ fn is_louder(variance: f32, level: f32, freedom: f32, other: f32) -> bool {
 pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -> bool {
     let remains = &fit.remains;
     let samples = f32::from(blocks) * f32::from(length);
-    let explained = 0.5 * samples * (wave.main * wave.main + wave.quadrature * wave.quadrature);
+    let explained = 0.5
+        * samples
+        * (wave.record.main.value * wave.record.main.value
+            + wave.record.quadrature.value * wave.record.quadrature.value);
     let strange = greater(
         remains.residual,
         remains.third_noise * remains.third_freedom,
@@ -95,22 +99,21 @@ pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -
 
 /// True when the main amplitude stands out of its own noise.
 fn is_significant(wave: &Standing) -> bool {
-    wave.main * wave.main > 36.0 * wave.main_variance
+    wave.record.main.value * wave.record.main.value > 36.0 * wave.record.main.variance
 }
 
 /// Tests of one window by itself and against the noise of those before.
 ///
-/// `coding` is the noise variance that the converter's steps may add.
+/// `variance` is the noise variance that it leaves, `coding` what the converter's steps may add.
 pub(crate) fn within(
     model: &Model,
     fit: &Fit,
     wave: &Standing,
-    coding: f32,
+    [variance, coding]: [f32; 2],
     noise: &mut Noise,
 ) -> Flags {
     let remains = &fit.remains;
-    let variance = remains.variance();
-    let power = wave.main * wave.main;
+    let power = wave.record.main.value * wave.record.main.value;
     let floor = RESIDUAL_FLOOR * power + 3.0 * coding;
     let mut flags = Flags::empty();
 
@@ -157,8 +160,8 @@ pub(crate) fn within(
         remains.third_freedom >= 12.0 && has_harmonic(model, remains, wave, coding, third_noise);
     flags = flags.with_if(harmonic, Flags::CLIPPED);
 
-    let round =
-        wave.lesser * wave.lesser < 36.0 * wave.lesser_variance || wave.lesser < 2e-3 * wave.main;
+    let round = wave.lesser * wave.lesser < 36.0 * wave.lesser_variance
+        || wave.lesser < 2e-3 * wave.record.main.value;
     flags = flags.with_if(round && significant, Flags::CIRCULAR);
 
     if flags.with(Flags::CIRCULAR) == Flags::CIRCULAR {
@@ -186,7 +189,7 @@ fn has_harmonic(
     // Of a raw pick-off: what of a sample's noise is in an amplitude.
     let Covariance { even, odd } = &model.covariance;
     let share = greater(even[0][0], odd[0][0]);
-    let floor = HARMONIC_FLOOR * wave.main;
+    let floor = HARMONIC_FLOOR * wave.record.main.value;
     let [per_gain, _] = model.correction.noise_gains;
     [floor, floor / per_gain]
         .iter()

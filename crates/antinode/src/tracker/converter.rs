@@ -20,10 +20,16 @@ pub(super) struct Coding {
 impl Coding {
     /// Errors that repeat with the wave do not average: one that visits Q distinct phases has Q errors of step²/12, not one a sample.
     /// Noise breaks them up as exp(−4π²σ²/step²).
+    #[inline]
     pub(super) fn new(settings: &Settings, noise: f32, model: &Model, fit: &Fit) -> Self {
-        let Some(step) = settings.resolution else {
-            return Self::default();
-        };
+        match settings.resolution {
+            Some(step) => Self::of_step(step, noise, model, fit),
+            None => Self::default(),
+        }
+    }
+
+    #[inline(never)]
+    fn of_step(step: f32, noise: f32, model: &Model, fit: &Fit) -> Self {
         let square = step * step;
         let own = square / 12.0;
         // The steps' own noise does not break up anything.
@@ -80,24 +86,24 @@ pub(super) fn sample_flags(
     wave: &Standing,
     noise: f32,
 ) -> Flags {
-    let broken = !(wave.main + wave.quadrature).is_finite();
+    let broken = !(wave.record.main.value + wave.record.quadrature.value).is_finite();
     let flags = Flags::empty().with_if(broken, Flags::NOT_FINITE.with(Flags::LOST));
     let range = Range::of(blocks);
     if range.longest == 0 {
         return flags;
     }
-    let fine = wave.main > 100.0 * settings.resolution.unwrap_or(0.0);
+    let fine = wave.record.main.value > 100.0 * settings.resolution.unwrap_or(0.0);
     let clipped = match settings.rails {
         Some([least, most]) => (0..2).any(|i| range.high[i] >= most || range.low[i] <= least),
         // Where no rail is known, samples that stay at the extreme for longer than a crest does show one.
         None => {
             range.longest > 2 && fine && {
                 let crest = greater(step.period() / 16.0, 2.0) as u16;
-                range.longest > crest && range.is_flat(blocks, wave.main, crest)
+                range.longest > crest && range.is_flat(blocks, wave.record.main.value, crest)
             }
         }
     };
-    let apart = SIGMAS * square_root(noise) + BEYOND * wave.main;
+    let apart = SIGMAS * square_root(noise) + BEYOND * wave.record.main.value;
     flags
         .with_if(clipped, Flags::CLIPPED)
         .with_if(range.is_beyond(fit, apart), Flags::MISFIT)
@@ -111,7 +117,7 @@ pub(super) fn sample_flags(
 struct Range {
     low: [f32; 2],
     high: [f32; 2],
-    /// Most samples in a row that were equal to either end of a block; 0 where none was watched.
+    /// No less than the most samples in a row that were equal to either end of a block: all such numbers' bits; 0 where none was watched.
     longest: u16,
 }
 
@@ -127,7 +133,7 @@ impl Range {
             for (i, seen) in watched.extremes.iter().enumerate() {
                 range.low[i] = lesser(seen.low, range.low[i]);
                 range.high[i] = greater(seen.high, range.high[i]);
-                range.longest = range.longest.max(seen.low_run.max(seen.high_run));
+                range.longest |= seen.low_run | seen.high_run;
             }
         }
         range

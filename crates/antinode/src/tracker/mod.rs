@@ -19,7 +19,8 @@ use crate::window::{CARRIER_REACH, Fit, Gathered, Model, solve};
 use checks::Noise;
 use converter::Coding;
 use failures::{Failures, LEFT};
-use record::{Record, Units};
+use record::Units;
+pub(crate) use record::{Amplitude, Record};
 use trend::Trend;
 
 /// How far the detector's frequency may be off, as a share of it.
@@ -266,7 +267,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let rounding = 1e-7 * size;
         let coding = Coding::new(&self.settings, noise, model, fit);
         let errors = rounding * rounding * (1.0 + half) + coding.expected;
-        let wave = Standing::new(model, fit, noise + errors);
+        let samples = u32::from(self.count) * u32::from(model.layout.length);
+        let middle = 2 * self.end - u64::from(samples) - 1;
+        let mut wave = Standing::new(model, fit, noise + errors, own, middle);
         let is_no_wave = checks::is_no_wave(fit, &wave, self.count, model.layout.length);
         if self.before.is_none() && is_no_wave {
             // The detector was deceived: nothing is reported, and the search goes on.
@@ -274,17 +277,16 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             return None;
         }
 
-        let samples = u32::from(self.count) * u32::from(model.layout.length);
-        let middle = 2 * self.end - u64::from(samples) - 1;
-
         let (expected, is_certain) = match &self.before {
             Some(before) => before.angle_at(middle, samples),
             None => (self.angle, true),
         };
-        let (angle, quarters) = expected.nearest(wave.angle);
-        let phase = wrap(wave.phase + (quarters & 1) as f32 * core::f32::consts::PI);
+        let record = &mut wave.record;
+        let (angle, quarters) = expected.nearest(record.angle.rest);
+        record.angle = angle;
+        record.phase = wrap(record.phase + (quarters & 1) as f32 * core::f32::consts::PI);
 
-        let mut flags = checks::within(model, fit, &wave, coding.most, &mut self.noise);
+        let mut flags = checks::within(model, fit, &wave, [own, coding.most], &mut self.noise);
         flags = flags.with(converter::sample_flags(
             &self.settings,
             self.gathered.blocks(),
@@ -293,10 +295,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             &wave,
             greater(own, wave.noise),
         ));
-        let mut record = Record::new(model, fit, &wave, own, middle, angle, phase);
         let mut between = Flags::empty();
         if let Some(before) = &self.before {
-            between = between::flags(before, &record, is_certain);
+            between = between::flags(before, &wave.record, is_certain);
             // A circular pattern has neither an angle nor a phase of its own.
             if !flags.intersects(Flags::CIRCULAR.with(Flags::LOST)) {
                 flags = flags.with(between);
@@ -304,7 +305,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
         let fault = self.broken || flags.intersects(Flags::MISFIT.with(Flags::STEP));
         flags = flags.with_if(
-            fault && self.has_fallen_silent(&record),
+            fault && self.has_fallen_silent(&wave.record),
             Flags::DEAD_CHANNEL,
         );
         let is_circular = flags.contains(Flags::CIRCULAR);
@@ -313,20 +314,21 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.trend.clear();
         }
         if let (false, Some(before)) = (is_certain, &self.before) {
-            record.average_rate(before);
+            wave.record.average_rate(before);
         }
         // A wave's first window takes its pattern to stand still, and so does one that cannot see it turn.
         if is_circular || self.before.is_none() || !self.trend.is_empty() {
-            let drift = record.drift;
-            self.trend.take_turning_out(&mut record, &wave, model);
+            let drift = wave.record.drift;
+            self.trend.take_turning_out(&mut wave, model);
             if self.before.is_none() && !is_circular {
                 // It may have turned by as much as it seems to.
-                let moved = record.drift - drift;
-                record.drift_variance += moved * moved;
+                let moved = wave.record.drift - drift;
+                wave.record.drift_variance += moved * moved;
             }
         }
+        let record = &wave.record;
 
-        let left = |before: &Record| wave.main < LEFT * before.main.value;
+        let left = |before: &Record| record.main.value < LEFT * before.main.value;
         let is_little = is_no_wave || self.before.as_ref().is_some_and(left);
         self.failures.take(flags, fit.settled, is_little);
         if fit.settled && !flags.contains(Flags::LOST) {
@@ -343,7 +345,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         } else {
             record.drift
         };
-        self.remember(&record, flags, between, drift);
+        self.remember(record, flags, between, drift);
         Some(record.estimate(&self.units, flags))
     }
 

@@ -5,8 +5,7 @@ use crate::double::{self, reciprocal, scaled, to_single};
 use crate::estimate::{Estimate, Flags};
 use crate::order::{greater, long};
 use crate::phase::PhaseStep;
-use crate::wave::{Angle, Standing};
-use crate::window::{Fit, Model};
+use crate::wave::Angle;
 
 /// Deviation of a promised angle, rad, of which six reach the next angle that looks the same.
 const UNKNOWN_TURN: f32 = 0.13;
@@ -84,75 +83,24 @@ pub(crate) struct Record {
 }
 
 impl Record {
-    /// The record of a fit; `angle` and `phase` are the pair already chosen among their equals.
-    pub(crate) fn new(
-        model: &Model,
-        fit: &Fit,
-        wave: &Standing,
-        residual: f32,
-        middle: u64,
-        angle: Angle,
-        phase: f32,
-    ) -> Self {
-        let per_half = model.per_half;
-        let squared = per_half * per_half;
-        let (turning, turning_variance) =
-            (wave.turning * per_half, wave.turning_variance * squared);
-        let [d, c_on_d] = model.correction.noise_gains;
-        let variance =
-            wave.noise * greater(model.covariance.even[0][0], model.covariance.odd[0][0]);
-        Self {
-            middle,
-            samples: u32::from(model.blocks) * u32::from(model.layout.length),
-            residual,
-            carrier: model.carrier,
-            drift: wave.drift * per_half,
-            drift_variance: wave.drift_variance * squared,
-            angle,
-            angle_variance: wave.angle_variance,
-            turning,
-            turning_variance,
-            promised: turning,
-            promised_variance: turning_variance,
-            phase,
-            phase_variance: wave.phase_variance,
-            main: Amplitude {
-                value: wave.main,
-                rate: wave.main_change * per_half,
-                variance: wave.main_variance,
-                rate_variance: wave.main_change_variance * squared,
-            },
-            quadrature: Amplitude {
-                value: wave.quadrature,
-                rate: wave.quadrature_change * per_half,
-                variance: wave.quadrature_variance,
-                rate_variance: wave.quadrature_change_variance * squared,
-            },
-            channel_power: fit.channel_power(),
-            channel_variance: [variance, variance * (d * d + c_on_d * c_on_d)],
-            offsets: fit.offsets,
-            // A short window knows its offset worse than the mean of its samples. Of hum the offset moves by 2.5 deviations of its wander.
-            offset_variance: fit
-                .remains
-                .wander
-                .map(|wander| 2.0 * wave.noise * per_half + 0.25 * wander),
-        }
-    }
-
     /// The window as it is reported.
     pub(crate) fn estimate(&self, units: &Units, flags: Flags) -> Estimate {
+        // First what is called, so that no number need be kept meanwhile.
+        let time = double::units(self.middle as i64, units.half_sample);
+        let angle = self.angle.radians();
+        let frequency = self.carrier.hertz(self.drift, units.turn);
         let rate = units.sample_rate;
         let root = square_root;
         let share = rate / self.main.value;
         Estimate {
             start: (self.middle + 1 - u64::from(self.samples)) / 2,
             samples: self.samples,
-            time: double::units(self.middle as i64, units.half_sample),
+            time,
             main_amplitude: self.main.value,
             quadrature_amplitude: self.quadrature.value,
-            angle: self.angle.radians(),
+            angle,
             phase: self.phase,
-            frequency: self.carrier.hertz(self.drift, units.turn),
+            frequency,
             angle_rate: self.turning * rate,
             decay_rate: -self.main.rate * share,
             offsets: self.offsets,

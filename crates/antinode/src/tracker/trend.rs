@@ -96,7 +96,8 @@ impl Trend {
 
     /// Takes the share of a turning pattern out of a window's frequency, with what the angles of the windows before promise.
     #[inline]
-    pub(crate) fn take_turning_out(&self, record: &mut Record, wave: &Standing, model: &Model) {
+    pub(crate) fn take_turning_out(&self, wave: &mut Standing, model: &Model) {
+        let record = &mut wave.record;
         let rate = self.rate(record, 0.25 * model.per_half);
         let apart = record.turning - rate.value;
         let spread = record.turning_variance + rate.variance;

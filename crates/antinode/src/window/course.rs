@@ -27,7 +27,7 @@ pub(super) struct Here {
     pub run: f32,
 }
 
-/// A factor near 1, j, −1 or −j, and what it is beyond that: its own rounding, the same at every block, is then no bias.
+/// A factor near 1, j, −1 or −j, and what it is of that beyond one: its own rounding, the same at every block, is then no bias.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Turn {
     whole: Complex32,
@@ -44,32 +44,32 @@ impl Turn {
     pub(super) fn by(Phase(phase): Phase) -> Self {
         let whole = phase.wrapping_add(1 << 29) & (3 << 30);
         let rest = phase.wrapping_sub(whole);
-        let whole = Phase(whole).unit();
         // 1 − cos x = 2 sin² ½x keeps its digits.
         let half = Phase((rest as i32 >> 1) as u32).unit().im;
         Self {
-            whole,
-            beyond: whole * Complex32::new(-2.0 * half * half, Phase(rest).unit().im),
+            whole: Phase(whole).unit(),
+            beyond: Complex32::new(-2.0 * half * half, Phase(rest).unit().im),
         }
     }
 
     /// This factor times 1 + `growth`.
     fn grown(self, growth: Complex32) -> Self {
         Self {
-            beyond: self.apply(growth) + self.beyond,
+            beyond: growth + growth * self.beyond + self.beyond,
             ..self
         }
     }
 
     /// The factor as one number.
     pub(super) fn rounded(self) -> Complex32 {
-        self.whole + self.beyond
+        self.whole + self.whole * self.beyond
     }
 
-    /// Multiplies by the factor.
+    /// Multiplies by the factor, of which the whole part is 1 where `is_near`: mostly, for a block is about whole periods.
     #[inline(always)]
-    fn apply(self, z: Complex32) -> Complex32 {
-        z * self.whole + z * self.beyond
+    fn apply(self, z: Complex32, is_near: bool) -> Complex32 {
+        let z = z + z * self.beyond;
+        if is_near { z } else { z * self.whole }
     }
 }
 
@@ -99,6 +99,7 @@ impl<'a> Course<'a> {
         let Model { advance, turn, .. } = *self.model;
         let turns = self.beyond.map(|beyond| Turn { beyond, ..turn });
         let (mut u, mut unit) = self.model.carrier(index);
+        let is_near = turn.whole == Complex32::ONE;
         // Only residuals are turned by it: they have no digits to lose.
         let turn = turn.rounded();
         let half = unit * 0.5;
@@ -115,19 +116,22 @@ impl<'a> Course<'a> {
             };
             u += advance;
             unit *= turn;
-            running = [turns[0].apply(running[0]), turns[1].apply(running[1])];
+            running = [
+                turns[0].apply(running[0], is_near),
+                turns[1].apply(running[1], is_near),
+            ];
         }
-        bend(here, waves);
+        if waves.slope.contains(&Complex32::ZERO) {
+            bend(here, waves);
+        }
     }
 }
 
 /// Adds to each wave what of its change is not exponential.
+#[cold]
 #[inline(never)]
 fn bend(here: &mut [Here], waves: &Waves) {
     let rest = waves.rest();
-    if rest == [Complex32::ZERO; 2] {
-        return;
-    }
     for here in here {
         for (wave, rest) in here.waves.iter_mut().zip(rest) {
             *wave += rest * here.unit * (0.5 * here.u);

@@ -121,8 +121,8 @@ struct Views {
     /// The sum of the residuals up to a block, squared, and what noise would make it: where it is most beyond.
     run: f32,
     room: f32,
-    /// 1/Σu² over the window, u being the blocks' middles.
-    per_spread: f32,
+    /// Σu² over the window, u being the blocks' middles.
+    spread: f32,
     time: f32,
 }
 
@@ -130,7 +130,7 @@ impl Views {
     fn new(model: &Model) -> Self {
         Self {
             room: 1.0,
-            per_spread: 3.0 / (f32::from(model.blocks) - 0.5 * model.advance),
+            spread: (1.0 / 3.0) * (f32::from(model.blocks) - 0.5 * model.advance),
             ..Self::default()
         }
     }
@@ -139,14 +139,15 @@ impl Views {
     #[inline(never)]
     fn take(&mut self, rests: &[Here]) {
         let mut views = Self { ..*self };
+        let least = 0.2 * views.spread;
         for rest in rests {
             views.residual += rest.power;
             views.worst_block = greater(rest.power, views.worst_block);
             views.time += rest.u;
             // A step is known by what of it is neither constant nor slope. After n blocks of N it is n − n²/N that is not constant: the
             // sum of their times, but for the sign.
-            let room = -views.time * (1.0 + views.time * views.per_spread);
-            if room > 0.2 && rest.run * views.room > views.run * room {
+            let room = -views.time * (views.spread + views.time);
+            if room > least && rest.run * views.room > views.run * room {
                 (views.run, views.room) = (rest.run, room);
             }
         }
@@ -165,6 +166,6 @@ impl Views {
         remains.residual = self.residual;
         remains.freedom = model.freedom();
         remains.worst_block = self.worst_block;
-        remains.step = self.run / (weight * self.room);
+        remains.step = self.run * self.spread / (weight * self.room);
     }
 }

@@ -113,7 +113,7 @@ impl Model {
         // What is left has no part along the parameters: this much less than before the step.
         let explained = lesser(step.explained, fit.remains.residual);
         fit.remains.residual -= explained;
-        let negligible = explained <= NEGLIGIBLE * fit.remains.variance();
+        let negligible = explained * fit.remains.freedom <= NEGLIGIBLE * fit.remains.residual;
         // With offsets of their own the linear solution does not know what the waves put into the blocks' means.
         let knows_offset = pass > 0 || self.shared > 0.0;
         fit.settled && knows_offset && (negligible || step.moved <= SETTLED * SETTLED * step.size)

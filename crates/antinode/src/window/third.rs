@@ -67,16 +67,20 @@ impl Thirds {
     pub(super) fn conclude(&self, model: &Model, remains: &mut Remains) {
         // Two over the samples of a block.
         let doubled = model.per_half * f32::from(model.blocks);
-        let per_count = 1.0 / f32::from(self.watched.max(1));
+        let watched = f32::from(self.watched.max(1));
+        let freedom = 4.0 * (watched - 1.0);
+        // One over the product of both makes one over each.
+        let least = greater(freedom, 1.0);
+        let per_both = 1.0 / (watched * least);
+        let per_count = least * per_both;
         let coherent = (self.sum[0].norm_sqr() + self.sum[1].norm_sqr()) * per_count;
         let incoherent = if self.power > coherent {
             self.power - coherent
         } else {
             0.0
         };
-        let freedom = 4.0 * f32::from(self.watched.saturating_sub(1));
         remains.third = self.sum.map(|sum| sum * (doubled * per_count));
-        remains.third_noise = incoherent * doubled / greater(freedom, 1.0);
+        remains.third_noise = incoherent * doubled * (watched * per_both);
         remains.third_freedom = freedom;
     }
 }

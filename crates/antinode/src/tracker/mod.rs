@@ -4,33 +4,25 @@ mod between;
 mod checks;
 mod converter;
 mod failures;
+mod judge;
 mod record;
 mod trend;
 
-use crate::arch::square_root;
 use crate::block::{Block, Layout};
 use crate::calibration::Calibration;
 use crate::estimate::{Estimate, Flags};
-use crate::order::greater;
 use crate::sample::Sample;
 use crate::settings::{MOST_BLOCKS, Settings, SettingsError};
-use crate::wave::{Angle, Standing, wrap};
+use crate::wave::Angle;
 use crate::window::{CARRIER_REACH, Fit, Gathered, Model, solve};
 use checks::Noise;
-use converter::Coding;
-use failures::{Failures, LEFT};
+use failures::Failures;
 use record::Units;
 pub(crate) use record::{Amplitude, Record};
 use trend::Trend;
 
 /// How far the detector's frequency may be off, as a share of it.
 const DETECTOR_UNCERTAINTY: f32 = 0.05;
-/// Flags of a window that says nothing about those after it.
-const BROKEN: Flags = Flags::LOST
-    .with(Flags::MISFIT)
-    .with(Flags::NOT_FINITE)
-    .with(Flags::DEAD_CHANNEL);
-
 /// Cuts the stream of blocks into windows and tracks the wave over them. Holds up to `BLOCKS` blocks, 11 to 65 535.
 ///
 /// A window has as many blocks as periods at most, or 11 where that is more; `BLOCKS` is two more than the periods.
@@ -137,9 +129,15 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     fn estimate(&mut self) -> Option<Estimate> {
         let mut fit = Fit::default();
         self.fit(&mut fit);
-        let estimate = self.judge(&fit);
+        let estimate = self.estimate_fit(&fit);
         self.advance();
         estimate
+    }
+
+    /// By itself, so that what it needs of the stack is not there while the window is fitted.
+    #[inline(never)]
+    fn estimate_fit(&mut self, fit: &Fit) -> Option<Estimate> {
+        self.judged(fit, |units, record, flags| record.estimate(units, flags))
     }
 
     /// Begins the next window.
@@ -166,27 +164,26 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let mut fit = Fit::default();
         self.fit(&mut fit);
         self.report_fit(&fit, report);
+        self.advance();
     }
 
     #[inline(never)]
     fn report_fit(&mut self, fit: &Fit, report: &mut impl FnMut(Estimate)) {
-        let estimate = self.judge(fit);
-        self.advance();
-        if let Some(estimate) = estimate {
-            report(estimate);
-        }
+        self.judged(fit, |units, record, flags| {
+            tell(units, record, flags, report);
+        });
     }
 
     /// Takes a block; true where it completes a window.
     #[inline(never)]
     fn gather<S: Sample>(&mut self, block: &Block<S>) -> bool {
-        self.follow(block.layout, block.start);
+        self.follow(&block.layout, block.start);
         self.end = block.start + u64::from(block.layout.length);
         let (Some(model), Some(place)) = (&self.model, self.gathered.next()) else {
             return false;
         };
         model.see(block, place);
-        self.gathered.blocks().len() >= usize::from(self.count)
+        self.gathered.length() >= usize::from(self.count)
     }
 
     /// True when the wave has been lost for so long that a new period must be searched: two windows, or eight with little of the wave
@@ -223,11 +220,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Starts a new window when a block does not continue those gathered.
-    fn follow(&mut self, layout: Layout, start: u64) {
+    fn follow(&mut self, layout: &Layout, start: u64) {
         let same = self
             .model
             .as_ref()
-            .is_some_and(|model| model.layout == layout);
+            .is_some_and(|model| model.layout == *layout);
         if same && (self.gathered.is_new() || self.end == start) {
             return;
         }
@@ -240,7 +237,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Begins with blocks of another layout.
     #[cold]
     #[inline(never)]
-    fn begin(&mut self, layout: Layout) {
+    fn begin(&mut self, &layout: &Layout) {
         let settings = &self.settings;
         self.units = Units::at(settings.sample_rate);
         self.count = settings.blocks(layout).clamp(1, BLOCKS as u16);
@@ -253,111 +250,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.before = None;
         self.lost = self.ever;
         self.failures = Failures::NONE;
-    }
-
-    /// Makes an estimate of a fit: by itself, so that what it needs of the stack is not there while the window is fitted.
-    #[inline(never)]
-    fn judge(&mut self, fit: &Fit) -> Option<Estimate> {
-        let model = self.model.as_ref()?;
-        let half = model.half;
-        let own = fit.remains.variance();
-        let noise = self.noise.beside(own, fit.remains.freedom);
-        // Rounding of f32 sums is an error too, where there is no other, and part of it does not average.
-        let size = fit.offsets[0].abs() + fit.offsets[1].abs() + square_root(fit.waves.power());
-        let rounding = 1e-7 * size;
-        let coding = Coding::new(&self.settings, noise, model, fit);
-        let errors = rounding * rounding * (1.0 + half) + coding.expected;
-        let samples = u32::from(self.count) * u32::from(model.layout.length);
-        let middle = 2 * self.end - u64::from(samples) - 1;
-        let mut wave = Standing::new(model, fit, noise + errors, own, middle);
-        let is_no_wave = checks::is_no_wave(fit, &wave, self.count, model.layout.length);
-        if self.before.is_none() && is_no_wave {
-            // The detector was deceived: nothing is reported, and the search goes on.
-            self.failures = Failures::ENOUGH;
-            return None;
-        }
-
-        let (expected, is_certain) = match &self.before {
-            Some(before) => before.angle_at(middle, samples),
-            None => (self.angle, true),
-        };
-        let record = &mut wave.record;
-        let (angle, quarters) = expected.nearest(record.angle.rest);
-        record.angle = angle;
-        record.phase = wrap(record.phase + (quarters & 1) as f32 * core::f32::consts::PI);
-
-        let mut flags = checks::within(model, fit, &wave, [own, coding.most], &mut self.noise);
-        flags = flags.with(converter::sample_flags(
-            &self.settings,
-            self.gathered.blocks(),
-            model.layout.step,
-            fit,
-            &wave,
-            greater(own, wave.noise),
-        ));
-        let mut between = Flags::empty();
-        if let Some(before) = &self.before {
-            between = between::flags(before, &wave.record, is_certain);
-            // A circular pattern has neither an angle nor a phase of its own.
-            if !flags.intersects(Flags::CIRCULAR.with(Flags::LOST)) {
-                flags = flags.with(between);
-            }
-        }
-        let fault = self.broken || flags.intersects(Flags::MISFIT.with(Flags::STEP));
-        flags = flags.with_if(
-            fault && self.has_fallen_silent(&wave.record),
-            Flags::DEAD_CHANNEL,
-        );
-        let is_circular = flags.contains(Flags::CIRCULAR);
-        // Of an angle that is known modulo π/2 only those before tell no rate.
-        if is_circular || !is_certain {
-            self.trend.clear();
-        }
-        if let (false, Some(before)) = (is_certain, &self.before) {
-            wave.record.average_rate(before);
-        }
-        // A wave's first window takes its pattern to stand still, and so does one that cannot see it turn.
-        if is_circular || self.before.is_none() || !self.trend.is_empty() {
-            let drift = wave.record.drift;
-            self.trend.take_turning_out(&mut wave, model);
-            if self.before.is_none() && !is_circular {
-                // It may have turned by as much as it seems to.
-                let moved = wave.record.drift - drift;
-                wave.record.drift_variance += moved * moved;
-            }
-        }
-        let record = &wave.record;
-
-        let left = |before: &Record| record.main.value < LEFT * before.main.value;
-        let is_little = is_no_wave || self.before.as_ref().is_some_and(left);
-        self.failures.take(flags, fit.settled, is_little);
-        if fit.settled && !flags.contains(Flags::LOST) {
-            let is_clean = !flags.intersects(BROKEN);
-            if self.lost || !is_certain && is_clean {
-                flags = flags.with(Flags::REACQUIRED);
-                self.trend.clear();
-                self.lost = false;
-            }
-            self.ever = true;
-        }
-        let drift = if is_circular {
-            fit.waves.drift() * model.per_half
-        } else {
-            record.drift
-        };
-        self.remember(record, flags, between, drift);
-        Some(record.estimate(&self.units, flags))
-    }
-
-    /// True when a pick-off that showed the wave in the last clean window shows none now.
-    fn has_fallen_silent(&self, now: &Record) -> bool {
-        self.before.as_ref().is_some_and(|before| {
-            (0..2).any(|i| {
-                now.is_silent(i)
-                    && before.channel_power[i] > 4.0 * now.channel_power[i]
-                    && !before.is_silent(i)
-            })
-        })
     }
 
     /// Solves for the waves, from the last clean frequency or the detector's.
@@ -389,49 +281,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             solve(model, blocks, carrier, rough, fit);
         }
     }
+}
 
-    /// Keeps what the next windows need; `drift` is the frequency beyond the carrier weighted by power, rad a sample.
-    fn remember(&mut self, record: &Record, flags: Flags, between: Flags, drift: f32) {
-        self.broken = flags.intersects(BROKEN);
-        if self.broken {
-            // The next window is judged by itself: what lies between it and the last clean one is already flagged.
-            self.trend.clear();
-            if let Some(before) = &mut self.before {
-                // But for the phase, where a wave went on: it tells samples that are missing from a spike.
-                if flags.intersects(BROKEN.without(Flags::MISFIT)) {
-                    before.phase_variance = f32::INFINITY;
-                }
-                for amplitude in [&mut before.main, &mut before.quadrature] {
-                    amplitude.variance = f32::INFINITY;
-                    amplitude.rate_variance = f32::INFINITY;
-                }
-                before.angle_variance = f32::INFINITY;
-                before.offset_variance = [f32::INFINITY; 2];
-            }
-            return;
-        }
-        if !between.is_empty() {
-            self.trend.clear();
-        }
-        if !flags.contains(Flags::CIRCULAR) {
-            self.trend.keep(
-                record.middle,
-                record.samples,
-                record.angle,
-                record.angle_variance,
-            );
-            self.angle = record.angle;
-        }
-        let angle = self.angle;
-        let before = self.before.insert(*record);
-        if flags.contains(Flags::CIRCULAR) {
-            // It has neither an angle nor a phase of its own, and of its two waves one knows the frequency.
-            before.drift = drift;
-            before.angle = angle;
-            (before.turning, before.turning_variance) = (0.0, 0.0);
-            (before.promised, before.promised_variance) = (0.0, 0.0);
-            before.angle_variance = f32::INFINITY;
-            before.phase_variance = f32::INFINITY;
-        }
-    }
+/// Hands an estimate over: by itself, so that there is room for it only now.
+#[inline(never)]
+fn tell(units: &Units, record: &Record, flags: Flags, report: &mut impl FnMut(Estimate)) {
+    report(record.estimate(units, flags));
 }

@@ -43,6 +43,10 @@ impl<const BLOCKS: usize> Gathered<BLOCKS> {
         Some(place)
     }
 
+    pub(crate) fn length(&self) -> usize {
+        self.length
+    }
+
     pub(crate) fn blocks(&self) -> &[Seen] {
         self.seen.get(..self.length).unwrap_or(&self.seen)
     }

@@ -1,0 +1,183 @@
+//! A fit becomes a record with flags: what is wrong with a window, and what the next ones need of it.
+
+use super::checks;
+use super::converter::{self, Coding};
+use super::failures::{Failures, LEFT};
+use super::record::{Record, Units};
+use super::{Tracker, between};
+use crate::arch::square_root;
+use crate::estimate::Flags;
+use crate::order::greater;
+use crate::wave::{Standing, wrap};
+use crate::window::Fit;
+
+/// Flags of a window that says nothing about those after it.
+const BROKEN: Flags = Flags::LOST
+    .with(Flags::MISFIT)
+    .with(Flags::NOT_FINITE)
+    .with(Flags::DEAD_CHANNEL);
+
+impl<const BLOCKS: usize> Tracker<BLOCKS> {
+    /// Makes something of a fit's record and flags; nothing where there is no wave to be tracked.
+    #[inline(always)]
+    pub(super) fn judged<R>(
+        &mut self,
+        fit: &Fit,
+        make: impl FnOnce(&Units, &Record, Flags) -> R,
+    ) -> Option<R> {
+        let model = self.model.as_ref()?;
+        let own = fit.remains.variance();
+        let noise = self.noise.beside(own, fit.remains.freedom);
+        // Rounding of f32 sums is an error too, where there is no other, and part of it does not average.
+        let size = fit.offsets[0].abs() + fit.offsets[1].abs() + square_root(fit.waves.power());
+        let rounding = 1e-7 * size;
+        let coding = Coding::new(&self.settings, noise, model, fit);
+        let errors = rounding * rounding * (1.0 + model.half) + coding.expected;
+        let samples = u32::from(self.count) * u32::from(model.layout.length);
+        let middle = 2 * self.end - u64::from(samples) - 1;
+        let mut wave = Standing::new(model, fit, noise + errors, own, middle);
+        let flags = self.judge(fit, coding.most, &mut wave)?;
+        Some(make(&self.units, &wave.record, flags))
+    }
+
+    /// Tests a window's wave and joins it to those before; none where the first window shows no wave. `coding` is the noise variance that
+    /// the converter's steps may add.
+    #[inline(never)]
+    fn judge(&mut self, fit: &Fit, coding: f32, wave: &mut Standing) -> Option<Flags> {
+        let model = self.model.as_ref()?;
+        let is_no_wave = checks::is_no_wave(fit, wave, self.count, model.layout.length);
+        if self.before.is_none() && is_no_wave {
+            // The detector was deceived: nothing is reported, and the search goes on.
+            self.failures = Failures::ENOUGH;
+            return None;
+        }
+
+        let (expected, is_certain) = match &self.before {
+            Some(before) => before.angle_at(wave.record.middle, wave.record.samples),
+            None => (self.angle, true),
+        };
+        let record = &mut wave.record;
+        let (angle, quarters) = expected.nearest(record.angle.rest);
+        record.angle = angle;
+        record.phase = wrap(record.phase + (quarters & 1) as f32 * core::f32::consts::PI);
+
+        let own = wave.record.residual;
+        let mut flags = checks::within(model, fit, wave, [own, coding], &mut self.noise);
+        flags = flags.with(converter::sample_flags(
+            &self.settings,
+            self.gathered.blocks(),
+            model.layout.step,
+            fit,
+            wave,
+            greater(own, wave.noise),
+        ));
+        let mut between = Flags::empty();
+        if let Some(before) = &self.before {
+            between = between::flags(before, &wave.record, is_certain);
+            // A circular pattern has neither an angle nor a phase of its own.
+            if !flags.intersects(Flags::CIRCULAR.with(Flags::LOST)) {
+                flags = flags.with(between);
+            }
+        }
+        let fault = self.broken || flags.intersects(Flags::MISFIT.with(Flags::STEP));
+        flags = flags.with_if(
+            fault && self.has_fallen_silent(&wave.record),
+            Flags::DEAD_CHANNEL,
+        );
+        let is_circular = flags.contains(Flags::CIRCULAR);
+        // Of an angle that is known modulo π/2 only those before tell no rate.
+        if is_circular || !is_certain {
+            self.trend.clear();
+        }
+        if let (false, Some(before)) = (is_certain, &self.before) {
+            wave.record.average_rate(before);
+        }
+        // A wave's first window takes its pattern to stand still, and so does one that cannot see it turn.
+        if is_circular || self.before.is_none() || !self.trend.is_empty() {
+            let drift = wave.record.drift;
+            self.trend.take_turning_out(wave, model);
+            if self.before.is_none() && !is_circular {
+                // It may have turned by as much as it seems to.
+                let moved = wave.record.drift - drift;
+                wave.record.drift_variance += moved * moved;
+            }
+        }
+        let record = &wave.record;
+
+        let left = |before: &Record| record.main.value < LEFT * before.main.value;
+        let is_little = is_no_wave || self.before.as_ref().is_some_and(left);
+        self.failures.take(flags, fit.settled, is_little);
+        if fit.settled && !flags.contains(Flags::LOST) {
+            let is_clean = !flags.intersects(BROKEN);
+            if self.lost || !is_certain && is_clean {
+                flags = flags.with(Flags::REACQUIRED);
+                self.trend.clear();
+                self.lost = false;
+            }
+            self.ever = true;
+        }
+        let drift = if is_circular {
+            fit.waves.drift() * model.per_half
+        } else {
+            record.drift
+        };
+        self.remember(record, flags, between, drift);
+        Some(flags)
+    }
+
+    /// True when a pick-off that showed the wave in the last clean window shows none now.
+    fn has_fallen_silent(&self, now: &Record) -> bool {
+        self.before.as_ref().is_some_and(|before| {
+            (0..2).any(|i| {
+                now.is_silent(i)
+                    && before.channel_power[i] > 4.0 * now.channel_power[i]
+                    && !before.is_silent(i)
+            })
+        })
+    }
+
+    /// Keeps what the next windows need; `drift` is the frequency beyond the carrier weighted by power, rad a sample.
+    fn remember(&mut self, record: &Record, flags: Flags, between: Flags, drift: f32) {
+        self.broken = flags.intersects(BROKEN);
+        if self.broken {
+            // The next window is judged by itself: what lies between it and the last clean one is already flagged.
+            self.trend.clear();
+            if let Some(before) = &mut self.before {
+                // But for the phase, where a wave went on: it tells samples that are missing from a spike.
+                if flags.intersects(BROKEN.without(Flags::MISFIT)) {
+                    before.phase_variance = f32::INFINITY;
+                }
+                for amplitude in [&mut before.main, &mut before.quadrature] {
+                    amplitude.variance = f32::INFINITY;
+                    amplitude.rate_variance = f32::INFINITY;
+                }
+                before.angle_variance = f32::INFINITY;
+                before.offset_variance = [f32::INFINITY; 2];
+            }
+            return;
+        }
+        if !between.is_empty() {
+            self.trend.clear();
+        }
+        if !flags.contains(Flags::CIRCULAR) {
+            self.trend.keep(
+                record.middle,
+                record.samples,
+                record.angle,
+                record.angle_variance,
+            );
+            self.angle = record.angle;
+        }
+        let angle = self.angle;
+        let before = self.before.insert(*record);
+        if flags.contains(Flags::CIRCULAR) {
+            // It has neither an angle nor a phase of its own, and of its two waves one knows the frequency.
+            before.drift = drift;
+            before.angle = angle;
+            (before.turning, before.turning_variance) = (0.0, 0.0);
+            (before.promised, before.promised_variance) = (0.0, 0.0);
+            before.angle_variance = f32::INFINITY;
+            before.phase_variance = f32::INFINITY;
+        }
+    }
+}

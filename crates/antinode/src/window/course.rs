@@ -73,57 +73,38 @@ impl Turn {
     }
 }
 
-/// Walks through the blocks of a window.
-pub(super) struct Course<'a> {
-    model: &'a Model,
-    waves: &'a Waves,
-    /// What a block does to each wave beyond what it does to the carrier.
-    beyond: [Complex32; 2],
-}
-
-impl<'a> Course<'a> {
-    #[inline(never)]
-    pub(super) fn new(model: &'a Model, waves: &'a Waves) -> Self {
-        let turn = |slope: Complex32| model.turn.grown(growth(slope * model.advance));
-        Self {
-            model,
-            waves,
-            beyond: [turn(waves.slope[0]).beyond, turn(waves.slope[1]).beyond],
-        }
+/// Fills in the blocks from block `index` of a window on, up to [`CHUNK`].
+#[inline(never)]
+pub(super) fn fill(model: &Model, waves: &Waves, index: usize, here: &mut [Here]) {
+    let Model { advance, turn, .. } = *model;
+    let (mut u, mut unit) = model.carrier(index);
+    let half = unit * 0.5;
+    let at = |w: usize| waves.value[w & 1] * (growth(waves.slope[w & 1] * u) + 1.0) * half;
+    let mut running = [at(0), at(1)];
+    // What a block does to each wave beyond what it does to the carrier.
+    let grown = |w: usize| turn.grown(growth(waves.slope[w & 1] * advance));
+    let turns = [grown(0), grown(1)];
+    let is_near = turn.whole == Complex32::ONE;
+    // Only residuals are turned by it: they have no digits to lose.
+    let turn = turn.rounded();
+    for here in &mut *here {
+        *here = Here {
+            u,
+            unit,
+            waves: running,
+            slope: 0.0,
+            power: 0.0,
+            run: 0.0,
+        };
+        u += advance;
+        unit *= turn;
+        running = [
+            turns[0].apply(running[0], is_near),
+            turns[1].apply(running[1], is_near),
+        ];
     }
-
-    /// Fills in the blocks from block `index` on, up to [`CHUNK`].
-    #[inline(never)]
-    pub(super) fn fill(&self, index: usize, here: &mut [Here]) {
-        let waves = self.waves;
-        let Model { advance, turn, .. } = *self.model;
-        let turns = self.beyond.map(|beyond| Turn { beyond, ..turn });
-        let (mut u, mut unit) = self.model.carrier(index);
-        let is_near = turn.whole == Complex32::ONE;
-        // Only residuals are turned by it: they have no digits to lose.
-        let turn = turn.rounded();
-        let half = unit * 0.5;
-        let at = |w: usize| waves.value[w & 1] * (growth(waves.slope[w & 1] * u) + 1.0) * half;
-        let mut running = [at(0), at(1)];
-        for here in &mut *here {
-            *here = Here {
-                u,
-                unit,
-                waves: running,
-                slope: 0.0,
-                power: 0.0,
-                run: 0.0,
-            };
-            u += advance;
-            unit *= turn;
-            running = [
-                turns[0].apply(running[0], is_near),
-                turns[1].apply(running[1], is_near),
-            ];
-        }
-        if waves.slope.contains(&Complex32::ZERO) {
-            bend(here, waves);
-        }
+    if waves.slope.contains(&Complex32::ZERO) {
+        bend(here, waves);
     }
 }
 
@@ -183,7 +164,7 @@ mod tests {
                     ..Waves::default()
                 };
                 let mut here = [Here::default(); CHUNK];
-                Course::new(&model, &waves).fill(0, &mut here);
+                fill(&model, &waves, 0, &mut here);
                 // The last block is the worst.
                 let u = 1.0 - 1.0 / CHUNK as f64;
                 let samples = f64::from(length) * 0.5 * (CHUNK - 1) as f64;

@@ -2,7 +2,7 @@
 
 use num_complex::Complex32;
 
-use super::course::{CHUNK, Course, Here};
+use super::course::{CHUNK, Here, fill};
 use super::gradient::Gradient;
 use super::hum::take_slopes;
 use super::model::Model;
@@ -55,14 +55,13 @@ pub(super) fn examine(
     let is_watched = blocks.first().is_some_and(|block| block.watched.is_some());
     let has_own = model.shared == 0.0;
     let mut thirds = Thirds::default();
-    let course = Course::new(model, waves);
     let mut views = Views::new(model);
     *gradients = Default::default();
     remains.wander = [0.0; 2];
     let mut here = [Here::default(); CHUNK];
     for (chunk, blocks) in blocks.chunks(CHUNK).enumerate() {
         let here = here.get_mut(..blocks.len()).unwrap_or_default();
-        course.fill(chunk * CHUNK, here);
+        fill(model, waves, chunk * CHUNK, here);
         let mut prediction = Prediction::of_c(model, waves, offsets);
         for (channel, gradient) in gradients.iter_mut().enumerate() {
             if channel > 0 {

@@ -135,7 +135,7 @@ fn without_noise_the_resonator_is_found() {
 
 #[test]
 fn stated_deviations_are_the_rms_errors() {
-    let mut squares = [0.0; 5 + 3];
+    let mut squares = [0.0; 5 + 3 + 4];
     let mut residuals = 0.0;
     let trials = 100;
     for seed in 0..trials {
@@ -147,6 +147,15 @@ fn stated_deviations_are_the_rms_errors() {
         for run in 0..3 {
             let (rotation, deviation) = found.rotation(run).unwrap();
             errors.push((rotation + 2e-5) / deviation);
+        }
+        // Of 0.01 and 0.05, as 3-4-5 triangles.
+        for (split, size, angle) in [
+            (found.damping_split(), 0.01, 0.25 * (-0.8f64).atan2(0.6)),
+            (found.frequency_split(), 0.05, 0.25 * 0.8f64.atan2(0.6)),
+        ] {
+            let truth = [size, angle];
+            let measured = split.unwrap().into_iter().zip(truth);
+            errors.extend(measured.map(|((value, deviation), truth)| (value - truth) / deviation));
         }
         for (sum, error) in squares.iter_mut().zip(errors) {
             *sum += error * error / trials as f64;

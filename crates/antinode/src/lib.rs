@@ -183,7 +183,6 @@ mod sample;
 mod settings;
 mod sum;
 mod tracker;
-mod wave;
 mod window;
 
 pub use block::{Block, Pair};

@@ -2,12 +2,12 @@
 //!
 //! Thresholds are as those of a window by itself.
 
+use super::angle::wrap;
 use super::checks::SIGMAS;
 use super::record::{Amplitude, Record};
 use crate::estimate::Flags;
 use crate::exponential::exponential;
 use crate::order::{greater, long};
-use crate::wave::wrap;
 
 /// Below this share of a_A a step of an amplitude or an offset between windows is no fault.
 const AMPLITUDE_FLOOR: f32 = 2e-3;

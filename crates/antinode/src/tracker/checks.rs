@@ -2,10 +2,10 @@
 //!
 //! Every threshold is a false-alarm rate below 10⁻⁹ a window for white noise, plus a floor under which a deviation is no fault.
 
+use super::standing::Standing;
 use crate::arch::square_root;
 use crate::estimate::Flags;
 use crate::order::{greater, lesser};
-use crate::wave::Standing;
 use crate::window::{Covariance, Fit, Model, Remains};
 
 /// Standard deviations of an innocent deviation.

@@ -1,12 +1,12 @@
 //! What the converter does to a window: its steps, its rails, and channels that stand still.
 
+use super::standing::Standing;
 use crate::arch::square_root;
 use crate::estimate::Flags;
 use crate::exponential::exponential;
 use crate::order::{greater, lesser};
 use crate::phase::PhaseStep;
 use crate::settings::Settings;
-use crate::wave::Standing;
 use crate::window::{Fit, Model, Seen};
 
 /// What the converter's steps add to the noise variance a sample.

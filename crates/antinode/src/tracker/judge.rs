@@ -1,14 +1,15 @@
 //! A fit becomes a record with flags: what is wrong with a window, and what the next ones need of it.
 
+use super::angle::wrap;
 use super::checks;
 use super::converter::{self, Coding};
 use super::failures::{Failures, LEFT};
 use super::record::{Record, Units};
+use super::standing::Standing;
 use super::{Tracker, between};
 use crate::arch::square_root;
 use crate::estimate::Flags;
 use crate::order::greater;
-use crate::wave::{Standing, wrap};
 use crate::window::Fit;
 
 /// Flags of a window that says nothing about those after it.

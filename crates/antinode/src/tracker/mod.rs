@@ -1,11 +1,13 @@
 //! Blocks become estimates of a tracked wave: windows are cut, solved, checked, and joined to those before.
 
+mod angle;
 mod between;
 mod checks;
 mod converter;
 mod failures;
 mod judge;
 mod record;
+mod standing;
 mod trend;
 
 use crate::block::{Block, Layout};
@@ -13,16 +15,16 @@ use crate::calibration::Calibration;
 use crate::estimate::{Estimate, Flags};
 use crate::sample::Sample;
 use crate::settings::{MOST_BLOCKS, Settings, SettingsError};
-use crate::wave::Angle;
 use crate::window::{CARRIER_REACH, Fit, Gathered, Model, solve};
+use angle::Angle;
 use checks::Noise;
 use failures::Failures;
-use record::Units;
-pub(crate) use record::{Amplitude, Record};
+use record::{Record, Units};
 use trend::Trend;
 
 /// How far the detector's frequency may be off, as a share of it.
 const DETECTOR_UNCERTAINTY: f32 = 0.05;
+
 /// Cuts the stream of blocks into windows and tracks the wave over them. Holds up to `BLOCKS` blocks, 11 to 65 535.
 ///
 /// A window has as many blocks as periods at most, or 11 where that is more; `BLOCKS` is two more than the periods.

@@ -1,11 +1,11 @@
 //! One window as the tracker remembers it: values at its middle, rates a sample, variances.
 
+use super::angle::Angle;
 use crate::arch::square_root;
 use crate::double::{self, reciprocal, scaled, to_single};
 use crate::estimate::{Estimate, Flags};
 use crate::order::{greater, long};
 use crate::phase::PhaseStep;
-use crate::wave::Angle;
 
 /// Deviation of a promised angle, rad, of which six reach the next angle that looks the same.
 const UNKNOWN_TURN: f32 = 0.13;

@@ -3,9 +3,10 @@
 //! With a quadrature wave a turning pattern shifts the apparent frequency, so a window that must find θ̇ and f together knows f up
 //! to (a_A² + a_B²)/(a_A² − a_B²) times worse than the bound. The angles of the windows before know θ̇ far better than one window.
 
+use super::angle::Angle;
 use super::record::Record;
+use super::standing::Standing;
 use crate::order::greater;
-use crate::wave::{Angle, Standing};
 use crate::window::Model;
 
 /// Windows kept.

@@ -1,0 +1,73 @@
+//! The pattern angle over its ambiguity of π/2, and phases over theirs of whole turns.
+
+use core::f32::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
+
+use crate::double::units;
+use crate::order::nearest;
+
+/// Takes whole turns off an angle in radians: (−π, π].
+pub(crate) fn wrap(angle: f32) -> f32 {
+    let rest = angle - nearest(angle * (1.0 / TAU)) as f32 * TAU;
+    if rest <= -PI { rest + TAU } else { rest }
+}
+
+/// A pattern angle that runs on over the ambiguity of π/2: whole quarter turns apart from the rest, so that it never loses digits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Angle {
+    pub quarters: i32,
+    /// In rad, about −π/4…π/4.
+    pub rest: f32,
+}
+
+impl Angle {
+    pub(crate) const ZERO: Self = Self {
+        quarters: 0,
+        rest: 0.0,
+    };
+
+    #[inline]
+    pub(crate) fn new(radians: f32) -> Self {
+        let quarters = nearest(radians * FRAC_2_PI);
+        Self {
+            quarters,
+            rest: radians - quarters as f32 * FRAC_PI_2,
+        }
+    }
+
+    /// The value nearest to this one that equals `angle` modulo π/2, and by how many quarter turns it was moved.
+    pub(crate) fn nearest(self, angle: f32) -> (Self, i32) {
+        let quarters = nearest((self.rest - angle) * FRAC_2_PI);
+        let rest = angle + quarters as f32 * FRAC_PI_2;
+        let moved = Angle::new(rest);
+        (
+            Self {
+                quarters: self.quarters.wrapping_add(moved.quarters),
+                rest: moved.rest,
+            },
+            self.quarters.wrapping_add(quarters),
+        )
+    }
+
+    /// This angle less `other`, rad.
+    pub(crate) fn less(self, other: Self) -> f32 {
+        self.quarters.wrapping_sub(other.quarters) as f32 * FRAC_PI_2 + (self.rest - other.rest)
+    }
+
+    /// This angle moved by a small one, rad.
+    pub(crate) fn plus(self, radians: f32) -> Self {
+        let moved = Angle::new(self.rest + radians);
+        Self {
+            quarters: self.quarters.wrapping_add(moved.quarters),
+            rest: moved.rest,
+        }
+    }
+
+    /// In radians.
+    pub(crate) fn radians(self) -> f64 {
+        // In units of 2⁻³² quarter turn.
+        let rest = (self.rest * 2_147_483_648.0) as i32;
+        let rest = (i64::from(rest) * 2_734_261_102) >> 31;
+        let unit = core::f64::consts::FRAC_PI_2 / 4_294_967_296.0;
+        units((i64::from(self.quarters) << 32) + rest, unit)
+    }
+}

@@ -226,3 +226,27 @@ fn noise_is_no_spread() {
         spread(&apart)
     );
 }
+
+#[test]
+fn what_the_splits_do_to_one_pattern_tells_them() {
+    // Most damped where it stands: what moves it is the split of frequency, by way of the quadrature.
+    let angle = 0.25 * (-0.8f64).atan2(0.6);
+    let runs = [run(
+        &RESONATOR,
+        0.0,
+        [1.0, 0.02, angle],
+        800,
+        0.01,
+        NOISE,
+        1,
+    )];
+    assert!(spread(&runs) < LEAST_SPREAD, "{}", spread(&runs));
+    let found = fit(&runs).unwrap();
+    assert_eq!(found.model, BOTH);
+    let [(split, deviation), _] = found.frequency_split().unwrap();
+    assert!(
+        (split - 0.05).abs() < 4.0 * deviation && deviation < 1e-3,
+        "{split} {deviation}"
+    );
+    assert!((found.residual - 1.0).abs() < 0.1, "{}", found.residual);
+}

@@ -92,7 +92,8 @@ impl From<Calibration> for CoreCalibration {
 impl Settings {
     /// The core's settings, checked for a ring of `blocks`.
     pub(crate) fn checked(&self, blocks: usize) -> Result<core_crate::Settings, Status> {
-        if !(1.0..=1e10).contains(&self.sample_rate_hz) {
+        // By their bits, which are in the order of numbers above zero, with all else beyond: no comparison in f64 is linked in.
+        if !(1f64.to_bits()..=1e10f64.to_bits()).contains(&self.sample_rate_hz.to_bits()) {
             return Err(Status::ErrorSampleRate);
         }
         let settings = core_crate::Settings {

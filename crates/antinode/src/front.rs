@@ -28,7 +28,7 @@ impl<S: Sample> Detector<S> {
         match self {
             Self::Difference(detector) => detector.restart(),
             #[cfg(feature = "mean-return")]
-            Self::MeanReturn(detector) => *detector = MeanReturnDetector::new(),
+            Self::MeanReturn(detector) => detector.restart(),
         }
     }
 

@@ -40,7 +40,7 @@ struct Sums {
 
 impl Sums {
     /// Takes the next row of the design, which is that of `rows` samples but for signs: `sum` and `difference` of those.
-    #[inline(always)]
+    #[inline]
     fn add(&mut self, rows: f32, sum: Pair, difference: Pair) {
         let [c, s, uc, us] = self.row.next();
         // The products of a row count for all its samples.
@@ -105,7 +105,7 @@ impl Row {
     }
 
     /// The columns but for the last, which is one.
-    #[inline(always)]
+    #[inline]
     fn next(&mut self) -> [f32; 4] {
         let (Complex32 { re, im }, u) = (self.unit, self.u);
         self.unit *= self.turn;
@@ -145,14 +145,6 @@ impl Trial {
             square: 0.0,
         },
     };
-
-    /// A trial of `period` samples over a stretch of `length`.
-    #[cfg(feature = "mean-return")]
-    pub(crate) fn new(period: f32, length: usize) -> Self {
-        let mut trial = Self::NONE;
-        trial.begin(period, length);
-        trial
-    }
 
     /// Makes this one a trial of `period` samples over a stretch of `length`, in place.
     pub(crate) fn begin(&mut self, period: f32, length: usize) {

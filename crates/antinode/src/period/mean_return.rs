@@ -68,7 +68,7 @@ enum Stage {
         returns: u16,
     },
     /// Tries the period found.
-    Try { trial: Trial },
+    Try,
 }
 
 /// The streaming detector of formula (9): periods of 4 to 200 samples. Bounded work a sample: a few additions.
@@ -78,6 +78,8 @@ pub struct MeanReturnDetector {
     channel: usize,
     /// Samples in this stage.
     time: u16,
+    /// Beside the stage, where it is begun in place.
+    trial: Trial,
 }
 
 impl MeanReturnDetector {
@@ -94,7 +96,16 @@ impl MeanReturnDetector {
             stage: Self::START,
             channel: 0,
             time: 0,
+            trial: Trial::NONE,
         }
+    }
+
+    /// Forgets all samples.
+    #[inline(never)]
+    pub(crate) fn restart(&mut self) {
+        self.stage = Self::START;
+        self.channel = 0;
+        self.time = 0;
     }
 
     /// Takes a sample pair; gives the period in samples once it is sure.
@@ -108,26 +119,28 @@ impl MeanReturnDetector {
                 upward,
                 crossings,
             } => {
+                let mut swing = [0.0; 2];
                 for i in 0..2 {
                     low[i] = lesser(pair[i], low[i]);
                     high[i] = greater(pair[i], high[i]);
-                    let (middle, swing) = (0.5 * (high[i] + low[i]), 0.5 * (high[i] - low[i]));
-                    crossings[i] += u8::from(upward[i].crossed(pair[i] - middle, 0.25 * swing));
+                    swing[i] = 0.5 * (high[i] - low[i]);
+                    let height = pair[i] - 0.5 * (high[i] + low[i]);
+                    crossings[i] += u8::from(upward[i].crossed(height, 0.25 * swing[i]));
                 }
-                let swing = [0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1])];
                 let strong = usize::from(swing[1] > swing[0]);
-                (crossings[strong] >= 2).then(|| {
-                    self.channel = strong;
-                    Stage::Mean {
-                        middle: 0.5 * (high[strong] + low[strong]),
-                        swing: swing[strong],
-                        upward: Upward::default(),
-                        crossings: 0,
-                        before: 0.0,
-                        area: 0.0,
-                        lead: 0.0,
-                    }
-                })
+                if crossings[strong] < 2 {
+                    return self.wait();
+                }
+                self.channel = strong;
+                Stage::Mean {
+                    middle: 0.5 * (high[strong] + low[strong]),
+                    swing: swing[strong],
+                    upward: Upward::default(),
+                    crossings: 0,
+                    before: 0.0,
+                    area: 0.0,
+                    lead: 0.0,
+                }
             }
             Stage::Mean {
                 middle,
@@ -143,41 +156,45 @@ impl MeanReturnDetector {
                 *area += 0.5 * (height + *before);
                 *before = height;
                 if !upward.crossed(height, 0.25 * *swing) {
-                    None
-                } else {
-                    // The crossing itself lies on the line through the last two samples, so long before this one.
-                    let late = if rise > 0.0 { height / rise } else { 0.0 };
-                    let triangle = 0.5 * height * late;
-                    *crossings += 1;
-                    if *crossings == 1 {
-                        (*area, *lead) = (triangle, late);
-                        self.time = 0;
-                    }
-                    (*crossings > SPAN).then(|| {
-                        let span = f32::from(self.time) + *lead - late;
-                        let mean = *middle + (*area - triangle) / span;
-                        let period = span / f32::from(SPAN);
-                        // The sum's first sample is to stand half a sample past the next crest.
-                        let samples = libm::roundf(1.25 * period - 0.5 - late) as u16;
-                        Stage::Crest {
-                            mean,
-                            margin: 0.25 * *swing * period / TAU,
-                            samples,
-                        }
-                    })
+                    return self.wait();
+                }
+                // The crossing itself lies on the line through the last two samples, so long before this one.
+                let late = if rise > 0.0 { height / rise } else { 0.0 };
+                let triangle = 0.5 * height * late;
+                *crossings += 1;
+                if *crossings == 1 {
+                    (*area, *lead) = (triangle, late);
+                    self.time = 0;
+                }
+                if *crossings <= SPAN {
+                    return self.wait();
+                }
+                let span = f32::from(self.time) + *lead - late;
+                let mean = *middle + (*area - triangle) / span;
+                let period = span / f32::from(SPAN);
+                Stage::Crest {
+                    mean,
+                    margin: 0.25 * *swing * period / TAU,
+                    // The sum's first sample is to stand half a sample past the next crest.
+                    samples: (1.25 * period - late) as u16,
                 }
             }
             Stage::Crest {
                 mean,
                 margin,
                 samples,
-            } => (self.time >= *samples).then_some(Stage::Sum {
-                mean: *mean,
-                margin: *margin,
-                upward: Upward::default(),
-                sum: 0.0,
-                returns: 0,
-            }),
+            } => {
+                if self.time < *samples {
+                    return self.wait();
+                }
+                Stage::Sum {
+                    mean: *mean,
+                    margin: *margin,
+                    upward: Upward::default(),
+                    sum: 0.0,
+                    returns: 0,
+                }
+            }
             Stage::Sum {
                 mean,
                 margin,
@@ -193,34 +210,38 @@ impl MeanReturnDetector {
                     upward.below = false;
                     *returns += 1;
                 }
-                (*returns == SPAN).then(|| {
-                    let late = if step > 0.0 {
-                        lesser(*sum / step, 1.0)
-                    } else {
-                        0.0
-                    };
-                    let period = (f32::from(self.time) - late) / f32::from(SPAN);
-                    let length = (TRIED * period) as usize + 1;
-                    Stage::Try {
-                        trial: Trial::new(period.clamp(2.5, 400.0), length.max(12)),
-                    }
-                })
-            }
-            Stage::Try { trial } => {
-                trial.push(pair);
-                if trial.is_whole() {
-                    let found = trial.fitted().map(|found| found.period);
-                    *self = Self::new();
-                    return found.filter(|period| PERIODS.contains(period));
+                if *returns < SPAN {
+                    return self.wait();
                 }
-                None
+                let late = if step > 0.0 {
+                    lesser(*sum / step, 1.0)
+                } else {
+                    0.0
+                };
+                let period = (f32::from(self.time) - late) / f32::from(SPAN);
+                let length = (TRIED * period) as usize + 1;
+                self.trial.begin(period.clamp(2.5, 400.0), length.max(12));
+                Stage::Try
+            }
+            Stage::Try => {
+                self.trial.push(pair);
+                if !self.trial.is_whole() {
+                    return self.wait();
+                }
+                self.restart();
+                let found = self.trial.fitted().map(|found| found.period);
+                return found.filter(|period| PERIODS.contains(period));
             }
         };
-        if let Some(stage) = next {
-            self.stage = stage;
-            self.time = 0;
-        } else if self.time > LONGEST {
-            *self = Self::new();
+        self.stage = next;
+        self.time = 0;
+        None
+    }
+
+    /// Stays in the stage, unless that has taken too long.
+    fn wait(&mut self) -> Option<f32> {
+        if self.time > LONGEST {
+            self.restart();
         }
         None
     }

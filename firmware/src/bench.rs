@@ -98,9 +98,11 @@ where
     Packed: SamplePair<S>,
 {
     let codes = Codes::new();
-    let Ok(mut identifier) = Identifier::<S, 200, 16>::new(Settings::new(100_000.0)) else {
+    // In place, as an image does it: what is given back is copied, on the stack and by code of its own.
+    let mut identifier = Identifier::<S, 200, 16>::UNSET;
+    if identifier.configure(Settings::new(100_000.0)).is_err() {
         leave()
-    };
+    }
     let mut run = |from: usize, to: usize| {
         let mut at = from;
         while at < to {
@@ -128,9 +130,10 @@ where
 {
     let codes = Codes::new();
     let mut demodulator = demodulator::<S>(true);
-    let Ok(mut tracker) = Tracker::<16>::new(Settings::new(100_000.0)) else {
+    let mut tracker = Tracker::<16>::UNSET;
+    if tracker.configure(Settings::new(100_000.0)).is_err() {
         leave()
-    };
+    }
     let mut at = 0;
     let mut next = || loop {
         let (taken, block) = demodulator.push_slice(codes.slice(at, HALF_BUFFER));

@@ -142,30 +142,35 @@ fn quantities(rows: &Runs, found: &Found) -> Vec<Quantity> {
     };
     let all = rows.runs.iter().flat_map(|run| &run.rows);
     let frequency = all.map(|row| row.frequency).sum::<f64>() / rows.used() as f64;
+    let resonator = found.resonator();
     for index in 0..rows.runs.len() {
         let run = Some(index);
         let decay_time = time(found.decay_of_run(index));
         add(run, DECAY_TIME, decay_time);
         add(run, QUALITY_FACTOR, scaled(decay_time, PI * frequency));
-        if let Some(rotation) = found.rotation(index) {
-            add(run, ROTATION, rotation);
+        if let Some(resonator) = &resonator {
+            add(run, ROTATION, resonator.rotations[index]);
         }
     }
     add(None, FREQUENCY, (frequency, 0.0));
-    if let Some(decay) = found.decay() {
-        let decay_time = time(decay);
-        add(None, DECAY_TIME, decay_time);
-        add(None, QUALITY_FACTOR, scaled(decay_time, PI * frequency));
-    }
-    for (split, size, at, unit) in [
-        (found.damping_split(), DAMPING_SPLIT, MOST_DAMPED, 1.0),
-        (found.frequency_split(), FREQUENCY_SPLIT, HIGHEST, 1.0 / TAU),
+    let Some(resonator) = resonator else {
+        return list;
+    };
+    let decay_time = time(resonator.decay);
+    add(None, DECAY_TIME, decay_time);
+    add(None, QUALITY_FACTOR, scaled(decay_time, PI * frequency));
+    for ([split, angle], size, at, unit) in [
+        (resonator.damping_split, DAMPING_SPLIT, MOST_DAMPED, 1.0),
+        (
+            resonator.frequency_split,
+            FREQUENCY_SPLIT,
+            HIGHEST,
+            1.0 / TAU,
+        ),
     ] {
-        if let Some([split, angle]) = split {
-            add(None, size, scaled(split, unit));
-            if split.0 > SPLIT_SEEN * split.1 {
-                add(None, at, angle);
-            }
+        add(None, size, scaled(split, unit));
+        if split.0 > SPLIT_SEEN * split.1 {
+            add(None, at, angle);
         }
     }
     list
@@ -221,16 +226,11 @@ fn tell(out: &mut impl Write, rows: &Runs, found: &Found) -> io::Result<()> {
             )?;
         }
     }
-    let unknown = match (found.model.damping, found.model.frequency) {
-        (true, true) => None,
-        (true, false) => Some("split of frequency"),
-        (false, true) => Some("split of damping"),
-        (false, false) => Some("splits of damping and frequency"),
-    };
-    if let Some(unknown) = unknown {
+    if found.resonator().is_none() {
         writeln!(
             out,
-            "the rows do not tell the {unknown}: give ring-downs at pattern angles 22.5° apart, or of a pattern that turns by 45° and more"
+            "the rows do not tell the splits of damping and frequency: give ring-downs at pattern angles of 0°, 22.5° and 45°, or of a \
+             pattern that turns by 45° and more"
         )?;
     }
     if found.residual > BEYOND_NOISE {

@@ -122,7 +122,7 @@ fn a_pattern_at_rest_tells_its_decay_and_that_no_more_is_told() {
         found
             .err
             .contains("do not tell the splits of damping and frequency")
-            && found.err.contains("22.5° apart"),
+            && found.err.contains("22.5° and 45°"),
         "{}",
         found.err
     );

@@ -1,8 +1,8 @@
 //! Runs become a resonator, by least squares.
 //!
 //! Every row is a measurement of a_A, a_B and θ. First each run gets a decay, a rotation and a growth of its quadrature of its own, which
-//! any run tells. What the runs share, the splits of damping and frequency, takes their place where the runs together tell it: a pattern
-//! that stands still sees one side of each alone. The steps are those of Levenberg and Marquardt.
+//! any run tells. The resonator that the runs share takes their place where they tell it: a pattern that stands still sees one side of each
+//! split alone. The steps are those of Levenberg and Marquardt.
 
 use nalgebra::{Cholesky, Complex, DMatrix, DVector, Dyn};
 
@@ -28,7 +28,7 @@ const TOLD_SHARE: f64 = 0.1;
 #[derive(Debug)]
 pub struct Found {
     /// What the runs share.
-    pub model: Model,
+    model: Model,
     values: DVector<f64>,
     /// Of the values, widened where the residual is beyond the rows' own deviations.
     covariance: DMatrix<f64>,
@@ -40,6 +40,19 @@ pub struct Found {
 
 /// A value and its standard deviation.
 pub type Measured = (f64, f64);
+
+/// What the runs share.
+#[derive(Debug)]
+pub struct Resonator {
+    /// The mean 1/τ of both modes, 1/s.
+    pub decay: Measured,
+    /// The split of damping, 1/s, and the angle at which damping is greatest, rad.
+    pub damping_split: [Measured; 2],
+    /// The split of frequency, rad/s, and the angle at which the frequency is highest, rad.
+    pub frequency_split: [Measured; 2],
+    /// What rotation turns the pattern of each run by, rad/s.
+    pub rotations: Vec<Measured>,
+}
 
 /// The steps do not settle.
 #[derive(Debug, PartialEq)]
@@ -65,35 +78,24 @@ impl Found {
 
     /// 1/τ along the pattern of a run, 1/s.
     pub fn decay_of_run(&self, run: usize) -> Measured {
-        let decay = (self.model.decay_at(run), 1.0);
-        if self.model.damping {
-            let [r, s] = self.shares[run];
-            self.sum(&[
-                decay,
-                (Model::DAMPING + 1, 0.5 * r),
-                (Model::DAMPING + 2, 0.5 * s),
-            ])
-        } else {
-            self.sum(&[decay])
+        let mut terms = vec![(self.model.decay_at(run), 1.0)];
+        if self.model == Model::Shared {
+            let shares = self.shares[run].iter().enumerate();
+            terms.extend(shares.map(|(i, share)| (Model::DAMPING + i, 0.5 * share)));
         }
+        self.sum(&terms)
     }
 
-    /// The mean 1/τ of both modes, 1/s, where the rows tell it.
-    pub fn decay(&self) -> Option<Measured> {
-        self.model
-            .damping
-            .then(|| self.sum(&[(Model::DAMPING, 1.0)]))
-    }
-
-    /// The split of damping, 1/s, and the angle at which damping is greatest, rad, where the rows tell them.
-    pub fn damping_split(&self) -> Option<[Measured; 2]> {
-        self.model.damping.then(|| self.split(Model::DAMPING + 1))
-    }
-
-    /// The split of frequency, rad/s, and the angle at which the frequency is highest, rad, where the rows tell them.
-    pub fn frequency_split(&self) -> Option<[Measured; 2]> {
-        let at = self.model.frequency_at();
-        self.model.frequency.then(|| self.split(at))
+    /// What the runs share, where they tell it.
+    pub fn resonator(&self) -> Option<Resonator> {
+        (self.model == Model::Shared).then(|| Resonator {
+            decay: self.sum(&[(self.model.decay_at(0), 1.0)]),
+            damping_split: self.split(Model::DAMPING),
+            frequency_split: self.split(Model::FREQUENCY),
+            rotations: (0..self.shares.len())
+                .map(|run| self.sum(&[(self.model.own_at(run), -0.5)]))
+                .collect(),
+        })
     }
 
     /// The size of a split whose parts along cosine and sine stand at `at`, and its angle.
@@ -110,39 +112,25 @@ impl Found {
             ),
         ]
     }
-
-    /// What rotation turns the pattern of a run by, rad/s, where the rows tell it from the splits.
-    pub fn rotation(&self, run: usize) -> Option<Measured> {
-        let knows = self.model.damping && self.model.frequency;
-        knows.then(|| self.sum(&[(self.model.own_at(run), -0.5)]))
-    }
 }
 
 /// Finds the resonator whose waves come nearest to the rows.
 pub fn fit(runs: &[Run]) -> Result<Found, Unsettled> {
-    let each = Model {
-        damping: false,
-        frequency: false,
-    };
-    let alone = settle(runs, each, start(runs))?;
+    let each = settle(runs, Model::Each, start(runs))?;
     // Beyond noise even one pattern that hardly moves shows how the splits move it.
-    if spread(runs) < LEAST_SPREAD && alone.residual < BEYOND_NOISE {
-        return Ok(alone);
+    if spread(runs) < LEAST_SPREAD && each.residual < BEYOND_NOISE {
+        return Ok(each);
     }
-    for (damping, frequency) in [(true, true), (false, true), (true, false)] {
-        let model = Model { damping, frequency };
-        let values = carried(runs.len(), &alone, model);
-        let told = |covariance: &DMatrix<f64>| is_told(runs, model, covariance, &alone);
-        if Normal::of(runs, model, &values)
-            .covariance()
-            .is_some_and(|covariance| told(&covariance))
-            && let Ok(found) = settle(runs, model, values)
-            && told(&found.covariance)
-        {
-            return Ok(found);
-        }
+    let values = shared(runs.len(), &each);
+    let told = |covariance: &DMatrix<f64>| is_told(runs.len(), covariance, &each);
+    let rough = Normal::of(runs, Model::Shared, &values).covariance();
+    if rough.is_some_and(|covariance| told(&covariance))
+        && let Ok(found) = settle(runs, Model::Shared, values)
+        && told(&found.covariance)
+    {
+        return Ok(found);
     }
-    Ok(alone)
+    Ok(each)
 }
 
 /// How far the rows' patterns stand apart, up to 1: the circular variance of 4θ, less what noise makes of it.
@@ -168,43 +156,28 @@ fn start(runs: &[Run]) -> DVector<f64> {
     DVector::from_iterator(6 * runs.len(), own)
 }
 
-/// The values of runs alone as the start of a model: the mean of their decays, and no splits.
-fn carried(runs: usize, alone: &Found, model: Model) -> DVector<f64> {
+/// The values of each run as the start of what they share: the mean of their decays, and no splits.
+fn shared(runs: usize, each: &Found) -> DVector<f64> {
+    let model = Model::Shared;
     let mut values = DVector::zeros(model.unknowns(runs));
     for run in 0..runs {
-        let from = alone.model.own_at(run);
-        let to = model.own_at(run);
-        for offset in 0..4 {
-            values[to + offset] = alone.values[from + offset];
-        }
-        let decay = alone.values[from + 4];
-        if model.damping {
-            values[Model::DAMPING] += decay / runs as f64;
-        } else {
-            values[to + 4] = decay;
-        }
-        if !model.frequency {
-            values[model.own_at(run + 1) - 1] = alone.values[from + 5];
-        }
+        values[model.decay_at(run)] += each.values[each.model.decay_at(run)] / runs as f64;
+        let from = each.values.rows(each.model.own_at(run), 4);
+        values.rows_mut(model.own_at(run), 4).copy_from(&from);
     }
     values
 }
 
-/// True where the rows tell all that a model has the runs share, of unknowns of this covariance.
-fn is_told(runs: &[Run], model: Model, covariance: &DMatrix<f64>, alone: &Found) -> bool {
-    let count = runs.len() as f64;
+/// True where the rows tell both splits, whose unknowns have this covariance.
+fn is_told(runs: usize, covariance: &DMatrix<f64>, each: &Found) -> bool {
     let own = |offset: usize| {
-        (0..runs.len()).map(move |run| alone.values[alone.model.own_at(run) + offset].abs())
+        (0..runs).map(move |run| each.values[each.model.own_at(run) + offset].abs())
     };
-    let decay = own(4).sum::<f64>() / count;
+    let decay = own(4).sum::<f64>() / runs as f64;
     let growth = own(5).fold(0.0, f64::max);
     let knows = |at: usize, most: f64| (at..at + 2).all(|i| covariance[(i, i)] < most * most);
-    (!model.damping || knows(Model::DAMPING + 1, TOLD[0] * decay))
-        && (!model.frequency
-            || knows(
-                model.frequency_at(),
-                (TOLD[1] * decay).max(TOLD_SHARE * growth),
-            ))
+    knows(Model::DAMPING, TOLD[0] * decay)
+        && knows(Model::FREQUENCY, (TOLD[1] * decay).max(TOLD_SHARE * growth))
 }
 
 /// Moves the values to where the squares of the residual are least.

@@ -6,38 +6,39 @@ use crate::runs::Run;
 /// An unknown of a run's motion: its place among all, and what one of it is in the parameters of the motion.
 pub type Term = (usize, [f64; PARAMETERS]);
 
-/// Places in the parameters of the motion: of 1/τ, and of the first of each split.
+/// Places in the parameters of the motion: of 1/τ, of the first of Δω, and of κ.
 const DECAY: usize = 0;
-const DAMPING: usize = 1;
 const FREQUENCY: usize = 3;
 const KAPPA: usize = 5;
 
-/// What the runs share: each split if they tell it.
+/// What the runs share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Model {
-    /// The damping: 1/τ, δ c_τ and δ s_τ; else each run has a decay of its own, that along its pattern.
-    pub damping: bool,
-    /// The split of frequency: Δω c_ω and Δω s_ω; else each run has that part of it that makes its quadrature grow.
-    pub frequency: bool,
+pub enum Model {
+    /// Nothing: each has the decay along its pattern, and that side of the frequency's split which makes its quadrature grow.
+    Each,
+    /// The resonator: 1/τ, and both splits.
+    Shared,
 }
 
 impl Model {
-    /// The place of the first unknown of the damping, where it is shared.
-    pub const DAMPING: usize = 0;
-
-    /// That of the frequency's split.
-    pub fn frequency_at(self) -> usize {
-        if self.damping { 3 } else { 0 }
-    }
+    /// The places of the first part of the splits of damping and frequency, where they are shared, behind 1/τ.
+    pub const DAMPING: usize = 1;
+    pub const FREQUENCY: usize = 3;
 
     /// How many unknowns are shared.
     fn shared(self) -> usize {
-        self.frequency_at() + if self.frequency { 2 } else { 0 }
+        match self {
+            Self::Each => 0,
+            Self::Shared => RATES - 1,
+        }
     }
 
     /// How many unknowns a run has to itself.
     fn own(self) -> usize {
-        4 + usize::from(!self.damping) + usize::from(!self.frequency)
+        match self {
+            Self::Each => 6,
+            Self::Shared => 4,
+        }
     }
 
     /// All unknowns of so many runs.
@@ -45,17 +46,16 @@ impl Model {
         self.shared() + self.own() * runs
     }
 
-    /// The place of a run's first own unknown: κ, a_A, a_B and θ; then its decay and its frequency's split where it has them.
+    /// The place of a run's first own unknown: κ, a_A, a_B and θ; then its decay and its side of the frequency's split where it has them.
     pub fn own_at(self, run: usize) -> usize {
         self.shared() + self.own() * run
     }
 
     /// The place of the decay of a run.
     pub fn decay_at(self, run: usize) -> usize {
-        if self.damping {
-            Self::DAMPING
-        } else {
-            self.own_at(run) + 4
+        match self {
+            Self::Each => self.own_at(run) + 4,
+            Self::Shared => 0,
         }
     }
 
@@ -63,19 +63,17 @@ impl Model {
     pub fn terms(self, index: usize, run: &Run) -> Vec<Term> {
         let unit = |parameter: usize| std::array::from_fn(|i| f64::from(u8::from(i == parameter)));
         let own = self.own_at(index);
-        let mut terms = vec![(own, unit(KAPPA)), (self.decay_at(index), unit(DECAY))];
+        let mut terms = vec![(own, unit(KAPPA))];
         terms.extend((0..3).map(|i| (own + 1 + i, unit(RATES + i))));
-        if self.damping {
-            terms.extend((0..2).map(|i| (Self::DAMPING + 1 + i, unit(DAMPING + i))));
-        }
-        if self.frequency {
-            terms.extend((0..2).map(|i| (self.frequency_at() + i, unit(FREQUENCY + i))));
-        } else {
-            // Highest 22.5° from the pattern.
-            let (sine, cosine) = (4.0 * run.rows[0].angle).sin_cos();
-            let mut across = [0.0; PARAMETERS];
-            (across[FREQUENCY], across[FREQUENCY + 1]) = (-sine, cosine);
-            terms.push((own + self.own() - 1, across));
+        match self {
+            Self::Each => {
+                // Highest 22.5° from the pattern.
+                let (sine, cosine) = (4.0 * run.rows[0].angle).sin_cos();
+                let mut across = [0.0; PARAMETERS];
+                (across[FREQUENCY], across[FREQUENCY + 1]) = (-sine, cosine);
+                terms.extend([(own + 4, unit(DECAY)), (own + 5, across)]);
+            }
+            Self::Shared => terms.extend((0..self.shared()).map(|i| (i, unit(i)))),
         }
         terms
     }

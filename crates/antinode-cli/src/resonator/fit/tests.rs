@@ -7,15 +7,6 @@ use crate::runs::Row;
 const RESONATOR: [f64; 5] = [0.05, 0.006, -0.008, 0.03, 0.04];
 /// One without splits.
 const ROUND: [f64; 5] = [0.05, 0.0, 0.0, 0.0, 0.0];
-/// All splits told, and none.
-const BOTH: Model = Model {
-    damping: true,
-    frequency: true,
-};
-const NEITHER: Model = Model {
-    damping: false,
-    frequency: false,
-};
 /// A row's standard deviation of an amplitude.
 const NOISE: f64 = 1e-4;
 
@@ -110,7 +101,7 @@ fn without_noise_the_resonator_is_found() {
         ],
     ] {
         let found = fit(&runs).unwrap();
-        assert_eq!(found.model, BOTH);
+        let resonator = found.resonator().unwrap();
         for (value, truth) in found.values.iter().zip(RESONATOR) {
             assert!((value - truth).abs() < 1e-7, "{value} {truth}");
         }
@@ -124,10 +115,10 @@ fn without_noise_the_resonator_is_found() {
             let mean = along.sum::<f64>() / run.rows.len() as f64;
             assert!((found.decay_of_run(index).0 - mean).abs() < 1e-7);
         }
-        let [(damping, _), (damped_at, _)] = found.damping_split().unwrap();
+        let [(damping, _), (damped_at, _)] = resonator.damping_split;
         assert!((damping - 0.01).abs() < 1e-7);
         assert!((damped_at - 0.25 * (-0.8f64).atan2(0.6)).abs() < 1e-5);
-        let [(split, _), (highest_at, _)] = found.frequency_split().unwrap();
+        let [(split, _), (highest_at, _)] = resonator.frequency_split;
         assert!((split - 0.05).abs() < 1e-7);
         assert!((highest_at - 0.25 * 0.8f64.atan2(0.6)).abs() < 1e-5);
     }
@@ -140,21 +131,21 @@ fn stated_deviations_are_the_rms_errors() {
     let trials = 100;
     for seed in 0..trials {
         let found = fit(&at_three_angles(NOISE, seed)).unwrap();
-        assert_eq!(found.model, BOTH);
+        let resonator = found.resonator().unwrap();
         let mut errors: Vec<_> = (0..5)
             .map(|i| (found.values[i] - RESONATOR[i]) / found.covariance[(i, i)].sqrt())
             .collect();
         for run in 0..3 {
-            let (rotation, deviation) = found.rotation(run).unwrap();
+            let (rotation, deviation) = resonator.rotations[run];
             errors.push((rotation + 2e-5) / deviation);
         }
         // Of 0.01 and 0.05, as 3-4-5 triangles.
         for (split, size, angle) in [
-            (found.damping_split(), 0.01, 0.25 * (-0.8f64).atan2(0.6)),
-            (found.frequency_split(), 0.05, 0.25 * 0.8f64.atan2(0.6)),
+            (resonator.damping_split, 0.01, 0.25 * (-0.8f64).atan2(0.6)),
+            (resonator.frequency_split, 0.05, 0.25 * 0.8f64.atan2(0.6)),
         ] {
             let truth = [size, angle];
-            let measured = split.unwrap().into_iter().zip(truth);
+            let measured = split.into_iter().zip(truth);
             errors.extend(measured.map(|((value, deviation), truth)| (value - truth) / deviation));
         }
         for (sum, error) in squares.iter_mut().zip(errors) {
@@ -177,7 +168,7 @@ fn a_pattern_at_rest_tells_the_decay_along_it_at_the_bound() {
         // 6 decay times.
         let runs = [run(&ROUND, 0.0, [1.0, 0.01, 0.2], 1200, 0.1, NOISE, seed)];
         let found = fit(&runs).unwrap();
-        assert_eq!(found.model, NEITHER);
+        assert!(found.resonator().is_none());
         let (decay, deviation) = found.decay_of_run(0);
         // σ_Q/Q = 4σ/(√E₀·√(fs τ)); a row of n samples knows an amplitude to σ√(2/n), so that this is 2√2 of it times √(Δt/τ).
         let bound = 2.0 * 2f64.sqrt() * NOISE * (ROUND[0] * 0.1).sqrt();
@@ -242,11 +233,19 @@ fn what_the_splits_do_to_one_pattern_tells_them() {
     )];
     assert!(spread(&runs) < LEAST_SPREAD, "{}", spread(&runs));
     let found = fit(&runs).unwrap();
-    assert_eq!(found.model, BOTH);
-    let [(split, deviation), _] = found.frequency_split().unwrap();
+    let resonator = found.resonator().unwrap();
+    let [(split, deviation), _] = resonator.frequency_split;
     assert!(
         (split - 0.05).abs() < 4.0 * deviation && deviation < 1e-3,
         "{split} {deviation}"
     );
     assert!((found.residual - 1.0).abs() < 0.1, "{}", found.residual);
+}
+
+#[test]
+fn two_angles_for_a_short_time_do_not_tell_the_splits() {
+    let runs =
+        [0.2, 0.59].map(|angle| run(&RESONATOR, 0.0, [1.0, 0.02, angle], 100, 0.02, NOISE, 1));
+    assert!(spread(&runs) > LEAST_SPREAD);
+    assert!(fit(&runs).unwrap().resonator().is_none());
 }

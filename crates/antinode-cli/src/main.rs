@@ -2,6 +2,8 @@
 
 mod calibrate;
 mod demonstration;
+#[cfg(test)]
+mod deviates;
 mod device;
 mod failure;
 mod fixed;

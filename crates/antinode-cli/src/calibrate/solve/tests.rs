@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::calibrate::moments::Moment;
+use crate::deviates::Deviates;
 
 /// Seconds of a run, and rows in it.
 const SECONDS: f64 = 20.0;
@@ -78,27 +79,9 @@ fn phasors([e, r, s, q]: [f64; 4]) -> [Complex<f64>; 2] {
     ]
 }
 
-/// Normal deviates, by Box and Muller from a congruential generator.
-struct Noise(u64);
-
-impl Noise {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 12) as f64 + 0.5) / (1u64 << 52) as f64
-    }
-
-    fn next(&mut self) -> f64 {
-        let radius = (-2.0 * self.uniform().ln()).sqrt();
-        radius * (std::f64::consts::TAU * self.uniform()).cos()
-    }
-}
-
 /// A run as pick-offs show it; `kappa` turns the pattern by κ/2 rad/s backwards.
 fn run(resonator: &Resonator, kappa: f64, pick_offs: &PickOffs, noise: f64, seed: u64) -> Run {
-    let mut random = Noise(seed);
+    let mut random = Deviates(seed);
     let omega = std::f64::consts::TAU * 5332.0;
     let moments = resonator
         .decay(kappa)
@@ -107,7 +90,7 @@ fn run(resonator: &Resonator, kappa: f64, pick_offs: &PickOffs, noise: f64, seed
         .map(|(index, ideal)| {
             let mut raw = pick_offs.distort(ideal, omega);
             for z in &mut raw {
-                *z += Complex::new(random.next(), random.next()) * noise;
+                *z += Complex::new(random.draw(), random.draw()) * noise;
             }
             Moment {
                 time: SECONDS / ROWS as f64 * index as f64,

@@ -1,6 +1,7 @@
 //! Rows made from the averaged equations of a resonator, with noise.
 
 use super::*;
+use crate::deviates::Deviates;
 use crate::runs::Row;
 
 /// 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω.
@@ -9,24 +10,6 @@ const RESONATOR: [f64; 5] = [0.05, 0.006, -0.008, 0.03, 0.04];
 const ROUND: [f64; 5] = [0.05, 0.0, 0.0, 0.0, 0.0];
 /// A row's standard deviation of an amplitude.
 const NOISE: f64 = 1e-4;
-
-/// Normal deviates, by Box and Muller from a congruential generator.
-struct Noise(u64);
-
-impl Noise {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 12) as f64 + 0.5) / (1u64 << 52) as f64
-    }
-
-    fn next(&mut self) -> f64 {
-        let radius = (-2.0 * self.uniform().ln()).sqrt();
-        radius * (std::f64::consts::TAU * self.uniform()).cos()
-    }
-}
 
 /// A run of `count` rows, `step` s apart.
 fn run(
@@ -38,7 +21,7 @@ fn run(
     noise: f64,
     seed: u64,
 ) -> Run {
-    let mut random = Noise(seed);
+    let mut random = Deviates(seed);
     let [decay, dc, ds, wc, ws] = *resonator;
     let [main, quadrature, angle] = start;
     let mut motion = Motion::new(&[decay, dc, ds, wc, ws, kappa, main, quadrature, angle]);
@@ -58,9 +41,9 @@ fn run(
                 0.5 * noise * energy.sqrt() / (main * main - quadrature * quadrature).abs();
             Row {
                 time: 7.0 + step * index as f64,
-                main: main + noise * random.next(),
-                quadrature: quadrature + noise * random.next(),
-                angle: wave[2] + of_angle * random.next(),
+                main: main + noise * random.draw(),
+                quadrature: quadrature + noise * random.draw(),
+                angle: wave[2] + of_angle * random.draw(),
                 frequency: 5332.0,
                 deviations: [noise, noise, of_angle].map(|std| std.max(1e-9)),
             }

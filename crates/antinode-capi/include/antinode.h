@@ -27,7 +27,7 @@
  *  - _init, _reset and _identify use both sides: nothing else of that state may be under way.
  *  - States are independent of each other.
  *
- * The interrupt's cost on a Cortex-M4: while a period is searched 390 to 620 instructions a sample pair, then 10 to 70; up to 0.8 KiB
+ * The interrupt's cost on a Cortex-M4: while a period is searched 370 to 570 instructions a sample pair, then 10 to 70; up to 0.8 KiB
  * of stack, 1.1 (fixed) or 1.4 KiB (float) by _push_block. The search uses floating-point registers, in fixed point too, where the core
  * has them: what saves them for threads must save them for this interrupt (lazy stacking; Zephyr: CONFIG_FPU_SHARING).
  *

@@ -11,14 +11,12 @@ use clap::Args;
 use crate::failure::Failure;
 use crate::fixed::{decimals, with_std};
 use crate::options::Corrected;
-use crate::runs::Runs;
+use crate::runs::{BEYOND_NOISE, Runs};
 use moments::Run;
 use solve::{Found, PickOffs, solve};
 
 /// The pattern turns by no more than this from row to row, rad: the sums over time are then good to 2 %.
 const MOST_TURN: f64 = 0.1;
-/// The residual over its stated noise from which on it is told that something else moves.
-const BEYOND_NOISE: f64 = 2.0;
 
 /// `antinode calibrate`.
 #[derive(Debug, Args)]

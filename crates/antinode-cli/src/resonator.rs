@@ -14,13 +14,11 @@ use serde::Serialize;
 use crate::failure::Failure;
 use crate::fixed::{significant, with_std};
 use crate::options::Format;
-use crate::runs::Runs;
+use crate::runs::{BEYOND_NOISE, Runs};
 use fit::{Found, Measured, fit};
 
 /// The pattern turns by no more than this from row to row, rad: half of what leaves it known.
 const MOST_TURN: f64 = PI / 8.0;
-/// The residual over its stated noise from which on it is told that something else moves.
-const BEYOND_NOISE: f64 = 2.0;
 /// A split of fewer deviations than this has no angle.
 const SPLIT_SEEN: f64 = 3.0;
 /// A decay of fewer deviations than this is none.

@@ -9,6 +9,8 @@ use csv::StringRecord;
 
 use crate::failure::Failure;
 
+/// The rms residual over the rows' own deviations from which on it is told that something else moves.
+pub const BEYOND_NOISE: f64 = 2.0;
 /// The least rows of a run: four unknowns are its own.
 const LEAST_ROWS: usize = 12;
 /// Columns that are read.

@@ -6,12 +6,12 @@
 
 use nalgebra::{Cholesky, Complex, DMatrix, DVector, Dyn};
 
-use super::model::Model;
+use super::model::{Model, Term};
 use super::motion::{Motion, PARAMETERS};
 use crate::runs::{Run, turn};
 
 /// From this residual over the rows' own deviations on runs are not each by themselves.
-const BEYOND_NOISE: f64 = 1.5;
+const TOGETHER: f64 = 1.5;
 /// Below this all patterns are one, and what seems to tell them apart is noise: 3° between two runs, 5° of one that turns.
 const LEAST_SPREAD: f64 = 0.005;
 /// Steps at most; ten do.
@@ -118,7 +118,7 @@ impl Found {
 pub fn fit(runs: &[Run]) -> Result<Found, Unsettled> {
     let each = settle(runs, Model::Each, start(runs))?;
     // Beyond noise even one pattern that hardly moves shows how the splits move it.
-    if spread(runs) < LEAST_SPREAD && each.residual < BEYOND_NOISE {
+    if spread(runs) < LEAST_SPREAD && each.residual < TOGETHER {
         return Ok(each);
     }
     let values = shared(runs.len(), &each);
@@ -153,7 +153,7 @@ fn start(runs: &[Run]) -> DVector<f64> {
         let decay = (first.main / last.main).ln() / seconds;
         [kappa, first.main, first.quadrature, first.angle, decay, 0.0]
     });
-    DVector::from_iterator(6 * runs.len(), own)
+    DVector::from_iterator(Model::Each.unknowns(runs.len()), own)
 }
 
 /// The values of each run as the start of what they share: the mean of their decays, and no splits.
@@ -228,7 +228,7 @@ impl Normal {
     }
 
     /// Adds the rows of a run.
-    fn add(&mut self, run: &Run, terms: &[(usize, [f64; PARAMETERS])], values: &DVector<f64>) {
+    fn add(&mut self, run: &Run, terms: &[Term], values: &DVector<f64>) {
         let mut parameters = [0.0; PARAMETERS];
         for (place, direction) in terms {
             for (parameter, by) in parameters.iter_mut().zip(direction) {
@@ -308,12 +308,11 @@ impl Normal {
         values: DVector<f64>,
     ) -> Result<Found, Unsettled> {
         let covariance = self.covariance().ok_or(Unsettled)?;
-        let residual = self.residual(runs, &values);
         Ok(Found {
             model,
+            covariance: covariance * self.widening(runs, &values),
+            residual: self.residual(runs, &values),
             values,
-            covariance: covariance * residual.max(1.0).powi(2),
-            residual,
             shares: self.shares,
         })
     }

@@ -16,6 +16,8 @@ pub const SAMPLE_RATE: u32 = 100_000;
 pub const PERIODS: u16 = 10;
 /// Blocks from window to window at the start; `None`: windows follow each other.
 pub const HOP: Option<u16> = None;
+/// The wave's frequency, Hz, within 5 %, where it need not be searched; `None`: it is.
+pub const FREQUENCY: Option<f32> = None;
 /// How the pick-offs differ from ideal ones: gain ratio, skew in s, angle in rad.
 pub const CALIBRATION: Calibration = Calibration::IDEAL;
 
@@ -59,6 +61,7 @@ pub const fn configuration(front_end: FrontEnd, rails: [i16; 2]) -> Configuratio
         hop: HOP,
         rails: Some([rails[0] as f32, rails[1] as f32]),
         resolution: Some(1.0),
+        frequency: FREQUENCY,
         calibration: CALIBRATION,
         ..Settings::new(SAMPLE_RATE as f64)
     };

@@ -43,7 +43,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// The shortest period, sample pairs. A wave outside this and ANTINODE_LONGEST_PERIOD is not found, unless sampling folds it to a
+// The shortest period that is searched, sample pairs. Where no frequency is known, a wave outside this and ANTINODE_LONGEST_PERIOD is not found, unless sampling folds it to a
 // period within: no estimate, no flag and no status tells, only `searching` of antinode_health_t, which stays 1. Watch it.
 #define ANTINODE_SHORTEST_PERIOD 4
 
@@ -147,6 +147,8 @@ enum
     ANTINODE_ERROR_PICK_OFF_ANGLE = -20,
     // `hum` is neither 0 nor 1.
     ANTINODE_ERROR_HUM = -21,
+    // `frequency_hz` is neither 0 nor within `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5.
+    ANTINODE_ERROR_FREQUENCY = -22,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -189,6 +191,9 @@ typedef struct {
     // Step between neighbouring codes of the converter, input units, > 0: its share counts in the standard deviations. 0, the
     // default: not known.
     float resolution;
+    // The wave's frequency, Hz, within 5 %, where it is known: it is then not searched, and the first window begins with the first
+    // sample. `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5; 0, the default: the period is found as `detection` says.
+    float frequency_hz;
     // How the period is found: ANTINODE_DETECTION_DIFFERENCE, the default, or ANTINODE_DETECTION_MEAN_RETURN.
     uint32_t detection;
     // 1, the default: the third harmonic and the extremes of the samples are watched, which ANTINODE_FLAG_CLIPPED and
@@ -199,6 +204,8 @@ typedef struct {
     // 1 where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
     // only moves an offset is neither noise nor a fault. 0, the default: not.
     uint32_t hum;
+    // Not read, default 0: the struct ends at a multiple of eight bytes on every machine.
+    uint32_t reserved;
 } antinode_settings_t;
 
 // The wave over one window, at the window's middle. Each `_std` is one standard deviation.

@@ -125,7 +125,7 @@ unsafe fn start<S: Arithmetic>(
     // SAFETY: the memory is there and aligned; what was in it needs no drop.
     unsafe {
         (&raw mut (*state).magic).write(0.into());
-        Shared::write(&raw mut (*state).shared);
+        Shared::write(&raw mut (*state).shared, settings.frequency.is_none());
         Interrupt::write(&raw mut (*state).interrupt, settings)?;
         Thread::write(&raw mut (*state).thread, settings)?;
         (*state).magic.store(S::MAGIC, Ordering::Release);

@@ -42,6 +42,9 @@ pub struct Settings {
     /// Step between neighbouring codes of the converter, input units, > 0: its share counts in the standard deviations. 0, the
     /// default: not known.
     pub resolution: f32,
+    /// The wave's frequency, Hz, within 5 %, where it is known: it is then not searched, and the first window begins with the first
+    /// sample. `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5; 0, the default: the period is found as `detection` says.
+    pub frequency_hz: f32,
     /// How the period is found: ANTINODE_DETECTION_DIFFERENCE, the default, or ANTINODE_DETECTION_MEAN_RETURN.
     pub detection: u32,
     /// 1, the default: the third harmonic and the extremes of the samples are watched, which ANTINODE_FLAG_CLIPPED and
@@ -52,6 +55,8 @@ pub struct Settings {
     /// 1 where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
     /// only moves an offset is neither noise nor a fault. 0, the default: not.
     pub hum: u32,
+    /// Not read, default 0: the struct ends at a multiple of eight bytes on every machine.
+    pub reserved: u32,
 }
 
 /// Settings with every default: windows of 10 periods that follow each other, ideal pick-offs, no known rails, everything watched.
@@ -68,6 +73,7 @@ pub extern "C" fn antinode_settings_default(sample_rate_hz: f64) -> Settings {
         rail_low: 0.0,
         rail_high: 0.0,
         resolution: 0.0,
+        frequency_hz: 0.0,
         detection: ANTINODE_DETECTION_DIFFERENCE,
         watch: u32::from(plain.watch),
         calibration: Calibration {
@@ -76,6 +82,7 @@ pub extern "C" fn antinode_settings_default(sample_rate_hz: f64) -> Settings {
             pick_off_angle_rad: plain.calibration.pick_off_angle,
         },
         hum: u32::from(plain.hum),
+        reserved: 0,
     }
 }
 
@@ -106,6 +113,7 @@ impl Settings {
             rails: (self.rail_low != 0.0 || self.rail_high != 0.0)
                 .then_some([self.rail_low, self.rail_high]),
             resolution: (self.resolution != 0.0).then_some(self.resolution),
+            frequency: (self.frequency_hz != 0.0).then_some(self.frequency_hz),
             detection: match self.detection {
                 ANTINODE_DETECTION_DIFFERENCE => core_crate::Detection::Difference,
                 ANTINODE_DETECTION_MEAN_RETURN => core_crate::Detection::MeanReturn,

@@ -68,17 +68,17 @@ pub struct Health {
 }
 
 impl<S: Sample> Shared<S> {
-    /// Writes an empty queue and counters at rest.
+    /// Writes an empty queue and counters at rest, of a front that searches or does not.
     ///
     /// # Safety
     /// `place` is writable and nobody else's.
     #[inline(never)]
-    pub(crate) unsafe fn write(place: *mut Self) {
+    pub(crate) unsafe fn write(place: *mut Self, searching: bool) {
         // SAFETY: the caller's contract; the queue's slots stay as they are.
         unsafe {
             Queue::write(&raw mut (*place).queue);
             (&raw mut (*place).wanted).write(AtomicU32::new(0));
-            (&raw mut (*place).searching).write(AtomicU32::new(1));
+            (&raw mut (*place).searching).write(AtomicU32::new(searching.into()));
             (&raw mut (*place).dropped).write(AtomicU32::new(0));
         }
     }

@@ -49,10 +49,12 @@ pub enum Status {
     ErrorPickOffAngle = -20,
     /// `hum` is neither 0 nor 1.
     ErrorHum = -21,
+    /// `frequency_hz` is neither 0 nor within `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5.
+    ErrorFrequency = -22,
 }
 
 impl Status {
-    const ALL: [(Self, &'static CStr); 20] = [
+    const ALL: [(Self, &'static CStr); 21] = [
         (Self::Ok, c"done"),
         (Self::Ready, c"done: finished blocks wait to be solved"),
         (Self::Estimate, c"done: an estimate was written"),
@@ -106,6 +108,10 @@ impl Status {
             c"pick_off_angle_rad must lie within +-0.3",
         ),
         (Self::ErrorHum, c"hum must be 0 or 1"),
+        (
+            Self::ErrorFrequency,
+            c"frequency_hz must be 0 or lie within sample_rate_hz / 200 and sample_rate_hz / 2.5",
+        ),
     ];
 }
 
@@ -118,6 +124,7 @@ impl From<SettingsError> for Status {
             SettingsError::Hop => Self::ErrorHop,
             SettingsError::StartAngle(_) => Self::ErrorStartAngle,
             SettingsError::Rails(_) => Self::ErrorRails,
+            SettingsError::Frequency(_) => Self::ErrorFrequency,
             SettingsError::Resolution(_) => Self::ErrorResolution,
             SettingsError::GainRatio(_) => Self::ErrorGainRatio,
             SettingsError::Skew(_) => Self::ErrorSkew,

@@ -30,17 +30,20 @@ fn codes() -> Vec<[i16; 2]> {
         .collect()
 }
 
-/// What the core makes of the pairs.
-fn core<S: Sample, P: SamplePair<S>>(pairs: &[P]) -> Vec<Estimate> {
+/// What the core makes of the pairs, where the frequency is known or is not.
+fn core<S: Sample, P: SamplePair<S>>(pairs: &[P], frequency: Option<f32>) -> Vec<Estimate> {
+    let settings = antinode::Settings {
+        frequency,
+        ..antinode::Settings::new(1e5)
+    };
     let mut identifier = Box::new(
-        Identifier::<S, ANTINODE_LONGEST_PERIOD, { ANTINODE_MOST_PERIODS + 2 }>::new(
-            antinode::Settings::new(1e5),
-        )
-        .unwrap(),
+        Identifier::<S, ANTINODE_LONGEST_PERIOD, { ANTINODE_MOST_PERIODS + 2 }>::new(settings)
+            .unwrap(),
     );
     let mut all = Vec::new();
     identifier.extend(pairs, |estimate| all.push(estimate.into()));
-    assert!(all.len() > 100);
+    // The second wave is nowhere near a known one.
+    assert!(all.len() > if frequency.is_some() { 60 } else { 120 });
     all
 }
 
@@ -63,55 +66,60 @@ macro_rules! arithmetic {
                 .map(|[c, d]| u32::from(*c as u16) | u32::from(*d as u16) << 16)
                 .collect();
             let (c, d): (Vec<_>, Vec<_>) = pairs.iter().map(|pair| (pair[0], pair[1])).unzip();
-            let expected = core::<$sample, _>(&pairs);
-            let settings = antinode_settings_default(1e5);
             let mut state = Box::new(<$state>::ZERO);
             let state: *mut $state = &mut *state;
-            // SAFETY: the state is there, and this thread alone uses it.
-            unsafe {
-                assert_eq!($init(state, &settings), Status::Ok);
-                // One by one: the loss of a wave is heard of at the same sample as in one thread.
-                let run = |name: &str, feed: &dyn Fn(usize) -> Status, step: usize| {
+            for frequency in [None, Some(5_400.0)] {
+                let expected = core::<$sample, _>(&pairs, frequency);
+                let settings = Settings {
+                    frequency_hz: frequency.unwrap_or(0.0),
+                    ..antinode_settings_default(1e5)
+                };
+                // SAFETY: the state is there, and this thread alone uses it.
+                unsafe {
+                    assert_eq!($init(state, &settings), Status::Ok);
+                    // One by one: the loss of a wave is heard of at the same sample as in one thread.
+                    let run = |name: &str, feed: &dyn Fn(usize) -> Status, step: usize| {
+                        assert_eq!($reset(state), Status::Ok);
+                        let (mut all, mut estimate) = (Vec::new(), MaybeUninit::uninit());
+                        for at in (0..pairs.len()).step_by(step) {
+                            let status = feed(at);
+                            assert!(
+                                status == Status::Ok || status == Status::Ready,
+                                "{name} {status:?}"
+                            );
+                            while $solve(state, estimate.as_mut_ptr()) == Status::Estimate {
+                                all.push(estimate.assume_init());
+                            }
+                        }
+                        same(name, &all, &expected);
+                    };
+                    run("push", &|at| $push(state, c[at], d[at]), 1);
+                    run("separate", &|at| $block(state, &c[at], &d[at], 1), 1);
+                    run(
+                        "interleaved",
+                        &|at| $interleaved(state, pairs[at..].as_ptr().cast(), 1),
+                        1,
+                    );
+                    run("packed", &|at| $packed(state, &words[at], 1), 1);
+
                     assert_eq!($reset(state), Status::Ok);
-                    let (mut all, mut estimate) = (Vec::new(), MaybeUninit::uninit());
-                    for at in (0..pairs.len()).step_by(step) {
-                        let status = feed(at);
-                        assert!(
-                            status == Status::Ok || status == Status::Ready,
-                            "{name} {status:?}"
+                    let (mut all, mut estimate, mut at) = (Vec::new(), MaybeUninit::uninit(), 0);
+                    while at < pairs.len() {
+                        let (mut taken, rest) = (0, &pairs[at..]);
+                        let status = $identify(
+                            state,
+                            rest.as_ptr().cast(),
+                            rest.len(),
+                            &mut taken,
+                            estimate.as_mut_ptr(),
                         );
-                        while $solve(state, estimate.as_mut_ptr()) == Status::Estimate {
+                        at += taken;
+                        if status == Status::Estimate {
                             all.push(estimate.assume_init());
                         }
                     }
-                    same(name, &all, &expected);
-                };
-                run("push", &|at| $push(state, c[at], d[at]), 1);
-                run("separate", &|at| $block(state, &c[at], &d[at], 1), 1);
-                run(
-                    "interleaved",
-                    &|at| $interleaved(state, pairs[at..].as_ptr().cast(), 1),
-                    1,
-                );
-                run("packed", &|at| $packed(state, &words[at], 1), 1);
-
-                assert_eq!($reset(state), Status::Ok);
-                let (mut all, mut estimate, mut at) = (Vec::new(), MaybeUninit::uninit(), 0);
-                while at < pairs.len() {
-                    let (mut taken, rest) = (0, &pairs[at..]);
-                    let status = $identify(
-                        state,
-                        rest.as_ptr().cast(),
-                        rest.len(),
-                        &mut taken,
-                        estimate.as_mut_ptr(),
-                    );
-                    at += taken;
-                    if status == Status::Estimate {
-                        all.push(estimate.assume_init());
-                    }
+                    same("identify", &all, &expected);
                 }
-                same("identify", &all, &expected);
             }
         }
     };
@@ -174,6 +182,13 @@ fn settings_out_of_range_are_named() {
     assert_eq!(refused(&|s| s.rail_low = 1.0), Status::ErrorRails);
     assert_eq!(refused(&|s| s.rail_high = f32::NAN), Status::ErrorRails);
     assert_eq!(refused(&|s| s.resolution = -1.0), Status::ErrorResolution);
+    for frequency in [f32::NAN, -1.0, 40_001.0, 498.0] {
+        assert_eq!(
+            refused(&|s| s.frequency_hz = frequency),
+            Status::ErrorFrequency
+        );
+    }
+    assert_eq!(refused(&|s| s.frequency_hz = 500.0), Status::Ok);
     assert_eq!(refused(&|s| s.detection = 2), Status::ErrorDetection);
     assert_eq!(refused(&|s| s.watch = 2), Status::ErrorWatch);
     assert_eq!(refused(&|s| s.hum = 2), Status::ErrorHum);
@@ -186,6 +201,26 @@ fn settings_out_of_range_are_named() {
         refused(&|s| s.calibration.pick_off_angle_rad = 1.0),
         Status::ErrorPickOffAngle
     );
+}
+
+#[test]
+fn a_known_frequency_is_not_searched() {
+    let mut state = Box::new(Fixed::ZERO);
+    let mut health = Health {
+        searching: 9,
+        waiting: 9,
+        dropped: 9,
+    };
+    let mut settings = antinode_settings_default(1e5);
+    for (frequency, searching) in [(0.0, 1), (5_300.0, 0), (0.0, 1)] {
+        settings.frequency_hz = frequency;
+        // SAFETY: all are there.
+        unsafe {
+            assert_eq!(antinode_fixed_init(&mut *state, &settings), Status::Ok);
+            assert_eq!(antinode_fixed_health(&*state, &mut health), Status::Ok);
+        }
+        assert_eq!((health.searching, health.waiting), (searching, 0));
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ mod search;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::Path;
 
-use antinode::{Estimate, Flags, Identifier};
+use antinode::{Estimate, Flags, Identifier, Settings, SettingsError};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
@@ -15,8 +15,10 @@ use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
 use search::Search;
 
-/// Periods of up to 256 samples, windows of up to 1022 periods.
-type Core = Identifier<f32, 256, { MOST_PERIODS as usize + 2 }>;
+/// Samples of the longest period that may be known; what is searched has 200.
+const LONGEST: usize = 1024;
+/// Windows of up to 1022 periods.
+type Core = Identifier<f32, LONGEST, { MOST_PERIODS as usize + 2 }>;
 
 /// Pairs between two looks at the search: no period is found and refused in fewer.
 const GLANCE: usize = 8;
@@ -30,10 +32,12 @@ const MANY: u64 = 20;
 /// Identifies every file; a fault in one does not keep the others from being read.
 pub fn run(options: &Identify) -> Result<(), Failure> {
     // What is wrong with the options is wrong for every file: it is said once, before any is opened.
-    // The rate is not among them: it belongs to a recording.
-    options
-        .settings(1.0, None, None)
-        .check(usize::from(MOST_PERIODS) + 2)?;
+    // The rate is not among them, nor the frequency that it bounds: it belongs to a recording.
+    Settings {
+        frequency: None,
+        ..options.settings(1.0, None, None)
+    }
+    .check(usize::from(MOST_PERIODS) + 2)?;
     let mut rows = Rows::new(
         BufWriter::new(io::stdout().lock()),
         options.output,
@@ -85,7 +89,14 @@ fn identify(
         eprintln!("warning: {warning}");
     }
     let settings = options.settings(rate, recording.full_scale(), recording.resolution());
-    let mut core = Box::new(Core::new(settings)?);
+    let mut core = Box::new(Core::new(settings).map_err(|error| match error {
+        SettingsError::Frequency(frequency) => Failure::Usage(format!(
+            "{name}: --frequency: {frequency} Hz, but at {rate} Hz it must lie within {:.6} to {} Hz, {LONGEST} to 2.5 samples a period",
+            rate / LONGEST as f64,
+            rate / 2.5
+        )),
+        error => error.into(),
+    })?);
     let mut history =
         (options.methods == Methods::All).then(|| History::new(settings.calibration, rate));
     let bar = progress(&recording);
@@ -112,6 +123,11 @@ fn identify(
         }
         if core.index() == 0 {
             search.begin(&buffer);
+            if let Some(frequency) = options.frequency
+                && let Some(warning) = search::elsewhere(&buffer, rate, frequency)
+            {
+                eprintln!("warning: {name}: {warning}");
+            }
         }
         let mut pairs = buffer.as_slice();
         while !pairs.is_empty() {

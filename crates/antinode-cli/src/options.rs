@@ -113,6 +113,13 @@ pub struct Identify {
     /// line of units may follow the header, and a time in ms, us or ns is understood.
     #[arg(long, value_name = "COLUMNS")]
     pub columns: Option<Columns>,
+    /// The wave's frequency, Hz, within 5 %, where it is known: it is then not searched, and the first window begins with the first
+    /// sample.
+    ///
+    /// For noise or tones in which the search finds no period, for recordings of a few periods, and for 2.5 to 1024 samples a period, where
+    /// the search wants 4 to 200.
+    #[arg(long, value_name = "HZ", value_parser = ranges::positive, conflicts_with = "detector")]
+    pub frequency: Option<f32>,
     /// How the period is found: where one way finds none, as a second tone may hide it, try the other.
     #[arg(long, value_enum, default_value_t = Detector::Difference)]
     pub detector: Detector,
@@ -249,6 +256,7 @@ impl Identify {
             start_angle: self.start_angle.unwrap_or(plain.start_angle),
             rails: self.full_scale.or(full_scale).map(|full| [-full, full]),
             resolution: self.resolution.or(resolution),
+            frequency: self.frequency,
             detection: match self.detector {
                 Detector::Difference => Detection::Difference,
                 Detector::MeanReturn => Detection::MeanReturn,

@@ -127,3 +127,81 @@ fn the_other_detector_is_something_to_try() {
     let told = "a second tone may hide it, try the other";
     assert!(words.join(" ").contains(told), "{help}");
 }
+
+#[test]
+fn a_known_frequency_is_not_searched() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // Nearly as much noise as there is wave: the search finds nothing in it.
+    let loud = common::Wave {
+        main: 0.2,
+        noise: 0.18,
+        ..common::WAVE
+    };
+    fs::write(here.join("loud.wav"), wav(&loud.codes(100_000))).unwrap();
+    let options = "loud.wav --periods 100";
+    fault(here, options, &["no period found", "give --frequency"]);
+    let found = rows(here, &format!("{options} --frequency 5320"));
+    assert!(found.len() > 45, "{}", found.len());
+    for row in &found {
+        assert_eq!(row.text("flags"), "");
+        assert!((row.number("frequency_hz") - 5321.7).abs() < 5.0);
+    }
+    // From the first sample on: the middle of ten periods.
+    fs::write(here.join("clear.wav"), wav(&common::WAVE.codes(5000))).unwrap();
+    let first = &rows(here, "clear.wav --frequency 5200")[0];
+    let middle = first.number("samples") / 2.0 / RATE;
+    assert!((first.number("time_s") - middle).abs() < 1e-5, "{middle}");
+}
+
+#[test]
+fn a_slow_wave_may_be_known() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    tones(&here.join("slow.wav"), &[(125.0, 0.9)]);
+    fault(here, "slow.wav", &["no wave of 4 to 200 samples a period"]);
+    let found = rows(here, "slow.wav --periods 4 --frequency 125");
+    assert!(found.len() > 4 && found.iter().all(|row| row.text("flags").is_empty()));
+}
+
+#[test]
+fn a_frequency_that_is_not_the_waves_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    tones(&here.join("a.wav"), &[(5321.7, 0.9)]);
+    for (frequency, found) in [("6600", ""), ("3732", "wave of 53"), ("10600", "")] {
+        let run = run(here, &format!("identify a.wav --frequency {frequency}"));
+        let warning = format!("where --frequency says {frequency} Hz: unless both are there");
+        assert!(run.err.contains(&warning), "{}", run.err);
+        assert!(run.err.contains(found), "{}", run.err);
+    }
+    let run = run(here, "identify a.wav --frequency 6600");
+    let error = "no window of 10 periods in 20000 sample pairs (0.2000 s) is mostly one wave within 5 % of 6600 Hz: check --frequency";
+    assert_eq!((run.code, run.out.as_str()), (1, ""));
+    assert!(run.err.contains(error), "{}", run.err);
+    // Too short for a window, which is no fault of the frequency.
+    let short = "a.wav: 20000 sample pairs (0.2000 s) hold no window of 1022 periods";
+    tones(&here.join("a.wav"), &[(4000.0, 0.9)]);
+    fault(here, "a.wav --frequency 4000 --periods 1022", &[short]);
+}
+
+#[test]
+fn a_frequency_that_cannot_be_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    tones(&here.join("a.wav"), &[(5321.7, 0.9)]);
+    for frequency in ["40001", "97", "0", "-5", "x"] {
+        let run = run(here, &format!("identify a.wav --frequency {frequency}"));
+        assert_eq!((run.code, run.out.as_str()), (2, ""), "{}", run.err);
+        assert!(run.err.contains("--frequency"), "{}", run.err);
+    }
+    let range = "a.wav: --frequency: 40001 Hz, but at 100000 Hz it must lie within 97.656250 to 40000 Hz, 1024 to 2.5 samples a period";
+    let told = run(here, "identify a.wav --frequency 40001").err;
+    assert!(told.contains(range), "{told}");
+    let both = run(
+        here,
+        "identify a.wav --frequency 5000 --detector difference",
+    );
+    assert_eq!(both.code, 2);
+    assert!(both.err.contains("--detector"), "{}", both.err);
+}

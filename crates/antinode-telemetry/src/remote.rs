@@ -99,6 +99,7 @@ pub struct SettingsFields {
     start_angle: f32,
     rails: Option<[f32; 2]>,
     resolution: Option<f32>,
+    frequency: Option<f32>,
     #[serde(with = "detection")]
     detection: Detection,
     watch: bool,
@@ -118,6 +119,7 @@ pub enum SettingsErrorNames {
     StartAngle(f32),
     Rails([f32; 2]),
     Resolution(f32),
+    Frequency(f32),
     GainRatio(f32),
     Skew(f32),
     PickOffAngle(f32),

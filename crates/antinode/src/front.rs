@@ -1,6 +1,7 @@
 //! Samples become blocks, from cold: the period is searched, then blocks are gathered. This is what runs in an interrupt.
 
 use crate::block::{Block, Demodulator};
+use crate::cut::Cut;
 use crate::period::DifferenceDetector;
 #[cfg(feature = "mean-return")]
 use crate::period::MeanReturnDetector;
@@ -55,12 +56,16 @@ enum Stage {
 
 /// The sample-rate half of an identification on samples of type `S`, for blocks of up to `N` sample pairs.
 ///
-/// `N` is even, and bounds the period: 200 is for all, 40 for waves of 4 to 40 samples a period. Blocks are two periods long where
+/// `N` is even, and bounds the period: 200 is for all that is searched, 40 for waves of 4 to 40 samples a period, more for slower ones
+/// whose frequency is known. Blocks are two periods long where
 /// they have room; above `N`/2 samples a period they are shorter, more of them make a window, and one may be up to a tenth off the
 /// length asked.
 #[derive(Debug, Clone)]
 pub struct Front<S: Sample, const N: usize> {
-    settings: Settings,
+    cut: Cut,
+    detection: Detection,
+    /// The period, where it is not to be searched.
+    known: Option<f32>,
     // Side by side: to build one in the other's place would be the longest call of all.
     detector: Detector<S>,
     demodulator: Demodulator<S, N>,
@@ -78,7 +83,9 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// In code, where the constant would be copied from flash.
     const fn unset() -> Self {
         Self {
-            settings: Settings::UNSET,
+            cut: Settings::UNSET.cut(),
+            detection: Detection::Difference,
+            known: None,
             detector: Detector::new(Detection::Difference),
             demodulator: Demodulator::unset(),
             stage: Stage::Unset,
@@ -90,7 +97,8 @@ impl<S: Sample, const N: usize> Front<S, N> {
     ///
     /// # Errors
     ///
-    /// Those of [`Settings::check`], but for the periods that a ring holds: that is the tracker's.
+    /// Those of [`Settings::check`], but for the periods that a ring holds: that is the tracker's. And a known frequency of which
+    /// `N` pairs hold no period.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
         let mut front = Self::unset();
         front.configure(settings)?;
@@ -105,15 +113,35 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Those of [`Front::new`]; nothing is changed then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check(usize::from(u16::MAX))?;
-        if settings.detection == self.settings.detection {
-            self.detector.restart();
-        } else {
+        Self::check(&settings)?;
+        self.set(&settings);
+        Ok(())
+    }
+
+    /// Begins anew with settings that are checked.
+    pub(crate) fn set(&mut self, settings: &Settings) {
+        if settings.detection != self.detection {
             self.replace_detector(settings.detection);
         }
         self.demodulator.set_watch(settings.watch);
-        self.settings = settings;
-        self.stage = Stage::Searching;
-        Ok(())
+        (self.cut, self.detection) = (settings.cut(), settings.detection);
+        self.known = settings.period();
+        self.start();
+    }
+
+    /// Refuses a known frequency of which no block holds a period.
+    pub(crate) fn check(settings: &Settings) -> Result<(), SettingsError> {
+        match (settings.frequency, settings.period()) {
+            (Some(frequency), Some(period)) if !Self::holds(period) => {
+                Err(SettingsError::Frequency(frequency))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// True where a block has room for a period: the ring of blocks is made for that.
+    fn holds(period: f32) -> bool {
+        period < N as f32 + 0.5
     }
 
     /// Apart from the rest: only here a detector is on the stack.
@@ -123,15 +151,21 @@ impl<S: Sample, const N: usize> Front<S, N> {
         self.detector = Detector::new(detection);
     }
 
-    /// Drops the period and searches anew.
+    /// Drops the period and searches anew; a known one is not searched, but blocks begin anew.
     pub fn search(&mut self) {
         if !matches!(self.stage, Stage::Unset) {
-            self.detector.restart();
-            self.stage = Stage::Searching;
+            self.start();
         }
     }
 
-    /// True while a period is searched.
+    /// Searches, or begins at a known period.
+    #[inline(never)]
+    fn start(&mut self) {
+        self.detector.restart();
+        self.stage = self.known.map_or(Stage::Searching, Stage::Found);
+    }
+
+    /// True while a period is searched: never where the frequency is known.
     pub fn is_searching(&self) -> bool {
         matches!(self.stage, Stage::Searching)
     }
@@ -194,9 +228,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Begins blocks for a wave of `period` samples.
     #[inline(never)]
     fn begin(&mut self, period: f32) {
-        let layout = self
-            .settings
-            .layout(period, N.min(usize::from(u16::MAX)) as u16);
+        let layout = self.cut.layout(period, N.min(usize::from(u16::MAX)) as u16);
         self.demodulator.begin(layout, self.index);
         self.stage = Stage::Gathering;
     }
@@ -208,8 +240,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
         for (taken, &pair) in (1..).zip(searched) {
             if let Some(period) = self.detector.push(pair) {
                 self.index += taken as u64;
-                // The ring of blocks is made for blocks of a period.
-                if period < N as f32 + 0.5 {
+                if Self::holds(period) {
                     self.stage = Stage::Found(period);
                 } else {
                     self.detector.restart();

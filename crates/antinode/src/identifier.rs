@@ -29,7 +29,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     ///
     /// # Errors
     ///
-    /// Those of [`Settings::check`].
+    /// Those of [`Settings::check`] and [`Front::new`].
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
         Ok(Self {
             front: Front::new(settings)?,
@@ -41,11 +41,13 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     ///
     /// # Errors
     ///
-    /// Those of [`Settings::check`]; nothing is changed then.
+    /// Those of [`Identifier::new`]; nothing is changed then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
-        // The tracker's check is the narrower one.
-        self.tracker.configure(settings)?;
-        self.front.configure(settings)
+        settings.check(BLOCKS)?;
+        Front::<S, N>::check(&settings)?;
+        self.front.set(&settings);
+        self.tracker.set(&settings);
+        Ok(())
     }
 
     /// Changes the calibration and keeps the period: see [`Tracker::calibrate`].
@@ -114,7 +116,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         self.front.skip(count);
     }
 
-    /// True while a period is searched: at the start, and from the loss of a wave on.
+    /// True while a period is searched: at the start, and from the loss of a wave on; never where the frequency is known.
     pub fn is_searching(&self) -> bool {
         self.front.is_searching()
     }

@@ -117,9 +117,9 @@
 //!
 //! | bytes of RAM on a 32-bit core | `i16` | `f32` | `i32` |
 //! |---|---|---|---|
-//! | [`Front`], with `N` the most sample pairs of a block | 1704 + 8 `N` | 2784 + 8 `N` | 3016 + 8 `N` |
+//! | [`Front`], with `N` the most sample pairs of a block | 1664 + 8 `N` | 2744 + 8 `N` | 2976 + 8 `N` |
 //! | [`Block`], each in the queue | 72 | 128 | 120 |
-//! | [`Tracker`], with `BLOCKS` the length of its ring | 672 + 68 `BLOCKS` | the same | the same |
+//! | [`Tracker`], with `BLOCKS` the length of its ring | 680 + 68 `BLOCKS` | the same | the same |
 //!
 //! [`Front::UNSET`], [`Tracker::UNSET`] and [`Identifier::UNSET`] are all zeros: statics of them take neither flash nor stack, and
 //! `configure` makes them work.
@@ -153,7 +153,8 @@
 //!
 //! Phase wraps at 2π and θ is known modulo π/2: only continuity makes θ run on. A frequency that drifts so fast that it bends the
 //! phase within one window beyond the noise (2 Hz/s in a window of 60 ms, say) is flagged as a misfit, and so is mains hum unless
-//! [`Settings::hum`] takes it out. Periods are 4 to 200 samples. Deviations and flags take noise to be white, independent, and as large
+//! [`Settings::hum`] takes it out. Periods are 4 to 200 samples, and with [`Settings::frequency`]
+//! 2.5 to as many as a block holds. Deviations and flags take noise to be white, independent, and as large
 //! in both pick-offs: of ten times as much in one of them a window in some ten thousand is flagged, of noise that both share
 //! deviations are a tenth too small, and of noise without low frequencies windows are misfits.
 //!
@@ -173,6 +174,7 @@ pub mod phase;
 pub mod regrid;
 
 mod calibration;
+mod cut;
 mod double;
 mod estimate;
 mod exponential;
@@ -209,10 +211,10 @@ mod tests {
     fn parts_take_the_memory_that_is_told() {
         // Here a word may have 64 bits.
         let near = |size: usize, told: usize| assert!((told..told + 64).contains(&size), "{size}");
-        near(size_of::<Front<i16, 200>>(), 1704 + 8 * 200);
-        near(size_of::<Front<f32, 200>>(), 2784 + 8 * 200);
-        near(size_of::<Front<i32, 200>>(), 3016 + 8 * 200);
-        near(size_of::<Tracker<64>>(), 672 + 68 * 64);
+        near(size_of::<Front<i16, 200>>(), 1664 + 8 * 200);
+        near(size_of::<Front<f32, 200>>(), 2744 + 8 * 200);
+        near(size_of::<Front<i32, 200>>(), 2976 + 8 * 200);
+        near(size_of::<Tracker<64>>(), 680 + 68 * 64);
         near(size_of::<Block<i16>>(), 72);
         near(size_of::<Block<f32>>(), 128);
         near(size_of::<Block<i32>>(), 120);

@@ -4,8 +4,8 @@ use core::fmt;
 
 use crate::block::Layout;
 use crate::calibration::Calibration;
-use crate::order::lesser;
-use crate::phase::PhaseStep;
+use crate::cut::Cut;
+use crate::double::to_single;
 
 /// How the period is found from cold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -41,6 +41,10 @@ pub struct Settings {
     /// Step between neighbouring codes of the converter, input units, where it is known. A signal with less noise than a step has
     /// errors that repeat with it and do not average: with this they count in the standard deviations. Of codes it is 1.
     pub resolution: Option<f32>,
+    /// The wave's frequency in Hz, within 5 %, where it is known: it is then not searched, and the first window begins with the first
+    /// sample, in noise nearly as large as the wave too. 2.5 to `N` samples a period, the most that a block holds. Near another wave
+    /// windows may look well and mean nothing. `None`: the period is found as `detection` says.
+    pub frequency: Option<f32>,
     /// How the period is found from cold.
     pub detection: Detection,
     /// True when the third harmonic and the extremes of the samples are watched: [`Flags::CLIPPED`](crate::Flags::CLIPPED) needs
@@ -77,6 +81,8 @@ pub enum SettingsError {
     Rails([f32; 2]),
     /// The resolution is not a positive number.
     Resolution(f32),
+    /// The frequency is not a positive number, has fewer than 2.5 samples a period, or more than a block holds.
+    Frequency(f32),
     /// The gain ratio is outside 0.1 to 10.
     GainRatio(f32),
     /// The skew is not a number within ±1 ms.
@@ -117,6 +123,12 @@ impl fmt::Display for SettingsError {
             Self::Resolution(value) => {
                 write!(f, "resolution {value}: it must be a positive number")
             }
+            Self::Frequency(frequency) => {
+                write!(
+                    f,
+                    "frequency {frequency} Hz: it must have 2.5 samples a period or more, and no more than a block holds"
+                )
+            }
             Self::GainRatio(ratio) => write!(f, "gain ratio {ratio}: it must lie within 0.1 to 10"),
             Self::Skew(skew) => write!(f, "skew {skew} s: it must lie within ±0.001 s"),
             Self::PickOffAngle(angle) => {
@@ -131,14 +143,8 @@ impl fmt::Display for SettingsError {
 
 impl core::error::Error for SettingsError {}
 
-/// Blocks that a window is cut into at least: regression over K blocks keeps all but 1/K² of what its samples know of frequency.
-const BLOCKS_A_WINDOW: f32 = 5.0;
-/// Periods of a block at most: a reference that is off by the detector's 5 % then costs 2 % of its sums.
-const LONGEST_BLOCK: f32 = 2.0;
-/// Blocks of a window at most, where it has fewer periods: none has more blocks than the larger of both.
-pub(crate) const MOST_BLOCKS: u16 = 11;
-/// How far a window may be from what was asked, as a share of it, if another length of blocks brings it nearer.
-const NEAR: f32 = 0.05;
+/// Samples of the shortest period that may be known.
+const SHORTEST_PERIOD: f32 = 2.5;
 
 impl Settings {
     /// Those of what has none yet: zeros.
@@ -149,6 +155,7 @@ impl Settings {
         start_angle: 0.0,
         rails: None,
         resolution: None,
+        frequency: None,
         detection: Detection::Difference,
         watch: false,
         hum: false,
@@ -168,6 +175,7 @@ impl Settings {
             start_angle: core::f32::consts::FRAC_PI_4,
             rails: None,
             resolution: None,
+            frequency: None,
             detection: Detection::Difference,
             watch: true,
             hum: false,
@@ -208,6 +216,10 @@ impl Settings {
             .filter(|&x| !within(x, f32::MIN_POSITIVE, f32::MAX))
         {
             Err(SettingsError::Resolution(resolution))
+        } else if let (Some(frequency), Some(period)) = (self.frequency, self.period())
+            && !within(period, SHORTEST_PERIOD, f32::MAX)
+        {
+            Err(SettingsError::Frequency(frequency))
         } else if !within(c.gain_ratio, 0.1, 10.0) {
             Err(SettingsError::GainRatio(c.gain_ratio))
         } else if !within(c.skew, -1e-3, 1e-3) {
@@ -223,88 +235,25 @@ impl Settings {
     /// half of it, so that windows move in finer steps. At most `most` pairs, the capacity of the
     /// [`Demodulator`](crate::block::Demodulator). The scale is that of f32; a demodulator puts in its own.
     pub fn layout(&self, period: f32, most: u16) -> Layout {
-        let window = period * f32::from(self.periods);
-        let longest = lesser(LONGEST_BLOCK * period, window / BLOCKS_A_WINDOW);
-        let length = if self.hop.is_some() {
-            rounded(0.5 * longest)
-        } else if longest < 16.0 {
-            rounded(longest)
-        } else {
-            // Samples are summed in twos.
-            2 * rounded(0.5 * longest)
-        };
-        let length = self.fitting(window, length.max(1));
-        Layout::new::<f32>(PhaseStep::from_period(period), length.min(most).max(1))
-    }
-
-    /// The length from `length` down to half of it that brings whole blocks near enough to `window` samples.
-    fn fitting(&self, window: f32, mut length: u16) -> u16 {
-        let most = self.periods.max(MOST_BLOCKS);
-        if nearest_count(window, length) > most {
-            length += 1;
-        }
-        let off = |length: u16, count: u16| (f32::from(count) * f32::from(length) - window).abs();
-        let (least, mut nearest) = (length.div_ceil(2), length);
-        let mut least_off = off(length, nearest_count(window, length));
-        while least_off > NEAR * window && length > least {
-            length -= 1;
-            let count = nearest_count(window, length);
-            if count > most {
-                break;
-            }
-            let off = off(length, count);
-            if off < least_off {
-                (nearest, least_off) = (length, off);
-            }
-        }
-        nearest
+        self.cut().layout(period, most)
     }
 
     /// How many blocks of `layout` come nearest to a window.
     pub fn blocks(&self, layout: Layout) -> u16 {
-        let window = layout.step.period() * f32::from(self.periods);
-        nearest_count(window, layout.length)
+        self.cut().blocks(layout)
     }
-}
 
-/// How many lengths come nearest to a window.
-#[inline(never)]
-fn nearest_count(window: f32, length: u16) -> u16 {
-    rounded(window / f32::from(length))
-}
-
-/// The nearest whole number, of numbers from 0 to 65 535.
-fn rounded(x: f32) -> u16 {
-    (x + 0.5) as u16
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn windows_fit_the_smallest_ring_that_is_accepted() {
-        for hop in [None, Some(1)] {
-            for periods in 2..=100u16 {
-                let settings = Settings {
-                    periods,
-                    hop,
-                    ..Settings::new(1e5)
-                };
-                for i in 0..400 {
-                    // 3.9 to 200 samples a period.
-                    let period = 3.9 * libm::powf(200.0 / 3.9, i as f32 / 400.0);
-                    let layout = settings.layout(period, 200);
-                    let blocks = settings.blocks(layout);
-                    let samples = f32::from(blocks) * f32::from(layout.length);
-                    let window = period * f32::from(periods);
-                    let off = (samples / window - 1.0).abs();
-                    assert!(
-                        (4..=periods.max(MOST_BLOCKS)).contains(&blocks) && off < 0.1,
-                        "{period} samples a period, {periods} periods, hop {hop:?}: {blocks} blocks, {off} off"
-                    );
-                }
-            }
+    /// How windows are cut into blocks.
+    pub(crate) const fn cut(&self) -> Cut {
+        Cut {
+            periods: self.periods,
+            has_hop: self.hop.is_some(),
         }
+    }
+
+    /// Samples in a period, where the frequency is known.
+    pub(crate) fn period(&self) -> Option<f32> {
+        let rate = to_single(self.sample_rate);
+        self.frequency.map(|frequency| rate / frequency)
     }
 }

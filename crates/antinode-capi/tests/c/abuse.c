@@ -119,6 +119,10 @@ static void bad_settings(state_t *state)
     REFUSED(rail_low, HUGE_VALF, ANTINODE_ERROR_RAILS);
     REFUSED(rail_high, -1.0f, ANTINODE_ERROR_RAILS);
     REFUSED(resolution, nanf(""), ANTINODE_ERROR_RESOLUTION);
+    REFUSED(frequency_hz, nanf(""), ANTINODE_ERROR_FREQUENCY);
+    REFUSED(frequency_hz, -5332.0f, ANTINODE_ERROR_FREQUENCY);
+    REFUSED(frequency_hz, 1e5f / 2.49f, ANTINODE_ERROR_FREQUENCY);
+    REFUSED(frequency_hz, 1e5f / 201.0f, ANTINODE_ERROR_FREQUENCY);
     REFUSED(detection, UINT32_MAX, ANTINODE_ERROR_DETECTION);
     REFUSED(watch, 2, ANTINODE_ERROR_WATCH);
     REFUSED(hum, 2, ANTINODE_ERROR_HUM);

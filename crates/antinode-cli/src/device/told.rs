@@ -18,7 +18,7 @@ pub fn hello(hello: &Hello) -> String {
     let level = |name, value: Option<f32>| value.map_or(String::new(), |x| format!(", {name} {x}"));
     format!(
         "firmware {}, protocol {}, {}, {} Hz, window {} periods, {hop}, methods {}, gain ratio {}, skew {} ns, \
-         pick-off angle {} rad, start angle {} rad{}{}{}{}{}",
+         pick-off angle {} rad, start angle {} rad{}{}{}{}{}{}",
         hello.firmware,
         hello.protocol,
         source(*front_end),
@@ -33,6 +33,8 @@ pub fn hello(hello: &Hello) -> String {
             ", rails {low} and {high}"
         )),
         level("resolution", s.resolution),
+        s.frequency
+            .map_or(String::new(), |hertz| format!(", frequency {hertz} Hz")),
         match s.detection {
             Detection::MeanReturn => ", detector mean-return",
             _ => "",

@@ -1,11 +1,16 @@
 //! What becomes of the search for a period, and why there is no row where it comes to nothing.
 
+use antinode::period::DifferenceDetector;
+
 use super::Core;
 use crate::failure::Failure;
 use crate::options::{Detector, Identify};
 
 /// An offset of so many times what is about it leaves single precision too few digits for a wave.
 const LARGE_OFFSET: f64 = 300.0;
+
+/// A known frequency may be 5 % off, and so may one that was found.
+const APART: f64 = 0.1;
 
 /// What became of the search for a period.
 #[derive(Debug, Clone, Copy, Default)]
@@ -39,7 +44,17 @@ impl Search {
                  take the offset off"
             )
         });
-        Failure::Recording(if self.refused > 0 {
+        // A window may be so much longer than asked.
+        let longest = |frequency: f32| 1.1 * f64::from(periods) * rate / f64::from(frequency);
+        let near = options
+            .frequency
+            .filter(|&frequency| pairs as f64 > longest(frequency));
+        Failure::Recording(if let Some(frequency) = near {
+            format!(
+                "{name}: no window of {periods} periods in {pairs} sample pairs ({seconds:.4} s) is mostly one wave within 5 % of \
+                 {frequency} Hz: check --frequency and the sample rate, or leave --frequency out, and the period is searched{offset}"
+            )
+        } else if self.refused > 0 {
             format!(
                 "{name}: a period was found, but no window of {periods} periods in {pairs} sample pairs ({seconds:.4} s) is mostly \
                  one wave; the wave may have fewer than 4 samples a period: check the sample rate; or look for a second tone, and \
@@ -52,16 +67,34 @@ impl Search {
             };
             format!(
                 "{name}: no period found in {pairs} sample pairs ({seconds:.4} s): no wave of 4 to 200 samples a period \
-                 stands out of the noise; check the sample rate, the channels and the signal, or try --detector {other}, \
-                 as a second tone may hide the period{offset}"
+                 stands out of the noise; check the sample rate, the channels and the signal; try --detector {other}, \
+                 as a second tone may hide the period, or give --frequency where it is known{offset}"
             )
         } else {
+            let found = if options.frequency.is_some() {
+                ""
+            } else {
+                "a period was found, but "
+            };
             format!(
-                "{name}: a period was found, but {pairs} sample pairs ({seconds:.4} s) hold no window of {periods} periods; \
+                "{name}: {found}{pairs} sample pairs ({seconds:.4} s) hold no window of {periods} periods; \
                  record longer or give a smaller --periods"
             )
         })
     }
+}
+
+/// What to tell where the first pairs hold a wave elsewhere than where one is said to be: its rows may look well.
+pub(super) fn elsewhere(pairs: &[[f32; 2]], rate: f64, frequency: f32) -> Option<String> {
+    let mut detector = Box::new(DifferenceDetector::<f32>::new());
+    let period = pairs.iter().find_map(|&pair| detector.push(pair))?;
+    let found = rate / f64::from(period);
+    let apart = found / f64::from(frequency) - 1.0;
+    (apart.abs() > APART).then(|| {
+        format!(
+            "a search finds a wave of {found:.0} Hz, where --frequency says {frequency} Hz: unless both are there, rows mean nothing"
+        )
+    })
 }
 
 /// The mean of samples and their rms about it, both pick-offs together, where the mean is too large for a wave about it.

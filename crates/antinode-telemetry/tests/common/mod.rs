@@ -76,33 +76,37 @@ fn configuration() -> impl Strategy<Value = Configuration> {
             single(),
         ),
         proptest::option::of([single(), single()]),
-        proptest::option::of(single()),
+        [single(), single()].map(proptest::option::of),
         calibration(),
         front_end(),
     )
-        .prop_map(|(plain, rails, resolution, calibration, front_end)| {
-            let (sample_rate, (periods, hop, detection, methods, watch, hum), start_angle) = plain;
-            Configuration {
-                settings: Settings {
-                    sample_rate,
-                    periods,
-                    hop,
-                    start_angle,
-                    rails,
-                    resolution,
-                    detection: if detection {
-                        Detection::Difference
-                    } else {
-                        Detection::MeanReturn
+        .prop_map(
+            |(plain, rails, [resolution, frequency], calibration, front_end)| {
+                let (sample_rate, (periods, hop, detection, methods, watch, hum), start_angle) =
+                    plain;
+                Configuration {
+                    settings: Settings {
+                        sample_rate,
+                        periods,
+                        hop,
+                        start_angle,
+                        rails,
+                        resolution,
+                        frequency,
+                        detection: if detection {
+                            Detection::Difference
+                        } else {
+                            Detection::MeanReturn
+                        },
+                        watch,
+                        hum,
+                        calibration,
                     },
-                    watch,
-                    hum,
-                    calibration,
-                },
-                front_end,
-                methods,
-            }
-        })
+                    front_end,
+                    methods,
+                }
+            },
+        )
 }
 
 pub const CAUSES: [Cause; 12] = [
@@ -150,7 +154,7 @@ fn command_error() -> impl Strategy<Value = CommandError> {
     prop_oneof![
         Just(CommandError::Unsupported),
         Just(CommandError::Busy),
-        (0..10, single(), double(), any::<(u16, u16)>()).prop_map(|(kind, s, d, (n, most))| {
+        (0..11, single(), double(), any::<(u16, u16)>()).prop_map(|(kind, s, d, (n, most))| {
             CommandError::Settings(match kind {
                 0 => SettingsError::SampleRate(d),
                 1 => SettingsError::PeriodsTooFew(n),
@@ -161,6 +165,7 @@ fn command_error() -> impl Strategy<Value = CommandError> {
                 6 => SettingsError::Resolution(s),
                 7 => SettingsError::GainRatio(s),
                 8 => SettingsError::Skew(s),
+                9 => SettingsError::Frequency(s),
                 _ => SettingsError::PickOffAngle(s),
             })
         }),

@@ -12,9 +12,10 @@ mod trend;
 
 use crate::block::{Block, Layout};
 use crate::calibration::Calibration;
+use crate::cut::MOST_BLOCKS;
 use crate::estimate::{Estimate, Flags};
 use crate::sample::Sample;
-use crate::settings::{MOST_BLOCKS, Settings, SettingsError};
+use crate::settings::{Settings, SettingsError};
 use crate::window::{CARRIER_REACH, Fit, Gathered, Model, solve};
 use angle::Angle;
 use checks::Noise;
@@ -22,7 +23,7 @@ use failures::Failures;
 use record::{Record, Units};
 use trend::Trend;
 
-/// How far the detector's frequency may be off, as a share of it.
+/// How far the detector's frequency may be off, or a known one, as a share of it.
 const DETECTOR_UNCERTAINTY: f32 = 0.05;
 
 /// Cuts the stream of blocks into windows and tracks the wave over them. Holds up to `BLOCKS` blocks, 11 to 65 535.
@@ -106,12 +107,17 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Those of [`Settings::check`]; nothing is changed then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check(BLOCKS)?;
-        self.settings = settings;
+        self.set(&settings);
+        Ok(())
+    }
+
+    /// Waits for its first block anew with settings that are checked.
+    pub(crate) fn set(&mut self, settings: &Settings) {
+        self.settings = *settings;
         // All else begins anew with the next block.
         self.forget();
         self.angle = Angle::new(settings.start_angle);
         self.ever = false;
-        Ok(())
     }
 
     /// Takes a block; gives the estimate of the window that it completes.

@@ -169,5 +169,5 @@ fn reach(model: &Model, count: u16, carrier: PhaseStep, uncertainty: f32) -> u16
         return count;
     }
     let shortest = (2.5 * carrier.period() / length) as u16 + 1;
-    ((1.0 / whole) as u16).max(shortest.max(4)).min(count)
+    ((1.0 / whole) as u16).max(shortest.max(3)).min(count)
 }

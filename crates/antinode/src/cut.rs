@@ -1,0 +1,113 @@
+//! How the windows of a wave are cut into blocks.
+
+use crate::block::Layout;
+use crate::order::lesser;
+use crate::phase::PhaseStep;
+
+/// Blocks that a window is cut into at least: regression over K blocks keeps all but 1/K² of what its samples know of frequency.
+const BLOCKS_A_WINDOW: f32 = 5.0;
+/// Periods of a block at most: a reference that is off by the detector's 5 % then costs 2 % of its sums.
+const LONGEST_BLOCK: f32 = 2.0;
+/// Blocks of a window at most, where it has fewer periods: none has more blocks than the larger of both.
+pub(crate) const MOST_BLOCKS: u16 = 11;
+/// How far a window may be from what was asked, as a share of it, if another length of blocks brings it nearer.
+const NEAR: f32 = 0.05;
+
+/// What of the settings tells the blocks.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Cut {
+    /// Periods a window.
+    pub periods: u16,
+    /// True where windows move on by other than their length.
+    pub has_hop: bool,
+}
+
+impl Cut {
+    /// As [`Settings::layout`](crate::Settings::layout).
+    pub(crate) fn layout(self, period: f32, most: u16) -> Layout {
+        let window = period * f32::from(self.periods);
+        let longest = lesser(LONGEST_BLOCK * period, window / BLOCKS_A_WINDOW);
+        let length = if self.has_hop {
+            rounded(0.5 * longest)
+        } else if longest < 16.0 {
+            rounded(longest)
+        } else {
+            // Samples are summed in twos.
+            2 * rounded(0.5 * longest)
+        };
+        let length = self.fitting(window, length.max(1));
+        Layout::new::<f32>(PhaseStep::from_period(period), length.min(most).max(1))
+    }
+
+    /// The length from `length` down to half of it that brings whole blocks near enough to `window` samples.
+    fn fitting(self, window: f32, mut length: u16) -> u16 {
+        let most = self.periods.max(MOST_BLOCKS);
+        if nearest_count(window, length) > most {
+            length += 1;
+        }
+        let off = |length: u16, count: u16| (f32::from(count) * f32::from(length) - window).abs();
+        let (least, mut nearest) = (length.div_ceil(2), length);
+        let mut least_off = off(length, nearest_count(window, length));
+        while least_off > NEAR * window && length > least {
+            length -= 1;
+            let count = nearest_count(window, length);
+            if count > most {
+                break;
+            }
+            let off = off(length, count);
+            if off < least_off {
+                (nearest, least_off) = (length, off);
+            }
+        }
+        nearest
+    }
+
+    /// How many blocks of `layout` come nearest to a window.
+    pub(crate) fn blocks(self, layout: Layout) -> u16 {
+        let window = layout.step.period() * f32::from(self.periods);
+        nearest_count(window, layout.length)
+    }
+}
+
+/// How many lengths come nearest to a window.
+#[inline(never)]
+fn nearest_count(window: f32, length: u16) -> u16 {
+    rounded(window / f32::from(length))
+}
+
+/// The nearest whole number, of numbers from 0 to 65 535.
+fn rounded(x: f32) -> u16 {
+    (x + 0.5) as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::Settings;
+
+    #[test]
+    fn windows_fit_the_smallest_ring_that_is_accepted() {
+        for hop in [None, Some(1)] {
+            for periods in 2..=100u16 {
+                let settings = Settings {
+                    periods,
+                    hop,
+                    ..Settings::new(1e5)
+                };
+                for i in 0..400 {
+                    // 3.9 to 200 samples a period.
+                    let period = 3.9 * libm::powf(200.0 / 3.9, i as f32 / 400.0);
+                    let layout = settings.layout(period, 200);
+                    let blocks = settings.blocks(layout);
+                    let samples = f32::from(blocks) * f32::from(layout.length);
+                    let window = period * f32::from(periods);
+                    let off = (samples / window - 1.0).abs();
+                    assert!(
+                        (4..=periods.max(MOST_BLOCKS)).contains(&blocks) && off < 0.1,
+                        "{period} samples a period, {periods} periods, hop {hop:?}: {blocks} blocks, {off} off"
+                    );
+                }
+            }
+        }
+    }
+}

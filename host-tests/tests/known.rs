@@ -1,0 +1,206 @@
+//! A frequency that is known need not be searched: how far off it may be, which periods may be known, and what comes of a wrong one.
+
+use antinode::{Estimate, Flags, Front, Identifier, Sample, SamplePair, Settings, SettingsError};
+use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::codes::{codes, converted};
+use host_tests::score::{NAMES, Score};
+use host_tests::{Core, RATE, gyro, identify, identify_changed, windows};
+
+/// Windows of `periods` of a wave whose frequency is told `off` of itself from the truth.
+fn told(periods: u16, frequency: f64, off: f64) -> Settings {
+    Settings {
+        frequency: Some((frequency * (1.0 + off)) as f32),
+        ..windows(periods)
+    }
+}
+
+/// A wave of `period` samples, and flaws with noise of 2 % and an offset.
+fn noisy(period: f64, seed: u64) -> (Wave, Flaws) {
+    let wave = random_wave(seed, RATE / period, 0.5);
+    let a = wave.main_amplitude;
+    let flaws = Flaws {
+        noise: 0.02 * a,
+        offset_c: 0.3 * a,
+        offset_d: -0.1 * a,
+        ..Flaws::default()
+    };
+    (wave, flaws)
+}
+
+/// Takes the windows of a stream, of which the first begins with the first sample and each is clean.
+fn add(score: &mut Score, found: &[Estimate], wave: &Wave, noise: f64, label: &str) {
+    let starts = found.first().map(|estimate| estimate.start);
+    assert_eq!(starts, Some(0), "{label}");
+    for estimate in found {
+        assert!(estimate.flags.is_empty(), "{label}: {estimate:?}");
+        score.add(estimate, wave, noise);
+    }
+}
+
+fn check(score: &Score, least: usize, limit: f64, label: &str) {
+    let error = score.error();
+    println!(
+        "{label}: {} windows, rms error/bound {error:.3?}",
+        score.windows()
+    );
+    assert!(score.windows() >= least, "{label}: {}", score.windows());
+    for (name, error) in NAMES.iter().zip(error) {
+        assert!(error <= limit, "{label}: {name} at {error:.3} of the bound");
+    }
+}
+
+#[test]
+fn windows_reach_the_bound_from_the_first_sample_on() {
+    for period in [2.6, 4.0, 18.75, 190.0] {
+        for periods in [10, 50] {
+            for off in [-0.05, 0.0, 0.05] {
+                let mut score = Score::default();
+                let label = format!("{period} samples a period, {periods} periods, told {off} off");
+                if period * (1.0 - off) < 2.5 {
+                    continue;
+                }
+                for seed in 0..400 {
+                    let (wave, flaws) = noisy(period, seed);
+                    let settings = told(periods, wave.frequency, off);
+                    let samples = (period * f64::from(periods) * 5.6) as usize;
+                    let found = identify(wave, &flaws, settings, samples, seed);
+                    add(&mut score, &found, &wave, flaws.noise, &label);
+                }
+                // Blocks of the wrong length know up to 2 % less, and the test scatters.
+                check(&score, 1900, 1.1, &label);
+            }
+        }
+    }
+}
+
+/// Identifies codes of 16 bits by a core for periods of up to 1024 samples.
+fn of_codes<S: Sample>(
+    codes: &[[i32; 2]],
+    settings: Settings,
+    sample: impl Fn(i32) -> S,
+) -> Vec<Estimate>
+where
+    [S; 2]: SamplePair<S>,
+{
+    let mut core = Box::new(Identifier::<S, 1024, 16>::new(settings).unwrap());
+    let pairs: Vec<_> = codes.iter().map(|pair| pair.map(&sample)).collect();
+    let mut found = Vec::new();
+    core.extend(&pairs, |estimate| found.push(estimate));
+    found
+}
+
+#[test]
+fn periods_may_be_as_long_as_a_block_in_any_arithmetic() {
+    for period in [2.6, 300.0, 1000.0] {
+        let mut scores = [Score::default(); 3];
+        let label = format!("{period} samples a period");
+        for seed in 0..200 {
+            let (wave, flaws) = noisy(period, seed);
+            let (wave, flaws) = converted(&wave, &flaws, 16, 0.42);
+            let settings = Settings {
+                rails: Some([-32_768.0, 32_767.0]),
+                resolution: Some(1.0),
+                ..told(10, wave.frequency, 0.01)
+            };
+            let stream = codes(wave, &flaws, (period * 57.0) as usize, seed);
+            let found = [
+                of_codes(&stream, settings, |code| code as f32),
+                of_codes(&stream, settings, |code| code as i16),
+                of_codes(&stream, settings, |code| code),
+            ];
+            for (score, found) in scores.iter_mut().zip(found) {
+                add(score, &found, &wave, flaws.noise, &label);
+            }
+        }
+        for (score, arithmetic) in scores.iter().zip(["f32", "i16", "i32"]) {
+            check(score, 950, 1.12, &format!("{label}, {arithmetic}"));
+        }
+    }
+}
+
+#[test]
+fn noise_in_which_a_search_finds_no_period_is_no_hindrance() {
+    let mut score = Score::default();
+    let mut searched = 0;
+    for seed in 0..200 {
+        let (wave, mut flaws) = noisy(18.75, seed);
+        flaws.noise = 0.8 * wave.main_amplitude;
+        let samples = (18.75 * 50.0 * 5.1) as usize;
+        searched += identify(wave, &flaws, windows(50), samples, seed).len();
+        let settings = told(50, wave.frequency, 0.002);
+        for estimate in identify(wave, &flaws, settings, samples, seed) {
+            assert!(estimate.flags.is_empty(), "{estimate:?}");
+            score.add(&estimate, &wave, flaws.noise);
+        }
+    }
+    check(&score, 990, 1.12, "noise of 80 %");
+    assert!(searched < 300, "{searched} of 1000 windows without it");
+}
+
+#[test]
+fn a_wave_that_comes_back_is_taken_up_without_a_search() {
+    let (wave, flaws) = gyro(3);
+    let settings = told(10, wave.frequency, 0.03);
+    let found = identify_changed(wave, &flaws, settings, 60_000, 3, |k, pair| {
+        if (20_000..30_000).contains(&k) {
+            [0.0; 2]
+        } else {
+            pair
+        }
+    });
+    let (before, after): (Vec<&Estimate>, Vec<&Estimate>) = found
+        .iter()
+        .filter(|e| e.start + u64::from(e.samples) <= 20_000 || e.start >= 30_000)
+        .partition(|e| e.start < 20_000);
+    assert!(before.len() > 100 && after.len() > 150);
+    assert!(before.iter().all(|estimate| estimate.flags.is_empty()));
+    // Within two windows of the first pair, if not at once: blocks of silence begin with nothing.
+    assert!(after[0].start < 30_000 + 2 * 188, "{:?}", after[0]);
+    assert!(after[0].flags.contains(Flags::REACQUIRED));
+    assert!(after[1..].iter().all(|e| e.flags.is_empty()));
+}
+
+#[test]
+fn a_wave_elsewhere_gives_no_row() {
+    for off in [-0.2, -0.15, -0.1, 0.1, 0.15, 0.2, 0.3, 0.5] {
+        for seed in 0..40 {
+            let (wave, flaws) = noisy(18.75, seed);
+            let found = identify(wave, &flaws, told(10, wave.frequency, off), 20_000, seed);
+            assert!(found.is_empty(), "told {off} off: {:?}", found[0]);
+        }
+    }
+}
+
+#[test]
+fn a_frequency_of_which_no_block_holds_a_period_is_refused() {
+    let refused = |frequency: f32| Core::new(told(10, f64::from(frequency), 0.0)).err();
+    let (highest, lowest) = (RATE as f32 / 2.5, RATE as f32 / 256.4);
+    assert_eq!(refused(0.9999 * highest), None);
+    assert_eq!(refused(1.0001 * lowest), None);
+    for frequency in [
+        1.0001 * highest,
+        0.999 * lowest,
+        0.0,
+        -5332.0,
+        f32::INFINITY,
+    ] {
+        let error = SettingsError::Frequency(frequency);
+        assert_eq!(refused(frequency), Some(error));
+        let text = error.to_string();
+        assert!(
+            text.contains(&format!("frequency {frequency} Hz")),
+            "{text}"
+        );
+    }
+    assert!(refused(f32::NAN).is_some());
+    // Nothing is changed by what is refused, and the ring of a tracker alone says nothing of periods.
+    let (wave, flaws) = gyro(1);
+    let mut core = Core::new(windows(10)).unwrap();
+    assert!(core.configure(told(20, lowest.into(), -0.1)).is_err());
+    let pairs = host_tests::stream(wave, flaws, 10_000, 1);
+    let mut found = Vec::new();
+    core.extend(&pairs, |estimate| found.push(estimate.samples));
+    assert!(found.len() > 40 && found.iter().all(|&samples| samples < 200));
+    assert!(Front::<f32, 40>::new(told(10, 2000.0, 0.0)).is_err());
+    assert!(Front::<f32, 40>::new(told(10, 2600.0, 0.0)).is_ok());
+}

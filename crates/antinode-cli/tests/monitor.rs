@@ -49,7 +49,11 @@ impl Device {
     }
 
     fn hello(&mut self) {
-        let configuration = Configuration::new(Settings::new(RATE), FrontEnd::DualAdc);
+        let settings = Settings {
+            frequency: Some(5320.0),
+            ..Settings::new(RATE)
+        };
+        let configuration = Configuration::new(settings, FrontEnd::DualAdc);
         self.send(Report::Hello(Hello::new("0.1.0", configuration)));
     }
 }
@@ -116,8 +120,8 @@ fn rows_are_those_of_identify_but_for_what_was_hurt() {
         let told: Vec<_> = run.err.lines().collect();
         let expected = [
             "damaged: cut, or no frame",
-            "device: firmware 0.1.0, protocol 2, dual ADC, 100000 Hz, window 10 periods, no hop, methods off, \
-             gain ratio 1, skew 0 ns, pick-off angle 0 rad, start angle 0.7853982 rad",
+            "device: firmware 0.1.0, protocol 3, dual ADC, 100000 Hz, window 10 periods, no hop, methods off, \
+             gain ratio 1, skew 0 ns, pick-off angle 0 rad, start angle 0.7853982 rad, frequency 5320 Hz",
             "state: started: brown-out",
             "state: searching for a wave",
             "damaged: the checksum does not fit",

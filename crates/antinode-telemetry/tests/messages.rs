@@ -45,6 +45,7 @@ fn longest() -> [Report; 6] {
         hop: Some(u16::MAX),
         rails: Some([-1.1, 1.1]),
         resolution: Some(1.1),
+        frequency: Some(1.1),
         calibration: Calibration::IDEAL,
         ..Settings::new(1.1)
     };
@@ -157,7 +158,7 @@ fn a_frame_is_laid_out_as_documented() {
         number: 0,
         report: Report::State(State::Tracking),
     });
-    // Python: zlib.crc32(bytes([4, 0, 2, 2])) is 0x721e4be5.
-    let expected = [0, 2, 4, 7, 2, 2, 0xe5, 0x4b, 0x1e, 0x72, 0];
+    // Python: zlib.crc32(bytes([6, 0, 2, 2])) is 0xd817836e.
+    let expected = [0, 2, 6, 7, 2, 2, 0x6e, 0x83, 0x17, 0xd8, 0];
     assert_eq!(sent, expected);
 }

@@ -191,3 +191,51 @@ fn rates_are_exact_without_noise() {
         }
     }
 }
+
+#[test]
+fn waves_moved_by_splits_are_what_their_truth_says() {
+    let (mut honesty, mut squares, mut rows) = (Honesty::default(), [0.0; 3], 0.0);
+    for seed in 0..60 {
+        // Each rate is many of its deviations.
+        let wave = Wave {
+            angle_rate: 0.5,
+            decay_rate: 2.0,
+            damping_split: 3.0,
+            damping_angle: 0.1 * seed as f64,
+            frequency_split: 0.5,
+            frequency_angle: 0.17 * seed as f64,
+            ..random_wave(seed, 5332.0, 0.5)
+        };
+        let flaws = Flaws {
+            noise: 2e-4 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let estimates = identify(wave, &flaws, windows(10), 8000, seed);
+        // The first window takes its pattern to stand still.
+        for estimate in estimates.iter().skip(1) {
+            let truth = wave.at(estimate.time);
+            // Near a circle deviations are no longer small.
+            if truth.quadrature_amplitude.abs() > 0.6 * truth.main_amplitude {
+                continue;
+            }
+            assert_eq!(estimate.flags, Flags::empty());
+            honesty.add(estimate, &wave);
+            let turn = f64::from(estimate.angle_rate) - truth.angle_rate;
+            let decay = f64::from(estimate.decay_rate) - truth.decay_rate;
+            for (square, (error, std)) in squares.iter_mut().zip([
+                (error_of_phase(estimate, &wave), estimate.phase_std),
+                (turn, estimate.angle_rate_std),
+                (decay, estimate.decay_rate_std),
+            ]) {
+                *square += (error / f64::from(std)).powi(2);
+            }
+            rows += 1.0;
+        }
+    }
+    let others = squares.map(|square| f64::sqrt(square / rows));
+    let ratios = honesty.ratios();
+    println!("{rows} rows: {ratios:.3?}; phase and rates {others:.3?}");
+    assert!(rows > 1500.0);
+    let honest = |ratio: &f64| (0.9..1.1).contains(ratio);
+    assert!(ratios.iter().chain(&others).all(honest));
+}

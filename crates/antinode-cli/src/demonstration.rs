@@ -29,6 +29,7 @@ pub fn run() -> Result<(), Failure> {
         frequency_rate: 0.05,
         angle_rate: 10f64.to_radians(),
         decay_rate: 0.5,
+        ..Wave::default()
     };
     let flaws = Flaws {
         noise: 0.01,

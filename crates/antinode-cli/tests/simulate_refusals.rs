@@ -39,6 +39,14 @@ fn what_makes_no_sense_is_refused() {
             "-o a.wav --frequency 49999 --frequency-rate 2",
             "--frequency: from 49999 Hz it comes to 50001 Hz",
         ),
+        (
+            "-o a.wav --damping-split inf",
+            "--damping-split: it must be",
+        ),
+        (
+            "-o a.wav --frequency-angle nan",
+            "--frequency-angle: it must be",
+        ),
         ("-o a.wav --noise -0.1", "--noise: it must be"),
         ("-o a.wav --skew-ns nan", "--skew-ns: it must be"),
         ("-o a.wav --jitter-ns -1", "--jitter-ns: it must be"),

@@ -4,6 +4,7 @@ use crate::carrier::Carrier;
 use crate::flaws::Flaws;
 use crate::gyro::Pair;
 use crate::noise::{Normals, Stream};
+use crate::split::SplitWave;
 use crate::time::Instant;
 use crate::wave::Wave;
 use libm::sincos;
@@ -21,7 +22,9 @@ pub(crate) struct Input {
 #[derive(Debug, Clone)]
 enum Source {
     /// Even instants and a steady frequency: by complex rotation.
-    Steady(Box<Carrier>),
+    Steady(Box<Carrier<Wave>>),
+    /// The same of a resonator with splits.
+    Split(Box<Carrier<SplitWave>>),
     /// Anything else: by the formulas.
     Formulas { jitter: Option<(f64, Normals)> },
 }
@@ -51,6 +54,8 @@ impl Front {
             Source::Formulas {
                 jitter: normals(flaws.jitter, Stream::Jitter),
             }
+        } else if let Some(split) = SplitWave::of(&wave) {
+            Source::Split(Box::new(Carrier::new(split, sample_rate, flaws.skew)))
         } else {
             Source::Steady(Box::new(Carrier::new(wave, sample_rate, flaws.skew)))
         };
@@ -96,6 +101,7 @@ impl Front {
     fn pick_offs(&mut self, index: u64) -> Pair {
         let ((c, _), (c_late, d_late)) = match &mut self.source {
             Source::Steady(carrier) => carrier.at(index),
+            Source::Split(carrier) => carrier.at(index),
             Source::Formulas { jitter } => {
                 let mut instant = Instant::of_sample(index, self.sample_rate);
                 if let Some((rms, normals)) = jitter {

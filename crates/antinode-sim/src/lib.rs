@@ -11,7 +11,7 @@
 //!
 //! The numbers are those of Mingazov & Shishakov 2021, DOI 10.22213/2410-9304-2021-3-12-24; they are used throughout.
 //!
-//! * [`Wave`] is the truth: the five numbers of (1)-(3) and their rates.
+//! * [`Wave`] is the truth: the five numbers of (1)-(3), their rates, and the resonator's splits of damping and frequency.
 //! * [`Flaws`] is everything between the resonator and the file: noise, offset, gain, skew, clipping, quantisation, lost
 //!   samples and so on. Its documentation gives the order in which they act.
 //! * [`Gyro`] is the stream of samples, an endless iterator of [`Pair`]; [`Gyro::codes`] gives the ADC's integers.
@@ -39,6 +39,7 @@
 mod adc;
 mod bound;
 mod carrier;
+mod complex;
 mod dropouts;
 mod error;
 mod flaws;
@@ -47,6 +48,7 @@ mod gyro;
 mod noise;
 mod random;
 mod spans;
+mod split;
 mod time;
 mod timed;
 mod wave;

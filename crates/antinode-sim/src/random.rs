@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// A random constant wave, the same for the same arguments.
 ///
 /// a_A is uniform in 0.5 to 2, a_B in -`max_ratio` a_A to `max_ratio` a_A (`max_ratio`: 0 to 1), theta in 0 to pi/2, alpha
-/// in -pi to pi. `frequency` is in Hz, and the rates are 0.
+/// in -pi to pi. `frequency` is in Hz, and rates and splits are 0.
 pub fn random_wave(seed: u64, frequency: f64, max_ratio: f64) -> Wave {
     let mut uniform = Uniform::new(seed, Stream::Wave);
     let main_amplitude = uniform.between(0.5, 2.0);
@@ -17,9 +17,7 @@ pub fn random_wave(seed: u64, frequency: f64, max_ratio: f64) -> Wave {
         angle: uniform.between(0.0, FRAC_PI_2),
         phase: uniform.between(-PI, PI),
         frequency,
-        frequency_rate: 0.0,
-        angle_rate: 0.0,
-        decay_rate: 0.0,
+        ..Wave::default()
     }
 }
 

@@ -1,6 +1,7 @@
 //! The true wave and its motion.
 
 use crate::error::Error;
+use crate::split::SplitWave;
 use crate::time::Instant;
 use libm::{exp, sincos};
 use serde::{Deserialize, Serialize};
@@ -24,10 +25,20 @@ pub struct Wave {
     pub frequency: f64,
     /// Drift of the frequency, Hz/s, any.
     pub frequency_rate: f64,
-    /// Precession of the pattern, rad/s, any: theta(t) = theta + `angle_rate` t.
+    /// What rotation turns the pattern by, rad/s, any: without splits theta(t) = theta + `angle_rate` t.
     pub angle_rate: f64,
-    /// Decay, 1/s, any: both amplitudes go as exp(-`decay_rate` t). Quality factor Q means pi f / Q.
+    /// Decay, 1/s, any: without splits both amplitudes go as exp(-`decay_rate` t). Quality factor Q means pi f / Q.
     pub decay_rate: f64,
+    /// Difference of the two modes' decay rates, 1/s, any: the wave decays with `decay_rate` + `damping_split` / 2 at
+    /// `damping_angle`, with `decay_rate` - `damping_split` / 2 at 45 degrees from there.
+    pub damping_split: f64,
+    /// Pattern angle at which a wave is damped most (least, if the split is negative), rad, any; known modulo pi/2.
+    pub damping_angle: f64,
+    /// Difference of the two modes' frequencies, Hz, any, small against `frequency`: a wave has the frequency
+    /// `frequency` + `frequency_split` / 2 at `frequency_angle`, `frequency` - `frequency_split` / 2 at 45 degrees from there.
+    pub frequency_split: f64,
+    /// Pattern angle at which the frequency is highest (lowest, if the split is negative), rad, any; known modulo pi/2.
+    pub frequency_angle: f64,
 }
 
 impl Default for Wave {
@@ -42,6 +53,10 @@ impl Default for Wave {
             frequency_rate: 0.0,
             angle_rate: 0.0,
             decay_rate: 0.0,
+            damping_split: 0.0,
+            damping_angle: 0.0,
+            frequency_split: 0.0,
+            frequency_angle: 0.0,
         }
     }
 }
@@ -56,27 +71,38 @@ pub struct Truth {
     /// a_B of (1) at that moment, input units, signed.
     pub quadrature_amplitude: f64,
     /// theta of (2), (3) at that moment, rad, continuous from [`Wave::angle`] (not reduced).
+    ///
+    /// Splits may make the pattern a circle, a_A = |a_B|, for a moment; there the angle has no meaning, and may jump.
     pub angle: f64,
     /// alpha about that moment, rad, in (-pi, pi]: tau(`time` + dt) = 2 pi `frequency` dt - `phase`.
     pub phase: f64,
-    /// f at that moment, Hz.
+    /// f at that moment, Hz, tau' / 2 pi: with splits it changes with the pattern. Without meaning in a circle.
     pub frequency: f64,
-    /// Precession, rad/s.
+    /// Precession theta', rad/s: rotation, and what the splits turn the pattern by. Without meaning in a circle.
     pub angle_rate: f64,
-    /// Decay, 1/s.
+    /// Decay of the main wave, -a_A' / a_A, 1/s.
     pub decay_rate: f64,
 }
 
 impl Wave {
     /// The wave at `t` s.
     ///
-    /// The phase is right to about 1e-15 rad for the `t` given, however late. But sample `k` is seldom at an exact `f64` of
-    /// time: for it, use [`Gyro::truth_at`](crate::Gyro::truth_at).
+    /// The phase is right to about 1e-15 rad for the `t` given, however late; with splits, to 1e-15 of what rotation and splits
+    /// have turned it by. But sample `k` is seldom at an exact `f64` of time: for it, use
+    /// [`Gyro::truth_at`](crate::Gyro::truth_at).
     pub fn at(&self, t: f64) -> Truth {
         self.at_instant(Instant::of(t))
     }
 
     pub(crate) fn at_instant(&self, instant: Instant) -> Truth {
+        if let Some(split) = SplitWave::of(self) {
+            return split.at_instant(instant);
+        }
+        self.steady_at(instant)
+    }
+
+    /// Without splits.
+    pub(crate) fn steady_at(&self, instant: Instant) -> Truth {
         let time = instant.seconds();
         let decay = exp(-self.decay_rate * time);
         let turns = instant.turns(self.frequency, self.frequency_rate);
@@ -98,7 +124,10 @@ impl Wave {
     }
 
     pub(crate) fn pick_offs_at(&self, instant: Instant) -> (f64, f64) {
-        let truth = self.at_instant(instant);
+        if let Some(split) = SplitWave::of(self) {
+            return split.pick_offs_at(instant);
+        }
+        let truth = self.steady_at(instant);
         let (sin_tau, cos_tau) = sincos(-truth.phase);
         let (sin, cos) = sincos(2.0 * truth.angle);
         let a = truth.main_amplitude * cos_tau;
@@ -126,6 +155,10 @@ impl Wave {
             ("frequency_rate", self.frequency_rate),
             ("angle_rate", self.angle_rate),
             ("decay_rate", self.decay_rate),
+            ("damping_split", self.damping_split),
+            ("damping_angle", self.damping_angle),
+            ("frequency_split", self.frequency_split),
+            ("frequency_angle", self.frequency_angle),
         ] {
             if !value.is_finite() {
                 return Err(Error::OutOfRange {
@@ -146,7 +179,7 @@ impl Wave {
 }
 
 /// `phase` less whole turns, in (-pi, pi].
-fn reduced(phase: f64) -> f64 {
+pub(crate) fn reduced(phase: f64) -> f64 {
     let rest = libm::remainder(phase, TAU);
     if rest <= -PI { PI } else { rest }
 }
@@ -259,6 +292,19 @@ mod tests {
             })
             .is_err()
         );
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let set: [fn(&mut Wave, f64); 4] = [
+                |wave, value| wave.damping_split = value,
+                |wave, value| wave.damping_angle = value,
+                |wave, value| wave.frequency_split = value,
+                |wave, value| wave.frequency_angle = value,
+            ];
+            for set in set {
+                let mut wave = Wave::default();
+                set(&mut wave, value);
+                assert!(wave.check().is_err(), "{wave:?}");
+            }
+        }
         assert!(
             check(Wave {
                 quadrature_amplitude: -2.1,

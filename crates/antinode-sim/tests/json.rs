@@ -30,7 +30,19 @@ fn json_keeps_everything_and_fills_in_the_rest() {
         Flaws::default()
     );
     assert!(serde_json::from_str::<Flaws>(r#"{"noize": 1}"#).is_err());
-    let wave = random_wave(3, 5332.1, 0.5);
+    let wave = Wave {
+        damping_split: 0.01,
+        damping_angle: 0.3,
+        frequency_split: -0.002,
+        frequency_angle: -0.1,
+        ..random_wave(3, 5332.1, 0.5)
+    };
     let json = serde_json::to_string(&wave).unwrap();
     assert_eq!(serde_json::from_str::<Wave>(&json).unwrap(), wave);
+    // One written before there were splits.
+    let before = r#"{"main_amplitude": 2.0, "quadrature_amplitude": 0.1, "decay_rate": 0.0}"#;
+    assert_eq!(
+        serde_json::from_str::<Wave>(before).unwrap(),
+        Wave::default()
+    );
 }

@@ -42,6 +42,16 @@ fn everything() -> Flaws {
     }
 }
 
+fn split() -> Wave {
+    Wave {
+        damping_split: 0.1,
+        damping_angle: 0.4,
+        frequency_split: 0.05,
+        frequency_angle: -0.3,
+        ..moving()
+    }
+}
+
 fn moving() -> Wave {
     Wave {
         frequency_rate: 0.1,
@@ -99,6 +109,18 @@ fn golden_hashes() {
             gyro(random_wave(4, 7000.0, 0.5), everything(), u64::MAX),
             100_000,
         ),
+        hash(
+            gyro(
+                Wave {
+                    frequency_rate: 0.0,
+                    ..split()
+                },
+                Flaws::default(),
+                0,
+            ),
+            100_000,
+        ),
+        hash(gyro(split(), everything(), 1), 100_000),
     ];
     let expected = [
         0x43bb_22c4_4c1a_9f13,
@@ -106,6 +128,8 @@ fn golden_hashes() {
         0x3658_add8_94f0_14cc,
         0x47c0_1c5e_8b35_44ea,
         0x777d_ea0d_40b1_c0d9,
+        0x7b07_73f6_bafe_25d4,
+        0x2d08_8104_f1f9_0d15,
     ];
     assert_eq!(found, expected, "{found:#x?}");
 }
@@ -117,4 +141,25 @@ fn the_seed_is_all_the_chance_there_is() {
     assert_ne!(hash(gyro(5), 10_000), hash(gyro(6), 10_000));
     let still = |seed| Gyro::new(moving(), Flaws::default(), 100_000.0, seed).expect("a good gyro");
     assert_eq!(hash(still(5), 10_000), hash(still(6), 10_000));
+}
+
+#[test]
+fn angles_of_no_splits_change_no_bit() {
+    for frequency_rate in [0.0, 0.1] {
+        let wave = Wave {
+            frequency_rate,
+            ..moving()
+        };
+        let no_splits = Wave {
+            damping_split: 0.0,
+            frequency_split: 0.0,
+            frequency_rate,
+            ..split()
+        };
+        let gyro = |wave| Gyro::new(wave, everything(), 100_000.0, 1).expect("a good gyro");
+        assert_eq!(hash(gyro(no_splits), 10_000), hash(gyro(wave), 10_000));
+        for index in [0, 1, 77_777, 1 << 40] {
+            assert_eq!(gyro(no_splits).truth_at(index), gyro(wave).truth_at(index));
+        }
+    }
 }

@@ -14,6 +14,10 @@ pub const WAVE: Wave = Wave {
     frequency_rate: 0.0,
     angle_rate: 0.0,
     decay_rate: 0.0,
+    damping_split: 0.0,
+    damping_angle: 0.0,
+    frequency_split: 0.0,
+    frequency_angle: 0.0,
 };
 
 /// Codes of 12 bits about the middle of the range.

@@ -57,12 +57,24 @@ struct WaveOptions {
     /// Drift of the frequency, Hz/s.
     #[arg(long, default_value_t = 0.0, value_name = "HZ/S")]
     frequency_rate: f64,
-    /// Precession, rad/s.
+    /// Precession by rotation, rad/s.
     #[arg(long, default_value_t = 0.0, value_name = "RAD/S")]
     angle_rate: f64,
-    /// Decay of the amplitudes, 1/s.
+    /// Decay of the amplitudes, 1/s; with a split, the mean of both modes.
     #[arg(long, default_value_t = 0.0, value_name = "1/S")]
     decay_rate: f64,
+    /// Difference of the decay of both modes, 1/s.
+    #[arg(long, default_value_t = 0.0, value_name = "1/S")]
+    damping_split: f64,
+    /// Pattern angle at which damping is greatest, rad.
+    #[arg(long, default_value_t = 0.0, value_name = "RAD")]
+    damping_angle: f64,
+    /// Difference of the frequencies of both modes, Hz; --frequency is their mean.
+    #[arg(long, default_value_t = 0.0, value_name = "HZ")]
+    frequency_split: f64,
+    /// Pattern angle at which the frequency is highest, rad.
+    #[arg(long, default_value_t = 0.0, value_name = "RAD")]
+    frequency_angle: f64,
 }
 
 /// What stands between the wave and the file.
@@ -160,6 +172,10 @@ impl Simulate {
             frequency_rate: self.wave.frequency_rate,
             angle_rate: self.wave.angle_rate,
             decay_rate: self.wave.decay_rate,
+            damping_split: self.wave.damping_split,
+            damping_angle: self.wave.damping_angle,
+            frequency_split: self.wave.frequency_split,
+            frequency_angle: self.wave.frequency_angle,
         }
     }
 

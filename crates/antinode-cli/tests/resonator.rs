@@ -11,16 +11,26 @@ use common::{Run, run, run_with};
 /// Decay time and quality factor of a decay rate of 0.08 1/s at 5332 Hz.
 const TRUTH: [(&str, f64); 2] = [("decay_time_s", 12.5), ("quality_factor", 209_387.2)];
 
-/// Rows of a recording of 4 s.
-fn rows(here: &Path, wave: &str) -> String {
+/// A recording of 4 s.
+fn record(here: &Path, name: &str, wave: &str) {
     let made = run(
         here,
-        &format!("simulate -o it.wav --seconds 4 --noise 0.002 {wave}"),
+        &format!("simulate -o {name} --seconds 4 --noise 0.002 {wave}"),
     );
     assert_eq!(made.code, 0, "{}", made.err);
-    let rows = run(here, "identify --periods 50 --output csv it.wav");
+}
+
+/// Rows of recordings.
+fn identified(here: &Path, names: &str) -> String {
+    let rows = run(here, &format!("identify --periods 50 --output csv {names}"));
     assert_eq!((rows.code, rows.err.as_str()), (0, ""));
     rows.out
+}
+
+/// Rows of a recording of 4 s.
+fn rows(here: &Path, wave: &str) -> String {
+    record(here, "it.wav", wave);
+    identified(here, "it.wav")
 }
 
 fn resonator(here: &Path, rows: &str, options: &str) -> Run {
@@ -170,6 +180,62 @@ fn a_split_of_frequency_is_told_by_three_angles() {
         let (rotation, _) = numbers[&(run.to_owned(), "rotation_rad_s".to_owned())];
         assert!(rotation.abs() < 1e-6, "{}", found.out);
     }
+}
+
+/// A resonator with splits, and what is to be found of it.
+const SPLIT: &str = "--decay-rate 0.08 --damping-split 0.012 --damping-angle 0.5 --frequency-split 0.004 --frequency-angle -0.3";
+const OF_SPLIT: [(&str, f64); 5] = [
+    ("decay_time_s", 12.5),
+    ("damping_split_s", 0.012),
+    ("most_damped_at_rad", 0.5),
+    ("frequency_split_hz", 0.004),
+    ("highest_at_rad", -0.3),
+];
+
+/// Errors over their stated deviations, of all that is to be found in rows of a resonator with splits, and of the rotation of so many runs.
+fn errors(here: &Path, rows: &str, runs: u8, rotation: f64) -> Vec<f64> {
+    let found = resonator(here, rows, "--output csv");
+    assert_eq!(found.err, "");
+    let numbers = numbers(&found);
+    let of_resonator = OF_SPLIT.map(|(quantity, truth)| (String::new(), quantity, truth));
+    let of_runs = (1..=runs).map(|run| (run.to_string(), "rotation_rad_s", rotation));
+    let errors = of_resonator
+        .into_iter()
+        .chain(of_runs)
+        .map(|(run, quantity, truth)| {
+            let (value, std) = numbers[&(run, quantity.to_owned())];
+            let std = std.unwrap();
+            // Each split is seen to a hundredth.
+            assert!(std < 0.01 * truth.abs().max(0.01), "{}", found.out);
+            (value - truth) / std
+        });
+    errors.collect()
+}
+
+#[test]
+fn the_splits_of_simulated_ring_downs_are_found_to_their_deviations() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let mut all = Vec::new();
+    for seed in 1..=8 {
+        for angle in [0, 22, 45] {
+            let radians = f64::from(angle).to_radians();
+            record(
+                here,
+                &format!("{angle}.wav"),
+                &format!("{SPLIT} --angle {radians} --seed {seed}{angle}"),
+            );
+        }
+        let at_rest = identified(here, "0.wav 22.wav 45.wav");
+        all.extend(errors(here, &at_rest, 3, 0.0));
+        let turning = rows(here, &format!("{SPLIT} --angle-rate 0.4 --seed {seed}"));
+        all.extend(errors(here, &turning, 1, 0.4));
+    }
+    let worst = all
+        .iter()
+        .fold(0.0f64, |worst, error| worst.max(error.abs()));
+    let rms = (all.iter().map(|error| error * error).sum::<f64>() / all.len() as f64).sqrt();
+    assert!(worst < 4.0 && (0.7..1.3).contains(&rms), "{all:.1?}");
 }
 
 #[test]

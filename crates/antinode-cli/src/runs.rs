@@ -25,6 +25,9 @@ const COLUMNS: [&str; 8] = [
     "angle_std_rad",
 ];
 
+/// That of the decay rate, 1/s; rows may lack it.
+const RATE_DEVIATION: &str = "decay_rate_std_s";
+
 /// What is used of a row.
 #[derive(Debug, Clone, Copy)]
 pub struct Row {
@@ -39,6 +42,8 @@ pub struct Row {
     pub frequency: f64,
     /// One standard deviation each of a_A, a_B and θ_A.
     pub deviations: [f64; 3],
+    /// Length of the window, s, from what it knows of an amplitude and its rate; 0 where the rows do not tell the latter.
+    pub seconds: f64,
 }
 
 /// A span of rows without a break.
@@ -105,6 +110,7 @@ impl Runs {
         for (to, column) in places.iter_mut().zip(COLUMNS) {
             *to = place(column).ok_or_else(|| missing(column))?;
         }
+        let of_rate = place(RATE_DEVIATION);
         let flags = place("flags").ok_or_else(|| missing("flags"))?;
         let file = place("file");
 
@@ -113,7 +119,7 @@ impl Runs {
         for record in reader.records() {
             let record = record.map_err(unreadable)?;
             self.rows += 1;
-            let row = Row::parse(&record, places).ok_or_else(|| {
+            let row = Row::parse(&record, places, of_rate).ok_or_else(|| {
                 let line = record.position().map_or(0, csv::Position::line);
                 Failure::Recording(format!(
                     "{name}, line {line}: a time, amplitude, angle, frequency or deviation is no number, or an amplitude or a deviation not above 0; leave the line out"
@@ -174,7 +180,11 @@ pub fn turn(change: f64) -> f64 {
 
 impl Row {
     /// None where a number is missing or not finite.
-    fn parse(record: &StringRecord, places: [usize; COLUMNS.len()]) -> Option<Self> {
+    fn parse(
+        record: &StringRecord,
+        places: [usize; COLUMNS.len()],
+        of_rate: Option<usize>,
+    ) -> Option<Self> {
         let mut numbers = [0f64; COLUMNS.len()];
         for (number, place) in numbers.iter_mut().zip(places) {
             *number = record.get(place)?.parse().ok()?;
@@ -190,14 +200,21 @@ impl Row {
             of_angle,
         ] = numbers;
         let deviations = [of_main, of_quadrature, of_angle];
+        let of_rate = match of_rate {
+            Some(place) => record.get(place)?.parse().ok()?,
+            None => f64::INFINITY,
+        };
         let usable = numbers.iter().all(|number| number.is_finite()) && main > 0.0;
-        (usable && deviations.iter().all(|&deviation| deviation > 0.0)).then_some(Self {
+        let known = deviations.iter().all(|&deviation| deviation > 0.0) && of_rate > 0.0;
+        (usable && known).then_some(Self {
             time,
             main,
             quadrature,
             angle,
             frequency,
             deviations,
+            // A straight line through evenly spread samples knows its slope so much worse than its middle.
+            seconds: 12f64.sqrt() * of_main / main / of_rate,
         })
     }
 }

@@ -34,7 +34,7 @@ pub struct Wave {
     pub damping_split: f64,
     /// Pattern angle at which a wave is damped most (least, if the split is negative), rad, any; known modulo pi/2.
     pub damping_angle: f64,
-    /// Difference of the two modes' frequencies, Hz, any, small against `frequency`: a wave has the frequency
+    /// Difference of the two modes' frequencies, Hz, within a tenth of `frequency`: a wave has the frequency
     /// `frequency` + `frequency_split` / 2 at `frequency_angle`, `frequency` - `frequency_split` / 2 at 45 degrees from there.
     pub frequency_split: f64,
     /// Pattern angle at which the frequency is highest (lowest, if the split is negative), rad, any; known modulo pi/2.
@@ -167,6 +167,13 @@ impl Wave {
                     need: "finite",
                 });
             }
+        }
+        if self.frequency_split.abs() > 0.1 * self.frequency {
+            return Err(Error::OutOfRange {
+                what: "frequency_split",
+                value: self.frequency_split,
+                need: "within a tenth of the frequency",
+            });
         }
         if self.quadrature_amplitude.abs() > self.main_amplitude {
             return Err(Error::QuadratureAboveMain {
@@ -304,6 +311,18 @@ mod tests {
                 set(&mut wave, value);
                 assert!(wave.check().is_err(), "{wave:?}");
             }
+        }
+        for (split, is_right) in [
+            (533.0, true),
+            (-533.0, true),
+            (534.0, false),
+            (-534.0, false),
+        ] {
+            let wave = Wave {
+                frequency_split: split,
+                ..Wave::default()
+            };
+            assert_eq!(wave.check().is_ok(), is_right, "{split}");
         }
         assert!(
             check(Wave {

@@ -246,7 +246,9 @@ impl Normal {
         for row in &run.rows {
             motion.advance(row.time - time);
             time = row.time;
-            let (wave, by_parameters) = motion.wave();
+            let (now, by_parameters) = motion.wave();
+            // What a window averages changes the derivatives by too little to matter.
+            let wave = now + motion.averaged(row.seconds);
             let derivatives = by_parameters * &directions;
             let rest = [
                 row.main - wave[0],

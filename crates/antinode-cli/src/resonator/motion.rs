@@ -9,6 +9,7 @@
 //! where 1/τ is the mean of the damping of both modes and δ its split, Δω the split of the frequencies in rad/s, c and s the cosine and sine
 //! of four times the angle at which the damping, or the frequency, is greatest, and −κ/2 what rotation turns the pattern by.
 
+use crate::runs::turn;
 use nalgebra::{Matrix3x4, Matrix4, Matrix4x3, SMatrix, Vector3, Vector4};
 
 /// What moves a wave: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, κ.
@@ -24,7 +25,9 @@ const STEP: f64 = 0.02;
 #[derive(Debug, Clone)]
 pub struct Motion {
     columns: SMatrix<f64, 4, COLUMNS>,
-    rates: [f64; RATES],
+    /// What each rate does to the state, and what all of them do.
+    parts: [Matrix4<f64>; RATES],
+    matrix: Matrix4<f64>,
 }
 
 impl Motion {
@@ -57,37 +60,78 @@ impl Motion {
         columns
             .fixed_columns_mut::<3>(1 + RATES)
             .copy_from(&by_start);
-        Self { columns, rates }
+        let parts = parts();
+        let matrix = parts
+            .iter()
+            .zip(rates)
+            .fold(Matrix4::zeros(), |sum, (part, rate)| sum + part * rate);
+        Self {
+            columns,
+            parts,
+            matrix,
+        }
     }
 
     /// Moves on by so many seconds, by Runge and Kutta's fourth order.
     pub fn advance(&mut self, seconds: f64) {
-        let parts = parts();
-        let matrix = parts
-            .iter()
-            .zip(self.rates)
-            .fold(Matrix4::zeros(), |sum, (part, rate)| sum + part * rate);
-        let steps = (matrix.norm() * seconds / STEP).ceil().max(1.0);
-        let step = seconds / steps;
         let slope = |columns: &SMatrix<f64, 4, COLUMNS>| {
-            let mut slope = matrix * columns;
+            let mut slope = self.matrix * columns;
             let state = columns.column(0).into_owned();
-            for (index, part) in parts.iter().enumerate() {
+            for (index, part) in self.parts.iter().enumerate() {
                 let mut column = slope.column_mut(1 + index);
                 column += part * state;
             }
             slope
         };
-        for _ in 0..steps as u64 {
-            let k1 = slope(&self.columns);
-            let k2 = slope(&(self.columns + k1 * (0.5 * step)));
-            let k3 = slope(&(self.columns + k2 * (0.5 * step)));
-            let k4 = slope(&(self.columns + k3 * step));
-            self.columns += (k1 + (k2 + k3) * 2.0 + k4) * (step / 6.0);
-        }
+        self.columns = self.moved(self.columns, seconds, slope);
     }
 
-    /// R/E and S/E.
+    /// Columns so many seconds later, or earlier, whose slope is this.
+    fn moved<const N: usize>(
+        &self,
+        mut columns: SMatrix<f64, 4, N>,
+        seconds: f64,
+        slope: impl Fn(&SMatrix<f64, 4, N>) -> SMatrix<f64, 4, N>,
+    ) -> SMatrix<f64, 4, N> {
+        let steps = (self.matrix.norm() * seconds.abs() / STEP).ceil().max(1.0);
+        let step = seconds / steps;
+        for _ in 0..steps as u64 {
+            let k1 = slope(&columns);
+            let k2 = slope(&(columns + k1 * (0.5 * step)));
+            let k3 = slope(&(columns + k2 * (0.5 * step)));
+            let k4 = slope(&(columns + k3 * step));
+            columns += (k1 + (k2 + k3) * 2.0 + k4) * (step / 6.0);
+        }
+        columns
+    }
+
+    /// By how much a_A, a_B and θ of a window of so many seconds about now differ from what they are now.
+    ///
+    /// Within a window each of both travelling waves, a_A ± a_B, is taken to grow and to turn evenly. What it does beyond that is averaged: its
+    /// logarithm, and θ, come out as their means over the window, here by Simpson's rule.
+    pub fn averaged(&self, seconds: f64) -> Vector3<f64> {
+        let now = self.columns.column(0).into_owned();
+        let at = |by: f64| Self::logarithms(&self.moved(now, by, |state| self.matrix * state));
+        let (before, middle, after) = (
+            at(-0.5 * seconds),
+            Self::logarithms(&now),
+            at(0.5 * seconds),
+        );
+        let beyond = |i: usize| (before[i] + after[i] - 2.0 * middle[i]) / 6.0;
+        let [plus, minus] = [0, 1].map(|i| middle[i].exp() * beyond(i).exp_m1());
+        let bent = turn(before[2] - middle[2]) + turn(after[2] - middle[2]);
+        Vector3::new(0.5 * (plus + minus), 0.5 * (plus - minus), bent / 6.0)
+    }
+
+    /// The logarithms of a_A + a_B and of a_A − a_B, and θ, of a state.
+    fn logarithms(state: &Vector4<f64>) -> [f64; 3] {
+        let [e, r, s, q] = (*state).into();
+        // A wave of nothing has no logarithm: it stays next to nothing.
+        let log = |square: f64| 0.5 * square.max(f64::MIN_POSITIVE).ln();
+        [log(e + q), log(e - q), 0.25 * s.atan2(r)]
+    }
+
+    /// R/E and S/E now.
     pub fn shares(&self) -> [f64; 2] {
         let state = self.columns.column(0);
         [state[1] / state[0], state[2] / state[0]]

@@ -46,6 +46,7 @@ fn run(
                 angle: wave[2] + of_angle * random.draw(),
                 frequency: 5332.0,
                 deviations: [noise, noise, of_angle].map(|std| std.max(1e-9)),
+                seconds: 0.0,
             }
         })
         .collect();

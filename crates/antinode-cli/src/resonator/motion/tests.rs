@@ -116,3 +116,36 @@ fn derivatives_are_those_of_differences() {
         assert!(apart < 1e-7, "{parameter}: {apart:e}");
     }
 }
+
+#[test]
+fn a_window_averages_what_is_not_even() {
+    let [a, b, c, d, e, f] = RATES_OF_ALL;
+    let mut motion = Motion::new(&[a, b, c, d, e, f, 0.8, -0.1, 0.6]);
+    motion.advance(1.3);
+    let (now, _) = motion.wave();
+    for seconds in [0.0, 0.1, 0.4] {
+        // The means of both logarithms and of the angle over 200 parts of the window.
+        let parts = 200;
+        let mut means = [0.0; 3];
+        for part in 0..parts {
+            let by = seconds * ((f64::from(part) + 0.5) / f64::from(parts) - 0.5);
+            let state = motion.moved(motion.columns, by, |columns| motion.matrix * columns);
+            let [plus, minus, angle] = Motion::logarithms(&state.column(0).into_owned());
+            for (mean, value) in means.iter_mut().zip([plus, minus, angle]) {
+                *mean += value / f64::from(parts);
+            }
+        }
+        let [plus, minus] = [means[0].exp(), means[1].exp()];
+        let wanted = Vector3::new(0.5 * (plus + minus), 0.5 * (plus - minus), means[2]);
+        let apart = (now + motion.averaged(seconds) - wanted).norm();
+        let size = motion.averaged(seconds).norm();
+        assert!(
+            apart < 0.01 * size + 1e-9,
+            "{seconds}: {apart:e} of {size:e}"
+        );
+    }
+    // A wave that only decays and turns does both evenly.
+    let mut even = Motion::new(&[a, 0.0, 0.0, 0.0, 0.0, f, 0.8, -0.1, 0.6]);
+    even.advance(1.3);
+    assert!(even.averaged(1.0).norm() < 1e-9);
+}

@@ -92,15 +92,19 @@ where
     demodulator.push(pair)
 }
 
-/// Everything, with the watch: samples, blocks, and a solved, tracked window every 10 periods.
-pub fn pipeline<S: Sample>(name: &'static str) -> !
+/// Everything, with or without the watch: samples, blocks, and a solved, tracked window every 10 periods.
+pub fn pipeline<S: Sample>(name: &'static str, watch: bool) -> !
 where
     Packed: SamplePair<S>,
 {
     let codes = Codes::new();
     // In place, as an image does it: what is given back is copied, on the stack and by code of its own.
     let mut identifier = Identifier::<S, 200, 16>::UNSET;
-    if identifier.configure(Settings::new(100_000.0)).is_err() {
+    let settings = Settings {
+        watch,
+        ..Settings::new(100_000.0)
+    };
+    if identifier.configure(settings).is_err() {
         leave()
     }
     let mut run = |from: usize, to: usize| {

@@ -15,7 +15,7 @@
 //! | `bench_acquire_*` | the search for a period |
 //! | `bench_longest_*` | the longest call that takes one pair, of searching and of tracking |
 //! | `bench_solution_*` | the solution of one window |
-//! | `bench_pipeline_*` | the whole core |
+//! | `bench_pipeline_*`, `bench_unwatched_*` | the whole core, with and without the watch |
 //! | `bench_methods_fixed`, `_f32` | block sums with the sums of the paper's four methods beside them |
 //! | `bench_interrupt`, `bench_application` | the instrument's interrupt alone, and all of the instrument |
 //! | `bench_idsp_sums` | the peer: the same sums with the crate idsp |

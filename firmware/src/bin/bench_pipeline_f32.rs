@@ -7,7 +7,7 @@ use firmware::{bench, marks};
 
 #[entry]
 fn main() -> ! {
-    bench::pipeline::<f32>(env!("CARGO_BIN_NAME"))
+    bench::pipeline::<f32>(env!("CARGO_BIN_NAME"), true)
 }
 
 #[panic_handler]

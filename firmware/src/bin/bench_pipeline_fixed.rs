@@ -7,7 +7,7 @@ use firmware::{bench, marks};
 
 #[entry]
 fn main() -> ! {
-    bench::pipeline::<i16>(env!("CARGO_BIN_NAME"))
+    bench::pipeline::<i16>(env!("CARGO_BIN_NAME"), true)
 }
 
 #[panic_handler]

@@ -57,7 +57,7 @@ impl PickOffs {
     }
 
     /// Phasors of ideal pick-offs, of those that these show.
-    fn correct(&self, [c, d]: [Complex<f64>; 2], omega: f64) -> [Complex<f64>; 2] {
+    pub fn correct(&self, [c, d]: [Complex<f64>; 2], omega: f64) -> [Complex<f64>; 2] {
         let (sine, cosine) = (2.0 * self.angle).sin_cos();
         let lag = Complex::from_polar(self.gain_ratio, omega * self.skew);
         [c, (d / lag + c * sine) / cosine]
@@ -188,7 +188,7 @@ impl Normal {
             let middle = run.moments[0].time + 0.5 * span(run);
             let mut sums = Sums::default();
             for moment in &run.moments {
-                let [energy, r, s, q] = shares(pick_offs.correct(moment.raw, moment.omega));
+                let [energy, r, s, q] = shares(moment.ideal(pick_offs));
                 sums.advance(moment.time, [r, s, q * r, q * s]);
                 let [to_r, to_s, to_qr, to_qs] = sums.value.map(|sum| sum / longest);
                 let time = 2.0 * (moment.time - middle) / longest;

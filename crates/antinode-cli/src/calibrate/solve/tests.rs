@@ -97,6 +97,8 @@ fn run(resonator: &Resonator, kappa: f64, pick_offs: &PickOffs, noise: f64, seed
                 raw,
                 omega,
                 deviation: noise.max(1e-9),
+                corrected: IDEAL,
+                turn: 0.0,
             }
         })
         .collect();

@@ -54,8 +54,20 @@ pub fn identify<S: Sample>(
 where
     [S; 2]: SamplePair<S>,
 {
-    let mut core =
-        Box::new(Identifier::<S, 256, 256>::new(settings).expect("the test's settings are valid"));
+    identify_up_to::<S, 256>(codes, settings, sample)
+}
+
+/// As [`identify`], by a core whose blocks hold `N` pairs.
+pub fn identify_up_to<S: Sample, const N: usize>(
+    codes: &[[i32; 2]],
+    settings: Settings,
+    sample: impl Fn(i32) -> S,
+) -> Vec<Estimate>
+where
+    [S; 2]: SamplePair<S>,
+{
+    let core = Identifier::<S, N, 256>::new(settings).expect("the test's settings are valid");
+    let mut core = Box::new(core);
     codes
         .iter()
         .filter_map(|pair| core.push(pair.map(&sample)))

@@ -1,8 +1,8 @@
 //! A frequency that is known need not be searched: how far off it may be, which periods may be known, and what comes of a wrong one.
 
-use antinode::{Estimate, Flags, Front, Identifier, Sample, SamplePair, Settings, SettingsError};
+use antinode::{Estimate, Flags, Front, Settings, SettingsError};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::codes::{codes, converted};
+use host_tests::codes::{codes, converted, identify_up_to};
 use host_tests::score::{NAMES, Score};
 use host_tests::{Core, RATE, gyro, identify, identify_changed, windows};
 
@@ -73,22 +73,6 @@ fn windows_reach_the_bound_from_the_first_sample_on() {
     }
 }
 
-/// Identifies codes of 16 bits by a core for periods of up to 1024 samples.
-fn of_codes<S: Sample>(
-    codes: &[[i32; 2]],
-    settings: Settings,
-    sample: impl Fn(i32) -> S,
-) -> Vec<Estimate>
-where
-    [S; 2]: SamplePair<S>,
-{
-    let mut core = Box::new(Identifier::<S, 1024, 16>::new(settings).unwrap());
-    let pairs: Vec<_> = codes.iter().map(|pair| pair.map(&sample)).collect();
-    let mut found = Vec::new();
-    core.extend(&pairs, |estimate| found.push(estimate));
-    found
-}
-
 #[test]
 fn periods_may_be_as_long_as_a_block_in_any_arithmetic() {
     for period in [2.6, 300.0, 1000.0] {
@@ -104,9 +88,9 @@ fn periods_may_be_as_long_as_a_block_in_any_arithmetic() {
             };
             let stream = codes(wave, &flaws, (period * 57.0) as usize, seed);
             let found = [
-                of_codes(&stream, settings, |code| code as f32),
-                of_codes(&stream, settings, |code| code as i16),
-                of_codes(&stream, settings, |code| code),
+                identify_up_to::<f32, 1024>(&stream, settings, |code| code as f32),
+                identify_up_to::<i16, 1024>(&stream, settings, |code| code as i16),
+                identify_up_to::<i32, 1024>(&stream, settings, |code| code),
             ];
             for (score, found) in scores.iter_mut().zip(found) {
                 add(score, &found, &wave, flaws.noise, &label);

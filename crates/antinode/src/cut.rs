@@ -95,8 +95,8 @@ mod tests {
                     ..Settings::new(1e5)
                 };
                 for i in 0..400 {
-                    // 3.9 to 200 samples a period.
-                    let period = 3.9 * libm::powf(200.0 / 3.9, i as f32 / 400.0);
+                    // 2.5 to 200 samples a period.
+                    let period = 2.5 * libm::powf(200.0 / 2.5, i as f32 / 400.0);
                     let layout = settings.layout(period, 200);
                     let blocks = settings.blocks(layout);
                     let samples = f32::from(blocks) * f32::from(layout.length);

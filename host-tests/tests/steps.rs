@@ -1,6 +1,6 @@
 //! A step of one quantity by itself, between two windows or within one: a single window says so.
 
-use antinode::{Estimate, Flags};
+use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::{errors, stated};
 use host_tests::{Core, RATE, identify_changed, stream, windows};
@@ -184,6 +184,76 @@ fn a_step_within_a_long_first_window_is_flagged() {
                     );
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn a_step_within_the_first_window_is_flagged() {
+    for periods in [10, 20] {
+        for (noise, factor) in [
+            (1e-4, 0.9),
+            (0.002, 0.9),
+            (0.002, 0.5),
+            (0.02, 0.5),
+            (0.002, 0.0),
+        ] {
+            for seed in 0..100u64 {
+                let wave = random_wave(seed, 5332.0, 0.3);
+                let flaws = Flaws {
+                    noise: noise * wave.main_amplitude,
+                    ..Flaws::default()
+                };
+                let settings = Settings {
+                    frequency: Some(5332.0),
+                    ..windows(periods)
+                };
+                let length = (RATE / 5332.0 * f64::from(periods)) as usize;
+                // Anywhere but in the first and the last block, which others may make up for.
+                let at =
+                    length / 5 + (0.6 * length as f64 * (0.618 * seed as f64).fract()) as usize;
+                let found =
+                    identify_changed(wave, &flaws, settings, length + 20, seed, |k, pair| {
+                        if k < at {
+                            pair
+                        } else {
+                            pair.map(|value| factor * value)
+                        }
+                    });
+                // Where too little of the wave is left there is no window.
+                for estimate in found {
+                    assert!(
+                        estimate.flags.contains(Flags::MISFIT),
+                        "{periods} periods, noise {noise}, {factor} times the wave from pair {at} on: {}",
+                        estimate.flags
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn no_first_window_of_a_steady_wave_is_flagged() {
+    for periods in [2, 4, 10, 50] {
+        for seed in 0..4000 {
+            let wave = random_wave(seed, 5332.0, 0.3);
+            let noise = [1e-4, 0.002, 0.02, 0.1][seed as usize % 4];
+            let flaws = Flaws {
+                noise: noise * wave.main_amplitude,
+                offset_c: 0.2 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let length = (RATE / 5332.0 * (f64::from(periods) + 8.0)) as usize;
+            let found =
+                identify_changed(wave, &flaws, windows(periods), length, seed, |_, pair| pair);
+            assert!(!found.is_empty());
+            // In ten per cent two periods may look like a circle.
+            let fault = found[0].flags.without(Flags::CIRCULAR);
+            assert!(
+                fault.is_empty(),
+                "{periods} periods, noise {noise}: {fault}"
+            );
         }
     }
 }

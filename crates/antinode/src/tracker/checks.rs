@@ -12,6 +12,8 @@ use crate::window::{Covariance, Fit, Model, Remains};
 pub(super) const SIGMAS: f32 = 7.0;
 /// Standard deviations of an innocent variance: three in 10¹⁰, as a window has several parts.
 const REACH: f32 = 6.2;
+/// Standard deviations of one that is looked at only once, where no windows before are known: one in a million.
+const REACH_ONCE: f32 = 4.75;
 /// Third harmonic, as a share of a_A, that common electronics may have.
 const HARMONIC_FLOOR: f32 = 1e-3;
 /// Residual, as a share of a_A, that rounding and converters may leave: (2·10⁻⁴)².
@@ -121,11 +123,18 @@ pub(crate) fn within(
     flags = flags.with_if(!significant, Flags::LOST);
 
     let known = noise.freedom > 0.0;
-    // White noise is the same about the carrier and about its third harmonic.
+    // White noise is the same about the carrier and about its third harmonic. A first window has no other noise to be compared with, and
+    // one block's fault may be in that too: to leave out the worst of n makes chance no more than n times as likely.
+    let (third_noise, reach) = if known {
+        (remains.third_noise, REACH)
+    } else {
+        let least = lesser(remains.third_noise, remains.third_spared);
+        (least, REACH_ONCE)
+    };
     let beyond = variance - 4.0 * floor;
     let coloured = remains.third_freedom >= 12.0
-        && beyond > COLOUR * remains.third_noise
-        && beyond > limit(remains.freedom, remains.third_freedom) * remains.third_noise;
+        && beyond > COLOUR * third_noise
+        && beyond > limit_of(reach, remains.freedom, remains.third_freedom) * third_noise;
     // What is white is seen better in both together.
     let both = remains.freedom + remains.third_freedom;
     let wide = (remains.residual + remains.third_noise * remains.third_freedom) / both;
@@ -204,23 +213,27 @@ fn has_harmonic(
         })
 }
 
-/// How many times a variance of `freedom` degrees may exceed another of `other` by chance, three times in 10¹⁰: Paulson's
-/// approximation.
+/// How many times a variance of `freedom` degrees may exceed another of `other` by chance, three times in 10¹⁰.
+fn limit(freedom: f32, other: f32) -> f32 {
+    limit_of(REACH, freedom, other)
+}
+
+/// The same for a chance of so many standard deviations: Paulson's approximation.
 ///
 /// Infinite where the other is known too badly for that.
 #[inline(never)]
-fn limit(freedom: f32, other: f32) -> f32 {
+fn limit_of(reach: f32, freedom: f32, other: f32) -> f32 {
     // The cube root of a variance is nearly normal, its mean less than one by its own variance.
     let (own, others) = (2.0 / (9.0 * freedom), 2.0 / (9.0 * other));
     let (mean, other_mean) = (1.0 - own, 1.0 - others);
-    let squared = REACH * REACH;
+    let squared = reach * reach;
     let known = other_mean * other_mean - squared * others;
     if known.is_nan() || known <= 0.0 {
         return f32::INFINITY;
     }
     let deviation =
         square_root(own * other_mean * other_mean + others * mean * mean - squared * own * others);
-    let root = (mean * other_mean + REACH * deviation) / known;
+    let root = (mean * other_mean + reach * deviation) / known;
     root * root * root
 }
 

@@ -31,6 +31,8 @@ pub(crate) struct Remains {
     /// Noise variance a sample seen about the third harmonic, and its degrees of freedom.
     pub third_noise: f32,
     pub third_freedom: f32,
+    /// The same without the block that has the most of it: a fault in one block is not in it, but the third harmonic is.
+    pub third_spared: f32,
 }
 
 impl Remains {

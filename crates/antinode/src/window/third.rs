@@ -16,6 +16,8 @@ use crate::order::greater;
 pub(super) struct Thirds {
     sum: [Complex32; 2],
     power: f32,
+    /// The most of it in a block.
+    most: f32,
     watched: u16,
 }
 
@@ -47,6 +49,7 @@ impl Thirds {
             let back = back * back * back;
             let [plus, minus] = here.waves;
             let waves = [here.waves, [plus * factors[0], minus * factors[1]]];
+            let before = self.power;
             for (channel, sum) in sums.iter_mut().enumerate() {
                 let (third, waves) = (seen.third[channel], &waves[channel]);
                 // Σ S e^(−3jφ).
@@ -57,6 +60,7 @@ impl Thirds {
                 *sum += rest * back;
                 self.power += rest.norm_sqr();
             }
+            self.most = greater(self.power - before, self.most);
             self.watched += 1;
         }
         self.sum = sums;
@@ -79,6 +83,7 @@ impl Thirds {
         } else {
             0.0
         };
+        remains.third_spared = (self.power - self.most) * doubled * (watched * per_both);
         remains.third = self.sum.map(|sum| sum * (doubled * per_count));
         remains.third_noise = incoherent * doubled * (watched * per_both);
         remains.third_freedom = freedom;

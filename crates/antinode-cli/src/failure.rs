@@ -12,7 +12,7 @@ use crate::recording::{InputError, OutputError};
 pub enum Failure {
     /// A recording is at fault.
     Input(InputError),
-    /// A recording could not be written.
+    /// A recording or a figure could not be written.
     Output(OutputError),
     /// A recording is whole and yet not what was wanted: the message names the file and the remedy.
     Recording(String),

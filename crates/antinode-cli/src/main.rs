@@ -1,6 +1,7 @@
 //! The `antinode` command.
 
 mod calibrate;
+mod canvas;
 mod demonstration;
 #[cfg(test)]
 mod deviates;
@@ -14,9 +15,11 @@ mod method_rows;
 mod method_table;
 mod methods;
 mod options;
+mod plot;
 mod ranges;
 mod recording;
 mod resonator;
+mod row_file;
 mod rows;
 mod runs;
 mod simulate;
@@ -33,6 +36,7 @@ fn main() -> ExitCode {
         Some(Command::Identify(options)) => identify::run(&options),
         Some(Command::Calibrate(options)) => calibrate::run(&options),
         Some(Command::Resonator(options)) => resonator::run(&options),
+        Some(Command::Plot(options)) => plot::run(&options),
         Some(Command::Simulate(options)) => simulate::run(&options),
         Some(Command::Study(options)) => study::run(&options),
         Some(Command::Monitor(options)) => device::monitor::run(&options),

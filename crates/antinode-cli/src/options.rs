@@ -6,6 +6,7 @@ use antinode::{Calibration, Detection, Settings};
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 
 use crate::calibrate::Calibrate;
+use crate::plot::Plot;
 use crate::ranges;
 use crate::recording::{Columns, RawFormat};
 use crate::resonator::Resonator;
@@ -20,6 +21,7 @@ Examples:
   recorder | antinode identify --raw i16 --rate 100000 -
   antinode identify --output csv one_way.wav other_way.wav | antinode calibrate -
   antinode identify --output csv --periods 1000 long.wav | antinode resonator -
+  antinode plot rows.csv -o ring.svg
   antinode simulate -o ring.wav --noise 0.005 --decay-rate 0.5
   antinode monitor /dev/ttyACM0 --format csv > rows.csv
   antinode command /dev/ttyACM0 window 20";
@@ -61,6 +63,11 @@ pub enum Command {
     /// pattern that turns, tell both splits too: how far the decay rates and the frequencies of the two modes are apart, and the
     /// pattern angle at which each is greatest. What rotation turns each run's pattern by is found beside them.
     Resonator(Resonator),
+    /// Draws rows over time: both amplitudes, pattern angle, frequency and residual, with their deviations and flags.
+    ///
+    /// Bands are one standard deviation wide to either side; red marks at a panel's foot are flagged rows. A line ends where rows are missing or
+    /// flagged `lost`. Axes are made for rows without a flag: a flagged value far from them ends at the panel's edge.
+    Plot(Plot),
     /// Writes a simulated recording, and the truth beside it as JSON.
     Simulate(Box<super::simulate::Simulate>),
     /// Computes the paper's comparison of its four methods anew: figures, tables, and its conclusions checked.

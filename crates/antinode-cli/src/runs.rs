@@ -1,13 +1,13 @@
 //! Rows that `antinode identify` printed become runs: spans of time in which the pattern moves without a break.
 
 use std::f64::consts::FRAC_PI_2;
-use std::fs::File;
-use std::io::{self, IsTerminal, Read};
-use std::path::{Path, PathBuf};
+use std::io::Read;
+use std::path::PathBuf;
 
 use csv::StringRecord;
 
 use crate::failure::Failure;
+use crate::row_file::RowFile;
 
 /// The rms residual over the rows' own deviations from which on it is told that something else moves.
 pub const BEYOND_NOISE: f64 = 2.0;
@@ -71,9 +71,9 @@ impl Runs {
         let mut runs = Self::new(most_turn);
         let mut names = Vec::new();
         for path in paths {
-            let (name, source) = open(path)?;
-            runs.read(&name, source)?;
-            names.push(name);
+            let file = RowFile::open(path)?;
+            names.push(file.name().to_owned());
+            runs.read(file)?;
         }
         Ok((runs, names.join(", ")))
     }
@@ -92,39 +92,24 @@ impl Runs {
     }
 
     /// Adds the rows of a file.
-    fn read(&mut self, name: &str, source: impl Read) -> Result<(), Failure> {
-        let mut reader = csv::Reader::from_reader(source);
-        let unreadable = |error: csv::Error| {
-            Failure::Recording(format!(
-                "{name}: {error}; give rows as `antinode identify --output csv` prints them"
-            ))
-        };
-        let header = reader.headers().map_err(unreadable)?.clone();
-        let place = |column: &str| header.iter().position(|name| name == column);
-        let missing = |column: &str| {
-            Failure::Recording(format!(
-                "{name}: no column {column} in its first line; give rows as `antinode identify --output csv` prints them"
-            ))
-        };
+    fn read(&mut self, mut rows: RowFile<impl Read>) -> Result<(), Failure> {
         let mut places = [0; COLUMNS.len()];
         for (to, column) in places.iter_mut().zip(COLUMNS) {
-            *to = place(column).ok_or_else(|| missing(column))?;
+            *to = rows.needed(column)?;
         }
-        let of_rate = place(RATE_DEVIATION);
-        let flags = place("flags").ok_or_else(|| missing("flags"))?;
-        let file = place("file");
+        let of_rate = rows.place(RATE_DEVIATION);
+        let flags = rows.needed("flags")?;
+        let file = rows.place("file");
 
         let mut present: Option<(String, f64)> = None;
         let mut run = Run::default();
-        for record in reader.records() {
-            let record = record.map_err(unreadable)?;
+        while let Some(record) = rows.next()? {
             self.rows += 1;
-            let row = Row::parse(&record, places, of_rate).ok_or_else(|| {
-                let line = record.position().map_or(0, csv::Position::line);
-                Failure::Recording(format!(
-                    "{name}, line {line}: a time, amplitude, angle, frequency or deviation is no number, or an amplitude or a deviation not above 0; leave the line out"
-                ))
-            })?;
+            let Some(row) = Row::parse(record, places, of_rate) else {
+                return Err(rows.fault(
+                    "a time, amplitude, angle, frequency or deviation is no number, or an amplitude or a deviation not above 0",
+                ));
+            };
             if !record[flags].is_empty() {
                 // What was lost may come back anywhere: the next row does not continue the last.
                 if record[flags].contains("reacquired") {
@@ -216,23 +201,6 @@ impl Row {
             // A straight line through evenly spread samples knows its slope so much worse than its middle.
             seconds: 12f64.sqrt() * of_main / main / of_rate,
         })
-    }
-}
-
-/// The rows' name and bytes.
-fn open(path: &Path) -> Result<(String, Box<dyn Read>), Failure> {
-    if path == Path::new("-") {
-        if io::stdin().is_terminal() {
-            eprintln!("reading rows from standard input; Ctrl-D ends them");
-        }
-        return Ok(("standard input".to_owned(), Box::new(io::stdin())));
-    }
-    let name = path.display().to_string();
-    match File::open(path) {
-        Ok(file) => Ok((name, Box::new(file))),
-        Err(error) => Err(Failure::Recording(format!(
-            "{name}: {error}; give the CSV file of rows that `antinode identify --output csv` printed"
-        ))),
     }
 }
 

@@ -28,7 +28,10 @@ impl RecordingWriter {
             .extension()
             .map(|text| text.to_string_lossy().to_lowercase());
         let Some(format) = Format::of(&extension.unwrap_or_default()) else {
-            return Err(OutputError::Unknown { file });
+            return Err(OutputError::Unknown {
+                file,
+                endings: ".wav, .csv or .npy",
+            });
         };
         if let Err(remedy) = format.check_rate(sample_rate, sample) {
             return Err(OutputError::Rate {

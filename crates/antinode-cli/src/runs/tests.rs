@@ -17,9 +17,12 @@ fn rows(file: &str, count: usize, turn: f64, flags: impl Fn(usize) -> &'static s
 
 fn read(rows: &str) -> Runs {
     let mut all = Runs::new(0.1);
-    all.read("rows", (HEADER.to_owned() + rows).as_bytes())
-        .unwrap();
+    add(&mut all, &(HEADER.to_owned() + rows)).unwrap();
     all
+}
+
+fn add(all: &mut Runs, text: &str) -> Result<(), Failure> {
+    all.read(RowFile::new("it", text.as_bytes())?)
 }
 
 /// Rows of each run.
@@ -42,7 +45,7 @@ fn a_run_ends_with_its_file() {
     let mut all = Runs::new(0.1);
     for turn in [0.05, -0.05] {
         let text = HEADER.to_owned() + &rows("a", 20, turn, |_| "");
-        all.read("rows", text.as_bytes()).unwrap();
+        add(&mut all, &text).unwrap();
     }
     assert_eq!((lengths(&all), all.rows), (vec![20, 20], 40));
     // Time that goes back is another recording too, whatever it is called.
@@ -87,14 +90,14 @@ fn too_fast_a_turn_and_too_few_rows_are_no_run() {
 #[test]
 fn what_is_no_row_is_told_with_its_line() {
     let text = HEADER.to_owned() + &rows("a", 3, 0.01, |_| "").replace("0.01,0.5", "0.01,x");
-    let fault = Runs::new(0.1).read("it", text.as_bytes()).unwrap_err();
+    let fault = add(&mut Runs::new(0.1), &text).unwrap_err();
     assert!(fault.to_string().contains("it, line 3: "), "{fault}");
     for (before, after, told) in [
         ("frequency_hz", "f", "no column frequency_hz"),
         ("flags", "state", "no column flags"),
     ] {
         let text = HEADER.replace(before, after);
-        let fault = Runs::new(0.1).read("it", text.as_bytes()).unwrap_err();
+        let fault = add(&mut Runs::new(0.1), &text).unwrap_err();
         assert!(fault.to_string().contains(told), "{fault}");
     }
 }

@@ -2,14 +2,13 @@
 
 use std::error::Error;
 use std::path::Path;
-use std::sync::Once;
 
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
-use plotters::style::{FontStyle, register_font};
 
 use super::figure::{Figure, Name, Panel};
+use crate::canvas::{self, FONT};
 
 /// Width and height, pixels.
 const SIZE: (u32, u32) = (960, 600);
@@ -17,16 +16,10 @@ const SIZE: (u32, u32) = (960, 600);
 const KEY_WIDTH: u32 = 220;
 /// A bound's dashes and the gaps between them, pixels.
 const DASH: (u32, u32) = (7, 5);
-/// The registered font; viewers of the SVG that have no such font take their own sans.
-const FONT: &str = "sans-serif";
 
 /// Writes `path`.svg and `path`.png.
 pub fn write(path: &Path, figure: &Figure, panel: &Panel) -> Result<(), Box<dyn Error>> {
-    static FONTS: Once = Once::new();
-    FONTS.call_once(|| {
-        // It fails only for a font that cannot be read, and this one can.
-        let _ = register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT);
-    });
+    canvas::register_fonts();
     draw(
         &SVGBackend::new(&path.with_extension("svg"), SIZE).into_drawing_area(),
         figure,
@@ -103,7 +96,7 @@ where
         .axis_desc_style((FONT, 18))
         .label_style((FONT, 15))
         .light_line_style(RGBColor(240, 240, 240))
-        .bold_line_style(RGBColor(215, 215, 215))
+        .bold_line_style(canvas::GRID)
         .x_labels(11)
         .x_max_light_lines(0)
         .y_max_light_lines(if panel.logarithmic { 1 } else { 0 })
@@ -161,19 +154,19 @@ where
     Ok(())
 }
 
-/// Colours that are told apart by colour-blind readers too (Okabe and Ito's).
+/// A curve's colour and width.
 fn style(name: Name) -> (RGBColor, u32) {
     match name {
-        Name::Algorithm1 => (RGBColor(230, 159, 0), 2),
-        Name::Algorithm2 => (RGBColor(86, 180, 233), 2),
-        Name::Algorithm3 => (RGBColor(0, 158, 115), 2),
-        Name::Algorithm4 => (RGBColor(213, 94, 0), 2),
-        Name::MeanReturn => (RGBColor(150, 150, 150), 2),
-        Name::Difference => (RGBColor(204, 121, 167), 2),
+        Name::Algorithm1 => (canvas::ORANGE, 2),
+        Name::Algorithm2 => (canvas::SKY_BLUE, 2),
+        Name::Algorithm3 => (canvas::GREEN, 2),
+        Name::Algorithm4 => (canvas::VERMILLION, 2),
+        Name::MeanReturn => (canvas::GREY, 2),
+        Name::Difference => (canvas::PURPLE, 2),
         Name::Fractional => (RGBColor(0, 70, 140), 1),
         Name::Exact => (RGBColor(0, 0, 0), 3),
         Name::Bound => (RGBColor(200, 0, 0), 2),
         Name::CentredBound => (RGBColor(200, 120, 120), 2),
-        Name::Deviation => (RGBColor(0, 114, 178), 2),
+        Name::Deviation => (canvas::BLUE, 2),
     }
 }

@@ -1,10 +1,10 @@
-//! What can go wrong in writing a recording, told as `FILE: what is wrong; remedy`.
+//! What can go wrong in writing a recording or a figure, told as `FILE: what is wrong; remedy`.
 
 use std::io;
 
 use crate::recording::Channel;
 
-/// Why a recording cannot be written.
+/// Why a recording or a figure cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[allow(
     missing_docs,
@@ -12,8 +12,8 @@ use crate::recording::Channel;
 )]
 pub enum OutputError {
     /// The extension names no format that is written.
-    #[error("{file}: the extension names no format; end the name in .wav, .csv or .npy")]
-    Unknown { file: String },
+    #[error("{file}: the extension names no format; end the name in {endings}")]
+    Unknown { file: String, endings: &'static str },
     /// A device, a pipe or a directory.
     #[error("{file}: this exists and is not a file; give the path of a file")]
     NotAFile { file: String },
@@ -56,7 +56,7 @@ pub enum OutputError {
 
 impl OutputError {
     /// What the system said about `file`.
-    pub(super) fn io(file: &str, fault: io::Error) -> Self {
+    pub fn io(file: &str, fault: io::Error) -> Self {
         let file = file.to_owned();
         Self::Io { file, fault }
     }

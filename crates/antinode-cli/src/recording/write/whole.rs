@@ -33,7 +33,12 @@ impl WholeFile {
             return Err(OutputError::NoDirectory { file, directory });
         }
         let mut builder = tempfile::Builder::new();
-        builder.prefix(".antinode-").suffix(".tmp");
+        // Encoders tell the format by the ending.
+        let ending = target.extension().map_or(String::new(), |ending| {
+            format!(".{}", ending.to_string_lossy())
+        });
+        let suffix = format!(".tmp{ending}");
+        builder.prefix(".antinode-").suffix(&suffix);
         // The permissions of any new file, not those of a secret one.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
@@ -70,6 +75,11 @@ impl WholeFile {
             .and_then(|output| output.sync_all())
             .and_then(|()| temporary.persist(target).map_err(|fault| fault.error))
             .map_err(|fault| OutputError::io(&file, fault))
+    }
+
+    /// Where it is until then.
+    pub fn temporary(&self) -> &Path {
+        &self.temporary
     }
 
     /// The path, as it was given.

@@ -1,0 +1,244 @@
+//! The figure as SVG or PNG.
+
+use std::error::Error;
+use std::path::Path;
+
+use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+
+use super::figure::{Axis, Figure, Panel};
+use super::legend::Legend;
+use super::reduce::Piece;
+use super::scale::decimals;
+use crate::canvas::{self, FONT};
+use crate::recording::OutputError;
+
+/// Columns of pixels that a panel has for rows.
+pub const COLUMNS: usize = 880;
+/// Beside the panels, pixels.
+const LEFT: u32 = 86;
+const RIGHT: u32 = 24;
+/// Above each, for its title.
+const TITLE: u32 = 30;
+/// A panel.
+const HEIGHT: u32 = 170;
+/// Below the last, for the time axis.
+const FOOT: u32 = 50;
+pub(super) const WIDTH: u32 = LEFT + COLUMNS as u32 + RIGHT;
+/// Sizes of text.
+pub(super) const TEXT: u32 = 16;
+const LABEL: u32 = 14;
+/// Height of the marks of flagged rows.
+const MARK: i32 = 7;
+pub(super) const FLAGGED: RGBColor = RGBColor(220, 0, 0);
+/// Units of a drawing a pixel: places in it are whole numbers.
+const SVG_UNITS: u32 = 4;
+const PNG_UNITS: u32 = 2;
+/// Numbers along an axis, at the most.
+const TIMES: usize = 11;
+const VALUES: usize = 6;
+
+/// How a figure is written.
+#[derive(Debug, Clone, Copy)]
+pub enum Format {
+    Svg,
+    Png,
+}
+
+impl Format {
+    /// By the name's ending.
+    pub fn of(path: &Path) -> Result<Self, OutputError> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy();
+        match ending.to_lowercase().as_str() {
+            "svg" => Ok(Self::Svg),
+            "png" => Ok(Self::Png),
+            _ => Err(OutputError::Unknown {
+                file: path.display().to_string(),
+                endings: ".svg or .png",
+            }),
+        }
+    }
+}
+
+/// The text of an SVG.
+pub fn svg(figure: &Figure, names: &[&str]) -> Result<String, Box<dyn Error>> {
+    canvas::register_fonts();
+    let legend = Legend::new(figure, names)?;
+    let shown = size(&legend, figure, 1);
+    let drawn = size(&legend, figure, SVG_UNITS);
+    let mut text = String::new();
+    draw(
+        &SVGBackend::with_string(&mut text, drawn).into_drawing_area(),
+        figure,
+        &legend,
+        SVG_UNITS,
+    )?;
+    let [drawn, shown] =
+        [drawn, shown].map(|(width, height)| format!("width=\"{width}\" height=\"{height}\""));
+    Ok(text.replacen(&drawn, &shown, 1))
+}
+
+/// Writes a PNG; the path must end in .png.
+pub fn png(path: &Path, figure: &Figure, names: &[&str]) -> Result<(), Box<dyn Error>> {
+    canvas::register_fonts();
+    let legend = Legend::new(figure, names)?;
+    let size = size(&legend, figure, PNG_UNITS);
+    draw(
+        &BitMapBackend::new(path, size).into_drawing_area(),
+        figure,
+        &legend,
+        PNG_UNITS,
+    )
+}
+
+/// Width and height.
+fn size(legend: &Legend, figure: &Figure, units: u32) -> (u32, u32) {
+    let panels = figure.panels.len() as u32;
+    let height = legend.height() + panels * (TITLE + HEIGHT) + FOOT;
+    (units * WIDTH, units * height)
+}
+
+fn draw<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    figure: &Figure,
+    legend: &Legend,
+    units: u32,
+) -> Result<(), Box<dyn Error>>
+where
+    B::ErrorType: 'static,
+{
+    area.fill(&WHITE)?;
+    let (top, mut rest) = area.split_vertically(units * legend.height());
+    legend.draw(&top, units)?;
+    let last = figure.panels.len() - 1;
+    for (index, panel) in figure.panels.iter().enumerate() {
+        let foot = if index == last { FOOT } else { 0 };
+        let (area, below) = rest.split_vertically(units * (TITLE + HEIGHT + foot));
+        draw_panel(&area, figure, panel, legend, (units, foot))?;
+        rest = below;
+    }
+    area.present()?;
+    Ok(())
+}
+
+fn draw_panel<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    figure: &Figure,
+    panel: &Panel,
+    legend: &Legend,
+    (units, foot): (u32, u32),
+) -> Result<(), Box<dyn Error>>
+where
+    B::ErrorType: 'static,
+{
+    let Axis { title, range } = &panel.axis;
+    let place = ((LEFT * units) as i32, ((TITLE - TEXT - 4) * units) as i32);
+    area.draw(&Text::new(title.as_str(), place, (FONT, units * TEXT)))?;
+    let mut chart = ChartBuilder::on(area)
+        .margin_top(units * TITLE)
+        .margin_right(units * RIGHT)
+        .x_label_area_size(units * foot)
+        .y_label_area_size(units * LEFT)
+        .build_cartesian_2d(figure.time.range.clone(), range.clone())?;
+    let of_times = places(&figure.time.range, TIMES);
+    let of_values = places(range, VALUES);
+    chart
+        .configure_mesh()
+        .x_desc(if foot > 0 {
+            figure.time.title.as_str()
+        } else {
+            ""
+        })
+        .axis_desc_style((FONT, units * TEXT))
+        .label_style((FONT, units * LABEL))
+        .bold_line_style(canvas::GRID.stroke_width(units))
+        .axis_style(canvas::GREY.stroke_width(units))
+        .set_all_tick_mark_size(4 * units)
+        .max_light_lines(0)
+        .x_labels(TIMES)
+        .y_labels(VALUES)
+        .x_label_formatter(&|x| number(*x, of_times))
+        .y_label_formatter(&|y| number(*y, of_values))
+        .draw()?;
+    let plane = chart.plotting_area();
+    // What stands back first.
+    for (index, pieces) in panel.curves.iter().enumerate().rev() {
+        let colour = legend.colour(index);
+        for piece in pieces {
+            draw_piece(plane, piece, range, colour, units)?;
+        }
+    }
+    let (_, height) = plane.dim_in_pixel();
+    let foot = range.start;
+    let mark = (range.end - range.start) * f64::from(MARK * units as i32) / f64::from(height);
+    for span in &figure.flagged {
+        let mark = Rectangle::new(
+            [(span.start, foot), (span.end, foot + mark)],
+            FLAGGED.filled(),
+        );
+        plane.draw(&mark)?;
+    }
+    Ok(())
+}
+
+/// Draws a band, and its line over it; both end at the panel's edges.
+fn draw_piece<B: DrawingBackend>(
+    plane: &DrawingArea<B, Cartesian2d<RangedCoordf64, RangedCoordf64>>,
+    piece: &Piece,
+    range: &std::ops::Range<f64>,
+    colour: RGBColor,
+    units: u32,
+) -> Result<(), Box<dyn Error>>
+where
+    B::ErrorType: 'static,
+{
+    let within = |value: f64| value.clamp(range.start, range.end);
+    let edge = |which: usize| {
+        let band = piece.band.iter();
+        band.map(move |(time, edges)| (*time, within(edges[which])))
+    };
+    let line: Vec<_> = piece
+        .line
+        .iter()
+        .map(|&(time, value)| (time, within(value)))
+        .collect();
+    let stroke = colour.stroke_width(units);
+    let is_lone = line.len() == 1;
+    if piece.band.iter().any(|(_, edges)| edges[0] < edges[1]) {
+        if is_lone {
+            plane.draw(&PathElement::new(
+                [edge(0), edge(1)].into_iter().flatten().collect::<Vec<_>>(),
+                stroke,
+            ))?;
+        } else {
+            let around: Vec<_> = edge(0).chain(edge(1).rev()).collect();
+            plane.draw(&Polygon::new(around, colour.mix(0.25)))?;
+        }
+    }
+    if is_lone {
+        plane.draw(&Circle::new(line[0], 2 * units, colour.filled()))?;
+    } else {
+        plane.draw(&PathElement::new(line, stroke))?;
+    }
+    Ok(())
+}
+
+/// Decimals of the numbers along an axis.
+fn places(range: &std::ops::Range<f64>, most: usize) -> usize {
+    let numbers = RangedCoordf64::from(range.clone()).key_points(most);
+    match numbers.as_slice() {
+        [one, other, ..] => decimals(other - one),
+        _ => decimals(range.end - range.start),
+    }
+}
+
+fn number(x: f64, decimals: usize) -> String {
+    let text = format!("{x:.decimals$}");
+    // Rounding leaves the sign of a small number.
+    match text.strip_prefix('-') {
+        Some(zero) if zero.trim_matches(['0', '.']).is_empty() => zero.to_owned(),
+        Some(positive) => format!("−{positive}"),
+        None => text,
+    }
+}

@@ -1,0 +1,137 @@
+//! Which colour is whose, and what the marks are.
+
+use std::error::Error;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use super::draw::{FLAGGED, TEXT, WIDTH};
+use super::figure::Figure;
+use crate::canvas::{self, FONT};
+
+/// Colours of the first recordings; the others share grey.
+const COLOURS: [RGBColor; 6] = [
+    canvas::BLUE,
+    canvas::VERMILLION,
+    canvas::GREEN,
+    canvas::PURPLE,
+    canvas::ORANGE,
+    canvas::SKY_BLUE,
+];
+/// Characters of a name that are shown: its end tells more than its folder.
+const MOST_CHARACTERS: usize = 70;
+/// All in pixels: from a line to the next, the margin, a key before its text, and the gap behind that.
+const LINE: u32 = 24;
+const MARGIN: u32 = 12;
+const KEY: u32 = 26;
+const GAP: u32 = 26;
+
+/// What an entry explains.
+#[derive(Debug, Clone, Copy)]
+enum Key {
+    Colour(RGBColor),
+    Band,
+    Flagged,
+}
+
+/// An entry and its place, pixels.
+#[derive(Debug)]
+struct Entry {
+    key: Key,
+    text: String,
+    x: u32,
+    y: u32,
+}
+
+/// The legend above all panels.
+#[derive(Debug)]
+pub struct Legend {
+    entries: Vec<Entry>,
+    height: u32,
+}
+
+impl Legend {
+    /// Names recordings, and explains what the figure has.
+    pub fn new(figure: &Figure, names: &[&str]) -> Result<Self, Box<dyn Error>> {
+        let mut texts: Vec<_> = names
+            .iter()
+            .zip(COLOURS)
+            .map(|(name, colour)| (Key::Colour(colour), shortened(name)))
+            .collect();
+        if let Some(others @ 1..) = names.len().checked_sub(COLOURS.len()) {
+            texts.push((Key::Colour(canvas::GREY), format!("{others} more")));
+        }
+        let curves = figure.panels.iter().flat_map(|panel| &panel.curves);
+        let mut edges = curves.flatten().flat_map(|piece| &piece.band);
+        if edges.any(|(_, edges)| edges[0] < edges[1]) {
+            texts.push((Key::Band, "± one standard deviation".to_owned()));
+        }
+        if !figure.flagged.is_empty() {
+            texts.push((Key::Flagged, "flagged rows".to_owned()));
+        }
+        let (mut x, mut y) = (MARGIN, MARGIN);
+        let mut entries = Vec::new();
+        for (key, text) in texts {
+            let (width, _) = (FONT, TEXT).into_font().box_size(&text)?;
+            if x > MARGIN && x + KEY + width + MARGIN > WIDTH {
+                (x, y) = (MARGIN, y + LINE);
+            }
+            entries.push(Entry { key, text, x, y });
+            x += KEY + width + GAP;
+        }
+        let height = y + LINE;
+        Ok(Self { entries, height })
+    }
+
+    /// Pixels.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// The colour of a recording.
+    pub fn colour(&self, index: usize) -> RGBColor {
+        COLOURS.get(index).copied().unwrap_or(canvas::GREY)
+    }
+
+    /// Draws it, with so many units a pixel.
+    pub fn draw<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        units: u32,
+    ) -> Result<(), Box<dyn Error>>
+    where
+        B::ErrorType: 'static,
+    {
+        for Entry { key, text, x, y } in &self.entries {
+            let at =
+                |right: u32, down: u32| ((units * (x + right)) as i32, (units * (y + down)) as i32);
+            match key {
+                Key::Colour(colour) => {
+                    let line = [at(0, 8), at(KEY - 6, 8)];
+                    area.draw(&PathElement::new(line, colour.stroke_width(2 * units)))?;
+                }
+                Key::Band => {
+                    let band = [at(0, 3), at(KEY - 6, 14)];
+                    area.draw(&Rectangle::new(band, canvas::GREY.mix(0.4).filled()))?;
+                }
+                Key::Flagged => {
+                    let mark = [at(KEY - 10, 4), at(KEY - 7, 12)];
+                    area.draw(&Rectangle::new(mark, FLAGGED.filled()))?;
+                }
+            }
+            area.draw(&Text::new(text.as_str(), at(KEY, 0), (FONT, units * TEXT)))?;
+        }
+        Ok(())
+    }
+}
+
+/// A name that fits, without what no file of text may hold.
+fn shortened(name: &str) -> String {
+    let count = name.chars().count();
+    let plain = |c: char| if c.is_control() { ' ' } else { c };
+    if count <= MOST_CHARACTERS {
+        return name.chars().map(plain).collect();
+    }
+    let end = name.chars().skip(count - MOST_CHARACTERS).map(plain);
+    std::iter::once('…').chain(end).collect()
+}

@@ -1,0 +1,183 @@
+//! What of the rows is drawn, recording by recording.
+
+use std::collections::HashMap;
+use std::io::Read;
+use std::path::PathBuf;
+
+use csv::StringRecord;
+
+use crate::failure::Failure;
+use crate::row_file::RowFile;
+
+/// Quantities that are drawn: their columns, and those of their deviations.
+pub const COLUMNS: [(&str, Option<&str>); 5] = [
+    ("main_amplitude", Some("main_amplitude_std")),
+    ("quadrature_amplitude", Some("quadrature_amplitude_std")),
+    ("angle_rad", Some("angle_std_rad")),
+    ("frequency_hz", Some("frequency_std_hz")),
+    ("residual_rms", None),
+];
+/// Windows further apart than this many times what is usual have rows missing between them.
+const GAP: f64 = 1.5;
+
+/// Whether a row is to be trusted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Trust {
+    /// No flag.
+    Clean,
+    /// A flag other than `lost`.
+    Flagged,
+    /// No number means anything.
+    Lost,
+}
+
+/// What is drawn of a row.
+#[derive(Debug, Clone, Copy)]
+pub struct Row {
+    /// s.
+    pub time: f64,
+    /// In the order of [`COLUMNS`].
+    pub values: [f64; COLUMNS.len()],
+    /// One standard deviation each; NaN where there is none.
+    pub deviations: [f32; COLUMNS.len()],
+    /// Sample pairs of the window; 1 where the rows do not tell.
+    samples: u32,
+    pub trust: Trust,
+    /// True where it does not go on from the row before.
+    pub begins: bool,
+}
+
+/// The rows of a recording.
+#[derive(Debug)]
+pub struct Trace {
+    pub name: String,
+    pub rows: Vec<Row>,
+}
+
+/// Reads files of rows, `-` being standard input; gives their names too.
+pub fn open(paths: &[PathBuf]) -> Result<(Vec<Trace>, String), Failure> {
+    let mut traces: Vec<Trace> = Vec::new();
+    let mut inputs = Vec::new();
+    let mut names = Vec::new();
+    for path in paths {
+        let file = RowFile::open(path)?;
+        let input = file.name().to_owned();
+        let new = read(file)?;
+        inputs.extend(new.iter().map(|_| input.clone()));
+        traces.extend(new);
+        names.push(input);
+    }
+    // Recordings of one name are told apart by the files of their rows.
+    let mut count = HashMap::new();
+    for trace in &traces {
+        *count.entry(trace.name.clone()).or_insert(0) += 1;
+    }
+    for (trace, input) in traces.iter_mut().zip(inputs) {
+        if count[&trace.name] > 1 {
+            trace.name = format!("{input}: {}", trace.name);
+        }
+    }
+    Ok((traces, names.join(", ")))
+}
+
+/// The recordings of a file of rows.
+pub fn read(mut rows: RowFile<impl Read>) -> Result<Vec<Trace>, Failure> {
+    let time = rows.needed("time_s")?;
+    let flags = rows.needed("flags")?;
+    let mut places = [(0, None); COLUMNS.len()];
+    for (to, (value, deviation)) in places.iter_mut().zip(COLUMNS) {
+        let deviation = deviation.and_then(|column| rows.place(column));
+        *to = (rows.needed(value)?, deviation);
+    }
+    let samples = rows.place("samples");
+    let file = rows.place("file");
+    let input = rows.name().to_owned();
+    let mut traces: Vec<Trace> = Vec::new();
+    let mut present = 0;
+    while let Some(record) = rows.next()? {
+        let Some(row) = parse(record, time, flags, places, samples) else {
+            return Err(rows
+                .fault("a time, amplitude, angle, frequency, residual or deviation is no number"));
+        };
+        let name = file.map_or(input.as_str(), |file| &record[file]);
+        if traces.get(present).is_none_or(|trace| trace.name != name) {
+            present = traces
+                .iter()
+                .position(|trace| trace.name == name)
+                .unwrap_or(traces.len());
+            if present == traces.len() {
+                let name = name.to_owned();
+                let rows = Vec::new();
+                traces.push(Trace { name, rows });
+            }
+        }
+        if row.time.is_finite() {
+            traces[present].rows.push(row);
+        }
+    }
+    for trace in &mut traces {
+        find_gaps(&mut trace.rows);
+    }
+    Ok(traces)
+}
+
+/// None where there is no number.
+fn parse(
+    record: &StringRecord,
+    time: usize,
+    flags: usize,
+    places: [(usize, Option<usize>); COLUMNS.len()],
+    samples: Option<usize>,
+) -> Option<Row> {
+    let number = |place: usize| record.get(place)?.trim().parse::<f64>().ok();
+    let mut values = [0.0; COLUMNS.len()];
+    let mut deviations = [f32::NAN; COLUMNS.len()];
+    for (index, (value, deviation)) in places.into_iter().enumerate() {
+        values[index] = number(value)?;
+        if let Some(deviation) = deviation {
+            deviations[index] = number(deviation)? as f32;
+        }
+    }
+    let samples = samples.map_or(Some(1.0), number)?;
+    let flags = record.get(flags)?;
+    let has = |flag: &str| flags.split('+').any(|one| one == flag);
+    Some(Row {
+        time: number(time)?,
+        values,
+        deviations,
+        samples: samples as u32,
+        trust: match flags {
+            "" => Trust::Clean,
+            _ if has("lost") => Trust::Lost,
+            _ => Trust::Flagged,
+        },
+        // The pattern may have turned unseen.
+        begins: has("reacquired"),
+    })
+}
+
+/// Finds the rows before which others are missing.
+fn find_gaps(rows: &mut [Row]) {
+    // Over the windows' lengths: these may change on the way.
+    let step = |pair: &[Row]| {
+        let samples = f64::from(pair[0].samples) + f64::from(pair[1].samples);
+        (pair[1].time - pair[0].time) / samples.max(1.0)
+    };
+    let mut steps: Vec<f64> = rows
+        .windows(2)
+        .map(step)
+        .filter(|&step| step > 0.0)
+        .collect();
+    let usual = median(&mut steps).unwrap_or(0.0);
+    for index in 1..rows.len() {
+        let step = step(&rows[index - 1..=index]);
+        // Time that goes back is another recording.
+        rows[index].begins |= step < 0.0 || step > GAP * usual;
+    }
+}
+
+/// The middle one; none of none. Numbers are finite.
+pub fn median(numbers: &mut [f64]) -> Option<f64> {
+    let middle = numbers.len() / 2;
+    (!numbers.is_empty()).then(|| *numbers.select_nth_unstable_by(middle, f64::total_cmp).1)
+}

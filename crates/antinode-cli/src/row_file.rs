@@ -1,0 +1,93 @@
+//! Rows as `antinode identify --output csv` prints them, from a file or standard input, and what is told where they are not.
+
+use std::fs::File;
+use std::io::{self, IsTerminal, Read};
+use std::path::Path;
+
+use csv::{Position, Reader, StringRecord};
+
+use crate::failure::Failure;
+
+/// A file of rows, read line by line.
+pub struct RowFile<R> {
+    name: String,
+    reader: Reader<R>,
+    header: StringRecord,
+    record: StringRecord,
+}
+
+impl RowFile<Box<dyn Read>> {
+    /// Opens a file, or standard input if `path` is `-`.
+    pub fn open(path: &Path) -> Result<Self, Failure> {
+        if path == Path::new("-") {
+            if io::stdin().is_terminal() {
+                eprintln!("reading rows from standard input; Ctrl-D ends them");
+            }
+            return Self::new("standard input", Box::new(io::stdin()));
+        }
+        let name = path.display().to_string();
+        match File::open(path) {
+            Ok(file) => Self::new(&name, Box::new(file)),
+            Err(error) => Err(Failure::Recording(format!(
+                "{name}: {error}; give the CSV file of rows that `antinode identify --output csv` printed"
+            ))),
+        }
+    }
+}
+
+impl<R: Read> RowFile<R> {
+    /// Reads the header.
+    pub fn new(name: &str, source: R) -> Result<Self, Failure> {
+        let mut reader = Reader::from_reader(source);
+        let header = reader.headers().map_err(|error| unreadable(name, &error))?;
+        Ok(Self {
+            name: name.to_owned(),
+            header: header.clone(),
+            reader,
+            record: StringRecord::new(),
+        })
+    }
+
+    /// As messages call it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Where a column stands that rows may lack.
+    pub fn place(&self, column: &str) -> Option<usize> {
+        self.header.iter().position(|name| name == column)
+    }
+
+    /// Where a column stands that rows must have.
+    pub fn needed(&self, column: &str) -> Result<usize, Failure> {
+        self.place(column).ok_or_else(|| {
+            Failure::Recording(format!(
+                "{}: no column {column} in its first line; give rows as `antinode identify --output csv` prints them",
+                self.name
+            ))
+        })
+    }
+
+    /// The next row; none at the end.
+    pub fn next(&mut self) -> Result<Option<&StringRecord>, Failure> {
+        let more = self.reader.read_record(&mut self.record);
+        let more = more.map_err(|error| unreadable(&self.name, &error))?;
+        Ok(more.then_some(&self.record))
+    }
+
+    /// What is told where the last row cannot be used.
+    pub fn fault(&self, what: &str) -> Failure {
+        let line = self.record.position().map_or(0, Position::line);
+        Failure::Recording(format!(
+            "{}, line {line}: {what}; leave the line out",
+            self.name
+        ))
+    }
+}
+
+/// What is told where there are no rows.
+fn unreadable(name: &str, error: &csv::Error) -> Failure {
+    Failure::Recording(format!(
+        "{name}: {error}; give rows as `antinode identify --output csv` prints them"
+    ))
+}

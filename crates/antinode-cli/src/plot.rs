@@ -57,8 +57,9 @@ pub fn run(options: &Plot) -> Result<(), Failure> {
     let flagged = rows().filter(|row| row.trust != Trust::Clean).count();
     writeln!(
         io::stdout(),
-        "{}: {count} rows of {}; {flagged} are flagged",
+        "{}: {count} {} of {}; {flagged} flagged",
         options.to.display(),
+        if count == 1 { "row" } else { "rows" },
         match names.as_slice() {
             [name] => (*name).to_owned(),
             names => format!("{} recordings", names.len()),

@@ -24,7 +24,7 @@ const TITLE: u32 = 30;
 /// A panel.
 const HEIGHT: u32 = 170;
 /// Below the last, for the time axis.
-const FOOT: u32 = 50;
+const FOOT: u32 = 46;
 pub(super) const WIDTH: u32 = LEFT + COLUMNS as u32 + RIGHT;
 /// Sizes of text.
 pub(super) const TEXT: u32 = 16;
@@ -32,9 +32,23 @@ const LABEL: u32 = 14;
 /// Height of the marks of flagged rows.
 const MARK: i32 = 7;
 pub(super) const FLAGGED: RGBColor = RGBColor(220, 0, 0);
-/// Units of a drawing a pixel: places in it are whole numbers.
-const SVG_UNITS: u32 = 4;
-const PNG_UNITS: u32 = 2;
+/// How a format is drawn.
+#[derive(Debug, Clone, Copy)]
+struct Medium {
+    /// Units of a drawing a pixel: places in it are whole numbers.
+    units: u32,
+    /// False where a line is drawn step by step: plotters' wide lines in bitmaps grow spikes at sharp corners.
+    joins: bool,
+}
+
+const SVG: Medium = Medium {
+    units: 4,
+    joins: true,
+};
+const PNG: Medium = Medium {
+    units: 2,
+    joins: false,
+};
 /// Numbers along an axis, at the most.
 const TIMES: usize = 11;
 const VALUES: usize = 6;
@@ -66,13 +80,13 @@ pub fn svg(figure: &Figure, names: &[&str]) -> Result<String, Box<dyn Error>> {
     canvas::register_fonts();
     let legend = Legend::new(figure, names)?;
     let shown = size(&legend, figure, 1);
-    let drawn = size(&legend, figure, SVG_UNITS);
+    let drawn = size(&legend, figure, SVG.units);
     let mut text = String::new();
     draw(
         &SVGBackend::with_string(&mut text, drawn).into_drawing_area(),
         figure,
         &legend,
-        SVG_UNITS,
+        SVG,
     )?;
     let [drawn, shown] =
         [drawn, shown].map(|(width, height)| format!("width=\"{width}\" height=\"{height}\""));
@@ -83,12 +97,12 @@ pub fn svg(figure: &Figure, names: &[&str]) -> Result<String, Box<dyn Error>> {
 pub fn png(path: &Path, figure: &Figure, names: &[&str]) -> Result<(), Box<dyn Error>> {
     canvas::register_fonts();
     let legend = Legend::new(figure, names)?;
-    let size = size(&legend, figure, PNG_UNITS);
+    let size = size(&legend, figure, PNG.units);
     draw(
         &BitMapBackend::new(path, size).into_drawing_area(),
         figure,
         &legend,
-        PNG_UNITS,
+        PNG,
     )
 }
 
@@ -103,11 +117,12 @@ fn draw<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     figure: &Figure,
     legend: &Legend,
-    units: u32,
+    medium: Medium,
 ) -> Result<(), Box<dyn Error>>
 where
     B::ErrorType: 'static,
 {
+    let units = medium.units;
     area.fill(&WHITE)?;
     let (top, mut rest) = area.split_vertically(units * legend.height());
     legend.draw(&top, units)?;
@@ -115,7 +130,7 @@ where
     for (index, panel) in figure.panels.iter().enumerate() {
         let foot = if index == last { FOOT } else { 0 };
         let (area, below) = rest.split_vertically(units * (TITLE + HEIGHT + foot));
-        draw_panel(&area, figure, panel, legend, (units, foot))?;
+        draw_panel(&area, figure, panel, legend, (medium, foot))?;
         rest = below;
     }
     area.present()?;
@@ -127,11 +142,12 @@ fn draw_panel<B: DrawingBackend>(
     figure: &Figure,
     panel: &Panel,
     legend: &Legend,
-    (units, foot): (u32, u32),
+    (medium, foot): (Medium, u32),
 ) -> Result<(), Box<dyn Error>>
 where
     B::ErrorType: 'static,
 {
+    let units = medium.units;
     let Axis { title, range } = &panel.axis;
     let place = ((LEFT * units) as i32, ((TITLE - TEXT - 4) * units) as i32);
     area.draw(&Text::new(title.as_str(), place, (FONT, units * TEXT)))?;
@@ -166,11 +182,16 @@ where
     for (index, pieces) in panel.curves.iter().enumerate().rev() {
         let colour = legend.colour(index);
         for piece in pieces {
-            draw_piece(plane, piece, range, colour, units)?;
+            draw_piece(plane, piece, range, colour, medium)?;
         }
     }
     let (_, height) = plane.dim_in_pixel();
     let foot = range.start;
+    let ends = [
+        (figure.time.range.start, foot),
+        (figure.time.range.end, foot),
+    ];
+    plane.draw(&PathElement::new(ends, canvas::GREY.stroke_width(units)))?;
     let mark = (range.end - range.start) * f64::from(MARK * units as i32) / f64::from(height);
     for span in &figure.flagged {
         let mark = Rectangle::new(
@@ -188,7 +209,7 @@ fn draw_piece<B: DrawingBackend>(
     piece: &Piece,
     range: &std::ops::Range<f64>,
     colour: RGBColor,
-    units: u32,
+    Medium { units, joins }: Medium,
 ) -> Result<(), Box<dyn Error>>
 where
     B::ErrorType: 'static,
@@ -204,22 +225,21 @@ where
         .map(|&(time, value)| (time, within(value)))
         .collect();
     let stroke = colour.stroke_width(units);
-    let is_lone = line.len() == 1;
-    if piece.band.iter().any(|(_, edges)| edges[0] < edges[1]) {
-        if is_lone {
-            plane.draw(&PathElement::new(
-                [edge(0), edge(1)].into_iter().flatten().collect::<Vec<_>>(),
-                stroke,
-            ))?;
-        } else {
-            let around: Vec<_> = edge(0).chain(edge(1).rev()).collect();
-            plane.draw(&Polygon::new(around, colour.mix(0.25)))?;
+    let has_band = piece.band.iter().any(|(_, edges)| edges[0] < edges[1]);
+    if let [point] = line[..] {
+        if has_band {
+            let bar: Vec<_> = edge(0).chain(edge(1)).collect();
+            plane.draw(&PathElement::new(bar, stroke))?;
         }
+        plane.draw(&Circle::new(point, 2 * units, colour.filled()))?;
+        return Ok(());
     }
-    if is_lone {
-        plane.draw(&Circle::new(line[0], 2 * units, colour.filled()))?;
-    } else {
-        plane.draw(&PathElement::new(line, stroke))?;
+    if has_band {
+        let around: Vec<_> = edge(0).chain(edge(1).rev()).collect();
+        plane.draw(&Polygon::new(around, colour.mix(0.25)))?;
+    }
+    for steps in line.windows(if joins { line.len() } else { 2 }) {
+        plane.draw(&PathElement::new(steps, stroke))?;
     }
     Ok(())
 }

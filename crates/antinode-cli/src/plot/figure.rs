@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::reduce::{Piece, Sample, column, reduce};
 use super::rows::{COLUMNS, Row, Trace, Trust, median};
-use super::scale::{Extent, decimals, exponent, frequency_unit, superscript};
+use super::scale::{Extent, decimals, factor, frequency_unit};
 
 /// Titles of the panels, in the order of [`COLUMNS`].
 const TITLES: [&str; COLUMNS.len()] = [
@@ -17,6 +17,7 @@ const TITLES: [&str; COLUMNS.len()] = [
 ];
 const ANGLE: usize = 2;
 const FREQUENCY: usize = 3;
+const RESIDUAL: usize = 4;
 /// An axis spans no less than this share of its numbers' size: less is rounding, and would need too many digits.
 const LEAST_SHARE: f64 = 2e-6;
 /// The time axis of one row, s.
@@ -24,6 +25,8 @@ const LONE: f64 = 1.0;
 /// Margins beside all rows, and above and below all values, as shares of their span.
 const BESIDE: f64 = 0.01;
 const ABOVE: f64 = 0.08;
+/// What is left over scatters far more than that.
+const LEAST_OF_RESIDUAL: f64 = 0.02;
 /// Frequencies have thirteen digits.
 const LEAST_OF_FREQUENCY: f64 = 1e-11;
 /// Times this many spans from 0 are told as differences.
@@ -139,6 +142,7 @@ fn panel(
     let least = match (quantity, extent.size()) {
         (_, 0.0) => 1.0,
         (FREQUENCY, size) => LEAST_OF_FREQUENCY * size,
+        (RESIDUAL, size) => LEAST_OF_RESIDUAL * size,
         (_, size) => LEAST_SHARE * size,
     };
     // A quantity without a number has an empty panel.
@@ -185,17 +189,12 @@ fn scale(traces: &[Trace], quantity: usize, range: &Range<f64>, size: f64) -> (S
             let less = told.parse().unwrap_or(middle);
             (
                 Scale { less, times },
-                format!("{title} − median {told} Hz, {unit}"),
+                format!("{title} less its median of {told} Hz, {unit}"),
             )
         }
         _ => {
-            let power = exponent(size);
-            let times = 10f64.powi(-power);
-            let unit = match power {
-                0 => String::new(),
-                power => format!(", 10{}", superscript(power)),
-            };
-            (Scale { less: 0.0, times }, format!("{title}{unit}"))
+            let (times, told) = factor(size);
+            (Scale { less: 0.0, times }, format!("{title}{told}"))
         }
     }
 }

@@ -107,15 +107,15 @@ impl Legend {
                 |right: u32, down: u32| ((units * (x + right)) as i32, (units * (y + down)) as i32);
             match key {
                 Key::Colour(colour) => {
-                    let line = [at(0, 8), at(KEY - 6, 8)];
+                    let line = [at(0, 7), at(KEY - 6, 7)];
                     area.draw(&PathElement::new(line, colour.stroke_width(2 * units)))?;
                 }
                 Key::Band => {
-                    let band = [at(0, 3), at(KEY - 6, 14)];
+                    let band = [at(0, 2), at(KEY - 6, 12)];
                     area.draw(&Rectangle::new(band, canvas::GREY.mix(0.4).filled()))?;
                 }
                 Key::Flagged => {
-                    let mark = [at(KEY - 10, 4), at(KEY - 7, 12)];
+                    let mark = [at(KEY - 10, 3), at(KEY - 8, 11)];
                     area.draw(&Rectangle::new(mark, FLAGGED.filled()))?;
                 }
             }

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-/// A clean row shares in a range by what it measured; other values, and what deviations add, by no more than so many spans of those.
-const BEYOND: f64 = 1.0;
+/// A range holds what clean rows measured; flagged values and deviations widen it on either side by no more than so many spans of that.
+const BEYOND: f64 = 0.5;
 /// A range's least span in deviations.
 const DEVIATIONS: f64 = 4.0;
 
@@ -11,7 +11,7 @@ const DEVIATIONS: f64 = 4.0;
 #[derive(Debug)]
 pub struct Extent {
     clean: [f64; 2],
-    /// With flagged values and deviations.
+    /// With flagged values, and the clean ones' deviations.
     all: [f64; 2],
     least_deviation: f64,
 }
@@ -28,13 +28,15 @@ impl Extent {
 
     /// Adds a value with its deviation.
     pub fn add(&mut self, value: f64, deviation: f64, is_clean: bool) {
+        let mut about = 0.0;
         if is_clean {
             self.clean = [self.clean[0].min(value), self.clean[1].max(value)];
             self.least_deviation = self.least_deviation.min(deviation);
+            about = deviation;
         }
         self.all = [
-            self.all[0].min(value - deviation),
-            self.all[1].max(value + deviation),
+            self.all[0].min(value - about),
+            self.all[1].max(value + about),
         ];
     }
 
@@ -73,25 +75,21 @@ pub fn decimals(step: f64) -> usize {
     (-(step * 1.000_001).log10().floor()).clamp(0.0, 15.0) as usize
 }
 
-/// The power of a thousand that leaves numbers of this size 0.001 to 10000.
-pub fn exponent(size: f64) -> i32 {
-    if size > 0.0 && !(1e-3..1e4).contains(&size) {
-        3 * (size.log10() / 3.0).floor() as i32
-    } else {
-        0
+/// What numbers of this size are multiplied by so that few digits tell them, and how a title says so.
+pub fn factor(size: f64) -> (f64, String) {
+    if size == 0.0 || (1e-3..1e6).contains(&size) {
+        return (1.0, String::new());
     }
-}
-
-/// An exponent as it stands above a line.
-pub fn superscript(exponent: i32) -> String {
-    exponent
+    let power = -3 * (size.log10() / 3.0).floor() as i32;
+    // The font has no raised minus.
+    let sign = if power > 0 { '×' } else { '÷' };
+    let raised: String = power
+        .unsigned_abs()
         .to_string()
-        .chars()
-        .map(|digit| match digit.to_digit(10) {
-            Some(digit) => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize],
-            None => '⁻',
-        })
-        .collect()
+        .bytes()
+        .map(|digit| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][usize::from(digit - b'0')])
+        .collect();
+    (10f64.powi(power), format!(" {sign} 10{raised}"))
 }
 
 /// The unit of frequency that leaves a difference of this size 1 to 1000, and how many of it are 1 Hz.
@@ -101,5 +99,54 @@ pub fn frequency_unit(size: f64) -> (&'static str, f64) {
         1e-3.. => ("mHz", 1e3),
         1e-6.. => ("µHz", 1e6),
         _ => ("nHz", 1e9),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The range of values with their deviations, clean or not.
+    fn range(values: &[(f64, f64, bool)], least_span: f64) -> Option<Range<f64>> {
+        let mut extent = Extent::new();
+        for &(value, deviation, is_clean) in values {
+            extent.add(value, deviation, is_clean);
+        }
+        extent.range(least_span, 0.0)
+    }
+
+    #[test]
+    fn a_range_is_made_for_clean_rows() {
+        let clean = [(1.0, 0.0, true), (3.0, 0.0, true)];
+        assert_eq!(range(&clean, 0.0), Some(1.0..3.0));
+        // Flagged ones near them are seen, and wild ones take half of a span.
+        let with = |value, deviation, is_clean| {
+            range(&[clean[0], clean[1], (value, deviation, is_clean)], 0.0)
+        };
+        assert_eq!(with(3.5, 9.0, false), Some(1.0..3.5));
+        assert_eq!(with(99.0, 0.0, false), Some(1.0..4.0));
+        assert_eq!(with(2.0, 99.0, true), Some(0.0..4.0));
+        // Where all are flagged, they are all that there is.
+        assert_eq!(
+            range(&[(2.0, 0.0, false), (9.0, 0.0, false)], 0.0),
+            Some(2.0..9.0)
+        );
+        assert_eq!(range(&[], 1.0), None);
+    }
+
+    #[test]
+    fn a_constant_has_a_range_too() {
+        assert_eq!(range(&[(5.0, 0.0, true)], 1.0), Some(4.5..5.5));
+        assert_eq!(range(&[(5.0, 0.25, true)], 0.0), Some(4.75..5.25));
+    }
+
+    #[test]
+    fn numbers_have_the_digits_that_tell_them_apart() {
+        assert_eq!([20.0, 1.0, 0.5, 0.2, 0.01].map(decimals), [0, 0, 1, 1, 2]);
+        assert_eq!(decimals(0.3 - 0.2), 1);
+        assert_eq!(factor(0.05), (1.0, String::new()));
+        assert_eq!(factor(4.2e-6).1, " × 10⁶");
+        assert_eq!(factor(4.2e7), (1e-6, " ÷ 10⁶".to_owned()));
+        assert_eq!(frequency_unit(0.02), ("mHz", 1e3));
     }
 }

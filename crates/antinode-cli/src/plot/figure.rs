@@ -86,7 +86,10 @@ pub fn figure(traces: &[Trace], columns: usize) -> Option<Figure> {
         true => extent.range(LONE, BESIDE)?,
         false => span,
     };
-    let (scale, title) = time_scale(&span);
+    let (scale, title) = time_scale(
+        &span,
+        rows().map(|row| row.time).fold(f64::INFINITY, f64::min),
+    );
     let time = scale.axis(title, &span);
     let panels: Vec<_> = (0..COLUMNS.len())
         .map(|quantity| panel(traces, quantity, &span, scale, columns))
@@ -107,9 +110,9 @@ pub fn figure(traces: &[Trace], columns: usize) -> Option<Figure> {
 }
 
 /// Times of a clock that began long ago are told from their first second on.
-fn time_scale(span: &Range<f64>) -> (Scale, String) {
+fn time_scale(span: &Range<f64>, first: f64) -> (Scale, String) {
     let is_far = span.start.abs().max(span.end.abs()) > FAR * (span.end - span.start);
-    let less = if is_far { span.start.floor() } else { 0.0 };
+    let less = if is_far { first.floor() } else { 0.0 };
     let title = match less {
         0.0 => "time, s".to_owned(),
         less => format!("time − {less} s, s"),

@@ -181,3 +181,74 @@ pub fn median(numbers: &mut [f64]) -> Option<f64> {
     let middle = numbers.len() / 2;
     (!numbers.is_empty()).then(|| *numbers.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEADER: &str = "time_s,samples,main_amplitude,quadrature_amplitude,angle_rad,frequency_hz,residual_rms,flags,file\n";
+
+    fn traces(rows: &[(f64, u32, &str, &str)]) -> Vec<Trace> {
+        let lines = rows.iter().map(|(time, samples, flags, file)| {
+            format!("{time},{samples},0.5,0,0.1,5332,0.01,{flags},{file}\n")
+        });
+        let text: String = std::iter::once(HEADER.to_owned()).chain(lines).collect();
+        read(RowFile::new("it", text.as_bytes()).unwrap()).unwrap()
+    }
+
+    /// Places of the rows that a line begins with, beside the first.
+    fn begins(rows: &[(f64, u32, &str, &str)]) -> Vec<usize> {
+        let traces = traces(rows);
+        assert_eq!(traces.len(), 1);
+        let rows = traces[0].rows.iter().enumerate();
+        rows.filter(|(_, row)| row.begins).map(|(k, _)| k).collect()
+    }
+
+    #[test]
+    fn missing_rows_are_seen() {
+        let at =
+            |times: &[f64]| -> Vec<_> { times.iter().map(|&time| (time, 100, "", "a")).collect() };
+        assert!(begins(&at(&[0.0, 1.0, 2.1, 3.0, 4.0])).is_empty());
+        assert_eq!(
+            begins(&at(&[0.0, 1.0, 2.0, 4.0, 5.0, 6.0, 9.0, 12.0, 13.0])),
+            [3, 6, 7]
+        );
+        assert_eq!(begins(&at(&[0.0, 1.0, 2.0, 0.5, 1.5, 2.5])), [3]);
+        assert!(begins(&at(&[1.0])).is_empty());
+        // Windows that become longer on the way.
+        let longer = [(0.0, 100), (1.0, 100), (2.0, 100), (3.5, 200), (5.5, 200)];
+        assert!(begins(&longer.map(|(time, samples)| (time, samples, "", "a"))).is_empty());
+    }
+
+    #[test]
+    fn flags_tell_what_to_trust() {
+        let flags = ["", "lost+dead_channel", "reacquired", "misfit"];
+        let rows: Vec<_> = (0..4)
+            .map(|k| (f64::from(k), 100, flags[k as usize], "a"))
+            .collect();
+        assert_eq!(begins(&rows), [2]);
+        let trust = traces(&rows)[0]
+            .rows
+            .iter()
+            .map(|row| row.trust)
+            .collect::<Vec<_>>();
+        assert_eq!(
+            trust,
+            [Trust::Clean, Trust::Lost, Trust::Flagged, Trust::Flagged]
+        );
+    }
+
+    #[test]
+    fn each_recording_has_a_trace() {
+        let files = ["a", "a", "b", "a", "b"];
+        let rows: Vec<_> = (0..5)
+            .map(|k| (f64::from(k), 100, "", files[k as usize]))
+            .collect();
+        let traces = traces(&rows);
+        let lengths: Vec<_> = traces
+            .iter()
+            .map(|trace| (trace.name.as_str(), trace.rows.len()))
+            .collect();
+        assert_eq!(lengths, [("a", 3), ("b", 2)]);
+    }
+}

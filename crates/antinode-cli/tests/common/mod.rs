@@ -5,6 +5,8 @@
     reason = "every test file is a crate, and none uses all of this"
 )]
 
+pub mod svg;
+
 use std::f64::consts::TAU;
 use std::path::Path;
 

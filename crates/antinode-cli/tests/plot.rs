@@ -151,6 +151,12 @@ fn values_stand_where_they_belong() {
         texts.contains(&"frequency less its median of 5332.00200 Hz, mHz"),
         "{texts:?}"
     );
+    // 0.1 rad are 5.7°.
+    let mut angles = texts.iter().skip_while(|text| **text != TITLES[2]);
+    assert!(
+        angles.by_ref().take(9).any(|text| *text == "4"),
+        "{texts:?}"
+    );
     assert!(!texts.contains(&"flagged rows"));
 }
 
@@ -223,6 +229,28 @@ fn what_has_no_number_is_skipped() {
             vec![6, 2]
         ]
     );
+}
+
+#[test]
+fn a_flagged_value_far_from_the_others_ends_at_the_edge() {
+    let directory = tempfile::tempdir().unwrap();
+    let lines: String = (0..9)
+        .map(|k| match k {
+            4 => "4,900,0.001,900,900,9000,900,misfit,a\n".to_owned(),
+            _ => format!("{k},0.{k},0.001,0.{k},0.{k},533{k},0.{k},,a\n"),
+        })
+        .collect();
+    let svg = drawn(
+        directory.path(),
+        &(HEADER.to_owned() + &lines),
+        "9 rows of a; 1 flagged",
+    );
+    for panel in svg.panels() {
+        // What is clean fills half of the panel and more.
+        let line = &svg.lines(&panel, FIRST)[0];
+        let height = panel.down.end - panel.down.start;
+        assert!(line[0].1 - line[8].1 > 0.5 * height && line[4].1 < line[8].1);
+    }
 }
 
 #[test]

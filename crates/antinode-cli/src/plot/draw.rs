@@ -182,7 +182,7 @@ where
     for (index, pieces) in panel.curves.iter().enumerate().rev() {
         let colour = legend.colour(index);
         for piece in pieces {
-            draw_piece(plane, piece, range, colour, medium)?;
+            draw_piece(plane, piece, colour, medium)?;
         }
     }
     let (_, height) = plane.dim_in_pixel();
@@ -207,23 +207,18 @@ where
 fn draw_piece<B: DrawingBackend>(
     plane: &DrawingArea<B, Cartesian2d<RangedCoordf64, RangedCoordf64>>,
     piece: &Piece,
-    range: &std::ops::Range<f64>,
     colour: RGBColor,
     Medium { units, joins }: Medium,
 ) -> Result<(), Box<dyn Error>>
 where
     B::ErrorType: 'static,
 {
-    let within = |value: f64| value.clamp(range.start, range.end);
+    // What lies beyond the plane plotters holds at its edge.
     let edge = |which: usize| {
         let band = piece.band.iter();
-        band.map(move |(time, edges)| (*time, within(edges[which])))
+        band.map(move |(time, edges)| (*time, edges[which]))
     };
-    let line: Vec<_> = piece
-        .line
-        .iter()
-        .map(|&(time, value)| (time, within(value)))
-        .collect();
+    let line = &piece.line;
     let stroke = colour.stroke_width(units);
     let has_band = piece.band.iter().any(|(_, edges)| edges[0] < edges[1]);
     if let [point] = line[..] {

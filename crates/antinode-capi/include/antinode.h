@@ -43,8 +43,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// The shortest period that is searched, sample pairs. Where no frequency is known, a wave outside this and ANTINODE_LONGEST_PERIOD is not found, unless sampling folds it to a
-// period within: no estimate, no flag and no status tells, only `searching` of antinode_health_t, which stays 1. Watch it.
+// The shortest period that is searched, sample pairs. Where no frequency is known, a wave outside this and ANTINODE_LONGEST_PERIOD
+// is not found, unless sampling folds it to a period within: no estimate, no flag and no status tells, only `searching` of
+// antinode_health_t, which stays 1. Watch it.
 #define ANTINODE_SHORTEST_PERIOD 4
 
 // The longest period, sample pairs.

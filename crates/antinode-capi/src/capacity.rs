@@ -5,8 +5,9 @@ use core::mem::{align_of, size_of};
 
 use crate::state::State;
 
-/// The shortest period that is searched, sample pairs. Where no frequency is known, a wave outside this and ANTINODE_LONGEST_PERIOD is not found, unless sampling folds it to a
-/// period within: no estimate, no flag and no status tells, only `searching` of antinode_health_t, which stays 1. Watch it.
+/// The shortest period that is searched, sample pairs. Where no frequency is known, a wave outside this and ANTINODE_LONGEST_PERIOD
+/// is not found, unless sampling folds it to a period within: no estimate, no flag and no status tells, only `searching` of
+/// antinode_health_t, which stays 1. Watch it.
 pub const ANTINODE_SHORTEST_PERIOD: usize = 4;
 /// The longest period, sample pairs.
 pub const ANTINODE_LONGEST_PERIOD: usize = 200;

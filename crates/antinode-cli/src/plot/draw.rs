@@ -32,6 +32,10 @@ const LABEL: u32 = 14;
 /// Height of the marks of flagged rows.
 const MARK: i32 = 7;
 pub(super) const FLAGGED: RGBColor = RGBColor(220, 0, 0);
+/// Numbers along an axis, at the most.
+const TIMES: usize = 11;
+const VALUES: usize = 6;
+
 /// How a format is drawn.
 #[derive(Debug, Clone, Copy)]
 struct Medium {
@@ -49,10 +53,6 @@ const PNG: Medium = Medium {
     units: 2,
     joins: false,
 };
-/// Numbers along an axis, at the most.
-const TIMES: usize = 11;
-const VALUES: usize = 6;
-
 /// How a figure is written.
 #[derive(Debug, Clone, Copy)]
 pub enum Format {

@@ -20,15 +20,15 @@ const FREQUENCY: usize = 3;
 const RESIDUAL: usize = 4;
 /// An axis spans no less than this share of its numbers' size: less is rounding, and would need too many digits.
 const LEAST_SHARE: f64 = 2e-6;
+/// What is left over scatters far more than that.
+const LEAST_OF_RESIDUAL: f64 = 0.02;
+/// Frequencies have thirteen digits.
+const LEAST_OF_FREQUENCY: f64 = 1e-11;
 /// The time axis of one row, s.
 const LONE: f64 = 1.0;
 /// Margins beside all rows, and above and below all values, as shares of their span.
 const BESIDE: f64 = 0.01;
 const ABOVE: f64 = 0.08;
-/// What is left over scatters far more than that.
-const LEAST_OF_RESIDUAL: f64 = 0.02;
-/// Frequencies have thirteen digits.
-const LEAST_OF_FREQUENCY: f64 = 1e-11;
 /// Times this many spans from 0 are told as differences.
 const FAR: f64 = 1e4;
 

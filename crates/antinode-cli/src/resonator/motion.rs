@@ -9,8 +9,9 @@
 //! where 1/τ is the mean of the damping of both modes and δ its split, Δω the split of the frequencies in rad/s, c and s the cosine and sine
 //! of four times the angle at which the damping, or the frequency, is greatest, and −κ/2 what rotation turns the pattern by.
 
-use crate::runs::turn;
 use nalgebra::{Matrix3x4, Matrix4, Matrix4x3, SMatrix, Vector3, Vector4};
+
+use crate::runs::turn;
 
 /// What moves a wave: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, κ.
 pub const RATES: usize = 6;

@@ -125,7 +125,7 @@ pub(crate) fn within(
     let known = noise.freedom > 0.0;
     // White noise is the same about the carrier and about its third harmonic. A first window has no other noise to be compared with, and
     // one block's fault may be in that too: to leave out the worst of n makes chance no more than n times as likely.
-    let (third_noise, reach) = if known {
+    let (about_third, reach) = if known {
         (remains.third_noise, REACH)
     } else {
         let least = lesser(remains.third_noise, remains.third_spared);
@@ -133,8 +133,8 @@ pub(crate) fn within(
     };
     let beyond = variance - 4.0 * floor;
     let coloured = remains.third_freedom >= 12.0
-        && beyond > COLOUR * third_noise
-        && beyond > limit_of(reach, remains.freedom, remains.third_freedom) * third_noise;
+        && beyond > COLOUR * about_third
+        && beyond > limit_of(reach, remains.freedom, remains.third_freedom) * about_third;
     // What is white is seen better in both together.
     let both = remains.freedom + remains.third_freedom;
     let wide = (remains.residual + remains.third_noise * remains.third_freedom) / both;

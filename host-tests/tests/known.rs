@@ -156,6 +156,33 @@ fn a_wave_elsewhere_gives_no_row() {
 }
 
 #[test]
+fn no_row_of_a_wave_elsewhere_is_clean() {
+    for (periods, samples) in [(10, 6000), (50, 20_000)] {
+        let mut flagged = 0;
+        // From a third of the frequency to three times it.
+        for hundredths in (-67..=-20).chain(20..=200) {
+            let off = 0.01 * f64::from(hundredths);
+            for (noise, seed) in [1e-6, 0.001, 0.02].into_iter().zip(0..) {
+                let (wave, mut flaws) = noisy(18.75, seed);
+                flaws.noise = noise * wave.main_amplitude;
+                let settings = told(periods, wave.frequency, off);
+                let found = identify(wave, &flaws, settings, samples, seed);
+                for estimate in &found {
+                    assert!(
+                        !estimate.flags.is_empty(),
+                        "told {off:.2} off, noise {noise}: {estimate:?}"
+                    );
+                }
+                flagged += found.len();
+            }
+        }
+        // Mostly there is none at all.
+        println!("{periods} periods: {flagged} flagged rows");
+        assert!(flagged > 0);
+    }
+}
+
+#[test]
 fn a_frequency_of_which_no_block_holds_a_period_is_refused() {
     let refused = |frequency: f32| Core::new(told(10, f64::from(frequency), 0.0)).err();
     let (highest, lowest) = (RATE as f32 / 2.5, RATE as f32 / 256.4);

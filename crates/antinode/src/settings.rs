@@ -42,8 +42,8 @@ pub struct Settings {
     /// errors that repeat with it and do not average: with this they count in the standard deviations. Of codes it is 1.
     pub resolution: Option<f32>,
     /// The wave's frequency in Hz, within 5 %, where it is known: it is then not searched, and the first window begins with the first
-    /// sample, in noise nearly as large as the wave too. 2.5 to `N` samples a period, the most that a block holds. Near another wave
-    /// windows may look well and mean nothing. `None`: the period is found as `detection` says.
+    /// sample, in noise nearly as large as the wave too. 2.5 to `N` samples a period, the most that a block holds. Where the
+    /// wave is elsewhere, there is no window, or a flagged one. `None`: the period is found as `detection` says.
     pub frequency: Option<f32>,
     /// How the period is found from cold.
     pub detection: Detection,

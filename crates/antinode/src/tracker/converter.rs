@@ -73,10 +73,14 @@ fn phases(frequency: PhaseStep, samples: f32, width: f32) -> f32 {
 
 /// Deviations of the noise that a sample may lie beyond the wave: less than one in 10¹⁴ lies further.
 const SIGMAS: f32 = 8.0;
+/// Deviations of the noise that samples of every block may lie beyond a first window's wave, and a quarter of that wave besides: those of a
+/// wave at another frequency lie further, though its sums look like so much noise.
+const SIGMAS_OF_ALL: f32 = 4.0;
 /// How far samples may lie beyond the wave and its noise, as a share of a_A: common electronics have harmonics.
 const BEYOND: f32 = 0.01;
 
-/// Faults that single samples show, in a window of blocks of a wave of `step` a sample and with a noise variance of `noise`.
+/// Faults that single samples show, in a window of blocks of a wave of `step` a sample and with a noise variance of `noise`; `is_first`
+/// where no clean window was before.
 #[inline]
 pub(super) fn sample_flags(
     settings: &Settings,
@@ -85,6 +89,7 @@ pub(super) fn sample_flags(
     fit: &Fit,
     wave: &Standing,
     noise: f32,
+    is_first: bool,
 ) -> Flags {
     let broken = !(wave.record.main.value + wave.record.quadrature.value).is_finite();
     let flags = Flags::empty().with_if(broken, Flags::NOT_FINITE.with(Flags::LOST));
@@ -103,10 +108,12 @@ pub(super) fn sample_flags(
             }
         }
     };
-    let apart = SIGMAS * square_root(noise) + BEYOND * wave.record.main.value;
+    let (main, deviation) = (wave.record.main.value, square_root(noise));
+    let misfit = range.is_beyond(fit, SIGMAS * deviation + BEYOND * main)
+        || is_first && are_all_beyond(blocks, fit, SIGMAS_OF_ALL * deviation + 0.25 * main);
     flags
         .with_if(clipped, Flags::CLIPPED)
-        .with_if(range.is_beyond(fit, apart), Flags::MISFIT)
+        .with_if(misfit, Flags::MISFIT)
         .with_if(
             (0..2).any(|i| range.low[i] == range.high[i]),
             Flags::DEAD_CHANNEL,
@@ -156,15 +163,35 @@ impl Range {
 
     /// True when samples lie `apart` beyond the wave: what does is not of it, but a tone, say, that the sums of whole blocks do not see.
     fn is_beyond(&self, fit: &Fit, apart: f32) -> bool {
-        (0..2).any(|i| {
-            let (above, below) = (self.high[i] - fit.offsets[i], fit.offsets[i] - self.low[i]);
-            let (rest, reach) = (greater(above, below) - apart, fit.reach[i]);
-            // Hum lies as far beyond again.
-            let hum = 4.0 * square_root(fit.remains.wander[i]);
-            let is_more = |rest: f32| rest > 0.0 && rest * rest > reach;
-            is_more(rest) && is_more(rest - hum)
-        })
+        (0..2).any(|i| is_beyond(fit, i, self.low[i], self.high[i], apart))
     }
+}
+
+/// True when samples of every block lie `apart` beyond the wave.
+#[cold]
+#[inline(never)]
+fn are_all_beyond(blocks: &[Seen], fit: &Fit, apart: f32) -> bool {
+    let mut watched = blocks.iter().filter_map(|block| block.watched.as_ref());
+    watched.all(|watched| {
+        let mut extremes = (0..2).zip(&watched.extremes);
+        extremes.any(|(i, seen)| is_beyond(fit, i, seen.low, seen.high, apart))
+    })
+}
+
+/// True when samples of pick-off `i` from `low` to `high` lie `apart` beyond the wave.
+#[inline(never)]
+fn is_beyond(fit: &Fit, i: usize, low: f32, high: f32, apart: f32) -> bool {
+    let offset = fit.offsets[i & 1];
+    let (rest, reach) = (
+        greater(high - offset, offset - low) - apart,
+        fit.reach[i & 1],
+    );
+    if rest <= 0.0 || rest * rest <= reach {
+        return false;
+    }
+    // Hum lies as far beyond again.
+    let rest = rest - 4.0 * square_root(fit.remains.wander[i & 1]);
+    rest > 0.0 && rest * rest > reach
 }
 
 #[cfg(test)]

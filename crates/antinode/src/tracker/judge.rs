@@ -71,6 +71,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             fit,
             wave,
             greater(own, wave.noise),
+            self.before.is_none(),
         ));
         let mut between = Flags::empty();
         if let Some(before) = &self.before {

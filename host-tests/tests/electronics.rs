@@ -102,8 +102,9 @@ fn a_tone_that_whole_blocks_do_not_see_is_flagged() {
 }
 
 #[test]
-fn a_pick_off_that_dies_is_told_whatever_its_gain() {
-    for gain_ratio in [0.1, 1.0, 10.0] {
+fn a_pick_off_that_dies_is_told_whatever_its_gain_and_a_wave_that_ends_is_no_dead_pick_off() {
+    let cases = [0.1, 1.0, 10.0].map(|gain| [(gain, false), (gain, true)]);
+    for (gain_ratio, is_end) in cases.into_iter().flatten() {
         let (wave, _) = gyro(3);
         let wave = Wave { angle: 0.3, ..wave };
         let flaws = Flaws {
@@ -126,17 +127,25 @@ fn a_pick_off_that_dies_is_told_whatever_its_gain() {
         let mut core = Core::new(settings).unwrap();
         let pairs = gyro.zip(dead).take(40_000).enumerate();
         let estimates = pairs.filter_map(|(k, (pair, dead))| {
+            let c = if k < 20_000 || !is_end {
+                pair.c
+            } else {
+                dead.c
+            };
             let d = if k < 20_000 { pair.d } else { dead.d };
-            core.push([pair.c as f32, d as f32])
+            core.push([c as f32, d as f32])
         });
-        let after: Vec<_> = estimates.filter(|e| e.start > 20_200).collect();
-        assert!(after.len() > 90);
+        let estimates: Vec<Estimate> = estimates.collect();
         let told = |e: &&Estimate| e.flags.contains(Flags::DEAD_CHANNEL);
-        assert_eq!(
-            after.iter().filter(told).count(),
-            after.len(),
-            "gain {gain_ratio}"
-        );
+        if is_end {
+            let is_lost = |e: &Estimate| e.flags.contains(Flags::LOST);
+            assert!(estimates.iter().any(is_lost), "gain {gain_ratio}");
+            assert_eq!(estimates.iter().find(told), None, "gain {gain_ratio}");
+            continue;
+        }
+        let after = estimates.iter().filter(|e| e.start > 20_200);
+        assert!(after.clone().count() > 90);
+        assert_eq!(after.clone().find(|e| !told(e)), None, "gain {gain_ratio}");
     }
 }
 

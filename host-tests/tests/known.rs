@@ -145,6 +145,32 @@ fn a_wave_that_comes_back_is_taken_up_without_a_search() {
 }
 
 #[test]
+fn whether_there_is_a_wave_is_told_where_nothing_is_searched() {
+    let (wave, flaws) = gyro(3);
+    let pairs = host_tests::stream(wave, flaws.clone(), 10_000, 3);
+    let mut seed = 1u32;
+    let silence: Vec<_> = pairs
+        .iter()
+        .map(|_| {
+            [(); 2].map(|()| {
+                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                1e-3 * ((seed >> 8) as f32 / 8_388_608.0 - 1.0)
+            })
+        })
+        .collect();
+    for off in [0.0, 0.3] {
+        let mut core = Core::new(told(10, wave.frequency, off)).unwrap();
+        let is_there = off == 0.0;
+        assert!(!core.has_wave());
+        for (pairs, is_told) in [(&pairs, is_there), (&silence, false), (&pairs, is_there)] {
+            core.extend(pairs, |_| ());
+            assert_eq!(core.has_wave(), is_told, "told {off} off");
+            assert!(!core.is_searching());
+        }
+    }
+}
+
+#[test]
 fn a_wave_elsewhere_gives_no_row() {
     for off in [-0.2, -0.15, -0.1, 0.1, 0.15, 0.2, 0.3, 0.5] {
         for seed in 0..40 {

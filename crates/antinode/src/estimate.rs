@@ -136,7 +136,7 @@ impl defmt::Format for Flags {
 /// Each `_std` is one standard deviation, from the information in the window's samples and their noise: that of its own residual and
 /// of the clean windows before, which count twice as much at most, unless it has grown beyond them.
 ///
-/// Of a window without a wave, [`Flags::LOST`], no number means anything: an amplitude may be 0, all else NaN or infinite.
+/// Of a window without a wave, [`Flags::LOST`], no number means anything, and some may be NaN or infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Estimate {

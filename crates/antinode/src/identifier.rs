@@ -121,6 +121,11 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         self.front.is_searching()
     }
 
+    /// True from the first window that shows a wave to the first that shows none, as [`Tracker::has_wave`].
+    pub fn has_wave(&self) -> bool {
+        self.tracker.has_wave()
+    }
+
     /// Sample pairs taken so far, lost ones among them.
     pub fn index(&self) -> u64 {
         self.front.index()

@@ -109,6 +109,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let left = |before: &Record| record.main.value < LEFT * before.main.value;
         let is_little = is_no_wave || self.before.as_ref().is_some_and(left);
         self.failures.take(flags, fit.settled, is_little);
+        self.found = !flags.contains(Flags::LOST);
         if fit.settled && !flags.contains(Flags::LOST) {
             let is_clean = !flags.intersects(BROKEN);
             if self.lost || !is_certain && is_clean {
@@ -127,11 +128,12 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         Some(flags)
     }
 
-    /// True when a pick-off that showed the wave in the last clean window shows none now.
+    /// True when one pick-off that showed the wave in the last clean window shows none now, and the other does.
     fn has_fallen_silent(&self, now: &Record) -> bool {
         self.before.as_ref().is_some_and(|before| {
             (0..2).any(|i| {
                 now.is_silent(i)
+                    && !now.is_silent(1 - i)
                     && before.channel_power[i] > 4.0 * now.channel_power[i]
                     && !before.is_silent(i)
             })

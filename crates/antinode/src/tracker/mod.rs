@@ -54,6 +54,8 @@ pub struct Tracker<const BLOCKS: usize> {
     failures: Failures,
     /// True while a fault lies between the last clean window and the next.
     broken: bool,
+    /// True where the last window showed a wave.
+    found: bool,
 }
 
 impl<const BLOCKS: usize> Tracker<BLOCKS> {
@@ -86,6 +88,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             ever: false,
             failures: Failures::NONE,
             broken: false,
+            found: false,
         }
     }
 
@@ -202,12 +205,19 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.failures.are_enough()
     }
 
+    /// True from the first window that shows a wave to the first that shows none. Where a frequency is known and the wave is elsewhere, or
+    /// there is none, no estimate, flag or search tells: this stays false.
+    pub fn has_wave(&self) -> bool {
+        self.found
+    }
+
     /// Drops the wave and the blocks gathered, but not the angle: with the next block a first window begins, and the angle found there is
     /// the one nearest to the last.
     pub fn forget(&mut self) {
         self.model = None;
         self.gathered.clear();
         self.failures = Failures::NONE;
+        self.found = false;
     }
 
     /// Changes the calibration: the next block starts a new first window, flagged [`Flags::REACQUIRED`], its angle continued. The front

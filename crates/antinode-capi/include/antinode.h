@@ -24,7 +24,7 @@
  *  - One call of each side may be under way at once: the interrupt may break into the thread anywhere, or run on another core that
  *    shares coherent memory.
  *  - _health may be called from anywhere at any time except during _init and _reset; the functions without a state at any time.
- *  - _init, _reset and _identify use both sides: nothing else of that state may be under way.
+ *  - _init, _reset and _identify use both sides: nothing else of that state may be under way, but _health during _identify.
  *  - States are independent of each other.
  *
  * The interrupt's cost on a Cortex-M4: while a period is searched 370 to 570 instructions a sample pair, then 10 to 70; up to 0.8 KiB
@@ -32,8 +32,8 @@
  * has them: what saves them for threads must save them for this interrupt (lazy stacking; Zephyr: CONFIG_FPU_SHARING).
  *
  * Errors: a NULL or misaligned pointer, a state that was not initialised and a value out of range give a status below 0, and
- * nothing is done. A pointer that is neither must point to what its type says; a state must be changed by these functions only.
- * Any sample is valid, NaN too. No function panics, aborts or blocks.
+ * nothing is done; but a state whose _init failed is no longer initialised. A pointer that is neither must point to what its type
+ * says; a state must be changed by these functions only. Any sample is valid, NaN too. No function panics, aborts or blocks.
  */
 
 
@@ -44,8 +44,8 @@
 #include <stdint.h>
 
 // The shortest period that is searched, sample pairs. Where no frequency is known, a wave outside this and ANTINODE_LONGEST_PERIOD
-// is not found, unless sampling folds it to a period within: no estimate, no flag and no status tells, only `searching` of
-// antinode_health_t, which stays 1. Watch it.
+// is not found, unless sampling folds it to a period within: no estimate, no flag and no status tells, only `has_wave` of
+// antinode_health_t, which stays 0. Watch it.
 #define ANTINODE_SHORTEST_PERIOD 4
 
 // The longest period, sample pairs.
@@ -54,8 +54,10 @@
 // The most periods a window may have.
 #define ANTINODE_MOST_PERIODS 50
 
-// Finished blocks that the queue holds, the one being solved among them. In windows of ten periods and more a block is two periods,
-// or one where there is a hop: nearly 32 periods, or 16, may pass between two calls of a `_solve` function.
+// Finished blocks that the queue holds, the one being solved among them. A block is the least of two periods, a fifth of a window and
+// ANTINODE_LONGEST_PERIOD sample pairs, or half of that where there is a hop. No more than 15 blocks should be finished between two calls
+// of a `_solve` function, nor by one call of a `_push_block` function: of 18.75 samples a period 560 pairs in windows of
+// ten periods and more, but 105 in windows of two.
 #define ANTINODE_QUEUE_BLOCKS 16
 
 // 64-bit words of an `antinode_fixed_t`.
@@ -67,7 +69,7 @@
 // Samples at the converter's rail, or the third harmonic that a limiter leaves: amplitudes are wrong.
 #define ANTINODE_FLAG_CLIPPED 1u
 
-// No significant wave: nothing in the estimate is meant; an amplitude may be 0, all else NaN or infinite.
+// No significant wave: no number of the estimate means anything, and some may be NaN or infinite.
 #define ANTINODE_FLAG_LOST 2u
 
 // The phase does not continue that of the last window without a misfit: samples are missing between or within them.
@@ -86,10 +88,10 @@
 #define ANTINODE_FLAG_DEAD_CHANNEL 64u
 
 // First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo pi/2
-// only. Also the first window after a new calibration.
+// only. Also the first window after a new calibration, unless it is the first of all.
 #define ANTINODE_FLAG_REACQUIRED 128u
 
-// A sample that is not a number.
+// A sample that is no finite number, or one so large that its sums are none.
 #define ANTINODE_FLAG_NOT_FINITE 256u
 
 // The period is found by the squared difference, in about three periods, at any offset, at 20 % noise and more.
@@ -117,12 +119,12 @@ enum
     ANTINODE_ERROR_NULL = -1,
     // A pointer is not aligned as its type demands.
     ANTINODE_ERROR_ALIGNMENT = -2,
-    // The state was never initialised, or is one of the other arithmetic.
+    // The state was never initialised, its last `_init` failed, or it is one of the other arithmetic.
     ANTINODE_ERROR_NOT_INITIALISED = -3,
     // An array would be larger than the address space.
     ANTINODE_ERROR_COUNT = -4,
     // The pairs were taken, but the queue was full and at least one finished block was dropped, a gap as by a `_skip` function: call
-    // `_solve` more often.
+    // `_solve` more often, or push fewer pairs at once, see ANTINODE_QUEUE_BLOCKS.
     ANTINODE_ERROR_QUEUE_FULL = -5,
     // `sample_rate_hz` is not within 1 to 1e10.
     ANTINODE_ERROR_SAMPLE_RATE = -10,
@@ -168,7 +170,7 @@ typedef struct {
 typedef struct {
     // Gain of channel D over that of channel C. 0.1 to 10; 1 is ideal.
     float gain_ratio;
-    // How much later than C channel D is sampled, s. Within +-0.001 and +- a quarter period; 0 is ideal.
+    // How much later than C channel D is sampled, s. Within +-0.001, and within +- a quarter period, which is not checked; 0 is ideal.
     float skew_s;
     // Pick-off D stands at 45 degrees plus this angle from C, rad. Within +-0.3; 0 is ideal.
     float pick_off_angle_rad;
@@ -197,13 +199,14 @@ typedef struct {
     float frequency_hz;
     // How the period is found: ANTINODE_DETECTION_DIFFERENCE, the default, or ANTINODE_DETECTION_MEAN_RETURN.
     uint32_t detection;
-    // 1, the default: the third harmonic and the extremes of the samples are watched, which ANTINODE_FLAG_CLIPPED and
-    // ANTINODE_FLAG_DEAD_CHANNEL need. 0: not, which about halves the work at sample rate.
+    // 1, the default: the third harmonic and the extremes of the samples are watched: without, ANTINODE_FLAG_CLIPPED is never set, and
+    // ANTINODE_FLAG_DEAD_CHANNEL only where a wave goes. 0: not, which about halves the work at sample rate.
     uint32_t watch;
     // How the pick-offs differ from ideal ones. Default: not at all.
     antinode_calibration_t calibration;
     // 1 where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
-    // only moves an offset is neither noise nor a fault. 0, the default: not.
+    // only moves an offset is neither noise nor a fault. In windows of less than five periods, or ten where there is a hop, blocks are
+    // shorter, and this does nothing. 0, the default: not.
     uint32_t hum;
     // Not read, default 0: the struct ends at a multiple of eight bytes on every machine.
     uint32_t reserved;
@@ -259,9 +262,11 @@ typedef struct {
 
 // How an identification fares, from counters that either side may read.
 typedef struct {
-    // 1 while a period is searched, 0 while blocks are gathered. It stays 1 where there is no wave within the periods of
-    // ANTINODE_SHORTEST_PERIOD to ANTINODE_LONGEST_PERIOD samples.
+    // 1 while a period is searched, 0 while blocks are gathered; always 0 where `frequency_hz` is known.
     uint32_t searching;
+    // 1 from the first window that shows a wave, when it is solved, to the first that shows none. Where it stays 0 there is no wave, or
+    // none within the periods that are searched, or none at the frequency that is known: nothing else tells.
+    uint32_t has_wave;
     // Finished blocks that wait to be solved, 0 to ANTINODE_QUEUE_BLOCKS.
     uint32_t waiting;
     // Finished blocks dropped since the start because the queue was full; it wraps.

@@ -296,13 +296,10 @@ pub(crate) unsafe fn identify_pairs<S: Arithmetic, O>(
         let pairs = unsafe { slice(pairs, count)? };
         check(taken)?;
         check(estimate)?;
-        // SAFETY: all three are parts of one initialised state that nobody else uses.
+        // SAFETY: two parts of one initialised state that nobody else uses, and the third, which `health` may read meanwhile.
         let (count, found) = unsafe {
-            let state = &mut *state;
-            identify(
-                (&mut state.interrupt, &mut state.thread, &state.shared),
-                pairs,
-            )
+            let (interrupt, thread) = (&mut (*state).interrupt, &mut (*state).thread);
+            identify((interrupt, thread, &(*state).shared), pairs)
         };
         // SAFETY: looked at.
         unsafe { taken.write(count) };

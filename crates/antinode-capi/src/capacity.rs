@@ -6,15 +6,17 @@ use core::mem::{align_of, size_of};
 use crate::state::State;
 
 /// The shortest period that is searched, sample pairs. Where no frequency is known, a wave outside this and ANTINODE_LONGEST_PERIOD
-/// is not found, unless sampling folds it to a period within: no estimate, no flag and no status tells, only `searching` of
-/// antinode_health_t, which stays 1. Watch it.
+/// is not found, unless sampling folds it to a period within: no estimate, no flag and no status tells, only `has_wave` of
+/// antinode_health_t, which stays 0. Watch it.
 pub const ANTINODE_SHORTEST_PERIOD: usize = 4;
 /// The longest period, sample pairs.
 pub const ANTINODE_LONGEST_PERIOD: usize = 200;
 /// The most periods a window may have.
 pub const ANTINODE_MOST_PERIODS: usize = 50;
-/// Finished blocks that the queue holds, the one being solved among them. In windows of ten periods and more a block is two periods,
-/// or one where there is a hop: nearly 32 periods, or 16, may pass between two calls of a `_solve` function.
+/// Finished blocks that the queue holds, the one being solved among them. A block is the least of two periods, a fifth of a window and
+/// ANTINODE_LONGEST_PERIOD sample pairs, or half of that where there is a hop. No more than 15 blocks should be finished between two calls
+/// of a `_solve` function, nor by one call of a `_push_block` function: of 18.75 samples a period 560 pairs in windows of
+/// ten periods and more, but 105 in windows of two.
 pub const ANTINODE_QUEUE_BLOCKS: usize = 16;
 
 /// Blocks of the ring that windows are cut from: a little more than the periods of a window.

@@ -6,7 +6,7 @@ use antinode::Flags;
 
 /// Samples at the converter's rail, or the third harmonic that a limiter leaves: amplitudes are wrong.
 pub const ANTINODE_FLAG_CLIPPED: u32 = 0x001_u32;
-/// No significant wave: nothing in the estimate is meant; an amplitude may be 0, all else NaN or infinite.
+/// No significant wave: no number of the estimate means anything, and some may be NaN or infinite.
 pub const ANTINODE_FLAG_LOST: u32 = 0x002_u32;
 /// The phase does not continue that of the last window without a misfit: samples are missing between or within them.
 pub const ANTINODE_FLAG_PHASE_JUMP: u32 = 0x004_u32;
@@ -19,9 +19,9 @@ pub const ANTINODE_FLAG_MISFIT: u32 = 0x020_u32;
 /// A pick-off gave one and the same value, or lost its wave while the other kept it.
 pub const ANTINODE_FLAG_DEAD_CHANNEL: u32 = 0x040_u32;
 /// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
-/// only. Also the first window after a new calibration.
+/// only. Also the first window after a new calibration, unless it is the first of all.
 pub const ANTINODE_FLAG_REACQUIRED: u32 = 0x080_u32;
-/// A sample that is not a number.
+/// A sample that is no finite number, or one so large that its sums are none.
 pub const ANTINODE_FLAG_NOT_FINITE: u32 = 0x100_u32;
 
 /// The bits that the header names are those of the core, and all of them.

@@ -16,7 +16,7 @@ pub const ANTINODE_DETECTION_MEAN_RETURN: u32 = 1_u32;
 pub struct Calibration {
     /// Gain of channel D over that of channel C. 0.1 to 10; 1 is ideal.
     pub gain_ratio: f32,
-    /// How much later than C channel D is sampled, s. Within ±0.001 and ± a quarter period; 0 is ideal.
+    /// How much later than C channel D is sampled, s. Within ±0.001, and within ± a quarter period, which is not checked; 0 is ideal.
     pub skew_s: f32,
     /// Pick-off D stands at 45° plus this angle from C, rad. Within ±0.3; 0 is ideal.
     pub pick_off_angle_rad: f32,
@@ -47,13 +47,14 @@ pub struct Settings {
     pub frequency_hz: f32,
     /// How the period is found: ANTINODE_DETECTION_DIFFERENCE, the default, or ANTINODE_DETECTION_MEAN_RETURN.
     pub detection: u32,
-    /// 1, the default: the third harmonic and the extremes of the samples are watched, which ANTINODE_FLAG_CLIPPED and
-    /// ANTINODE_FLAG_DEAD_CHANNEL need. 0: not, which about halves the work at sample rate.
+    /// 1, the default: the third harmonic and the extremes of the samples are watched: without, ANTINODE_FLAG_CLIPPED is never set, and
+    /// ANTINODE_FLAG_DEAD_CHANNEL only where a wave goes. 0: not, which about halves the work at sample rate.
     pub watch: u32,
     /// How the pick-offs differ from ideal ones. Default: not at all.
     pub calibration: Calibration,
     /// 1 where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
-    /// only moves an offset is neither noise nor a fault. 0, the default: not.
+    /// only moves an offset is neither noise nor a fault. In windows of less than five periods, or ten where there is a hop, blocks are
+    /// shorter, and this does nothing. 0, the default: not.
     pub hum: u32,
     /// Not read, default 0: the struct ends at a multiple of eight bytes on every machine.
     pub reserved: u32,

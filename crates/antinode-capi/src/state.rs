@@ -44,6 +44,8 @@ pub(crate) struct Shared<S: Sample> {
     pub wanted: AtomicU32,
     /// 1 while a period is searched. Written by the interrupt.
     pub searching: AtomicU32,
+    /// 1 while there is a wave. Written by the thread.
+    has_wave: AtomicU32,
     /// Blocks that found no place in the queue. Written by the interrupt.
     pub dropped: AtomicU32,
 }
@@ -58,9 +60,11 @@ pub(crate) struct Thread {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(C)]
 pub struct Health {
-    /// 1 while a period is searched, 0 while blocks are gathered. It stays 1 where there is no wave within the periods of
-    /// ANTINODE_SHORTEST_PERIOD to ANTINODE_LONGEST_PERIOD samples.
+    /// 1 while a period is searched, 0 while blocks are gathered; always 0 where `frequency_hz` is known.
     pub searching: u32,
+    /// 1 from the first window that shows a wave, when it is solved, to the first that shows none. Where it stays 0 there is no wave, or
+    /// none within the periods that are searched, or none at the frequency that is known: nothing else tells.
+    pub has_wave: u32,
     /// Finished blocks that wait to be solved, 0 to ANTINODE_QUEUE_BLOCKS.
     pub waiting: u32,
     /// Finished blocks dropped since the start because the queue was full; it wraps.
@@ -79,6 +83,7 @@ impl<S: Sample> Shared<S> {
             Queue::write(&raw mut (*place).queue);
             (&raw mut (*place).wanted).write(AtomicU32::new(0));
             (&raw mut (*place).searching).write(AtomicU32::new(searching.into()));
+            (&raw mut (*place).has_wave).write(AtomicU32::new(0));
             (&raw mut (*place).dropped).write(AtomicU32::new(0));
         }
     }
@@ -119,6 +124,7 @@ impl<S: Sample> Shared<S> {
     pub(crate) fn health(&self) -> Health {
         Health {
             searching: self.searching.load(Ordering::Relaxed),
+            has_wave: self.has_wave.load(Ordering::Relaxed),
             waiting: self.queue.len(),
             dropped: self.dropped.load(Ordering::Relaxed),
         }
@@ -166,6 +172,8 @@ impl Thread {
         let estimate = S::solve(&mut self.tracker, &entry.block);
         if self.tracker.has_lost() {
             self.search(shared);
+        } else {
+            self.tell(shared);
         }
         estimate.map(Estimate::from)
     }
@@ -175,6 +183,12 @@ impl Thread {
         self.tracker.forget();
         let wanted = shared.wanted.load(Ordering::Relaxed).wrapping_add(1);
         shared.wanted.store(wanted, Ordering::Relaxed);
+        self.tell(shared);
+    }
+
+    fn tell<S: Sample>(&self, shared: &Shared<S>) {
+        let has_wave = u32::from(self.tracker.has_wave());
+        shared.has_wave.store(has_wave, Ordering::Relaxed);
     }
 
     pub(crate) fn calibrate(&mut self, calibration: Calibration) -> Result<(), Status> {

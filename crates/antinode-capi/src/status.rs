@@ -18,12 +18,12 @@ pub enum Status {
     ErrorNull = -1,
     /// A pointer is not aligned as its type demands.
     ErrorAlignment = -2,
-    /// The state was never initialised, or is one of the other arithmetic.
+    /// The state was never initialised, its last `_init` failed, or it is one of the other arithmetic.
     ErrorNotInitialised = -3,
     /// An array would be larger than the address space.
     ErrorCount = -4,
     /// The pairs were taken, but the queue was full and at least one finished block was dropped, a gap as by a `_skip` function: call
-    /// `_solve` more often.
+    /// `_solve` more often, or push fewer pairs at once, see ANTINODE_QUEUE_BLOCKS.
     ErrorQueueFull = -5,
     /// `sample_rate_hz` is not within 1 to 1e10.
     ErrorSampleRate = -10,
@@ -65,7 +65,7 @@ impl Status {
         ),
         (
             Self::ErrorNotInitialised,
-            c"the state was never initialised",
+            c"the state is not initialised, or is of the other arithmetic",
         ),
         (
             Self::ErrorCount,
@@ -73,7 +73,7 @@ impl Status {
         ),
         (
             Self::ErrorQueueFull,
-            c"the queue was full and a finished block was dropped: solve more often",
+            c"the queue was full and a finished block was dropped: solve more often, or push less at once",
         ),
         (
             Self::ErrorSampleRate,

@@ -208,6 +208,7 @@ fn a_known_frequency_is_not_searched() {
     let mut state = Box::new(Fixed::ZERO);
     let mut health = Health {
         searching: 9,
+        has_wave: 9,
         waiting: 9,
         dropped: 9,
     };
@@ -224,10 +225,48 @@ fn a_known_frequency_is_not_searched() {
 }
 
 #[test]
+fn health_tells_whether_there_is_a_wave_whether_or_not_it_is_searched() {
+    let mut state = Box::new(Fixed::ZERO);
+    let mut health = Health {
+        searching: 9,
+        has_wave: 9,
+        waiting: 9,
+        dropped: 9,
+    };
+    let mut estimate = MaybeUninit::uninit();
+    let mut settings = antinode_settings_default(1e5);
+    let pairs = codes();
+    for (frequency, is_there) in [(0.0, 1), (5_300.0, 1), (6_500.0, 0)] {
+        settings.frequency_hz = frequency;
+        // SAFETY: all is there, and this thread alone uses it.
+        unsafe {
+            assert_eq!(antinode_fixed_init(&mut *state, &settings), Status::Ok);
+            let mut told = Vec::new();
+            let silence = vec![[0i16; 2]; 5_000];
+            for pairs in [&pairs[..0], &pairs[..5_000], &silence] {
+                for pairs in pairs.chunks(128) {
+                    let samples = pairs.as_ptr().cast();
+                    let status =
+                        antinode_fixed_push_block_interleaved(&mut *state, samples, pairs.len());
+                    assert!(status == Status::Ok || status == Status::Ready);
+                    while antinode_fixed_solve(&mut *state, estimate.as_mut_ptr())
+                        == Status::Estimate
+                    {}
+                }
+                assert_eq!(antinode_fixed_health(&*state, &mut health), Status::Ok);
+                told.push(health.has_wave);
+            }
+            assert_eq!(told, [0, is_there, 0], "{frequency} Hz");
+        }
+    }
+}
+
+#[test]
 fn a_full_queue_drops_blocks_and_says_so() {
     let mut state = Box::new(Fixed::ZERO);
     let mut health = Health {
         searching: 9,
+        has_wave: 9,
         waiting: 9,
         dropped: 9,
     };

@@ -1,8 +1,8 @@
 //! Each check of a window by itself: a fault that hardly any other check would see.
 
-use antinode::{Estimate, Flags};
+use antinode::{Estimate, Flags, Identifier, Settings};
 use antinode_sim::{Flaws, Loss, Wave, random_wave};
-use host_tests::{RATE, changed, gyro, identify, touched, windows};
+use host_tests::{RATE, changed, gyro, identify, stream, touched, windows};
 
 #[test]
 fn a_sample_lost_between_two_windows_is_flagged() {
@@ -203,6 +203,33 @@ fn white_noise_is_no_fault_at_few_samples_a_period() {
             assert!(estimate.flags.is_empty(), "seed {seed}: {estimate:?}");
         }
     }
+}
+
+#[test]
+fn rounding_is_no_fault_in_long_windows_of_long_periods() {
+    let mut rows = 0;
+    for seed in 0..12 {
+        let period = 440.0 + 12.3 * seed as f64;
+        let wave = Wave {
+            angle_rate: if seed % 2 == 0 { 0.0 } else { -0.13 },
+            ..random_wave(seed, RATE / period, 0.5)
+        };
+        let flaws = Flaws {
+            offset_c: 1.5 * wave.main_amplitude,
+            offset_d: -1.4 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let settings = Settings {
+            frequency: Some(wave.frequency as f32),
+            ..windows(141)
+        };
+        let mut core = Identifier::<f32, 1024, 256>::new(settings).unwrap();
+        core.extend(&stream(wave, flaws, 300_000, seed), |estimate| {
+            assert!(estimate.flags.is_empty(), "seed {seed}: {estimate:?}");
+            rows += 1;
+        });
+    }
+    assert!(rows > 40, "{rows}");
 }
 
 #[test]

@@ -248,3 +248,12 @@ fn a_spur_does_not_hide_the_wave() {
         );
     }
 }
+
+#[test]
+fn a_ramp_beside_a_pick_off_that_alternates_is_no_wave_and_no_overflow() {
+    let mut detector = MeanReturnDetector::new();
+    for k in 0..20_000u16 {
+        let d = if k % 2 == 0 { 1.0 } else { -1.0 };
+        assert_eq!(detector.push([f32::from(k), d]), None);
+    }
+}

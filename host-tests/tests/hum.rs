@@ -71,6 +71,58 @@ fn the_bound_is_reached_in_hum() {
 }
 
 #[test]
+fn hum_alone_is_no_fault_over_gaps_and_at_its_crests() {
+    for (size, periods, hop) in [
+        (0.01, 10, Some(20)),
+        (0.003, 10, Some(40)),
+        (0.1, 40, None),
+        (0.01, 10, Some(7)),
+    ] {
+        for seed in 0..4 {
+            let wave = random_wave(seed, 5332.0, 0.5);
+            let flaws = Flaws {
+                noise: 2e-4 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let settings = Settings {
+                hop,
+                ..settings(periods, true)
+            };
+            let size = size * wave.main_amplitude;
+            let found = identified(wave, flaws, size, 100_000, settings, seed);
+            assert!(found.len() > 100, "{}", found.len());
+            let flagged = found.iter().find(|e| !e.flags.is_empty());
+            assert_eq!(flagged, None, "{periods} periods, hop {hop:?}");
+        }
+    }
+}
+
+#[test]
+fn windows_too_short_for_it_do_without_the_setting() {
+    for (periods, hop, is_same) in [
+        (2, None, true),
+        (4, None, true),
+        (5, None, false),
+        (8, Some(5), true),
+        (10, Some(5), false),
+    ] {
+        let wave = random_wave(1, 5332.0, 0.5);
+        let flaws = Flaws {
+            noise: 2e-4,
+            ..Flaws::default()
+        };
+        let [with, without] = [true, false].map(|hum| {
+            let settings = Settings {
+                hop,
+                ..settings(periods, hum)
+            };
+            identified(wave, flaws.clone(), 0.01, 20_000, settings, 1)
+        });
+        assert_eq!(with == without, is_same, "{periods} periods, hop {hop:?}");
+    }
+}
+
+#[test]
 fn faults_are_told_in_hum() {
     for seed in 0..20 {
         let wave = Wave {

@@ -3,7 +3,7 @@
 use antinode::{Estimate, Flags, Front, Settings, SettingsError};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::codes::{codes, converted, identify_up_to};
-use host_tests::score::{NAMES, Score};
+use host_tests::score::{Honesty, NAMES, Score};
 use host_tests::{Core, RATE, gyro, identify, identify_changed, windows};
 
 /// Windows of `periods` of a wave whose frequency is told `off` of itself from the truth.
@@ -70,6 +70,31 @@ fn windows_reach_the_bound_from_the_first_sample_on() {
                 check(&score, 1900, 1.1, &label);
             }
         }
+    }
+}
+
+#[test]
+fn the_shortest_windows_know_their_noise() {
+    for period in [2.52, 2.6, 2.7] {
+        let (mut honesty, mut rows, mut flagged) = (Honesty::default(), 0, 0);
+        for seed in 0..100 {
+            let (wave, flaws) = noisy(period, seed);
+            for estimate in identify(wave, &flaws, told(2, wave.frequency, 0.0), 3000, seed) {
+                assert!(estimate.samples >= 6, "{estimate:?}");
+                rows += 1;
+                if estimate.flags.is_empty() {
+                    honesty.add(&estimate, &wave);
+                } else {
+                    flagged += 1;
+                }
+            }
+        }
+        let ratios = honesty.ratios();
+        println!(
+            "2 periods of {period} samples: error over stated {ratios:.3?}, {flagged} of {rows} flagged"
+        );
+        assert!(rows > 40_000 && flagged * 1000 < rows);
+        assert!(ratios.iter().all(|ratio| (0.85..1.15).contains(ratio)));
     }
 }
 

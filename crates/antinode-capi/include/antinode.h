@@ -94,7 +94,7 @@
 // A sample that is no finite number, or one so large that its sums are none.
 #define ANTINODE_FLAG_NOT_FINITE 256u
 
-// The period is found by the squared difference, in about three periods, at any offset, at 20 % noise and more.
+// The period is found by the squared difference, in about three periods, at offsets of up to 100 amplitudes, at 20 % noise and more.
 #define ANTINODE_DETECTION_DIFFERENCE 0u
 
 // The period is found by the return of the running sum, in about eleven periods, for signals with little noise.

@@ -5,7 +5,7 @@ use core_crate::Calibration as CoreCalibration;
 
 use crate::status::Status;
 
-/// The period is found by the squared difference, in about three periods, at any offset, at 20 % noise and more.
+/// The period is found by the squared difference, in about three periods, at offsets of up to 100 amplitudes, at 20 % noise and more.
 pub const ANTINODE_DETECTION_DIFFERENCE: u32 = 0_u32;
 /// The period is found by the return of the running sum, in about eleven periods, for signals with little noise.
 pub const ANTINODE_DETECTION_MEAN_RETURN: u32 = 1_u32;

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// 1. the sampling instants move (`jitter`, both channels alike);
 /// 2. the pick-offs see the wave there (`skew`, `pick_off_error`);
 /// 3. they bend it (`cubic`);
-/// 4. gain and offset (`gain_ratio`, `offset_c`, `offset_d`);
+/// 4. gain, offset and hum (`gain_ratio`, `offset_c`, `offset_d`, `hum`);
 /// 5. noise is added (`noise`);
 /// 6. a channel drops out (`dropouts`);
 /// 7. the signal is clipped (`clip`, `clip_spans`);

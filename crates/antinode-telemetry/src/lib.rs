@@ -5,7 +5,7 @@
 //! | part | bytes | what it is |
 //! |---|---|---|
 //! | `00` | 1 | delimiter: whatever noise came before ends here |
-//! | COBS code | 1 (2 beyond 254 bytes) | [Consistent Overhead Byte Stuffing](https://doi.org/10.1109/90.769765) takes the zeros out of what follows |
+//! | COBS code | 1 | [Consistent Overhead Byte Stuffing](https://doi.org/10.1109/90.769765) takes the zeros out of what follows |
 //! | header | 1 | 2 × [`PROTOCOL_VERSION`], plus 1 in a command |
 //! | number | 1 to 3 | a report's running number, or a command's id |
 //! | body | | [`Report`] or [`Command`] in [postcard's format](https://postcard.jamesmunns.com/wire-format) |

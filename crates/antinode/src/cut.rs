@@ -10,6 +10,8 @@ const BLOCKS_A_WINDOW: f32 = 5.0;
 const LONGEST_BLOCK: f32 = 2.0;
 /// Blocks of a window at most, where it has fewer periods: none has more blocks than the larger of both.
 pub(crate) const MOST_BLOCKS: u16 = 11;
+/// Sample pairs of a window at least.
+const LEAST_PAIRS: u16 = 6;
 /// How far a window may be from what was asked, as a share of it, if another length of blocks brings it nearer.
 const NEAR: f32 = 0.05;
 
@@ -65,7 +67,13 @@ impl Cut {
     /// How many blocks of `layout` come nearest to a window.
     pub(crate) fn blocks(self, layout: Layout) -> u16 {
         let window = layout.step.period() * f32::from(self.periods);
-        nearest_count(window, layout.length)
+        let count = nearest_count(window, layout.length);
+        // Five pairs are as many numbers as unknowns, and tell nothing of the noise.
+        if layout.length == 1 && count < LEAST_PAIRS {
+            LEAST_PAIRS
+        } else {
+            count
+        }
     }
 }
 
@@ -103,7 +111,9 @@ mod tests {
                     let window = period * f32::from(periods);
                     let off = (samples / window - 1.0).abs();
                     assert!(
-                        (4..=periods.max(MOST_BLOCKS)).contains(&blocks) && off < 0.1,
+                        (4..=periods.max(MOST_BLOCKS)).contains(&blocks)
+                            && (off < 0.1 || samples == f32::from(LEAST_PAIRS))
+                            && samples >= f32::from(LEAST_PAIRS),
                         "{period} samples a period, {periods} periods, hop {hop:?}: {blocks} blocks, {off} off"
                     );
                 }

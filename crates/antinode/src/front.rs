@@ -56,7 +56,7 @@ enum Stage {
 
 /// The sample-rate half of an identification on samples of type `S`, for blocks of up to `N` sample pairs.
 ///
-/// `N` is even, and bounds the period: 200 is for all that is searched, 40 for waves of 4 to 40 samples a period, more for slower ones
+/// `N` is even, 2 to 65 534, and bounds the period: 200 is for all that is searched, 40 for waves of 4 to 40 samples a period, more for slower ones
 /// whose frequency is known. Blocks are two periods long where
 /// they have room; above `N`/2 samples a period they are shorter, more of them make a window, and one may be up to a tenth off the
 /// length asked.
@@ -180,7 +180,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
         if count == 0 {
             return;
         }
-        self.index += count;
+        self.index = self.index.wrapping_add(count);
         match self.stage {
             Stage::Searching => self.search(),
             Stage::Unset | Stage::Found(_) => {}
@@ -228,7 +228,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Begins blocks for a wave of `period` samples.
     #[inline(never)]
     fn begin(&mut self, period: f32) {
-        let layout = self.cut.layout(period, N.min(usize::from(u16::MAX)) as u16);
+        let layout = self.cut.layout(period, N as u16);
         self.demodulator.begin(layout, self.index);
         self.stage = Stage::Gathering;
     }

@@ -44,7 +44,7 @@ pub enum RegridError {
     Period(f32),
     /// Samples a period on the new grid: fewer than 3, or more than 1000.
     PerPeriod(u16),
-    /// The cut-off is outside 1 to half the samples a period, in multiples of the wave's frequency.
+    /// The cut-off is not above 1 or above half the samples a period, in multiples of the wave's frequency.
     CutOff(f32),
     /// Taps: fewer than 4, or an odd number of them.
     Taps(usize),

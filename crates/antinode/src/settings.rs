@@ -12,7 +12,7 @@ use crate::double::to_single;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Detection {
-    /// Formula (10): about three periods, any offset, 20 % noise and more.
+    /// Formula (10): about three periods, offsets of up to 100 a_A, 20 % noise and more.
     #[default]
     Difference,
     /// Formula (9), of the feature `mean-return`: about eleven periods, for signals with little noise.

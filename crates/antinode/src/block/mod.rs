@@ -33,7 +33,7 @@ pub struct Block<S: Sample> {
 /// Pairs that single calls hold back: a slice of them costs far less than each by itself.
 const HELD: usize = 32;
 
-/// Gathers sample pairs into blocks of up to `N` pairs. `N` is even.
+/// Gathers sample pairs into blocks of up to `N` pairs. `N` is even, 2 to 65 534.
 #[derive(Debug, Clone)]
 pub struct Demodulator<S: Sample, const N: usize> {
     /// Pairs held back, and how many may be: they are summed together, at the latest when the block ends.
@@ -61,8 +61,8 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     pub(crate) const fn unset() -> Self {
         const {
             assert!(
-                N.is_multiple_of(2),
-                "N, the most sample pairs of a block, must be even"
+                N.is_multiple_of(2) && N >= 2 && N <= u16::MAX as usize,
+                "N, the most sample pairs of a block, must be even and 2 to 65 534"
             );
         }
         Self {
@@ -147,7 +147,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
 
     /// Begins anew, with blocks of another layout from sample pair `start` of the stream on.
     pub(crate) fn begin(&mut self, layout: Layout, start: u64) {
-        let length = layout.length.clamp(1, N.min(usize::from(u16::MAX)) as u16);
+        let length = layout.length.clamp(1, N as u16);
         self.summing.block.layout = Layout::new::<S>(layout.step, length);
         self.summing.known = 0;
         self.restart(start);

@@ -125,7 +125,9 @@ impl MeanReturnDetector {
                     high[i] = greater(pair[i], high[i]);
                     swing[i] = 0.5 * (high[i] - low[i]);
                     let height = pair[i] - 0.5 * (high[i] + low[i]);
-                    crossings[i] += u8::from(upward[i].crossed(height, 0.25 * swing[i]));
+                    let crossed = upward[i].crossed(height, 0.25 * swing[i]);
+                    // Those of the weaker pick-off, which may only seem to swing, have no end.
+                    crossings[i] = crossings[i].saturating_add(u8::from(crossed));
                 }
                 let strong = usize::from(swing[1] > swing[0]);
                 if crossings[strong] < 2 {

@@ -74,7 +74,7 @@ pub enum Form {
 /// | `i32` | converter codes of up to 32 bits | i64 |
 ///
 /// With integers the input unit is the code. All three reach the same accuracy: the reference's own rounding is part of the
-/// window's equations. Integers need no floating point at sample rate.
+/// window's equations. Integers need no floating point at sample rate once the period is known.
 pub trait Sample:
     Copy + Debug + Default + PartialEq + Send + Zero + sealed::Sealed + 'static
 {

@@ -41,7 +41,7 @@ pub(super) fn flags(before: &Record, now: &Record, knows_angle: bool) -> Flags {
     let offsets = (0..2).any(|i| {
         beyond(
             now.offsets[i] - before.offsets[i],
-            now.offset_variance[i] + before.offset_variance[i],
+            now.offset_variance + before.offset_variance,
             amplitude_floor,
         )
     });

@@ -112,7 +112,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.found = !flags.contains(Flags::LOST);
         if fit.settled && !flags.contains(Flags::LOST) {
             let is_clean = !flags.intersects(BROKEN);
-            if self.lost || !is_certain && is_clean {
+            if self.lost || !is_certain && is_clean && !flags.contains(Flags::CIRCULAR) {
                 flags = flags.with(Flags::REACQUIRED);
                 self.trend.clear();
                 self.lost = false;
@@ -156,7 +156,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
                     amplitude.rate_variance = f32::INFINITY;
                 }
                 before.angle_variance = f32::INFINITY;
-                before.offset_variance = [f32::INFINITY; 2];
+                before.offset_variance = f32::INFINITY;
             }
             return;
         }
@@ -173,13 +173,20 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.angle = record.angle;
         }
         let angle = self.angle;
+        let last = self.before;
         let before = self.before.insert(*record);
         if flags.contains(Flags::CIRCULAR) {
             // It has neither an angle nor a phase of its own, and of its two waves one knows the frequency.
             before.drift = drift;
             before.angle = angle;
             (before.turning, before.turning_variance) = (0.0, 0.0);
+            // The last angle may have turned on since then.
             (before.promised, before.promised_variance) = (0.0, 0.0);
+            if let Some(last) = last {
+                before.angle_middle = last.angle_middle;
+                (before.promised, before.promised_variance) =
+                    (last.promised, last.promised_variance);
+            }
             before.angle_variance = f32::INFINITY;
             before.phase_variance = f32::INFINITY;
         }

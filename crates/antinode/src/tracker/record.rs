@@ -63,6 +63,8 @@ pub(crate) struct Record {
     pub drift: f32,
     pub drift_variance: f32,
     pub angle: Angle,
+    /// Where it was, half samples: the middle, but of a circular pattern that of the last one that had an angle.
+    pub angle_middle: u64,
     pub angle_variance: f32,
     pub turning: f32,
     pub turning_variance: f32,
@@ -78,8 +80,8 @@ pub(crate) struct Record {
     pub channel_power: [f32; 2],
     pub channel_variance: [f32; 2],
     pub offsets: [f32; 2],
-    /// Of each, with what it wandered within the window.
-    pub offset_variance: [f32; 2],
+    /// Of each; infinite where it may wander.
+    pub offset_variance: f32,
 }
 
 impl Record {
@@ -119,7 +121,7 @@ impl Record {
     /// The angle that this window promises one of `samples` about `middle`, and whether it knows it to less than a quarter turn: over
     /// a gap it may not.
     pub(crate) fn angle_at(&self, middle: u64, samples: u32) -> (Angle, bool) {
-        let passed = 0.5 * long(middle.wrapping_sub(self.middle));
+        let passed = 0.5 * long(middle.wrapping_sub(self.angle_middle));
         let is_certain = passed < 1.5 * samples as f32
             || self.promised_variance * passed * passed < UNKNOWN_TURN * UNKNOWN_TURN;
         // As much of the turning as stands out of its noise: in much of it a pattern that stands still would be promised a quarter turn.

@@ -145,6 +145,7 @@ impl Standing {
         Self {
             record: Record {
                 middle,
+                angle_middle: middle,
                 samples: u32::from(model.blocks) * u32::from(model.layout.length),
                 residual,
                 carrier: model.carrier,
@@ -176,12 +177,12 @@ impl Standing {
                 channel_power: fit.channel_power(),
                 channel_variance: [variance, variance * (d * d + c_on_d * c_on_d)],
                 offsets: fit.offsets,
-                // A short window knows its offset worse than the mean of its samples. Of hum the offset moves by 2.5 deviations of its
-                // wander.
-                offset_variance: fit
-                    .remains
-                    .wander
-                    .map(|wander| 2.0 * noise * per_half + 0.25 * wander),
+                // A short window knows its offset worse than the mean of its samples. One that blocks have to themselves may be anywhere.
+                offset_variance: if model.shared > 0.0 {
+                    2.0 * noise * per_half
+                } else {
+                    f32::INFINITY
+                },
             },
             noise,
             lesser: lesser(p, m),

@@ -100,6 +100,10 @@ impl Trend {
     pub(crate) fn take_turning_out(&self, wave: &mut Standing, model: &Model) {
         let record = &mut wave.record;
         let rate = self.rate(record, 0.25 * model.per_half);
+        if rate.variance == 0.0 && !self.is_empty() {
+            // All of them overlap this window: nothing is known of its rate, and least of all that it stands still.
+            return;
+        }
         let apart = record.turning - rate.value;
         let spread = record.turning_variance + rate.variance;
         if rate.variance > 0.0 {

@@ -11,7 +11,7 @@ use super::response::Response;
 use super::seen::Seen;
 use super::third::Thirds;
 use super::waves::Waves;
-use crate::order::greater;
+use crate::order::{greater, lesser};
 
 /// The residual of a fit, in several views. Squares are in input units squared.
 #[derive(Debug, Clone, Copy, Default)]
@@ -167,6 +167,7 @@ impl Views {
         remains.residual = self.residual;
         remains.freedom = model.freedom();
         remains.worst_block = self.worst_block;
-        remains.step = self.run * self.spread / (weight * self.room);
+        // No step takes off more than there is, but what rounding left of the gradients may seem to.
+        remains.step = lesser(self.run * self.spread / (weight * self.room), self.residual);
     }
 }

@@ -22,8 +22,9 @@ const FARTHEST: f32 = 1.5;
 const NEAR: f32 = 0.01;
 /// Below this share of the wave the next step is rounding.
 const SETTLED: f32 = 1e-6;
-/// What a step may take off the residual, in variances of the noise, before the residual is looked at anew.
-const NEGLIGIBLE: f32 = 0.1;
+/// What a step may take off the residual, in variances of the noise and divided by the blocks, before the residual is looked at anew:
+/// what is not taken off looks like a step between the first block and the others, as many times as large as there are blocks.
+const NEGLIGIBLE: f32 = 0.5;
 /// Steps at most.
 const STEPS: usize = 6;
 
@@ -113,7 +114,8 @@ impl Model {
         // What is left has no part along the parameters: this much less than before the step.
         let explained = lesser(step.explained, fit.remains.residual);
         fit.remains.residual -= explained;
-        let negligible = explained * fit.remains.freedom <= NEGLIGIBLE * fit.remains.residual;
+        let left = explained * fit.remains.freedom * f32::from(self.blocks);
+        let negligible = left <= NEGLIGIBLE * fit.remains.residual;
         // With offsets of their own the linear solution does not know what the waves put into the blocks' means.
         let knows_offset = pass > 0 || self.shared > 0.0;
         fit.settled && knows_offset && (negligible || step.moved <= SETTLED * SETTLED * step.size)

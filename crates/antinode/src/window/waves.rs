@@ -105,14 +105,15 @@ impl Waves {
         self.change = travelling(parameters.slope);
     }
 
-    /// Tells which changes are exponential: a change of half a wave, or of most of one that is no small part of both, is.
+    /// Tells which changes are exponential: one of a little more than the wave is, for the carrier follows the greater wave, and the lesser
+    /// turns by twice as much beside it; of one as small as noise, of half of it.
     #[inline(never)]
     pub(super) fn take_course(&mut self) {
-        let small = 0.01 * self.power();
+        let small = 0.0001 * self.power();
         for w in 0..2 {
             let (value, change) = (self.value[w], self.change[w]);
             let power = value.norm_sqr();
-            let share = if power > small { 0.81 } else { 0.25 };
+            let share = if power > small { 1.3 } else { 0.25 };
             self.slope[w] = if change.norm_sqr() < share * power {
                 change * value.conj() * (1.0 / power)
             } else {

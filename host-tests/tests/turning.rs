@@ -1,0 +1,139 @@
+//! Patterns that turn much within a window, with much quadrature, and windows that overlap: stated deviations hold there too.
+
+use antinode::{Estimate, Settings};
+use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::score::{Honesty, NAMES};
+use host_tests::{RATE, identify, identify_changed, windows};
+
+/// A wave at any angle and phase whose quadrature is this share of it and which turns by so much in each second.
+fn turning(seed: u64, frequency: f64, share: f64, rate: f64) -> Wave {
+    let wave = random_wave(seed, frequency, 0.5);
+    Wave {
+        quadrature_amplitude: share * wave.main_amplitude,
+        angle_rate: rate,
+        ..wave
+    }
+}
+
+fn noisy(wave: &Wave, noise: f64) -> Flaws {
+    Flaws {
+        noise: noise * wave.main_amplitude,
+        ..Flaws::default()
+    }
+}
+
+#[test]
+fn much_turning_beside_much_quadrature_is_neither_biased_nor_flagged() {
+    // Of a_B in a_A, rad a window and noise in a_A.
+    for (share, turn, noise) in [
+        (0.8, 0.4, 0.02),
+        (-0.7, 0.5, 0.01),
+        (0.7, 0.45, 0.01),
+        (0.5, 0.5, 0.01),
+        (0.6, 0.5, 0.005),
+        (0.9, -0.4, 0.01),
+        (-0.95, 0.4, 0.01),
+        (0.95, 0.5, 0.001),
+    ] {
+        let mut honesty = Honesty::default();
+        let mut rows = 0;
+        for seed in 0..30 {
+            let wave = turning(seed, 5332.0, share, turn * 533.2);
+            for estimate in identify(wave, &noisy(&wave, noise), windows(10), 6000, seed) {
+                assert!(
+                    estimate.flags.is_empty(),
+                    "{share}, {turn} rad: {estimate:?}"
+                );
+                honesty.add(&estimate, &wave);
+                rows += 1;
+            }
+        }
+        assert!(rows > 850, "{rows}");
+        let ratios = honesty.ratios();
+        println!("a_B of {share} a_A, {turn} rad a window: error over stated {ratios:.3?}");
+        for (name, ratio) in NAMES.iter().zip(ratios) {
+            assert!((0.8..1.12).contains(&ratio), "{name} at {ratio}");
+        }
+    }
+}
+
+#[test]
+fn overlapping_windows_know_how_little_they_know_at_the_start_and_after_a_fault() {
+    for (periods, hop, rate, noise) in [(10, 5, 0.5, 0.001), (50, 20, 0.1, 0.005)] {
+        let settings = Settings {
+            hop: Some(hop),
+            ..windows(periods)
+        };
+        let spike = 200 * usize::from(periods);
+        let samples = 2 * spike;
+        let mut start = vec![Honesty::default(); 5];
+        let mut fault = vec![Honesty::default(); 5];
+        for seed in 0..300 {
+            let wave = turning(seed, 5332.0, 0.8, rate);
+            let flaws = noisy(&wave, noise);
+            let found = identify_changed(wave, &flaws, settings, samples, seed, |k, [c, d]| {
+                [c + if k == spike { wave.main_amplitude } else { 0.0 }, d]
+            });
+            let add = |windows: &mut [Honesty], rows: &mut dyn Iterator<Item = &Estimate>| {
+                for (honesty, estimate) in windows.iter_mut().zip(rows) {
+                    honesty.add(estimate, &wave);
+                }
+            };
+            // The first of all takes the pattern to stand still.
+            add(&mut start, &mut found.iter().skip(1));
+            let is_after = |e: &&Estimate| e.start > spike as u64 && e.flags.is_empty();
+            add(&mut fault, &mut found.iter().filter(is_after));
+        }
+        for (name, windows) in [("start", start), ("fault", fault)] {
+            let ratios: Vec<f64> = windows.iter().map(|window| window.ratios()[3]).collect();
+            println!("{periods} periods, hop {hop}, after the {name}: frequency {ratios:.2?}");
+            assert!(
+                ratios.iter().all(|ratio| (0.85..1.15).contains(ratio)),
+                "{name}: {ratios:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_pattern_that_turns_on_over_a_circle_is_not_promised_to_have_stood_still() {
+    let mut told = 0;
+    for seed in 0..20 {
+        // Its quadrature grows to be as large as the wave and shrinks again, and it turns by more than a quarter meanwhile.
+        let rate = 8.0 + 0.1 * seed as f64;
+        let wave = turning(seed, 5332.0, 0.0, rate);
+        let full = Wave {
+            quadrature_amplitude: wave.main_amplitude,
+            ..wave
+        };
+        let flaws = noisy(&wave, 0.002);
+        let found = identify_changed(wave, &flaws, windows(10), 200_000, seed, |k, [c, d]| {
+            let time = k as f64 / RATE;
+            let share = (2.0 - (2.0 * time - 2.0).abs() * 2.0).clamp(0.0, 1.0);
+            let (one, none) = (full.pick_offs(time), wave.pick_offs(time));
+            [c + share * (one.0 - none.0), d + share * (one.1 - none.1)]
+        });
+        let quarters = |e: &Estimate| {
+            let apart = e.angle - wave.at(e.time).angle;
+            (apart / std::f64::consts::FRAC_PI_2).round() as i64
+        };
+        let mut expected = quarters(&found[0]);
+        for estimate in found
+            .iter()
+            .filter(|e| !e.flags.contains(antinode::Flags::CIRCULAR))
+        {
+            if estimate.flags.contains(antinode::Flags::REACQUIRED) {
+                told += 1;
+                expected = quarters(estimate);
+            }
+            assert_eq!(quarters(estimate), expected, "seed {seed}: {estimate:?}");
+        }
+        assert!(
+            found
+                .iter()
+                .any(|e| e.flags.contains(antinode::Flags::CIRCULAR))
+        );
+    }
+    println!("{told} times told in 20 runs");
+    assert!(told > 0);
+}

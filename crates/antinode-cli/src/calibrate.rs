@@ -89,6 +89,7 @@ fn tell(
         rows.rows,
         turns.join(" and ")
     )?;
+    rows.tell_overlaps(out)?;
     for &(quantity, _, value, deviation) in quantities {
         writeln!(out, "{quantity:<20} {}", with_std(value, deviation))?;
     }

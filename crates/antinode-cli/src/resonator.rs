@@ -14,7 +14,7 @@ use serde::Serialize;
 use crate::failure::Failure;
 use crate::fixed::{significant, with_std};
 use crate::options::Format;
-use crate::runs::{BEYOND_NOISE, Runs};
+use crate::runs::{BEYOND_NOISE, Row as Identified, Runs};
 use fit::{Found, Measured, fit};
 
 /// The pattern turns by no more than this from row to row, rad: half of what leaves it known.
@@ -51,6 +51,8 @@ const DECAY_TIME: Kind = kind("decay_time_s", "decay time, s", 1.0);
 const QUALITY_FACTOR: Kind = kind("quality_factor", "quality factor", 1.0);
 const ROTATION: Kind = kind("rotation_rad_s", "turned by rotation, °/s", DEGREES);
 const FREQUENCY: Kind = kind("frequency_hz", "mean frequency, Hz", 1.0);
+/// Of the rows over their own deviations: 1 where there is nothing but noise.
+const RESIDUAL: Kind = kind("residual_over_noise", "residual over noise", 1.0);
 const DAMPING_SPLIT: Kind = kind("damping_split_s", "damping split, 1/s", 1.0);
 const MOST_DAMPED: Kind = kind("most_damped_at_rad", "most damped at, °", DEGREES);
 const FREQUENCY_SPLIT: Kind = kind("frequency_split_hz", "frequency split, Hz", 1.0);
@@ -62,7 +64,7 @@ struct Quantity {
     run: Option<usize>,
     kind: Kind,
     value: f64,
-    /// One standard deviation; 0 of a mean frequency, which has none.
+    /// One standard deviation; 0 where there is none.
     std: f64,
 }
 
@@ -99,7 +101,7 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
     }
     let found = fit(&rows.runs).map_err(|_| {
         Failure::Recording(format!(
-            "{name}: no resonator explains the rows: see that nothing drives the gyro while it rings down, and that its windows do not overlap"
+            "{name}: no resonator explains the rows: see that nothing drives the gyro while it rings down, and leave out rows that lie far off all others"
         ))
     })?;
     let quantities = quantities(&rows, &found);
@@ -138,8 +140,8 @@ fn quantities(rows: &Runs, found: &Found) -> Vec<Quantity> {
             std,
         });
     };
-    let all = rows.runs.iter().flat_map(|run| &run.rows);
-    let frequency = all.map(|row| row.frequency).sum::<f64>() / rows.used() as f64;
+    let mean_frequency = frequency(rows);
+    let (frequency, _) = mean_frequency;
     let resonator = found.resonator();
     for index in 0..rows.runs.len() {
         let run = Some(index);
@@ -150,7 +152,9 @@ fn quantities(rows: &Runs, found: &Found) -> Vec<Quantity> {
             add(run, ROTATION, resonator.rotations[index]);
         }
     }
-    add(None, FREQUENCY, (frequency, 0.0));
+    add(None, FREQUENCY, mean_frequency);
+    let of_residual = found.residual / (6.0 * rows.used() as f64).sqrt();
+    add(None, RESIDUAL, (found.residual, of_residual));
     let Some(resonator) = resonator else {
         return list;
     };
@@ -172,6 +176,32 @@ fn quantities(rows: &Runs, found: &Found) -> Vec<Quantity> {
         }
     }
     list
+}
+
+/// The mean frequency, of which each row tells as much as its deviation says; wider where rows differ by more than that.
+fn frequency(rows: &Runs) -> Measured {
+    let all = || rows.runs.iter().flat_map(|run| &run.rows);
+    let is_told = all().all(|row| row.frequency_deviation.is_finite());
+    let weight = |row: &Identified| {
+        if is_told {
+            row.frequency_deviation.powi(-2)
+        } else {
+            1.0
+        }
+    };
+    let weights: f64 = all().map(weight).sum();
+    // From one of them on, for the digits.
+    let from = rows.runs[0].rows[0].frequency;
+    let mean = all()
+        .map(|row| weight(row) * (row.frequency - from))
+        .sum::<f64>()
+        / weights;
+    let squares: f64 = all()
+        .map(|row| weight(row) * (row.frequency - from - mean).powi(2))
+        .sum();
+    let scatter = squares / (rows.used() - 1) as f64;
+    let widened = if is_told { scatter.max(1.0) } else { scatter };
+    (from + mean, (widened / weights).sqrt())
 }
 
 /// The inverse of a rate.
@@ -214,6 +244,7 @@ fn table(out: &mut impl Write, name: &str, rows: &Runs, quantities: &[Quantity])
 
 /// Tells what the numbers leave open.
 fn tell(out: &mut impl Write, rows: &Runs, found: &Found) -> io::Result<()> {
+    rows.tell_overlaps(out)?;
     for run in 0..rows.runs.len() {
         let (decay, std) = found.decay_of_run(run);
         if decay < DECAY_SEEN * std {

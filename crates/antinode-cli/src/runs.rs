@@ -1,7 +1,7 @@
 //! Rows that `antinode identify` printed become runs: spans of time in which the pattern moves without a break.
 
 use std::f64::consts::FRAC_PI_2;
-use std::io::Read;
+use std::io::{self, Read, Write};
 use std::path::PathBuf;
 
 use csv::StringRecord;
@@ -25,8 +25,10 @@ const COLUMNS: [&str; 8] = [
     "angle_std_rad",
 ];
 
-/// That of the decay rate, 1/s; rows may lack it.
-const RATE_DEVIATION: &str = "decay_rate_std_s";
+/// Those of the frequency, Hz, and of the decay rate, 1/s; rows may lack them.
+const OTHER_DEVIATIONS: [&str; 2] = ["frequency_std_hz", "decay_rate_std_s"];
+/// Windows overlap where one follows another by less than this share of its length, which is known to some per cent.
+const APART: f64 = 0.9;
 
 /// What is used of a row.
 #[derive(Debug, Clone, Copy)]
@@ -38,8 +40,9 @@ pub struct Row {
     pub quadrature: f64,
     /// θ_A, rad.
     pub angle: f64,
-    /// Hz.
+    /// Hz, and one standard deviation of it: infinite where the rows do not tell it.
     pub frequency: f64,
+    pub frequency_deviation: f64,
     /// One standard deviation each of a_A, a_B and θ_A.
     pub deviations: [f64; 3],
     /// Length of the window, s, from what it knows of an amplitude and its rate; 0 where the rows do not tell the latter.
@@ -60,6 +63,8 @@ pub struct Runs {
     pub runs: Vec<Run>,
     /// Rows read, flagged ones among them.
     pub rows: usize,
+    /// Clean rows left out, for their windows overlap the one before: they would tell the same noise again.
+    pub overlapping: usize,
     /// By how much the pattern turns from row to row at most, rad.
     most_turn: f64,
 }
@@ -70,7 +75,13 @@ impl Runs {
     pub fn open(paths: &[PathBuf], most_turn: f64) -> Result<(Self, String), Failure> {
         let mut runs = Self::new(most_turn);
         let mut names = Vec::new();
-        for path in paths {
+        for (index, path) in paths.iter().enumerate() {
+            if paths[..index].contains(path) {
+                return Err(Failure::Recording(format!(
+                    "{} is given twice: its noise would seem to be less than it is; give it once",
+                    path.display()
+                )));
+            }
             let file = RowFile::open(path)?;
             names.push(file.name().to_owned());
             runs.read(file)?;
@@ -82,6 +93,7 @@ impl Runs {
         Self {
             runs: Vec::new(),
             rows: 0,
+            overlapping: 0,
             most_turn,
         }
     }
@@ -91,13 +103,25 @@ impl Runs {
         self.runs.iter().map(|run| run.rows.len()).sum()
     }
 
+    /// Tells what was left out.
+    pub fn tell_overlaps(&self, out: &mut impl Write) -> io::Result<()> {
+        if self.overlapping > 0 {
+            writeln!(
+                out,
+                "{} rows are left out whose windows overlap the one before: they tell the same noise again",
+                self.overlapping
+            )?;
+        }
+        Ok(())
+    }
+
     /// Adds the rows of a file.
     fn read(&mut self, mut rows: RowFile<impl Read>) -> Result<(), Failure> {
         let mut places = [0; COLUMNS.len()];
         for (to, column) in places.iter_mut().zip(COLUMNS) {
             *to = rows.needed(column)?;
         }
-        let of_rate = rows.place(RATE_DEVIATION);
+        let others = OTHER_DEVIATIONS.map(|column| rows.place(column));
         let flags = rows.needed("flags")?;
         let file = rows.place("file");
 
@@ -105,7 +129,7 @@ impl Runs {
         let mut run = Run::default();
         while let Some(record) = rows.next()? {
             self.rows += 1;
-            let Some(row) = Row::parse(record, places, of_rate) else {
+            let Some(row) = Row::parse(record, places, others) else {
                 return Err(rows.fault(
                     "a time, amplitude, angle, frequency or deviation is no number, or an amplitude or a deviation not above 0",
                 ));
@@ -121,6 +145,10 @@ impl Runs {
             let from = file.map_or("", |file| &record[file]);
             let turn = match &present {
                 Some((before, angle)) if before == from && run.is_before(row.time) => {
+                    if run.overlaps(&row) {
+                        self.overlapping += 1;
+                        continue;
+                    }
                     turn(row.angle - angle)
                 }
                 _ => f64::INFINITY,
@@ -152,6 +180,13 @@ impl Run {
         self.rows[self.rows.len() - 1].time - self.rows[0].time
     }
 
+    /// True when the window of the last row, if any, has samples of this one.
+    fn overlaps(&self, row: &Row) -> bool {
+        let apart = 0.5 * APART * row.seconds;
+        let last = self.rows.last();
+        last.is_some_and(|last| row.time - last.time < 0.5 * APART * last.seconds + apart)
+    }
+
     /// True when the last row, if any, is earlier.
     fn is_before(&self, time: f64) -> bool {
         self.rows.last().is_none_or(|last| last.time < time)
@@ -168,7 +203,7 @@ impl Row {
     fn parse(
         record: &StringRecord,
         places: [usize; COLUMNS.len()],
-        of_rate: Option<usize>,
+        others: [Option<usize>; OTHER_DEVIATIONS.len()],
     ) -> Option<Self> {
         let mut numbers = [0f64; COLUMNS.len()];
         for (number, place) in numbers.iter_mut().zip(places) {
@@ -185,18 +220,23 @@ impl Row {
             of_angle,
         ] = numbers;
         let deviations = [of_main, of_quadrature, of_angle];
-        let of_rate = match of_rate {
-            Some(place) => record.get(place)?.parse().ok()?,
-            None => f64::INFINITY,
-        };
+        let mut unknown = [f64::INFINITY; OTHER_DEVIATIONS.len()];
+        for (number, place) in unknown.iter_mut().zip(others) {
+            if let Some(place) = place {
+                *number = record.get(place)?.parse().ok()?;
+            }
+        }
+        let [of_frequency, of_rate] = unknown;
         let usable = numbers.iter().all(|number| number.is_finite()) && main > 0.0;
-        let known = deviations.iter().all(|&deviation| deviation > 0.0) && of_rate > 0.0;
+        let known = deviations.iter().all(|&deviation| deviation > 0.0)
+            && unknown.iter().all(|&deviation| deviation > 0.0);
         (usable && known).then_some(Self {
             time,
             main,
             quadrature,
             angle,
             frequency,
+            frequency_deviation: of_frequency,
             deviations,
             // A straight line through evenly spread samples knows its slope so much worse than its middle.
             seconds: 12f64.sqrt() * of_main / main / of_rate,

@@ -21,6 +21,8 @@ pub const PARAMETERS: usize = RATES + 3;
 const COLUMNS: usize = 1 + PARAMETERS;
 /// The fastest rate times a step of the integration is no more than this: the error of a step is its fifth power over 120.
 const STEP: f64 = 0.02;
+/// Steps from one row to the next at most: the pattern then turns by a radian and more, or the wave is gone, and no rows fit.
+const MOST_STEPS: f64 = 500.0;
 
 /// The state E, R, S, Q, and its derivatives by the rates and by what it started with.
 #[derive(Debug, Clone)]
@@ -95,6 +97,9 @@ impl Motion {
         slope: impl Fn(&SMatrix<f64, 4, N>) -> SMatrix<f64, 4, N>,
     ) -> SMatrix<f64, 4, N> {
         let steps = (self.matrix.norm() * seconds.abs() / STEP).ceil().max(1.0);
+        if steps > MOST_STEPS {
+            return columns * f64::NAN;
+        }
         let step = seconds / steps;
         for _ in 0..steps as u64 {
             let k1 = slope(&columns);

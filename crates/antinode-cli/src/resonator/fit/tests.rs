@@ -45,6 +45,7 @@ fn run(
                 quadrature: quadrature + noise * random.draw(),
                 angle: wave[2] + of_angle * random.draw(),
                 frequency: 5332.0,
+                frequency_deviation: 1e-3,
                 deviations: [noise, noise, of_angle].map(|std| std.max(1e-9)),
                 seconds: 0.0,
             }

@@ -15,8 +15,9 @@ use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
 use search::Search;
 
-/// Samples of the longest period that may be known; what is searched has 200.
+/// Samples of the longest period that may be known, and of the longest that is searched.
 const LONGEST: usize = 1024;
+const SEARCHED: usize = 200;
 /// Windows of up to 1022 periods.
 type Core = Identifier<f32, LONGEST, { MOST_PERIODS as usize + 2 }>;
 
@@ -98,7 +99,7 @@ fn identify(
         error => error.into(),
     })?);
     let mut history =
-        (options.methods == Methods::All).then(|| History::new(settings.calibration, rate));
+        (options.methods == Methods::All).then(|| History::new(&settings, longest(&settings)));
     let bar = progress(&recording);
     let length = recording
         .pairs()
@@ -205,6 +206,12 @@ fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, 
             "{name}: the sample rate is not known: the recording does not say it; give --rate HZ"
         ))),
     }
+}
+
+/// Samples of the longest period that may come, a little more of a known one.
+fn longest(settings: &Settings) -> usize {
+    let known = |frequency| (1.1 * settings.sample_rate / f64::from(frequency)) as usize + 1;
+    settings.frequency.map_or(SEARCHED, known)
 }
 
 /// A progress bar where a person watches and rows go elsewhere.

@@ -160,7 +160,7 @@ mod tests {
             ..Flaws::default()
         };
         let mut core = Box::new(Identifier::<f32, 256, 64>::new(settings).expect("valid settings"));
-        let mut history = History::new(settings.calibration, 1e5);
+        let mut history = History::new(&settings, 200);
         let mut found = None;
         for pair in Gyro::new(Wave::default(), flaws, 1e5, 1)
             .expect("a valid gyro")

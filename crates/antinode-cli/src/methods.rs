@@ -8,9 +8,10 @@ use antinode::methods::{
     Delayed, Moments, Products, Shape, Wave, algorithm1, algorithm2, algorithm3, algorithm4,
     frequency, functional, phase,
 };
-use antinode::{Calibration, Estimate, Flags, Pair};
+use antinode::{Calibration, Estimate, Flags, Pair, Settings};
 
 use crate::ideal::Ideal;
+use crate::recording::BLOCK_PAIRS;
 
 /// A window's methods.
 #[derive(Debug, Clone, Copy)]
@@ -26,43 +27,47 @@ pub struct Methods {
 #[derive(Debug)]
 pub struct History {
     pairs: VecDeque<Pair>,
+    /// Samples before a window that its methods may need, and how many of both are kept.
+    lead: usize,
+    most: usize,
     /// Index in the stream of the first pair kept.
     start: u64,
     calibration: Calibration,
     sample_rate: f64,
 }
 
-/// Most samples before a window: a quarter of the longest period, and one for the skew.
-const LEAD: usize = 66;
-
 impl History {
-    /// Nothing kept yet.
-    pub fn new(calibration: Calibration, sample_rate: f64) -> Self {
+    /// Nothing kept yet, of identifications with such settings whose periods have no more than `longest` samples.
+    pub fn new(settings: &Settings, longest: usize) -> Self {
+        // A quarter of a period, rounded up, and two for the skew; and what a window may be longer than asked, or a known frequency off.
+        let (lead, window) = (longest / 4 + 3, usize::from(settings.periods) * longest);
         Self {
             pairs: VecDeque::new(),
+            lead,
+            most: lead + window * 6 / 5 + BLOCK_PAIRS,
             start: 0,
-            calibration,
-            sample_rate,
+            calibration: settings.calibration,
+            sample_rate: settings.sample_rate,
         }
     }
 
     /// Takes the samples that the identification took.
     pub fn extend(&mut self, pairs: &[Pair]) {
         self.pairs.extend(pairs);
-        // A window and its lead: 1022 periods of 256 samples at the most.
-        let excess = self.pairs.len().saturating_sub(1024 * 256);
+        let excess = self.pairs.len().saturating_sub(self.most);
         self.pairs.drain(..excess);
         self.start += excess as u64;
     }
 
-    /// All methods over the window of an estimate; `None` where it holds no wave, or its samples are not here.
+    /// All methods over the window of an estimate; `None` where it holds no wave, or the samples are not
+    /// here that it and a quarter of a period before it have.
     pub fn compare(&self, estimate: &Estimate) -> Option<Methods> {
         if estimate.flags.contains(Flags::LOST) {
             return None;
         }
         let omega = TAU * estimate.frequency / self.sample_rate;
         let first = usize::try_from(estimate.start.checked_sub(self.start)?).ok()?;
-        let from = first.saturating_sub(LEAD);
+        let from = first.saturating_sub(self.lead);
         let end = first + estimate.samples as usize;
         let raw: Vec<Pair> = self
             .pairs
@@ -78,6 +83,10 @@ impl History {
             return None;
         }
         let lag = algorithm2::quarter_lag((TAU / omega) as f32);
+        if lead < usize::from(lag) {
+            // A wave of known frequency may begin with the first sample.
+            return None;
+        }
         let sums = Sums {
             moments: Moments::of(window),
             delayed: Delayed::of(&pairs, lead, lag),

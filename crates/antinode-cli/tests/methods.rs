@@ -265,6 +265,32 @@ fn the_exact_solution_alone_has_no_columns_of_methods() {
 }
 
 #[test]
+fn long_periods_and_long_windows_have_methods_that_do_not_warn() {
+    let directory = tempfile::tempdir().unwrap();
+    for (periods, windows) in [(10, 40), (300, 6)] {
+        let seconds = 1e-3 * f64::from(periods * windows);
+        let rows = simulated(
+            directory.path(),
+            &format!(
+                "--frequency 1000 --rate 1000000 --seconds {seconds} --noise 0.005 --main-amplitude 0.5 --quadrature-amplitude -0.05 --angle 0.3"
+            ),
+            &format!("--frequency 1000 --periods {periods}"),
+        );
+        // The first has no samples before it.
+        let rows = &rows[1..];
+        assert!(
+            rows.iter()
+                .all(|row| row.number("method4_main_amplitude") > 0.4)
+        );
+        assert!(
+            10 * warnings(rows) <= rows.len(),
+            "{periods}: {}",
+            warnings(rows)
+        );
+    }
+}
+
+#[test]
 fn a_window_without_a_wave_has_no_methods() {
     let directory = tempfile::tempdir().unwrap();
     let gone = format!("--seconds 0.2 --noise 0.001 --dropout 0.05:0.1:zero {WAVE}");

@@ -27,6 +27,34 @@ fn flattened_crests_are_flagged_in_noise_without_a_known_rail() {
 }
 
 #[test]
+fn a_limit_below_the_known_rails_is_flagged_too() {
+    for seed in 0..10 {
+        let (wave, flaws) = gyro(seed);
+        let wave = Wave {
+            angle: 0.02,
+            angle_rate: 0.0,
+            decay_rate: 0.0,
+            ..wave
+        };
+        let flaws = Flaws {
+            noise: 0.1 * wave.main_amplitude,
+            ..flaws
+        };
+        let level = 0.85 * wave.main_amplitude;
+        let settings = Settings {
+            rails: Some([-100.0, 100.0]),
+            ..windows(10)
+        };
+        let found = identify_changed(wave, &flaws, settings, 20_000, seed, |_, pair| {
+            pair.map(|s| s.clamp(-level, level))
+        });
+        let clipped = |e: &&Estimate| e.flags.contains(Flags::CLIPPED);
+        let count = found.iter().filter(clipped).count();
+        assert!(count > 95, "seed {seed}: {count} of {}", found.len());
+    }
+}
+
+#[test]
 fn a_limiter_before_the_noise_is_flagged_by_its_harmonic() {
     for seed in 0..10 {
         let wave = Wave {

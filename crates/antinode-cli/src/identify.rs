@@ -39,6 +39,14 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
         ..options.settings(1.0, None, None)
     }
     .check(usize::from(MOST_PERIODS) + 2)?;
+    // The core would do without it there, and nothing would tell.
+    let least = if options.hop.is_some() { 10 } else { 5 };
+    if options.hum && options.periods < least {
+        return Err(Failure::Usage(format!(
+            "--hum: windows of {} periods are too short for it: give --periods {least} or more",
+            options.periods
+        )));
+    }
     let mut rows = Rows::new(
         BufWriter::new(io::stdout().lock()),
         options.output,
@@ -170,7 +178,8 @@ fn identify(
     if !options.hum && misfits >= MANY && 4 * misfits > rows.count() {
         rows.flush()?;
         eprintln!(
-            "warning: {name}: {misfits} of {} rows are flagged misfit alone; where it is mains hum or an offset that wanders, --hum takes it out",
+            "warning: {name}: {misfits} of {} rows are flagged misfit alone; where it is mains hum or an offset that wanders, --hum takes it out; where the \
+             frequency drifts or the pattern turns far within a window, shorter windows do, --periods",
             rows.count()
         );
     }

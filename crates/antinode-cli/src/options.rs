@@ -144,9 +144,10 @@ pub struct Identify {
     /// |sample| at which the converter is at its rail, above 0 [default: known for integers, none for others].
     #[arg(long, value_name = "LEVEL", value_parser = ranges::positive, help_heading = "Calibration")]
     pub full_scale: Option<f32>,
-    /// Step between two codes of the converter, above 0, in the unit of the samples [default: known for integers, told from the first samples of others].
+    /// Step between two codes of the converter, above 0, in the unit of the samples [default: told from the first samples].
     ///
-    /// Text and floats have one where their first samples all lie on its multiples; of pipes, text with a time alone.
+    /// There is one where the first samples all lie on its multiples: integers may come from a converter of fewer bits. Pipes do not
+    /// tell it before their samples come, but for text with a time; integers then have the step of all their bits.
     #[arg(long, value_name = "STEP", value_parser = ranges::positive, help_heading = "Calibration")]
     pub resolution: Option<f32>,
 }

@@ -52,13 +52,15 @@ impl Search {
         Failure::Recording(if let Some(frequency) = near {
             format!(
                 "{name}: no window of {periods} periods in {pairs} sample pairs ({seconds:.4} s) is mostly one wave within 5 % of \
-                 {frequency} Hz: check --frequency and the sample rate, or leave --frequency out, and the period is searched{offset}"
+                 {frequency} Hz: check --frequency and the sample rate, or leave --frequency out, and the period is searched; a wave that \
+                 changes fast wants shorter windows, --periods{offset}"
             )
         } else if self.refused > 0 {
             format!(
                 "{name}: a period was found, but no window of {periods} periods in {pairs} sample pairs ({seconds:.4} s) is mostly \
-                 one wave; the wave may have fewer than 4 samples a period: check the sample rate; or look for a second tone, and \
-                 check the scale of the samples, --full-scale and --resolution{offset}"
+                 one wave; the wave may have fewer than 4 samples a period: check the sample rate; or look for a second tone; \
+                 or the wave changes too fast: give a smaller --periods; and check the scale of the samples, --full-scale and \
+                 --resolution{offset}"
             )
         } else if core.is_searching() {
             let other = match options.detector {

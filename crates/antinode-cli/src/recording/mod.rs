@@ -53,7 +53,7 @@ pub struct Recording {
     opened: Opened,
     /// Pairs read to tell the resolution, and not yet delivered.
     head: std::vec::IntoIter<[f32; 2]>,
-    /// The step of text and floats.
+    /// The step that the first samples tell.
     step: Option<f32>,
     /// The pairs delivered.
     delivered: u64,
@@ -156,11 +156,8 @@ impl Recording {
         .with_step()
     }
 
-    /// Tells the step of text and floats from their first samples.
+    /// Tells the step from the first samples: integers too may have come from a converter of fewer bits.
     fn with_step(mut self) -> Self {
-        if self.opened.full_scale.is_some() {
-            return self;
-        }
         if self.bytes_total.is_some() {
             let mut head = Vec::with_capacity(BLOCK_PAIRS);
             self.fault = self.opened.source.fill(&mut head, BLOCK_PAIRS).err();
@@ -220,16 +217,18 @@ impl Recording {
         self.opened.source.bytes_read().min(most)
     }
 
-    /// The magnitude from which an integer sample is at its rail, 32767/32768 for 16 bits; none for floats.
+    /// The magnitude from which an integer sample is at its rail, 32767/32768 for 16 bits, 2047/2048 where only the upper 12 are in use;
+    /// none for floats.
     pub fn full_scale(&self) -> Option<f32> {
-        self.opened.full_scale
+        let largest = self.opened.full_scale?;
+        // Full scale reads as 1: the largest code is a step below it.
+        Some(self.step.map_or(largest, |step| largest.min(1.0 - step)))
     }
 
     /// The step between two codes of the converter: of integers, and of text and floats that lie on one.
     ///
-    /// A pipe tells it only where it is text with a time, of which many lines are read ahead.
+    /// A pipe tells it only where it is text with a time, of which many lines are read ahead, and else that of its integers' bits.
     pub fn resolution(&self) -> Option<f32> {
-        // Integer full scale reads as 1: the largest code is a step below it.
         let of_integers = self.full_scale().map(|largest| 1.0 - largest);
         of_integers.filter(|&step| step > 0.0).or(self.step)
     }

@@ -98,16 +98,15 @@ pub(super) fn sample_flags(
         return flags;
     }
     let fine = wave.record.main.value > 100.0 * settings.resolution.unwrap_or(0.0);
-    let clipped = match settings.rails {
-        Some([least, most]) => (0..2).any(|i| range.high[i] >= most || range.low[i] <= least),
-        // Where no rail is known, samples that stay at the extreme for longer than a crest does show one.
-        None => {
-            range.longest > 2 && fine && {
-                let crest = greater(step.period() / 16.0, 2.0) as u16;
-                range.longest > crest && range.is_flat(blocks, wave.record.main.value, crest)
-            }
-        }
-    };
+    let at_rail = settings.rails.is_some_and(|[least, most]| {
+        (0..2).any(|i| range.high[i] >= most || range.low[i] <= least)
+    });
+    // Samples that stay at the extreme for longer than a crest does show a limit, known or not.
+    let clipped = at_rail
+        || range.longest > 2 && fine && {
+            let crest = greater(step.period() / 16.0, 2.0) as u16;
+            range.longest > crest && range.is_flat(blocks, wave.record.main.value, crest)
+        };
     let (main, deviation) = (wave.record.main.value, square_root(noise));
     let misfit = range.is_beyond(fit, SIGMAS * deviation + BEYOND * main)
         || is_first && are_all_beyond(blocks, fit, SIGMAS_OF_ALL * deviation + 0.25 * main);

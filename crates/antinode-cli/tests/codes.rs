@@ -1,0 +1,62 @@
+//! Recordings of converters that have fewer bits than the integers they are stored in.
+
+mod common;
+
+use std::path::Path;
+
+use common::{Row, rows, run};
+
+/// The rows of a simulated recording.
+fn identified(here: &Path, name: &str, simulate: &str, identify: &str) -> Vec<Row> {
+    let made = run(here, &format!("simulate -o {name} {simulate}"));
+    assert_eq!(made.code, 0, "{}", made.err);
+    rows(here, &format!("{name} {identify}"))
+}
+
+#[test]
+fn their_steps_count_in_the_deviations() {
+    let directory = tempfile::tempdir().unwrap();
+    // Next to 20 samples a period, so that 12-bit codes repeat, and a tenth of a code of noise, too little to break that up.
+    let simulate = "--seconds 1 --bits 12 --frequency 5000.01 --noise 5e-5";
+    for (name, sample, rate) in [
+        ("a.wav", "--sample i16", ""),
+        ("b.wav", "--sample i24", ""),
+        ("c.npy", "", "--rate 100000"),
+    ] {
+        let rows = identified(
+            directory.path(),
+            name,
+            &format!("{simulate} {sample}"),
+            rate,
+        );
+        assert!(rows.len() > 400);
+        let squares = rows.iter().map(|row| {
+            let off = row.number("main_amplitude") - 0.5;
+            (off / row.number("main_amplitude_std")).powi(2)
+        });
+        let rms = (squares.sum::<f64>() / rows.len() as f64).sqrt();
+        assert!((0.3..1.3).contains(&rms), "{name}: {rms}");
+    }
+}
+
+#[test]
+fn their_own_rail_is_a_rail() {
+    let directory = tempfile::tempdir().unwrap();
+    for (amplitude, is_clipped) in [(0.99, false), (0.9999, true)] {
+        let rows = identified(
+            directory.path(),
+            "a.wav",
+            &format!(
+                "--seconds 0.1 --bits 12 --noise 1e-4 --angle 0 --quadrature-amplitude 0.01 --main-amplitude {amplitude}"
+            ),
+            "",
+        );
+        let clipped = rows
+            .iter()
+            .filter(|row| row.text("flags").contains("clipped"));
+        let share = clipped.count() as f64 / rows.len() as f64;
+        // Not every window has a sample next to a crest.
+        let expected = if is_clipped { 0.9..=1.0 } else { 0.0..=0.0 };
+        assert!(expected.contains(&share), "{amplitude}: {share}");
+    }
+}

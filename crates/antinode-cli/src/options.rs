@@ -113,7 +113,8 @@ pub struct Identify {
     /// Format of raw samples, in whatever is no WAV, no NPY and not named as a text: little-endian, S_C and S_D in turn.
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub raw: Option<Raw>,
-    /// Columns of a text recording, by name or number from 1, as C,D or TIME,C,D [default: by their names or number].
+    /// Columns of a text recording, by name or number from 1, as C,D or TIME,C,D [default: by their names or number]; channels of a WAV or
+    /// NPY recording, by number, as C,D.
     ///
     /// What is neither WAV nor NPY is then read as text, unless --raw is given. Without it, text is known by its first line.
     /// Two columns leave the recording's time out: its rate is then that of --rate. Lines that begin with #, % or // are comments; a

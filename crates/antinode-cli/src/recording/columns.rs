@@ -1,5 +1,6 @@
 //! Which columns of a text recording hold the time and the two signals.
 
+use std::fmt;
 use std::str::FromStr;
 
 use super::error::{LineFault, Role};
@@ -31,6 +32,26 @@ impl FromStr for Columns {
             _ => return Err(ColumnsError(text.to_owned())),
         };
         Ok(Self { time, signals })
+    }
+}
+
+impl Columns {
+    /// The numbers from 1 of S_C and S_D, where both are numbers, they differ, and there is no time.
+    pub(super) fn numbers(&self) -> Option<[usize; 2]> {
+        let [c, d] = self.signals.each_ref().map(|name| name.parse().ok());
+        match (&self.time, c?, d?) {
+            (None, c, d) if c != d => Some([c, d]),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Columns {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(time) = &self.time {
+            write!(f, "{time},")?;
+        }
+        write!(f, "{}", self.signals.join(","))
     }
 }
 

@@ -92,11 +92,30 @@ pub enum InputError {
     WavEncoding { file: String, encoding: String },
     /// Not two channels.
     #[error(
-        "{file}: WAV header: found {found} {}, but two are needed; put S_C on the left channel and \
-         S_D on the right, for example with `sox -M c.wav d.wav both.wav`",
-        if *.found == 1 { "channel" } else { "channels" }
+        "{file}: WAV header: found {found} {}, but two are needed; {}",
+        if *.found == 1 { "channel" } else { "channels" },
+        if *.found < 2 {
+            "put S_C on the left channel and S_D on the right, for example with `sox -M c.wav d.wav both.wav`"
+        } else {
+            "give those of S_C and S_D, --columns 1,2"
+        }
     )]
-    Channels { file: String, found: u16 },
+    Channels { file: String, found: usize },
+    /// Samples behind those that the header tells.
+    #[error(
+        "{file}: the WAV header says {promised} sample pairs, and more follow that are not read: it was never finished, or they are too many \
+         for it; mend it, for example with `sox --ignore-length {file} whole.wav`"
+    )]
+    MoreData { file: String, promised: u64 },
+    /// Channels that there are not, or not by their numbers.
+    #[error(
+        "{file}: --columns {chosen}: give the numbers of the channels of S_C and S_D, two of 1 to {channels}"
+    )]
+    ChannelChoice {
+        file: String,
+        chosen: String,
+        channels: usize,
+    },
     /// Bits below the valid ones are set.
     #[error(
         "{file}: sample pair {pair} (from 0), {channel}: bits are set below the {valid} valid ones of a \
@@ -146,8 +165,8 @@ pub enum InputError {
     NpyHeader { file: String, fault: &'static str },
     /// Neither (N, 2) nor (2, N).
     #[error(
-        "{file}: NPY header: the shape is {shape}, but (N, 2) is needed; save \
-         `numpy.stack([c, d], axis=1)`"
+        "{file}: NPY header: the shape is {shape}, but (N, 2) is needed; of more channels \
+         give two, --columns 1,2, or save `numpy.stack([c, d], axis=1)`"
     )]
     NpyShape { file: String, shape: String },
     /// A type of number that has no scale here.

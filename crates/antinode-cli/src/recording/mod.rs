@@ -5,6 +5,7 @@ mod columns;
 mod content;
 mod delimited;
 mod error;
+mod frame;
 mod header;
 mod lines;
 mod not_finite;
@@ -40,7 +41,7 @@ pub const BLOCK_PAIRS: usize = 1 << 14;
 pub struct OpenOptions {
     /// The format of raw samples, on standard input or in a file of no known kind.
     pub raw: Option<RawFormat>,
-    /// The columns of a text recording; by default, they are told from the header or their number.
+    /// The columns of a text recording, or the channels of another; by default, they are told from the header or their number.
     pub columns: Option<Columns>,
     /// The sample rate that goes before the recording's own, Hz.
     pub rate: Option<f64>,
@@ -121,8 +122,8 @@ impl Recording {
         let file = name.to_owned();
         match (content, kind.extension.as_str(), options.raw) {
             (Content::Nothing, ..) => Err(InputError::Empty { file }),
-            (Content::Wav, ..) => wav::open(name, stream, length),
-            (Content::Npy, ..) => npy::open(name, stream, kind.again, length),
+            (Content::Wav, ..) => wav::open(name, stream, length, options.columns.as_ref()),
+            (Content::Npy, ..) => npy::open(name, stream, kind, options.columns.as_ref()),
             (_, "wav" | "wave", _) => Err(InputError::NotOfKind {
                 file,
                 kind: "a WAV file",

@@ -5,9 +5,12 @@ use std::io::{self, Read, Seek, SeekFrom};
 
 use npyz::{DType, Endianness, NpyHeader, Order, TypeChar};
 
+use super::columns::Columns;
 use super::error::InputError;
+use super::frame::Frame;
 use super::raw::{Interleaved, bad_sample};
 use super::sample::{Kind, SampleCode};
+use super::source::Kind as Known;
 use super::{Opened, Source, Stream};
 
 /// No header of a plain array is as long; `numpy` itself refuses longer ones.
@@ -19,12 +22,13 @@ const MAX_DEPTH: usize = 8;
 /// Pairs read at a time where the signals lie apart.
 const PLANE_PAIRS: usize = 1 << 14;
 
-/// Opens an NPY file; `again` is the same file, if it is one that can be sought in.
+/// Opens an NPY file; of what is known beside its content the file itself is wanted, to be sought in, and its length. `columns` are the
+/// channels asked for.
 pub(super) fn open(
     file: &str,
     mut stream: Stream,
-    again: Option<File>,
-    length: Option<u64>,
+    Known { again, length, .. }: Known,
+    columns: Option<&Columns>,
 ) -> Result<Opened, InputError> {
     let text = header_text(file, &mut stream)?;
     let damaged = InputError::NpyHeader {
@@ -35,9 +39,15 @@ pub(super) fn open(
         return Err(damaged);
     };
     let code = code(file, &header.dtype())?;
-    let (pairs, interleaved) = match (header.shape(), header.order()) {
-        (&[pairs, 2], order) => (pairs, order == Order::C),
-        (&[2, pairs], order) => (pairs, order == Order::Fortran),
+    let (pairs, channels, interleaved) = match (header.shape(), header.order()) {
+        (&[pairs, 2], order) => (pairs, 2, order == Order::C),
+        (&[2, pairs], order) => (pairs, 2, order == Order::Fortran),
+        // No recording has more channels than samples.
+        (&[one, other], order) if columns.is_some() => (
+            one.max(other),
+            one.min(other),
+            (one > other) == (order == Order::C),
+        ),
         (shape, _) => {
             return Err(InputError::NpyShape {
                 file: file.to_owned(),
@@ -45,32 +55,41 @@ pub(super) fn open(
             });
         }
     };
+    let frame = Frame::choose(
+        file,
+        usize::try_from(channels).unwrap_or(usize::MAX),
+        columns,
+    )?;
     if pairs == 0 {
         return Err(InputError::NoPairs {
             file: file.to_owned(),
         });
     }
     let start = text.len() as u64;
-    let Some(bytes) = pairs.checked_mul(code.pair_bytes() as u64) else {
+    let size = code.sample_bytes() as u64;
+    let Some(bytes) = pairs.checked_mul(channels * size) else {
         return Err(damaged);
     };
     let available = length.map_or(bytes, |length| bytes.min(length.saturating_sub(start)));
     let (source, there): (Box<dyn Source>, u64) = if interleaved {
-        let source = Interleaved::new(file, stream, code, start).live(length.is_none());
+        let source = Interleaved::new(file, stream, code, start)
+            .of(frame)
+            .live(length.is_none());
         (
             Box::new(source.promise(bytes)),
-            available / code.pair_bytes() as u64,
+            available / (channels * size),
         )
     } else {
         let again = again.ok_or_else(|| InputError::NpyPipe {
             file: file.to_owned(),
         })?;
-        let there = available.saturating_sub(bytes / 2) / code.sample_bytes() as u64;
+        let [c, d] = frame.chosen.map(|place| place as u64 * pairs * size);
+        let there = (available.saturating_sub(c.max(d)) / size).min(pairs);
         let planes = Planes {
             file: file.to_owned(),
             stream: again,
             code,
-            starts: [start, start + bytes / 2],
+            starts: [start + c, start + d],
             promised: pairs,
             there,
             read: 0,

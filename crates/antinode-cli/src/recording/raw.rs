@@ -3,11 +3,15 @@
 use std::io::{self, Read};
 
 use super::error::InputError;
+use super::frame::Frame;
 use super::sample::{BadSample, Kind, SampleCode};
 use super::{Opened, Source, Stream};
 
 /// Large enough that system calls cost nothing, small enough to stay in the cache.
 const CHUNK_BYTES: usize = 3 << 16;
+
+/// The name of a chunk and its size.
+const CHUNK_HEADER: usize = 8;
 
 /// The format of samples that come without a header: little-endian, S_C and S_D in turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,6 +29,9 @@ pub(super) struct Interleaved {
     file: String,
     stream: Stream,
     code: SampleCode,
+    frame: Frame,
+    /// The samples of the chosen channels, where there are others.
+    picked: Vec<u8>,
     /// The pairs the header promises, if it does.
     promised: Option<u64>,
     /// The bytes of data not yet read, where they are counted.
@@ -36,6 +43,8 @@ pub(super) struct Interleaved {
     /// The bytes of a pair begun, at the front of `chunk`.
     begun: usize,
     live: bool,
+    /// Where what is promised ends, another chunk of a WAV file begins, or nothing.
+    before_chunks: bool,
 }
 
 /// Opens samples without a header.
@@ -64,6 +73,8 @@ impl Interleaved {
             file: file.to_owned(),
             stream,
             code,
+            frame: Frame::PAIR,
+            picked: Vec::new(),
             promised: None,
             left: None,
             consumed,
@@ -71,12 +82,31 @@ impl Interleaved {
             chunk: vec![0; CHUNK_BYTES],
             begun: 0,
             live: false,
+            before_chunks: false,
         }
+    }
+
+    /// As the data of a WAV file, behind which only its other chunks may stand.
+    pub fn before_chunks(self) -> Self {
+        Self {
+            before_chunks: true,
+            ..self
+        }
+    }
+
+    /// Other channels beside the two.
+    pub fn of(self, frame: Frame) -> Self {
+        Self { frame, ..self }
+    }
+
+    /// The bytes of one pair, with what was sampled beside it.
+    fn frame_bytes(&self) -> usize {
+        self.frame.channels * self.code.sample_bytes()
     }
 
     /// No more than `bytes` of samples, and an error if there are fewer.
     pub fn promise(mut self, bytes: u64) -> Self {
-        self.promised = Some(bytes / self.code.pair_bytes() as u64);
+        self.promised = Some(bytes / self.frame_bytes() as u64);
         self.left = Some(bytes);
         self
     }
@@ -89,7 +119,7 @@ impl Interleaved {
     /// Reads behind what is begun; 0 at the end.
     fn read(&mut self, pairs: usize) -> io::Result<usize> {
         let most = pairs
-            .saturating_mul(self.code.pair_bytes())
+            .saturating_mul(self.frame_bytes())
             .min(self.chunk.len())
             - self.begun;
         let most = self
@@ -104,9 +134,23 @@ impl Interleaved {
         }
     }
 
-    fn end(&self) -> Result<(), InputError> {
+    /// True where what comes behind the promised bytes is neither a chunk, whose name is text, nor padding.
+    fn goes_on(&mut self) -> bool {
+        let mut name = [0; CHUNK_HEADER];
+        self.before_chunks
+            && self.left == Some(0)
+            && self.stream.read_exact(&mut name).is_ok()
+            && !name[..4]
+                .iter()
+                .all(|byte| byte.is_ascii_graphic() || *byte == b' ')
+            && name != [0; CHUNK_HEADER]
+    }
+
+    fn end(&mut self) -> Result<(), InputError> {
+        let goes_on = self.goes_on();
         let (file, found) = (self.file.clone(), self.pairs);
         match self.promised {
+            Some(promised) if goes_on => Err(InputError::MoreData { file, promised }),
             Some(promised) if found < promised => Err(InputError::Truncated {
                 file,
                 promised,
@@ -147,11 +191,19 @@ impl Source for Interleaved {
             self.consumed += read as u64;
             self.left = self.left.map(|left| left - read as u64);
             let there = self.begun + read;
-            let whole = there - there % self.code.pair_bytes();
+            let whole = there - there % self.frame_bytes();
+            let bytes = if self.frame == Frame::PAIR {
+                &self.chunk[..whole]
+            } else {
+                let size = self.code.sample_bytes();
+                self.frame
+                    .pick(&self.chunk[..whole], size, &mut self.picked);
+                &self.picked
+            };
             self.code
-                .decode(&self.chunk[..whole], pairs)
+                .decode(bytes, pairs)
                 .map_err(|bad| self.bad(bad))?;
-            self.pairs += (whole / self.code.pair_bytes()) as u64;
+            self.pairs += (whole / self.frame_bytes()) as u64;
             self.chunk.copy_within(whole..there, 0);
             self.begun = there - whole;
             if self.live && whole > 0 {
@@ -167,102 +219,4 @@ impl Source for Interleaved {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::tests::{Dribble, drain, message};
-    use super::*;
-    use crate::recording::Recording;
-
-    fn raw(bytes: Vec<u8>, format: RawFormat) -> Recording {
-        let stream = Box::new(Dribble::new(bytes, 7));
-        Recording::new(
-            "standard input".to_owned(),
-            open("standard input", stream, format, None),
-            None,
-        )
-    }
-
-    #[test]
-    fn every_format_is_read_across_ragged_chunks() {
-        let codes: Vec<i16> = (0..999).map(|k| k * 31 - 15_000).collect();
-        let values: Vec<f32> = codes
-            .iter()
-            .map(|&code| f32::from(code) / 32_768.0)
-            .collect();
-        let whole = |bytes: Vec<u8>| bytes[..bytes.len() / 2 * 2].to_vec();
-        let pairs = values[..998].as_chunks::<2>().0.to_vec();
-        let i16s = codes[..998]
-            .iter()
-            .flat_map(|code| code.to_le_bytes())
-            .collect();
-        let i32s = codes[..998]
-            .iter()
-            .flat_map(|&code| (i32::from(code) << 16).to_le_bytes())
-            .collect();
-        let f32s = values[..998]
-            .iter()
-            .flat_map(|value| value.to_le_bytes())
-            .collect();
-        for (bytes, format) in [
-            (i16s, RawFormat::I16),
-            (i32s, RawFormat::I32),
-            (f32s, RawFormat::F32),
-        ] {
-            let (read, fault) = drain(&mut raw(whole(bytes), format));
-            assert_eq!(read, pairs);
-            assert!(fault.is_none());
-        }
-    }
-
-    #[test]
-    fn half_a_pair_at_the_end_is_an_error_after_the_good_data() {
-        let (pairs, fault) = drain(&mut raw(vec![0, 0x40, 0, 0xc0, 1, 0], RawFormat::I16));
-        assert_eq!(pairs, [[0.5, -0.5]]);
-        assert!(message(fault).starts_with(
-            "standard input: sample pair 1 (from 0): the data end in the middle of it"
-        ));
-    }
-
-    #[test]
-    fn not_finite_samples_pass_and_are_told() {
-        let mut values = [0.5f32; 40];
-        values[30] = f32::NEG_INFINITY;
-        values[33] = f32::NAN;
-        let bytes = values
-            .iter()
-            .flat_map(|value| value.to_le_bytes())
-            .collect();
-        let mut recording = raw(bytes, RawFormat::F32);
-        let (pairs, fault) = drain(&mut recording);
-        assert_eq!((pairs.len(), fault.is_none()), (20, true));
-        assert_eq!(pairs[15], [f32::NEG_INFINITY, 0.5]);
-        assert!(message(recording.not_finite()).starts_with(
-            "standard input: sample pair 15 (from 0), S_C (left): the value is -inf, not a finite \
-             number, the first of 2; "
-        ));
-    }
-
-    #[test]
-    fn a_live_stream_is_handed_over_as_it_comes() {
-        let mut recording = raw(vec![0; 64], RawFormat::I16);
-        assert_eq!(recording.read(&mut Vec::with_capacity(100)).ok(), Some(1));
-    }
-
-    #[test]
-    fn a_fault_of_the_pipe_comes_after_the_good_data() {
-        struct Broken;
-        impl Read for Broken {
-            fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
-                Err(io::Error::other("cable pulled"))
-            }
-        }
-        let stream = Box::new(io::Cursor::new(vec![0; 8]).chain(Broken));
-        let mut recording = Recording::new(
-            "pipe".to_owned(),
-            open("pipe", stream, RawFormat::I16, None),
-            None,
-        );
-        let (pairs, fault) = drain(&mut recording);
-        assert_eq!(pairs.len(), 2);
-        assert!(message(fault).starts_with("pipe: cannot be read: cable pulled; "));
-    }
-}
+mod tests;

@@ -2,7 +2,9 @@
 
 use std::io::{self, Read};
 
+use super::columns::Columns;
 use super::error::InputError;
+use super::frame::Frame;
 use super::raw::Interleaved;
 use super::sample::{Kind, SampleCode};
 use super::{Opened, Stream};
@@ -19,8 +21,13 @@ const ARECORD_UNKNOWN: u64 = 0x8000_0000;
 /// The length of a chunk that is in the `ds64` chunk, or unknown.
 const UNKNOWN: u64 = 0xffff_ffff;
 
-/// Opens a WAV file; `length` is that of the file, if it has one.
-pub(super) fn open(file: &str, stream: Stream, length: Option<u64>) -> Result<Opened, InputError> {
+/// Opens a WAV file; `length` is that of the file, if it has one, and `columns` are the channels asked for.
+pub(super) fn open(
+    file: &str,
+    stream: Stream,
+    length: Option<u64>,
+    columns: Option<&Columns>,
+) -> Result<Opened, InputError> {
     let mut header = Reader {
         file,
         stream,
@@ -28,16 +35,19 @@ pub(super) fn open(file: &str, stream: Stream, length: Option<u64>) -> Result<Op
     };
     let (format, data) = header.read()?;
     let start = header.position;
-    let pair_bytes = format.code.pair_bytes() as u64;
+    let frame = Frame::choose(file, format.channels, columns)?;
+    let pair_bytes = (frame.channels * format.code.sample_bytes()) as u64;
     let available = length.map(|length| length.saturating_sub(start));
     let promised = data.promised(pair_bytes, length);
     let bytes = match (promised, available) {
         (Some(promised), Some(available)) => Some(promised.min(available)),
         (promised, available) => promised.or(available),
     };
-    let source = Interleaved::new(file, header.stream, format.code, start).live(length.is_none());
+    let source = Interleaved::new(file, header.stream, format.code, start)
+        .of(frame)
+        .live(length.is_none());
     let source = match promised {
-        Some(promised) => source.promise(promised),
+        Some(promised) => source.promise(promised).before_chunks(),
         None => source,
     };
     Ok(Opened {
@@ -54,6 +64,7 @@ pub(super) fn open(file: &str, stream: Stream, length: Option<u64>) -> Result<Op
 /// What the `fmt ` chunk tells.
 struct Format {
     code: SampleCode,
+    channels: usize,
     rate: u32,
 }
 
@@ -169,13 +180,6 @@ impl Reader<'_> {
         let chunk = self.chunk(size, if size < 40 { 16 } else { 40 })?;
         let word = |at: usize| u16::from_le_bytes([chunk[at], chunk[at + 1]]);
         let (channels, frame, bits) = (word(2), u32::from(word(12)), u32::from(word(14)));
-        let file = || self.file.to_owned();
-        if channels != 2 {
-            return Err(InputError::Channels {
-                file: file(),
-                found: channels,
-            });
-        }
         let (mut tag, mut valid) = (word(0), bits);
         if tag == 0xfffe {
             if chunk.len() < 40 || chunk[26..40] != SUBTYPE_TAIL {
@@ -198,7 +202,7 @@ impl Reader<'_> {
             (3, 64) => Kind::F64,
             _ => {
                 return Err(InputError::WavEncoding {
-                    file: file(),
+                    file: self.file.to_owned(),
                     encoding: encoding(tag, bits),
                 });
             }
@@ -206,13 +210,21 @@ impl Reader<'_> {
         let code = SampleCode::new(kind);
         let stored = 8 * code.sample_bytes() as u32;
         let whole = tag == 3 || kind == Kind::U8;
-        if frame != stored / 4 || valid > stored || valid < 2 || whole && valid != stored {
-            let fault = format!("{valid} valid of {bits} bits do not fit pairs of {frame} bytes");
+        if channels == 0
+            || frame != u32::from(channels) * stored / 8
+            || valid > stored
+            || valid < 2
+            || whole && valid != stored
+        {
+            let fault = format!(
+                "{valid} valid of {bits} bits do not fit {channels} channels of {frame} bytes together"
+            );
             return Err(self.fault(fault));
         }
         let rate = u32::from_le_bytes([chunk[4], chunk[5], chunk[6], chunk[7]]);
         Ok(Format {
             code: code.valid_bits(valid),
+            channels: usize::from(channels),
             rate,
         })
     }

@@ -240,7 +240,12 @@ fn not_finite_is_named_in_either_layout() {
 fn a_pipe_cannot_go_back() {
     let open = |shape| {
         let bytes = npy("'<i2'", false, shape, &codes(&INTERLEAVED));
-        super::open("pipe", Box::new(Dribble::new(bytes, 5)), None, None)
+        super::open(
+            "pipe",
+            Box::new(Dribble::new(bytes, 5)),
+            super::Known::default(),
+            None,
+        )
     };
     let mut recording = Recording::new("pipe".to_owned(), open("(3, 2)").unwrap(), None);
     assert_eq!(drain(&mut recording).0, PAIRS);

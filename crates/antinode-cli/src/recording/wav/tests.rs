@@ -196,7 +196,7 @@ fn a_pipe_needs_no_length() {
     let mut piped = wav(format(1, 2, 16), &[PAIR_16; 500].concat());
     piped.size = 0xffff_ffff;
     let open = |wav: &Wav| {
-        let opened = super::open("pipe", Box::new(Dribble::new(wav.bytes(), 5)), None)
+        let opened = super::open("pipe", Box::new(Dribble::new(wav.bytes(), 5)), None, None)
             .expect("a good header");
         Recording::new("pipe".to_owned(), opened, None)
     };

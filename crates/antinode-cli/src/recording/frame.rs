@@ -1,0 +1,63 @@
+//! Which two of the channels that were sampled together are S_C and S_D.
+
+use super::columns::Columns;
+use super::error::InputError;
+
+/// The channels of a recording, and the places from 0 of S_C and S_D among them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Frame {
+    pub channels: usize,
+    pub chosen: [usize; 2],
+}
+
+impl Frame {
+    /// S_C and S_D and nothing else.
+    pub const PAIR: Self = Self {
+        channels: 2,
+        chosen: [0, 1],
+    };
+
+    /// The channels that the user chose of so many, or else both of two.
+    pub fn choose(
+        file: &str,
+        channels: usize,
+        columns: Option<&Columns>,
+    ) -> Result<Self, InputError> {
+        let file = || file.to_owned();
+        let Some(columns) = columns else {
+            return if channels == 2 {
+                Ok(Self::PAIR)
+            } else {
+                let found = channels;
+                Err(InputError::Channels {
+                    file: file(),
+                    found,
+                })
+            };
+        };
+        let chosen = columns
+            .numbers()
+            .filter(|places| places.iter().all(|place| (1..=channels).contains(place)));
+        match chosen {
+            Some([c, d]) => Ok(Self {
+                channels,
+                chosen: [c - 1, d - 1],
+            }),
+            None => Err(InputError::ChannelChoice {
+                file: file(),
+                chosen: columns.to_string(),
+                channels,
+            }),
+        }
+    }
+
+    /// Takes the samples of S_C and S_D, of `size` bytes each, out of whole frames.
+    pub fn pick(self, frames: &[u8], size: usize, picked: &mut Vec<u8>) {
+        picked.clear();
+        for frame in frames.chunks_exact(self.channels * size) {
+            for place in self.chosen {
+                picked.extend_from_slice(&frame[place * size..][..size]);
+            }
+        }
+    }
+}

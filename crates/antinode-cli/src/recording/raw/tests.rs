@@ -1,0 +1,101 @@
+//! Streams of samples made by hand.
+
+use super::super::tests::{Dribble, drain, message};
+use super::*;
+use crate::recording::Recording;
+
+fn raw(bytes: Vec<u8>, format: RawFormat) -> Recording {
+    let stream = Box::new(Dribble::new(bytes, 7));
+    Recording::new(
+        "standard input".to_owned(),
+        open("standard input", stream, format, None),
+        None,
+    )
+}
+
+#[test]
+fn every_format_is_read_across_ragged_chunks() {
+    let codes: Vec<i16> = (0..999).map(|k| k * 31 - 15_000).collect();
+    let values: Vec<f32> = codes
+        .iter()
+        .map(|&code| f32::from(code) / 32_768.0)
+        .collect();
+    let whole = |bytes: Vec<u8>| bytes[..bytes.len() / 2 * 2].to_vec();
+    let pairs = values[..998].as_chunks::<2>().0.to_vec();
+    let i16s = codes[..998]
+        .iter()
+        .flat_map(|code| code.to_le_bytes())
+        .collect();
+    let i32s = codes[..998]
+        .iter()
+        .flat_map(|&code| (i32::from(code) << 16).to_le_bytes())
+        .collect();
+    let f32s = values[..998]
+        .iter()
+        .flat_map(|value| value.to_le_bytes())
+        .collect();
+    for (bytes, format) in [
+        (i16s, RawFormat::I16),
+        (i32s, RawFormat::I32),
+        (f32s, RawFormat::F32),
+    ] {
+        let (read, fault) = drain(&mut raw(whole(bytes), format));
+        assert_eq!(read, pairs);
+        assert!(fault.is_none());
+    }
+}
+
+#[test]
+fn half_a_pair_at_the_end_is_an_error_after_the_good_data() {
+    let (pairs, fault) = drain(&mut raw(vec![0, 0x40, 0, 0xc0, 1, 0], RawFormat::I16));
+    assert_eq!(pairs, [[0.5, -0.5]]);
+    assert!(
+        message(fault).starts_with(
+            "standard input: sample pair 1 (from 0): the data end in the middle of it"
+        )
+    );
+}
+
+#[test]
+fn not_finite_samples_pass_and_are_told() {
+    let mut values = [0.5f32; 40];
+    values[30] = f32::NEG_INFINITY;
+    values[33] = f32::NAN;
+    let bytes = values
+        .iter()
+        .flat_map(|value| value.to_le_bytes())
+        .collect();
+    let mut recording = raw(bytes, RawFormat::F32);
+    let (pairs, fault) = drain(&mut recording);
+    assert_eq!((pairs.len(), fault.is_none()), (20, true));
+    assert_eq!(pairs[15], [f32::NEG_INFINITY, 0.5]);
+    assert!(message(recording.not_finite()).starts_with(
+        "standard input: sample pair 15 (from 0), S_C (left): the value is -inf, not a finite \
+         number, the first of 2; "
+    ));
+}
+
+#[test]
+fn a_live_stream_is_handed_over_as_it_comes() {
+    let mut recording = raw(vec![0; 64], RawFormat::I16);
+    assert_eq!(recording.read(&mut Vec::with_capacity(100)).ok(), Some(1));
+}
+
+#[test]
+fn a_fault_of_the_pipe_comes_after_the_good_data() {
+    struct Broken;
+    impl Read for Broken {
+        fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
+            Err(io::Error::other("cable pulled"))
+        }
+    }
+    let stream = Box::new(io::Cursor::new(vec![0; 8]).chain(Broken));
+    let mut recording = Recording::new(
+        "pipe".to_owned(),
+        open("pipe", stream, RawFormat::I16, None),
+        None,
+    );
+    let (pairs, fault) = drain(&mut recording);
+    assert_eq!(pairs.len(), 2);
+    assert!(message(fault).starts_with("pipe: cannot be read: cable pulled; "));
+}

@@ -2,5 +2,7 @@
 
 mod core_rows;
 mod gyro;
+mod search;
 mod settings;
+mod skip;
 mod ways;

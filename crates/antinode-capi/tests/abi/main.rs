@@ -1,5 +1,6 @@
 //! What the header says of each function, in both arithmetics, with the core's rows beside it.
 
+mod calibration;
 mod core_rows;
 mod gyro;
 mod search;

@@ -104,10 +104,26 @@ impl<S: Arithmetic> Gyro<S> {
         }
     }
 
+    /// Memory as a stack leaves it.
+    pub fn filled(byte: u8) -> Self {
+        let mut gyro = Self::cold();
+        // SAFETY: a state is numbers, whatever they are.
+        unsafe { (&raw mut *gyro.state).write_bytes(byte, 1) };
+        gyro
+    }
+
     pub fn new(settings: &Settings) -> Self {
         let mut gyro = Self::cold();
         assert_eq!(gyro.init(Some(settings)), Status::Ok);
         gyro
+    }
+
+    /// The same state at another address.
+    pub fn copy(&self) -> Self {
+        let mut copy = Self::cold();
+        // SAFETY: two states of the same type.
+        unsafe { std::ptr::copy_nonoverlapping(&raw const *self.state, &raw mut *copy.state, 1) };
+        copy
     }
 
     /// With NULL where there are no settings.

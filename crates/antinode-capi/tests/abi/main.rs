@@ -6,4 +6,5 @@ mod gyro;
 mod search;
 mod settings;
 mod skip;
+mod states;
 mod ways;

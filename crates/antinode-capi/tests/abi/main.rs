@@ -3,6 +3,7 @@
 mod calibration;
 mod core_rows;
 mod gyro;
+mod limits;
 mod search;
 mod settings;
 mod skip;

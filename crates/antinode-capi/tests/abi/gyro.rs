@@ -8,18 +8,18 @@ use antinode_capi::*;
 
 /// The functions of one arithmetic.
 pub struct Abi<S, State> {
-    init: unsafe extern "C" fn(*mut State, *const Settings) -> Status,
-    reset: unsafe extern "C" fn(*mut State) -> Status,
-    push: unsafe extern "C" fn(*mut State, S, S) -> Status,
-    separate: unsafe extern "C" fn(*mut State, *const S, *const S, usize) -> Status,
-    interleaved: unsafe extern "C" fn(*mut State, *const S, usize) -> Status,
-    packed: unsafe extern "C" fn(*mut State, *const u32, usize) -> Status,
-    skip: unsafe extern "C" fn(*mut State, u32) -> Status,
-    solve: unsafe extern "C" fn(*mut State, *mut Estimate) -> Status,
-    search: unsafe extern "C" fn(*mut State) -> Status,
-    set_calibration: unsafe extern "C" fn(*mut State, *const Calibration) -> Status,
-    health: unsafe extern "C" fn(*const State, *mut Health) -> Status,
-    identify:
+    pub init: unsafe extern "C" fn(*mut State, *const Settings) -> Status,
+    pub reset: unsafe extern "C" fn(*mut State) -> Status,
+    pub push: unsafe extern "C" fn(*mut State, S, S) -> Status,
+    pub separate: unsafe extern "C" fn(*mut State, *const S, *const S, usize) -> Status,
+    pub interleaved: unsafe extern "C" fn(*mut State, *const S, usize) -> Status,
+    pub packed: unsafe extern "C" fn(*mut State, *const u32, usize) -> Status,
+    pub skip: unsafe extern "C" fn(*mut State, u32) -> Status,
+    pub solve: unsafe extern "C" fn(*mut State, *mut Estimate) -> Status,
+    pub search: unsafe extern "C" fn(*mut State) -> Status,
+    pub set_calibration: unsafe extern "C" fn(*mut State, *const Calibration) -> Status,
+    pub health: unsafe extern "C" fn(*const State, *mut Health) -> Status,
+    pub identify:
         unsafe extern "C" fn(*mut State, *const S, usize, *mut usize, *mut Estimate) -> Status,
 }
 
@@ -124,6 +124,11 @@ impl<S: Arithmetic> Gyro<S> {
         // SAFETY: two states of the same type.
         unsafe { std::ptr::copy_nonoverlapping(&raw const *self.state, &raw mut *copy.state, 1) };
         copy
+    }
+
+    /// For what only pointers can do.
+    pub fn pointer(&mut self) -> *mut S::State {
+        &mut *self.state
     }
 
     /// With NULL where there are no settings.
@@ -243,7 +248,8 @@ impl<S: Arithmetic> Gyro<S> {
     }
 }
 
-fn unwritten() -> Estimate {
+/// An estimate that no function has written to.
+pub fn unwritten() -> Estimate {
     // SAFETY: numbers only.
     let mut estimate: Estimate = unsafe { MaybeUninit::zeroed().assume_init() };
     estimate.reserved = UNWRITTEN;

@@ -4,6 +4,7 @@ mod calibration;
 mod core_rows;
 mod gyro;
 mod limits;
+mod mistakes;
 mod search;
 mod settings;
 mod skip;

@@ -9,4 +9,5 @@ mod search;
 mod settings;
 mod skip;
 mod states;
+mod two_sides;
 mod ways;

@@ -210,8 +210,7 @@ impl Reader<'_> {
         let code = SampleCode::new(kind);
         let stored = 8 * code.sample_bytes() as u32;
         let whole = tag == 3 || kind == Kind::U8;
-        if channels == 0
-            || frame != u32::from(channels) * stored / 8
+        if frame != u32::from(channels) * stored / 8
             || valid > stored
             || valid < 2
             || whole && valid != stored

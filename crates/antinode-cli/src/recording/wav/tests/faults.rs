@@ -101,15 +101,15 @@ fn a_damaged_header_is_named() {
         ),
         (
             change(|wav| wav.format[12] = 8),
-            "16 valid of 16 bits do not fit pairs of 8 bytes; ",
+            "16 valid of 16 bits do not fit 2 channels of 8 bytes together; ",
         ),
         (
             change(|wav| wav.format = extensible(1, 16, 24)),
-            "24 valid of 16 bits do not fit pairs of 4 bytes; ",
+            "24 valid of 16 bits do not fit 2 channels of 4 bytes together; ",
         ),
         (
             change(|wav| wav.format = extensible(3, 32, 24)),
-            "24 valid of 32 bits do not fit pairs of 8 bytes; ",
+            "24 valid of 32 bits do not fit 2 channels of 8 bytes together; ",
         ),
         (
             change(|wav| wav.format = format(0xfffe, 2, 16)),

@@ -233,7 +233,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         };
         settings.check(BLOCKS)?;
         self.settings = settings;
+        let found = self.found;
         self.forget();
+        // The wave is there as before.
+        self.found = found;
         Ok(())
     }
 

@@ -84,4 +84,17 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn rails_of_16_bits_are_the_first_and_the_last_code() {
+        for code in i16::MIN..=i16::MAX {
+            let at_rail = code == i16::MIN || code == i16::MAX;
+            let code = u32::from(code as u16);
+            // The bits of the rails themselves in the other half, but for one.
+            for other in [0, 1, 0x7FFE, 0x8001, 0xFFFF] {
+                assert_eq!(is_at_rail_16(Packed(code << 16 | other)), at_rail);
+                assert_eq!(is_at_rail_16(Packed(other << 16 | code)), at_rail);
+            }
+        }
+    }
 }

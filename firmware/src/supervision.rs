@@ -127,8 +127,19 @@ mod tests {
         assert_eq!(cause(SFTRSTF | PINRSTF, None), Cause::Unknown);
         assert_eq!(cause(BORRSTF | PINRSTF, None), Cause::BrownOut);
         assert_eq!(cause(PINRSTF, None), Cause::ResetPin);
-        for n in 0..9 {
-            assert_eq!(numbered(n).map_or(n, number), n);
+        for noted in [
+            Cause::Command,
+            Cause::Panic,
+            Cause::HardFault,
+            Cause::Clock,
+            Cause::Converter,
+        ] {
+            assert_eq!(numbered(number(noted)), Some(noted));
         }
+        // What no firmware notes has no number, and no other number is a cause.
+        for other in [Cause::PowerOn, Cause::Watchdog, Cause::Unknown] {
+            assert_eq!(numbered(number(other)), None);
+        }
+        assert_eq!([0, 6, u32::MAX].map(numbered), [None; 3]);
     }
 }

@@ -88,3 +88,44 @@ fn the_angle_runs_on_over_a_stretch_in_which_the_pattern_is_circular() {
         }
     }
 }
+
+#[test]
+fn a_circle_that_is_passed_has_neither_a_step_nor_a_jump() {
+    let mut circular = 0;
+    for seed in 0..20 {
+        for noise in [1e-5, 2e-4] {
+            let wave = Wave {
+                main_amplitude: 1.0,
+                quadrature_amplitude: 0.0,
+                angle: 0.3 * seed as f64,
+                angle_rate: 0.1 * seed as f64,
+                ..Wave::default()
+            };
+            let full = Wave {
+                quadrature_amplitude: 1.0,
+                ..wave
+            };
+            let flaws = Flaws {
+                noise,
+                ..Flaws::default()
+            };
+            // The quadrature outgrows the wave and comes back: on the other side of the circle the angle is another.
+            let found = identify_changed(wave, &flaws, windows(10), 70_000, seed, |k, [c, d]| {
+                let time = k as f64 / RATE;
+                let share = 0.8 + 0.4 * (5.0 * time).sin();
+                let (one, none) = (full.pick_offs(time), wave.pick_offs(time));
+                [c + share * (one.0 - none.0), d + share * (one.1 - none.1)]
+            });
+            for estimate in &found {
+                assert!(
+                    Flags::CIRCULAR.contains(estimate.flags),
+                    "seed {seed}, noise {noise}: {} at {} s",
+                    estimate.flags,
+                    estimate.time
+                );
+                circular += usize::from(!estimate.flags.is_empty());
+            }
+        }
+    }
+    assert!(circular > 40, "{circular}");
+}

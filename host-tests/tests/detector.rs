@@ -66,7 +66,7 @@ fn difference_finds_every_wave_and_no_multiple() {
 
 #[test]
 fn mean_return_finds_no_multiple_either() {
-    for (noise, error) in [(0.0, 2e-3), (0.02, 0.02), (0.2, 0.08)] {
+    for (noise, error, most) in [(0.0, 2e-3, 15), (0.02, 0.02, 40), (0.2, 0.08, 3700)] {
         let (worst, _, mean, none) = starts(noise, 0.5, 40.0, || {
             let mut detector = MeanReturnDetector::new();
             Box::new(move |pair| detector.push(pair))
@@ -75,10 +75,7 @@ fn mean_return_finds_no_multiple_either() {
             "(9), noise {noise}: worst {worst:.4}, mean time {mean:.2} periods, none {none} of 10 000"
         );
         assert!(worst < error, "noise {noise}: {worst}");
-        assert!(
-            none < if noise > 0.1 { 5000 } else { 60 },
-            "noise {noise}: {none}"
-        );
+        assert!(none < most, "noise {noise}: {none}");
     }
 }
 
@@ -113,42 +110,6 @@ fn silence_is_no_wave() {
         assert_eq!(core.push([offset, -offset]), None);
     }
     assert!(core.is_searching());
-}
-
-#[test]
-fn two_unrelated_tones_are_no_wave() {
-    let (mut rows, mut clean) = (0, 0);
-    for seed in 0..300 {
-        let period = 5.0 * 20f64.powf((seed as f64 * 0.618_034).fract());
-        let ratio = 1.15 + 2.0 * (seed as f64 * 0.754_878).fract();
-        let first = random_wave(seed, RATE / period, 0.5);
-        let mut second = random_wave(seed + 5000, RATE / period / ratio, 0.5);
-        second.quadrature_amplitude *= first.main_amplitude / second.main_amplitude;
-        second.main_amplitude = first.main_amplitude;
-        let flaws = Flaws {
-            noise: 0.01,
-            ..Flaws::default()
-        };
-        let one = Gyro::new(first, flaws.clone(), RATE, seed).unwrap();
-        let two = Gyro::new(second, flaws, RATE, seed + 1).unwrap();
-        let mut core = Core::new(windows(10)).unwrap();
-        for (one, two) in one.zip(two).take((60.0 * period) as usize) {
-            if let Some(estimate) = core.push([(one.c + two.c) as f32, (one.d + two.d) as f32]) {
-                rows += 1;
-                if estimate.flags.is_empty() {
-                    clean += 1;
-                    // The few that pass must be one of the two waves, not an invention.
-                    let far = |wave: &Wave| {
-                        let allowed = 6.0 * f64::from(estimate.frequency_std);
-                        (estimate.frequency - wave.frequency).abs() > allowed
-                    };
-                    assert!(!(far(&first) && far(&second)), "seed {seed}: {estimate:?}");
-                }
-            }
-        }
-    }
-    println!("two tones: {rows} windows reported of about 1500, {clean} without a flag");
-    assert!(rows < 15, "{rows}");
 }
 
 #[test]
@@ -210,42 +171,26 @@ fn a_wave_that_begins_late_is_found_as_soon() {
 }
 
 #[test]
-fn a_spur_does_not_hide_the_wave() {
-    // A tone beside the wave, as a share of a_A, from a fifth of its frequency to five times it.
-    for share in [0.02, 0.1, 0.2] {
-        let (mut worst, mut latest, mut none) = (0f64, 0f64, 0);
-        for seed in 0..3000 {
-            let (wave, period) = wave(seed);
-            let ratio = 0.2 * 25f64.powf((seed as f64 * 0.754_878).fract());
-            let advance = std::f64::consts::TAU * ratio / period;
-            let size = share * wave.main_amplitude;
-            let flaws = Flaws {
-                noise: 0.002 * wave.main_amplitude,
-                ..Flaws::default()
-            };
+fn no_call_both_tries_many_samples_and_judges() {
+    // Of frames of 10, 12, 14, 16 and 20 samples twelve are tried in a call. The call after the last ones says what they are, unless these
+    // were but two.
+    for (period, frame, calls) in [
+        (4.1, 10, 2),
+        (5.0, 12, 2),
+        (6.2, 14, 2),
+        (7.0, 16, 3),
+        (8.5, 20, 3),
+    ] {
+        for seed in 0..50 {
+            let wave = random_wave(seed, RATE / period, 0.5);
             let mut detector = DifferenceDetector::<f32>::new();
-            let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
-            let pairs = (0..).zip(gyro.take((20.0 * period) as usize));
-            let found = pairs.into_iter().find_map(|(k, pair)| {
-                let (sine, cosine) = (advance * f64::from(k) + seed as f64).sin_cos();
-                let pair = [pair.c + size * cosine, pair.d + size * sine];
-                let found = detector.push(pair.map(|x| x as f32))?;
-                Some((f64::from(k), f64::from(found)))
-            });
-            match found {
-                Some((k, found)) => {
-                    worst = worst.max((found / period - 1.0).abs());
-                    latest = latest.max(k / period);
-                }
-                None => none += 1,
-            }
+            let found = Gyro::new(wave, Flaws::default(), RATE, seed)
+                .unwrap()
+                .take(100)
+                .position(|pair| detector.push([pair.c as f32, pair.d as f32]).is_some());
+            let pushed = found.expect("a period") + 1;
+            assert_eq!(pushed, frame + calls, "{period} samples, seed {seed}");
         }
-        println!("spur of {share}: worst {worst:.3}, latest {latest:.1} periods, none {none}");
-        assert_eq!(none, 0, "spur of {share}");
-        assert!(
-            worst < 0.5 * share.max(0.02) && latest < 5.5,
-            "spur of {share}: {worst} {latest}"
-        );
     }
 }
 

@@ -1,5 +1,7 @@
 //! Noisy waves: rms error over the Cramér–Rao bound, and stated standard deviations over it, from cold.
 
+use std::ops::Range;
+
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::{Honesty, NAMES, Score, errors, stated};
 use host_tests::{RATE, identify, windows};
@@ -27,7 +29,9 @@ fn score(
             ..Flaws::default()
         };
         let samples = (period * (f64::from(periods) * (each as f64 + 0.6) + 12.0)) as usize;
-        for estimate in identify(wave, &flaws, windows(periods), samples, seed + 1000)
+        // Every row has noise of its own.
+        let row = 1000 * (u64::from(periods) * 1000 + (1e3 * noise) as u64);
+        for estimate in identify(wave, &flaws, windows(periods), samples, seed + row)
             .iter()
             .take(each)
         {
@@ -37,8 +41,8 @@ fn score(
     score
 }
 
-/// Prints a row and asserts both ratios.
-fn check(label: &str, score: &Score, limit: f64) {
+/// Prints a row and asserts both ratios: seeds are fixed, so both are near what is printed.
+fn check(label: &str, score: &Score, limits: Range<f64>) {
     let (error, stated) = (score.error(), score.stated());
     println!(
         "{label}: {} windows, rms error/bound {error:.3?}, stated/bound {stated:.3?}",
@@ -46,14 +50,14 @@ fn check(label: &str, score: &Score, limit: f64) {
     );
     for i in 0..4 {
         assert!(
-            error[i] <= limit,
+            limits.contains(&error[i]),
             "{label}: {} at {:.3} of the bound",
             NAMES[i],
             error[i]
         );
         let ratio = stated[i] / error[i];
         assert!(
-            (0.9..1.1).contains(&ratio),
+            (0.96..1.06).contains(&ratio),
             "{label}: stated {} is {ratio:.3} of the scatter",
             NAMES[i]
         );
@@ -67,15 +71,10 @@ fn reaches_the_bound_from_cold() {
             let score = score(PAPER, periods, noise, runs, 8, |seed| {
                 random_wave(seed, 5332.0, 0.5)
             });
-            let limit = if periods == 2 && noise == 0.2 {
-                1.15
-            } else {
-                1.08
-            };
             check(
                 &format!("{periods:2} periods, noise {:4.1} %", 100.0 * noise),
                 &score,
-                limit,
+                0.96..1.055,
             );
         }
     }
@@ -92,7 +91,7 @@ fn reaches_the_bound_at_any_sample_rate() {
             check(
                 &format!("{period} samples a period, {periods} periods"),
                 &score,
-                1.08,
+                0.955..1.06,
             );
         }
     }
@@ -115,7 +114,7 @@ fn a_spinning_ringing_drifting_wave_is_not_smeared() {
         check(
             &format!("{rate} rad/s, τ {tau} s, {drift} Hz/s"),
             &score,
-            1.1,
+            0.99..1.07,
         );
     }
 }

@@ -152,6 +152,84 @@ fn faults_are_told_in_hum() {
 }
 
 #[test]
+fn a_bad_block_is_told_where_blocks_have_their_own_offsets() {
+    // A burst in one block of a window that holds the energy of 70 noise variances: of four sums a block this is beyond chance more often
+    // than not, of six it would be so in half of them.
+    let (length, window) = (38, 25 * 38);
+    let (mut told, mut rows) = (0, 0);
+    for seed in 0..60 {
+        let wave = random_wave(seed, 5332.0, 0.3);
+        let noise = 0.002 * wave.main_amplitude;
+        let size = noise * f64::sqrt(2.0 * 70.0 / f64::from(length as u32));
+        let flaws = Flaws {
+            noise,
+            ..Flaws::default()
+        };
+        let settings = Settings {
+            frequency: Some(5332.0),
+            ..settings(50, true)
+        };
+        let has_burst = |index: usize| index > 16 && index.is_multiple_of(2);
+        let found = identify_changed(wave, &flaws, settings, 51 * window, seed, |k, [c, d]| {
+            let (index, at) = (k / window, k % window);
+            if has_burst(index) && at / length == 9 + index % 7 {
+                let phase = std::f64::consts::TAU * 5332.0 * k as f64 / RATE + index as f64;
+                [c + size * phase.cos(), d]
+            } else {
+                [c, d]
+            }
+        });
+        for (index, estimate) in found.iter().enumerate() {
+            assert_eq!(estimate.start as usize, index * window);
+            if has_burst(index) {
+                rows += 1;
+                told += usize::from(estimate.flags.contains(Flags::MISFIT));
+            } else {
+                assert!(estimate.flags.is_empty(), "{estimate:?}");
+            }
+        }
+    }
+    let share = f64::from(told as u32) / f64::from(rows as u32);
+    println!("bursts in one block: {told} of {rows} are told");
+    assert!(rows > 1000 && (0.61..0.75).contains(&share), "{share}");
+}
+
+#[test]
+fn a_tone_beyond_the_hum_is_told_though_no_block_sees_it() {
+    // Of two whole periods a block: its sums know nothing of it, but samples lie beyond the wave by more than hum explains.
+    for (hum_size, tone_size) in [(0.05, 0.2), (0.1, 0.3), (0.2, 0.7)] {
+        for (tone_size, is_told) in [(tone_size, true), (0.0, false)] {
+            for seed in 0..10 {
+                let wave = random_wave(seed, 5000.0, 0.3);
+                let a = wave.main_amplitude;
+                let flaws = Flaws {
+                    noise: 0.002 * a,
+                    ..Flaws::default()
+                };
+                let settings = Settings {
+                    frequency: Some(5000.0),
+                    ..settings(40, true)
+                };
+                let found = identify_changed(wave, &flaws, settings, 10_000, seed, |k, [c, d]| {
+                    let second = std::f64::consts::TAU * k as f64 / RATE;
+                    let hum = hum_size * (50.0 * second).sin();
+                    let tone = tone_size * (10_000.0 * second + seed as f64).sin();
+                    [c + a * (hum + tone), d + a * (hum + tone)]
+                });
+                assert!(found.len() > 9);
+                for estimate in &found {
+                    assert_eq!(
+                        estimate.flags.contains(Flags::MISFIT),
+                        is_told,
+                        "hum {hum_size}, tone {tone_size}, seed {seed}: {estimate:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn a_ring_down_is_followed_under_its_hum() {
     let wave = Wave {
         main_amplitude: 0.9,

@@ -115,6 +115,7 @@ fn a_tracker_that_has_lost_its_wave_says_so_until_it_is_told_to_forget_it() {
     let silence = vec![[0.0; 2]; 285];
     for _ in 0..8 {
         follow(&mut front, &mut tracker, &silence);
+        assert!(!tracker.has_lost());
         follow(&mut front, &mut tracker, &pairs[..1900]);
         assert!(!tracker.has_lost());
     }

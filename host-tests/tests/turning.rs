@@ -1,9 +1,9 @@
-//! Patterns that turn much within a window, with much quadrature, and windows that overlap: stated deviations hold there too.
+//! Patterns that turn much within a window, with much quadrature, windows that overlap, and long pauses: stated deviations hold there too.
 
-use antinode::{Estimate, Settings};
+use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::score::{Honesty, NAMES};
-use host_tests::{RATE, identify, identify_changed, windows};
+use host_tests::score::{Honesty, NAMES, Score, errors, stated};
+use host_tests::{Core, RATE, identify, identify_changed, windows};
 
 /// A wave at any angle and phase whose quadrature is this share of it and which turns by so much in each second.
 fn turning(seed: u64, frequency: f64, share: f64, rate: f64) -> Wave {
@@ -91,6 +91,78 @@ fn overlapping_windows_know_how_little_they_know_at_the_start_and_after_a_fault(
                 ratios.iter().all(|ratio| (0.85..1.15).contains(ratio)),
                 "{name}: {ratios:?}"
             );
+        }
+    }
+}
+
+#[test]
+fn overlapping_windows_learn_how_fast_the_pattern_turns() {
+    // With this much quadrature a window that must find the turn by itself knows its frequency to 4.6 of the bound.
+    for (periods, hop, noise) in [(10, 1, 0.002), (10, 5, 0.002), (50, 20, 0.005)] {
+        let settings = Settings {
+            hop: Some(hop),
+            ..windows(periods)
+        };
+        let mut score = Score::default();
+        for seed in 0..60 {
+            let wave = turning(seed, 5332.0, 0.8, 0.5);
+            let samples = 19 * usize::from(periods) * 20;
+            let found = identify(wave, &noisy(&wave, noise), settings, samples, seed);
+            for estimate in &found[found.len() / 2..] {
+                score.add(estimate, &wave, noise * wave.main_amplitude);
+            }
+        }
+        let (error, stated) = (score.error()[3], score.stated()[3]);
+        println!(
+            "{periods} periods, hop {hop}: frequency error/bound {error:.2}, stated/bound {stated:.2}"
+        );
+        assert!(score.windows() > 1000 && error < 1.8 && (0.85..1.15).contains(&(stated / error)));
+    }
+}
+
+#[test]
+fn a_pause_of_very_many_windows_leaves_numbers() {
+    // More than 10⁵ windows: what the angles before it say of the rate now is lost in rounding, and must not be used.
+    for exponent in [7.0, 8.0] {
+        for seed in 0..300 {
+            let share = |step: f64| (f64::from(seed) * step).fract();
+            let period = 4.1 + 10.0 * share(0.618_034);
+            let wave = Wave {
+                main_amplitude: 1.0,
+                quadrature_amplitude: 0.8 * share(0.381_966),
+                angle: 0.1 + 0.5 * share(0.27),
+                frequency: RATE / period,
+                phase: f64::from(seed),
+                ..Wave::default()
+            };
+            let settings = Settings {
+                frequency: Some(wave.frequency as f32),
+                ..windows(3)
+            };
+            let mut core = Core::new(settings).unwrap();
+            let length = (4.0 * period) as u64 + 8;
+            let mut found = Vec::new();
+            let mut push = |core: &mut Core, count: u64, lost: f64| {
+                for k in core.index()..core.index() + count {
+                    let (c, d) = wave.pick_offs(k as f64 / RATE);
+                    found.extend(core.push([c as f32, d as f32]));
+                }
+                core.skip(lost as u64);
+            };
+            for _ in 0..8 {
+                push(&mut core, length, 10f64.powf(1.0 + 2.0 * share(0.754_878)));
+            }
+            push(&mut core, 0, 10f64.powf(exponent + share(0.569_84)));
+            push(&mut core, 4 * length, 0.0);
+            let after: Vec<_> = found.iter().filter(|e| e.start as f64 > 1e7).collect();
+            assert!(after.len() > 3);
+            for estimate in after {
+                let error = errors(estimate, &wave)[3] / stated(estimate)[3];
+                assert!(
+                    Flags::REACQUIRED.contains(estimate.flags) && error.abs() < 7.0,
+                    "seed {seed}: {error}, {estimate:?}"
+                );
+            }
         }
     }
 }

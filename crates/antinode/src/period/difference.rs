@@ -12,8 +12,6 @@ use crate::sample::{Sample, SamplePair};
 
 /// Octaves: periods of 4 to 8, 8 to 16, … 128 to 256 samples.
 const OCTAVES: usize = 6;
-/// Periods that a trial may end with, from one proposed within the range.
-const FOUND: core::ops::RangeInclusive<f32> = 3.5..=9.6;
 /// Power lost by halving beyond the wave's own, as a share of the wave's: noise of 20 % loses 0.2.
 const STRANGER: f32 = 0.4;
 
@@ -41,7 +39,7 @@ impl<S: Sample> Candidate<S> {
         let whole = Phase::from_radians(turn).unit().im;
         let kept = whole * whole / (least * least);
         let is_whole = self.lost < power * (1.0 / kept - 1.0 + STRANGER);
-        (is_whole && FOUND.contains(&period) && PERIODS.contains(&found)).then_some(found)
+        (is_whole && PERIODS.contains(&found)).then_some(found)
     }
 }
 

@@ -25,7 +25,8 @@ pub(super) fn flags(before: &Record, now: &Record, knows_angle: bool) -> Flags {
         before.phase_variance + now.phase_variance,
         before.drift_variance + now.drift_variance,
     );
-    let jump = phase_variance < 0.3 * 0.3 && beyond(phase, phase_variance, PHASE_FLOOR);
+    // Of a phase known to 0.45 rad or worse seven deviations are beyond half a turn.
+    let jump = beyond(phase, phase_variance, PHASE_FLOOR);
 
     let amplitude_floor = AMPLITUDE_FLOOR * before.main.value;
     let main = passed.change(&before.main, &now.main, amplitude_floor);

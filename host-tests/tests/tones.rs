@@ -1,0 +1,128 @@
+//! Two tones at once: which of them is found, and that nothing is invented between them.
+
+use antinode::period::DifferenceDetector;
+use antinode_sim::{Flaws, Gyro, Wave, random_wave};
+use host_tests::{Core, RATE, stream, windows};
+
+/// A wave whose period runs evenly over 4 to 200 samples in its logarithm.
+fn wave(seed: u64) -> (Wave, f64) {
+    let period = 4.0 * 50f64.powf((seed as f64 * 0.618_034).fract());
+    (random_wave(seed, RATE / period, 0.5), period)
+}
+
+#[test]
+fn two_unrelated_tones_are_no_wave() {
+    let (mut rows, mut clean) = (0, 0);
+    for seed in 0..300 {
+        let period = 5.0 * 20f64.powf((seed as f64 * 0.618_034).fract());
+        let ratio = 1.15 + 2.0 * (seed as f64 * 0.754_878).fract();
+        let first = random_wave(seed, RATE / period, 0.5);
+        let mut second = random_wave(seed + 5000, RATE / period / ratio, 0.5);
+        second.quadrature_amplitude *= first.main_amplitude / second.main_amplitude;
+        second.main_amplitude = first.main_amplitude;
+        let flaws = Flaws {
+            noise: 0.01,
+            ..Flaws::default()
+        };
+        let one = Gyro::new(first, flaws.clone(), RATE, seed).unwrap();
+        let two = Gyro::new(second, flaws, RATE, seed + 1).unwrap();
+        let mut core = Core::new(windows(10)).unwrap();
+        for (one, two) in one.zip(two).take((60.0 * period) as usize) {
+            if let Some(estimate) = core.push([(one.c + two.c) as f32, (one.d + two.d) as f32]) {
+                rows += 1;
+                if estimate.flags.is_empty() {
+                    clean += 1;
+                    // The few that pass must be one of the two waves, not an invention.
+                    let far = |wave: &Wave| {
+                        let allowed = 6.0 * f64::from(estimate.frequency_std);
+                        (estimate.frequency - wave.frequency).abs() > allowed
+                    };
+                    assert!(!(far(&first) && far(&second)), "seed {seed}: {estimate:?}");
+                }
+            }
+        }
+    }
+    println!("two tones: {rows} windows reported of about 1500, {clean} without a flag");
+    assert!(rows < 15, "{rows}");
+}
+
+#[test]
+fn beside_a_tone_half_as_large_hardly_a_row_is_clean_and_wrong() {
+    // The detector refuses most of these waves: what it would find is dragged from one tone towards the other.
+    let (mut rows, mut wrong) = (0, 0);
+    for share in [0.4, 0.5, 0.6] {
+        for seed in 0..500 {
+            let period = 5.0 * 20f64.powf((seed as f64 * 0.618_034).fract());
+            let ratio = 1.05 + (seed as f64 * 0.754_878).fract();
+            let first = random_wave(seed, RATE / period, 0.5);
+            let second = random_wave(seed + 5000, RATE / period * ratio, 0.5);
+            let size = share * first.main_amplitude / second.main_amplitude;
+            let second = Wave {
+                main_amplitude: size * second.main_amplitude,
+                quadrature_amplitude: size * second.quadrature_amplitude,
+                ..second
+            };
+            let flaws = Flaws {
+                noise: 0.005 * first.main_amplitude,
+                ..Flaws::default()
+            };
+            let mut core = Core::new(windows(10)).unwrap();
+            let pairs = stream(first, flaws, (60.0 * period) as usize, seed);
+            for (k, [c, d]) in pairs.into_iter().enumerate() {
+                let (more_c, more_d) = second.pick_offs(k as f64 / RATE);
+                let Some(estimate) = core.push([c + more_c as f32, d + more_d as f32]) else {
+                    continue;
+                };
+                rows += 1;
+                let far = |wave: &Wave| {
+                    let allowed = 6.0 * f64::from(estimate.frequency_std);
+                    (estimate.frequency - wave.frequency).abs() > allowed
+                };
+                let is_wrong = estimate.flags.is_empty() && far(&first) && far(&second);
+                wrong += usize::from(is_wrong);
+            }
+        }
+    }
+    println!("a tone half as large: {rows} rows, {wrong} clean and wrong");
+    assert!(rows > 4000 && wrong < 10, "{wrong} of {rows}");
+}
+
+#[test]
+fn a_spur_does_not_hide_the_wave() {
+    // A tone beside the wave, as a share of a_A, from a fifth of its frequency to five times it.
+    for share in [0.02, 0.1, 0.2] {
+        let (mut worst, mut latest, mut none) = (0f64, 0f64, 0);
+        for seed in 0..3000 {
+            let (wave, period) = wave(seed);
+            let ratio = 0.2 * 25f64.powf((seed as f64 * 0.754_878).fract());
+            let advance = std::f64::consts::TAU * ratio / period;
+            let size = share * wave.main_amplitude;
+            let flaws = Flaws {
+                noise: 0.002 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let mut detector = DifferenceDetector::<f32>::new();
+            let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
+            let pairs = (0..).zip(gyro.take((20.0 * period) as usize));
+            let found = pairs.into_iter().find_map(|(k, pair)| {
+                let (sine, cosine) = (advance * f64::from(k) + seed as f64).sin_cos();
+                let pair = [pair.c + size * cosine, pair.d + size * sine];
+                let found = detector.push(pair.map(|x| x as f32))?;
+                Some((f64::from(k), f64::from(found)))
+            });
+            match found {
+                Some((k, found)) => {
+                    worst = worst.max((found / period - 1.0).abs());
+                    latest = latest.max(k / period);
+                }
+                None => none += 1,
+            }
+        }
+        println!("spur of {share}: worst {worst:.3}, latest {latest:.1} periods, none {none}");
+        assert_eq!(none, 0, "spur of {share}");
+        assert!(
+            worst < 0.5 * share.max(0.02) && latest < 5.5,
+            "spur of {share}: {worst} {latest}"
+        );
+    }
+}

@@ -11,8 +11,8 @@ use crate::window::Model;
 
 /// Windows kept.
 const KEPT: usize = 5;
-/// Windows ago beyond which an angle says nothing of the present rate: sixth powers of it are still numbers.
-const OLDEST: f32 = 1e5;
+/// Windows ago beyond which an angle says nothing of the present rate: what its powers leave of nearer ones is lost in rounding.
+const OLDEST: f32 = 1e3;
 /// The least variance of an angle, rad².
 const LEAST: f32 = 1e-18;
 

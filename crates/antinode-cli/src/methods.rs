@@ -55,6 +55,12 @@ impl History {
         self.start += excess as u64;
     }
 
+    /// Takes so many samples as lost: no window reaches across them.
+    pub fn skip(&mut self, count: u64) {
+        self.start += self.pairs.len() as u64 + count;
+        self.pairs.clear();
+    }
+
     /// All methods over the window of an estimate; `None` where it holds no wave, or its samples are not here.
     pub fn compare(&self, estimate: &Estimate) -> Option<Methods> {
         if estimate.flags.contains(Flags::LOST) {

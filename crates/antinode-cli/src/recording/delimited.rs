@@ -1,19 +1,16 @@
 //! Text recordings: one pair a line, with or without the time before it.
 
+mod rows;
+
 use super::columns::Columns;
-use super::error::{COLUMNS_OPTION, InputError, LineFault, Place, RATE_OPTION, Role, TimeFault};
-use super::header::{Header, lossy};
-use super::lines::Lines;
-use super::printed::Printed;
-use super::text::number;
+use super::error::{COLUMNS_OPTION, InputError, Place, RATE_OPTION, TimeFault};
+use super::gaps::{Gap, Gaps};
 use super::time::{Meaning, TimeAxis, standstill};
 use super::{OpenOptions, Opened, Source, Stream};
+use rows::Rows;
 
 /// The lines read ahead to tell the sample rate, whose times are rounded as they are printed.
 const HEAD_LINES: usize = 1 << 16;
-
-/// As much of a bad field as an error shows.
-const SHOWN_LETTERS: usize = 40;
 
 /// Opens text; a `live` stream is handed over as it comes.
 pub(super) fn open(
@@ -34,7 +31,7 @@ pub(super) fn open(
     let meaning = source
         .axis
         .as_ref()
-        .map(|axis| axis.meaning(source.printed, options.rate));
+        .map(|axis| axis.meaning(source.rows.printed, options.rate));
     if meaning == Some(Meaning::Index) {
         source.start = 0.0;
     }
@@ -52,37 +49,30 @@ pub(super) fn open(
 /// Reads lines of numbers.
 struct Delimited {
     file: String,
-    lines: Lines,
-    header: Header,
-    printed: Printed,
+    rows: Rows,
     /// The first time, or 0.
     start: f64,
     axis: Option<TimeAxis>,
+    gaps: Gaps,
+    /// The pairs read.
+    pairs: u64,
     live: bool,
-    /// Of the first sample that is not a finite number.
-    not_finite: Option<Place>,
     /// Pairs read to tell the sample rate, and not yet delivered.
     ahead: std::vec::IntoIter<[f32; 2]>,
     /// Met behind the last of them.
     fault: Option<InputError>,
 }
 
-/// A line's time, if there is one, and its pair.
-type Row = (Option<f64>, [f32; 2]);
-
 impl Delimited {
     fn open(file: &str, stream: Stream, chosen: Option<&Columns>) -> Result<Self, InputError> {
-        let (mut lines, first) = Lines::open(file, stream)?;
-        let header = Header::read(file, &mut lines, &first, chosen)?;
         Ok(Self {
             file: file.to_owned(),
-            lines,
-            header,
-            printed: Printed::default(),
+            rows: Rows::open(file, stream, chosen)?,
             start: 0.0,
             axis: None,
+            gaps: Gaps::default(),
+            pairs: 0,
             live: false,
-            not_finite: None,
             ahead: Vec::new().into_iter(),
             fault: None,
         })
@@ -90,42 +80,60 @@ impl Delimited {
 
     /// Reads as many lines as it takes to tell the sample rate, and checks their times.
     fn read_ahead(&mut self) {
-        let head = if self.header.places[0].is_some() {
+        let head = if self.rows.header.places[0].is_some() {
             HEAD_LINES
         } else {
             1
         };
         let (mut pairs, mut times, mut lines) = (Vec::new(), Vec::new(), Vec::new());
         while pairs.len() < head && self.fault.is_none() {
-            match self.row() {
+            match self.rows.next() {
                 Ok(Some((time, pair))) => {
                     pairs.push(pair);
                     times.extend(time);
-                    lines.push(self.lines.number());
+                    lines.push(self.rows.line());
                 }
                 Ok(None) => break,
                 Err(fault) => self.fault = Some(fault),
             }
         }
         self.start = times.first().copied().unwrap_or(0.0);
-        self.axis = TimeAxis::of(&times, self.printed);
-        let broken = match &mut self.axis {
-            Some(axis) => times.iter().enumerate().skip(1).find_map(|(index, &time)| {
-                let fault = axis.check(time, self.printed).err()?;
+        self.axis = TimeAxis::of(&times, self.rows.printed);
+        let broken = match &self.axis {
+            Some(_) => times.iter().enumerate().skip(1).find_map(|(index, &time)| {
+                let fault = self.check(index as u64, lines[index], time).err()?;
                 Some((index, fault))
             }),
-            None => standstill(&times, self.printed),
+            None => standstill(&times, self.rows.printed)
+                .map(|(index, fault)| (index, self.time_fault(lines[index], fault))),
         };
         if let Some((index, fault)) = broken {
             pairs.truncate(index);
-            self.fault = Some(self.time_fault(lines[index], fault));
+            self.fault = Some(fault);
         }
+        self.pairs = pairs.len() as u64;
         self.ahead = pairs.into_iter();
+    }
+
+    /// Takes the time of this line, before which there were so many pairs.
+    fn check(&mut self, before: u64, line: u64, time: f64) -> Result<(), InputError> {
+        let Some(axis) = &mut self.axis else {
+            return Ok(());
+        };
+        let last = axis.last();
+        match axis.check(time, self.rows.printed) {
+            Ok(0) => Ok(()),
+            Ok(lost) => {
+                self.gaps.add(Gap { before, lost }, line, [last, time]);
+                Ok(())
+            }
+            Err(fault) => Err(self.time_fault(line, fault)),
+        }
     }
 
     /// What is understood, but hardly meant.
     fn warning(&self, meaning: Meaning) -> Option<String> {
-        let samples = self.header.samples();
+        let samples = self.rows.header.samples();
         let ignored = format!("ignore it with {COLUMNS_OPTION} {samples} {RATE_OPTION} HZ");
         let told = match meaning {
             Meaning::Time => return None,
@@ -144,87 +152,9 @@ impl Delimited {
         Some(format!("{}: {told}", self.file))
     }
 
-    fn row(&mut self) -> Result<Option<Row>, InputError> {
-        if !self.lines.advance()? {
-            return Ok(None);
-        }
-        let mut found = [&[][..]; 3];
-        let (mut count, mut last_is_blank) = (0, false);
-        for field in self.lines.fields() {
-            for (text, place) in found.iter_mut().zip(self.header.places) {
-                if place == Some(count) {
-                    *text = field;
-                }
-            }
-            (count, last_is_blank) = (count + 1, field.is_empty());
-        }
-        // One mark at the end of a line ends its last field; it does not begin another.
-        if count > self.header.width + usize::from(last_is_blank) {
-            let fault = LineFault::FieldCount {
-                found: count,
-                expected: self.header.width,
-            };
-            return Err(InputError::line(&self.file, self.lines.number(), fault));
-        }
-        let mut time = None;
-        if self.header.places[0].is_some() {
-            let told = number::<f64>(found[0], self.lines.separator)
-                .filter(|time| time.is_finite())
-                .ok_or_else(|| self.no_number(0, found[0]))?;
-            self.printed.see(found[0], told, self.header.exponent);
-            time = Some(told / 10f64.powi(-self.header.exponent));
-        }
-        let signal = |role: usize| {
-            number::<f32>(found[role], self.lines.separator)
-                .ok_or_else(|| self.no_number(role, found[role]))
-        };
-        let pair = [signal(1)?, signal(2)?];
-        if self.not_finite.is_none()
-            && let Some(channel) = pair.iter().position(|value| !value.is_finite())
-        {
-            self.not_finite = Some(self.place(channel + 1));
-        }
-        Ok(Some((time, pair)))
-    }
-
-    /// This line, and the column of this `role`.
-    fn place(&self, role: usize) -> Place {
-        Place {
-            line: self.lines.number(),
-            column: self.header.places[role].map(|place| place + 1),
-        }
-    }
-
-    /// What is wrong with `text`, which is in the column of this `role` and no number.
-    fn no_number(&self, role: usize, text: &[u8]) -> InputError {
-        let place = self.place(role);
-        let is_missing = text.is_empty();
-        let text = shown(text);
-        let fault = match Role::ALL[role] {
-            Role::Time if is_missing => self.header.time_fault(TimeFault::Missing),
-            Role::Time => self.header.time_fault(TimeFault::Number { text }),
-            role if is_missing => LineFault::FieldMissing { role },
-            role => LineFault::Number { role, text },
-        };
-        InputError::Line {
-            file: self.file.clone(),
-            place,
-            fault,
-        }
-    }
-
     fn time_fault(&self, line: u64, fault: TimeFault) -> InputError {
-        InputError::line(&self.file, line, self.header.time_fault(fault))
+        InputError::line(&self.file, line, self.rows.header.time_fault(fault))
     }
-}
-
-/// A bad field as an error shows it.
-fn shown(field: &[u8]) -> String {
-    let text = lossy(field);
-    text.chars()
-        .flat_map(char::escape_debug)
-        .take(SHOWN_LETTERS)
-        .collect()
 }
 
 impl Source for Delimited {
@@ -234,16 +164,16 @@ impl Source for Delimited {
             if let Some(fault) = self.fault.take() {
                 return Err(fault);
             }
-            let Some((time, pair)) = self.row()? else {
+            let Some((time, pair)) = self.rows.next()? else {
                 break;
             };
-            if let (Some(axis), Some(time)) = (&mut self.axis, time) {
-                let checked = axis.check(time, self.printed);
-                checked.map_err(|fault| self.time_fault(self.lines.number(), fault))?;
+            if let Some(time) = time {
+                self.check(self.pairs, self.rows.line(), time)?;
             }
+            self.pairs += 1;
             pairs.push(pair);
             // The next line may take its time.
-            if self.live && self.lines.is_drained() {
+            if self.live && self.rows.is_drained() {
                 break;
             }
         }
@@ -251,11 +181,24 @@ impl Source for Delimited {
     }
 
     fn bytes_read(&self) -> u64 {
-        self.lines.bytes_read()
+        self.rows.bytes_read()
     }
 
     fn ahead(&self) -> &[[f32; 2]] {
         self.ahead.as_slice()
+    }
+
+    fn next_gap(&self) -> Option<Gap> {
+        self.gaps.next()
+    }
+
+    fn pass_gap(&mut self) {
+        self.gaps.pass();
+    }
+
+    fn lost(&self) -> Option<InputError> {
+        let (line, fault) = self.gaps.fault()?;
+        Some(self.time_fault(line, fault))
     }
 
     fn late_warning(&self) -> Option<String> {
@@ -272,7 +215,7 @@ impl Source for Delimited {
     }
 
     fn not_finite_place(&self) -> Option<Place> {
-        self.not_finite
+        self.rows.not_finite()
     }
 }
 

@@ -5,6 +5,7 @@ mod columns;
 mod content;
 mod delimited;
 mod error;
+mod gaps;
 mod header;
 mod lines;
 mod not_finite;
@@ -27,6 +28,7 @@ use std::path::Path;
 pub use columns::Columns;
 use content::Content;
 pub use error::{Channel, InputError};
+pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use raw::RawFormat;
 use source::{Kind, Opened, Source, Stream};
@@ -245,6 +247,21 @@ impl Recording {
             value: first.value,
             count: self.not_finite.count,
         })
+    }
+
+    /// The next gap that the samples' own time shows; those among pairs that were delivered are to be passed in turn.
+    pub fn next_gap(&self) -> Option<Gap> {
+        self.opened.source.next_gap()
+    }
+
+    /// Goes on to the gap behind the next one.
+    pub fn pass_gap(&mut self) {
+        self.opened.source.pass_gap();
+    }
+
+    /// What is wrong with the gaps found so far, if there are any.
+    pub fn lost(&self) -> Option<InputError> {
+        self.opened.source.lost()
     }
 
     /// Clears `buffer` and fills it to its capacity with the next pairs [S_C, S_D]; `Ok(0)` at the end.

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::Read;
 
 use super::error::{InputError, Place};
+use super::gaps::Gap;
 
 /// Where the bytes come from.
 pub(super) type Stream = Box<dyn Read + Send>;
@@ -19,6 +20,19 @@ pub(super) trait Source: Send {
     /// Pairs that are read, and not yet delivered.
     fn ahead(&self) -> &[[f32; 2]] {
         &[]
+    }
+
+    /// The next gap that [`pass_gap`](Self::pass_gap) has not passed.
+    fn next_gap(&self) -> Option<Gap> {
+        None
+    }
+
+    /// Goes on to the gap behind the next one.
+    fn pass_gap(&mut self) {}
+
+    /// What is to be told at the end of samples that are missing.
+    fn lost(&self) -> Option<InputError> {
+        None
     }
 
     /// What is to be known of the samples delivered, and could not be known before.

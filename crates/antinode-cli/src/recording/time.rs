@@ -125,21 +125,28 @@ impl TimeAxis {
         self.drifted.map(|rate| (rate, late))
     }
 
-    /// Takes the next line, or says how it breaks the rate.
-    pub fn check(&mut self, now: f64, printed: Printed) -> Result<(), TimeFault> {
+    /// The last time taken.
+    pub fn last(&self) -> f64 {
+        self.last
+    }
+
+    /// Takes the next line and tells how many samples were lost before it, or says how it breaks the rate.
+    pub fn check(&mut self, now: f64, printed: Printed) -> Result<u64, TimeFault> {
         let step = now - self.last;
         let printed = printed.step(now);
         let rounding = printed.max(self.rounding) / self.step;
         let off = (step / self.step - 1.0).abs();
-        if off > STEP_TOLERANCE + rounding.min(0.5 - STEP_TOLERANCE) {
-            return Err(self.broken(now, rounding));
-        }
+        let lost = if off > STEP_TOLERANCE + rounding.min(0.5 - STEP_TOLERANCE) {
+            self.lost(now, rounding)?
+        } else {
+            0
+        };
         self.last = now;
         self.rounding = printed;
-        self.lines += 1;
-        self.count += 1;
+        self.lines += 1 + lost;
+        self.count += 1 + lost;
         if self.lines < RATE_LINES {
-            return Ok(());
+            return Ok(lost);
         }
         let length = now - self.anchor;
         let lines = self.lines as f64;
@@ -160,29 +167,26 @@ impl TimeAxis {
         self.uncertainty = 0.0;
         self.anchor = now;
         self.lines = 0;
-        Ok(())
+        Ok(lost)
     }
 
-    fn broken(&self, now: f64, rounding: f64) -> TimeFault {
+    /// How many samples were lost before a time that is off, or what else is wrong with it.
+    fn lost(&self, now: f64, rounding: f64) -> Result<u64, TimeFault> {
         let (from, to, usual) = (self.last, now, self.step);
         let step = to - from;
         let samples = step / usual;
         let tolerance = STEP_TOLERANCE + rounding.min(COARSE) + samples * self.uncertainty / usual;
         if rounding > COARSE && rounding * usual > self.harmless {
-            TimeFault::Coarse {
+            Err(TimeFault::Coarse {
                 told: rounding * usual,
                 usual,
-            }
+            })
         } else if step <= 0.0 {
-            TimeFault::Backwards { from, to }
+            Err(TimeFault::Backwards { from, to })
         } else if samples > 1.5 && (samples - samples.round()).abs() <= tolerance {
-            TimeFault::Gap {
-                lost: samples.round() as u64 - 1,
-                from,
-                to,
-            }
+            Ok(samples.round() as u64 - 1)
         } else {
-            TimeFault::Uneven { step, usual }
+            Err(TimeFault::Uneven { step, usual })
         }
     }
 }

@@ -3,14 +3,18 @@
 mod rows;
 
 use super::columns::Columns;
-use super::error::{COLUMNS_OPTION, InputError, Place, RATE_OPTION, TimeFault};
+use super::error::{COLUMNS_OPTION, InputError, RATE_OPTION, TimeFault};
 use super::gaps::{Gap, Gaps};
+use super::not_finite::Written;
 use super::time::{Meaning, TimeAxis, standstill};
 use super::{OpenOptions, Opened, Source, Stream};
 use rows::Rows;
 
 /// The lines read ahead to tell the sample rate, whose times are rounded as they are printed.
 const HEAD_LINES: usize = 1 << 16;
+
+/// The lines read ahead where there is no time: enough to tell whether they are lines of numbers.
+const FEW_LINES: usize = 16;
 
 /// Opens text; a `live` stream is handed over as it comes.
 pub(super) fn open(
@@ -56,6 +60,8 @@ struct Delimited {
     gaps: Gaps,
     /// The pairs read.
     pairs: u64,
+    /// The pairs before the last one whose time is known.
+    timed: u64,
     live: bool,
     /// Pairs read to tell the sample rate, and not yet delivered.
     ahead: std::vec::IntoIter<[f32; 2]>,
@@ -72,6 +78,7 @@ impl Delimited {
             axis: None,
             gaps: Gaps::default(),
             pairs: 0,
+            timed: 0,
             live: false,
             ahead: Vec::new().into_iter(),
             fault: None,
@@ -83,32 +90,53 @@ impl Delimited {
         let head = if self.rows.header.places[0].is_some() {
             HEAD_LINES
         } else {
-            1
+            FEW_LINES
         };
-        let (mut pairs, mut times, mut lines) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut pairs, mut times, mut places) = (Vec::new(), Vec::new(), Vec::new());
         while pairs.len() < head && self.fault.is_none() {
             match self.rows.next() {
                 Ok(Some((time, pair))) => {
+                    if let Some(time) = time {
+                        times.push(time);
+                        places.push((pairs.len() as u64, self.rows.line()));
+                    }
                     pairs.push(pair);
-                    times.extend(time);
-                    lines.push(self.rows.line());
                 }
                 Ok(None) => break,
                 Err(fault) => self.fault = Some(fault),
             }
         }
-        self.start = times.first().copied().unwrap_or(0.0);
+        let mut broken = self.rows.mostly_garbled();
         self.axis = TimeAxis::of(&times, self.rows.printed);
-        let broken = match &self.axis {
-            Some(_) => times.iter().enumerate().skip(1).find_map(|(index, &time)| {
-                let fault = self.check(index as u64, lines[index], time).err()?;
-                Some((index, fault))
+        if let Some(&(pair, _)) = places.first() {
+            let before = self
+                .axis
+                .as_ref()
+                .map_or(0.0, |axis| pair as f64 / axis.rate());
+            self.start = times[0] - before;
+            self.timed = pair;
+        }
+        let uneven = match &self.axis {
+            Some(_) => times
+                .iter()
+                .zip(&places)
+                .skip(1)
+                .find_map(|(&time, &(pair, line))| {
+                    let fault = self.check(pair, line, time).err()?;
+                    Some((pair, fault))
+                }),
+            None => standstill(&times, self.rows.printed).map(|(index, fault)| {
+                let (pair, line) = places[index];
+                (pair, self.time_fault(line, fault))
             }),
-            None => standstill(&times, self.rows.printed)
-                .map(|(index, fault)| (index, self.time_fault(lines[index], fault))),
         };
-        if let Some((index, fault)) = broken {
-            pairs.truncate(index);
+        if let Some((pair, fault)) = uneven
+            && broken.as_ref().is_none_or(|&(first, _)| pair < first)
+        {
+            broken = Some((pair, fault));
+        }
+        if let Some((pair, fault)) = broken {
+            pairs.truncate(pair as usize);
             self.fault = Some(fault);
         }
         self.pairs = pairs.len() as u64;
@@ -121,14 +149,23 @@ impl Delimited {
             return Ok(());
         };
         let last = axis.last();
-        match axis.check(time, self.rows.printed) {
-            Ok(0) => Ok(()),
-            Ok(lost) => {
+        let unknown = before - self.timed - 1;
+        self.timed = before;
+        let fault = match axis.check(time, self.rows.printed) {
+            Ok(steps) if steps == unknown => return Ok(()),
+            Ok(steps) if steps > unknown => {
+                let lost = steps - unknown;
                 self.gaps.add(Gap { before, lost }, line, [last, time]);
-                Ok(())
+                return Ok(());
             }
-            Err(fault) => Err(self.time_fault(line, fault)),
-        }
+            // More lines than there was time for.
+            Ok(_) => TimeFault::Uneven {
+                step: (time - last) / (unknown + 1) as f64,
+                usual: 1.0 / axis.rate(),
+            },
+            Err(fault) => fault,
+        };
+        Err(self.time_fault(line, fault))
     }
 
     /// What is understood, but hardly meant.
@@ -169,6 +206,9 @@ impl Source for Delimited {
             };
             if let Some(time) = time {
                 self.check(self.pairs, self.rows.line(), time)?;
+            }
+            if let Some((_, fault)) = self.rows.mostly_garbled() {
+                return Err(fault);
             }
             self.pairs += 1;
             pairs.push(pair);
@@ -214,7 +254,7 @@ impl Source for Delimited {
         ))
     }
 
-    fn not_finite_place(&self) -> Option<Place> {
+    fn not_finite(&self) -> Option<Written> {
         self.rows.not_finite()
     }
 }

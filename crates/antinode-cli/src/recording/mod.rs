@@ -8,6 +8,7 @@ mod error;
 mod gaps;
 mod header;
 mod lines;
+mod no_number;
 mod not_finite;
 mod npy;
 mod printed;
@@ -239,12 +240,12 @@ impl Recording {
     /// What is wrong with the samples read so far that are not finite numbers, if there are any.
     pub fn not_finite(&self) -> Option<InputError> {
         let first = self.not_finite.first?;
+        let written = self.opened.source.not_finite();
         Some(InputError::NotFinite {
             file: self.name.clone(),
-            place: self.opened.source.not_finite_place(),
+            place: written.as_ref().map(|written| written.place),
             pair: first.pair,
-            channel: first.channel,
-            value: first.value,
+            told: written.map_or_else(|| first.told(), |written| written.told),
             count: self.not_finite.count,
         })
     }

@@ -3,8 +3,9 @@
 use std::fs::File;
 use std::io::Read;
 
-use super::error::{InputError, Place};
+use super::error::InputError;
 use super::gaps::Gap;
+use super::not_finite::Written;
 
 /// Where the bytes come from.
 pub(super) type Stream = Box<dyn Read + Send>;
@@ -40,8 +41,8 @@ pub(super) trait Source: Send {
         None
     }
 
-    /// The line and column of the first sample that is not a finite number, where there are lines.
-    fn not_finite_place(&self) -> Option<Place> {
+    /// The first sample that is not a finite number, where there are lines.
+    fn not_finite(&self) -> Option<Written> {
         None
     }
 }

@@ -1,5 +1,7 @@
 //! Units of the columns of a text recording, in its header or in a line of their own.
 
+use super::no_number::stand_in;
+
 /// The power of ten that a unit of time makes of seconds: −3 for ms. `Some(None)` for times that are none, `None` for other units.
 pub(super) fn time_exponent(unit: &str) -> Option<Option<i32>> {
     match bare(unit).to_lowercase().as_str() {
@@ -30,7 +32,7 @@ pub(super) fn of_name(name: &str) -> &str {
 pub(super) fn is_unit(field: &str) -> bool {
     let field = bare(field).to_lowercase();
     // What stands for a number that is missing is none.
-    let is_missing = ["na", "n/a", "null", "none"].contains(&field.as_str());
+    let is_missing = !field.is_empty() && stand_in(field.as_bytes()).is_some();
     let is_word = field.chars().any(|letter| !letter.is_ascii_digit());
     !is_missing && field.chars().count() <= 8 && (is_word || field.is_empty())
 }

@@ -6,7 +6,7 @@ use super::columns::Columns;
 use super::error::{COLUMNS_OPTION, InputError, RATE_OPTION, TimeFault};
 use super::gaps::{Gap, Gaps};
 use super::not_finite::Written;
-use super::time::{Meaning, TimeAxis, standstill};
+use super::time::{Meaning, TimeAxis, roundest, standstill};
 use super::{OpenOptions, Opened, Source, Stream};
 use rows::Rows;
 
@@ -32,17 +32,20 @@ pub(super) fn open(
         };
         return Err(source.fault.take().unwrap_or(none));
     }
-    let meaning = source
-        .axis
-        .as_ref()
-        .map(|axis| axis.meaning(source.rows.printed, options.rate));
-    if meaning == Some(Meaning::Index) {
-        source.start = 0.0;
-    }
+    let (sample_rate, start) = (source.rate(), source.start());
+    let axis = source.axis.as_ref();
+    let meaning = axis.map(|axis| match (source.rows.header.sequence, sample_rate) {
+        (Some(_), Some(own)) => Meaning::of_rate(own, options.rate),
+        _ => axis.meaning(source.rows.printed, options.rate),
+    });
     Ok(Opened {
         format: "CSV".to_owned(),
-        sample_rate: source.axis.as_ref().map(TimeAxis::rate),
-        start: source.start,
+        sample_rate,
+        start: if meaning == Some(Meaning::Index) {
+            0.0
+        } else {
+            start
+        },
         warning: meaning.and_then(|meaning| source.warning(meaning)),
         source: Box::new(source),
         pairs: None,
@@ -143,6 +146,23 @@ impl Delimited {
         self.ahead = pairs.into_iter();
     }
 
+    /// The sample rate, Hz, by the times or else by the header.
+    fn rate(&self) -> Option<f64> {
+        let by_times = self.axis.as_ref().map(TimeAxis::rate);
+        match self.rows.header.sequence {
+            Some(sequence) => Some(roundest(by_times.unwrap_or(1.0) / sequence.step, 0.0)),
+            None => by_times,
+        }
+    }
+
+    /// The first sample's time, s.
+    fn start(&self) -> f64 {
+        match self.rows.header.sequence {
+            Some(sequence) if self.axis.is_some() => sequence.seconds(self.start),
+            _ => self.start,
+        }
+    }
+
     /// Takes the time of this line, before which there were so many pairs.
     fn check(&mut self, before: u64, line: u64, time: f64) -> Result<(), InputError> {
         let Some(axis) = &mut self.axis else {
@@ -155,7 +175,10 @@ impl Delimited {
             Ok(steps) if steps == unknown => return Ok(()),
             Ok(steps) if steps > unknown => {
                 let lost = steps - unknown;
-                self.gaps.add(Gap { before, lost }, line, [last, time]);
+                let sequence = self.rows.header.sequence;
+                let times = [last, time]
+                    .map(|time| sequence.map_or(time, |sequence| sequence.seconds(time)));
+                self.gaps.add(Gap { before, lost }, line, times);
                 return Ok(());
             }
             // More lines than there was time for.

@@ -2,7 +2,9 @@
 
 use super::columns::{Columns, FirstLine, Places};
 use super::error::{InputError, LineFault, TimeFault};
-use super::lines::Lines;
+use super::heading::is_header;
+use super::lines::{Beginning, Lines};
+use super::sequence::{Sequence, names_end};
 use super::text::{fields, number};
 use super::units::{is_unit, of_name, time_exponent};
 
@@ -12,30 +14,44 @@ pub(super) struct Header {
     pub places: Places,
     /// The power of ten that makes seconds of the time.
     pub exponent: i32,
+    /// The times of the samples, where the first column counts them.
+    pub sequence: Option<Sequence>,
+    /// The columns that have units.
+    columns: usize,
 }
 
 impl Header {
-    /// Reads the names and the units, where there are any; `first` is the first line, which is still to be read.
+    /// Reads the names and the units, where there are any; what begins the text is still to be read.
     pub fn read(
         file: &str,
         lines: &mut Lines,
-        first: &[u8],
+        beginning: &Beginning,
         chosen: Option<&Columns>,
     ) -> Result<Self, InputError> {
         let separator = lines.separator;
-        let names: Vec<String> = fields(first, separator).map(lossy).collect();
-        let is_header =
-            !fields(first, separator).any(|field| number::<f64>(field, separator).is_some());
+        let Beginning { first, next } = beginning;
+        let mut names: Vec<String> = fields(first, separator).map(lossy).collect();
         let width = names.len();
-        let names = is_header.then_some(names.as_slice());
+        let end = names_end(&names);
+        if end.is_some() && chosen.is_none() {
+            names[0] = "time".to_owned();
+        }
+        let columns = end.unwrap_or(width);
+        let names = is_header(first, next, separator).then_some(&names[..columns]);
         lines.advance()?;
-        let places = FirstLine { names, width }
+        let line = FirstLine {
+            names,
+            width: columns,
+        };
+        let places = line
             .places(chosen)
             .map_err(|fault| InputError::line(file, lines.number(), fault))?;
         let mut header = Self {
             width,
             places,
             exponent: 0,
+            sequence: None,
+            columns,
         };
         let Some(names) = names else {
             lines.back();
@@ -77,18 +93,28 @@ impl Header {
     }
 
     /// The time's unit, if this is a line of units.
-    fn units(&self, lines: &Lines) -> Option<String> {
-        let found: Vec<String> = lines.fields().map(lossy).collect();
+    fn units(&mut self, lines: &Lines) -> Option<String> {
+        let mut found: Vec<String> = lines.fields().map(lossy).collect();
+        if found.len() > self.width {
+            return None;
+        }
+        if self.columns < self.width {
+            // Another column than the first holds times of its own.
+            let is_first = self.places[0].is_none_or(|time| time == 0);
+            let told = || Sequence::read(&found, self.columns, lines.separator);
+            self.sequence = is_first.then(told).flatten();
+            found.truncate(self.columns);
+        }
         let is_number = |field: &str| number::<f64>(field.as_bytes(), lines.separator).is_some();
         let time = match self.places[0] {
             Some(place) => found
                 .get(place)
-                .filter(|unit| time_exponent(unit).is_some())?,
+                .filter(|unit| self.sequence.is_some() || time_exponent(unit).is_some())?,
             None => "",
         };
         let are_units = found.iter().all(|unit| is_unit(unit) && !is_number(unit))
             && found.iter().any(|unit| !unit.is_empty());
-        (are_units && found.len() <= self.width).then(|| time.to_owned())
+        are_units.then(|| time.to_owned())
     }
 
     /// The columns of the samples, as they are asked for.

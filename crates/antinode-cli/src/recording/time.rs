@@ -28,6 +28,16 @@ pub(super) enum Meaning {
     OtherRate { own: f64, asked: f64 },
 }
 
+impl Meaning {
+    /// Times of their `own` rate beside the one that was `asked` for.
+    pub fn of_rate(own: f64, asked: Option<f64>) -> Self {
+        match asked {
+            Some(asked) if (asked / own - 1.0).abs() > SAME_RATE => Self::OtherRate { own, asked },
+            _ => Self::Time,
+        }
+    }
+}
+
 /// A sample rate as steady as a clock, and the last time that kept to it.
 pub(super) struct TimeAxis {
     /// The rate of the first lines, and its uncertainty as a step.
@@ -106,15 +116,13 @@ impl TimeAxis {
 
     /// What the column is beside the rate `asked` for.
     pub fn meaning(&self, printed: Printed, asked: Option<f64>) -> Meaning {
-        let own = self.rate;
+        let meaning = Meaning::of_rate(self.rate, asked);
         // An index goes up by one whole a line; so may seconds.
-        let is_like_index = own == 1.0 && printed.is_whole();
-        match asked {
-            None if is_like_index => Meaning::PerhapsIndex,
-            Some(asked) if (asked / own - 1.0).abs() <= SAME_RATE => Meaning::Time,
-            Some(_) if is_like_index => Meaning::Index,
-            Some(asked) => Meaning::OtherRate { own, asked },
-            None => Meaning::Time,
+        let is_like_index = self.rate == 1.0 && printed.is_whole();
+        match (asked, meaning) {
+            (None, _) if is_like_index => Meaning::PerhapsIndex,
+            (Some(_), Meaning::OtherRate { .. }) if is_like_index => Meaning::Index,
+            _ => meaning,
         }
     }
 
@@ -208,7 +216,7 @@ pub(super) fn standstill(times: &[f64], printed: Printed) -> Option<(usize, Time
 }
 
 /// The number of fewest digits within `uncertainty` of `value`.
-fn roundest(value: f64, uncertainty: f64) -> f64 {
+pub(super) fn roundest(value: f64, uncertainty: f64) -> f64 {
     let magnitude = value.log10().floor() as i32;
     (0..=15)
         .map(|digits| format!("{:.*e}", digits, value))

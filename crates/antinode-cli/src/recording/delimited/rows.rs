@@ -40,8 +40,8 @@ pub(super) struct Rows {
 impl Rows {
     /// Opens text and reads its header.
     pub fn open(file: &str, stream: Stream, chosen: Option<&Columns>) -> Result<Self, InputError> {
-        let (mut lines, first) = Lines::open(file, stream)?;
-        let header = Header::read(file, &mut lines, &first, chosen)?;
+        let (mut lines, beginning) = Lines::open(file, stream)?;
+        let header = Header::read(file, &mut lines, &beginning, chosen)?;
         Ok(Self {
             file: file.to_owned(),
             lines,

@@ -144,9 +144,9 @@ fn faults_in_a_line_are_named_by_line_and_column() {
             "a.csv:2:1: S_C is `x`, not a number; correct or delete the line, or begin it with #",
         ),
         (
-            "x1,2\n-,2\n1,2\n1,2\n1,2\n",
+            "1x,2\n-,2\n1,2\n1,2\n1,2\n",
             0,
-            "a.csv:1:1: S_C is `x1`, not a number; ",
+            "a.csv:1:1: S_C is `1x`, not a number; ",
         ),
         ("1 2\n3\n", 1, "a.csv:2:2: S_D is missing here; "),
         (

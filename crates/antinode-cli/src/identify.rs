@@ -85,7 +85,7 @@ fn identify(
         }
     }
     let rate = sample_rate(&name, options.rate, recording.sample_rate())?;
-    if let Some(warning) = recording.warning() {
+    for warning in recording.warnings() {
         eprintln!("warning: {warning}");
     }
     let settings = options.settings(rate, recording.full_scale(), recording.resolution());

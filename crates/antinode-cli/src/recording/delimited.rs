@@ -38,6 +38,10 @@ pub(super) fn open(
         (Some(_), Some(own)) => Meaning::of_rate(own, options.rate),
         _ => axis.meaning(source.rows.printed, options.rate),
     });
+    let of_units = source.rows.header.units_warning();
+    let of_time = meaning.and_then(|meaning| source.warning(meaning));
+    let told = of_units.into_iter().chain(of_time);
+    let warnings = told.map(|told| format!("{file}: {told}")).collect();
     Ok(Opened {
         format: "CSV".to_owned(),
         sample_rate,
@@ -46,7 +50,7 @@ pub(super) fn open(
         } else {
             start
         },
-        warning: meaning.and_then(|meaning| source.warning(meaning)),
+        warnings,
         source: Box::new(source),
         pairs: None,
         full_scale: None,
@@ -195,7 +199,7 @@ impl Delimited {
     fn warning(&self, meaning: Meaning) -> Option<String> {
         let samples = self.rows.header.samples();
         let ignored = format!("ignore it with {COLUMNS_OPTION} {samples} {RATE_OPTION} HZ");
-        let told = match meaning {
+        Some(match meaning {
             Meaning::Time => return None,
             Meaning::PerhapsIndex => format!(
                 "the time column goes up by 1 a line, and is read as seconds; if it is an index, {ignored}"
@@ -208,8 +212,7 @@ impl Delimited {
                 "by the time column the sample rate is {own} Hz, but {RATE_OPTION} makes it {asked} Hz, and goes before; \
                  leave {RATE_OPTION} out, or if the column is wrong, {ignored}"
             ),
-        };
-        Some(format!("{}: {told}", self.file))
+        })
     }
 
     fn time_fault(&self, line: u64, fault: TimeFault) -> InputError {

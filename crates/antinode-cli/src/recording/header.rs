@@ -5,8 +5,9 @@ use super::error::{InputError, LineFault, TimeFault};
 use super::heading::is_header;
 use super::lines::{Beginning, Lines};
 use super::sequence::{Sequence, names_end};
+use super::signal_units::{Together, together};
 use super::text::{fields, number};
-use super::units::{is_unit, of_name, time_exponent};
+use super::units::{bare, is_bracketed, is_unit, of_name, time_exponent};
 
 /// The columns of a text recording.
 pub(super) struct Header {
@@ -16,6 +17,10 @@ pub(super) struct Header {
     pub exponent: i32,
     /// The times of the samples, where the first column counts them.
     pub sequence: Option<Sequence>,
+    /// What S_C and S_D are to be divided by, so that both have one unit.
+    pub divisors: [f32; 2],
+    /// Their units, and what became of them.
+    units: ([String; 2], Together),
     /// The columns that have units.
     columns: usize,
 }
@@ -51,6 +56,8 @@ impl Header {
             places,
             exponent: 0,
             sequence: None,
+            divisors: [1.0; 2],
+            units: (Default::default(), Together::Same),
             columns,
         };
         let Some(names) = names else {
@@ -66,6 +73,11 @@ impl Header {
                 return fault(&header, lines.number(), unit);
             }
         }
+        let signals = [1, 2].map(|role| places[role].map_or("", |place| &names[place]));
+        header.units = (signals.map(|name| of_name(name).to_owned()), Together::Same);
+        let mut line = lines.number();
+        // Behind another mark than a bracket, a name may end in a label.
+        let mut are_told = signals.iter().all(|name| is_bracketed(name));
         if lines.advance()? {
             match header.units(lines) {
                 None => lines.back(),
@@ -73,10 +85,52 @@ impl Header {
                     if let Err(unit) = header.set_unit(&unit, &unit) {
                         return fault(&header, lines.number(), unit);
                     }
+                    let own = [1, 2].map(|role| header.field(lines, role));
+                    if own.iter().any(|unit| !unit.is_empty()) {
+                        (header.units.0, line, are_told) = (own, lines.number(), true);
+                    }
                 }
             }
         }
+        header
+            .bring_together(are_told)
+            .map_err(|fault| InputError::line(file, line, fault))?;
         Ok(header)
+    }
+
+    /// The unit in this line of the column of this `role`.
+    fn field(&self, lines: &Lines, role: usize) -> String {
+        let field = self.places[role].and_then(|place| lines.fields().nth(place));
+        bare(&lossy(field.unwrap_or_default())).to_owned()
+    }
+
+    /// Finds what brings both signals to one unit.
+    fn bring_together(&mut self, are_told: bool) -> Result<(), LineFault> {
+        let (units, outcome) = &mut self.units;
+        *outcome = together([&units[0], &units[1]], are_told);
+        match outcome {
+            Together::Same | Together::Unsure => {}
+            Together::Divided(divisors) => self.divisors = *divisors,
+            Together::Never => {
+                let units = units.clone();
+                return Err(LineFault::Units { units });
+            }
+        }
+        Ok(())
+    }
+
+    /// What to tell of the signals' units.
+    pub fn units_warning(&self) -> Option<String> {
+        let ([c, d], together) = &self.units;
+        let told = match together {
+            Together::Same | Together::Never => return None,
+            Together::Divided(divisors) => {
+                let larger = if divisors[0] > divisors[1] { d } else { c };
+                format!("both are read in {larger}")
+            }
+            Together::Unsure => "they are read as if these were the same".to_owned(),
+        };
+        Some(format!("S_C is in {c} and S_D in {d}: {told}"))
     }
 
     /// Takes the time's unit, which stands in a column of this name, if it is one.

@@ -1,5 +1,4 @@
-//! Recordings of the two pick-off signals: read block by block from WAV, text, NPY and raw samples,
-//! and written as WAV, text and NPY.
+//! Recordings of the two pick-off signals: read from WAV, text, NPY and raw samples, and written.
 
 mod columns;
 mod content;
@@ -17,6 +16,7 @@ mod raw;
 mod resolution;
 mod sample;
 mod sequence;
+mod signal_units;
 mod source;
 mod text;
 mod time;
@@ -198,9 +198,9 @@ impl Recording {
         self.opened.start
     }
 
-    /// What is understood, but hardly meant.
-    pub fn warning(&self) -> Option<&str> {
-        self.opened.warning.as_deref()
+    /// What is understood, but hardly meant, or not as it is written.
+    pub fn warnings(&self) -> &[String] {
+        &self.opened.warnings
     }
 
     /// What is to be known once all is read.

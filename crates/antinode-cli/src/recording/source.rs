@@ -68,7 +68,7 @@ pub(super) struct Opened {
     pub sample_rate: Option<f64>,
     /// The time of the first pair, s.
     pub start: f64,
-    pub warning: Option<String>,
+    pub warnings: Vec<String>,
     pub pairs: Option<u64>,
     pub full_scale: Option<f32>,
 }

@@ -94,7 +94,7 @@ impl Rows {
             let (role, text) = (channel + 1, texts[channel + 1]);
             let read = number::<f32>(text, self.lines.separator);
             if let Some(read) = read.or_else(|| stand_in(text)) {
-                *value = read;
+                *value = read / self.header.divisors[channel];
             } else {
                 garbled = garbled.or(Some(role));
             }

@@ -58,6 +58,13 @@ pub enum LineFault {
          begin it with # if it is a comment"
     )]
     Number { role: Role, text: String },
+    /// Signals that are none of the same.
+    #[error(
+        "S_C is in {} and S_D in {}, which have no common unit; record both alike, mend the units, or choose other columns \
+         with {COLUMNS_OPTION}",
+        units[0], units[1]
+    )]
+    Units { units: [String; 2] },
     /// The time is at fault; the samples are in the columns named.
     #[error("{fault}, or ignore the time column with {COLUMNS_OPTION} {samples} {RATE_OPTION} HZ")]
     Time { fault: TimeFault, samples: String },

@@ -154,7 +154,10 @@ fn a_pause_of_very_many_windows_leaves_numbers() {
             }
             push(&mut core, 0, 10f64.powf(exponent + share(0.569_84)));
             push(&mut core, 4 * length, 0.0);
-            let after: Vec<_> = found.iter().filter(|e| e.start as f64 > 10f64.powf(exponent)).collect();
+            let after: Vec<_> = found
+                .iter()
+                .filter(|e| e.start as f64 > 10f64.powf(exponent))
+                .collect();
             assert!(after.len() > 3);
             for estimate in after {
                 let error = errors(estimate, &wave)[3] / stated(estimate)[3];

@@ -94,7 +94,7 @@ fn identify(
         }
     }
     let rate = sample_rate(&name, options.rate, recording.sample_rate())?;
-    if let Some(warning) = recording.warning() {
+    for warning in recording.warnings() {
         eprintln!("warning: {warning}");
     }
     let settings = options.settings(rate, recording.full_scale(), recording.resolution());
@@ -123,7 +123,7 @@ fn identify(
 
     let live = io::stdout().is_terminal();
     let mut search = Search::default();
-    let mut misfits = 0;
+    let (mut misfits, mut taken_pairs) = (0, 0);
     let fault = loop {
         match recording.read(&mut buffer) {
             Ok(0) => break None,
@@ -140,16 +140,27 @@ fn identify(
         }
         let mut pairs = buffer.as_slice();
         while !pairs.is_empty() {
+            let mut most = pairs.len();
+            if let Some(gap) = recording.next_gap() {
+                if gap.before == taken_pairs {
+                    core.skip(gap.lost);
+                    if let Some(history) = &mut history {
+                        history.skip(gap.lost);
+                    }
+                    recording.pass_gap();
+                    continue;
+                }
+                most = most.min(usize::try_from(gap.before - taken_pairs).unwrap_or(most));
+            }
             // Until the first row, what becomes of the search is to be seen.
-            let most = if rows.count() == 0 {
-                GLANCE
-            } else {
-                pairs.len()
-            };
-            let (taken, estimate) = core.push_slice(&pairs[..most.min(pairs.len())]);
+            if rows.count() == 0 {
+                most = most.min(GLANCE);
+            }
+            let (taken, estimate) = core.push_slice(&pairs[..most]);
             search.see(core.is_searching());
             let (new, rest) = pairs.split_at(taken);
             pairs = rest;
+            taken_pairs += taken as u64;
             if let Some(history) = &mut history {
                 history.extend(new);
             }
@@ -192,15 +203,17 @@ fn identify(
         None if rows.count() > 0 => None,
         None => Some(search.no_rows(&name, rate, &core, options)),
     };
-    match (recording.not_finite(), failure) {
-        (None, failure) => failure.map_or(Ok(()), Err),
-        (Some(error), None) => Err(error.into()),
-        (Some(error), Some(failure)) => {
-            rows.flush()?;
-            eprintln!("error: {error}");
-            Err(failure)
-        }
+    let told = [recording.lost(), recording.not_finite()];
+    let mut failures = told.into_iter().flatten().map(Failure::from).chain(failure);
+    let Some(mut last) = failures.next() else {
+        return Ok(());
+    };
+    rows.flush()?;
+    for next in failures {
+        eprintln!("error: {last}");
+        last = next;
     }
+    Err(last)
 }
 
 /// The rate that was asked for, or else the recording's own.

@@ -59,6 +59,12 @@ impl History {
         self.start += excess as u64;
     }
 
+    /// Takes so many samples as lost: no window reaches across them.
+    pub fn skip(&mut self, count: u64) {
+        self.start += self.pairs.len() as u64 + count;
+        self.pairs.clear();
+    }
+
     /// All methods over the window of an estimate; `None` where it holds no wave, or the samples are not
     /// here that it and a quarter of a period before it have.
     pub fn compare(&self, estimate: &Estimate) -> Option<Methods> {

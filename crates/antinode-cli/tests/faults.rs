@@ -22,7 +22,7 @@ fn what_is_not_a_recording_is_told() {
     write("header.wav", &wav(&[]));
     write("text.wav", b"these are no samples at all");
     write("other.bin", b"these are no samples at all");
-    write("words.csv", b"time,C,D\n0,0.1,0.2\n0.00001,half,0.2\n");
+    write("words.csv", b"time,C,D\n0,half,0.2\n0.00001,half,0.2\n");
     write("one.csv", b"C\n0.1\n0.2\n");
     write("short.csv", b"C,D\n0.1,0.2\n0.3\n");
     let cases: [(&str, &[&str]); 10] = [
@@ -51,7 +51,7 @@ fn what_is_not_a_recording_is_told() {
         ("other.bin", &["other.bin: ", "--raw i16, i32 or f32"]),
         (
             "words.csv",
-            &["words.csv:3:2: ", "`half`", "correct or delete the line"],
+            &["words.csv:2:2: ", "`half`", "correct or delete the line"],
         ),
         ("one.csv", &["one.csv:1: ", "found 1 column", "--columns"]),
         (

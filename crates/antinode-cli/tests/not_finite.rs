@@ -128,7 +128,7 @@ fn the_search_recovers_from_one_among_the_first() {
 fn a_fault_behind_it_is_told_too() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    fs::write(here.join("a.csv"), "1,2\n3,nan\n5,\n").unwrap();
+    fs::write(here.join("a.csv"), "1,2\n3,nan\n5\n").unwrap();
     let run = run_with(here, "identify a.csv --rate 1e5", Vec::new());
     assert_eq!((run.code, run.out.as_str()), (1, ""), "{}", run.err);
     let lines: Vec<&str> = run.err.lines().collect();

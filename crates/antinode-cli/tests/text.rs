@@ -57,7 +57,7 @@ fn what_is_neither_is_told() {
     for (input, told) in [
         ("these are no samples at all", "give it with --raw"),
         ("1\n2\n", "standard input:1: found 1 column"),
-        ("1,2\nx,4\n", "standard input:2:1: S_C is `x`"),
+        ("1,2\nx,4\nx,4\n", "standard input:2:1: S_C is `x`"),
     ] {
         let run = run_with(directory.path(), "identify - --rate 1e5", input.into());
         assert_eq!((run.code, run.out.as_str()), (1, ""));

@@ -76,26 +76,31 @@ impl FirstLine<'_> {
 
     fn chosen(&self, columns: &Columns) -> Result<Places, LineFault> {
         let [c, d] = &columns.signals;
-        let time = columns
-            .time
-            .as_ref()
-            .map(|time| self.find(time))
-            .transpose()?;
-        Ok([time, Some(self.find(c)?), Some(self.find(d)?)])
+        let wanted = [columns.time.as_ref(), Some(c), Some(d)];
+        // Names may be numbers too: what may all be numbers of columns is.
+        let is_number = |wanted: &&String| self.number(wanted).is_some();
+        let are_numbers = wanted.iter().flatten().all(is_number);
+        let mut places = [None; 3];
+        for (place, wanted) in places.iter_mut().zip(wanted) {
+            if let Some(wanted) = wanted {
+                *place = Some(self.find(wanted, are_numbers)?);
+            }
+        }
+        Ok(places)
     }
 
-    fn find(&self, wanted: &str) -> Result<usize, LineFault> {
+    /// The place of the column of this number from 1.
+    fn number(&self, wanted: &str) -> Option<usize> {
+        let place = wanted.parse::<usize>().ok()?.checked_sub(1)?;
+        (place < self.width).then_some(place)
+    }
+
+    fn find(&self, wanted: &str, is_number: bool) -> Result<usize, LineFault> {
         let by_name = self
             .names
+            .filter(|_| !is_number)
             .and_then(|names| names.iter().position(|name| name == wanted));
-        let number = || {
-            wanted
-                .parse::<usize>()
-                .ok()?
-                .checked_sub(1)
-                .filter(|&place| place < self.width)
-        };
-        by_name.or_else(number).ok_or_else(|| {
+        by_name.or_else(|| self.number(wanted)).ok_or_else(|| {
             let numbers = format!("the numbers 1 to {}", self.width);
             let known = self
                 .names
@@ -201,6 +206,13 @@ mod tests {
             places("a,b,c,d", Some("1, b, d")),
             Ok([Some(0), Some(1), Some(3)])
         );
+        // Where names are numbers.
+        assert_eq!(places("t,1,2", Some("2,3")), Ok([None, Some(1), Some(2)]));
+        assert_eq!(
+            places("t,1,2", Some("t,1,2")),
+            Ok([Some(0), Some(1), Some(2)])
+        );
+        assert_eq!(places("0,1", Some("0,1")), Ok([None, Some(0), Some(1)]));
     }
 
     #[test]

@@ -1,19 +1,20 @@
 //! Text recordings: one pair a line, with or without the time before it.
 
+mod rows;
+
 use super::columns::Columns;
-use super::error::{COLUMNS_OPTION, InputError, LineFault, Place, RATE_OPTION, Role, TimeFault};
-use super::header::{Header, lossy};
-use super::lines::Lines;
-use super::printed::Printed;
-use super::text::number;
-use super::time::{Meaning, TimeAxis, standstill};
+use super::error::{COLUMNS_OPTION, InputError, RATE_OPTION, TimeFault};
+use super::gaps::{Gap, Gaps};
+use super::not_finite::Written;
+use super::time::{Meaning, TimeAxis, roundest, standstill};
 use super::{OpenOptions, Opened, Source, Stream};
+use rows::Rows;
 
 /// The lines read ahead to tell the sample rate, whose times are rounded as they are printed.
 const HEAD_LINES: usize = 1 << 16;
 
-/// As much of a bad field as an error shows.
-const SHOWN_LETTERS: usize = 40;
+/// The lines read ahead where there is no time: enough to tell whether they are lines of numbers.
+const FEW_LINES: usize = 16;
 
 /// Opens text; a `live` stream is handed over as it comes.
 pub(super) fn open(
@@ -31,18 +32,25 @@ pub(super) fn open(
         };
         return Err(source.fault.take().unwrap_or(none));
     }
-    let meaning = source
-        .axis
-        .as_ref()
-        .map(|axis| axis.meaning(source.printed, options.rate));
-    if meaning == Some(Meaning::Index) {
-        source.start = 0.0;
-    }
+    let (sample_rate, start) = (source.rate(), source.start());
+    let axis = source.axis.as_ref();
+    let meaning = axis.map(|axis| match (source.rows.header.sequence, sample_rate) {
+        (Some(_), Some(own)) => Meaning::of_rate(own, options.rate),
+        _ => axis.meaning(source.rows.printed, options.rate),
+    });
+    let of_units = source.rows.header.units_warning();
+    let of_time = meaning.and_then(|meaning| source.warning(meaning));
+    let told = of_units.into_iter().chain(of_time);
+    let warnings = told.map(|told| format!("{file}: {told}")).collect();
     Ok(Opened {
         format: "CSV".to_owned(),
-        sample_rate: source.axis.as_ref().map(TimeAxis::rate),
-        start: source.start,
-        warning: meaning.and_then(|meaning| source.warning(meaning)),
+        sample_rate,
+        start: if meaning == Some(Meaning::Index) {
+            0.0
+        } else {
+            start
+        },
+        warnings,
         source: Box::new(source),
         pairs: None,
         full_scale: None,
@@ -52,37 +60,33 @@ pub(super) fn open(
 /// Reads lines of numbers.
 struct Delimited {
     file: String,
-    lines: Lines,
-    header: Header,
-    printed: Printed,
+    rows: Rows,
     /// The first time, or 0.
     start: f64,
     axis: Option<TimeAxis>,
+    gaps: Gaps,
+    /// The pairs read.
+    pairs: u64,
+    /// The pairs before the last one whose time is known.
+    timed: u64,
     live: bool,
-    /// Of the first sample that is not a finite number.
-    not_finite: Option<Place>,
     /// Pairs read to tell the sample rate, and not yet delivered.
     ahead: std::vec::IntoIter<[f32; 2]>,
     /// Met behind the last of them.
     fault: Option<InputError>,
 }
 
-/// A line's time, if there is one, and its pair.
-type Row = (Option<f64>, [f32; 2]);
-
 impl Delimited {
     fn open(file: &str, stream: Stream, chosen: Option<&Columns>) -> Result<Self, InputError> {
-        let (mut lines, first) = Lines::open(file, stream)?;
-        let header = Header::read(file, &mut lines, &first, chosen)?;
         Ok(Self {
             file: file.to_owned(),
-            lines,
-            header,
-            printed: Printed::default(),
+            rows: Rows::open(file, stream, chosen)?,
             start: 0.0,
             axis: None,
+            gaps: Gaps::default(),
+            pairs: 0,
+            timed: 0,
             live: false,
-            not_finite: None,
             ahead: Vec::new().into_iter(),
             fault: None,
         })
@@ -90,44 +94,112 @@ impl Delimited {
 
     /// Reads as many lines as it takes to tell the sample rate, and checks their times.
     fn read_ahead(&mut self) {
-        let head = if self.header.places[0].is_some() {
+        let head = if self.rows.header.places[0].is_some() {
             HEAD_LINES
         } else {
-            1
+            FEW_LINES
         };
-        let (mut pairs, mut times, mut lines) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut pairs, mut times, mut places) = (Vec::new(), Vec::new(), Vec::new());
         while pairs.len() < head && self.fault.is_none() {
-            match self.row() {
+            match self.rows.next() {
                 Ok(Some((time, pair))) => {
+                    if let Some(time) = time {
+                        times.push(time);
+                        places.push((pairs.len() as u64, self.rows.line()));
+                    }
                     pairs.push(pair);
-                    times.extend(time);
-                    lines.push(self.lines.number());
                 }
                 Ok(None) => break,
                 Err(fault) => self.fault = Some(fault),
             }
         }
-        self.start = times.first().copied().unwrap_or(0.0);
-        self.axis = TimeAxis::of(&times, self.printed);
-        let broken = match &mut self.axis {
-            Some(axis) => times.iter().enumerate().skip(1).find_map(|(index, &time)| {
-                let fault = axis.check(time, self.printed).err()?;
-                Some((index, fault))
-            }),
-            None => standstill(&times, self.printed),
-        };
-        if let Some((index, fault)) = broken {
-            pairs.truncate(index);
-            self.fault = Some(self.time_fault(lines[index], fault));
+        let mut broken = self.rows.mostly_garbled();
+        self.axis = TimeAxis::of(&times, self.rows.printed);
+        if let Some(&(pair, _)) = places.first() {
+            let before = self
+                .axis
+                .as_ref()
+                .map_or(0.0, |axis| pair as f64 / axis.rate());
+            self.start = times[0] - before;
+            self.timed = pair;
         }
+        let uneven = match &self.axis {
+            Some(_) => times
+                .iter()
+                .zip(&places)
+                .skip(1)
+                .find_map(|(&time, &(pair, line))| {
+                    let fault = self.check(pair, line, time).err()?;
+                    Some((pair, fault))
+                }),
+            None => standstill(&times, self.rows.printed).map(|(index, fault)| {
+                let (pair, line) = places[index];
+                (pair, self.time_fault(line, fault))
+            }),
+        };
+        if let Some((pair, fault)) = uneven
+            && broken.as_ref().is_none_or(|&(first, _)| pair < first)
+        {
+            broken = Some((pair, fault));
+        }
+        if let Some((pair, fault)) = broken {
+            pairs.truncate(pair as usize);
+            self.fault = Some(fault);
+        }
+        self.pairs = pairs.len() as u64;
         self.ahead = pairs.into_iter();
+    }
+
+    /// The sample rate, Hz, by the times or else by the header.
+    fn rate(&self) -> Option<f64> {
+        let by_times = self.axis.as_ref().map(TimeAxis::rate);
+        match self.rows.header.sequence {
+            Some(sequence) => Some(roundest(by_times.unwrap_or(1.0) / sequence.step, 0.0)),
+            None => by_times,
+        }
+    }
+
+    /// The first sample's time, s.
+    fn start(&self) -> f64 {
+        match self.rows.header.sequence {
+            Some(sequence) if self.axis.is_some() => sequence.seconds(self.start),
+            _ => self.start,
+        }
+    }
+
+    /// Takes the time of this line, before which there were so many pairs.
+    fn check(&mut self, before: u64, line: u64, time: f64) -> Result<(), InputError> {
+        let Some(axis) = &mut self.axis else {
+            return Ok(());
+        };
+        let last = axis.last();
+        let unknown = before - self.timed - 1;
+        self.timed = before;
+        let fault = match axis.check(time, self.rows.printed) {
+            Ok(steps) if steps == unknown => return Ok(()),
+            Ok(steps) if steps > unknown => {
+                let lost = steps - unknown;
+                let sequence = self.rows.header.sequence;
+                let times = [last, time]
+                    .map(|time| sequence.map_or(time, |sequence| sequence.seconds(time)));
+                self.gaps.add(Gap { before, lost }, line, times);
+                return Ok(());
+            }
+            // More lines than there was time for.
+            Ok(_) => TimeFault::Uneven {
+                step: (time - last) / (unknown + 1) as f64,
+                usual: 1.0 / axis.rate(),
+            },
+            Err(fault) => fault,
+        };
+        Err(self.time_fault(line, fault))
     }
 
     /// What is understood, but hardly meant.
     fn warning(&self, meaning: Meaning) -> Option<String> {
-        let samples = self.header.samples();
+        let samples = self.rows.header.samples();
         let ignored = format!("ignore it with {COLUMNS_OPTION} {samples} {RATE_OPTION} HZ");
-        let told = match meaning {
+        Some(match meaning {
             Meaning::Time => return None,
             Meaning::PerhapsIndex => format!(
                 "the time column goes up by 1 a line, and is read as seconds; if it is an index, {ignored}"
@@ -140,91 +212,12 @@ impl Delimited {
                 "by the time column the sample rate is {own} Hz, but {RATE_OPTION} makes it {asked} Hz, and goes before; \
                  leave {RATE_OPTION} out, or if the column is wrong, {ignored}"
             ),
-        };
-        Some(format!("{}: {told}", self.file))
-    }
-
-    fn row(&mut self) -> Result<Option<Row>, InputError> {
-        if !self.lines.advance()? {
-            return Ok(None);
-        }
-        let mut found = [&[][..]; 3];
-        let (mut count, mut last_is_blank) = (0, false);
-        for field in self.lines.fields() {
-            for (text, place) in found.iter_mut().zip(self.header.places) {
-                if place == Some(count) {
-                    *text = field;
-                }
-            }
-            (count, last_is_blank) = (count + 1, field.is_empty());
-        }
-        // One mark at the end of a line ends its last field; it does not begin another.
-        if count > self.header.width + usize::from(last_is_blank) {
-            let fault = LineFault::FieldCount {
-                found: count,
-                expected: self.header.width,
-            };
-            return Err(InputError::line(&self.file, self.lines.number(), fault));
-        }
-        let mut time = None;
-        if self.header.places[0].is_some() {
-            let told = number::<f64>(found[0], self.lines.separator)
-                .filter(|time| time.is_finite())
-                .ok_or_else(|| self.no_number(0, found[0]))?;
-            self.printed.see(found[0], told, self.header.exponent);
-            time = Some(told / 10f64.powi(-self.header.exponent));
-        }
-        let signal = |role: usize| {
-            number::<f32>(found[role], self.lines.separator)
-                .ok_or_else(|| self.no_number(role, found[role]))
-        };
-        let pair = [signal(1)?, signal(2)?];
-        if self.not_finite.is_none()
-            && let Some(channel) = pair.iter().position(|value| !value.is_finite())
-        {
-            self.not_finite = Some(self.place(channel + 1));
-        }
-        Ok(Some((time, pair)))
-    }
-
-    /// This line, and the column of this `role`.
-    fn place(&self, role: usize) -> Place {
-        Place {
-            line: self.lines.number(),
-            column: self.header.places[role].map(|place| place + 1),
-        }
-    }
-
-    /// What is wrong with `text`, which is in the column of this `role` and no number.
-    fn no_number(&self, role: usize, text: &[u8]) -> InputError {
-        let place = self.place(role);
-        let is_missing = text.is_empty();
-        let text = shown(text);
-        let fault = match Role::ALL[role] {
-            Role::Time if is_missing => self.header.time_fault(TimeFault::Missing),
-            Role::Time => self.header.time_fault(TimeFault::Number { text }),
-            role if is_missing => LineFault::FieldMissing { role },
-            role => LineFault::Number { role, text },
-        };
-        InputError::Line {
-            file: self.file.clone(),
-            place,
-            fault,
-        }
+        })
     }
 
     fn time_fault(&self, line: u64, fault: TimeFault) -> InputError {
-        InputError::line(&self.file, line, self.header.time_fault(fault))
+        InputError::line(&self.file, line, self.rows.header.time_fault(fault))
     }
-}
-
-/// A bad field as an error shows it.
-fn shown(field: &[u8]) -> String {
-    let text = lossy(field);
-    text.chars()
-        .flat_map(char::escape_debug)
-        .take(SHOWN_LETTERS)
-        .collect()
 }
 
 impl Source for Delimited {
@@ -234,16 +227,19 @@ impl Source for Delimited {
             if let Some(fault) = self.fault.take() {
                 return Err(fault);
             }
-            let Some((time, pair)) = self.row()? else {
+            let Some((time, pair)) = self.rows.next()? else {
                 break;
             };
-            if let (Some(axis), Some(time)) = (&mut self.axis, time) {
-                let checked = axis.check(time, self.printed);
-                checked.map_err(|fault| self.time_fault(self.lines.number(), fault))?;
+            if let Some(time) = time {
+                self.check(self.pairs, self.rows.line(), time)?;
             }
+            if let Some((_, fault)) = self.rows.mostly_garbled() {
+                return Err(fault);
+            }
+            self.pairs += 1;
             pairs.push(pair);
             // The next line may take its time.
-            if self.live && self.lines.is_drained() {
+            if self.live && self.rows.is_drained() {
                 break;
             }
         }
@@ -251,11 +247,24 @@ impl Source for Delimited {
     }
 
     fn bytes_read(&self) -> u64 {
-        self.lines.bytes_read()
+        self.rows.bytes_read()
     }
 
     fn ahead(&self) -> &[[f32; 2]] {
         self.ahead.as_slice()
+    }
+
+    fn next_gap(&self) -> Option<Gap> {
+        self.gaps.next()
+    }
+
+    fn pass_gap(&mut self) {
+        self.gaps.pass();
+    }
+
+    fn lost(&self) -> Option<InputError> {
+        let (line, fault) = self.gaps.fault()?;
+        Some(self.time_fault(line, fault))
     }
 
     fn late_warning(&self) -> Option<String> {
@@ -271,8 +280,8 @@ impl Source for Delimited {
         ))
     }
 
-    fn not_finite_place(&self) -> Option<Place> {
-        self.not_finite
+    fn not_finite(&self) -> Option<Written> {
+        self.rows.not_finite()
     }
 }
 

@@ -144,9 +144,9 @@ pub enum InputError {
          are there in the format named, and that the recording was not cut off"
     )]
     HalfPair { file: String, found: u64 },
-    /// NaN, an infinity, or a number beyond single precision: told once all is read.
+    /// NaN, an infinity, a number beyond single precision, or text: told once all is read.
     #[error(
-        "{file}{}: sample pair {pair} (from 0), {channel}: the value is {value}, not a finite number{}; \
+        "{file}{}: sample pair {pair} (from 0), {told}, not a finite number{}; \
          rows of windows with one are flagged or missing, the others are good: mend what wrote it",
         place.map_or(String::new(), |place| format!(":{place}")),
         if *.count == 1 { String::new() } else { format!(", the first of {count}") }
@@ -155,8 +155,7 @@ pub enum InputError {
         file: String,
         place: Option<Place>,
         pair: u64,
-        channel: Channel,
-        value: f32,
+        told: String,
         count: u64,
     },
 

@@ -2,9 +2,12 @@
 
 use super::columns::{Columns, FirstLine, Places};
 use super::error::{InputError, LineFault, TimeFault};
-use super::lines::Lines;
+use super::heading::is_header;
+use super::lines::{Beginning, Lines};
+use super::sequence::{Sequence, names_end};
+use super::signal_units::{Together, together};
 use super::text::{fields, number};
-use super::units::{is_unit, of_name, time_exponent};
+use super::units::{bare, is_bracketed, is_unit, of_name, time_exponent};
 
 /// The columns of a text recording.
 pub(super) struct Header {
@@ -12,30 +15,50 @@ pub(super) struct Header {
     pub places: Places,
     /// The power of ten that makes seconds of the time.
     pub exponent: i32,
+    /// The times of the samples, where the first column counts them.
+    pub sequence: Option<Sequence>,
+    /// What S_C and S_D are to be divided by, so that both have one unit.
+    pub divisors: [f32; 2],
+    /// Their units, and what became of them.
+    units: ([String; 2], Together),
+    /// The columns that have units.
+    columns: usize,
 }
 
 impl Header {
-    /// Reads the names and the units, where there are any; `first` is the first line, which is still to be read.
+    /// Reads the names and the units, where there are any; what begins the text is still to be read.
     pub fn read(
         file: &str,
         lines: &mut Lines,
-        first: &[u8],
+        beginning: &Beginning,
         chosen: Option<&Columns>,
     ) -> Result<Self, InputError> {
         let separator = lines.separator;
-        let names: Vec<String> = fields(first, separator).map(lossy).collect();
-        let is_header =
-            !fields(first, separator).any(|field| number::<f64>(field, separator).is_some());
+        let Beginning { first, next } = beginning;
+        let mut names: Vec<String> = fields(first, separator).map(lossy).collect();
         let width = names.len();
-        let names = is_header.then_some(names.as_slice());
+        let end = names_end(&names);
+        if end.is_some() && chosen.is_none() {
+            names[0] = "time".to_owned();
+        }
+        let columns = end.unwrap_or(width);
+        let names = is_header(first, next, separator).then_some(&names[..columns]);
         lines.advance()?;
-        let places = FirstLine { names, width }
+        let line = FirstLine {
+            names,
+            width: columns,
+        };
+        let places = line
             .places(chosen)
             .map_err(|fault| InputError::line(file, lines.number(), fault))?;
         let mut header = Self {
             width,
             places,
             exponent: 0,
+            sequence: None,
+            divisors: [1.0; 2],
+            units: (Default::default(), Together::Same),
+            columns,
         };
         let Some(names) = names else {
             lines.back();
@@ -50,6 +73,11 @@ impl Header {
                 return fault(&header, lines.number(), unit);
             }
         }
+        let signals = [1, 2].map(|role| places[role].map_or("", |place| &names[place]));
+        header.units = (signals.map(|name| of_name(name).to_owned()), Together::Same);
+        let mut line = lines.number();
+        // Behind another mark than a bracket, a name may end in a label.
+        let mut are_told = signals.iter().all(|name| is_bracketed(name));
         if lines.advance()? {
             match header.units(lines) {
                 None => lines.back(),
@@ -57,10 +85,52 @@ impl Header {
                     if let Err(unit) = header.set_unit(&unit, &unit) {
                         return fault(&header, lines.number(), unit);
                     }
+                    let own = [1, 2].map(|role| header.field(lines, role));
+                    if own.iter().any(|unit| !unit.is_empty()) {
+                        (header.units.0, line, are_told) = (own, lines.number(), true);
+                    }
                 }
             }
         }
+        header
+            .bring_together(are_told)
+            .map_err(|fault| InputError::line(file, line, fault))?;
         Ok(header)
+    }
+
+    /// The unit in this line of the column of this `role`.
+    fn field(&self, lines: &Lines, role: usize) -> String {
+        let field = self.places[role].and_then(|place| lines.fields().nth(place));
+        bare(&lossy(field.unwrap_or_default())).to_owned()
+    }
+
+    /// Finds what brings both signals to one unit.
+    fn bring_together(&mut self, are_told: bool) -> Result<(), LineFault> {
+        let (units, outcome) = &mut self.units;
+        *outcome = together([&units[0], &units[1]], are_told);
+        match outcome {
+            Together::Same | Together::Unsure => {}
+            Together::Divided(divisors) => self.divisors = *divisors,
+            Together::Never => {
+                let units = units.clone();
+                return Err(LineFault::Units { units });
+            }
+        }
+        Ok(())
+    }
+
+    /// What to tell of the signals' units.
+    pub fn units_warning(&self) -> Option<String> {
+        let ([c, d], together) = &self.units;
+        let told = match together {
+            Together::Same | Together::Never => return None,
+            Together::Divided(divisors) => {
+                let larger = if divisors[0] > divisors[1] { d } else { c };
+                format!("both are read in {larger}")
+            }
+            Together::Unsure => "they are read as if these were the same".to_owned(),
+        };
+        Some(format!("S_C is in {c} and S_D in {d}: {told}"))
     }
 
     /// Takes the time's unit, which stands in a column of this name, if it is one.
@@ -77,18 +147,28 @@ impl Header {
     }
 
     /// The time's unit, if this is a line of units.
-    fn units(&self, lines: &Lines) -> Option<String> {
-        let found: Vec<String> = lines.fields().map(lossy).collect();
+    fn units(&mut self, lines: &Lines) -> Option<String> {
+        let mut found: Vec<String> = lines.fields().map(lossy).collect();
+        if found.len() > self.width {
+            return None;
+        }
+        if self.columns < self.width {
+            // Another column than the first holds times of its own.
+            let is_first = self.places[0].is_none_or(|time| time == 0);
+            let told = || Sequence::read(&found, self.columns, lines.separator);
+            self.sequence = is_first.then(told).flatten();
+            found.truncate(self.columns);
+        }
         let is_number = |field: &str| number::<f64>(field.as_bytes(), lines.separator).is_some();
         let time = match self.places[0] {
             Some(place) => found
                 .get(place)
-                .filter(|unit| time_exponent(unit).is_some())?,
+                .filter(|unit| self.sequence.is_some() || time_exponent(unit).is_some())?,
             None => "",
         };
         let are_units = found.iter().all(|unit| is_unit(unit) && !is_number(unit))
             && found.iter().any(|unit| !unit.is_empty());
-        (are_units && found.len() <= self.width).then(|| time.to_owned())
+        are_units.then(|| time.to_owned())
     }
 
     /// The columns of the samples, as they are asked for.

@@ -8,6 +8,17 @@ use super::Stream;
 use super::error::{InputError, LineFault};
 use super::text::{self, LineEnds, MAX_LINE, Text, bare};
 
+/// The lines read ahead to tell what the first one is; no row needs fewer.
+const NEXT_LINES: usize = 16;
+
+/// How a text begins; all of it is still to be read.
+pub(super) struct Beginning {
+    /// The first line.
+    pub first: Vec<u8>,
+    /// Those behind it.
+    pub next: Vec<u8>,
+}
+
 /// Reads lines that are neither blank nor comments.
 pub(super) struct Lines {
     file: String,
@@ -21,12 +32,15 @@ pub(super) struct Lines {
 }
 
 impl Lines {
-    /// Opens text, and gives its first line too, which is still to be read.
-    pub fn open(file: &str, stream: Stream) -> Result<(Self, Vec<u8>), InputError> {
+    /// Opens text, and gives its first lines too.
+    pub fn open(file: &str, stream: Stream) -> Result<(Self, Beginning), InputError> {
         let mut stream = BufReader::with_capacity(MAX_LINE, LineEnds::new(stream));
         let (first, line, before) = text::first_line(file, &mut stream)?;
         let separator = text::separator(&first);
-        let text = Text::new(Box::new(Cursor::new(first.clone()).chain(stream)));
+        let next = text::next_lines(&mut stream, NEXT_LINES)
+            .map_err(|fault| InputError::io(file, fault))?;
+        let begun = Cursor::new([first.as_slice(), &next].concat());
+        let text = Text::new(Box::new(begun.chain(stream)));
         let reader = ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
@@ -44,7 +58,7 @@ impl Lines {
             skipped: (line - 1, before),
             again: false,
         };
-        Ok((lines, first))
+        Ok((lines, Beginning { first, next }))
     }
 
     /// The number of the line last read.

@@ -1,19 +1,23 @@
-//! Recordings of the two pick-off signals: read block by block from WAV, text, NPY and raw samples,
-//! and written as WAV, text and NPY.
+//! Recordings of the two pick-off signals: read from WAV, text, NPY and raw samples, and written.
 
 mod columns;
 mod content;
 mod delimited;
 mod error;
 mod frame;
+mod gaps;
 mod header;
+mod heading;
 mod lines;
+mod no_number;
 mod not_finite;
 mod npy;
 mod printed;
 mod raw;
 mod resolution;
 mod sample;
+mod sequence;
+mod signal_units;
 mod source;
 mod text;
 mod time;
@@ -28,6 +32,7 @@ use std::path::Path;
 pub use columns::Columns;
 use content::Content;
 pub use error::{Channel, InputError};
+pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use raw::RawFormat;
 use source::{Kind, Opened, Source, Stream};
@@ -191,9 +196,9 @@ impl Recording {
         self.opened.start
     }
 
-    /// What is understood, but hardly meant.
-    pub fn warning(&self) -> Option<&str> {
-        self.opened.warning.as_deref()
+    /// What is understood, but hardly meant, or not as it is written.
+    pub fn warnings(&self) -> &[String] {
+        &self.opened.warnings
     }
 
     /// What is to be known once all is read.
@@ -237,14 +242,29 @@ impl Recording {
     /// What is wrong with the samples read so far that are not finite numbers, if there are any.
     pub fn not_finite(&self) -> Option<InputError> {
         let first = self.not_finite.first?;
+        let written = self.opened.source.not_finite();
         Some(InputError::NotFinite {
             file: self.name.clone(),
-            place: self.opened.source.not_finite_place(),
+            place: written.as_ref().map(|written| written.place),
             pair: first.pair,
-            channel: first.channel,
-            value: first.value,
+            told: written.map_or_else(|| first.told(), |written| written.told),
             count: self.not_finite.count,
         })
+    }
+
+    /// The next gap that the samples' own time shows; those among pairs that were delivered are to be passed in turn.
+    pub fn next_gap(&self) -> Option<Gap> {
+        self.opened.source.next_gap()
+    }
+
+    /// Goes on to the gap behind the next one.
+    pub fn pass_gap(&mut self) {
+        self.opened.source.pass_gap();
+    }
+
+    /// What is wrong with the gaps found so far, if there are any.
+    pub fn lost(&self) -> Option<InputError> {
+        self.opened.source.lost()
     }
 
     /// Clears `buffer` and fills it to its capacity with the next pairs [S_C, S_D]; `Ok(0)` at the end.

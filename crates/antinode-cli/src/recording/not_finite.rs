@@ -1,6 +1,6 @@
 //! Samples that are not finite numbers: they are passed on, and told at the end.
 
-use super::error::Channel;
+use super::error::{Channel, Place};
 use super::sample::channel_at;
 
 /// The first of them.
@@ -9,6 +9,21 @@ pub(super) struct First {
     pub pair: u64,
     pub channel: Channel,
     pub value: f32,
+}
+
+impl First {
+    /// What it is, in words.
+    pub fn told(self) -> String {
+        format!("{}: the value is {}", self.channel, self.value)
+    }
+}
+
+/// The first of them as a line of text has it.
+#[derive(Debug, Clone)]
+pub(super) struct Written {
+    pub place: Place,
+    /// What it is, in words.
+    pub told: String,
 }
 
 /// What was seen of them so far.

@@ -102,7 +102,7 @@ pub(super) fn open(
         source,
         sample_rate: None,
         start: 0.0,
-        warning: None,
+        warnings: Vec::new(),
         pairs: Some(there),
         full_scale: code.full_scale(),
     })

@@ -60,7 +60,7 @@ pub(super) fn open(file: &str, stream: Stream, format: RawFormat, length: Option
         source: Box::new(source),
         sample_rate: None,
         start: 0.0,
-        warning: None,
+        warnings: Vec::new(),
         pairs: length.map(|length| length / code.pair_bytes() as u64),
         full_scale: code.full_scale(),
     }

@@ -3,7 +3,9 @@
 use std::fs::File;
 use std::io::Read;
 
-use super::error::{InputError, Place};
+use super::error::InputError;
+use super::gaps::Gap;
+use super::not_finite::Written;
 
 /// Where the bytes come from.
 pub(super) type Stream = Box<dyn Read + Send>;
@@ -21,13 +23,26 @@ pub(super) trait Source: Send {
         &[]
     }
 
+    /// The next gap that [`pass_gap`](Self::pass_gap) has not passed.
+    fn next_gap(&self) -> Option<Gap> {
+        None
+    }
+
+    /// Goes on to the gap behind the next one.
+    fn pass_gap(&mut self) {}
+
+    /// What is to be told at the end of samples that are missing.
+    fn lost(&self) -> Option<InputError> {
+        None
+    }
+
     /// What is to be known of the samples delivered, and could not be known before.
     fn late_warning(&self) -> Option<String> {
         None
     }
 
-    /// The line and column of the first sample that is not a finite number, where there are lines.
-    fn not_finite_place(&self) -> Option<Place> {
+    /// The first sample that is not a finite number, where there are lines.
+    fn not_finite(&self) -> Option<Written> {
         None
     }
 }
@@ -53,7 +68,7 @@ pub(super) struct Opened {
     pub sample_rate: Option<f64>,
     /// The time of the first pair, s.
     pub start: f64,
-    pub warning: Option<String>,
+    pub warnings: Vec<String>,
     pub pairs: Option<u64>,
     pub full_scale: Option<f32>,
 }

@@ -74,7 +74,8 @@ pub(super) fn read_with(
     let (pairs, fault) = match Recording::open(&path, options) {
         Ok(mut recording) => {
             let (pairs, fault) = drain(&mut recording);
-            (pairs, fault.or_else(|| recording.not_finite()))
+            let told = fault.or_else(|| recording.lost());
+            (pairs, told.or_else(|| recording.not_finite()))
         }
         Err(fault) => (Vec::new(), Some(fault)),
     };

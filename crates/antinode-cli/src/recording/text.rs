@@ -136,6 +136,19 @@ pub(super) fn first_line(
     }
 }
 
+/// So many of the next lines, comments and all; fewer at the end, or before one that is too long.
+pub(super) fn next_lines(stream: &mut impl BufRead, lines: usize) -> io::Result<Vec<u8>> {
+    let mut next = Vec::new();
+    for _ in 0..lines {
+        let mut line = stream.by_ref().take(MAX_LINE as u64);
+        let read = line.read_until(b'\n', &mut next)?;
+        if read == 0 || read == MAX_LINE {
+            break;
+        }
+    }
+    Ok(next)
+}
+
 /// Text without the mark that some programs begin UTF-8 with.
 pub(super) fn without_mark(text: &[u8]) -> &[u8] {
     text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text)
@@ -149,9 +162,12 @@ pub(super) fn is_skipped(line: &[u8]) -> bool {
 /// Whether a line is a comment.
 pub(super) fn is_comment(line: &[u8]) -> bool {
     let line = line.trim_ascii_start();
-    [&b"#"[..], b"%", b"//"]
+    let is_marked = [&b"#"[..], b"%", b"//"]
         .into_iter()
-        .any(|mark| line.starts_with(mark))
+        .any(|mark| line.starts_with(mark));
+    // sigrok's `; Channels: …`, where `;` separates no fields.
+    let is_sentence = matches!(line, [b';', b' ', b'A'..=b'Z', rest @ ..] if !rest.contains(&b';'));
+    is_marked || is_sentence
 }
 
 /// What separates the fields: the first of `;`, tab and `,` that is there, or else blanks.
@@ -202,6 +218,16 @@ mod tests {
         assert_eq!(separator(b"1,5\t2,5"), b'\t');
         assert_eq!(separator(b"1.5, 2.5"), b',');
         assert_eq!(separator(b"1.5  2.5"), b' ');
+    }
+
+    #[test]
+    fn comments_are_told_from_fields() {
+        for line in ["# a", " %a", "//", "; Samplerate: 1 MHz", "; CSV by x"] {
+            assert!(is_comment(line.as_bytes()), "{line}");
+        }
+        for line in [";1;2", "; 1; 2", "; C; D", ";c;d", "c; D", "/"] {
+            assert!(!is_comment(line.as_bytes()), "{line}");
+        }
     }
 
     #[test]

@@ -28,6 +28,16 @@ pub(super) enum Meaning {
     OtherRate { own: f64, asked: f64 },
 }
 
+impl Meaning {
+    /// Times of their `own` rate beside the one that was `asked` for.
+    pub fn of_rate(own: f64, asked: Option<f64>) -> Self {
+        match asked {
+            Some(asked) if (asked / own - 1.0).abs() > SAME_RATE => Self::OtherRate { own, asked },
+            _ => Self::Time,
+        }
+    }
+}
+
 /// A sample rate as steady as a clock, and the last time that kept to it.
 pub(super) struct TimeAxis {
     /// The rate of the first lines, and its uncertainty as a step.
@@ -106,15 +116,13 @@ impl TimeAxis {
 
     /// What the column is beside the rate `asked` for.
     pub fn meaning(&self, printed: Printed, asked: Option<f64>) -> Meaning {
-        let own = self.rate;
+        let meaning = Meaning::of_rate(self.rate, asked);
         // An index goes up by one whole a line; so may seconds.
-        let is_like_index = own == 1.0 && printed.is_whole();
-        match asked {
-            None if is_like_index => Meaning::PerhapsIndex,
-            Some(asked) if (asked / own - 1.0).abs() <= SAME_RATE => Meaning::Time,
-            Some(_) if is_like_index => Meaning::Index,
-            Some(asked) => Meaning::OtherRate { own, asked },
-            None => Meaning::Time,
+        let is_like_index = self.rate == 1.0 && printed.is_whole();
+        match (asked, meaning) {
+            (None, _) if is_like_index => Meaning::PerhapsIndex,
+            (Some(_), Meaning::OtherRate { .. }) if is_like_index => Meaning::Index,
+            _ => meaning,
         }
     }
 
@@ -125,21 +133,28 @@ impl TimeAxis {
         self.drifted.map(|rate| (rate, late))
     }
 
-    /// Takes the next line, or says how it breaks the rate.
-    pub fn check(&mut self, now: f64, printed: Printed) -> Result<(), TimeFault> {
+    /// The last time taken.
+    pub fn last(&self) -> f64 {
+        self.last
+    }
+
+    /// Takes the next line and tells how many samples were lost before it, or says how it breaks the rate.
+    pub fn check(&mut self, now: f64, printed: Printed) -> Result<u64, TimeFault> {
         let step = now - self.last;
         let printed = printed.step(now);
         let rounding = printed.max(self.rounding) / self.step;
         let off = (step / self.step - 1.0).abs();
-        if off > STEP_TOLERANCE + rounding.min(0.5 - STEP_TOLERANCE) {
-            return Err(self.broken(now, rounding));
-        }
+        let lost = if off > STEP_TOLERANCE + rounding.min(0.5 - STEP_TOLERANCE) {
+            self.lost(now, rounding)?
+        } else {
+            0
+        };
         self.last = now;
         self.rounding = printed;
-        self.lines += 1;
-        self.count += 1;
+        self.lines += 1 + lost;
+        self.count += 1 + lost;
         if self.lines < RATE_LINES {
-            return Ok(());
+            return Ok(lost);
         }
         let length = now - self.anchor;
         let lines = self.lines as f64;
@@ -160,29 +175,26 @@ impl TimeAxis {
         self.uncertainty = 0.0;
         self.anchor = now;
         self.lines = 0;
-        Ok(())
+        Ok(lost)
     }
 
-    fn broken(&self, now: f64, rounding: f64) -> TimeFault {
+    /// How many samples were lost before a time that is off, or what else is wrong with it.
+    fn lost(&self, now: f64, rounding: f64) -> Result<u64, TimeFault> {
         let (from, to, usual) = (self.last, now, self.step);
         let step = to - from;
         let samples = step / usual;
         let tolerance = STEP_TOLERANCE + rounding.min(COARSE) + samples * self.uncertainty / usual;
         if rounding > COARSE && rounding * usual > self.harmless {
-            TimeFault::Coarse {
+            Err(TimeFault::Coarse {
                 told: rounding * usual,
                 usual,
-            }
+            })
         } else if step <= 0.0 {
-            TimeFault::Backwards { from, to }
+            Err(TimeFault::Backwards { from, to })
         } else if samples > 1.5 && (samples - samples.round()).abs() <= tolerance {
-            TimeFault::Gap {
-                lost: samples.round() as u64 - 1,
-                from,
-                to,
-            }
+            Ok(samples.round() as u64 - 1)
         } else {
-            TimeFault::Uneven { step, usual }
+            Err(TimeFault::Uneven { step, usual })
         }
     }
 }
@@ -204,7 +216,7 @@ pub(super) fn standstill(times: &[f64], printed: Printed) -> Option<(usize, Time
 }
 
 /// The number of fewest digits within `uncertainty` of `value`.
-fn roundest(value: f64, uncertainty: f64) -> f64 {
+pub(super) fn roundest(value: f64, uncertainty: f64) -> f64 {
     let magnitude = value.log10().floor() as i32;
     (0..=15)
         .map(|digits| format!("{:.*e}", digits, value))

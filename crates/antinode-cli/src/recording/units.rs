@@ -1,5 +1,8 @@
 //! Units of the columns of a text recording, in its header or in a line of their own.
 
+use super::no_number::stand_in;
+use super::signal_units::is_known;
+
 /// The power of ten that a unit of time makes of seconds: −3 for ms. `Some(None)` for times that are none, `None` for other units.
 pub(super) fn time_exponent(unit: &str) -> Option<Option<i32>> {
     match bare(unit).to_lowercase().as_str() {
@@ -15,7 +18,7 @@ pub(super) fn time_exponent(unit: &str) -> Option<Option<i32>> {
 }
 
 /// A unit without the brackets around it.
-fn bare(unit: &str) -> &str {
+pub(super) fn bare(unit: &str) -> &str {
     unit.trim_matches(|letter: char| "()[]{} ".contains(letter))
 }
 
@@ -26,13 +29,19 @@ pub(super) fn of_name(name: &str) -> &str {
     unit.unwrap_or_default().trim()
 }
 
+/// Whether a column's name has something in brackets at its end.
+pub(super) fn is_bracketed(name: &str) -> bool {
+    name.trim_end().ends_with([']', ')'])
+}
+
 /// Whether a field may be a unit: a short word, or nothing.
 pub(super) fn is_unit(field: &str) -> bool {
     let field = bare(field).to_lowercase();
     // What stands for a number that is missing is none.
-    let is_missing = ["na", "n/a", "null", "none"].contains(&field.as_str());
+    let is_missing = !field.is_empty() && stand_in(field.as_bytes()).is_some();
     let is_word = field.chars().any(|letter| !letter.is_ascii_digit());
-    !is_missing && field.chars().count() <= 8 && (is_word || field.is_empty())
+    let is_short = field.chars().count() <= 8 || is_known(&field);
+    !is_missing && is_short && (is_word || field.is_empty())
 }
 
 #[cfg(test)]

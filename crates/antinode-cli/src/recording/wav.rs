@@ -55,7 +55,7 @@ pub(super) fn open(
         source: Box::new(source),
         sample_rate: (format.rate > 0).then_some(f64::from(format.rate)),
         start: 0.0,
-        warning: None,
+        warnings: Vec::new(),
         pairs: bytes.map(|bytes| bytes / pair_bytes),
         full_scale: format.code.full_scale(),
     })

@@ -58,6 +58,13 @@ pub enum LineFault {
          begin it with # if it is a comment"
     )]
     Number { role: Role, text: String },
+    /// Signals that are none of the same.
+    #[error(
+        "S_C is in {} and S_D in {}, which have no common unit; record both alike, mend the units, or choose other columns \
+         with {COLUMNS_OPTION}",
+        units[0], units[1]
+    )]
+    Units { units: [String; 2] },
     /// The time is at fault; the samples are in the columns named.
     #[error("{fault}, or ignore the time column with {COLUMNS_OPTION} {samples} {RATE_OPTION} HZ")]
     Time { fault: TimeFault, samples: String },
@@ -88,13 +95,20 @@ pub enum TimeFault {
          recording here, print the time with more digits"
     )]
     Backwards { from: f64, to: f64 },
-    /// A gap of whole samples.
+    /// A gap of whole samples, the first of so many gaps with so many samples in all: told once all is read.
     #[error(
-        "{lost} {} lost before this line (time goes from {from} s to {to} s); \
-         cut the recording here, record it again without loss",
-        if *.lost == 1 { "sample is" } else { "samples are" }
+        "{lost} {} lost before this line (time goes from {from} s to {to} s){}; rows of windows with a gap are missing, the \
+         others are good: record it again without loss",
+        if *.lost == 1 { "sample is" } else { "samples are" },
+        if *.gaps == 1 { String::new() } else { format!(", the first of {gaps} gaps with {all} samples") }
     )]
-    Gap { lost: u64, from: f64, to: f64 },
+    Gap {
+        lost: u64,
+        from: f64,
+        to: f64,
+        gaps: u64,
+        all: u64,
+    },
     /// A step that is no whole number of samples.
     #[error(
         "time steps by {step:.4e} s here, but by {usual:.4e} s elsewhere; sample at a constant \

@@ -1,0 +1,168 @@
+//! Whether the first line of a text recording holds names or samples.
+
+use super::no_number::stand_in;
+use super::text::{fields, number};
+
+/// Fewer lines than these do not tell whether a sample goes before them.
+const FEW: usize = 8;
+
+/// How far a first sample may be from what follows, in rms residuals.
+const FAR: f64 = 5.0;
+
+/// Whether the first line holds the names of columns, by the lines that follow it: a first sample must not be lost.
+pub(super) fn is_header(first: &[u8], next: &[u8], separator: u8) -> bool {
+    let names: Vec<&[u8]> = fields(first, separator).collect();
+    let rows: Vec<Vec<&[u8]>> = next
+        .split(|&byte| byte == b'\n')
+        .filter(|line| !super::text::is_skipped(line))
+        .map(|line| fields(line, separator).collect())
+        .collect();
+    let is_number = |field: &[u8]| number::<f64>(field, separator).is_some();
+    if !names.iter().any(|name| is_number(name)) {
+        // A recording may begin with samples that are out of range.
+        return !names.iter().all(|name| stand_in(name).is_some());
+    }
+    let is_above_numbers = |place: usize| {
+        let mut below = rows.iter().filter_map(|row| row.get(place));
+        below.any(|field| is_number(field))
+    };
+    let mut words = names
+        .iter()
+        .enumerate()
+        .filter(|(_, name)| begins_with_letter(name) && !is_number(name));
+    let are_whole = names
+        .iter()
+        .all(|name| !is_number(name) || name.iter().all(u8::is_ascii_digit));
+    are_whole && words.any(|(place, _)| is_above_numbers(place))
+        || are_counted(&names) && {
+            let named: Vec<usize> = (0..names.len())
+                .filter(|&place| !names[place].is_empty())
+                .collect();
+            are_written_otherwise(&rows, &named, separator)
+                && !is_continued(&names, &rows, separator)
+        }
+}
+
+/// Whether a field begins as a name does, and no number.
+fn begins_with_letter(field: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(field);
+    stand_in(field).is_none() && text.starts_with(char::is_alphabetic)
+}
+
+/// Whether the fields are 0, 1 and so on, as a table without names has them; the first may be empty, over the numbers of the lines.
+fn are_counted(names: &[&[u8]]) -> bool {
+    let counted = match names {
+        [b"", rest @ ..] => rest,
+        all => all,
+    };
+    let is_next = |(place, name): (usize, &&[u8])| **name == *place.to_string().as_bytes();
+    counted.len() >= 2 && counted.iter().enumerate().all(is_next)
+}
+
+/// Whether the numbers in these columns are all written with a point or an exponent.
+fn are_written_otherwise(rows: &[Vec<&[u8]>], columns: &[usize], separator: u8) -> bool {
+    let is_otherwise = |field: &[u8]| {
+        number::<f64>(field, separator).is_some() && field.iter().any(|byte| b".,eE".contains(byte))
+    };
+    columns.iter().all(|&place| {
+        let below = || rows.iter().filter_map(|row| row.get(place));
+        below().any(|field| is_otherwise(field))
+            && below().all(|field| is_otherwise(field) || stand_in(field).is_some())
+    })
+}
+
+/// Whether the last two columns go on from the first line as a wave does: each sample is as far from the mean of its neighbours as
+/// its place in the wave says.
+fn is_continued(names: &[&[u8]], rows: &[Vec<&[u8]>], separator: u8) -> bool {
+    let pair = |row: &[&[u8]]| {
+        let [.., c, d] = row else { return None };
+        let pair = [number::<f64>(c, separator)?, number::<f64>(d, separator)?];
+        pair.iter().all(|value| value.is_finite()).then_some(pair)
+    };
+    let Some(first) = pair(names) else {
+        return false;
+    };
+    let pairs: Vec<[f64; 2]> = rows.iter().map_while(|row| pair(row)).collect();
+    if pairs.len() < FEW {
+        return false;
+    }
+    let channel = |index: usize| pairs.iter().map(move |pair| pair[index]);
+    let channels: [Vec<f64>; 2] = [0, 1].map(|index| channel(index).collect());
+    // Of each sample but the first and the last: itself and the sum of its neighbours, less their means.
+    let means = channels.each_ref().map(|x| {
+        let inner = &x[1..x.len() - 1];
+        let count = inner.len() as f64;
+        let sums: f64 = x.windows(3).map(|three| three[0] + three[2]).sum();
+        [inner.iter().sum::<f64>() / count, sums / count]
+    });
+    let points = || {
+        channels.iter().zip(&means).flat_map(|(x, [own, sum])| {
+            x.windows(3)
+                .map(move |three| (three[1] - own, three[0] + three[2] - sum))
+        })
+    };
+    let squares: f64 = points().map(|(x, _)| x * x).sum();
+    let slope = points().map(|(x, y)| x * y).sum::<f64>() / squares;
+    let residuals: f64 = points().map(|(x, y)| (y - slope * x).powi(2)).sum();
+    let rms = (residuals / points().count() as f64).sqrt();
+    (0..2).all(|index| {
+        let ([own, sum], x) = (means[index], &channels[index]);
+        let off = first[index] + x[1] - sum - slope * (x[0] - own);
+        off.abs() <= FAR * rms
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_told_from_samples() {
+        for (first, next, expected) in [
+            ("c,d", "1,2\n", true),
+            ("OVER,OVER", "1,2\n", false),
+            (",c,d", "0,1,2\n", true),
+            ("Time,1,2", "0,1,2\n", true),
+            ("x-axis,1,2", "second,Volt,Volt\n0,1,2\n", true),
+            ("0,1", "0.5,-1e-3\n", true),
+            ("0,1", "", false),
+            ("0,1", "5,-3\n6,2\n", false),
+            ("0,1", "0.5,3\n", false),
+            ("1,0", "0.5,0.3\n", false),
+            ("0,1,2", "0.0,0.5,0.3\n", true),
+            ("0,1,2", "0.0,nan,0.3\n0.1,0.5,0.3\n", true),
+            (",0,1", "0,0.5,0.3\n", true),
+            ("0.1,x", "0.5,0.3\n", false),
+            ("1,x", "0.5,0.3\n", true),
+            ("1,x", "", false),
+            ("1,1x7", "2,3\n", false),
+            ("1,OVER", "2,3\n", false),
+            ("2024-05-01,1,2", "2024-05-02,3,4\n", false),
+        ] {
+            assert_eq!(
+                is_header(first.as_bytes(), next.as_bytes(), b','),
+                expected,
+                "{first} {next}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_wave_that_begins_as_columns_are_counted_is_kept() {
+        let wave = |from: usize, scale: f64, noise: f64| -> String {
+            (from..16)
+                .map(|k| (k, (0.4 * k as f64).sin_cos()))
+                .map(|(k, (sin, cos))| {
+                    let noise = noise * [0.7, -1.1, 0.2, 1.3, -0.9][k % 5];
+                    format!("{:.4},{:.4}\n", scale * sin + noise, scale * cos - noise)
+                })
+                .collect()
+        };
+        for noise in [0.0, 0.01] {
+            assert!(!is_header(b"0,1", wave(1, 1.0, noise).as_bytes(), b','));
+            // The same wave, later or of another amplitude.
+            assert!(is_header(b"0,1", wave(3, 1.0, noise).as_bytes(), b','));
+            assert!(is_header(b"0,1", wave(1, 0.5, noise).as_bytes(), b','));
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Fields that hold no number because there was none to tell: out of range, or missing.
+
+use super::text::number;
+
+/// What programs and instruments write for a sample that is missing or out of range, in lower case.
+const WORDS: [&str; 32] = [
+    "na",
+    "n/a",
+    "#n/a",
+    "#n/a n/a",
+    "<na>",
+    "null",
+    "none",
+    "nil",
+    "missing",
+    "no data",
+    "invalid",
+    "error",
+    "err",
+    "#num!",
+    "#value!",
+    "#div/0!",
+    "#ref!",
+    "over",
+    "ovr",
+    "ovl",
+    "ovld",
+    "ol",
+    "o.l",
+    "o.l.",
+    "overload",
+    "overflow",
+    "overrange",
+    "over range",
+    "under",
+    "underflow",
+    "underrange",
+    "clipped",
+];
+
+/// The value of a field that stands for a sample without a number; none where it is anything else.
+pub(super) fn stand_in(field: &[u8]) -> Option<f32> {
+    let text = str::from_utf8(field).ok()?;
+    let size = text.trim_start_matches(['+', '-', '−']).to_lowercase();
+    let is_dashes = size.is_empty() && text.chars().count() != 1;
+    // `1.#INF` and `nan(ind)` of older compilers, the sign in front of them.
+    let is_undefined = size.starts_with("1.#") || size.starts_with("nan(");
+    if size == "∞" || size.starts_with("1.#inf") {
+        let is_negative = text.starts_with(['-', '−']);
+        Some(if is_negative {
+            f32::NEG_INFINITY
+        } else {
+            f32::INFINITY
+        })
+    } else if is_dashes || is_undefined || WORDS.contains(&size.as_str()) {
+        Some(f32::NAN)
+    } else {
+        // An infinity or a NaN by its usual name, which no header has.
+        number::<f32>(field, b',').filter(|value| !value.is_finite())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_stands_for_a_sample_is_known() {
+        for text in [
+            "",
+            "--",
+            "---",
+            "NA",
+            "#N/A",
+            "OVER",
+            "-OVER",
+            "Overrange",
+            "-nan(ind)",
+            "-1.#IND",
+            "nan",
+        ] {
+            let value = stand_in(text.as_bytes());
+            assert!(value.is_some_and(f32::is_nan), "{text}");
+        }
+        for (text, value) in [
+            ("∞", f32::INFINITY),
+            ("-∞", f32::NEG_INFINITY),
+            ("−∞", f32::NEG_INFINITY),
+            ("1.#INF", f32::INFINITY),
+            ("-1.#INF", f32::NEG_INFINITY),
+            ("-inf", f32::NEG_INFINITY),
+        ] {
+            assert_eq!(stand_in(text.as_bytes()), Some(value), "{text}");
+        }
+        for text in ["-", "V", "1.5", "x4", "c", "-0", "overdrive", "\u{fffd}"] {
+            assert_eq!(stand_in(text.as_bytes()), None, "{text}");
+        }
+        assert_eq!(stand_in(b"\xff"), None);
+    }
+}

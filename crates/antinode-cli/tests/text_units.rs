@@ -1,0 +1,116 @@
+//! `antinode identify` on text whose two signals are told in different units.
+
+mod common;
+
+use std::fs;
+
+use common::{Row, WAVE, rows, run, text};
+
+/// A recording under a header, its signals times these.
+fn scaled(header: &str, time: f64, scales: [f64; 2]) -> String {
+    let mut text = header.to_owned();
+    for (k, pair) in WAVE.codes(5000).iter().enumerate() {
+        let [c, d] = [0, 1].map(|i| scales[i] * f64::from(pair[i]) / 32_768.0);
+        text += &format!("{:.5},{c},{d}\n", time * k as f64 * 1e-5);
+    }
+    text
+}
+
+#[test]
+fn signals_are_brought_to_the_larger_unit() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::write(here.join("a.csv"), text(&WAVE.codes(5000))).unwrap();
+    let expected = rows(here, "a.csv");
+    for (header, time, scales, told) in [
+        (
+            "Time (s),Channel A (mV),Channel B (V)\n",
+            1.0,
+            [1e3, 1.0],
+            "S_C is in mV and S_D in V: both are read in V",
+        ),
+        (
+            "Time,Channel A,Channel B\n(us),(V),(mV)\n\n",
+            1e6,
+            [1.0, 1e3],
+            "S_C is in V and S_D in mV: both are read in V",
+        ),
+        (
+            "time,c [µV],d [mV]\n",
+            1.0,
+            [1e3, 1.0],
+            "S_C is in µV and S_D in mV: both are read in mV",
+        ),
+        ("microseconds,V,mV\n", 1e6, [1.0, 1e3], "both are read in V"),
+        (
+            "x-axis,1,2\nsecond,Volt,millivolt\n",
+            1.0,
+            [1.0, 1e3],
+            "S_C is in Volt and S_D in millivolt: both are read in Volt",
+        ),
+    ] {
+        fs::write(here.join("a.csv"), scaled(header, time, scales)).unwrap();
+        let run = run(here, "identify a.csv --output csv");
+        assert_eq!((run.code, run.err.lines().count()), (0, 1), "{}", run.err);
+        assert!(run.err.starts_with("warning: a.csv: "), "{}", run.err);
+        assert!(run.err.contains(told), "{}", run.err);
+        let found = Row::all(&run.out);
+        assert_eq!(found.len(), expected.len(), "{header}");
+        for (found, expected) in found.iter().zip(&expected) {
+            for name in ["main_amplitude", "quadrature_amplitude", "angle_rad"] {
+                let apart = found.number(name) - expected.number(name);
+                assert!(apart.abs() < 1e-5, "{header} {name}: {apart}");
+            }
+        }
+    }
+}
+
+#[test]
+fn units_of_different_quantities_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (header, line) in [
+        ("Time (s),Channel A (V),Channel B (A)\n", 1),
+        ("Time,Channel A,Channel B\n(s),(mV),(A)\n\n", 2),
+        ("Time,Channel A,Channel B\ns,mV,LSB\n", 2),
+    ] {
+        fs::write(here.join("a.csv"), scaled(header, 1.0, [1.0, 1.0])).unwrap();
+        let run = run(here, "identify a.csv");
+        assert_eq!((run.code, run.out.as_str()), (1, ""), "{}", run.err);
+        let told = format!("error: a.csv:{line}: S_C is in ");
+        assert!(run.err.starts_with(&told), "{}", run.err);
+        assert!(run.err.contains("no common unit; "), "{}", run.err);
+        assert_eq!(run.err.lines().count(), 1);
+    }
+}
+
+#[test]
+fn equal_units_and_mere_names_say_nothing() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for header in [
+        "Time (s),Channel A (mV),Channel B (mV)\n",
+        "Time (s),Channel (A),Channel (B)\n",
+        "Time (s),S_A,S_B\n",
+        "Time (s),A,B\n",
+        "time,c,d\ns,V,volts\n",
+        "time,c,d\ns,V,\n",
+        "time,c,d\ns,A,B\n",
+        "time,S_C,S_D\n",
+    ] {
+        fs::write(here.join("a.csv"), scaled(header, 1.0, [1.0, 1.0])).unwrap();
+        assert!(rows(here, "a.csv").len() > 20, "{header}");
+    }
+}
+
+#[test]
+fn a_unit_that_is_not_known_beside_one_that_is_is_warned_of() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let text = scaled("time,c,d\ns,V,MV\n", 1.0, [1.0, 1.0]);
+    fs::write(here.join("a.csv"), text).unwrap();
+    let run = run(here, "identify a.csv");
+    assert_eq!(run.code, 0);
+    let told = "warning: a.csv: S_C is in V and S_D in MV: they are read as if these were the same";
+    assert!(run.err.starts_with(told), "{}", run.err);
+}

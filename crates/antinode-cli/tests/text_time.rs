@@ -5,7 +5,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::{RATE, Row, WAVE, rows, run, text};
+use common::{RATE, Row, WAVE, rows, rows_of, run, same_later, text};
 
 /// The pairs of [`WAVE`] with the time of each as `print` has it.
 fn timed(header: &str, pairs: usize, print: impl Fn(f64) -> String) -> String {
@@ -17,33 +17,17 @@ fn timed(header: &str, pairs: usize, print: impl Fn(f64) -> String) -> String {
     lines
 }
 
-/// The rows of a text; the command must succeed.
-fn found(directory: &Path, text: &str, arguments: &str) -> Vec<Row> {
-    fs::write(directory.join("a.csv"), text).unwrap();
-    rows(directory, &format!("a.csv {arguments}"))
-}
-
-/// The same windows, their times later by so much.
-fn same(found: &[Row], expected: &[Row], later: f64) {
-    assert_eq!(found.len(), expected.len());
-    for (found, expected) in found.iter().zip(expected) {
-        let time = found.number("time_s") - expected.number("time_s");
-        assert!((time - later).abs() < 1e-6, "{time}");
-        assert_eq!(found.unnamed()[1..], expected.unnamed()[1..]);
-    }
-}
-
 #[test]
 fn rows_have_the_recordings_own_time() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    let expected = found(here, &text(&WAVE.codes(5000)), "");
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
     assert!((0.001..0.003).contains(&expected[0].number("time_s")));
     for start in [-0.5, 1.7e9] {
         let text = timed("time,c,d\n", 5000, |t| format!("{:.6}", start + t));
-        same(&found(here, &text, ""), &expected, start);
-        same(
-            &found(here, &text, "--columns 2,3 --rate 1e5"),
+        same_later(&rows_of(here, &text, ""), &expected, start);
+        same_later(
+            &rows_of(here, &text, "--columns 2,3 --rate 1e5"),
             &expected,
             0.0,
         );
@@ -55,17 +39,17 @@ fn rows_have_the_recordings_own_time() {
     let milliseconds = timed("time,c,d\nms,V,V\n", 5000, |t| {
         format!("{:.3}", 1e3 * t + 250.0)
     });
-    same(&found(here, &milliseconds, ""), &expected, 0.25);
+    same_later(&rows_of(here, &milliseconds, ""), &expected, 0.25);
 }
 
 #[test]
 fn single_precision_is_as_good() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    let expected = found(here, &text(&WAVE.codes(200_000)), "");
+    let expected = rows_of(here, &text(&WAVE.codes(200_000)), "");
     // At 20 s single precision has steps of a fifth of a sample.
     let text = timed("time,c,d\n", 200_000, |t| format!("{}", (20.0 + t) as f32));
-    same(&found(here, &text, ""), &expected, 20.0);
+    same_later(&rows_of(here, &text, ""), &expected, 20.0);
 }
 
 #[test]
@@ -73,7 +57,7 @@ fn a_clock_that_warms_up_is_told_and_costs_no_row() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let steady = text(&WAVE.codes(400_000));
-    let expected = found(here, &steady, "");
+    let expected = rows_of(here, &steady, "");
     // 3 ppm a second: 12 ppm in the end.
     let text = timed("time,c,d\n", 400_000, |t| {
         format!("{:.9}", t - 1.5e-6 * t * t)
@@ -146,7 +130,7 @@ fn warned(directory: &Path, arguments: &str) -> (String, Vec<Row>) {
 fn an_index_is_warned_of() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    let expected = found(here, &text(&WAVE.codes(5000)), "");
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
     let index = |t: f64| format!("{:.0}", 1e5 * t + 500_000.0);
     fs::write(here.join("a.csv"), timed("zeit,c,d\n", 5000, index)).unwrap();
     let (told, _) = warned(here, "");
@@ -158,7 +142,7 @@ fn an_index_is_warned_of() {
         told.contains("taken for an index") && told.contains("from the first sample on"),
         "{told}"
     );
-    same(&rows, &expected, 0.0);
+    same_later(&rows, &expected, 0.0);
     // And the rate of seconds leaves it seconds.
     let seconds = common::rows(here, "a.csv --rate 1");
     assert!(seconds[0].number("time_s") > 500_000.0);
@@ -168,7 +152,7 @@ fn an_index_is_warned_of() {
 fn times_that_contradict_the_rate_are_warned_of() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    let expected = found(here, &text(&WAVE.codes(5000)), "");
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
     let (told, rows) = warned(here, "--rate 100200");
     let both = "by the time column the sample rate is 100000 Hz, but --rate makes it 100200 Hz";
     assert!(
@@ -176,7 +160,7 @@ fn times_that_contradict_the_rate_are_warned_of() {
         "{told}"
     );
     assert_eq!(rows.len(), expected.len());
-    same(&common::rows(here, "a.csv --rate 1e5"), &expected, 0.0);
+    same_later(&common::rows(here, "a.csv --rate 1e5"), &expected, 0.0);
     assert_eq!(
         common::rows(here, "a.csv --rate 100050").len(),
         expected.len()

@@ -8,6 +8,7 @@
 pub mod svg;
 
 use std::f64::consts::TAU;
+use std::fs;
 use std::path::Path;
 
 use assert_cmd::Command;
@@ -48,6 +49,22 @@ pub fn rows(directory: &Path, arguments: &str) -> Vec<Row> {
     let run = run(directory, &format!("identify --output csv {arguments}"));
     assert_eq!((run.code, run.err.as_str()), (0, ""), "{arguments}");
     Row::all(&run.out)
+}
+
+/// The rows of a text, which must be read without a word.
+pub fn rows_of(directory: &Path, text: &str, arguments: &str) -> Vec<Row> {
+    fs::write(directory.join("a.csv"), text).unwrap();
+    rows(directory, &format!("a.csv {arguments}"))
+}
+
+/// Asserts that these are the rows expected, of windows that are later by so much.
+pub fn same_later(found: &[Row], expected: &[Row], later: f64) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        let time = found.number("time_s") - expected.number("time_s");
+        assert!((time - later).abs() < 1e-6, "{time}");
+        assert_eq!(found.unnamed()[1..], expected.unnamed()[1..]);
+    }
 }
 
 /// Runs `identify`, which must exit 1 with one message that holds all of these; gives its rows.

@@ -170,7 +170,8 @@ typedef struct {
 typedef struct {
     // Gain of channel D over that of channel C. 0.1 to 10; 1 is ideal.
     float gain_ratio;
-    // How much later than C channel D is sampled, s. Within +-0.001, and within +- a quarter period, which is not checked; 0 is ideal.
+    // How much later than C channel D is sampled, s. Within +-0.001; 0 is ideal. Beyond a tenth of a window what the uncertain
+    // frequency makes of it is not in the stated deviations.
     float skew_s;
     // Pick-off D stands at 45 degrees plus this angle from C, rad. Within +-0.3; 0 is ideal.
     float pick_off_angle_rad;

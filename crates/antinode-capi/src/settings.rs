@@ -16,7 +16,8 @@ pub const ANTINODE_DETECTION_MEAN_RETURN: u32 = 1_u32;
 pub struct Calibration {
     /// Gain of channel D over that of channel C. 0.1 to 10; 1 is ideal.
     pub gain_ratio: f32,
-    /// How much later than C channel D is sampled, s. Within ±0.001, and within ± a quarter period, which is not checked; 0 is ideal.
+    /// How much later than C channel D is sampled, s. Within ±0.001; 0 is ideal. Beyond a tenth of a window what the uncertain
+    /// frequency makes of it is not in the stated deviations.
     pub skew_s: f32,
     /// Pick-off D stands at 45° plus this angle from C, rad. Within ±0.3; 0 is ideal.
     pub pick_off_angle_rad: f32,

@@ -23,7 +23,7 @@ use failures::Failures;
 use record::{Record, Units};
 use trend::Trend;
 
-/// How far the detector's frequency may be off, or a known one, as a share of it.
+/// How far the detector's frequency is taken to be off, or a known one, as a share of it: a little more is found too.
 const DETECTOR_UNCERTAINTY: f32 = 0.05;
 
 /// Cuts the stream of blocks into windows and tracks the wave over them. Holds up to `BLOCKS` blocks, 11 to 65 535.

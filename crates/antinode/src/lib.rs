@@ -152,9 +152,9 @@
 //! # Limits
 //!
 //! Phase wraps at 2π and θ is known modulo π/2: only continuity makes θ run on. A frequency that drifts so fast that it bends the
-//! phase within one window beyond the noise (2 Hz/s in a window of 60 ms, say) is flagged as a misfit; one that is not may leave the phase, and nothing else, off by some of
-//! its deviations: shorter windows know it better. Mains hum is a misfit too, unless [`Settings::hum`] takes it out. Periods are 4 to 200 samples, and with [`Settings::frequency`]
-//! 2.5 to as many as a block holds. Deviations and flags take noise to be white, independent, and as large
+//! phase within one window beyond the noise (2 Hz/s in a window of 60 ms, say) is flagged as a misfit; one that is not may
+//! leave the phase, and nothing else, off by some of its deviations: shorter windows know it better. Mains hum is a misfit too, unless
+//! [`Settings::hum`] takes it out. Periods are 4 to 200 samples, and with [`Settings::frequency`] 2.5 to as many as a block holds. Deviations and flags take noise to be white, independent, and as large
 //! in both pick-offs: of ten times as much in one of them a window in some ten thousand is flagged, of noise that both share
 //! deviations are a tenth too small, and of noise without low frequencies windows are misfits.
 //!

@@ -47,8 +47,8 @@ impl<S: Sample> Candidate<S> {
 ///
 /// Work a sample: ten lags of an octave, on average of two octaves, and a few samples of a trial while there is a candidate; it is
 /// done in integers on codes, but for the trial. White noise is taken for a wave with a chance below 10⁻⁹ a frame; a wave in 20 %
-/// noise is found within three periods on average and 6.5 at the latest, one with a tone of 20 % beside it within five, and never at a fraction or a multiple
-/// of its period.
+/// noise is found within three periods on average and 6.5 at the latest, one with a tone of 20 % beside it within five, and never at a
+/// fraction or a multiple of its period.
 #[derive(Debug, Clone)]
 pub struct DifferenceDetector<S: Sample> {
     octaves: [Octave<S>; OCTAVES],

@@ -203,15 +203,18 @@ fn settings_out_of_range_are_named() {
     );
 }
 
+/// What no call tells.
+const UNTOLD: Health = Health {
+    searching: 9,
+    has_wave: 9,
+    waiting: 9,
+    dropped: 9,
+};
+
 #[test]
 fn a_known_frequency_is_not_searched() {
     let mut state = Box::new(Fixed::ZERO);
-    let mut health = Health {
-        searching: 9,
-        has_wave: 9,
-        waiting: 9,
-        dropped: 9,
-    };
+    let mut health = UNTOLD;
     let mut settings = antinode_settings_default(1e5);
     for (frequency, searching) in [(0.0, 1), (5_300.0, 0), (0.0, 1)] {
         settings.frequency_hz = frequency;
@@ -227,12 +230,7 @@ fn a_known_frequency_is_not_searched() {
 #[test]
 fn health_tells_whether_there_is_a_wave_whether_or_not_it_is_searched() {
     let mut state = Box::new(Fixed::ZERO);
-    let mut health = Health {
-        searching: 9,
-        has_wave: 9,
-        waiting: 9,
-        dropped: 9,
-    };
+    let mut health = UNTOLD;
     let mut estimate = MaybeUninit::uninit();
     let mut settings = antinode_settings_default(1e5);
     let pairs = codes();
@@ -264,12 +262,7 @@ fn health_tells_whether_there_is_a_wave_whether_or_not_it_is_searched() {
 #[test]
 fn a_full_queue_drops_blocks_and_says_so() {
     let mut state = Box::new(Fixed::ZERO);
-    let mut health = Health {
-        searching: 9,
-        has_wave: 9,
-        waiting: 9,
-        dropped: 9,
-    };
+    let mut health = UNTOLD;
     let settings = antinode_settings_default(1e5);
     let pairs = codes();
     // SAFETY: all is there, and this thread alone uses it.

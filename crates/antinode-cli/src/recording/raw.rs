@@ -134,10 +134,11 @@ impl Interleaved {
         }
     }
 
-    /// True where what comes behind the promised bytes is neither a chunk, whose name is text, nor padding.
+    /// True where what comes behind the promised bytes is neither a chunk, whose name is text, nor padding. A pipe is not waited for.
     fn goes_on(&mut self) -> bool {
         let mut name = [0; CHUNK_HEADER];
         self.before_chunks
+            && !self.live
             && self.left == Some(0)
             && self.stream.read_exact(&mut name).is_ok()
             && !name[..4]

@@ -253,3 +253,44 @@ fn waves_moved_by_splits_are_what_their_truth_says() {
     let honest = |ratio: &f64| (0.9..1.1).contains(ratio);
     assert!(ratios.iter().chain(&others).all(honest));
 }
+
+#[test]
+fn deviations_follow_noise_that_changes_unflagged() {
+    // The windows since the change that are looked at together, and how far they may be off.
+    let spans = [(0..2, 0.8..1.25), (2..5, 0.9..1.15), (5..16, 0.93..1.1)];
+    for factor in [1.2, 1.5, 1.7, 0.8, 0.6, 0.3] {
+        for periods in [2, 10] {
+            let mut honesty = [Honesty::default(); 3];
+            for seed in 0..300 {
+                let wave = random_wave(seed, 5332.0, 0.3);
+                let change = 19 * 20 * usize::from(periods) + 100;
+                let flaws = |share: f64| Flaws {
+                    noise: share * wave.main_amplitude,
+                    ..Flaws::default()
+                };
+                let mut pairs = stream(wave, flaws(0.005), 2 * change, seed);
+                let changed = stream(wave, flaws(0.005 * factor), 2 * change, seed);
+                pairs[change..].copy_from_slice(&changed[change..]);
+                let mut core = Core::new(windows(periods)).unwrap();
+                let mut found = Vec::new();
+                core.extend(&pairs, |e| found.push(e));
+                let since = found.iter().filter(|e| e.start >= change as u64);
+                for (index, estimate) in since.enumerate() {
+                    for ((span, _), honesty) in spans.iter().zip(&mut honesty) {
+                        if span.contains(&index) {
+                            honesty.add(estimate, &wave);
+                        }
+                    }
+                }
+                // Of nearly twice the noise single windows are misfits by chance.
+                let flagged = found.iter().filter(|e| !e.flags.is_empty()).count();
+                assert!(flagged <= 3, "{factor} times the noise: {flagged} flagged");
+            }
+            let ratios = honesty.map(|honesty| honesty.ratios());
+            println!("{factor} times the noise, {periods} periods: {ratios:.2?}");
+            for ((_, limits), ratios) in spans.iter().zip(&ratios) {
+                assert!(ratios.iter().all(|ratio| limits.contains(ratio)));
+            }
+        }
+    }
+}

@@ -32,6 +32,8 @@ pub(crate) struct Noise {
     /// The mean of that and of the noise about the third harmonic, by degrees of freedom.
     wide: f32,
     freedom: f32,
+    /// The noise variance for which the last of them stated its deviations.
+    stated: f32,
     refused: u8,
 }
 
@@ -41,6 +43,7 @@ impl Noise {
         variance: 0.0,
         wide: 0.0,
         freedom: 0.0,
+        stated: 0.0,
         refused: 0,
     };
     /// Windows that raise their residual together are a new level of noise, if the third harmonic's neighbourhood agrees.
@@ -49,19 +52,42 @@ impl Noise {
     const MEMORY: f32 = 16.0;
     /// How much more the windows before may weigh than one window, which knows its noise by few degrees of freedom.
     const SHARE: f32 = 2.0;
+    /// Degrees of freedom that are enough to know noise to a tenth: fewer weigh all the same.
+    const ENOUGH: f32 = 80.0;
+    /// Degrees of freedom of which one window says little.
+    const FEW: f32 = 16.0;
+    /// Twice 2.5/2 squared deviations between a window's noise and what the one before stated, over the share of that, from which on its
+    /// share is less.
+    const CHANCE: f32 = 5.0;
 
-    /// The noise variance of a window, from its own of `freedom` degrees and that of the windows before, unless it is a new one.
+    /// The noise variance of a window, from its own of `freedom` degrees and that of the windows before, unless it is a new one: for tests,
+    /// and for the deviations that are stated, which follow noise that changes.
     #[inline]
-    pub(crate) fn beside(&self, variance: f32, freedom: f32) -> f32 {
+    pub(crate) fn beside(&self, variance: f32, freedom: f32) -> [f32; 2] {
         if self.is_exceeded(variance, freedom, 0.0) {
-            return variance;
+            return [variance; 2];
         }
-        let before = lesser(self.freedom, Self::SHARE * freedom);
-        variance + (self.variance - variance) * before / (freedom + before)
+        let before = lesser(self.freedom, greater(Self::SHARE * freedom, Self::ENOUGH));
+        let share = before / (freedom + before);
+        let apart = self.stated - variance;
+        let square = apart * apart;
+        // By chance both are so far apart; the noise of few degrees is often next to nothing.
+        let few = Self::FEW / freedom;
+        let chance = Self::CHANCE * variance * self.stated * (1.0 + few * few);
+        let agreed = if share * square * freedom > chance {
+            chance / (square * freedom)
+        } else {
+            share
+        };
+        [
+            variance + (self.variance - variance) * share,
+            variance + apart * agreed,
+        ]
     }
 
-    /// Takes the noise of a window that is otherwise clean.
-    fn learn(&mut self, variance: f32, wide: f32, freedom: f32) {
+    /// Takes the noise of a window that is otherwise clean, and that for which it states its deviations.
+    fn learn(&mut self, variance: f32, stated: f32, wide: f32, freedom: f32) {
+        self.stated = stated;
         // What is so much more than this was no noise, but a fault that a first window could not tell.
         if is_louder(self.variance, variance, self.freedom, freedom) {
             self.freedom = 0.0;
@@ -174,7 +200,7 @@ pub(crate) fn within(
     flags = flags.with_if(round && significant, Flags::CIRCULAR);
 
     if flags.with(Flags::CIRCULAR) == Flags::CIRCULAR {
-        noise.learn(variance, wide, remains.freedom);
+        noise.learn(variance, wave.stated, wide, remains.freedom);
     } else if flags.with(Flags::CIRCULAR) == Flags::MISFIT.with(Flags::CIRCULAR)
         && !(coloured || outlier || stepped)
         && fit.settled

@@ -28,7 +28,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     ) -> Option<R> {
         let model = self.model.as_ref()?;
         let own = fit.remains.variance();
-        let noise = self.noise.beside(own, fit.remains.freedom);
+        let [noise, stated] = self.noise.beside(own, fit.remains.freedom);
         // Rounding of f32 sums is an error too, where there is no other, and part of it does not average.
         let size = fit.offsets[0].abs() + fit.offsets[1].abs() + square_root(fit.waves.power());
         let rounding = 1e-7 * size;
@@ -37,6 +37,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let samples = u32::from(self.count) * u32::from(model.layout.length);
         let middle = 2 * self.end - u64::from(samples) - 1;
         let mut wave = Standing::new(model, fit, noise + errors, own, middle);
+        wave.stated = stated;
+        wave.record.share = (stated + errors) / wave.noise;
         let flags = self.judge(fit, coding.most, &mut wave)?;
         Some(make(&self.units, &wave.record, flags))
     }

@@ -58,6 +58,8 @@ pub(crate) struct Record {
     pub samples: u32,
     /// What this window alone leaves, as a noise variance a sample.
     pub residual: f32,
+    /// Variances that are stated over those here, which tests take.
+    pub share: f32,
     pub carrier: PhaseStep,
     /// Frequency beyond the carrier, rad/sample.
     pub drift: f32,
@@ -92,7 +94,7 @@ impl Record {
         let angle = self.angle.radians();
         let frequency = self.carrier.hertz(self.drift, units.turn);
         let rate = units.sample_rate;
-        let root = square_root;
+        let root = |variance: f32| square_root(self.share * variance);
         let share = rate / self.main.value;
         Estimate {
             start: (self.middle + 1 - u64::from(self.samples)) / 2,
@@ -113,7 +115,7 @@ impl Record {
             frequency_std: root(self.drift_variance) * rate * (1.0 / core::f32::consts::TAU),
             angle_rate_std: root(self.turning_variance) * rate,
             decay_rate_std: root(self.main.rate_variance) * share,
-            residual_rms: root(self.residual),
+            residual_rms: square_root(self.residual),
             flags,
         }
     }

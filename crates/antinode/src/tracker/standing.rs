@@ -19,6 +19,8 @@ pub(crate) struct Standing {
     pub record: Record,
     /// The noise variance a sample that all variances are for.
     pub noise: f32,
+    /// That of the deviations that are stated, without the errors of rounding and of the converter.
+    pub stated: f32,
     /// The smaller of |z₊|, |z₋|, with its variance.
     pub lesser: f32,
     pub lesser_variance: f32,
@@ -148,6 +150,7 @@ impl Standing {
                 angle_middle: middle,
                 samples: u32::from(model.blocks) * u32::from(model.layout.length),
                 residual,
+                share: 1.0,
                 carrier: model.carrier,
                 drift: 0.5 * (plus_turn + minus_turn) * per_half,
                 drift_variance: 0.25 * drift * squared,
@@ -185,6 +188,7 @@ impl Standing {
                 },
             },
             noise,
+            stated: noise,
             lesser: lesser(p, m),
             lesser_variance: if p < m { size.plus } else { size.minus },
             drift_turning: 0.125 * (turn.plus - turn.minus),

@@ -166,6 +166,19 @@ mod tests {
     }
 
     #[test]
+    fn a_slot_is_not_free_while_it_is_looked_at() {
+        let queue = Queue::new();
+        for i in 0..ANTINODE_QUEUE_BLOCKS as u32 {
+            // SAFETY: one thread.
+            assert!(unsafe { queue.put(i, &block(i)) });
+        }
+        // An interrupt that comes meanwhile.
+        // SAFETY: one caller of each.
+        let seen = unsafe { queue.take(|entry| (queue.put(99, &block(99)), entry.search)) };
+        assert_eq!(seen, Some((false, 0)));
+    }
+
+    #[test]
     fn what_waits_is_told_though_both_sides_go_on_between_the_looks() {
         const FULL: u32 = ANTINODE_QUEUE_BLOCKS as u32;
         let (put, taken) = (Cell::new(0u32), Cell::new(0u32));

@@ -233,6 +233,28 @@ fn rounding_is_no_fault_in_long_windows_of_long_periods() {
 }
 
 #[test]
+fn noise_is_no_fault_in_windows_of_very_many_samples() {
+    let mut rows = 0;
+    for seed in 0..4 {
+        let wave = Wave {
+            angle_rate: 0.05,
+            decay_rate: 0.0,
+            ..random_wave(seed, RATE / 175.7, 0.3)
+        };
+        let flaws = Flaws {
+            noise: 2e-4 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let mut core = Identifier::<f32, 400, 1002>::new(windows(1000)).unwrap();
+        core.extend(&stream(wave, flaws, 900_000, seed), |estimate| {
+            assert!(estimate.flags.is_empty(), "seed {seed}: {estimate:?}");
+            rows += 1;
+        });
+    }
+    assert_eq!(rows, 20);
+}
+
+#[test]
 fn a_lasting_rise_of_noise_becomes_the_new_level() {
     let rises = |seed, factor: f64| {
         let (wave, _) = gyro(seed);

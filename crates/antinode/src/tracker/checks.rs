@@ -32,7 +32,8 @@ pub(crate) struct Noise {
     /// The mean of that and of the noise about the third harmonic, by degrees of freedom.
     wide: f32,
     freedom: f32,
-    refused: u8,
+    /// Blocks by which windows moved on that raised their residual together.
+    refused: u32,
 }
 
 impl Noise {
@@ -43,8 +44,9 @@ impl Noise {
         freedom: 0.0,
         refused: 0,
     };
-    /// Windows that raise their residual together are a new level of noise, if the third harmonic's neighbourhood agrees.
-    const NEW_LEVEL: u8 = 3;
+    /// Windows that raise their residual together are a new level of noise, if the third harmonic's neighbourhood agrees. So many that do
+    /// not overlap: a fault is in all that overlap it.
+    const NEW_LEVEL: u32 = 3;
     /// Degrees of freedom remembered, in windows.
     const MEMORY: f32 = 16.0;
     /// How much more the windows before may weigh than one window, which knows its noise by few degrees of freedom.
@@ -58,6 +60,11 @@ impl Noise {
         }
         let before = lesser(self.freedom, Self::SHARE * freedom);
         variance + (self.variance - variance) * before / (freedom + before)
+    }
+
+    /// Forgets that windows raised their residual.
+    pub(crate) fn refuse_none(&mut self) {
+        self.refused = 0;
     }
 
     /// Takes the noise of a window that is otherwise clean.
@@ -96,7 +103,14 @@ pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -
         remains.residual,
         remains.third_noise * remains.third_freedom,
     );
-    !is_significant(wave) || strange > STRANGER * explained
+    // Long blocks show a little of a wave at another frequency, and leave more, which is as white as noise: what a step leaves is not.
+    let alias = is_hidden(fit, wave) && COLOUR * remains.third_noise > remains.variance();
+    !is_significant(wave) || strange > STRANGER * explained || alias
+}
+
+/// True when there is more noise than wave.
+pub(crate) fn is_hidden(fit: &Fit, wave: &Standing) -> bool {
+    fit.remains.variance() > wave.record.main.value * wave.record.main.value
 }
 
 /// True when the main amplitude stands out of its own noise.
@@ -106,13 +120,15 @@ fn is_significant(wave: &Standing) -> bool {
 
 /// Tests of one window by itself and against the noise of those before.
 ///
-/// `variance` is the noise variance that it leaves, `coding` what the converter's steps may add.
+/// `variance` is the noise variance that it leaves, `coding` what the converter's steps may add; the next window begins `advance` blocks
+/// later.
 pub(crate) fn within(
     model: &Model,
     fit: &Fit,
     wave: &Standing,
     [variance, coding]: [f32; 2],
     noise: &mut Noise,
+    advance: u16,
 ) -> Flags {
     let remains = &fit.remains;
     let power = wave.record.main.value * wave.record.main.value;
@@ -179,8 +195,8 @@ pub(crate) fn within(
         && !(coloured || outlier || stepped)
         && fit.settled
     {
-        noise.refused += 1;
-        if noise.refused >= Noise::NEW_LEVEL {
+        noise.refused += u32::from(advance.min(model.blocks));
+        if noise.refused >= Noise::NEW_LEVEL * u32::from(model.blocks) {
             *noise = Noise::NONE;
         }
     }

@@ -2,7 +2,7 @@
 
 use antinode::{Estimate, Flags, Identifier, Settings};
 use antinode_sim::{Flaws, Loss, Wave, random_wave};
-use host_tests::{RATE, changed, gyro, identify, stream, touched, windows};
+use host_tests::{Core, RATE, changed, gyro, identify, stream, touched, windows};
 
 #[test]
 fn a_sample_lost_between_two_windows_is_flagged() {
@@ -233,6 +233,28 @@ fn rounding_is_no_fault_in_long_windows_of_long_periods() {
 }
 
 #[test]
+fn noise_is_no_fault_in_windows_of_very_many_samples() {
+    let mut rows = 0;
+    for seed in 0..4 {
+        let wave = Wave {
+            angle_rate: 0.05,
+            decay_rate: 0.0,
+            ..random_wave(seed, RATE / 175.7, 0.3)
+        };
+        let flaws = Flaws {
+            noise: 2e-4 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let mut core = Identifier::<f32, 400, 1002>::new(windows(1000)).unwrap();
+        core.extend(&stream(wave, flaws, 900_000, seed), |estimate| {
+            assert!(estimate.flags.is_empty(), "seed {seed}: {estimate:?}");
+            rows += 1;
+        });
+    }
+    assert_eq!(rows, 20);
+}
+
+#[test]
 fn a_lasting_rise_of_noise_becomes_the_new_level() {
     let rises = |seed, factor: f64| {
         let (wave, _) = gyro(seed);
@@ -269,6 +291,35 @@ fn a_lasting_rise_of_noise_becomes_the_new_level() {
             );
         }
     }
+}
+
+#[test]
+fn a_fault_within_windows_that_overlap_is_no_new_level_of_noise() {
+    let mut broken = 0;
+    for seed in 0..20 {
+        let (wave, mut flaws) = gyro(seed);
+        flaws.noise = 1e-3 * wave.main_amplitude;
+        let settings = Settings {
+            hop: Some(1),
+            ..windows(5)
+        };
+        let length = 94;
+        let (from, to) = (10_000, 10_000 + length * 5 / 4);
+        let mut core = Core::new(settings).unwrap();
+        let mut pairs = stream(wave, flaws, 13_000, seed);
+        // One pick-off is held.
+        let held = pairs[from][0];
+        pairs[from..to].iter_mut().for_each(|pair| pair[0] = held);
+        core.extend(&pairs, |e| {
+            let (start, end) = (e.start as usize, e.start as usize + e.samples as usize);
+            let within = end.min(to).saturating_sub(start.max(from));
+            if within > length / 4 {
+                broken += 1;
+                assert!(!e.flags.is_empty(), "seed {seed}, {within}: {e:?}");
+            }
+        });
+    }
+    assert!(broken > 100, "{broken}");
 }
 
 #[test]

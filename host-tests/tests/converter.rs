@@ -99,10 +99,16 @@ fn the_residual_is_that_of_the_samples_whatever_the_window() {
 
 #[test]
 fn crests_of_few_steps_are_not_clipped() {
-    // A slow wave of 30 steps, all of whose crests are one code, and a pick-off in a node, whose whole signal is a few codes.
-    for (period, steps, angle, is_known) in [(120.0, 30.0, 0.3, true), (18.75, 1000.0, 1e-3, false)]
-    {
-        for noise in [0.0, 0.3] {
+    // A slow wave of 30 steps, all of whose crests are one code; a pick-off in a node, whose whole signal is a few codes; and a wave of
+    // eight bits, of whose crests three samples or four are one code, with noise more of them by chance.
+    for (period, steps, angle, is_known) in [
+        (120.0, 30.0, 0.3, true),
+        (18.75, 1000.0, 1e-3, false),
+        (47.3, 110.0, 0.3, true),
+        (31.7, 127.0, 0.2, false),
+        (64.0, 127.0, 0.2, true),
+    ] {
+        for noise in [0.0, 0.3, 0.6, 1.2] {
             let wave = Wave {
                 main_amplitude: 1.0,
                 quadrature_amplitude: 1e-3,

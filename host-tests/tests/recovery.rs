@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use antinode::{Calibration, Estimate, Flags, Front, Settings, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::errors;
-use host_tests::{Core, gyro, identify_changed, stream, windows};
+use host_tests::{Core, RATE, gyro, identify_changed, stream, windows};
 
 #[test]
 fn a_wave_that_comes_back_is_reacquired_once_and_its_angle_runs_on() {
@@ -189,6 +189,46 @@ fn a_wave_whose_frequency_leaps_is_found_again() {
             late.is_some_and(|late| late < 20),
             "{periods} periods, {frequency} Hz: after {late:?} windows"
         );
+    }
+}
+
+#[test]
+fn a_wave_that_leaps_to_where_blocks_hardly_see_it_is_found_again() {
+    // Of so many times the frequency blocks show a tenth, as a steady wave in much noise.
+    for (periods, period, times) in [(20, 72.3, 1.56), (10, 46.43, 1.591), (10, 75.0, 1.44)] {
+        for seed in 0..5 {
+            let wave = random_wave(seed, RATE / period, 0.3);
+            let flaws = Flaws {
+                noise: 3e-3 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let frequency = times * wave.frequency;
+            let other = Wave { frequency, ..wave };
+            let at = (12.3 * period * f64::from(periods)) as usize;
+            let (one, two) = (
+                stream(wave, flaws.clone(), at, seed),
+                stream(other, flaws, 4 * at, seed),
+            );
+            let mut core = Core::new(windows(periods)).unwrap();
+            let mut found = Vec::new();
+            core.extend(&one, |e| found.push(e));
+            core.extend(&two[at..], |e| found.push(e));
+            let mut after = found
+                .iter()
+                .filter(|e| e.start > at as u64 && e.flags.is_empty())
+                .peekable();
+            let late = after.peek().map(|e| e.start - at as u64);
+            assert!(
+                late.is_some_and(|late| late < at as u64),
+                "{times} times, seed {seed}: after {late:?} pairs"
+            );
+            for estimate in after {
+                assert!(
+                    (estimate.frequency - frequency).abs() < 0.01 * frequency,
+                    "{times} times, seed {seed}: {estimate:?}"
+                );
+            }
+        }
     }
 }
 

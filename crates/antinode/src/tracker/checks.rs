@@ -2,6 +2,7 @@
 //!
 //! Every threshold is a false-alarm rate below 10⁻⁹ a window for white noise, plus a floor under which a deviation is no fault.
 
+use super::noise::{Noise, REACH, RISE, is_louder, limit, limit_of};
 use super::standing::Standing;
 use crate::arch::square_root;
 use crate::estimate::Flags;
@@ -10,8 +11,6 @@ use crate::window::{Covariance, Fit, Model, Remains};
 
 /// Standard deviations of an innocent deviation.
 pub(super) const SIGMAS: f32 = 7.0;
-/// Standard deviations of an innocent variance: three in 10¹⁰, as a window has several parts.
-const REACH: f32 = 6.2;
 /// Standard deviations of one that is looked at only once, where no windows before are known: one in a million.
 const REACH_ONCE: f32 = 4.75;
 /// Third harmonic, as a share of a_A, that common electronics may have.
@@ -22,93 +21,6 @@ const RESIDUAL_FLOOR: f32 = 4e-8;
 const STRANGER: f32 = 0.25;
 /// By how much the residual variance about the carrier may exceed that about the third harmonic.
 const COLOUR: f32 = 16.0;
-/// By how much a window's noise variance may exceed that of the windows before and be no fault.
-const RISE: f32 = 4.0;
-
-/// The noise variance of the clean windows before.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Noise {
-    variance: f32,
-    /// The mean of that and of the noise about the third harmonic, by degrees of freedom.
-    wide: f32,
-    freedom: f32,
-    /// The noise variance for which the last of them stated its deviations.
-    stated: f32,
-    refused: u8,
-}
-
-impl Noise {
-    /// None known.
-    pub(crate) const NONE: Self = Self {
-        variance: 0.0,
-        wide: 0.0,
-        freedom: 0.0,
-        stated: 0.0,
-        refused: 0,
-    };
-    /// Windows that raise their residual together are a new level of noise, if the third harmonic's neighbourhood agrees.
-    const NEW_LEVEL: u8 = 3;
-    /// Degrees of freedom remembered, in windows.
-    const MEMORY: f32 = 16.0;
-    /// How much more the windows before may weigh than one window, which knows its noise by few degrees of freedom.
-    const SHARE: f32 = 2.0;
-    /// Degrees of freedom that are enough to know noise to a tenth: fewer weigh all the same.
-    const ENOUGH: f32 = 80.0;
-    /// Degrees of freedom of which one window says little.
-    const FEW: f32 = 16.0;
-    /// Twice 2.5/2 squared deviations between a window's noise and what the one before stated, over the share of that, from which on its
-    /// share is less.
-    const CHANCE: f32 = 5.0;
-
-    /// The noise variance of a window, from its own of `freedom` degrees and that of the windows before, unless it is a new one: for tests,
-    /// and for the deviations that are stated, which follow noise that changes.
-    #[inline]
-    pub(crate) fn beside(&self, variance: f32, freedom: f32) -> [f32; 2] {
-        if self.is_exceeded(variance, freedom, 0.0) {
-            return [variance; 2];
-        }
-        let before = lesser(self.freedom, greater(Self::SHARE * freedom, Self::ENOUGH));
-        let share = before / (freedom + before);
-        let apart = self.stated - variance;
-        let square = apart * apart;
-        // By chance both are so far apart; the noise of few degrees is often next to nothing.
-        let few = Self::FEW / freedom;
-        let chance = Self::CHANCE * variance * self.stated * (1.0 + few * few);
-        let agreed = if share * square * freedom > chance {
-            chance / (square * freedom)
-        } else {
-            share
-        };
-        [
-            variance + (self.variance - variance) * share,
-            variance + apart * agreed,
-        ]
-    }
-
-    /// Takes the noise of a window that is otherwise clean, and that for which it states its deviations.
-    fn learn(&mut self, variance: f32, stated: f32, wide: f32, freedom: f32) {
-        self.stated = stated;
-        // What is so much more than this was no noise, but a fault that a first window could not tell.
-        if is_louder(self.variance, variance, self.freedom, freedom) {
-            self.freedom = 0.0;
-        }
-        self.freedom = lesser(self.freedom + freedom, Self::MEMORY * freedom);
-        let share = freedom / self.freedom;
-        self.variance += (variance - self.variance) * share;
-        self.wide += (wide - self.wide) * share;
-        self.refused = 0;
-    }
-
-    /// True when a variance of `freedom` exceeds the one remembered, and a floor.
-    fn is_exceeded(&self, variance: f32, freedom: f32, floor: f32) -> bool {
-        self.freedom > 0.0 && is_louder(variance - floor, self.variance, freedom, self.freedom)
-    }
-}
-
-/// True when a variance exceeds a level by more than noise may rise, and by more than chance explains from their degrees of freedom.
-fn is_louder(variance: f32, level: f32, freedom: f32, other: f32) -> bool {
-    variance > RISE * level && variance > limit(freedom, other) * level
-}
 
 /// True when the first window after a search holds no wave, or as much else beside it: two tones, say.
 pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -> bool {
@@ -122,7 +34,14 @@ pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -
         remains.residual,
         remains.third_noise * remains.third_freedom,
     );
-    !is_significant(wave) || strange > STRANGER * explained
+    // Long blocks show a little of a wave at another frequency, and leave more, which is as white as noise: what a step leaves is not.
+    let alias = is_hidden(fit, wave) && COLOUR * remains.third_noise > remains.variance();
+    !is_significant(wave) || strange > STRANGER * explained || alias
+}
+
+/// True when there is more noise than wave.
+pub(crate) fn is_hidden(fit: &Fit, wave: &Standing) -> bool {
+    fit.remains.variance() > wave.record.main.value * wave.record.main.value
 }
 
 /// True when the main amplitude stands out of its own noise.
@@ -132,13 +51,15 @@ fn is_significant(wave: &Standing) -> bool {
 
 /// Tests of one window by itself and against the noise of those before.
 ///
-/// `variance` is the noise variance that it leaves, `coding` what the converter's steps may add.
+/// `variance` is the noise variance that it leaves, `coding` what the converter's steps may add; the next window begins `advance` blocks
+/// later.
 pub(crate) fn within(
     model: &Model,
     fit: &Fit,
     wave: &Standing,
     [variance, coding]: [f32; 2],
     noise: &mut Noise,
+    advance: u16,
 ) -> Flags {
     let remains = &fit.remains;
     let power = wave.record.main.value * wave.record.main.value;
@@ -205,10 +126,7 @@ pub(crate) fn within(
         && !(coloured || outlier || stepped)
         && fit.settled
     {
-        noise.refused += 1;
-        if noise.refused >= Noise::NEW_LEVEL {
-            *noise = Noise::NONE;
-        }
+        noise.refuse(advance, model.blocks);
     }
     flags
 }
@@ -237,53 +155,4 @@ fn has_harmonic(
                 square > limit * limit
             }
         })
-}
-
-/// How many times a variance of `freedom` degrees may exceed another of `other` by chance, three times in 10¹⁰.
-fn limit(freedom: f32, other: f32) -> f32 {
-    limit_of(REACH, freedom, other)
-}
-
-/// The same for a chance of so many standard deviations: Paulson's approximation.
-///
-/// Infinite where the other is known too badly for that.
-#[inline(never)]
-fn limit_of(reach: f32, freedom: f32, other: f32) -> f32 {
-    // The cube root of a variance is nearly normal, its mean less than one by its own variance.
-    let (own, others) = (2.0 / (9.0 * freedom), 2.0 / (9.0 * other));
-    let (mean, other_mean) = (1.0 - own, 1.0 - others);
-    let squared = reach * reach;
-    let known = other_mean * other_mean - squared * others;
-    if known.is_nan() || known <= 0.0 {
-        return f32::INFINITY;
-    }
-    let deviation =
-        square_root(own * other_mean * other_mean + others * mean * mean - squared * own * others);
-    let root = (mean * other_mean + reach * deviation) / known;
-    root * root * root
-}
-
-#[cfg(test)]
-mod tests {
-    use super::limit;
-
-    #[test]
-    fn limits_are_those_of_the_f_distribution_or_a_little_above() {
-        // Quantiles of F for a chance of 2.82·10⁻¹⁰, by scipy's `f.isf`.
-        for (freedom, other, exact) in [
-            (4.0, 320.0, 13.634),
-            (6.0, 320.0, 10.145),
-            (20.0, 40.0, 10.480),
-            (20.0, 320.0, 4.8260),
-            (36.0, 576.0, 3.4453),
-            (50.0, 800.0, 2.9354),
-        ] {
-            let ratio = limit(freedom, other) / exact;
-            assert!(
-                (1.0..1.1).contains(&ratio),
-                "F of {freedom}, {other}: {ratio}"
-            );
-        }
-        assert!(limit(20.0, 8.0).is_infinite() && limit(20.0, 0.0).is_infinite());
-    }
 }

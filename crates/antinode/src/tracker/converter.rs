@@ -104,7 +104,9 @@ pub(super) fn sample_flags(
     // Samples that stay at the extreme for longer than a crest does show a limit, known or not.
     let clipped = at_rail
         || range.longest > 2 && fine && {
-            let crest = greater(step.period() / 16.0, 2.0) as u16;
+            // The samples of a run span one less than there are, and noise of a step makes a crest wider by chance.
+            let crest = greater(step.period() / 16.0, 1.0) + 1.5;
+            let crest = crest as u16;
             range.longest > crest && range.is_flat(blocks, wave.record.main.value, crest)
         };
     let (main, deviation) = (wave.record.main.value, square_root(noise));

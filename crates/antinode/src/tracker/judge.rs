@@ -65,7 +65,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         record.phase = wrap(record.phase + (quarters & 1) as f32 * core::f32::consts::PI);
 
         let own = wave.record.residual;
-        let mut flags = checks::within(model, fit, wave, [own, coding], &mut self.noise);
+        let advance = self.settings.hop.unwrap_or(self.count);
+        let mut flags = checks::within(model, fit, wave, [own, coding], &mut self.noise, advance);
         flags = flags.with(converter::sample_flags(
             &self.settings,
             self.gathered.blocks(),
@@ -109,7 +110,12 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let record = &wave.record;
 
         let left = |before: &Record| record.main.value < LEFT * before.main.value;
-        let is_little = is_no_wave || self.before.as_ref().is_some_and(left);
+        let is_left = self.before.as_ref().is_some_and(left);
+        let is_little = is_no_wave || is_left;
+        if is_left || checks::is_hidden(fit, wave) {
+            // No new level of noise takes the wave away.
+            self.noise.refuse_none();
+        }
         self.failures.take(flags, fit.settled, is_little);
         self.found = !flags.contains(Flags::LOST);
         if fit.settled && !flags.contains(Flags::LOST) {

@@ -6,6 +6,7 @@ mod checks;
 mod converter;
 mod failures;
 mod judge;
+mod noise;
 mod record;
 mod standing;
 mod trend;
@@ -18,8 +19,8 @@ use crate::sample::Sample;
 use crate::settings::{Settings, SettingsError};
 use crate::window::{CARRIER_REACH, Fit, Gathered, Model, solve};
 use angle::Angle;
-use checks::Noise;
 use failures::Failures;
+use noise::Noise;
 use record::{Record, Units};
 use trend::Trend;
 

@@ -20,8 +20,8 @@ pub(crate) const CARRIER_REACH: f32 = 0.05;
 const FARTHEST: f32 = 1.5;
 /// A fit that still moves by more than this share of the wave has found nothing.
 const NEAR: f32 = 0.01;
-/// Below this share of the wave the next step is rounding.
-const SETTLED: f32 = 1e-6;
+/// Below this share of the wave the next step is rounding. One of 10⁻⁶ that is not looked at stands out of the noise of 10⁵ samples.
+const SETTLED: f32 = 2.5e-7;
 /// What a step may take off the residual, in variances of the noise and divided by the blocks, before the residual is looked at anew:
 /// what is not taken off looks like a step between the first block and the others, as many times as large as there are blocks.
 const NEGLIGIBLE: f32 = 0.5;

@@ -60,12 +60,11 @@ impl Slopes {
     #[inline(always)]
     pub(super) fn factors(&self, model: &Model) -> [Complex32; 2] {
         let delay = model.correction.delay * model.per_half;
-        let [[plus, _], [minus, _]] = self.0;
+        let half = 0.5 * delay * delay;
+        let [plus, minus] = self.0;
         let [d_plus, d_minus] = model.correction.of_waves;
-        [
-            d_plus * (plus * delay + 1.0),
-            d_minus * (minus * delay + 1.0),
-        ]
+        let later = |[slope, square]: [Complex32; 2]| slope * delay + square * half + 1.0;
+        [d_plus * later(plus), d_minus * later(minus)]
     }
 }
 

@@ -60,6 +60,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     }
 
     /// Takes one sample pair; gives the estimate of the window that it completes.
+    #[must_use = "the estimate is given once"]
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<Estimate> {
         self.push_slice(&[pair]).1

@@ -126,6 +126,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Takes a block; gives the estimate of the window that it completes.
     ///
     /// A block of another layout, or one that does not follow the last, starts a new window.
+    #[must_use = "the estimate is given once"]
     #[inline]
     pub fn push<S: Sample>(&mut self, block: &Block<S>) -> Option<Estimate> {
         if self.gather(block) {
@@ -201,6 +202,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// beside all else, or the first one where that shows no wave. Ask after every block: a first window without a wave gives no estimate.
     ///
     /// Then call [`Front::search`](crate::Front::search), drop the blocks that were gathered before it, and [`forget`](Self::forget).
+    #[must_use = "a lost wave is found again only by a search"]
     pub fn has_lost(&self) -> bool {
         self.failures.are_enough()
     }

@@ -126,8 +126,6 @@ pub fn touched(estimates: &[Estimate], from: usize, to: usize) -> Vec<&Estimate>
     let block = 19;
     estimates
         .iter()
-        .filter(|e| {
-            e.start + block < to as u64 && e.start + u64::from(e.samples) > from as u64 + block
-        })
+        .filter(|e| e.start + block < to as u64 && e.end() > from as u64 + block)
         .collect()
 }

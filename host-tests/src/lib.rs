@@ -13,6 +13,10 @@ use antinode::Identifier;
 use antinode::Settings;
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
+
 /// Sample rate of all tests, Hz.
 pub const RATE: f64 = 100_000.0;
 

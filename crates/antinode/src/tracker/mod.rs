@@ -30,7 +30,8 @@ const DETECTOR_UNCERTAINTY: f32 = 0.05;
 ///
 /// A window has as many blocks as periods at most, or 11 where that is more; `BLOCKS` is two more than the periods.
 ///
-/// It works at block rate and may run in thread context while blocks are gathered in an interrupt.
+/// It works at block rate and may run in thread context while blocks are gathered in an interrupt:
+/// [its place in firmware](crate#on-a-microcontroller).
 #[derive(Debug, Clone)]
 pub struct Tracker<const BLOCKS: usize> {
     settings: Settings,

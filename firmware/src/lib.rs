@@ -37,7 +37,7 @@
 //! | [`supervision`] | whether the pipeline lives, and why the device started |
 //! | [`methods`] | the paper's four methods beside every estimate, with the feature `methods` |
 //! | `counts`, `wav` | the interrupt's counters; where a WAV file's samples lie |
-//! | `hardware` | clocks, converters, DMA, line, watchdog, log: registers by their names in RM0090 |
+//! | `hardware` | clocks, converters, DMA, line, watchdog, log, main loop: registers by their names in RM0090 |
 //! | `replay` | the emulator's source |
 //! | `bench`, `beside`, `load`, `codes` | what is measured, and of what |
 //! | `marks`, `gauge`, `line` | between which marks, how, and how it is told |

@@ -177,8 +177,8 @@ impl<S: Sample> History<S> {
         if estimate.flags.contains(Flags::LOST) {
             return None;
         }
-        let end = estimate.start + u64::from(estimate.samples);
-        let window = |sums: &&BlockSums<S>| (estimate.start..end).contains(&sums.block.start);
+        let pairs = estimate.start..estimate.end();
+        let window = |sums: &&BlockSums<S>| pairs.contains(&sums.block.start);
         let inside = || self.0.iter().filter(window);
         let first = inside().next()?;
         let alike = inside().all(|sums| sums.tuning == first.tuning);

@@ -13,6 +13,10 @@ use antinode::Identifier;
 use antinode::Settings;
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
+
 /// Sample rate of all tests, Hz.
 pub const RATE: f64 = 100_000.0;
 
@@ -126,8 +130,6 @@ pub fn touched(estimates: &[Estimate], from: usize, to: usize) -> Vec<&Estimate>
     let block = 19;
     estimates
         .iter()
-        .filter(|e| {
-            e.start + block < to as u64 && e.start + u64::from(e.samples) > from as u64 + block
-        })
+        .filter(|e| e.start + block < to as u64 && e.end() > from as u64 + block)
         .collect()
 }

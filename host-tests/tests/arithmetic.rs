@@ -264,10 +264,7 @@ fn faults_on_codes_are_flagged_in_every_arithmetic() {
             for (arithmetic, estimates) in each(&stream, settings(12, 10)) {
                 let mut touched = 0;
                 for estimate in &estimates {
-                    let (start, end) = (
-                        estimate.start as usize,
-                        estimate.start as usize + estimate.samples as usize,
-                    );
+                    let (start, end) = (estimate.start as usize, estimate.end() as usize);
                     let shared = end.min(to).saturating_sub(start.max(from));
                     if shared > 20 {
                         touched += 1;

@@ -35,7 +35,7 @@ proptest! {
         let settings = Settings { hop: Some(hop), frequency, rails: Some([-1.0, 1.0]), resolution: Some(1e-3), ..windows(periods) };
         let mut core = Core::new(settings).unwrap();
         for (c, d) in samples {
-            core.push([c, d]);
+            let _ = core.push([c, d]);
         }
     }
 }

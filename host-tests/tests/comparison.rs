@@ -28,10 +28,7 @@ fn comparisons(
     let mut found = Vec::new();
     core.extend(&pairs, |estimate| {
         let omega = TAU * estimate.frequency / RATE;
-        let (start, end) = (
-            estimate.start as usize,
-            estimate.start as usize + estimate.samples as usize,
-        );
+        let (start, end) = (estimate.start as usize, estimate.end() as usize);
         let offsets = estimate.offsets;
         let centred: Vec<[f32; 2]> = pairs[start - 20..end]
             .iter()

@@ -123,9 +123,7 @@ fn the_first_estimate_comes_within_four_periods_of_its_window() {
             };
             let samples = ((f64::from(periods) + 6.0) * period) as usize;
             let estimates = identify(wave, &flaws, windows(periods), samples, seed);
-            let end = estimates
-                .first()
-                .map(|e| (e.start + u64::from(e.samples)) as f64 / period);
+            let end = estimates.first().map(|e| e.end() as f64 / period);
             let late = end.expect("a first window") - f64::from(periods);
             assert!(
                 late < 4.0,

@@ -11,12 +11,7 @@ const STREAM: usize = 400_000;
 /// Asserts what is asked of a fault between two times (s) of the recording.
 fn check(estimates: &[Estimate], from: f64, to: f64, name: &str) {
     let window = 10.0 / 5332.0;
-    let span = |e: &Estimate| {
-        (
-            e.start as f64 / RATE,
-            (e.start + u64::from(e.samples)) as f64 / RATE,
-        )
-    };
+    let span = |e: &Estimate| (e.start as f64 / RATE, e.end() as f64 / RATE);
     for estimate in estimates {
         let (begin, end) = span(estimate);
         if begin < to && end > from {
@@ -244,11 +239,9 @@ fn a_step_between_or_within_windows_is_flagged() {
                 estimates.extend(core.push([c as f32, d as f32]));
             }
             // Where the step leaves less than a block of a window on one side, the window beside it may be the one that shows it.
-            let within =
-                |e: &&Estimate| (e.start..e.start + u64::from(e.samples)).contains(&(at as u64));
+            let within = |e: &&Estimate| (e.start..e.end()).contains(&(at as u64));
             let window = estimates.iter().find(within).unwrap();
-            let depth = (at as u64 - window.start)
-                .min(window.start + u64::from(window.samples) - at as u64);
+            let depth = (at as u64 - window.start).min(window.end() - at as u64);
             let reach = if depth < 19 { 19.0 } else { 0.0 };
             let time = at as f64 / RATE;
             let touched: Vec<_> = estimates

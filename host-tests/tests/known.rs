@@ -159,7 +159,7 @@ fn a_wave_that_comes_back_is_taken_up_without_a_search() {
     });
     let (before, after): (Vec<&Estimate>, Vec<&Estimate>) = found
         .iter()
-        .filter(|e| e.start + u64::from(e.samples) <= 20_000 || e.start >= 30_000)
+        .filter(|e| e.end() <= 20_000 || e.start >= 30_000)
         .partition(|e| e.start < 20_000);
     assert!(before.len() > 100 && after.len() > 150);
     assert!(before.iter().all(|estimate| estimate.flags.is_empty()));

@@ -48,6 +48,44 @@ fn phases_scatter_as_stated() {
 }
 
 #[test]
+fn offsets_scatter_as_the_residual_over_the_root_of_the_samples() {
+    for (periods, hum, most) in [
+        (2, false, 1.2),
+        (10, false, 1.1),
+        (50, false, 1.05),
+        (10, true, 1.15),
+    ] {
+        let (mut square, mut rows) = (0.0, 0.0);
+        for seed in 0..200 {
+            let wave = random_wave(seed, 5332.0, 0.1);
+            let flaws = Flaws {
+                noise: 0.01 * wave.main_amplitude,
+                offset_c: 0.3 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let settings = Settings {
+                hum,
+                ..windows(periods)
+            };
+            let samples = 19 * usize::from(periods) * 8 + 300;
+            for estimate in identify(wave, &flaws, settings, samples, seed) {
+                let stated = f64::from(estimate.residual_rms) / f64::from(estimate.samples).sqrt();
+                for (offset, truth) in estimate.offsets.into_iter().zip([flaws.offset_c, 0.0]) {
+                    square += ((f64::from(offset) - truth) / stated).powi(2);
+                    rows += 1.0;
+                }
+            }
+        }
+        let ratio = f64::sqrt(square / rows);
+        println!("{periods} periods, hum {hum}: offset's error over residual/√samples {ratio:.3}");
+        assert!(
+            rows > 2000.0 && (0.97..most).contains(&ratio),
+            "{periods} periods, hum {hum}: {ratio}"
+        );
+    }
+}
+
+#[test]
 fn phases_scatter_as_stated_with_pick_offs_that_are_corrected() {
     for (gain_ratio, pick_off_error) in [(1.0, 0.3), (1.0, -0.3), (2.0, 0.0), (0.5, 0.2)] {
         for angle in [0.0, 0.4, 0.8] {
@@ -163,8 +201,7 @@ fn a_bad_first_window_spoils_none_after_it() {
                 }
             });
             for estimate in &found[2..] {
-                let spikes = (estimate.start..estimate.start + u64::from(estimate.samples))
-                    .filter(|k| *k > 4000 && k % 570 == 0);
+                let spikes = (estimate.start..estimate.end()).filter(|k| *k > 4000 && k % 570 == 0);
                 if spikes.count() > 0 {
                     assert!(estimate.flags.contains(Flags::MISFIT), "{estimate:?}");
                     continue;

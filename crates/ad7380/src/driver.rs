@@ -158,6 +158,7 @@ impl<SPI: SpiDevice> Ad7380<SPI> {
 
 /// What stopped the driver. `E` is the bus's own error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Error<E> {
     /// The bus failed.
     Spi(E),

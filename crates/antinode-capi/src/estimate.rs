@@ -37,11 +37,13 @@ const _: () = {
         (ANTINODE_FLAG_REACQUIRED, Flags::REACQUIRED),
         (ANTINODE_FLAG_NOT_FINITE, Flags::NOT_FINITE),
     ];
-    let mut i = 0;
+    let (mut i, mut all) = (0, 0);
     while i < pairs.len() {
         assert!(pairs[i].0 == pairs[i].1.bits() as u32);
+        all |= pairs[i].0;
         i += 1;
     }
+    assert!(all == Flags::from_bits_truncate(u16::MAX).bits() as u32);
 };
 
 /// The wave over one window, at the window's middle. Each `_std` is one standard deviation.

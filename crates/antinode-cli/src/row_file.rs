@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, IsTerminal, Read};
 use std::path::Path;
 
+use antinode::Flags;
 use csv::{Position, Reader, StringRecord};
 
 use crate::failure::Failure;
@@ -83,6 +84,13 @@ impl<R: Read> RowFile<R> {
             self.name
         ))
     }
+}
+
+/// Whether a row's column `flags` has a flag.
+pub fn has_flag(flags: &str, flag: Flags) -> bool {
+    flags
+        .split('+')
+        .any(|name| flag.names().any(|one| one == name))
 }
 
 /// What is told where there are no rows.

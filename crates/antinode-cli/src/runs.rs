@@ -4,10 +4,11 @@ use std::f64::consts::FRAC_PI_2;
 use std::io::{self, Read, Write};
 use std::path::PathBuf;
 
+use antinode::Flags;
 use csv::StringRecord;
 
 use crate::failure::Failure;
-use crate::row_file::RowFile;
+use crate::row_file::{RowFile, has_flag};
 
 /// The rms residual over the rows' own deviations from which on it is told that something else moves.
 pub const BEYOND_NOISE: f64 = 2.0;
@@ -136,7 +137,7 @@ impl Runs {
             };
             if !record[flags].is_empty() {
                 // What was lost may come back anywhere: the next row does not continue the last.
-                if record[flags].contains("reacquired") {
+                if has_flag(&record[flags], Flags::REACQUIRED) {
                     self.end(&mut run);
                     present = None;
                 }

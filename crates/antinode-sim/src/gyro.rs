@@ -44,6 +44,10 @@ impl Gyro {
     /// A gyro with this wave and these flaws, sampled at `sample_rate` Hz (above 0).
     ///
     /// `seed` chooses the noise and the jitter, which do not depend on each other or on any other flaw.
+    ///
+    /// # Errors
+    ///
+    /// The first fault found of those that [`Error`] names, but for [`Error::NoBits`].
     pub fn new(wave: Wave, flaws: Flaws, sample_rate: f64, seed: u64) -> Result<Gyro, Error> {
         if !(sample_rate > 0.0 && sample_rate.is_finite()) {
             return Err(Error::OutOfRange {
@@ -106,7 +110,11 @@ impl Gyro {
             .at_instant(Instant::of_sample(index, self.sample_rate))
     }
 
-    /// The ADC's codes (C, D) from the next sample on, in place of their values. An error without `bits`.
+    /// The ADC's codes (C, D) from the next sample on, in place of their values.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoBits`] where [`Flaws::bits`] is `None`.
     pub fn codes(self) -> Result<Codes, Error> {
         let adc = self.adc.ok_or(Error::NoBits)?;
         Ok(Codes { gyro: self, adc })

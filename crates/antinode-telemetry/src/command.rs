@@ -35,6 +35,7 @@ pub enum Command {
 
 /// Why the device refused a command; nothing was changed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum CommandError {
     /// A value that cannot be; the error names what could.
     Settings(#[serde(with = "remote::SettingsErrorNames")] SettingsError),

@@ -10,6 +10,7 @@ use crate::frame::{self, Frame, MAX_PAYLOAD};
 
 /// Why bytes between two delimiters were dropped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Damage {
     /// More bytes than any frame has.
     TooLong,
@@ -71,6 +72,7 @@ impl<M: Frame> Decoder<M> {
     /// Takes one byte; gives the message that it completes, or the damage that it ends.
     ///
     /// Any run of bytes between two zeros gives exactly one of them; zeros that follow each other give nothing.
+    #[must_use = "the message is given once"]
     pub fn push(&mut self, byte: u8) -> Option<Result<M, Damage>> {
         let result = match self.state.feed(byte) {
             Ok(DecodeResult::NoData) => return None,

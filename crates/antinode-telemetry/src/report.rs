@@ -132,9 +132,10 @@ impl fmt::Display for State {
     }
 }
 
-impl fmt::Display for Cause {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+impl Cause {
+    /// Its name, such as `brown-out`.
+    pub const fn name(self) -> &'static str {
+        match self {
             Self::PowerOn => "power on",
             Self::BrownOut => "brown-out",
             Self::ResetPin => "reset pin",
@@ -147,7 +148,14 @@ impl fmt::Display for Cause {
             Self::Converter => "converter",
             Self::Clock => "clock",
             Self::Unknown => "unknown cause",
-        })
+        }
+    }
+}
+
+impl fmt::Display for Cause {
+    /// Its [`name`](Self::name).
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 

@@ -4,7 +4,7 @@ use core::fmt;
 use core::ops::{BitOr, BitOrAssign};
 
 /// What is wrong or noteworthy about a window. A clean window has none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub struct Flags(u16);
 
 impl Flags {
@@ -23,7 +23,7 @@ impl Flags {
     /// One pick-off gave one and the same value for the whole window, or lost its wave while the other kept it.
     pub const DEAD_CHANNEL: Self = Self(1 << 6);
     /// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
-    /// only.
+    /// only. Also the first window after a new calibration, unless it is the first of all.
     pub const REACQUIRED: Self = Self(1 << 7);
     /// A sample that is not a number.
     pub const NOT_FINITE: Self = Self(1 << 8);
@@ -77,6 +77,12 @@ impl Flags {
         if condition { self.with(other) } else { self }
     }
 
+    /// The names of the flags that stand, in the order of the constants: each its constant's in small letters, such as `phase_jump`.
+    pub fn names(self) -> impl Iterator<Item = &'static str> {
+        let names = Self::NAMES.into_iter().enumerate();
+        names.filter_map(move |(bit, name)| (self.0 >> bit & 1 == 1).then_some(name))
+    }
+
     /// Bit 0 is the first constant above, and so on.
     pub const fn bits(self) -> u16 {
         self.0
@@ -103,17 +109,22 @@ impl BitOrAssign for Flags {
 }
 
 impl fmt::Display for Flags {
-    /// The names joined by `+`; nothing when clean.
+    /// The [`names`](Self::names) joined by `+`; nothing when clean.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut join = "";
-        for (bit, name) in Self::NAMES.iter().enumerate() {
-            if self.0 >> bit & 1 == 1 {
-                f.write_str(join)?;
-                f.write_str(name)?;
-                join = "+";
-            }
+        for name in self.names() {
+            f.write_str(join)?;
+            f.write_str(name)?;
+            join = "+";
         }
         Ok(())
+    }
+}
+
+impl fmt::Debug for Flags {
+    /// As [`Display`](fmt::Display), in `Flags()`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Flags({self})")
     }
 }
 
@@ -122,11 +133,9 @@ impl defmt::Format for Flags {
     /// As [`Display`](fmt::Display).
     fn format(&self, f: defmt::Formatter<'_>) {
         let mut join = "";
-        for (bit, name) in Self::NAMES.iter().enumerate() {
-            if self.0 >> bit & 1 == 1 {
-                defmt::write!(f, "{=str}{=str}", join, name);
-                join = "+";
-            }
+        for name in self.names() {
+            defmt::write!(f, "{=str}{=str}", join, name);
+            join = "+";
         }
     }
 }
@@ -161,7 +170,7 @@ pub struct Estimate {
     pub angle_rate: f32,
     /// −ȧ_A/a_A in 1/s: positive while the wave decays.
     pub decay_rate: f32,
-    /// Offset of S_C and of S_D.
+    /// Offset of S_C and of S_D, as they came; in white noise known to `residual_rms`/√`samples`, in the shortest windows to 15 % more.
     pub offsets: [f32; 2],
     /// Standard deviation of a_A.
     pub main_amplitude_std: f32,
@@ -184,6 +193,13 @@ pub struct Estimate {
     pub flags: Flags,
 }
 
+impl Estimate {
+    /// Index in the stream of the sample pair after the window's last.
+    pub const fn end(&self) -> u64 {
+        self.start + self.samples as u64
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::string::ToString;
@@ -197,6 +213,8 @@ mod tests {
         assert_eq!(flags, Flags::CLIPPED.with(Flags::NOT_FINITE));
         assert_eq!(Flags::from_bits_truncate(flags.bits()), flags);
         assert_eq!(flags.to_string(), "clipped+not_finite");
+        assert_eq!(std::format!("{flags:?}"), "Flags(clipped+not_finite)");
+        assert!(flags.names().eq(["clipped", "not_finite"]));
         // Every bit that is kept has a name, and no other.
         assert_eq!(Flags::from_bits_truncate(u16::MAX).bits(), 0x1ff);
         assert!(Flags::from_bits_truncate(0xfe00).is_empty());

@@ -54,7 +54,8 @@ enum Stage {
     Gathering,
 }
 
-/// The sample-rate half of an identification on samples of type `S`, for blocks of up to `N` sample pairs.
+/// The sample-rate half of an identification on samples of type `S`, for blocks of up to `N` sample pairs:
+/// [its place in firmware](crate#on-a-microcontroller).
 ///
 /// `N` is even, 2 to 65 534, and bounds the period: 200 is for all that is searched, 40 for waves of 4 to 40 samples a period, more for
 /// slower ones whose frequency is known. Blocks are two periods long where they have room; above `N`/2 samples a period they are shorter,

@@ -11,6 +11,33 @@ use crate::tracker::Tracker;
 ///
 /// `S` is the type of its samples, `f32`, `i16` or `i32`. `N` is the most sample pairs a block may have, and so the longest period,
 /// as of a [`Front`]. `BLOCKS` is the length of the ring, as of a [`Tracker`]: two more than the periods of a window, and 11 at least.
+///
+/// # Example
+///
+/// Codes of which some were lost, with a frequency that is known:
+///
+/// ```
+/// use antinode::{Identifier, Settings};
+///
+/// let settings = Settings { frequency: Some(5_332.0), resolution: Some(1.0), ..Settings::new(100_000.0) };
+/// let mut identifier = Identifier::<i32, 200, 16>::new(settings)?;
+/// # let signal = |k: u32| {
+/// #     let (sine, cosine) = (core::f64::consts::TAU * 0.05332 * f64::from(k)).sin_cos();
+/// #     let (s2, c2) = 0.6f64.sin_cos();
+/// #     [cosine * c2 - 0.1 * sine * s2, cosine * s2 + 0.1 * sine * c2].map(|x| (1e6 * x) as i32)
+/// # };
+/// let pairs: Vec<[i32; 2]> = (0..10_000).map(signal).collect();
+/// let mut estimates = Vec::new();
+/// identifier.extend(&pairs[..5_000], |estimate| estimates.push(estimate));
+/// // Time and phase go on over what is skipped, and no window reaches across it.
+/// identifier.skip(700);
+/// identifier.extend(&pairs[5_700..], |estimate| estimates.push(estimate));
+///
+/// assert_eq!(estimates[0].start, 0);
+/// assert!(estimates.iter().all(|estimate| estimate.end() <= 5_000 || estimate.start >= 5_700));
+/// assert!(estimates.iter().all(|estimate| estimate.flags.is_empty()));
+/// # Ok::<(), antinode::SettingsError>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Identifier<S: Sample, const N: usize, const BLOCKS: usize> {
     front: Front<S, N>,
@@ -60,6 +87,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     }
 
     /// Takes one sample pair; gives the estimate of the window that it completes.
+    #[must_use = "the estimate is given once"]
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<Estimate> {
         self.push_slice(&[pair]).1

@@ -47,6 +47,9 @@
 //! # Ok::<(), antinode::SettingsError>(())
 //! ```
 //!
+//! [`Settings`] shows how a known frequency, overlapping windows, hum and pick-offs that differ are told, [`Identifier`] what to do where
+//! samples are lost.
+//!
 //! # On a microcontroller
 //!
 //! A [`Front`] in the interrupt, a [`Tracker`] in the main loop, both with the same [`Settings`], and between them a queue of
@@ -200,7 +203,7 @@ pub use settings::{Detection, Settings, SettingsError};
 pub use tracker::Tracker;
 
 #[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
+#[doc = include_str!("../README.md")]
 struct Readme;
 
 #[cfg(test)]

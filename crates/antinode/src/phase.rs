@@ -115,6 +115,7 @@ impl PhaseStep {
     }
 
     /// This step moved by `offset` radians a sample, to within half a unit and f32 rounding of the offset.
+    #[must_use = "it gives another, and changes none"]
     pub fn shifted(self, offset: f32) -> Self {
         let steps = nearest(offset * (TURN / TAU));
         Self(self.0.wrapping_add(steps as u32))

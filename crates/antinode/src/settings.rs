@@ -21,6 +21,29 @@ pub enum Detection {
 }
 
 /// Settings of an identification. Start from [`Settings::new`] and change what differs.
+///
+/// # Example
+///
+/// ```
+/// use antinode::{Calibration, Identifier, Settings};
+///
+/// let base = Settings::new(100_000.0);
+/// // A wave that is known within 5 %: no search, and windows from the first sample on.
+/// let known = Settings { frequency: Some(5_332.0), ..base };
+/// // Windows of 50 periods, one every 5 blocks, which then are about a period each.
+/// let overlapping = Settings { periods: 50, hop: Some(5), ..base };
+/// // Mains hum on the lines.
+/// let hum = Settings { periods: 20, hum: true, ..base };
+/// // Pick-offs that differ, as the command `antinode calibrate` finds them.
+/// let calibration = Calibration { gain_ratio: 1.02, skew: 150e-9, pick_off_angle: -0.004 };
+/// let calibrated = Settings { calibration, ..base };
+/// // Codes of a signed converter of 24 bits.
+/// let codes = Settings { rails: Some([-8_388_608.0, 8_388_607.0]), resolution: Some(1.0), ..base };
+/// for settings in [known, overlapping, hum, calibrated, codes] {
+///     Identifier::<i32, 200, 64>::new(settings)?;
+/// }
+/// # Ok::<(), antinode::SettingsError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Settings {

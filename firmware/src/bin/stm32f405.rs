@@ -22,11 +22,10 @@ mod app {
     use firmware::hardware::ring::Memory;
     use firmware::hardware::sampler::Sampler;
     use firmware::hardware::watchdog::Watchdog;
-    use firmware::hardware::{clock, log, reset};
+    use firmware::hardware::{clock, log, main_loop, reset};
     use firmware::instrument::Instrument;
     use firmware::pipeline::{Places, Queues};
     use firmware::settings::{Arithmetic, DUAL_ADC_RAILS, HALF, configuration};
-    use stm32f4xx_hal::pac::Interrupt;
     use stm32f4xx_hal::prelude::*;
 
     #[shared]
@@ -102,22 +101,7 @@ mod app {
 
     #[idle(local = [instrument, watchdog])]
     fn idle(c: idle::Context) -> ! {
-        let instrument = c.local.instrument;
-        loop {
-            if instrument.poll(clock::now(), log::event) {
-                c.local.watchdog.feed();
-            }
-            rtic::pend(Interrupt::USART1);
-            if instrument.asks_for_source() {
-                rtic::pend(Interrupt::DMA2_STREAM0);
-            }
-            if instrument.wants_restart() {
-                // The last bytes are still in the USART.
-                cortex_m::asm::delay(clock::CORE / 1000);
-                reset::restart(Cause::Command, 0);
-            }
-            cortex_m::asm::wfi();
-        }
+        main_loop::run(c.local.instrument, c.local.watchdog)
     }
 
     /// Half of the ring is full.

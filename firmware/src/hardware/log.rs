@@ -5,27 +5,13 @@ use stm32f4xx_hal::pac::FLASH;
 
 use crate::instrument::Event;
 
-/// The name of a cause.
-fn name(cause: Cause) -> &'static str {
-    match cause {
-        Cause::PowerOn => "power on",
-        Cause::BrownOut => "brown-out",
-        Cause::ResetPin => "reset pin",
-        Cause::Command => "command",
-        Cause::Watchdog => "watchdog",
-        Cause::Panic => "panic",
-        Cause::HardFault => "hard fault",
-        Cause::Overrun => "overrun",
-        Cause::Dma => "DMA error",
-        Cause::Converter => "converter",
-        Cause::Clock => "clock",
-        Cause::Unknown => "unknown cause",
-    }
-}
-
 /// Says why the device started; `place` is a line of source after a panic, an address after a fault.
 pub fn started(cause: Cause, place: u32) {
-    defmt::info!("antinode started: {=str}, at {=u32:#x}", name(cause), place);
+    defmt::info!(
+        "antinode started: {=str}, at {=u32:#x}",
+        cause.name(),
+        place
+    );
 }
 
 /// Warns where nothing resets the chip between 1.7 V and the 2.7 V that its clock needs.
@@ -41,13 +27,13 @@ pub fn event(event: Event) {
     match event {
         Event::State(State::Searching) => defmt::info!("searching for a wave"),
         Event::State(State::Tracking) => defmt::info!("tracking a wave"),
-        Event::State(State::Started(cause)) => defmt::info!("started: {=str}", name(cause)),
+        Event::State(State::Started(cause)) => defmt::info!("started: {=str}", cause.name()),
         Event::State(State::SamplingRestarted(cause)) => {
-            defmt::warn!("sampling restarted: {=str}", name(cause));
+            defmt::warn!("sampling restarted: {=str}", cause.name());
         }
-        Event::State(State::Fault(cause)) => defmt::error!("fault: {=str}", name(cause)),
+        Event::State(State::Fault(cause)) => defmt::error!("fault: {=str}", cause.name()),
         Event::Lapse(lapse) => {
-            defmt::warn!("{=u32} pairs lost: {=str}", lapse.lost, name(lapse.cause));
+            defmt::warn!("{=u32} pairs lost: {=str}", lapse.lost, lapse.cause.name());
         }
         Event::Answered { id, done } => defmt::info!("command {=u16} done: {=bool}", id, done),
     }

@@ -4,6 +4,7 @@ pub mod clock;
 pub mod dual_adc;
 pub mod line;
 pub mod log;
+pub mod main_loop;
 // The same as for C: of every image all memory functions are these.
 #[path = "../../../crates/antinode-capi/src/memory.rs"]
 mod memory;

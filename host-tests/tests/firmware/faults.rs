@@ -147,7 +147,7 @@ fn pairs_that_are_lost() {
     assert!(
         estimates
             .iter()
-            .all(|e| e.start + u64::from(e.samples) <= hole.start || e.start >= hole.end)
+            .all(|e| e.end() <= hole.start || e.start >= hole.end)
     );
     assert_right(&estimates);
     assert!(estimates.iter().all(|e| e.flags.is_empty()));

@@ -4,10 +4,11 @@ use std::collections::HashMap;
 use std::io::Read;
 use std::path::PathBuf;
 
+use antinode::Flags;
 use csv::StringRecord;
 
 use crate::failure::Failure;
-use crate::row_file::RowFile;
+use crate::row_file::{RowFile, has_flag};
 
 /// Quantities that are drawn: their columns, and those of their deviations.
 pub const COLUMNS: [(&str, Option<&str>); 5] = [
@@ -140,7 +141,6 @@ fn parse(
     }
     let samples = samples.map_or(Some(1.0), number)?;
     let flags = record.get(flags)?;
-    let has = |flag: &str| flags.split('+').any(|one| one == flag);
     Some(Row {
         time: number(time)?,
         values,
@@ -148,11 +148,11 @@ fn parse(
         samples: samples as u32,
         trust: match flags {
             "" => Trust::Clean,
-            _ if has("lost") => Trust::Lost,
+            _ if has_flag(flags, Flags::LOST) => Trust::Lost,
             _ => Trust::Flagged,
         },
         // The pattern may have turned unseen.
-        begins: has("reacquired"),
+        begins: has_flag(flags, Flags::REACQUIRED),
     })
 }
 

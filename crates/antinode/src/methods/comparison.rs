@@ -25,7 +25,7 @@
 //! // The window's samples, and as many before it as the delay is long.
 //! let omega = core::f64::consts::TAU * estimate.frequency / sample_rate;
 //! let lag = algorithm2::quarter_lag((sample_rate / estimate.frequency) as f32);
-//! let (start, end) = (estimate.start as usize, estimate.start as usize + estimate.samples as usize);
+//! let (start, end) = (estimate.start as usize, estimate.end() as usize);
 //! let mut delayed = DelayedSums::<50>::new(lag, estimate.offsets);
 //! delayed.extend(&pairs[start - usize::from(lag)..end]);
 //!

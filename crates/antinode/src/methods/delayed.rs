@@ -41,6 +41,7 @@ impl Delayed {
     }
 
     /// The products of this window and `other` as one; the lag is this one's.
+    #[must_use = "it gives the sum, and changes neither"]
     pub fn with(&self, other: &Self) -> Self {
         Self {
             lag: self.lag,

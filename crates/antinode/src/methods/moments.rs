@@ -27,6 +27,7 @@ impl Moments {
     }
 
     /// The moments of this window and `other` as one.
+    #[must_use = "it gives the sum, and changes neither"]
     pub fn with(&self, other: &Self) -> Self {
         Self {
             count: self.count + other.count,

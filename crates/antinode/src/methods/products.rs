@@ -80,6 +80,7 @@ impl Products {
     }
 
     /// These products with `offsets` of S_C and S_D taken off every sample, (4).
+    #[must_use = "it gives others, and changes none"]
     pub fn centred(&self, offsets: [f64; 2]) -> Self {
         let unit = mean_harmonic(1, self.omega, self.count);
         let mut centred = *self;

@@ -22,6 +22,7 @@ pub struct Wave {
 
 impl Wave {
     /// The same motion under the angle that is nearest to `angle`, rad: θ moves by quarter turns, α by as many halves.
+    #[must_use = "it gives another, and changes none"]
     pub fn near(self, angle: f64) -> Self {
         use core::f64::consts::{FRAC_PI_2, PI, TAU};
         let quarters = libm::round((angle - self.shape.angle) / FRAC_PI_2);

@@ -85,6 +85,7 @@ impl<S: Sample> DifferenceDetector<S> {
     ///
     /// In one call one octave at most takes samples into its D(T) and is looked at, the lowest first: an octave has half of the work
     /// of the one below, so all of them are done before their next samples come.
+    #[must_use = "the period is given once"]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<f32> {
         let [first, ..] = &mut self.octaves;
         if first.keep(pair.pair().map(S::search_form)) {

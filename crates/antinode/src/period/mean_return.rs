@@ -109,6 +109,7 @@ impl MeanReturnDetector {
     }
 
     /// Takes a sample pair; gives the period in samples once it is sure.
+    #[must_use = "the period is given once"]
     pub fn push(&mut self, pair: Pair) -> Option<f32> {
         self.time += 1;
         let value = pair[self.channel & 1];

@@ -1,4 +1,15 @@
-//! The period of a wave from cold, formulas (9) and (10).
+//! The period of a wave from cold, formulas (9) and (10): what a [`Front`](crate::Front) searches with, to be used by itself too.
+//!
+//! # Example
+//!
+//! ```
+//! use antinode::period::DifferenceDetector;
+//!
+//! let mut detector = DifferenceDetector::<f32>::new();
+//! let signal = |k: u32| (core::f32::consts::TAU / 18.75 * k as f32).sin();
+//! let period = (0..200).find_map(|k| detector.push([signal(k), 0.5 * signal(k)]));
+//! assert!((period.unwrap() - 18.75).abs() < 0.1);
+//! ```
 
 mod attempt;
 mod confirm;

@@ -75,6 +75,8 @@ pub enum Form {
 ///
 /// With integers the input unit is the code. All three reach the same accuracy: the reference's own rounding is part of the
 /// window's equations. Integers need no floating point at sample rate once the period is known.
+///
+/// No other type can be one.
 pub trait Sample:
     Copy + Debug + Default + PartialEq + Send + Zero + sealed::Sealed + 'static
 {

@@ -31,7 +31,8 @@ const DETECTOR_UNCERTAINTY: f32 = 0.05;
 ///
 /// A window has as many blocks as periods at most, or 11 where that is more; `BLOCKS` is two more than the periods.
 ///
-/// It works at block rate and may run in thread context while blocks are gathered in an interrupt.
+/// It works at block rate and may run in thread context while blocks are gathered in an interrupt:
+/// [its place in firmware](crate#on-a-microcontroller).
 #[derive(Debug, Clone)]
 pub struct Tracker<const BLOCKS: usize> {
     settings: Settings,
@@ -127,6 +128,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Takes a block; gives the estimate of the window that it completes.
     ///
     /// A block of another layout, or one that does not follow the last, starts a new window.
+    #[must_use = "the estimate is given once"]
     #[inline]
     pub fn push<S: Sample>(&mut self, block: &Block<S>) -> Option<Estimate> {
         if self.gather(block) {
@@ -202,6 +204,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// beside all else, or the first one where that shows no wave. Ask after every block: a first window without a wave gives no estimate.
     ///
     /// Then call [`Front::search`](crate::Front::search), drop the blocks that were gathered before it, and [`forget`](Self::forget).
+    #[must_use = "a lost wave is found again only by a search"]
     pub fn has_lost(&self) -> bool {
         self.failures.are_enough()
     }

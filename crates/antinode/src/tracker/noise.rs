@@ -39,8 +39,8 @@ impl Noise {
     const SHARE: f32 = 2.0;
     /// Degrees of freedom that are enough to know noise to a tenth: fewer weigh all the same.
     const ENOUGH: f32 = 80.0;
-    /// Degrees of freedom of which one window says little.
-    const FEW: f32 = 16.0;
+    /// Degrees of freedom from which on one window tells that noise has changed.
+    const TELLING: f32 = 20.0;
     /// How far a window's noise is by chance from what the one before stated, of one degree of freedom: squared, over the product of both.
     const CHANCE: f32 = 5.0;
 
@@ -55,10 +55,9 @@ impl Noise {
         let share = before / (freedom + before);
         let apart = self.stated - variance;
         let square = apart * apart;
-        // By chance both are so far apart; the noise of few degrees is often next to nothing.
-        let few = Self::FEW / freedom;
-        let chance = Self::CHANCE * variance * self.stated * (1.0 + few * few);
-        let agreed = if share * square * freedom > chance {
+        // By chance both are so far apart. The noise of few degrees is often next to nothing.
+        let chance = Self::CHANCE * variance * self.stated;
+        let agreed = if freedom >= Self::TELLING && share * square * freedom > chance {
             chance / (square * freedom)
         } else {
             share

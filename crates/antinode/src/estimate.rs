@@ -143,8 +143,8 @@ impl defmt::Format for Flags {
 /// The wave over one window, at the window's middle. Amplitudes, offsets and residual are in input units.
 ///
 /// Each `_std` is one standard deviation, from the information in the window's samples and their noise: that of its own residual and
-/// of the clean windows before, which count twice as much at most, and the less the less it agrees with them: where noise becomes up to
-/// twice as much, or less, the first two windows may state a fifth too little, or a fifth too much.
+/// of the clean windows before, which count twice as much at most (in windows of a few samples more), and the less the less it agrees with
+/// them. Where noise becomes less by half at once the first two windows state a third too much, where it becomes more a tenth too little.
 ///
 /// Of a window without a wave, [`Flags::LOST`], no number means anything, and some may be NaN or infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -37,12 +37,13 @@ impl Noise {
     const MEMORY: f32 = 16.0;
     /// How much more the windows before may weigh than one window, which knows its noise by few degrees of freedom.
     const SHARE: f32 = 2.0;
-    /// Degrees of freedom that are enough to know noise to a tenth: fewer weigh all the same.
-    const ENOUGH: f32 = 80.0;
-    /// Degrees of freedom from which on one window tells that noise has changed.
-    const TELLING: f32 = 20.0;
-    /// How far a window's noise is by chance from what the one before stated, of one degree of freedom: squared, over the product of both.
-    const CHANCE: f32 = 5.0;
+    /// Degrees of freedom that are enough to know noise to a sixth: fewer weigh all the same.
+    const ENOUGH: f32 = 40.0;
+    /// Degrees of freedom from which on one window tells that noise has changed: five blocks have 20.
+    const TELLING: f32 = 16.0;
+    /// How far a window's noise is by chance from what the one before stated, of one degree of freedom: squared, over that one times the sum
+    /// of both.
+    const CHANCE: f32 = 3.0;
 
     /// The noise variance of a window, from its own of `freedom` degrees and that of the windows before, unless it is a new one: for tests,
     /// and for the deviations that are stated, which follow noise that changes.
@@ -55,8 +56,8 @@ impl Noise {
         let share = before / (freedom + before);
         let apart = self.stated - variance;
         let square = apart * apart;
-        // By chance both are so far apart. The noise of few degrees is often next to nothing.
-        let chance = Self::CHANCE * variance * self.stated;
+        // By chance both are so far apart. The noise of few degrees is often next to nothing: less noise is believed later than more.
+        let chance = Self::CHANCE * self.stated * (self.stated + variance);
         let agreed = if freedom >= Self::TELLING && share * square * freedom > chance {
             chance / (square * freedom)
         } else {

@@ -117,8 +117,8 @@ pub struct Identify {
     /// NPY recording, by number, as C,D.
     ///
     /// What is neither WAV nor NPY is then read as text, unless --raw is given. Without it, text is known by its first line.
-    /// Two columns leave the recording's time out: its rate is then that of --rate. Lines that begin with #, % or // are comments; a
-    /// line of units may follow the header, and a time in ms, us or ns is understood.
+    /// Two columns leave the recording's time out: its rate is then that of --rate. Lines that begin with #, % or // are comments,
+    /// and settings above the samples are skipped; a line of units may follow the header, and a time in ms, us or ns is understood.
     #[arg(long, value_name = "COLUMNS")]
     pub columns: Option<Columns>,
     /// The wave's frequency, Hz, within 5 %, where it is known: it is then not searched, and the first window begins with the first

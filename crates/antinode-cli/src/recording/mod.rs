@@ -12,6 +12,7 @@ mod lines;
 mod no_number;
 mod not_finite;
 mod npy;
+mod preamble;
 mod printed;
 mod raw;
 mod resolution;

@@ -101,6 +101,12 @@ pub struct Identify {
     /// Sample rate, Hz, 1 to 1e10 [default: the recording's own].
     #[arg(long, value_name = "HZ", value_parser = ranges::rate)]
     pub rate: Option<f64>,
+    /// Only samples from this time on, s, as rows tell it: by the recording's time column, or else from the first sample.
+    #[arg(long, value_name = "S", value_parser = ranges::time)]
+    pub from: Option<f64>,
+    /// Only samples before this time, s.
+    #[arg(long, value_name = "S", value_parser = ranges::time)]
+    pub to: Option<f64>,
     /// How rows are printed.
     #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
     pub output: Format,

@@ -153,8 +153,9 @@ pub struct Identify {
     pub full_scale: Option<f32>,
     /// Step between two codes of the converter, above 0, in the unit of the samples [default: told from the first samples].
     ///
-    /// There is one where the first samples all lie on its multiples: integers may come from a converter of fewer bits. Pipes do not
-    /// tell it before their samples come, but for text with a time; integers then have the step of all their bits.
+    /// There is one where the first samples all lie on its multiples: integers may come from a converter of fewer bits. A file
+    /// may begin with up to 250 000 pairs of silence. Pipes do not tell it before their samples come, but for text with a time; integers
+    /// then have the step of all their bits.
     #[arg(long, value_name = "STEP", value_parser = ranges::positive, help_heading = "Calibration")]
     pub resolution: Option<f32>,
 }

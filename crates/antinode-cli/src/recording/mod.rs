@@ -160,12 +160,11 @@ impl Recording {
         .with_step()
     }
 
-    /// Tells the step from the first samples: integers too may have come from a converter of fewer bits.
+    /// Tells the step from the first samples that do not stand still: integers too may have come from a converter of fewer bits.
     fn with_step(mut self) -> Self {
         if self.bytes_total.is_some() {
-            let mut head = Vec::with_capacity(BLOCK_PAIRS);
-            self.fault = self.opened.source.fill(&mut head, BLOCK_PAIRS).err();
-            self.step = resolution::resolution(&head);
+            let head;
+            (head, self.step, self.fault) = resolution::of_head(self.opened.source.as_mut());
             self.head = head.into_iter();
         } else {
             // A pipe must not wait, and what has come by now is chance, but for what its source needs.

@@ -45,6 +45,7 @@ fn names_and_what_may_be_samples_stay() {
         "time,c,d\n0,1,2\nlow,low,low\n",
         "Model,A\n1,2,3\nTIME,CH1,CH2\n",
         "?,1,2\n",
+        "Recording\nlow,1,2\n",
         "?,1,2\n!,1,2\n+,1,2\n;,1,2\n",
         "low,1,2\nlow,1,2\nlow,1,2\nlow,1,2\n",
     ] {

@@ -199,6 +199,13 @@ fn lines_count_from_the_first_of_the_settings() {
         text.into(),
         &["input:3021:3: sample pair 2999 (from 0), S_D"],
     );
+    // Where samples begin with one that is garbled, it stays one of them.
+    let text = recording(TEKTRONIX, |k, time, [c, d]| match k {
+        1 => format!("{time:.5},OVER,x"),
+        _ => format!("{time:.5},{c},{d}"),
+    });
+    let told = ["input:23:2: sample pair 1 (from 0), S_C (left): the value is `OVER`"];
+    assert_eq!(fault(here, "-", text.into(), &told).len(), 25);
 }
 
 #[test]

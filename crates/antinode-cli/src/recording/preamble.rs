@@ -128,7 +128,25 @@ fn start(lines: &[Line], numbers: Vec<usize>, separator: u8) -> Option<Start> {
     let last_other = lines.iter().rposition(|line| !is_row(line));
     let rows = last_other.map_or(0, |last| last + 1);
     let width = numbers[numbers.len() - 1] + 1;
-    let first = names(lines, rows, width, separator);
+    let is_word = |field: &[u8]| !is_sample(field, separator);
+    // Whether a line has words over all of these columns.
+    let is_named = |line: &Line| {
+        let has_word = |&place: &usize| line.fields.get(place).is_some_and(|field| is_word(field));
+        has_word(&0) && numbers.iter().all(has_word)
+    };
+    let names = names(lines, rows, width, separator);
+    let roles = lines
+        .iter()
+        .rposition(|line| is_named(line) && has_role(line));
+    // Samples right below names stay, garbled though the first of them may be.
+    let are_samples = |roles: &usize| {
+        let begins = |line: &Line| line.fields.first().is_some_and(|field| !is_word(field));
+        let mut below = lines[(roles + 1).min(rows)..rows].iter();
+        roles + 1 == names || below.all(begins)
+    };
+    let first = roles
+        .filter(are_samples)
+        .map_or(names, |roles| roles.min(names));
     let (settings, rest) = lines.split_at(first);
     let header = &rest[..rows - first];
     let are_surely = are_labels(settings);
@@ -138,11 +156,7 @@ fn start(lines: &[Line], numbers: Vec<usize>, separator: u8) -> Option<Start> {
         line.fields.len() >= width && (has_role(line) || !is_other)
     });
     // Names over all of these columns divide settings from samples, of which neither is the other then.
-    let is_word = |field: &[u8]| !is_sample(field, separator);
-    let is_divided = header.first().is_some_and(|line| {
-        let has_word = |&place: &usize| line.fields.get(place).is_some_and(|field| is_word(field));
-        has_word(&0) && numbers.iter().all(has_word)
-    });
+    let is_divided = header.first().is_some_and(is_named);
     let is_safe = |line: &Line| lead(line).is_none_or(is_word) && (is_divided || !is_row(line));
     let are_safe =
         settings.iter().all(is_safe) && (settings.is_empty() || !header.is_empty() || are_surely);

@@ -1,6 +1,8 @@
 //! `antinode identify`: recordings in, rows out, as a stream.
 
 mod search;
+mod silence;
+mod span;
 
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::Path;
@@ -14,6 +16,8 @@ use crate::options::{Format, Identify, MOST_PERIODS, Methods};
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
 use search::Search;
+use silence::Silence;
+use span::{Span, Step};
 
 /// Samples of the longest period that may be known, and of the longest that is searched.
 const LONGEST: usize = 1024;
@@ -39,6 +43,7 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
         ..options.settings(1.0, None, None)
     }
     .check(usize::from(MOST_PERIODS) + 2)?;
+    Span::check(options)?;
     // The core would do without it there, and nothing would tell.
     let least = if options.hop.is_some() { 10 } else { 5 };
     if options.hum && options.periods < least {
@@ -123,34 +128,39 @@ fn identify(
 
     let live = io::stdout().is_terminal();
     let mut search = Search::default();
-    let (mut misfits, mut taken_pairs) = (0, 0);
-    let fault = loop {
+    let mut span = Span::new(options, &recording, rate);
+    let mut silence = Silence::default();
+    let mut misfits = 0;
+    let fault = 'all: loop {
         match recording.read(&mut buffer) {
             Ok(0) => break None,
             Ok(_) => {}
             Err(error) => break Some(error),
         }
-        if core.index() == 0 {
-            search.begin(&buffer);
-            if let Some(frequency) = options.frequency
-                && let Some(warning) = search::elsewhere(&buffer, rate, frequency)
-            {
-                eprintln!("warning: {name}: {warning}");
-            }
-        }
         let mut pairs = buffer.as_slice();
         while !pairs.is_empty() {
-            let mut most = pairs.len();
-            if let Some(gap) = recording.next_gap() {
-                if gap.before == taken_pairs {
-                    core.skip(gap.lost);
-                    if let Some(history) = &mut history {
-                        history.skip(gap.lost);
-                    }
-                    recording.pass_gap();
+            let mut most = match span.step(&mut recording, pairs) {
+                Step::End => break 'all None,
+                Step::Leave(count) => {
+                    pairs = &pairs[count..];
                     continue;
                 }
-                most = most.min(usize::try_from(gap.before - taken_pairs).unwrap_or(most));
+                Step::Lost(lost) => {
+                    core.skip(lost);
+                    if let Some(history) = &mut history {
+                        history.skip(lost);
+                    }
+                    continue;
+                }
+                Step::Take(most) => most,
+            };
+            if !span.has_begun() {
+                search.begin(&pairs[..most]);
+                if let Some(frequency) = options.frequency
+                    && let Some(warning) = search::elsewhere(&pairs[..most], rate, frequency)
+                {
+                    eprintln!("warning: {name}: {warning}");
+                }
             }
             // Until the first row, what becomes of the search is to be seen.
             if rows.count() == 0 {
@@ -160,7 +170,7 @@ fn identify(
             search.see(core.is_searching());
             let (new, rest) = pairs.split_at(taken);
             pairs = rest;
-            taken_pairs += taken as u64;
+            recording.look(span.take(taken), new);
             if let Some(history) = &mut history {
                 history.extend(new);
             }
@@ -168,8 +178,9 @@ fn identify(
                 let methods = history
                     .as_ref()
                     .and_then(|history| history.compare(&estimate));
+                silence.see(&estimate, rate, options.hop);
                 let estimate = Estimate {
-                    time: estimate.time + recording.start(),
+                    time: estimate.time + span.offset(),
                     ..estimate
                 };
                 misfits += u64::from(estimate.flags == Flags::MISFIT);
@@ -194,14 +205,22 @@ fn identify(
             rows.count()
         );
     }
-    if let Some(warning) = recording.late_warning() {
+    let seconds = core.index() as f64 / rate;
+    let of_span = span.warning().filter(|_| fault.is_none());
+    let of_silence = silence.told(seconds, span.offset());
+    let told = of_span.into_iter().chain(of_silence);
+    let told = told.map(|warning| format!("{name}: {warning}"));
+    for warning in recording.late_warning().into_iter().chain(told) {
         rows.flush()?;
         eprintln!("warning: {warning}");
     }
     let failure = match fault {
         Some(error) => Some(error.into()),
         None if rows.count() > 0 => None,
-        None => Some(search.no_rows(&name, rate, &core, options)),
+        None => Some(
+            span.missing(&name)
+                .unwrap_or_else(|| search.no_rows(&name, rate, &core, options)),
+        ),
     };
     let told = [recording.lost(), recording.not_finite()];
     let mut failures = told.into_iter().flatten().map(Failure::from).chain(failure);

@@ -101,6 +101,12 @@ pub struct Identify {
     /// Sample rate, Hz, 1 to 1e10 [default: the recording's own].
     #[arg(long, value_name = "HZ", value_parser = ranges::rate)]
     pub rate: Option<f64>,
+    /// Only samples from this time on, s, as rows tell it: by the recording's time column, or else from the first sample.
+    #[arg(long, value_name = "S", value_parser = ranges::time)]
+    pub from: Option<f64>,
+    /// Only samples before this time, s.
+    #[arg(long, value_name = "S", value_parser = ranges::time)]
+    pub to: Option<f64>,
     /// How rows are printed.
     #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
     pub output: Format,
@@ -117,8 +123,8 @@ pub struct Identify {
     /// NPY recording, by number, as C,D.
     ///
     /// What is neither WAV nor NPY is then read as text, unless --raw is given. Without it, text is known by its first line.
-    /// Two columns leave the recording's time out: its rate is then that of --rate. Lines that begin with #, % or // are comments; a
-    /// line of units may follow the header, and a time in ms, us or ns is understood.
+    /// Two columns leave the recording's time out: its rate is then that of --rate. Lines that begin with #, % or // are comments,
+    /// and settings above the samples are skipped; a line of units may follow the header, and a time in ms, us or ns is understood.
     #[arg(long, value_name = "COLUMNS")]
     pub columns: Option<Columns>,
     /// The wave's frequency, Hz, within 5 %, where it is known: it is then not searched, and the first window begins with the first
@@ -147,8 +153,9 @@ pub struct Identify {
     pub full_scale: Option<f32>,
     /// Step between two codes of the converter, above 0, in the unit of the samples [default: told from the first samples].
     ///
-    /// There is one where the first samples all lie on its multiples: integers may come from a converter of fewer bits. Pipes do not
-    /// tell it before their samples come, but for text with a time; integers then have the step of all their bits.
+    /// There is one where the first samples all lie on its multiples: integers may come from a converter of fewer bits. A file
+    /// may begin with up to 250 000 pairs of silence. Pipes do not tell it before their samples come, but for text with a time; integers
+    /// then have the step of all their bits.
     #[arg(long, value_name = "STEP", value_parser = ranges::positive, help_heading = "Calibration")]
     pub resolution: Option<f32>,
 }

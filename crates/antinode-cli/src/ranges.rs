@@ -18,6 +18,14 @@ pub fn seconds(text: &str) -> Result<f64, String> {
     within(text, 0.01, 3600.0, " s")
 }
 
+/// A time in a recording, s.
+pub fn time(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => Err("it must be a number of seconds".to_owned()),
+    }
+}
+
 /// A gain ratio.
 pub fn gain_ratio(text: &str) -> Result<f32, String> {
     within(text, 0.1, 10.0, "").map(|ratio| ratio as f32)

@@ -82,7 +82,7 @@ fn a_sequence_has_the_rate_of_its_increment() {
     let one = run(here, "identify one.csv");
     assert_eq!(one.code, 1);
     assert!(
-        one.err.contains("one.csv:1: found 2 columns"),
+        one.err.contains("one.csv:1: found the time and one signal"),
         "{}",
         one.err
     );

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::error::{LineFault, Role};
+use super::preamble::Start;
 
 /// The columns to read, chosen by the user: `c,d` or `time,c,d`, each a name from the header or a
 /// number from 1.
@@ -63,6 +64,8 @@ pub(super) struct FirstLine<'a> {
     /// The names, if the line is a header.
     pub names: Option<&'a [String]>,
     pub width: usize,
+    /// What was seen of the lines about it.
+    pub start: &'a Start,
 }
 
 impl FirstLine<'_> {
@@ -113,21 +116,56 @@ impl FirstLine<'_> {
     }
 
     fn suggested(&self) -> Result<Places, LineFault> {
+        let all: Vec<usize> = (0..self.width).collect();
+        let numbers: Vec<usize> = self
+            .start
+            .numbers
+            .iter()
+            .copied()
+            .filter(|&place| place < self.width)
+            .collect();
+        // Settings may stand beside the samples too, and so may columns without a number.
+        let is_partial = !numbers.is_empty() && numbers.len() < self.width;
+        if is_partial && self.start.lines > 0 {
+            return self.among(&numbers);
+        }
+        let places = self.among(&all);
+        if is_partial && places.is_err() && self.names.is_none() {
+            return self.among(&numbers);
+        }
+        places
+    }
+
+    /// The places of the columns that names or number suggest among these.
+    fn among(&self, columns: &[usize]) -> Result<Places, LineFault> {
         let role = |place: usize| self.names.and_then(|names| role(&names[place]));
-        let place = |wanted: Role| (0..self.width).find(|&place| role(place) == Some(wanted));
+        let places = || columns.iter().copied();
+        let place = |wanted: Role| places().find(|&place| role(place) == Some(wanted));
         let [time, c, d] = Role::ALL.map(place);
         // Names in another order than usual must not swap the signals.
         if c.is_some() && d.is_some() {
-            let unnamed = (0..self.width).find(|&place| role(place).is_none());
+            let unnamed = places().find(|&place| role(place).is_none());
             let index = |place: &usize| self.names.is_some_and(|names| is_index(&names[*place]));
-            let other = unnamed.filter(|place| self.width == 3 && !index(place));
+            let other = unnamed.filter(|place| columns.len() == 3 && !index(place));
             return Ok([time.or(other), c, d]);
         }
-        let time = time.or((self.width == 3).then_some(0));
-        let mut signals = (0..self.width).filter(|&place| Some(place) != time);
+        // What settings stand above or beside may be a time without a name.
+        let is_instrument = self.start.lines > 0 || columns.len() < self.width;
+        let clock = columns.first().copied().filter(|_| {
+            columns.len() == 3
+                || columns.len() == 2
+                    && is_instrument
+                    && self.names.is_none()
+                    && self.start.is_clocked
+        });
+        let time = time.or(clock);
+        let mut signals = places().filter(|&place| Some(place) != time);
         match (signals.next(), signals.next(), signals.next()) {
             (Some(c), Some(d), None) => Ok([time, Some(c), Some(d)]),
-            _ => Err(LineFault::ColumnCount { found: self.width }),
+            (Some(_), None, None) if time.is_some() => Err(LineFault::OneSignal),
+            _ => Err(LineFault::ColumnCount {
+                found: columns.len(),
+            }),
         }
     }
 }
@@ -141,8 +179,8 @@ fn role(name: &str) -> Option<Role> {
         .filter(|letter| letter.is_alphanumeric())
         .collect();
     match bare.as_str() {
-        "t" | "time" | "times" | "ts" | "s" | "sec" | "seconds" | "timestamp" | "timems"
-        | "timeus" | "timens" | "tms" | "tus" | "tns" => Some(Role::Time),
+        "t" | "time" | "times" | "ts" | "s" | "sec" | "second" | "seconds" | "timestamp"
+        | "timems" | "timeus" | "timens" | "tms" | "tus" | "tns" => Some(Role::Time),
         "c" | "sc" | "left" => Some(Role::ALL[1]),
         "d" | "sd" | "right" => Some(Role::ALL[2]),
         _ => None,
@@ -172,6 +210,7 @@ mod tests {
         let line = FirstLine {
             names: Some(&names),
             width: names.len(),
+            start: &Start::default(),
         };
         let chosen = chosen.map(|text| {
             text.parse()
@@ -219,7 +258,7 @@ mod tests {
     fn errors_name_the_columns() {
         let fault = |header, chosen| places(header, chosen).unwrap_err();
         assert!(fault("a", None).starts_with("found 1 column, but two"));
-        assert!(fault("time,x", None).starts_with("found 2 columns, but two"));
+        assert!(fault("time,x", None).starts_with("found the time and one signal, but both"));
         assert!(fault("a,b,x,y", None).starts_with("found 4 columns, but two"));
         assert!(
             fault("a,b", Some("a,e")).starts_with("there is no column `e`; choose among `a`, `b`")

@@ -19,13 +19,13 @@ pub(super) enum Content {
     Wav,
     Npy,
     Utf16,
-    /// Its first line is a CSV header or numbers.
+    /// Its first line is a CSV header or numbers, or such numbers follow behind settings.
     Text,
     Other,
 }
 
 impl Content {
-    /// Looks at a stream, and gives it back whole. Text is looked for only where `or_text` says so, for it takes a line.
+    /// Looks at a stream, and gives it back whole. Text is looked for only where `or_text` says so, for it takes a line or more.
     pub fn look(mut stream: Stream, or_text: bool) -> io::Result<(Self, Stream)> {
         let mut head = Vec::with_capacity(HEAD_BYTES);
         stream
@@ -62,16 +62,24 @@ impl Content {
     }
 }
 
-/// Whether the first line that is neither blank nor a comment is one of CSV; what is read goes behind `head`.
+/// Whether the first line that is neither blank nor a comment is one of CSV, or a later one holds samples; what is read goes behind
+/// `head`.
 fn is_text(head: &mut Vec<u8>, stream: &mut Stream) -> io::Result<bool> {
+    // The bytes of whole lines that are looked through, and whether the first line is among them.
+    let (mut seen, mut has_begun) = (0, false);
     loop {
         let is_control = |byte: &u8| byte.is_ascii_control() && !byte.is_ascii_whitespace();
-        if head.iter().any(is_control) || head.len() > MAX_LINE {
+        if head.iter().any(is_control) {
             return Ok(false);
         }
         let end = head.iter().rposition(|byte| b"\r\n".contains(byte));
-        if let Some(line) = first_line(&head[..end.unwrap_or(0)]) {
-            return Ok(is_csv(line));
+        let end = end.unwrap_or(0).max(seen);
+        if has_csv(&head[seen..end], &mut has_begun) {
+            return Ok(true);
+        }
+        seen = end;
+        if head.len() > MAX_LINE {
+            return Ok(false);
         }
         let before = head.len();
         // No more than is there: a line of a slow pipe is enough.
@@ -79,16 +87,26 @@ fn is_text(head: &mut Vec<u8>, stream: &mut Stream) -> io::Result<bool> {
         let read = stream.read(&mut piece)?;
         head.extend_from_slice(&piece[..read]);
         if head.len() == before {
-            return Ok(first_line(head).is_some_and(is_csv));
+            return Ok(has_csv(&head[seen..], &mut has_begun));
         }
     }
 }
 
-/// The first line in `text` that is neither blank nor a comment.
-fn first_line(text: &[u8]) -> Option<&[u8]> {
-    without_mark(text)
-        .split(|byte| b"\r\n".contains(byte))
-        .find(|line| !is_skipped(line))
+/// Whether one of these lines holds samples, or the first is one of CSV where the text has not begun before it.
+fn has_csv(text: &[u8], has_begun: &mut bool) -> bool {
+    let lines = without_mark(text).split(|byte| b"\r\n".contains(byte));
+    let mut lines = lines.filter(|line| !is_skipped(line));
+    lines.any(|line| !std::mem::replace(has_begun, true) && is_csv(line) || is_pair(line))
+}
+
+/// Whether a line holds two numbers or more, and no words.
+fn is_pair(line: &[u8]) -> bool {
+    let separator = separator(line);
+    let fields = fields(line, separator).filter(|field| !field.is_empty());
+    let numbers: Vec<bool> = fields
+        .map(|field| number::<f64>(field, separator).is_some())
+        .collect();
+    numbers.len() >= 2 && !numbers.contains(&false)
 }
 
 /// Whether a line is a CSV header, or numbers.
@@ -127,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn text_is_known_by_its_first_line() {
+    fn text_is_known_by_its_first_line_or_its_samples() {
         for text in [
             "1,2\n",
             "0.1 -2e-3\r\n",
@@ -137,11 +155,14 @@ mod tests {
             "time;temperature;heat;c;d\n",
             "\u{feff}# a comment as long as you like, \n\n# one more\nt\tx\ty\r0\t1\t2\r",
             "2024-05-01T00:00:00,1,2\n",
+            "LabVIEW Measurement\t\nSeparator\tTab\n\n0.1\t0.2\t\n",
         ] {
             assert_eq!(content(text.as_bytes()), Content::Text, "{text}");
         }
         for other in [
             &b"these are no samples at all"[..],
+            b"these are\n12 samples\n0.5 mm apart\n",
+            b"Samples\n1 2 3\x07",
             b"MATLAB 5.0 MAT-file, made on a PC\0\x01IM",
             b"1,2\x07\n",
             b"# nothing but a comment",

@@ -258,8 +258,8 @@ impl Source for Delimited {
         self.gaps.next()
     }
 
-    fn pass_gap(&mut self) {
-        self.gaps.pass();
+    fn pass_gap(&mut self, is_told: bool) {
+        self.gaps.pass(is_told);
     }
 
     fn lost(&self) -> Option<InputError> {

@@ -17,18 +17,19 @@ pub struct Gap {
 #[derive(Debug, Default)]
 pub(super) struct Gaps {
     /// Those among pairs that are still to be delivered.
-    ahead: VecDeque<Gap>,
-    first: Option<First>,
+    ahead: VecDeque<Found>,
+    /// The first of those to be told.
+    first: Option<Found>,
     count: u64,
     /// The pairs missing in all of them.
     lost: u64,
 }
 
-/// The first gap, by its times.
+/// A gap, and its times.
 #[derive(Debug, Clone, Copy)]
-struct First {
+struct Found {
+    gap: Gap,
     line: u64,
-    lost: u64,
     from: f64,
     to: f64,
 }
@@ -36,32 +37,34 @@ struct First {
 impl Gaps {
     /// Takes one that was found before this line, between these times.
     pub fn add(&mut self, gap: Gap, line: u64, [from, to]: [f64; 2]) {
-        self.first.get_or_insert(First {
+        let found = Found {
+            gap,
             line,
-            lost: gap.lost,
             from,
             to,
-        });
-        self.count += 1;
-        self.lost += gap.lost;
-        self.ahead.push_back(gap);
+        };
+        self.ahead.push_back(found);
     }
 
     /// The next one.
     pub fn next(&self) -> Option<Gap> {
-        self.ahead.front().copied()
+        self.ahead.front().map(|found| found.gap)
     }
 
-    /// Goes on to the one behind it.
-    pub fn pass(&mut self) {
-        self.ahead.pop_front();
+    /// Goes on to the one behind it; it `is_told` at the end, or not.
+    pub fn pass(&mut self, is_told: bool) {
+        if let Some(found) = self.ahead.pop_front().filter(|_| is_told) {
+            self.count += 1;
+            self.lost += found.gap.lost;
+            self.first.get_or_insert(found);
+        }
     }
 
     /// The line of the first one, and what is to be told of all.
     pub fn fault(&self) -> Option<(u64, TimeFault)> {
         let first = self.first?;
         let fault = TimeFault::Gap {
-            lost: first.lost,
+            lost: first.gap.lost,
             from: first.from,
             to: first.to,
             gaps: self.count,

@@ -34,7 +34,7 @@ impl Header {
         chosen: Option<&Columns>,
     ) -> Result<Self, InputError> {
         let separator = lines.separator;
-        let Beginning { first, next } = beginning;
+        let Beginning { first, next, start } = beginning;
         let mut names: Vec<String> = fields(first, separator).map(lossy).collect();
         let width = names.len();
         let end = names_end(&names);
@@ -47,6 +47,7 @@ impl Header {
         let line = FirstLine {
             names,
             width: columns,
+            start,
         };
         let places = line
             .places(chosen)
@@ -60,17 +61,29 @@ impl Header {
             units: (Default::default(), Together::Same),
             columns,
         };
+        let fault =
+            |header: &Self, line, fault| InputError::line(file, line, header.time_fault(fault));
+        // Where the samples tell the unit of their time, settings may be about the screen's.
+        let among_settings = start.unit.as_ref().filter(|(unit, _)| {
+            places[0].is_some() && time_exponent(unit).is_some_and(|own| own != Some(0))
+        });
+        let untold = |header: &Self| {
+            among_settings.map_or(Ok(()), |(unit, line)| {
+                let unit = unit.clone();
+                Err(fault(header, *line as u64, TimeFault::UnitUnsure { unit }))
+            })
+        };
         let Some(names) = names else {
             lines.back();
+            untold(&header)?;
             return Ok(header);
         };
-        let fault = |header: &Self, line, fault| {
-            Err(InputError::line(file, line, header.time_fault(fault)))
-        };
+        let mut has_unit = false;
         if let Some(time) = places[0] {
             let name = &names[time];
-            if let Err(unit) = header.set_unit(of_name(name), name) {
-                return fault(&header, lines.number(), unit);
+            match header.set_unit(of_name(name), name) {
+                Ok(is_told) => has_unit = is_told,
+                Err(unit) => return Err(fault(&header, lines.number(), unit)),
             }
         }
         let signals = [1, 2].map(|role| places[role].map_or("", |place| &names[place]));
@@ -82,8 +95,9 @@ impl Header {
             match header.units(lines) {
                 None => lines.back(),
                 Some(unit) => {
-                    if let Err(unit) = header.set_unit(&unit, &unit) {
-                        return fault(&header, lines.number(), unit);
+                    match header.set_unit(&unit, &unit) {
+                        Ok(is_told) => has_unit |= is_told,
+                        Err(unit) => return Err(fault(&header, lines.number(), unit)),
                     }
                     let own = [1, 2].map(|role| header.field(lines, role));
                     if own.iter().any(|unit| !unit.is_empty()) {
@@ -91,6 +105,9 @@ impl Header {
                     }
                 }
             }
+        }
+        if !has_unit {
+            untold(&header)?;
         }
         header
             .bring_together(are_told)
@@ -133,17 +150,19 @@ impl Header {
         Some(format!("S_C is in {c} and S_D in {d}: {told}"))
     }
 
-    /// Takes the time's unit, which stands in a column of this name, if it is one.
-    fn set_unit(&mut self, unit: &str, name: &str) -> Result<(), TimeFault> {
+    /// Takes the time's unit, which stands in a column of this name; false where it is none.
+    fn set_unit(&mut self, unit: &str, name: &str) -> Result<bool, TimeFault> {
         match time_exponent(unit) {
-            None => {}
-            Some(Some(exponent)) => self.exponent = exponent,
+            None => Ok(false),
+            Some(Some(exponent)) => {
+                self.exponent = exponent;
+                Ok(true)
+            }
             Some(None) => {
                 let name = name.to_owned();
-                return Err(TimeFault::Unit { name });
+                Err(TimeFault::Unit { name })
             }
         }
-        Ok(())
     }
 
     /// The time's unit, if this is a line of units.

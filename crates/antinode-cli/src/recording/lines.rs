@@ -6,17 +6,17 @@ use csv::{ByteRecord, ReaderBuilder, Terminator};
 
 use super::Stream;
 use super::error::{InputError, LineFault};
+use super::preamble::{self, STEADY_LINES, Start};
 use super::text::{self, LineEnds, MAX_LINE, Text, bare};
 
-/// The lines read ahead to tell what the first one is; no row needs fewer.
-const NEXT_LINES: usize = 16;
-
-/// How a text begins; all of it is still to be read.
+/// How a text begins; all of it but settings above is still to be read.
 pub(super) struct Beginning {
     /// The first line.
     pub first: Vec<u8>,
     /// Those behind it.
     pub next: Vec<u8>,
+    /// What was seen above and in these.
+    pub start: Start,
 }
 
 /// Reads lines that are neither blank nor comments.
@@ -35,12 +35,31 @@ impl Lines {
     /// Opens text, and gives its first lines too.
     pub fn open(file: &str, stream: Stream) -> Result<(Self, Beginning), InputError> {
         let mut stream = BufReader::with_capacity(MAX_LINE, LineEnds::new(stream));
-        let (first, line, before) = text::first_line(file, &mut stream)?;
-        let separator = text::separator(&first);
-        let next = text::next_lines(&mut stream, NEXT_LINES)
-            .map_err(|fault| InputError::io(file, fault))?;
-        let begun = Cursor::new([first.as_slice(), &next].concat());
-        let text = Text::new(Box::new(begun.chain(stream)));
+        let (mut begun, line, before) = text::first_line(file, &mut stream)?;
+        // No row needs fewer lines than are read ahead here.
+        let mut start = loop {
+            let next = text::next_lines(&mut stream, STEADY_LINES)
+                .map_err(|fault| InputError::io(file, fault))?;
+            begun.extend_from_slice(&next);
+            let is_all = next.iter().filter(|&&byte| byte == b'\n').count() < STEADY_LINES;
+            if let Some(start) = preamble::find(&begun, is_all) {
+                break start;
+            }
+        };
+        let begun = begun.split_off(start.bytes);
+        let skipped = (line - 1 + start.lines as u64, before + start.bytes as u64);
+        if let Some((_, unit)) = &mut start.unit {
+            *unit += line as usize;
+        }
+        let end = begun.iter().position(|&byte| byte == b'\n');
+        let (first, next) = begun.split_at(end.map_or(begun.len(), |end| end + 1));
+        let beginning = Beginning {
+            first: first.to_vec(),
+            next: next.to_vec(),
+            start,
+        };
+        let separator = text::separator(&beginning.first);
+        let text = Text::new(Box::new(Cursor::new(begun).chain(stream)));
         let reader = ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
@@ -55,10 +74,10 @@ impl Lines {
             reader,
             record: ByteRecord::new(),
             separator,
-            skipped: (line - 1, before),
+            skipped,
             again: false,
         };
-        Ok((lines, Beginning { first, next }))
+        Ok((lines, beginning))
     }
 
     /// The number of the line last read.

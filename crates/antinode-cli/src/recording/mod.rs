@@ -12,6 +12,7 @@ mod lines;
 mod no_number;
 mod not_finite;
 mod npy;
+mod preamble;
 mod printed;
 mod raw;
 mod resolution;
@@ -61,8 +62,6 @@ pub struct Recording {
     head: std::vec::IntoIter<[f32; 2]>,
     /// The step that the first samples tell.
     step: Option<f32>,
-    /// The pairs delivered.
-    delivered: u64,
     not_finite: NotFinite,
     /// Met while there were still good pairs to deliver.
     fault: Option<InputError>,
@@ -154,7 +153,6 @@ impl Recording {
             opened,
             head: Vec::new().into_iter(),
             step: None,
-            delivered: 0,
             not_finite: NotFinite::default(),
             fault: None,
             ended: false,
@@ -162,12 +160,11 @@ impl Recording {
         .with_step()
     }
 
-    /// Tells the step from the first samples: integers too may have come from a converter of fewer bits.
+    /// Tells the step from the first samples that do not stand still: integers too may have come from a converter of fewer bits.
     fn with_step(mut self) -> Self {
         if self.bytes_total.is_some() {
-            let mut head = Vec::with_capacity(BLOCK_PAIRS);
-            self.fault = self.opened.source.fill(&mut head, BLOCK_PAIRS).err();
-            self.step = resolution::resolution(&head);
+            let head;
+            (head, self.step, self.fault) = resolution::of_head(self.opened.source.as_mut());
             self.head = head.into_iter();
         } else {
             // A pipe must not wait, and what has come by now is chance, but for what its source needs.
@@ -239,10 +236,12 @@ impl Recording {
         of_integers.filter(|&step| step > 0.0).or(self.step)
     }
 
-    /// What is wrong with the samples read so far that are not finite numbers, if there are any.
+    /// What is wrong with the samples looked at so far that are not finite numbers, if there are any.
     pub fn not_finite(&self) -> Option<InputError> {
         let first = self.not_finite.first?;
+        // Another one may have been first where not all are looked at.
         let written = self.opened.source.not_finite();
+        let written = written.filter(|written| written.pair == first.pair);
         Some(InputError::NotFinite {
             file: self.name.clone(),
             place: written.as_ref().map(|written| written.place),
@@ -257,12 +256,12 @@ impl Recording {
         self.opened.source.next_gap()
     }
 
-    /// Goes on to the gap behind the next one.
-    pub fn pass_gap(&mut self) {
-        self.opened.source.pass_gap();
+    /// Goes on to the gap behind the next one; it `is_told` at the end, or not asked for.
+    pub fn pass_gap(&mut self, is_told: bool) {
+        self.opened.source.pass_gap(is_told);
     }
 
-    /// What is wrong with the gaps found so far, if there are any.
+    /// What is wrong with the gaps passed so far that are to be told, if there are any.
     pub fn lost(&self) -> Option<InputError> {
         self.opened.source.lost()
     }
@@ -271,7 +270,7 @@ impl Recording {
     ///
     /// A pipe gives what is there instead of waiting for more. All good pairs before a
     /// fault are delivered first; the next call gives the error, and those after it `Ok(0)`. Samples that are
-    /// not finite numbers are delivered as they are, and told by [`not_finite`](Self::not_finite).
+    /// not finite numbers are delivered as they are: [`look`](Self::look) finds them.
     pub fn read(&mut self, buffer: &mut Vec<[f32; 2]>) -> Result<usize, InputError> {
         buffer.clear();
         if buffer.capacity() == 0 {
@@ -286,12 +285,15 @@ impl Recording {
             self.ended = true;
             return self.fault.take().map_or(Ok(0), Err);
         }
+        Ok(buffer.len())
+    }
+
+    /// Looks for what is no finite number in `pairs`, before which the recording had so many: only these are told.
+    pub fn look(&mut self, before: u64, pairs: &[[f32; 2]]) {
         // Integers are all finite.
         if self.opened.full_scale.is_none() {
-            self.not_finite.look(self.delivered, buffer);
+            self.not_finite.look(before, pairs);
         }
-        self.delivered += buffer.len() as u64;
-        Ok(buffer.len())
     }
 }
 

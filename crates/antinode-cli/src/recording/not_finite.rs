@@ -21,6 +21,8 @@ impl First {
 /// The first of them as a line of text has it.
 #[derive(Debug, Clone)]
 pub(super) struct Written {
+    /// The pairs before it.
+    pub pair: u64,
     pub place: Place,
     /// What it is, in words.
     pub told: String,

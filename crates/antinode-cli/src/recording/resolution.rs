@@ -1,5 +1,8 @@
 //! The step between a converter's codes, found in samples that came as text or floats.
 
+use super::error::InputError;
+use super::{BLOCK_PAIRS, Source};
+
 /// Samples of a channel for each of its values, where these are few: a wave without noise repeats a few values too.
 const SAMPLES_A_VALUE: usize = 8;
 /// Values that are too few to tell a step.
@@ -11,6 +14,9 @@ const TOLERANCE: f64 = 0.125;
 /// Steps of fewer units in the last place of the largest sample are those of single precision itself.
 const LEAST_UNITS: f32 = 4.0;
 
+/// Blocks that are looked at where a file begins in silence.
+const HEAD_BLOCKS: usize = 16;
+
 /// The step of which the samples of both channels are whole multiples, the greater one where they differ.
 ///
 /// None for a continuous signal, however it was rounded: single precision's own steps are none of a converter.
@@ -19,13 +25,40 @@ pub(super) fn resolution(pairs: &[[f32; 2]]) -> Option<f32> {
     steps.into_iter().flatten().reduce(f32::max)
 }
 
-/// The greatest step of which all distances between samples are whole multiples, within the rounding of the text.
-fn step(samples: impl Iterator<Item = f32>) -> Option<f32> {
+/// The first pairs of a file, the step that they tell, and the fault behind them.
+pub(super) fn of_head(source: &mut dyn Source) -> (Vec<[f32; 2]>, Option<f32>, Option<InputError>) {
+    let mut head = Vec::with_capacity(BLOCK_PAIRS);
+    let mut end = 0;
+    loop {
+        let before = head.len();
+        end += BLOCK_PAIRS;
+        let fault = source.fill(&mut head, end).err();
+        let step = resolution(&head[before..]);
+        let is_last = fault.is_some() || head.len() < end || end >= HEAD_BLOCKS * BLOCK_PAIRS;
+        if is_last || step.is_some() || !is_silent(&head[before..]) {
+            return (head, step, fault);
+        }
+    }
+}
+
+/// Whether both channels have too few values to tell a step.
+fn is_silent(pairs: &[[f32; 2]]) -> bool {
+    (0..2).all(|channel| values(pairs.iter().map(|pair| pair[channel])).0.len() < FEWEST)
+}
+
+/// The different values among finite samples in order, and how many samples there are.
+fn values(samples: impl Iterator<Item = f32>) -> (Vec<f32>, usize) {
     let mut values: Vec<f32> = samples.filter(|sample| sample.is_finite()).collect();
     let count = values.len();
     values.sort_unstable_by(f32::total_cmp);
     // Zeros of both signs are one.
     values.dedup_by(|a, b| a == b);
+    (values, count)
+}
+
+/// The greatest step of which all distances between samples are whole multiples, within the rounding of the text.
+fn step(samples: impl Iterator<Item = f32>) -> Option<f32> {
+    let (values, count) = values(samples);
     if values.len() < FEWEST {
         return None;
     }

@@ -28,8 +28,8 @@ pub(super) trait Source: Send {
         None
     }
 
-    /// Goes on to the gap behind the next one.
-    fn pass_gap(&mut self) {}
+    /// Goes on to the gap behind the next one; it is told at the end, or not.
+    fn pass_gap(&mut self, _is_told: bool) {}
 
     /// What is to be told at the end of samples that are missing.
     fn lost(&self) -> Option<InputError> {

@@ -37,12 +37,16 @@ pub(super) fn drain(recording: &mut Recording) -> (Vec<[f32; 2]>, Option<InputEr
             Ok(count) => {
                 assert_eq!(count, block.len());
                 assert!(count <= 13 || block.capacity() > 13);
+                recording.look(all.len() as u64, &block);
                 all.extend_from_slice(&block);
             }
             Err(fault) => break Some(fault),
         }
     };
     assert!(matches!(recording.read(&mut block), Ok(0)));
+    while recording.next_gap().is_some() {
+        recording.pass_gap(true);
+    }
     (all, fault)
 }
 

@@ -115,7 +115,8 @@ impl Rows {
         if let (None, Some((role, read))) = (&self.not_finite, odd) {
             let told = told(Role::ALL[role], texts[role], read);
             let place = self.place(role);
-            self.not_finite = Some(Written { place, told });
+            let pair = self.read;
+            self.not_finite = Some(Written { pair, place, told });
         }
         if let Some(role) = garbled {
             if self.garbled == 0 {

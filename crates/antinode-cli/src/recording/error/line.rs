@@ -40,6 +40,13 @@ pub enum LineFault {
         if *.found == 1 { "column" } else { "columns" }
     )]
     ColumnCount { found: usize },
+    /// One signal beside its time.
+    #[error(
+        "found the time and one signal, but both are needed, S_C and S_D: export both channels into one file, or put \
+         the files of both side by side, `paste -d, c.csv d.csv`, and name the columns with {COLUMNS_OPTION} TIME,C,D; if there \
+         are two signals and no time, {COLUMNS_OPTION} C,D"
+    )]
+    OneSignal,
     /// A column asked for that is not there.
     #[error("there is no column `{wanted}`; choose among {known} with {COLUMNS_OPTION}")]
     ColumnUnknown { wanted: String, known: String },
@@ -80,6 +87,12 @@ pub enum TimeFault {
     /// Time in something other than seconds.
     #[error("the time column `{name}` is not in s, ms, us or ns; convert it to seconds")]
     Unit { name: String },
+    /// A unit of time that settings tell, and the samples do not.
+    #[error(
+        "the settings tell a time in `{unit}`, but the samples tell no unit; write the true one behind the time's name above \
+         them, as `TIME [ms]`"
+    )]
+    UnitUnsure { unit: String },
     /// No time.
     #[error("the time is missing here; complete or delete the line")]
     Missing,

@@ -1,8 +1,8 @@
 //! Streams of samples made by hand.
 
-use super::super::tests::{Dribble, drain, message};
+use super::super::tests::{Dribble, drain, file, message};
 use super::*;
-use crate::recording::Recording;
+use crate::recording::{OpenOptions, Recording};
 
 fn raw(bytes: Vec<u8>, format: RawFormat) -> Recording {
     let stream = Box::new(Dribble::new(bytes, 7));
@@ -98,4 +98,32 @@ fn a_fault_of_the_pipe_comes_after_the_good_data() {
     let (pairs, fault) = drain(&mut recording);
     assert_eq!(pairs.len(), 2);
     assert!(message(fault).starts_with("pipe: cannot be read: cable pulled; "));
+}
+
+#[test]
+fn the_step_is_told_behind_a_silent_beginning() {
+    let options = OpenOptions {
+        raw: Some(RawFormat::I16),
+        ..OpenOptions::default()
+    };
+    // 12 bits in 16, behind silence with a code of noise.
+    let code = |k: usize, silent: usize| match k {
+        _ if k < silent => [16 * i16::from(k.is_multiple_of(5)), 0],
+        _ => [0.1, 1.7].map(|phase| ((0.3 * k as f64 + phase).sin() * 1000.0).round() as i16 * 16),
+    };
+    let resolution = |silent: usize| {
+        let codes = (0..silent + 50_000).flat_map(|k| code(k, silent));
+        let bytes: Vec<u8> = codes.flat_map(i16::to_le_bytes).collect();
+        let (_directory, path) = file("a.raw", &bytes);
+        let mut recording = Recording::open(&path, &options).unwrap();
+        let step = recording.resolution().map(|step| step * 32_768.0);
+        // What was looked at is delivered too.
+        assert_eq!(drain(&mut recording).0.len(), silent + 50_000);
+        step
+    };
+    for silent in [0, 10_000, 100_000, 240_000] {
+        assert_eq!(resolution(silent), Some(16.0), "{silent}");
+    }
+    // Beyond what is read ahead, it is that of all bits.
+    assert_eq!(resolution(300_000), Some(1.0));
 }

@@ -1,0 +1,156 @@
+//! Which samples of a recording are identified: `--from` and `--to`.
+
+use crate::failure::Failure;
+use crate::options::Identify;
+use crate::recording::Recording;
+
+/// How much of a sample a time may be rounded by.
+const ROUNDING: f64 = 1e-3;
+
+/// What to do with the next pairs.
+pub(super) enum Step {
+    /// So many samples are missing before them.
+    Lost(u64),
+    /// So many of them are not asked for.
+    Leave(usize),
+    /// So many of them are to be identified.
+    Take(usize),
+    /// The rest of the recording is not asked for.
+    End,
+}
+
+/// The samples to identify, and how far the recording is read.
+pub(super) struct Span {
+    asked: [Option<f64>; 2],
+    rate: f64,
+    /// The time of the sample numbered 0, s.
+    start: f64,
+    /// The numbers of the first sample and of the first behind the last.
+    first: u64,
+    end: u64,
+    /// The pairs passed, and the number of the next, lost ones counted.
+    pairs: u64,
+    number: u64,
+    /// The number of the first that was taken.
+    begun: Option<u64>,
+}
+
+impl Span {
+    /// What is asked for of a recording of this sample rate.
+    pub fn new(options: &Identify, recording: &Recording, rate: f64) -> Self {
+        let start = recording.start();
+        let number = |time: f64| ((time - start) * rate - ROUNDING).ceil().max(0.0) as u64;
+        Self {
+            asked: [options.from, options.to],
+            rate,
+            start,
+            first: options.from.map_or(0, number),
+            end: options.to.map_or(u64::MAX, number),
+            pairs: 0,
+            number: 0,
+            begun: None,
+        }
+    }
+
+    /// What is wrong with the options, whatever the recording.
+    pub fn check(options: &Identify) -> Result<(), Failure> {
+        match (options.from, options.to) {
+            (Some(from), Some(to)) if to <= from => Err(Failure::Usage(format!(
+                "--to: {to} s must lie behind --from, {from} s"
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// What to do with the next `pairs` of a recording.
+    pub fn step(&mut self, recording: &mut Recording, pairs: &[[f32; 2]]) -> Step {
+        let mut most = pairs.len();
+        if let Some(gap) = recording.next_gap() {
+            if gap.before == self.pairs {
+                self.number += gap.lost;
+                let is_within = self.begun.is_some() && self.number < self.end;
+                recording.pass_gap(is_within);
+                return if is_within {
+                    Step::Lost(gap.lost)
+                } else {
+                    Step::Leave(0)
+                };
+            }
+            most = most.min(usize::try_from(gap.before - self.pairs).unwrap_or(most));
+        }
+        let up_to = |number: u64| {
+            usize::try_from(number - self.number)
+                .unwrap_or(most)
+                .min(most)
+        };
+        if self.number < self.first {
+            let most = up_to(self.first);
+            self.pass(most);
+            Step::Leave(most)
+        } else if self.number < self.end {
+            Step::Take(up_to(self.end))
+        } else {
+            Step::End
+        }
+    }
+
+    /// The next pairs are taken; gives the pairs of the recording before them.
+    pub fn take(&mut self, pairs: usize) -> u64 {
+        self.begun.get_or_insert(self.number);
+        self.pass(pairs)
+    }
+
+    fn pass(&mut self, pairs: usize) -> u64 {
+        let before = self.pairs;
+        self.pairs += pairs as u64;
+        self.number += pairs as u64;
+        before
+    }
+
+    /// Whether a pair has been taken.
+    pub fn has_begun(&self) -> bool {
+        self.begun.is_some()
+    }
+
+    /// The time of the first pair taken, s.
+    pub fn offset(&self) -> f64 {
+        self.time(self.begun.unwrap_or(0))
+    }
+
+    fn time(&self, number: u64) -> f64 {
+        self.start + number as f64 / self.rate
+    }
+
+    /// What to tell where the recording was read as far as was asked, and has no sample in the span.
+    pub fn missing(&self, name: &str) -> Option<Failure> {
+        let (start, end) = (self.start, self.time(self.number));
+        let told = match self.asked {
+            _ if self.has_begun() => return None,
+            [_, Some(to)] if self.end == 0 => {
+                format!("--to {to} s: the recording begins at {start} s only: give a later time")
+            }
+            [Some(from), _] if self.number <= self.first => {
+                format!(
+                    "--from {from} s: the recording goes from {start} s to {end:.6} s: give a time within it"
+                )
+            }
+            [Some(from), Some(to)] => {
+                format!("--from {from} --to {to}: all samples in that span are lost: give another")
+            }
+            _ => return None,
+        };
+        Some(Failure::Recording(format!("{name}: {told}")))
+    }
+
+    /// What to tell where the recording has a part of the span.
+    pub fn warning(&self) -> Option<String> {
+        let (begins, ends) = (self.start, self.time(self.number));
+        let early = self.asked[0].filter(|&from| (begins - from) * self.rate > 0.5);
+        let late = self.asked[1].filter(|_| self.number < self.end);
+        let early = early.map(|from| format!("begins at {begins} s, after --from {from} s"));
+        let late = late.map(|to| format!("ends at {ends:.6} s, before --to {to} s"));
+        let told: Vec<String> = early.into_iter().chain(late).collect();
+        (self.has_begun() && !told.is_empty())
+            .then(|| format!("the recording {}", told.join(", and ")))
+    }
+}

@@ -1,0 +1,93 @@
+//! Where samples are seen to begin.
+
+use super::*;
+
+/// The lines that are skipped above so many of samples.
+fn skipped(above: &str, row: impl Fn(usize) -> String) -> Option<usize> {
+    let rows = (0..20).map(|k| row(k) + "\n");
+    let text = format!("{above}{}", rows.collect::<String>());
+    find(text.as_bytes(), false).map(|start| start.lines)
+}
+
+fn three(k: usize) -> String {
+    format!("{k}e-5,0.{k},-0.{k}")
+}
+
+fn two(k: usize) -> String {
+    format!("0.{k},-0.{k}")
+}
+
+#[test]
+fn settings_are_skipped_down_to_the_names() {
+    for (above, expected) in [
+        ("Model,X\nTIME,CH1,CH2\n", 1),
+        ("Model,X\n\nTIME,CH1,CH2\nms,V,V\n", 2),
+        ("Model,X\nTime,1,2\n", 1),
+        ("Model,X\nTime,A,B\n0,1,2\n1,x,2\n", 1),
+        ("Model,X\nTime,A,B\nlow,low,low\n", 1),
+        ("Model,X\nTime,A,B\na garbled line,of three,words\n", 1),
+        ("a = 5\nx-axis,1,2\nsecond,Volt,Volt\n", 1),
+        ("Model,X,1\n# 1,2,3\nTIME,CH1,CH2\n", 2),
+        ("Model,A\nRate,1,2\nScale,2,3\n\"DATA\"\n", 4),
+    ] {
+        assert_eq!(skipped(above, three), Some(expected), "{above}");
+    }
+}
+
+#[test]
+fn names_and_what_may_be_samples_stay() {
+    for above in [
+        "",
+        "time,c,d\n",
+        "time,c,d\ns,V,V\n",
+        "X,CH1,CH2,Start,Increment\nSequence,Volt,Volt,-5e-2,1e-5\n",
+        "x,y,z\nfoo,bar,baz\n",
+        "x,y,z\na garbled line,of three,words\n",
+        "time,c,d\nx,1,2\n",
+        "time,c,d\n0,low,high\n",
+        "time,c,d\n0,1,2\nlow,low,low\n",
+        "Model,A\n1,2,3\nTIME,CH1,CH2\n",
+        "?,1,2\n",
+        "Recording\nlow,1,2\n",
+        "?,1,2\n!,1,2\n+,1,2\n;,1,2\n",
+        "low,1,2\nlow,1,2\nlow,1,2\nlow,1,2\n",
+    ] {
+        assert_eq!(skipped(above, three), Some(0), "{above}");
+    }
+    for above in [
+        "d,c\nx1,5\n",
+        "x,y\nx1,5\n",
+        "d c\n",
+        "x,y\nfoo\n",
+        "1,2\nx,y\n",
+    ] {
+        assert_eq!(skipped(above, two), Some(0), "{above}");
+    }
+}
+
+#[test]
+fn more_lines_are_asked_for_until_samples_are_seen() {
+    let names = "Model,X\n".repeat(20);
+    assert_eq!(find(names.as_bytes(), false), None);
+    assert_eq!(find(names.as_bytes(), true), Some(Start::default()));
+    assert_eq!(
+        find("Model,X\n".repeat(300).as_bytes(), false),
+        Some(Start::default())
+    );
+    // Numbers at the front are samples: a pipe does not wait for more.
+    assert_eq!(
+        find("1,x\n".repeat(3).as_bytes(), false),
+        Some(Start::default())
+    );
+}
+
+#[test]
+fn the_columns_of_numbers_are_told() {
+    let row = |k: usize| format!("{},{k}e-5,,0.{k},,", ["a,x", "b,1", ",", ","][k % 4]);
+    let text: String = (0..17).map(|k| row(k) + "\n").collect();
+    let start = find(text.as_bytes(), false).unwrap();
+    assert_eq!(
+        (start.lines, start.numbers, start.is_clocked),
+        (0, vec![2, 4], true)
+    );
+}

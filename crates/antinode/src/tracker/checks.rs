@@ -35,13 +35,13 @@ pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -
         remains.third_noise * remains.third_freedom,
     );
     // Long blocks show a little of a wave at another frequency, and leave more, which is as white as noise: what a step leaves is not.
-    let alias = is_hidden(fit, wave) && COLOUR * remains.third_noise > remains.variance();
+    let alias = is_hidden(wave) && COLOUR * remains.third_noise > wave.record.residual;
     !is_significant(wave) || strange > STRANGER * explained || alias
 }
 
 /// True when there is more noise than wave.
-pub(crate) fn is_hidden(fit: &Fit, wave: &Standing) -> bool {
-    fit.remains.variance() > wave.record.main.value * wave.record.main.value
+pub(crate) fn is_hidden(wave: &Standing) -> bool {
+    wave.record.residual > wave.record.main.value * wave.record.main.value
 }
 
 /// True when the main amplitude stands out of its own noise.

@@ -30,7 +30,8 @@ const BREAKS: Flags = Flags::REACQUIRED.with(Flags::PHASE_JUMP).with(Flags::STEP
 const SPLIT_SEEN: f64 = 3.0;
 /// A decay of fewer deviations than this is none.
 const DECAY_SEEN: f64 = 3.0;
-/// Rows that follow each other are alike by fewer deviations than this: that is noise.
+/// Rows that follow each other are alike by this, where their windows overlap by a tenth unseen, and fewer deviations than this: that is noise.
+const ALIKE: f64 = 0.1;
 const ALIKE_SEEN: f64 = 5.0;
 
 /// `antinode resonator`.
@@ -246,7 +247,7 @@ fn tell(out: &mut impl Write, rows: &Runs, found: &Found) -> io::Result<()> {
             "warning: rows differ from the resonator's motion by {:.1} times their noise: {why}; the deviations above are wider by that",
             found.residual
         )?;
-    } else if found.alike > ALIKE_SEEN / (3.0 * rows.used() as f64).sqrt() {
+    } else if found.alike > ALIKE + ALIKE_SEEN / (3.0 * rows.used() as f64).sqrt() {
         writeln!(
             out,
             "warning: rows that follow each other differ from the resonator's motion alike, which noise does not: {why}; the values may be \

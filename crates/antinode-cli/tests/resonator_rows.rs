@@ -247,3 +247,18 @@ fn pick_offs_that_are_not_calibrated_are_told_long_before_rows_are_far_off() {
         );
     }
 }
+
+#[test]
+fn rows_that_overlap_by_a_block_are_not_taken_for_a_change() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // Blocks of 7 or 8 samples a period of 7.5: ten of them are now and then less than a window of ten periods.
+    rows(
+        here,
+        "--seconds 8 --rate 40000 --noise 0.002 --decay-rate 0.1 --frequency 5340",
+        "--periods 10 --hum --hop 10",
+    );
+    let found = run(here, "resonator rows.csv");
+    assert_eq!(found.code, 0);
+    assert!(!found.err.contains("warning"), "{}", found.err);
+}

@@ -20,8 +20,10 @@ const STEPS: usize = 100;
 /// The last step takes less than this off the squares of the residual, in squares of deviations as they are stated: it moves by less than a
 /// hundredth of one.
 const SETTLED: f64 = 1e-4;
-/// Or than this in squares of the rows' own deviations: nearer, steps need not lead down, as derivatives leave out what a window averages.
-const SETTLED_OF_ROWS: f64 = 1e-2;
+/// Or than this where no step leads down any more: the derivatives leave out what a window averages.
+const SETTLED_AT_FOOT: f64 = 1e-2;
+/// Steps that are damped by this are none.
+const FOOT: f64 = 1e3;
 /// Rows tell a split that they know to so many times the damping: that of damping, and that of frequency.
 const TOLD: [f64; 2] = [0.2, 1.0];
 /// Or, that of frequency, to this share of what is seen of it.
@@ -101,10 +103,10 @@ fn is_told(runs: usize, covariance: &DMatrix<f64>, each: &Found) -> bool {
 fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Result<Found, Unsettled> {
     let mut normal = Normal::of(runs, model, &values);
     let mut damping = 1e-3;
+    let mut most = SETTLED;
     for _ in 0..STEPS {
         let whole = normal.step(0.0).ok_or(Unsettled)?;
-        let settled = SETTLED * normal.widening(runs, &values);
-        if normal.right.dot(&whole) < settled.max(SETTLED_OF_ROWS) {
+        if normal.right.dot(&whole) < most * normal.widening(runs, &values) {
             let values = values + whole;
             return Normal::of(runs, model, &values).conclude(runs, model, values);
         }
@@ -114,8 +116,12 @@ fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Result<Found,
         if next.squares < normal.squares {
             (values, normal) = (moved, next);
             damping *= 0.1;
+            most = SETTLED;
         } else {
             damping *= 10.0;
+            if damping > FOOT {
+                most = SETTLED_AT_FOOT;
+            }
         }
     }
     Err(Unsettled)

@@ -6,6 +6,7 @@ mod solve;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
+use antinode::Flags;
 use clap::Args;
 
 use crate::failure::Failure;
@@ -33,7 +34,7 @@ pub struct Calibrate {
 /// Finds the calibration and prints it as options.
 pub fn run(options: &Calibrate) -> Result<(), Failure> {
     let corrected = PickOffs::from(&options.corrected);
-    let (rows, name) = Runs::open(&options.rows, MOST_TURN)?;
+    let (rows, name) = Runs::open(&options.rows, MOST_TURN, Flags::REACQUIRED)?;
     let runs: Vec<_> = rows
         .runs
         .iter()

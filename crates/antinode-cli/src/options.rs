@@ -62,6 +62,9 @@ pub enum Command {
     /// less than 22.5° in one. A pattern at rest tells the decay time along it. Ring-downs at pattern angles of 0°, 22.5° and 45°, or of a
     /// pattern that turns, tell both splits too: how far the decay rates and the frequencies of the two modes are apart, and the
     /// pattern angle at which each is greatest. What rotation turns each run's pattern by is found beside them.
+    ///
+    /// A run ends where the wave was lost or jumps: one recording may hold several ring-downs, and samples that are missing leave the
+    /// rates right.
     Resonator(Resonator),
     /// Draws rows over time: both amplitudes, pattern angle, frequency and residual, with their deviations and flags.
     ///

@@ -1,6 +1,8 @@
 //! `antinode resonator`: rows of ring-downs in, quality factor and splits out.
 
 mod fit;
+mod found;
+mod frequency;
 mod model;
 mod motion;
 
@@ -8,21 +10,29 @@ use std::f64::consts::{PI, TAU};
 use std::io::{self, Write};
 use std::path::PathBuf;
 
+use antinode::Flags;
 use clap::Args;
 use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::fixed::{significant, with_std};
 use crate::options::Format;
-use crate::runs::{BEYOND_NOISE, Row as Identified, Runs};
-use fit::{Found, Measured, fit};
+use crate::runs::{BEYOND_NOISE, Runs};
+use fit::fit;
+use found::{Found, Measured};
+use frequency::frequency;
 
 /// The pattern turns by no more than this from row to row, rad: half of what leaves it known.
 const MOST_TURN: f64 = PI / 8.0;
+/// Flags of rows after which the pattern, or the time since the last row, is another: excited anew, or samples are missing.
+const BREAKS: Flags = Flags::REACQUIRED.with(Flags::PHASE_JUMP).with(Flags::STEP);
 /// A split of fewer deviations than this has no angle.
 const SPLIT_SEEN: f64 = 3.0;
 /// A decay of fewer deviations than this is none.
 const DECAY_SEEN: f64 = 3.0;
+/// Rows that follow each other are alike by this, where their windows overlap by a tenth unseen, and fewer deviations than this: that is noise.
+const ALIKE: f64 = 0.1;
+const ALIKE_SEEN: f64 = 5.0;
 
 /// `antinode resonator`.
 #[derive(Debug, Args)]
@@ -92,13 +102,7 @@ impl From<&Quantity> for Row {
 
 /// Finds the resonator and prints it.
 pub fn run(options: &Resonator) -> Result<(), Failure> {
-    let (rows, name) = Runs::open(&options.rows, MOST_TURN)?;
-    if rows.runs.is_empty() {
-        return Err(Failure::Recording(format!(
-            "{name}: no dozen of clean rows in which the pattern turns by less than 22.5° from row to row; see their flags, and shorten the \
-             windows where it turns faster"
-        )));
-    }
+    let (rows, name) = Runs::open(&options.rows, MOST_TURN, BREAKS)?;
     let found = fit(&rows.runs).map_err(|_| {
         Failure::Recording(format!(
             "{name}: no resonator explains the rows: see that nothing drives the gyro while it rings down, and leave out rows that lie far off all others"
@@ -140,7 +144,7 @@ fn quantities(rows: &Runs, found: &Found) -> Vec<Quantity> {
             std,
         });
     };
-    let mean_frequency = frequency(rows);
+    let mean_frequency = frequency(rows, found);
     let (frequency, _) = mean_frequency;
     let resonator = found.resonator();
     for index in 0..rows.runs.len() {
@@ -176,32 +180,6 @@ fn quantities(rows: &Runs, found: &Found) -> Vec<Quantity> {
         }
     }
     list
-}
-
-/// The mean frequency, of which each row tells as much as its deviation says; wider where rows differ by more than that.
-fn frequency(rows: &Runs) -> Measured {
-    let all = || rows.runs.iter().flat_map(|run| &run.rows);
-    let is_told = all().all(|row| row.frequency_deviation.is_finite());
-    let weight = |row: &Identified| {
-        if is_told {
-            row.frequency_deviation.powi(-2)
-        } else {
-            1.0
-        }
-    };
-    let weights: f64 = all().map(weight).sum();
-    // From one of them on, for the digits.
-    let from = rows.runs[0].rows[0].frequency;
-    let mean = all()
-        .map(|row| weight(row) * (row.frequency - from))
-        .sum::<f64>()
-        / weights;
-    let squares: f64 = all()
-        .map(|row| weight(row) * (row.frequency - from - mean).powi(2))
-        .sum();
-    let scatter = squares / (rows.used() - 1) as f64;
-    let widened = if is_told { scatter.max(1.0) } else { scatter };
-    (from + mean, (widened / weights).sqrt())
 }
 
 /// The inverse of a rate.
@@ -262,12 +240,18 @@ fn tell(out: &mut impl Write, rows: &Runs, found: &Found) -> io::Result<()> {
              pattern that turns by 45° and more"
         )?;
     }
+    let why = "the rotation or the damping changes meanwhile, or the pick-offs are not calibrated";
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,
-            "warning: rows differ from the resonator's motion by {:.1} times their noise: the rotation or the damping changes meanwhile, or the \
-             pick-offs are not calibrated; the deviations above are wider by that",
+            "warning: rows differ from the resonator's motion by {:.1} times their noise: {why}; the deviations above are wider by that",
             found.residual
+        )?;
+    } else if found.alike > ALIKE + ALIKE_SEEN / (3.0 * rows.used() as f64).sqrt() {
+        writeln!(
+            out,
+            "warning: rows that follow each other differ from the resonator's motion alike, which noise does not: {why}; the values may be \
+             further off than the deviations above"
         )?;
     }
     Ok(())

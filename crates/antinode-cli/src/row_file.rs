@@ -71,9 +71,14 @@ impl<R: Read> RowFile<R> {
 
     /// The next row; none at the end.
     pub fn next(&mut self) -> Result<Option<&StringRecord>, Failure> {
-        let more = self.reader.read_record(&mut self.record);
-        let more = more.map_err(|error| unreadable(&self.name, &error))?;
-        Ok(more.then_some(&self.record))
+        loop {
+            let more = self.reader.read_record(&mut self.record);
+            let more = more.map_err(|error| unreadable(&self.name, &error))?;
+            // Files that were put together bring their headers along.
+            if !more || self.record != self.header {
+                return Ok(more.then_some(&self.record));
+            }
+        }
     }
 
     /// What is told where the last row cannot be used.

@@ -66,37 +66,79 @@ pub struct Runs {
     pub rows: usize,
     /// Clean rows left out, for their windows overlap the one before: they would tell the same noise again.
     pub overlapping: usize,
+    /// Clean rows of a recording that are not later than the one before.
+    backward: usize,
     /// By how much the pattern turns from row to row at most, rad.
     most_turn: f64,
+    /// Flags of rows that the next one does not continue.
+    breaks: Flags,
 }
 
 impl Runs {
     /// Reads files of rows, `-` being standard input; gives their names too. A run ends where the pattern turns by more than `most_turn` rad
-    /// from row to row.
-    pub fn open(paths: &[PathBuf], most_turn: f64) -> Result<(Self, String), Failure> {
-        let mut runs = Self::new(most_turn);
+    /// from row to row, and at a row that has one of the flags `breaks`.
+    pub fn open(
+        paths: &[PathBuf],
+        most_turn: f64,
+        breaks: Flags,
+    ) -> Result<(Self, String), Failure> {
+        let mut runs = Self::new(most_turn, breaks);
         let mut names = Vec::new();
         for (index, path) in paths.iter().enumerate() {
             if paths[..index].contains(path) {
-                return Err(Failure::Recording(format!(
-                    "{} is given twice: its noise would seem to be less than it is; give it once",
-                    path.display()
-                )));
+                return Err(given_twice(&path.display().to_string()));
             }
             let file = RowFile::open(path)?;
             names.push(file.name().to_owned());
             runs.read(file)?;
         }
-        Ok((runs, names.join(", ")))
+        let names = names.join(", ");
+        if let Some(fault) = runs.fault(&names) {
+            return Err(fault);
+        }
+        Ok((runs, names))
     }
 
-    fn new(most_turn: f64) -> Self {
+    fn new(most_turn: f64, breaks: Flags) -> Self {
         Self {
             runs: Vec::new(),
             rows: 0,
             overlapping: 0,
+            backward: 0,
             most_turn,
+            breaks,
         }
+    }
+
+    /// Why nothing can be found in the rows, if so.
+    fn fault(&self, name: &str) -> Option<Failure> {
+        let recording = |why: String| Some(Failure::Recording(format!("{name}: {why}")));
+        if self.runs.is_empty() {
+            // Else rows that are out of order are seen as runs of a few.
+            if 3 * self.backward > self.rows {
+                return recording(format!(
+                    "time does not go on from row to row, {} times in {} rows; give each recording's rows once and in the order of their time",
+                    self.backward, self.rows
+                ));
+            }
+            return recording(format!(
+                "no dozen of clean rows in which the pattern turns by less than {:.1}° from row to row; see their flags, and shorten the \
+                 windows where it turns faster",
+                self.most_turn.to_degrees()
+            ));
+        }
+        // A copy by another name.
+        let same = self.runs.iter().enumerate().find_map(|(index, run)| {
+            let mut before = self.runs[..index].iter();
+            before.any(|other| run.is_copy(other)).then_some(run)
+        });
+        same.map(|run| {
+            given_twice(&format!(
+                "{name}: a run of {:.1} s with {} rows",
+                run.seconds(),
+                run.rows.len()
+            ))
+        })
     }
 
     /// Rows in runs.
@@ -130,22 +172,26 @@ impl Runs {
         let mut run = Run::default();
         while let Some(record) = rows.next()? {
             self.rows += 1;
-            let Some(row) = Row::parse(record, places, others) else {
-                return Err(rows.fault(
-                    "a time, amplitude, angle, frequency or deviation is no number, or an amplitude or a deviation not above 0",
-                ));
-            };
             if !record[flags].is_empty() {
-                // What was lost may come back anywhere: the next row does not continue the last.
-                if has_flag(&record[flags], Flags::REACQUIRED) {
+                if has_flag(&record[flags], self.breaks) {
                     self.end(&mut run);
                     present = None;
                 }
                 continue;
             }
+            // Only here: a flagged row need not have numbers.
+            let Some(row) = Row::parse(record, places, others) else {
+                return Err(rows.fault(
+                    "a time, amplitude, angle, frequency or deviation is no number, or an amplitude or a deviation not above 0",
+                ));
+            };
             let from = file.map_or("", |file| &record[file]);
             let turn = match &present {
-                Some((before, angle)) if before == from && run.is_before(row.time) => {
+                Some((before, _)) if before == from && !run.is_before(row.time) => {
+                    self.backward += 1;
+                    f64::INFINITY
+                }
+                Some((before, angle)) if before == from => {
                     if run.overlaps(&row) {
                         self.overlapping += 1;
                         continue;
@@ -188,10 +234,24 @@ impl Run {
         last.is_some_and(|last| row.time - last.time < 0.5 * APART * last.seconds + apart)
     }
 
+    /// True when both have the same rows, as far as the shorter one goes.
+    fn is_copy(&self, other: &Self) -> bool {
+        let numbers = |row: &Row| [row.time, row.main, row.quadrature, row.angle];
+        let mut pairs = self.rows.iter().zip(&other.rows);
+        pairs.all(|(one, other)| numbers(one) == numbers(other))
+    }
+
     /// True when the last row, if any, is earlier.
     fn is_before(&self, time: f64) -> bool {
         self.rows.last().is_none_or(|last| last.time < time)
     }
+}
+
+/// What is told of rows that come twice.
+fn given_twice(what: &str) -> Failure {
+    Failure::Recording(format!(
+        "{what} is given twice: its noise would seem to be less than it is; give it once"
+    ))
 }
 
 /// An angle's change, known modulo π/2: −π/4 to π/4.

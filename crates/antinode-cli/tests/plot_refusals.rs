@@ -118,3 +118,20 @@ fn what_cannot_be_written_is_told_and_harms_nothing() {
     drawn(here, &rows, "1 row of a; 0 flagged");
     assert_eq!(names(here), ["it.svg"]);
 }
+
+#[test]
+fn numbers_beyond_what_an_axis_can_hold_end_too() {
+    let directory = tempfile::tempdir().unwrap();
+    for number in ["1e308", "-1.7e308", "1e-310"] {
+        for place in 0..4 {
+            let mut fields = ["1", "0.5", "0.01", "0.3"].map(str::to_owned);
+            fields[place] = number.to_owned();
+            let rows = format!(
+                "{HEADER}0,0.5,0.01,0,0,5332,0.1,,a\n{},0,5332,0.1,,a\n",
+                fields.join(",")
+            );
+            let drawn = run_with(directory.path(), "plot - -o it.svg", rows.into());
+            assert_eq!(drawn.code, 0, "{number} {place}: {}", drawn.err);
+        }
+    }
+}

@@ -1,11 +1,12 @@
-//! `antinode resonator`: what it makes of rows that overlap, that end in noise, that come twice, or of which one is wild.
+//! `antinode resonator`: what it makes of rows that overlap, that end in noise, that come twice, of which one is wild, or of
+//! recordings that are not one ring-down.
 
 mod common;
 
 use std::fs;
 use std::path::Path;
 
-use common::run;
+use common::{run, run_with};
 
 /// Rows of a simulated ring-down, in a file.
 fn rows(here: &Path, simulated: &str, identified: &str) {
@@ -111,4 +112,153 @@ fn a_wild_row_and_rows_given_twice_are_refused() {
         "{}",
         found.err
     );
+}
+
+/// Samples of a simulated ring-down of 3 s, as `--raw i16` takes them.
+fn samples(here: &Path, simulated: &str) -> Vec<u8> {
+    let made = run(
+        here,
+        &format!("simulate -o it.wav --seconds 3 --noise 0.002 --decay-rate 0.1 {simulated}"),
+    );
+    assert_eq!(made.code, 0, "{}", made.err);
+    // Behind the header.
+    fs::read(here.join("it.wav")).unwrap().split_off(44)
+}
+
+#[test]
+fn ring_downs_in_one_recording_are_runs_of_their_own() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let [first, second] =
+        ["--angle 0.3", "--angle 0.4 --phase 2 --seed 2"].map(|wave| samples(here, wave));
+    // Nothing at all between them, and exact silence, whose rows hold `NaN`.
+    for silence in [0, 400_000] {
+        let recording = [first.clone(), vec![0; silence], second.clone()].concat();
+        let rows = run_with(
+            here,
+            "identify - --raw i16 --rate 100000 --periods 50 --output csv",
+            recording,
+        );
+        assert_eq!(rows.code, 0, "{}", rows.err);
+        assert_eq!(rows.out.contains("NaN"), silence > 0);
+        let found = run_with(here, "resonator - --output csv", rows.out.clone().into());
+        assert!(
+            found.code == 0 && !found.err.contains("warning"),
+            "{}",
+            found.err
+        );
+        for run in ["1", "2"] {
+            let line = found
+                .out
+                .lines()
+                .find_map(|line| line.strip_prefix(&format!("{run},decay_time_s,")));
+            let (value, std) = line
+                .and_then(|line| line.split_once(','))
+                .expect(&found.out);
+            let [value, std] = [value, std].map(|number| number.parse::<f64>().unwrap());
+            assert!(
+                (value - 10.0).abs() < 4.0 * std && std < 0.02,
+                "{}",
+                found.out
+            );
+        }
+        let calibrated = run_with(here, "calibrate -", rows.out.into());
+        assert!(
+            calibrated.err.contains("must by 90° or more"),
+            "{}",
+            calibrated.err
+        );
+    }
+}
+
+#[test]
+fn samples_that_are_missing_leave_the_rates_right() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // A hundredth of the time, in two places: what is left seems to turn and decay faster.
+    rows(
+        here,
+        "--seconds 6 --noise 0.002 --decay-rate 0.1 --angle-rate 0.4 --lost 200000:3007 --lost 400000:3007",
+        "--periods 50",
+    );
+    let found = run(here, "resonator rows.csv --output csv");
+    assert_eq!(found.code, 0, "{}", found.err);
+    for run in ["1", "2", "3"] {
+        let line = found
+            .out
+            .lines()
+            .find_map(|line| line.strip_prefix(&format!("{run},rotation_rad_s,")));
+        let (value, std) = line
+            .and_then(|line| line.split_once(','))
+            .expect(&found.out);
+        let [value, std] = [value, std].map(|number| number.parse::<f64>().unwrap());
+        assert!(
+            (value - 0.4).abs() < 4.0 * std && std < 2e-3,
+            "{}",
+            found.out
+        );
+    }
+}
+
+#[test]
+fn the_mean_frequency_is_that_of_both_modes_wherever_the_patterns_stand() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let mut all = String::new();
+    for (index, angle) in [-0.3, 0.0, 0.1].into_iter().enumerate() {
+        let simulated = format!(
+            "--seconds 4 --noise 0.002 --decay-rate 0.1 --frequency-split 0.02 --frequency-angle -0.3 --angle {angle} --seed {index}"
+        );
+        rows(here, &simulated, "--periods 50");
+        all += &fs::read_to_string(here.join("rows.csv")).unwrap();
+    }
+    let found = run_with(here, "resonator - --output csv", all.into());
+    assert_eq!(found.err, "");
+    // Along their patterns it is 10 mHz, 4 mHz and 0.3 mHz higher.
+    let (frequency, std) = of_resonator(&found.out, "frequency_hz");
+    assert!(
+        (frequency - 5332.0).abs() < 4.0 * std && std < 1e-3,
+        "{}",
+        found.out
+    );
+}
+
+#[test]
+fn pick_offs_that_are_not_calibrated_are_told_long_before_rows_are_far_off() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (gain, is_told) in [("1", false), ("1.001", true)] {
+        let mut both = String::new();
+        for rate in ["0.4", "-0.4"] {
+            let simulated = format!(
+                "--seconds 6 --noise 0.002 --decay-rate 0.1 --angle-rate {rate} --gain-ratio {gain}"
+            );
+            rows(here, &simulated, "--periods 50");
+            both += &fs::read_to_string(here.join("rows.csv")).unwrap();
+        }
+        let found = run_with(here, "resonator - --output csv", both.into());
+        let (residual, _) = of_resonator(&found.out, "residual_over_noise");
+        assert!(residual < 2.0, "{}", found.out);
+        assert_eq!(
+            found.err.contains("not calibrated"),
+            is_told,
+            "{}",
+            found.err
+        );
+    }
+}
+
+#[test]
+fn rows_that_overlap_by_a_block_are_not_taken_for_a_change() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // Blocks of 7 or 8 samples a period of 7.5: ten of them are now and then less than a window of ten periods.
+    rows(
+        here,
+        "--seconds 8 --rate 40000 --noise 0.002 --decay-rate 0.1 --frequency 5340",
+        "--periods 10 --hum --hop 10",
+    );
+    let found = run(here, "resonator rows.csv");
+    assert_eq!(found.code, 0);
+    assert!(!found.err.contains("warning"), "{}", found.err);
 }

@@ -81,8 +81,6 @@ pub struct Found {
 /// Why nothing was found.
 #[derive(Debug, PartialEq)]
 pub enum Fault {
-    /// No run of clean rows is long enough.
-    NoRows,
     /// The most that a run turns, rad.
     Still(f64),
     /// The steps do not settle.
@@ -93,10 +91,6 @@ impl Fault {
     /// The failure of a file.
     pub fn of(&self, name: &str) -> Failure {
         Failure::Recording(match self {
-            Self::NoRows => format!(
-                "{name}: no dozen of clean rows in which the pattern turns by less than 0.1 rad from row to row; see their flags, and shorten \
-                 the windows where it turns faster"
-            ),
             Self::Still(turned) => format!(
                 "{name}: the pattern turns by {:.1}° only, but must by 90° or more: turn the gyro while it rings down",
                 turned.to_degrees()
@@ -111,9 +105,6 @@ impl Fault {
 
 /// Finds the calibration that lets energy and quadrature run evenly; `start` is where the search begins.
 pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
-    if runs.is_empty() {
-        return Err(Fault::NoRows);
-    }
     let turned = runs.iter().fold([0f64; 2], |[back, forth], run| {
         [back.min(run.turned), forth.max(run.turned)]
     });

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::reduce::{Piece, Sample, column, reduce};
 use super::rows::{COLUMNS, Row, Trace, Trust, median};
-use super::scale::{Extent, decimals, factor, frequency_unit};
+use super::scale::{Extent, decimals, drawable, factor, frequency_unit};
 
 /// Titles of the panels, in the order of [`COLUMNS`].
 const TITLES: [&str; COLUMNS.len()] = [
@@ -122,11 +122,10 @@ fn time_scale(span: &Range<f64>, first: f64) -> (Scale, String) {
 
 /// What is drawn of a row's quantity; none where it has no number.
 fn sample(row: &Row, quantity: usize) -> Option<(f64, f64)> {
-    let value = row.values[quantity];
+    let value = drawable(row.values[quantity])?;
     let deviation = f64::from(row.deviations[quantity]);
     let known = deviation.is_finite() && deviation > 0.0;
-    (row.trust != Trust::Lost && value.is_finite())
-        .then_some((value, if known { deviation } else { 0.0 }))
+    (row.trust != Trust::Lost).then_some((value, if known { deviation } else { 0.0 }))
 }
 
 fn panel(

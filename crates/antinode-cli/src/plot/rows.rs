@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use antinode::Flags;
 use csv::StringRecord;
 
+use super::scale::drawable;
 use crate::failure::Failure;
 use crate::row_file::{RowFile, has_flag};
 
@@ -112,7 +113,7 @@ pub fn read(mut rows: RowFile<impl Read>) -> Result<Vec<Trace>, Failure> {
                 traces.push(Trace { name, rows });
             }
         }
-        if row.time.is_finite() {
+        if drawable(row.time).is_some() {
             traces[present].rows.push(row);
         }
     }

@@ -6,6 +6,15 @@ use std::ops::Range;
 const BEYOND: f64 = 0.5;
 /// A range's least span in deviations.
 const DEVIATIONS: f64 = 4.0;
+/// Numbers from this size on cannot be drawn, and up to this one they are 0.
+const GREATEST: f64 = 1e290;
+const LEAST: f64 = 1e-280;
+
+/// A number as an axis can hold it: the steps of one that is too large or too small are none.
+pub fn drawable(number: f64) -> Option<f64> {
+    let size = number.abs();
+    (size < GREATEST).then_some(if size > LEAST { number } else { 0.0 })
+}
 
 /// Gathers the values that a range is to hold.
 #[derive(Debug)]

@@ -6,7 +6,8 @@
 
 use nalgebra::{Cholesky, Complex, DMatrix, DVector, Dyn};
 
-use super::model::{Model, Term};
+use super::found::Found;
+use super::model::{Model, Term, parameters};
 use super::motion::{Motion, PARAMETERS};
 use crate::runs::{Run, turn};
 
@@ -19,100 +20,18 @@ const STEPS: usize = 100;
 /// The last step takes less than this off the squares of the residual, in squares of deviations as they are stated: it moves by less than a
 /// hundredth of one.
 const SETTLED: f64 = 1e-4;
+/// Or than this where no step leads down any more: the derivatives leave out what a window averages.
+const SETTLED_AT_FOOT: f64 = 1e-2;
+/// Steps that are damped by this are none.
+const FOOT: f64 = 1e3;
 /// Rows tell a split that they know to so many times the damping: that of damping, and that of frequency.
 const TOLD: [f64; 2] = [0.2, 1.0];
 /// Or, that of frequency, to this share of what is seen of it.
 const TOLD_SHARE: f64 = 0.1;
 
-/// What was found.
-#[derive(Debug)]
-pub struct Found {
-    /// What the runs share.
-    model: Model,
-    values: DVector<f64>,
-    /// Of the values, widened where the residual is beyond the rows' own deviations.
-    covariance: DMatrix<f64>,
-    /// The rms residual over the rows' own deviations: 1 where there is nothing but noise.
-    pub residual: f64,
-    /// The means of R/E and of S/E over each run.
-    shares: Vec<[f64; 2]>,
-}
-
-/// A value and its standard deviation.
-pub type Measured = (f64, f64);
-
-/// What the runs share.
-#[derive(Debug)]
-pub struct Resonator {
-    /// The mean 1/τ of both modes, 1/s.
-    pub decay: Measured,
-    /// The split of damping, 1/s, and the angle at which damping is greatest, rad.
-    pub damping_split: [Measured; 2],
-    /// The split of frequency, rad/s, and the angle at which the frequency is highest, rad.
-    pub frequency_split: [Measured; 2],
-    /// What rotation turns the pattern of each run by, rad/s.
-    pub rotations: Vec<Measured>,
-}
-
 /// The steps do not settle.
 #[derive(Debug, PartialEq)]
 pub struct Unsettled;
-
-impl Found {
-    /// A value whose derivatives by the unknowns are these.
-    fn measured(&self, value: f64, gradient: &[(usize, f64)]) -> Measured {
-        let mut variance = 0.0;
-        for (i, left) in gradient {
-            for (j, right) in gradient {
-                variance += left * right * self.covariance[(*i, *j)];
-            }
-        }
-        (value, variance.max(0.0).sqrt())
-    }
-
-    /// A sum of unknowns.
-    fn sum(&self, terms: &[(usize, f64)]) -> Measured {
-        let value = terms.iter().map(|&(index, by)| by * self.values[index]);
-        self.measured(value.sum(), terms)
-    }
-
-    /// 1/τ along the pattern of a run, 1/s.
-    pub fn decay_of_run(&self, run: usize) -> Measured {
-        let mut terms = vec![(self.model.decay_at(run), 1.0)];
-        if self.model == Model::Shared {
-            let shares = self.shares[run].iter().enumerate();
-            terms.extend(shares.map(|(i, share)| (Model::DAMPING + i, 0.5 * share)));
-        }
-        self.sum(&terms)
-    }
-
-    /// What the runs share, where they tell it.
-    pub fn resonator(&self) -> Option<Resonator> {
-        (self.model == Model::Shared).then(|| Resonator {
-            decay: self.sum(&[(self.model.decay_at(0), 1.0)]),
-            damping_split: self.split(Model::DAMPING),
-            frequency_split: self.split(Model::FREQUENCY),
-            rotations: (0..self.shares.len())
-                .map(|run| self.sum(&[(self.model.own_at(run), -0.5)]))
-                .collect(),
-        })
-    }
-
-    /// The size of a split whose parts along cosine and sine stand at `at`, and its angle.
-    fn split(&self, at: usize) -> [Measured; 2] {
-        let (c, s) = (self.values[at], self.values[at + 1]);
-        let size = c.hypot(s).max(f64::MIN_POSITIVE);
-        let (cosine, sine) = (c / size, s / size);
-        let turned = 0.25 / size;
-        [
-            self.measured(size, &[(at, cosine), (at + 1, sine)]),
-            self.measured(
-                0.25 * s.atan2(c),
-                &[(at, -turned * sine), (at + 1, turned * cosine)],
-            ),
-        ]
-    }
-}
 
 /// Finds the resonator whose waves come nearest to the rows.
 pub fn fit(runs: &[Run]) -> Result<Found, Unsettled> {
@@ -184,9 +103,10 @@ fn is_told(runs: usize, covariance: &DMatrix<f64>, each: &Found) -> bool {
 fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Result<Found, Unsettled> {
     let mut normal = Normal::of(runs, model, &values);
     let mut damping = 1e-3;
+    let mut most = SETTLED;
     for _ in 0..STEPS {
         let whole = normal.step(0.0).ok_or(Unsettled)?;
-        if normal.right.dot(&whole) < SETTLED * normal.widening(runs, &values) {
+        if normal.right.dot(&whole) < most * normal.widening(runs, &values) {
             let values = values + whole;
             return Normal::of(runs, model, &values).conclude(runs, model, values);
         }
@@ -196,8 +116,12 @@ fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Result<Found,
         if next.squares < normal.squares {
             (values, normal) = (moved, next);
             damping *= 0.1;
+            most = SETTLED;
         } else {
             damping *= 10.0;
+            if damping > FOOT {
+                most = SETTLED_AT_FOOT;
+            }
         }
     }
     Err(Unsettled)
@@ -209,6 +133,8 @@ struct Normal {
     right: DVector<f64>,
     /// What is left, in squares of deviations.
     squares: f64,
+    /// Sum of the products of what is left of rows that follow each other.
+    neighbours: f64,
     shares: Vec<[f64; 2]>,
 }
 
@@ -219,6 +145,7 @@ impl Normal {
             matrix: DMatrix::zeros(unknowns, unknowns),
             right: DVector::zeros(unknowns),
             squares: 0.0,
+            neighbours: 0.0,
             shares: Vec::with_capacity(runs.len()),
         };
         for (index, run) in runs.iter().enumerate() {
@@ -229,13 +156,8 @@ impl Normal {
 
     /// Adds the rows of a run.
     fn add(&mut self, run: &Run, terms: &[Term], values: &DVector<f64>) {
-        let mut parameters = [0.0; PARAMETERS];
-        for (place, direction) in terms {
-            for (parameter, by) in parameters.iter_mut().zip(direction) {
-                *parameter += by * values[*place];
-            }
-        }
-        let mut motion = Motion::new(&parameters);
+        let mut motion = Motion::new(&parameters(terms, values));
+        let mut before = [0.0; 3];
         let mut time = run.rows[0].time;
         let mut shares = [0.0; 2];
         // The run's own equations, for its unknowns in their order.
@@ -255,9 +177,10 @@ impl Normal {
                 row.quadrature - wave[1],
                 turn(row.angle - wave[2]),
             ];
-            for (line, (rest, deviation)) in rest.into_iter().zip(row.deviations).enumerate() {
-                let (rest, line) = (rest / deviation, derivatives.row(line) / deviation);
+            for (index, (rest, deviation)) in rest.into_iter().zip(row.deviations).enumerate() {
+                let (rest, line) = (rest / deviation, derivatives.row(index) / deviation);
                 self.squares += rest * rest;
+                self.neighbours += rest * std::mem::replace(&mut before[index], rest);
                 right += line.transpose() * rest;
                 matrix += line.transpose() * line;
             }
@@ -310,10 +233,13 @@ impl Normal {
         values: DVector<f64>,
     ) -> Result<Found, Unsettled> {
         let covariance = self.covariance().ok_or(Unsettled)?;
+        let rows: f64 = runs.iter().map(|run| run.rows.len() as f64).sum();
         Ok(Found {
             model,
             covariance: covariance * self.widening(runs, &values),
             residual: self.residual(runs, &values),
+            // What is far below the rows' own deviations does no harm.
+            alike: self.neighbours / self.squares.max(3.0 * rows),
             values,
             shares: self.shares,
         })

@@ -1,5 +1,7 @@
 //! Which unknowns the motion of each run has.
 
+use nalgebra::DVector;
+
 use super::motion::{PARAMETERS, RATES};
 use crate::runs::Run;
 
@@ -10,6 +12,17 @@ pub type Term = (usize, [f64; PARAMETERS]);
 const DECAY: usize = 0;
 const FREQUENCY: usize = 3;
 const KAPPA: usize = 5;
+
+/// The parameters of a run's motion whose unknowns are these, at some values of all.
+pub fn parameters(terms: &[Term], values: &DVector<f64>) -> [f64; PARAMETERS] {
+    let mut parameters = [0.0; PARAMETERS];
+    for (place, direction) in terms {
+        for (parameter, by) in parameters.iter_mut().zip(direction) {
+            *parameter += by * values[*place];
+        }
+    }
+    parameters
+}
 
 /// What the runs share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

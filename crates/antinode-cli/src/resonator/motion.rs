@@ -143,6 +143,14 @@ impl Motion {
         [state[1] / state[0], state[2] / state[0]]
     }
 
+    /// What one rad/s of δ c_τ, δ s_τ, Δω c_ω and Δω s_ω adds to the frequency now, rad/s: it is ½ Δω cos 4(θ−θ_ω) E/D − ½ δ sin 4(θ−θ_τ) Q/D.
+    pub fn frequency_by_splits(&self) -> [f64; 4] {
+        let [e, r, s, q] = self.columns.column(0).into_owned().into();
+        let apart = r * r + s * s;
+        [-q * s, q * r, e * r, e * s]
+            .map(|product: f64| 0.5 * product / apart.max(f64::MIN_POSITIVE))
+    }
+
     /// a_A, a_B and θ (−π/4 to π/4) now, and their derivatives by the rates and by what they started with.
     pub fn wave(&self) -> (Vector3<f64>, SMatrix<f64, 3, PARAMETERS>) {
         let [e, r, s, q] = self.columns.column(0).into_owned().into();

@@ -16,7 +16,7 @@ fn rows(file: &str, count: usize, turn: f64, flags: impl Fn(usize) -> &'static s
 }
 
 fn read(rows: &str) -> Runs {
-    let mut all = Runs::new(0.1);
+    let mut all = Runs::new(0.1, Flags::REACQUIRED);
     add(&mut all, &(HEADER.to_owned() + rows)).unwrap();
     all
 }
@@ -42,7 +42,7 @@ fn a_run_ends_with_its_file() {
     let (first, rest) = one.split_at(one.match_indices("a,0.2,").next().unwrap().0);
     let all = read(&(first.to_owned() + &rest.replace("a,", "b,")));
     assert_eq!(lengths(&all), [20, 20]);
-    let mut all = Runs::new(0.1);
+    let mut all = Runs::new(0.1, Flags::REACQUIRED);
     for turn in [0.05, -0.05] {
         let text = HEADER.to_owned() + &rows("a", 20, turn, |_| "");
         add(&mut all, &text).unwrap();
@@ -90,14 +90,49 @@ fn too_fast_a_turn_and_too_few_rows_are_no_run() {
 #[test]
 fn what_is_no_row_is_told_with_its_line() {
     let text = HEADER.to_owned() + &rows("a", 3, 0.01, |_| "").replace("0.01,0.5", "0.01,x");
-    let fault = add(&mut Runs::new(0.1), &text).unwrap_err();
+    let fault = add(&mut Runs::new(0.1, Flags::REACQUIRED), &text).unwrap_err();
     assert!(fault.to_string().contains("it, line 3: "), "{fault}");
     for (before, after, told) in [
         ("frequency_hz", "f", "no column frequency_hz"),
         ("flags", "state", "no column flags"),
     ] {
         let text = HEADER.replace(before, after);
-        let fault = add(&mut Runs::new(0.1), &text).unwrap_err();
+        let fault = add(&mut Runs::new(0.1, Flags::REACQUIRED), &text).unwrap_err();
         assert!(fault.to_string().contains(told), "{fault}");
     }
+}
+
+#[test]
+fn a_row_with_a_flag_need_not_have_numbers() {
+    let text = rows("a", 40, 0.0, |k| if k == 5 { "lost" } else { "" });
+    let text = text.replace("a,0.05,0.5,0.02,0,5332,", "a,0.05,0,NaN,NaN,inf,");
+    assert!(text.contains("inf"));
+    assert_eq!(lengths(&read(&text)), [39]);
+}
+
+#[test]
+fn headers_of_files_that_were_put_together_are_passed_over() {
+    let text = rows("a", 20, 0.01, |_| "") + HEADER + &rows("b", 30, 0.01, |_| "");
+    assert_eq!(lengths(&read(&text)), [20, 30]);
+}
+
+#[test]
+fn what_leaves_no_run_is_told() {
+    let told = |text: &str| read(text).fault("it").map(|fault| fault.to_string());
+    let few = rows("a", 11, 0.01, |_| "");
+    assert!(told(&few).unwrap().contains("no dozen of clean rows"));
+    let backwards: String = rows("a", 40, 0.01, |_| "")
+        .lines()
+        .rev()
+        .map(|line| format!("{line}\n"))
+        .collect();
+    let fault = told(&backwards).unwrap();
+    assert!(
+        fault.contains("time does not go on from row to row, 39 times in 40 rows"),
+        "{fault}"
+    );
+    // One recording by two names.
+    let copies = rows("a", 40, 0.01, |_| "") + &rows("b", 40, 0.01, |_| "");
+    assert!(told(&copies).unwrap().contains("given twice"));
+    assert_eq!(told(&rows("a", 40, 0.01, |_| "")), None);
 }

@@ -234,3 +234,19 @@ fn two_angles_for_a_short_time_do_not_tell_the_splits() {
     assert!(spread(&runs) > LEAST_SPREAD);
     assert!(fit(&runs).unwrap().resonator().is_none());
 }
+
+#[test]
+fn steps_settle_where_windows_turn_far_and_rows_are_not_quite_a_decay() {
+    let small = [0.1, -0.005, 0.0109, 0.0091, -0.0234];
+    for seed in 12..16 {
+        let step = 0.009377;
+        let mut run = run(&small, -60.0, [1.0, 0.04, 0.05], 639, step, 3e-4, seed);
+        for row in &mut run.rows {
+            row.seconds = step;
+            // Quadrature that grows by itself.
+            row.quadrature += 1e-3 * (row.time - 7.0);
+        }
+        let found = fit(&[run]).unwrap();
+        assert!(found.resonator().is_some(), "{seed}");
+    }
+}

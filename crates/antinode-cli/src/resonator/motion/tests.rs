@@ -1,5 +1,7 @@
 //! Against the two modes' own equations of motion, and derivatives against differences.
 
+use nalgebra::Complex;
+
 use super::*;
 
 /// A resonator with splits: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, κ.
@@ -148,4 +150,33 @@ fn a_window_averages_what_is_not_even() {
     let mut even = Motion::new(&[a, 0.0, 0.0, 0.0, 0.0, f, 0.8, -0.1, 0.6]);
     even.advance(1.3);
     assert!(even.averaged(1.0).norm() < 1e-9);
+}
+
+#[test]
+fn the_splits_move_the_frequency_as_they_turn_the_phase() {
+    // The phasors (1 to 3) in a frame that turns at the mean frequency: C + jS of each pick-off.
+    let [decay, dc, ds, wc, ws, _] = RATES_OF_ALL;
+    let (main, quadrature, angle) = (0.8f64, -0.3f64, 0.6f64);
+    let motion = Motion::new(&[decay, dc, ds, wc, ws, 0.0, main, quadrature, angle]);
+    let (sine, cosine) = (2.0 * angle).sin_cos();
+    let wave = [
+        Complex::new(main * cosine, quadrature * sine),
+        Complex::new(main * sine, -quadrature * cosine),
+    ];
+    let part = |c: f64, s: f64| [c * wave[0] + s * wave[1], s * wave[0] - c * wave[1]];
+    let (damped, faster) = (part(-0.5 * dc, -0.5 * ds), part(0.5 * wc, 0.5 * ws));
+    let slope = [0, 1].map(|i| damped[i] + faster[i] * Complex::i());
+    // 2Φ = arg z₊ + arg z₋ of both travelling waves.
+    let rate = |sign: f64| {
+        let of = |[c, d]: [Complex<f64>; 2]| c + d * Complex::new(0.0, sign);
+        (of(slope) / of(wave)).im
+    };
+    let expected = 0.5 * (rate(1.0) + rate(-1.0));
+    let by = motion.frequency_by_splits();
+    let found: f64 = by
+        .iter()
+        .zip([dc, ds, wc, ws])
+        .map(|(by, of)| by * of)
+        .sum();
+    assert!((found - expected).abs() < 1e-12, "{found} {expected}");
 }

@@ -43,22 +43,29 @@ pub(super) fn of_head(source: &mut dyn Source) -> (Vec<[f32; 2]>, Option<f32>, O
 
 /// Whether both channels have too few values to tell a step.
 fn is_silent(pairs: &[[f32; 2]]) -> bool {
-    (0..2).all(|channel| values(pairs.iter().map(|pair| pair[channel])).0.len() < FEWEST)
+    (0..2).all(|channel| {
+        let mut values = Vec::with_capacity(FEWEST);
+        let samples = pairs.iter().map(|pair| pair[channel]);
+        for sample in samples.filter(|sample| sample.is_finite()) {
+            if !values.contains(&sample) {
+                values.push(sample);
+            }
+            // Mostly after as many samples: nothing is sorted for it.
+            if values.len() == FEWEST {
+                return false;
+            }
+        }
+        true
+    })
 }
 
-/// The different values among finite samples in order, and how many samples there are.
-fn values(samples: impl Iterator<Item = f32>) -> (Vec<f32>, usize) {
+/// The greatest step of which all distances between samples are whole multiples, within the rounding of the text.
+fn step(samples: impl Iterator<Item = f32>) -> Option<f32> {
     let mut values: Vec<f32> = samples.filter(|sample| sample.is_finite()).collect();
     let count = values.len();
     values.sort_unstable_by(f32::total_cmp);
     // Zeros of both signs are one.
     values.dedup_by(|a, b| a == b);
-    (values, count)
-}
-
-/// The greatest step of which all distances between samples are whole multiples, within the rounding of the text.
-fn step(samples: impl Iterator<Item = f32>) -> Option<f32> {
-    let (values, count) = values(samples);
     if values.len() < FEWEST {
         return None;
     }

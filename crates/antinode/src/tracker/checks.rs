@@ -51,13 +51,13 @@ fn is_significant(wave: &Standing) -> bool {
 
 /// Tests of one window by itself and against the noise of those before.
 ///
-/// `variance` is the noise variance that it leaves, `coding` what the converter's steps may add; the next window begins `advance` blocks
-/// later.
+/// `variance` is the noise variance that it leaves, `stated` that for which it states its deviations, `coding` what the converter's steps
+/// may add; the next window begins `advance` blocks later.
 pub(crate) fn within(
     model: &Model,
     fit: &Fit,
     wave: &Standing,
-    [variance, coding]: [f32; 2],
+    [variance, stated, coding]: [f32; 3],
     noise: &mut Noise,
     advance: u16,
 ) -> Flags {
@@ -121,7 +121,7 @@ pub(crate) fn within(
     flags = flags.with_if(round && significant, Flags::CIRCULAR);
 
     if flags.with(Flags::CIRCULAR) == Flags::CIRCULAR {
-        noise.learn(variance, wave.stated, wide, remains.freedom);
+        noise.learn(variance, stated, wide, remains.freedom);
     } else if flags.with(Flags::CIRCULAR) == Flags::MISFIT.with(Flags::CIRCULAR)
         && !(coloured || outlier || stepped)
         && fit.settled

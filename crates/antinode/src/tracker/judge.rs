@@ -36,17 +36,21 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let errors = rounding * rounding * (1.0 + model.half) + coding.expected;
         let samples = u32::from(self.count) * u32::from(model.layout.length);
         let middle = 2 * self.end - u64::from(samples) - 1;
-        let mut wave = Standing::new(model, fit, noise + errors, own, middle);
-        wave.stated = stated;
-        wave.record.share = (stated + errors) / wave.noise;
-        let flags = self.judge(fit, coding.most, &mut wave)?;
+        let share = (stated + errors) / (noise + errors);
+        let mut wave = Standing::new(model, fit, [noise + errors, share], own, middle);
+        let flags = self.judge(fit, [coding.most, stated], &mut wave)?;
         Some(make(&self.units, &wave.record, flags))
     }
 
     /// Tests a window's wave and joins it to those before; none where the first window shows no wave. `coding` is the noise variance that
-    /// the converter's steps may add.
+    /// the converter's steps may add, `stated` that for which the window states its deviations.
     #[inline(never)]
-    fn judge(&mut self, fit: &Fit, coding: f32, wave: &mut Standing) -> Option<Flags> {
+    fn judge(
+        &mut self,
+        fit: &Fit,
+        [coding, stated]: [f32; 2],
+        wave: &mut Standing,
+    ) -> Option<Flags> {
         let model = self.model.as_ref()?;
         let is_no_wave = checks::is_no_wave(fit, wave, self.count, model.layout.length);
         if self.before.is_none() && is_no_wave {
@@ -66,7 +70,14 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
 
         let own = wave.record.residual;
         let advance = self.settings.hop.unwrap_or(self.count);
-        let mut flags = checks::within(model, fit, wave, [own, coding], &mut self.noise, advance);
+        let mut flags = checks::within(
+            model,
+            fit,
+            wave,
+            [own, stated, coding],
+            &mut self.noise,
+            advance,
+        );
         flags = flags.with(converter::sample_flags(
             &self.settings,
             self.gathered.blocks(),

@@ -10,7 +10,7 @@ pub(super) const RISE: f32 = 4.0;
 
 /// The noise variance of the clean windows before.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Noise {
+pub(super) struct Noise {
     pub(super) variance: f32,
     /// The mean of that and of the noise about the third harmonic, by degrees of freedom.
     pub(super) wide: f32,
@@ -23,7 +23,7 @@ pub(crate) struct Noise {
 
 impl Noise {
     /// None known.
-    pub(crate) const NONE: Self = Self {
+    pub(super) const NONE: Self = Self {
         variance: 0.0,
         wide: 0.0,
         freedom: 0.0,
@@ -48,7 +48,7 @@ impl Noise {
     /// The noise variance of a window, from its own of `freedom` degrees and that of the windows before, unless it is a new one: for tests,
     /// and for the deviations that are stated, which follow noise that changes.
     #[inline]
-    pub(crate) fn beside(&self, variance: f32, freedom: f32) -> [f32; 2] {
+    pub(super) fn beside(&self, variance: f32, freedom: f32) -> [f32; 2] {
         if self.is_exceeded(variance, freedom, 0.0) {
             return [variance; 2];
         }
@@ -78,7 +78,7 @@ impl Noise {
     }
 
     /// Forgets that windows raised their residual.
-    pub(crate) fn refuse_none(&mut self) {
+    pub(super) fn refuse_none(&mut self) {
         self.refused = 0;
     }
 

@@ -95,7 +95,7 @@ impl Record {
         let frequency = self.carrier.hertz(self.drift, units.turn);
         let rate = units.sample_rate;
         let root = |variance: f32| square_root(self.share * variance);
-        let share = rate / self.main.value;
+        let per_amplitude = rate / self.main.value;
         Estimate {
             start: (self.middle + 1 - u64::from(self.samples)) / 2,
             samples: self.samples,
@@ -106,7 +106,7 @@ impl Record {
             phase: self.phase,
             frequency,
             angle_rate: self.turning * rate,
-            decay_rate: -self.main.rate * share,
+            decay_rate: -self.main.rate * per_amplitude,
             offsets: self.offsets,
             main_amplitude_std: root(self.main.variance),
             quadrature_amplitude_std: root(self.quadrature.variance),
@@ -114,7 +114,7 @@ impl Record {
             phase_std: root(self.phase_variance),
             frequency_std: root(self.drift_variance) * rate * (1.0 / core::f32::consts::TAU),
             angle_rate_std: root(self.turning_variance) * rate,
-            decay_rate_std: root(self.main.rate_variance) * share,
+            decay_rate_std: root(self.main.rate_variance) * per_amplitude,
             residual_rms: square_root(self.residual),
             flags,
         }

@@ -19,8 +19,6 @@ pub(crate) struct Standing {
     pub record: Record,
     /// The noise variance a sample that all variances are for.
     pub noise: f32,
-    /// That of the deviations that are stated, without the errors of rounding and of the converter.
-    pub stated: f32,
     /// The smaller of |z₊|, |z₋|, with its variance.
     pub lesser: f32,
     pub lesser_variance: f32,
@@ -97,9 +95,16 @@ impl Shares {
 }
 
 impl Standing {
-    /// The standing wave of a fit whose noise variance a sample is `noise`, and of which `residual` is left; `middle` is that of its window.
+    /// The standing wave of a fit whose noise variance a sample is `noise`, and `share` of that where deviations are stated; `residual` is
+    /// what is left of it, and `middle` that of its window.
     #[inline(never)]
-    pub(crate) fn new(model: &Model, fit: &Fit, noise: f32, residual: f32, middle: u64) -> Self {
+    pub(crate) fn new(
+        model: &Model,
+        fit: &Fit,
+        [noise, share]: [f32; 2],
+        residual: f32,
+        middle: u64,
+    ) -> Self {
         let [plus, minus] = fit.waves.value;
         let [plus_change, minus_change] = fit.waves.change;
         let absolute = |z: Complex32| square_root(z.norm_sqr());
@@ -150,7 +155,7 @@ impl Standing {
                 angle_middle: middle,
                 samples: u32::from(model.blocks) * u32::from(model.layout.length),
                 residual,
-                share: 1.0,
+                share,
                 carrier: model.carrier,
                 drift: 0.5 * (plus_turn + minus_turn) * per_half,
                 drift_variance: 0.25 * drift * squared,
@@ -188,7 +193,6 @@ impl Standing {
                 },
             },
             noise,
-            stated: noise,
             lesser: lesser(p, m),
             lesser_variance: if p < m { size.plus } else { size.minus },
             drift_turning: 0.125 * (turn.plus - turn.minus),

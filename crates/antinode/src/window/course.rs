@@ -10,21 +10,13 @@ use crate::phase::Phase;
 /// Blocks from one exact exponential to the next; between them a recursion.
 pub(super) const CHUNK: usize = 5;
 
-/// One block's phasors, and what is left of its sums.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Here {
-    /// Time of the block's middle, −1 to 1 over the window.
-    pub u: f32,
-    /// The carrier at the block's middle.
-    pub unit: Complex32,
-    /// z₊ and z₋ there, turned with the carrier: their halves, which is what C sees of each.
-    pub waves: [Complex32; 2],
-    /// What a slope of the offset of the pick-off looked at adds to its odd sum there.
-    pub slope: f32,
-    /// What both pick-offs leave beside the waves: the sum of the squares.
-    pub power: f32,
-    /// The squared sums, from the first block to this one, of what is left along z.
-    pub run: f32,
+/// z₊ and z₋ at the middles of a chunk's blocks, turned with the carrier: their halves, which is what C sees of each.
+pub(super) type Course = [[Complex32; CHUNK]; 2];
+
+/// Both waves at one block of them.
+#[inline(always)]
+pub(super) fn at([plus, minus]: &Course, block: usize) -> [Complex32; 2] {
+    [plus[block], minus[block]]
 }
 
 /// A factor near 1, j, −1 or −j, and what it is of that beyond one: its own rounding, the same at every block, is then no bias.
@@ -65,58 +57,60 @@ impl Turn {
         self.whole + self.whole * self.beyond
     }
 
-    /// Multiplies by the factor, of which the whole part is 1 where `is_near`: mostly, for a block is about whole periods.
-    #[inline(always)]
-    fn apply(self, z: Complex32, is_near: bool) -> Complex32 {
-        let z = z + z * self.beyond;
-        if is_near { z } else { z * self.whole }
+    /// What one over this factor is beyond one over its whole part.
+    fn inverse(self) -> Complex32 {
+        let square = self.beyond.norm_sqr();
+        (self.beyond + square) * (-1.0 / (1.0 + 2.0 * self.beyond.re + square))
     }
 }
 
-/// Fills in the blocks from block `index` of a window on, up to [`CHUNK`].
+/// That of the blocks from block `index` of a window on, but for what [`mend`] adds: they may be more than the window has.
 #[inline(never)]
-pub(super) fn fill(model: &Model, waves: &Waves, index: usize, here: &mut [Here]) {
-    let Model { advance, turn, .. } = *model;
-    let (mut u, mut unit) = model.carrier(index);
+pub(super) fn course(model: &Model, waves: &Waves, index: usize) -> Course {
+    let (u, unit) = model.carrier(index + CHUNK / 2);
     let half = unit * 0.5;
-    let at = |w: usize| waves.value[w & 1] * (growth(waves.slope[w & 1] * u) + 1.0) * half;
-    let mut running = [at(0), at(1)];
-    // What a block does to each wave beyond what it does to the carrier.
-    let grown = |w: usize| turn.grown(growth(waves.slope[w & 1] * advance));
-    let turns = [grown(0), grown(1)];
-    let is_near = turn.whole == Complex32::ONE;
-    // Only residuals are turned by it: they have no digits to lose.
-    let turn = turn.rounded();
-    for here in &mut *here {
-        *here = Here {
-            u,
-            unit,
-            waves: running,
-            slope: 0.0,
-            power: 0.0,
-            run: 0.0,
-        };
-        u += advance;
-        unit *= turn;
-        running = [
-            turns[0].apply(running[0], is_near),
-            turns[1].apply(running[1], is_near),
-        ];
+    [
+        outwards(model, waves.value[0] * half, waves.slope[0], u),
+        outwards(model, waves.value[1] * half, waves.slope[1], u),
+    ]
+}
+
+/// A wave from its chunk's middle outwards: at time `u`, where it is `middle` but for what it has grown since the window's middle.
+#[inline(always)]
+fn outwards(model: &Model, mut middle: Complex32, slope: Complex32, u: f32) -> [Complex32; CHUNK] {
+    if u != 0.0 {
+        middle += middle * growth(slope * u);
     }
-    if waves.slope.contains(&Complex32::ZERO) {
-        bend(here, waves);
+    // What a block does to the wave beyond what it does to the carrier.
+    let turn = model.turn.grown(growth(slope * model.advance));
+    let (back, on) = (turn.inverse(), turn.beyond);
+    let by = |z: Complex32, beyond: Complex32| z + z * beyond;
+    let (before, after) = (by(middle, back), by(middle, on));
+    [by(before, back), before, middle, after, by(after, on)]
+}
+
+/// Adds to the first `count` blocks of a course what blocks of no whole periods, and changes that are not exponential, do to it.
+#[inline(always)]
+pub(super) fn mend(course: &mut Course, model: &Model, waves: &Waves, index: usize, count: usize) {
+    // A slope may be that of a steady wave: then it adds nothing.
+    if model.turn.whole.re < 1.0 || waves.slope[0].re == 0.0 || waves.slope[1].re == 0.0 {
+        turn_and_bend(course, model, waves, index, count);
     }
 }
 
-/// Adds to each wave what of its change is not exponential.
 #[cold]
 #[inline(never)]
-fn bend(here: &mut [Here], waves: &Waves) {
-    let rest = waves.rest();
-    for here in here {
-        for (wave, rest) in here.waves.iter_mut().zip(rest) {
-            *wave += rest * here.unit * (0.5 * here.u);
+fn turn_and_bend(course: &mut Course, model: &Model, waves: &Waves, index: usize, count: usize) {
+    let whole = model.turn.whole;
+    let mut turned = (whole * whole).conj();
+    let rests = waves.rest();
+    for i in 0..count.min(CHUNK) {
+        let (u, unit) = model.carrier(index + i);
+        for (wave, rest) in course.iter_mut().zip(rests) {
+            // What turns by quarters loses no digits.
+            wave[i] = wave[i] * turned + rest * unit * (0.5 * u);
         }
+        turned *= whole;
     }
 }
 
@@ -163,8 +157,8 @@ mod tests {
                     slope: [slope; 2],
                     ..Waves::default()
                 };
-                let mut here = [Here::default(); CHUNK];
-                fill(&model, &waves, 0, &mut here);
+                let mut course = course(&model, &waves, 0);
+                mend(&mut course, &model, &waves, 0, CHUNK);
                 // The last block is the worst.
                 let u = 1.0 - 1.0 / CHUNK as f64;
                 let samples = f64::from(length) * 0.5 * (CHUNK - 1) as f64;
@@ -174,7 +168,7 @@ mod tests {
                 let long = |z: Complex32| Complex64::new(f64::from(z.re), f64::from(z.im));
                 let grown = Complex64::new(cosine, sine) * libm::exp(u * f64::from(slope.re));
                 let truth = long(value) * grown * 0.5;
-                let error = long(here[CHUNK - 1].waves[0]) - truth;
+                let error = long(course[0][CHUNK - 1]) - truth;
                 squares += error.norm_sqr() / truth.norm_sqr();
             }
             let error = libm::sqrt(squares / 1000.0);

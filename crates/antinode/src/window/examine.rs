@@ -2,7 +2,7 @@
 
 use num_complex::Complex32;
 
-use super::course::{CHUNK, Here, fill};
+use super::course::{CHUNK, Course, course, mend};
 use super::gradient::Gradient;
 use super::hum::take_slopes;
 use super::model::Model;
@@ -58,12 +58,12 @@ pub(super) fn examine(
     let has_own = model.shared == 0.0;
     let mut thirds = Thirds::default();
     let mut views = Views::new(model);
-    *gradients = Default::default();
     remains.wander = [0.0; 2];
-    let mut here = [Here::default(); CHUNK];
     for (chunk, blocks) in blocks.chunks(CHUNK).enumerate() {
-        let here = here.get_mut(..blocks.len()).unwrap_or_default();
-        fill(model, waves, chunk * CHUNK, here);
+        let index = chunk * CHUNK;
+        let mut course = course(model, waves, index);
+        mend(&mut course, model, waves, index, blocks.len());
+        let mut left = Left::default();
         let mut prediction = Prediction::of_c(model, waves, offsets);
         for (channel, gradient) in gradients.iter_mut().enumerate() {
             if channel > 0 {
@@ -75,41 +75,83 @@ pub(super) fn examine(
                     &prediction,
                     channel,
                     blocks,
-                    here,
+                    &course,
+                    &mut left.slope,
                     &mut remains.wander,
                 );
             }
-            rest(model, &prediction, channel, blocks, here, gradient);
+            rest(
+                model,
+                &prediction,
+                channel,
+                index,
+                blocks,
+                &course,
+                &mut left,
+                gradient,
+            );
         }
-        views.take(here);
+        views.take(&left, blocks.len(), model.time(index as u16), model.advance);
         if is_watched {
-            thirds.add(model, waves, offsets, blocks, here);
+            thirds.add(model, waves, offsets, blocks, &course);
         }
     }
     views.conclude(model, remains);
     thirds.conclude(model, remains);
 }
 
-/// Takes what pick-off `channel` leaves of a run of blocks: by itself, so that its constants stay in registers.
+/// What is left of the sums of a run of blocks.
+#[derive(Default)]
+struct Left {
+    /// What both pick-offs leave beside the waves: the sum of the squares.
+    power: [f32; CHUNK],
+    /// The squared sums, from the first block to each, of what is left along z.
+    run: [f32; CHUNK],
+    /// What a slope of the offset of the pick-off looked at adds to the odd sums.
+    slope: [f32; CHUNK],
+}
+
+/// Takes what pick-off `channel` leaves of the blocks from block `index` on: by itself, so that its constants stay in registers.
+///
+/// The sums are against the carrier in the middle of the last block taken, and that along z′ is in blocks before it: at the window's end
+/// both become what they are about its middle.
 #[inline(never)]
 fn rest(
     model: &Model,
     prediction: &Prediction,
     channel: usize,
+    index: usize,
     blocks: &[Seen],
-    here: &mut [Here],
+    course: &Course,
+    left: &mut Left,
     gradient: &mut Gradient,
 ) {
-    let (shared, response) = (model.shared, model.response);
-    let (prediction, mut sums) = (*prediction, *gradient);
-    for (block, here) in blocks.iter().zip(here) {
-        let mut rest = prediction.rest(&block.whitened[channel & 1], here);
-        rest.odd -= here.slope;
+    let (shared, response) = (model.shared, model.response.in_blocks(model.blocks));
+    // Only residuals are turned by it: they have no digits to lose.
+    let turn = model.turn.rounded();
+    let prediction = *prediction;
+    let mut sums = if index == 0 {
+        Gradient::default()
+    } else {
+        *gradient
+    };
+    let waves = course[0].iter().zip(&course[1]);
+    let left = left.power.iter_mut().zip(&mut left.run).zip(&left.slope);
+    for ((block, (&plus, &minus)), ((power, run), slope)) in blocks.iter().zip(waves).zip(left) {
+        let mut rest = prediction.rest(&block.whitened[channel & 1], &[plus, minus]);
+        rest.odd -= slope;
         // Of an offset that the block has to itself the mean says nothing else.
         let known = shared * rest.mean;
-        sums.take(&response, &rest, known, here.u, here.unit);
-        here.power += known * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
-        here.run += sums.level.norm_sqr();
+        sums.slope = (sums.slope - sums.level) * turn + response.across(&rest, known);
+        sums.level = sums.level * turn + response.along(&rest, known);
+        sums.mean += rest.mean;
+        *power += known * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
+        *run += sums.level.norm_sqr();
+    }
+    if index + blocks.len() == usize::from(model.blocks) {
+        let last = 1.0 - 0.5 * model.advance;
+        sums.slope = (sums.slope * model.advance + sums.level * last) * model.first;
+        sums.level *= model.first;
     }
     *gradient = sums;
 }
@@ -136,20 +178,21 @@ impl Views {
         }
     }
 
-    /// Takes what a run of blocks leaves.
+    /// Takes what a run of blocks leaves, the first of them at time `u` and each `advance` after the one before.
     #[inline(never)]
-    fn take(&mut self, rests: &[Here]) {
+    fn take(&mut self, left: &Left, count: usize, mut u: f32, advance: f32) {
         let mut views = Self { ..*self };
         let least = 0.2 * views.spread;
-        for rest in rests {
-            views.residual += rest.power;
-            views.worst_block = greater(rest.power, views.worst_block);
-            views.time += rest.u;
+        for (&power, &run) in left.power.iter().zip(&left.run).take(count) {
+            views.residual += power;
+            views.worst_block = greater(power, views.worst_block);
+            views.time += u;
+            u += advance;
             // A step is known by what of it is neither constant nor slope. After n blocks of N it is n − n²/N that is not constant: the
             // sum of their times, but for the sign.
             let room = -views.time * (views.spread + views.time);
-            if room > least && rest.run * views.room > views.run * room {
-                (views.run, views.room) = (rest.run, room);
+            if room > least && run * views.room > views.run * room {
+                (views.run, views.room) = (run, room);
             }
         }
         *self = views;

@@ -1,6 +1,6 @@
 //! What a slope of the offset within a block does to its sums: hum that moves the offsets of blocks also runs within them.
 
-use super::course::Here;
+use super::course::{CHUNK, Course, at};
 use super::model::Model;
 use super::prediction::Prediction;
 use super::seen::Seen;
@@ -17,7 +17,8 @@ pub(super) fn take_slopes(
     prediction: &Prediction,
     channel: usize,
     blocks: &[Seen],
-    here: &mut [Here],
+    course: &Course,
+    slopes: &mut [f32; CHUNK],
     wander: &mut [f32; 2],
 ) {
     // A block alone has no slope.
@@ -28,9 +29,9 @@ pub(super) fn take_slopes(
     };
     let (mut before, mut now) = (0.0, 0.0);
     for i in 0..=blocks.len() {
-        let next = match (blocks.get(i), here.get(i)) {
-            (Some(block), Some(here)) => {
-                let rest = prediction.mean_rest(&block.whitened[channel & 1], here);
+        let next = match blocks.get(i) {
+            Some(block) if i < CHUNK => {
+                let rest = prediction.mean_rest(&block.whitened[channel & 1], &at(course, i));
                 wander[channel & 1] += rest * rest;
                 rest
             }
@@ -40,8 +41,8 @@ pub(super) fn take_slopes(
         if i == 1 {
             before = 2.0 * now - next;
         }
-        if let Some(here) = here.get_mut(i.wrapping_sub(1)) {
-            here.slope = ramp * (next - before);
+        if let Some(slope) = slopes.get_mut(i.wrapping_sub(1)) {
+            *slope = ramp * (next - before);
         }
         (before, now) = (now, next);
     }

@@ -118,6 +118,8 @@ impl Model {
         let index = index as u16;
         let unit = if index == 0 {
             self.first
+        } else if self.twice_blocks(index) == 0 {
+            Complex32::ONE
         } else {
             self.phase(index).unit()
         };

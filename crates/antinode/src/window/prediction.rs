@@ -4,7 +4,6 @@
 
 use num_complex::Complex32;
 
-use super::course::Here;
 use super::model::Model;
 use super::response::{Answer, Whitened};
 use super::waves::Waves;
@@ -103,17 +102,17 @@ impl Prediction {
 
     /// The mean alone, less what is predicted here.
     #[inline(always)]
-    pub(super) fn mean_rest(&self, seen: &Whitened, here: &Here) -> f32 {
-        seen.mean - self.offset - self.mean.of(&here.waves)
+    pub(super) fn mean_rest(&self, seen: &Whitened, waves: &[Complex32; 2]) -> f32 {
+        seen.mean - self.offset - self.mean.of(waves)
     }
 
     /// The sums less what is predicted here.
     #[inline(always)]
-    pub(super) fn rest(&self, seen: &Whitened, here: &Here) -> Whitened {
+    pub(super) fn rest(&self, seen: &Whitened, waves: &[Complex32; 2]) -> Whitened {
         Whitened {
-            mean: self.mean_rest(seen, here),
-            even: seen.even - self.even.of(&here.waves),
-            odd: seen.odd - self.odd.of(&here.waves),
+            mean: self.mean_rest(seen, waves),
+            even: seen.even - self.even.of(waves),
+            odd: seen.odd - self.odd.of(waves),
         }
     }
 }

@@ -3,6 +3,8 @@
 //! Within a block the wave of one pick-off is S(κ) = Re v(κ)·cos ωκ − Im v(κ)·sin ωκ + d, κ in samples from the block's middle,
 //! with v(κ) = v₀ + v₁κ + ½v₂κ². Even and odd parts separate, so each sum sees only a few of the numbers in v.
 
+use num_complex::Complex32;
+
 use crate::arch::square_root;
 use crate::block::Layout;
 use crate::phase::PhaseStep;
@@ -107,6 +109,34 @@ impl Basis {
 }
 
 impl Response {
+    /// What the sums of a block say along z, against the carrier in its middle; `known` is what its mean says of the wave.
+    #[inline(always)]
+    pub(crate) fn along(&self, sums: &Whitened, known: f32) -> Complex32 {
+        Complex32::new(
+            self.mean.level * known + self.even.level * sums.even,
+            self.odd.level * sums.odd,
+        )
+    }
+
+    /// The same along z′, beside what the time of its middle makes of that along z.
+    #[inline(always)]
+    pub(crate) fn across(&self, sums: &Whitened, known: f32) -> Complex32 {
+        Complex32::new(
+            -self.odd.slope * sums.odd,
+            self.mean.slope * known + self.even.slope * sums.even,
+        )
+    }
+
+    /// The same with slopes a block of a window of `blocks`.
+    #[inline(always)]
+    pub(crate) fn in_blocks(mut self, blocks: u16) -> Self {
+        let per_block = 0.5 * f32::from(blocks);
+        for answer in [&mut self.mean, &mut self.even, &mut self.odd] {
+            answer.slope *= per_block;
+        }
+        self
+    }
+
     /// The answers of blocks of `layout` to a wave at `carrier`, in windows of which `per_half` is one over the half.
     #[inline(never)]
     pub(crate) fn new(layout: Layout, basis: &Basis, carrier: PhaseStep, per_half: f32) -> Self {

@@ -2,7 +2,7 @@
 
 use num_complex::Complex32;
 
-use super::course::Here;
+use super::course::Course;
 use super::examine::Remains;
 use super::model::Model;
 use super::prediction::Slopes;
@@ -30,7 +30,7 @@ impl Thirds {
         waves: &Waves,
         offsets: &[f32; 2],
         blocks: &[Seen],
-        here: &[Here],
+        course: &Course,
     ) {
         let slopes = Slopes::new(waves);
         let response = &model.response;
@@ -40,15 +40,15 @@ impl Thirds {
         );
         let factors = slopes.factors(model);
         let offsets = offsets.map(|offset| response.third_offset * offset);
+        let turn = model.turn.rounded();
+        let turn = turn * turn * turn;
         let mut sums = self.sum;
-        for (block, here) in blocks.iter().zip(here) {
+        let course = course[0].iter().zip(&course[1]);
+        for (block, (&plus, &minus)) in blocks.iter().zip(course) {
             let Some(seen) = &block.watched else {
                 continue;
             };
-            let back = here.unit.conj();
-            let back = back * back * back;
-            let [plus, minus] = here.waves;
-            let waves = [here.waves, [plus * factors[0], minus * factors[1]]];
+            let waves = [[plus, minus], [plus * factors[0], minus * factors[1]]];
             let before = self.power;
             for (channel, sum) in sums.iter_mut().enumerate() {
                 let (third, waves) = (seen.third[channel], &waves[channel]);
@@ -57,7 +57,8 @@ impl Thirds {
                     third.re - offsets[channel] - cosine.of(waves),
                     sine.of(waves) - third.im,
                 );
-                *sum += rest * back;
+                // Against thrice the carrier's phase in the middle of the last block taken.
+                *sum = *sum * turn + rest;
                 self.power += rest.norm_sqr();
             }
             self.most = greater(self.power - before, self.most);

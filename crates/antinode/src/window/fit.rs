@@ -9,7 +9,7 @@ use super::examine::{Remains, examine};
 use super::gradient::{self, Gradient};
 use super::model::Model;
 use super::seen::Seen;
-use super::waves::{Parameters, Waves};
+use super::waves::{Step, Waves};
 use crate::arch::square_root;
 use crate::order::lesser;
 use crate::phase::PhaseStep;
@@ -42,6 +42,13 @@ pub(crate) struct Fit {
 }
 
 impl Fit {
+    /// Begins anew.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn empty(&mut self) {
+        *self = Self::default();
+    }
+
     /// |z|² of each (ideal) pick-off.
     pub(crate) fn channel_power(&self) -> [f32; 2] {
         let [plus, minus] = self.waves.value;
@@ -71,13 +78,11 @@ impl Model {
             .min(count)
     }
 
-    /// Fits `blocks`, which are as many as the model was built for.
+    /// Fits `blocks`, which are as many as the model was built for, into an empty fit.
     #[inline(never)]
     fn fit(&self, blocks: &[Seen], fit: &mut Fit) {
         let mut gradients = gradient::of_sums(self, blocks);
-        let mut parameters = Parameters::solving(self, &gradients);
-        fit.waves.set(self, &parameters);
-        fit.offsets = parameters.offset;
+        self.step(&gradients, 0, fit);
         for pass in 0..STEPS {
             fit.waves.take_course();
             examine(
@@ -88,41 +93,40 @@ impl Model {
                 &mut fit.remains,
                 &mut gradients,
             );
-            if self.step(&gradients, pass, &mut parameters, fit) {
+            if self.step(&gradients, pass, fit) {
                 break;
             }
         }
+        let Waves { value, change, .. } = &fit.waves;
+        let (raw, slope) = (self.correction.raw(value), self.correction.raw(change));
         for (i, reach) in fit.reach.iter_mut().enumerate() {
             // (|z| + |z′|)² is not more than that: half a per cent of |z| more where nothing changes.
-            *reach = 1.01 * parameters.z[i].norm_sqr() + 101.0 * parameters.slope[i].norm_sqr();
+            *reach = 1.01 * raw[i].norm_sqr() + 101.0 * slope[i].norm_sqr();
         }
     }
 
     /// Moves to where the gradients vanish; true when no further step is needed.
     #[inline(never)]
-    fn step(
-        &self,
-        gradients: &[Gradient; 2],
-        pass: usize,
-        parameters: &mut Parameters,
-        fit: &mut Fit,
-    ) -> bool {
-        let step = parameters.step(self, gradients);
-        fit.waves.set(self, parameters);
-        fit.offsets = parameters.offset;
-        fit.settled = step.moved <= NEAR * NEAR * step.size;
+    fn step(&self, gradients: &[Gradient; 2], pass: usize, fit: &mut Fit) -> bool {
+        let step = Step::new(self, gradients);
+        fit.waves.take(self, &step);
+        for (offset, by) in fit.offsets.iter_mut().zip(step.offset) {
+            *offset += by;
+        }
+        let (moved, size) = (step.square(), 0.5 * fit.waves.power());
+        fit.settled = moved <= NEAR * NEAR * size;
         // What is left has no part along the parameters: this much less than before the step.
-        let explained = lesser(step.explained, fit.remains.residual);
+        let explained = lesser(step.explained(self, gradients), fit.remains.residual);
         fit.remains.residual -= explained;
         let left = explained * fit.remains.freedom * f32::from(self.blocks);
         let negligible = left <= NEGLIGIBLE * fit.remains.residual;
         // With offsets of their own the linear solution does not know what the waves put into the blocks' means.
         let knows_offset = pass > 0 || self.shared > 0.0;
-        fit.settled && knows_offset && (negligible || step.moved <= SETTLED * SETTLED * step.size)
+        fit.settled && knows_offset && (negligible || moved <= SETTLED * SETTLED * size)
     }
 }
 
-/// Solves a run of blocks into `fit`, from a carrier known to `uncertainty` rad a sample.
+/// Solves a run of blocks into an empty `fit`, from a carrier known to `uncertainty` rad a sample.
 ///
 /// A carrier too rough for the whole window is first refined in its middle: a single jump to a long window would slip a turn.
 pub(crate) fn solve(
@@ -149,6 +153,7 @@ pub(crate) fn solve(
         let Some(moved) = model.moved(drift) else {
             // The wave is nowhere near: the caller sees a fit that did not settle.
             model.retune(carrier, count);
+            fit.empty();
             model.fit(blocks, fit);
             fit.settled = false;
             return;
@@ -159,6 +164,7 @@ pub(crate) fn solve(
         } else {
             span = model.next_span(fit, carrier, span, count);
         }
+        fit.empty();
     }
 }
 

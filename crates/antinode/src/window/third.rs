@@ -42,15 +42,15 @@ impl Thirds {
         let offsets = offsets.map(|offset| response.third_offset * offset);
         let turn = model.turn.rounded();
         let turn = turn * turn * turn;
-        let mut sums = self.sum;
+        let mut thirds = Self { ..*self };
         let course = course[0].iter().zip(&course[1]);
         for (block, (&plus, &minus)) in blocks.iter().zip(course) {
             let Some(seen) = &block.watched else {
                 continue;
             };
             let waves = [[plus, minus], [plus * factors[0], minus * factors[1]]];
-            let before = self.power;
-            for (channel, sum) in sums.iter_mut().enumerate() {
+            let before = thirds.power;
+            for (channel, sum) in thirds.sum.iter_mut().enumerate() {
                 let (third, waves) = (seen.third[channel], &waves[channel]);
                 // Σ S e^(−3jφ).
                 let rest = Complex32::new(
@@ -59,12 +59,12 @@ impl Thirds {
                 );
                 // Against thrice the carrier's phase in the middle of the last block taken.
                 *sum = *sum * turn + rest;
-                self.power += rest.norm_sqr();
+                thirds.power += rest.norm_sqr();
             }
-            self.most = greater(self.power - before, self.most);
-            self.watched += 1;
+            thirds.most = greater(thirds.power - before, thirds.most);
+            thirds.watched += 1;
         }
-        self.sum = sums;
+        *self = thirds;
     }
 
     /// The amplitudes and their noise.

@@ -7,27 +7,17 @@ use super::gradient::Gradient;
 use super::model::Model;
 use super::normal::{Covariance, Row};
 
-/// The raw parameters of both pick-offs, as they stand in the normal equations.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Parameters {
-    pub z: [Complex32; 2],
-    pub slope: [Complex32; 2],
+/// A move of the raw parameters of both pick-offs, as they stand in the normal equations.
+pub(super) struct Step {
+    z: [Complex32; 2],
+    slope: [Complex32; 2],
     pub offset: [f32; 2],
 }
 
-/// How far the parameters were moved.
-pub(super) struct Step {
-    /// Σ|Δz|² + Σ|Δz′|² and Σ|z|².
-    pub moved: f32,
-    pub size: f32,
-    /// By how much the residual's sum of squares is less at the new place.
-    pub explained: f32,
-}
-
-impl Parameters {
-    /// Those that make the right-hand sides, but for what is not linear.
-    #[inline(never)]
-    pub(super) fn solving(model: &Model, gradients: &[Gradient; 2]) -> Self {
+impl Step {
+    /// To where the gradients vanish, but for what is not linear.
+    #[inline(always)]
+    pub(super) fn new(model: &Model, gradients: &[Gradient; 2]) -> Self {
         let Covariance { even, odd } = &model.covariance;
         let per_mean = model.response.offset;
         let [(c, slope_c, offset_c), (d, slope_d, offset_d)] = gradients.each_ref().map(|side| {
@@ -48,30 +38,26 @@ impl Parameters {
         }
     }
 
-    /// Moves to where the gradients vanish, but for what is not linear.
-    #[inline]
-    pub(super) fn step(&mut self, model: &Model, gradients: &[Gradient; 2]) -> Step {
-        let by = Self::solving(model, gradients);
+    /// Σ|Δz|² + Σ|Δz′|².
+    #[inline(always)]
+    pub(super) fn square(&self) -> f32 {
+        let sum = |[c, d]: &[Complex32; 2]| c.norm_sqr() + d.norm_sqr();
+        sum(&self.z) + sum(&self.slope)
+    }
+
+    /// By how much the residual's sum of squares is less where it leads, from where these are the gradients.
+    #[inline(always)]
+    pub(super) fn explained(&self, model: &Model, gradients: &[Gradient; 2]) -> f32 {
         // An offset that every block has to itself has no part in the residual.
         let per_mean = model.response.offset * model.shared;
         let dot = |a: Complex32, b: Complex32| a.re * b.re + a.im * b.im;
-        let mut step = Step {
-            moved: 0.0,
-            size: 0.0,
-            explained: 0.0,
+        let of = |channel: usize| {
+            let gradient = &gradients[channel];
+            dot(gradient.level, self.z[channel])
+                + dot(gradient.slope, self.slope[channel])
+                + per_mean * gradient.mean * self.offset[channel]
         };
-        for (channel, gradient) in gradients.iter().enumerate() {
-            let (z, slope, offset) = (by.z[channel], by.slope[channel], by.offset[channel]);
-            self.z[channel] += z;
-            self.slope[channel] += slope;
-            self.offset[channel] += offset;
-            step.moved += z.norm_sqr() + slope.norm_sqr();
-            step.size += self.z[channel].norm_sqr();
-            step.explained += dot(gradient.level, z)
-                + dot(gradient.slope, slope)
-                + per_mean * gradient.mean * offset;
-        }
-        step
+        of(0) + of(1)
     }
 }
 
@@ -88,21 +74,22 @@ pub(crate) struct Waves {
 }
 
 impl Waves {
-    /// Moves to the waves of ideal pick-offs that the raw parameters are.
-    #[inline]
-    pub(super) fn set(&mut self, model: &Model, parameters: &Parameters) {
+    /// Moves the waves of ideal pick-offs by a step of the raw ones.
+    #[inline(always)]
+    pub(super) fn take(&mut self, model: &Model, step: &Step) {
         let correction = &model.correction;
-        let travelling = |raw: [Complex32; 2]| {
+        let add = |waves: &mut [Complex32; 2], raw: [Complex32; 2]| {
             let [c, d] = raw;
             let d = correction.correct(c, d);
             let turned = Complex32::new(-d.im, d.re);
-            [c + turned, c - turned]
+            waves[0] += c + turned;
+            waves[1] += c - turned;
         };
         // Channel D was sampled later: what it saw lies that much further along its course.
-        let [c, d] = parameters.z;
-        let d = d - parameters.slope[1] * (correction.delay * model.per_half);
-        self.value = travelling([c, d]);
-        self.change = travelling(parameters.slope);
+        let [c, d] = step.z;
+        let d = d - step.slope[1] * (correction.delay * model.per_half);
+        add(&mut self.value, [c, d]);
+        add(&mut self.change, step.slope);
     }
 
     /// Tells which changes are exponential: one of a little more than the wave is, for the carrier follows the greater wave, and the lesser

@@ -191,13 +191,26 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Takes a block; true where it completes a window.
     #[inline(never)]
     fn gather<S: Sample>(&mut self, block: &Block<S>) -> bool {
-        self.follow(&block.layout, block.start);
+        if !self.follows(&block.layout, block.start) {
+            return self.gather_anew(block);
+        }
         self.end = block.start + u64::from(block.layout.length);
         let (Some(model), Some(place)) = (&self.model, self.gathered.next()) else {
             return false;
         };
         model.see(block, place);
         self.gathered.length() >= usize::from(self.count)
+    }
+
+    /// Takes the first block of a new window: by itself, so that the others need keep nothing meanwhile.
+    #[cold]
+    #[inline(never)]
+    fn gather_anew<S: Sample>(&mut self, block: &Block<S>) -> bool {
+        self.gathered.clear();
+        if !self.has(&block.layout) {
+            self.begin(&block.layout);
+        }
+        self.gather(block)
     }
 
     /// True when the wave has been lost for so long that a new period must be searched: two windows, or eight with little of the wave
@@ -244,19 +257,15 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         Ok(())
     }
 
-    /// Starts a new window when a block does not continue those gathered.
-    fn follow(&mut self, layout: &Layout, start: u64) {
-        let same = self
-            .model
+    fn has(&self, layout: &Layout) -> bool {
+        self.model
             .as_ref()
-            .is_some_and(|model| model.layout == *layout);
-        if same && (self.gathered.is_new() || self.end == start) {
-            return;
-        }
-        self.gathered.clear();
-        if !same {
-            self.begin(layout);
-        }
+            .is_some_and(|model| model.layout == *layout)
+    }
+
+    /// True when a block continues those gathered, or begins a window where none are.
+    fn follows(&self, layout: &Layout, start: u64) -> bool {
+        self.has(layout) && (self.end == start || self.gathered.is_new())
     }
 
     /// Begins with blocks of another layout.

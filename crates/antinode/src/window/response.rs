@@ -52,6 +52,7 @@ pub(crate) struct Response {
     pub odd: Answer,
     /// What an offset of one adds to the mean: √length.
     pub offset: f32,
+    /// Those of the third harmonic's sums, times the layout's scale.
     pub third_even: Answer,
     pub third_odd: Answer,
     pub third_offset: f32,
@@ -142,7 +143,6 @@ impl Response {
     pub(crate) fn new(layout: Layout, basis: &Basis, carrier: PhaseStep, per_half: f32) -> Self {
         let mut sums = [[Sum::default(); 3]; 5];
         let mut third_offset = Sum::default();
-        let unit = 1.0 / layout.one();
         for k in 0..layout.length {
             let reference = layout.reference(k);
             let twice = layout.twice_from_middle(k);
@@ -152,8 +152,8 @@ impl Response {
                 (basis.one, false),
                 ((reference.cosine - basis.cosine_mean) * basis.cosine, false),
                 (reference.sine * basis.sine, true),
-                (reference.third_cosine * unit, false),
-                (reference.third_sine * unit, true),
+                (reference.third_cosine, false),
+                (reference.third_sine, true),
             ];
             for (sums, (weight, odd)) in sums.iter_mut().zip(weights) {
                 let (level, slope) = if odd {
@@ -165,7 +165,7 @@ impl Response {
                 sums[1].add(weight * t * slope);
                 sums[2].add(0.5 * weight * t * t * level);
             }
-            third_offset.add(reference.third_cosine * unit);
+            third_offset.add(reference.third_cosine);
         }
         let answer = |s: &[Sum; 3]| Answer {
             level: s[0].get(),

@@ -17,7 +17,7 @@ pub(crate) struct Seen {
 /// What was watched of both pick-offs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Watched {
-    /// Σ S cos 3φ + j Σ S sin 3φ.
+    /// Σ S cos 3φ + j Σ S sin 3φ, times the layout's scale.
     pub(super) third: [Complex32; 2],
     pub extremes: [Extremes; 2],
 }
@@ -58,19 +58,18 @@ impl Model {
             return;
         };
         seen.watched = Some(Watched {
-            third: [self.third(c), self.third(d)],
+            third: [third(c), third(d)],
             extremes: [extremes(c), extremes(d)],
         });
     }
+}
 
-    #[inline(always)]
-    fn third<S: Sample>(&self, watch: &ChannelWatch<S>) -> Complex32 {
-        let sum = Complex32::new(
-            S::sum_to_f32(watch.third_cosine),
-            S::sum_to_f32(watch.third_sine),
-        );
-        sum * self.basis.unit
-    }
+#[inline(always)]
+fn third<S: Sample>(watch: &ChannelWatch<S>) -> Complex32 {
+    Complex32::new(
+        S::sum_to_f32(watch.third_cosine),
+        S::sum_to_f32(watch.third_sine),
+    )
 }
 
 #[inline(always)]

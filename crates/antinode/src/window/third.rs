@@ -78,15 +78,17 @@ impl Thirds {
         let least = greater(freedom, 1.0);
         let per_both = 1.0 / (watched * least);
         let per_count = least * per_both;
+        let unit = model.basis.unit;
+        let (amplitude, power) = (doubled * unit, doubled * unit * unit);
         let coherent = (self.sum[0].norm_sqr() + self.sum[1].norm_sqr()) * per_count;
         let incoherent = if self.power > coherent {
             self.power - coherent
         } else {
             0.0
         };
-        remains.third_spared = (self.power - self.most) * doubled * (watched * per_both);
-        remains.third = self.sum.map(|sum| sum * (doubled * per_count));
-        remains.third_noise = incoherent * doubled * (watched * per_both);
+        remains.third_spared = (self.power - self.most) * power * (watched * per_both);
+        remains.third = self.sum.map(|sum| sum * (amplitude * per_count));
+        remains.third_noise = incoherent * power * (watched * per_both);
         remains.third_freedom = freedom;
     }
 }

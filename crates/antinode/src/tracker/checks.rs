@@ -53,6 +53,7 @@ fn is_significant(wave: &Standing) -> bool {
 ///
 /// `variance` is the noise variance that it leaves, `stated` that for which it states its deviations, `coding` what the converter's steps
 /// may add; the next window begins `advance` blocks later.
+#[inline(always)]
 pub(crate) fn within(
     model: &Model,
     fit: &Fit,

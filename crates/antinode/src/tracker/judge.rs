@@ -44,7 +44,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
 
     /// Tests a window's wave and joins it to those before; none where the first window shows no wave. `coding` is the noise variance that
     /// the converter's steps may add, `stated` that for which the window states its deviations.
-    #[inline(never)]
+    #[inline(always)]
     fn judge(
         &mut self,
         fit: &Fit,

@@ -88,6 +88,7 @@ pub(crate) struct Record {
 
 impl Record {
     /// The window as it is reported.
+    #[inline(always)]
     pub(crate) fn estimate(&self, units: &Units, flags: Flags) -> Estimate {
         // First what is called, so that no number need be kept meanwhile.
         let time = double::units(self.middle as i64, units.half_sample);

@@ -5,7 +5,6 @@ use num_complex::Complex32;
 use super::model::Model;
 use super::waves::Waves;
 use crate::exponential::growth;
-use crate::phase::Phase;
 
 /// Blocks from one exact exponential to the next; between them a recursion.
 pub(super) const CHUNK: usize = 5;
@@ -19,52 +18,7 @@ pub(super) fn at([plus, minus]: &Course, block: usize) -> [Complex32; 2] {
     [plus[block], minus[block]]
 }
 
-/// A factor near 1, j, −1 or −j, and what it is of that beyond one: its own rounding, the same at every block, is then no bias.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Turn {
-    whole: Complex32,
-    beyond: Complex32,
-}
-
-impl Turn {
-    /// None at all.
-    pub(super) const NONE: Self = Self {
-        whole: Complex32::ONE,
-        beyond: Complex32::ZERO,
-    };
-
-    pub(super) fn by(Phase(phase): Phase) -> Self {
-        let whole = phase.wrapping_add(1 << 29) & (3 << 30);
-        let rest = phase.wrapping_sub(whole);
-        // 1 − cos x = 2 sin² ½x keeps its digits.
-        let half = Phase((rest as i32 >> 1) as u32).unit().im;
-        Self {
-            whole: Phase(whole).unit(),
-            beyond: Complex32::new(-2.0 * half * half, Phase(rest).unit().im),
-        }
-    }
-
-    /// This factor times 1 + `growth`.
-    fn grown(self, growth: Complex32) -> Self {
-        Self {
-            beyond: growth + growth * self.beyond + self.beyond,
-            ..self
-        }
-    }
-
-    /// The factor as one number.
-    pub(super) fn rounded(self) -> Complex32 {
-        self.whole + self.whole * self.beyond
-    }
-
-    /// What one over this factor is beyond one over its whole part.
-    fn inverse(self) -> Complex32 {
-        let square = self.beyond.norm_sqr();
-        (self.beyond + square) * (-1.0 / (1.0 + 2.0 * self.beyond.re + square))
-    }
-}
-
-/// That of the blocks from block `index` of a window on, but for what [`mend`] adds: they may be more than the window has.
+/// That of the blocks from block `index` of a window on, but for what [`bend`] adds: they may be more than the window has.
 #[inline(never)]
 pub(super) fn course(model: &Model, waves: &Waves, index: usize) -> Course {
     let (u, unit) = model.carrier(index + CHUNK / 2);
@@ -81,36 +35,23 @@ fn outwards(model: &Model, mut middle: Complex32, slope: Complex32, u: f32) -> [
     if u != 0.0 {
         middle += middle * growth(slope * u);
     }
-    // What a block does to the wave beyond what it does to the carrier.
-    let turn = model.turn.grown(growth(slope * model.advance));
-    let (back, on) = (turn.inverse(), turn.beyond);
-    let by = |z: Complex32, beyond: Complex32| z + z * beyond;
-    let (before, after) = (by(middle, back), by(middle, on));
-    [by(before, back), before, middle, after, by(after, on)]
+    // What a block does to the wave.
+    let on = model.turn + model.turn * growth(slope * model.advance);
+    let back = on.conj() * (1.0 / on.norm_sqr());
+    let (before, after) = (middle * back, middle * on);
+    [before * back, before, middle, after, after * on]
 }
 
-/// Adds to the first `count` blocks of a course what blocks of no whole periods, and changes that are not exponential, do to it.
-#[inline(always)]
-pub(super) fn mend(course: &mut Course, model: &Model, waves: &Waves, index: usize, count: usize) {
-    // A slope may be that of a steady wave: then it adds nothing.
-    if model.turn.whole.re < 1.0 || waves.slope[0].re == 0.0 || waves.slope[1].re == 0.0 {
-        turn_and_bend(course, model, waves, index, count);
-    }
-}
-
+/// Adds to each wave what of its change is not exponential.
 #[cold]
 #[inline(never)]
-fn turn_and_bend(course: &mut Course, model: &Model, waves: &Waves, index: usize, count: usize) {
-    let whole = model.turn.whole;
-    let mut turned = (whole * whole).conj();
+pub(super) fn bend(course: &mut Course, model: &Model, waves: &Waves, index: usize, count: usize) {
     let rests = waves.rest();
     for i in 0..count.min(CHUNK) {
         let (u, unit) = model.carrier(index + i);
         for (wave, rest) in course.iter_mut().zip(rests) {
-            // What turns by quarters loses no digits.
-            wave[i] = wave[i] * turned + rest * unit * (0.5 * u);
+            wave[i] += rest * unit * (0.5 * u);
         }
-        turned *= whole;
     }
 }
 
@@ -157,8 +98,7 @@ mod tests {
                     slope: [slope; 2],
                     ..Waves::default()
                 };
-                let mut course = course(&model, &waves, 0);
-                mend(&mut course, &model, &waves, 0, CHUNK);
+                let course = course(&model, &waves, 0);
                 // The last block is the worst.
                 let u = 1.0 - 1.0 / CHUNK as f64;
                 let samples = f64::from(length) * 0.5 * (CHUNK - 1) as f64;

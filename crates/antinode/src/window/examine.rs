@@ -2,7 +2,7 @@
 
 use num_complex::Complex32;
 
-use super::course::{CHUNK, Course, course, mend};
+use super::course::{CHUNK, Course, bend, course};
 use super::gradient::Gradient;
 use super::hum::take_slopes;
 use super::model::Model;
@@ -62,7 +62,10 @@ pub(super) fn examine(
     for (chunk, blocks) in blocks.chunks(CHUNK).enumerate() {
         let index = chunk * CHUNK;
         let mut course = course(model, waves, index);
-        mend(&mut course, model, waves, index, blocks.len());
+        // A slope of no growth may be that of a steady wave: then it adds nothing.
+        if waves.slope[0].re == 0.0 || waves.slope[1].re == 0.0 {
+            bend(&mut course, model, waves, index, blocks.len());
+        }
         let mut left = Left::default();
         let mut prediction = Prediction::of_c(model, waves, offsets);
         for (channel, gradient) in gradients.iter_mut().enumerate() {
@@ -128,7 +131,7 @@ fn rest(
 ) {
     let (shared, response) = (model.shared, model.response.in_blocks(model.blocks));
     // Only residuals are turned by it: they have no digits to lose.
-    let turn = model.turn.rounded();
+    let turn = model.turn;
     let prediction = *prediction;
     let mut sums = if index == 0 {
         Gradient::default()

@@ -22,7 +22,7 @@ pub(super) struct Gradient {
 pub(super) fn of_sums(model: &Model, blocks: &[Seen]) -> [Gradient; 2] {
     let mut gradients = [Gradient::default(); 2];
     let (response, shared) = (model.response, model.shared);
-    let (advance, turn) = (model.advance, model.turn.rounded());
+    let (advance, turn) = (model.advance, model.turn);
     for (chunk, blocks) in blocks.chunks(CHUNK).enumerate() {
         let (mut u, mut unit) = model.carrier(chunk * CHUNK);
         for block in blocks {

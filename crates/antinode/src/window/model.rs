@@ -2,7 +2,6 @@
 
 use num_complex::Complex32;
 
-use super::course::Turn;
 use super::normal::{Covariance, Normal, PARAMETERS, Row};
 use super::response::{Answer, Basis, Response};
 use crate::block::Layout;
@@ -30,7 +29,7 @@ pub(crate) struct Model {
     pub per_half: f32,
     /// What a block adds to the time, and what it does to the carrier.
     pub(super) advance: f32,
-    pub(super) turn: Turn,
+    pub(super) turn: Complex32,
     /// The carrier in the middle of the first block.
     pub(super) first: Complex32,
     /// Correction of the pick-offs at the carrier.
@@ -68,7 +67,7 @@ impl Model {
             half: 0.0,
             per_half: 0.0,
             advance: 0.0,
-            turn: Turn::NONE,
+            turn: Complex32::ONE,
             first: Complex32::ONE,
             correction: Correction::default(),
             covariance: Covariance::default(),
@@ -166,7 +165,7 @@ impl Model {
             .at(1.0 / self.carrier.period(), self.sample_rate);
         self.advance = 2.0 / f32::from(self.blocks);
         let block = 2 * i64::from(self.layout.length);
-        self.turn = Turn::by(self.carrier.after_half_samples(block));
+        self.turn = self.carrier.after_half_samples(block).unit();
         self.first = self.phase(0).unit();
         self.covariance = self.covariance();
     }

@@ -40,7 +40,7 @@ impl Thirds {
         );
         let factors = slopes.factors(model);
         let offsets = offsets.map(|offset| response.third_offset * offset);
-        let turn = model.turn.rounded();
+        let turn = model.turn;
         let turn = turn * turn * turn;
         let mut thirds = Self { ..*self };
         let course = course[0].iter().zip(&course[1]);

@@ -191,8 +191,12 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Takes a block; true where it completes a window.
     #[inline(never)]
     fn gather<S: Sample>(&mut self, block: &Block<S>) -> bool {
-        if !self.follows(&block.layout, block.start) {
-            return self.gather_anew(block);
+        let is_same = self
+            .model
+            .as_ref()
+            .is_some_and(|model| model.layout == block.layout);
+        if !(is_same && (self.end == block.start || self.gathered.is_new())) {
+            return self.gather_anew(block, is_same);
         }
         self.end = block.start + u64::from(block.layout.length);
         let (Some(model), Some(place)) = (&self.model, self.gathered.next()) else {
@@ -202,12 +206,12 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.gathered.length() >= usize::from(self.count)
     }
 
-    /// Takes the first block of a new window: by itself, so that the others need keep nothing meanwhile.
+    /// Takes a block that does not continue those gathered: by itself, so that the others need keep nothing meanwhile.
     #[cold]
     #[inline(never)]
-    fn gather_anew<S: Sample>(&mut self, block: &Block<S>) -> bool {
+    fn gather_anew<S: Sample>(&mut self, block: &Block<S>, is_same: bool) -> bool {
         self.gathered.clear();
-        if !self.has(&block.layout) {
+        if !is_same {
             self.begin(&block.layout);
         }
         self.gather(block)
@@ -255,17 +259,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         // The wave is there as before.
         self.found = found;
         Ok(())
-    }
-
-    fn has(&self, layout: &Layout) -> bool {
-        self.model
-            .as_ref()
-            .is_some_and(|model| model.layout == *layout)
-    }
-
-    /// True when a block continues those gathered, or begins a window where none are.
-    fn follows(&self, layout: &Layout, start: u64) -> bool {
-        self.has(layout) && (self.end == start || self.gathered.is_new())
     }
 
     /// Begins with blocks of another layout.

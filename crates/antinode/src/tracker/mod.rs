@@ -305,7 +305,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         solve(model, blocks, carrier, uncertainty, fit);
         if !fit.settled && self.before.is_some() {
             let rough = rough(model);
-            fit.empty();
             solve(model, blocks, carrier, rough, fit);
         }
     }

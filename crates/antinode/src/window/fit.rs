@@ -9,7 +9,7 @@ use super::examine::{Remains, examine};
 use super::gradient::{self, Gradient};
 use super::model::Model;
 use super::seen::Seen;
-use super::waves::{Step, Waves};
+use super::waves::{Parameters, Step, Waves};
 use crate::arch::square_root;
 use crate::order::lesser;
 use crate::phase::PhaseStep;
@@ -42,13 +42,6 @@ pub(crate) struct Fit {
 }
 
 impl Fit {
-    /// Begins anew.
-    #[cold]
-    #[inline(never)]
-    pub(crate) fn empty(&mut self) {
-        *self = Self::default();
-    }
-
     /// |z|² of each (ideal) pick-off.
     pub(crate) fn channel_power(&self) -> [f32; 2] {
         let [plus, minus] = self.waves.value;
@@ -78,11 +71,13 @@ impl Model {
             .min(count)
     }
 
-    /// Fits `blocks`, which are as many as the model was built for, into an empty fit.
+    /// Fits `blocks`, which are as many as the model was built for, into `fit`.
     #[inline(never)]
     fn fit(&self, blocks: &[Seen], fit: &mut Fit) {
         let mut gradients = gradient::of_sums(self, blocks);
-        self.step(&gradients, 0, fit);
+        let mut parameters = Parameters::default();
+        fit.offsets = [0.0; 2];
+        self.step(&gradients, 0, &mut parameters, fit);
         for pass in 0..STEPS {
             fit.waves.take_course();
             examine(
@@ -93,23 +88,29 @@ impl Model {
                 &mut fit.remains,
                 &mut gradients,
             );
-            if self.step(&gradients, pass, fit) {
+            if self.step(&gradients, pass, &mut parameters, fit) {
                 break;
             }
         }
-        let Waves { value, change, .. } = &fit.waves;
-        let (raw, slope) = (self.correction.raw(value), self.correction.raw(change));
+        let Parameters { z, slope, .. } = &parameters;
         for (i, reach) in fit.reach.iter_mut().enumerate() {
             // (|z| + |z′|)² is not more than that: half a per cent of |z| more where nothing changes.
-            *reach = 1.01 * raw[i].norm_sqr() + 101.0 * slope[i].norm_sqr();
+            *reach = 1.01 * z[i].norm_sqr() + 101.0 * slope[i].norm_sqr();
         }
     }
 
     /// Moves to where the gradients vanish; true when no further step is needed.
     #[inline(never)]
-    fn step(&self, gradients: &[Gradient; 2], pass: usize, fit: &mut Fit) -> bool {
+    fn step(
+        &self,
+        gradients: &[Gradient; 2],
+        pass: usize,
+        parameters: &mut Parameters,
+        fit: &mut Fit,
+    ) -> bool {
         let step = Step::new(self, gradients);
-        fit.waves.take(self, &step);
+        parameters.take(&step);
+        fit.waves.set(self, parameters);
         for (offset, by) in fit.offsets.iter_mut().zip(step.offset) {
             *offset += by;
         }
@@ -126,7 +127,7 @@ impl Model {
     }
 }
 
-/// Solves a run of blocks into an empty `fit`, from a carrier known to `uncertainty` rad a sample.
+/// Solves a run of blocks into `fit`, from a carrier known to `uncertainty` rad a sample.
 ///
 /// A carrier too rough for the whole window is first refined in its middle: a single jump to a long window would slip a turn.
 pub(crate) fn solve(
@@ -153,7 +154,6 @@ pub(crate) fn solve(
         let Some(moved) = model.moved(drift) else {
             // The wave is nowhere near: the caller sees a fit that did not settle.
             model.retune(carrier, count);
-            fit.empty();
             model.fit(blocks, fit);
             fit.settled = false;
             return;
@@ -164,7 +164,6 @@ pub(crate) fn solve(
         } else {
             span = model.next_span(fit, carrier, span, count);
         }
-        fit.empty();
     }
 }
 

@@ -7,11 +7,29 @@ use super::gradient::Gradient;
 use super::model::Model;
 use super::normal::{Covariance, Row};
 
-/// A move of the raw parameters of both pick-offs, as they stand in the normal equations.
+/// The raw parameters of both pick-offs but for the offsets, as they stand in the normal equations.
+#[derive(Default)]
+pub(super) struct Parameters {
+    pub z: [Complex32; 2],
+    pub slope: [Complex32; 2],
+}
+
+/// By how much the raw parameters are moved.
 pub(super) struct Step {
     z: [Complex32; 2],
     slope: [Complex32; 2],
     pub offset: [f32; 2],
+}
+
+impl Parameters {
+    /// Moves by a step.
+    #[inline(always)]
+    pub(super) fn take(&mut self, step: &Step) {
+        for i in 0..2 {
+            self.z[i] += step.z[i];
+            self.slope[i] += step.slope[i];
+        }
+    }
 }
 
 impl Step {
@@ -74,22 +92,21 @@ pub(crate) struct Waves {
 }
 
 impl Waves {
-    /// Moves the waves of ideal pick-offs by a step of the raw ones.
-    #[inline(always)]
-    pub(super) fn take(&mut self, model: &Model, step: &Step) {
+    /// Moves to the waves of ideal pick-offs that the raw parameters are.
+    #[inline]
+    pub(super) fn set(&mut self, model: &Model, parameters: &Parameters) {
         let correction = &model.correction;
-        let add = |waves: &mut [Complex32; 2], raw: [Complex32; 2]| {
+        let travelling = |raw: [Complex32; 2]| {
             let [c, d] = raw;
             let d = correction.correct(c, d);
             let turned = Complex32::new(-d.im, d.re);
-            waves[0] += c + turned;
-            waves[1] += c - turned;
+            [c + turned, c - turned]
         };
         // Channel D was sampled later: what it saw lies that much further along its course.
-        let [c, d] = step.z;
-        let d = d - step.slope[1] * (correction.delay * model.per_half);
-        add(&mut self.value, [c, d]);
-        add(&mut self.change, step.slope);
+        let [c, d] = parameters.z;
+        let d = d - parameters.slope[1] * (correction.delay * model.per_half);
+        self.value = travelling([c, d]);
+        self.change = travelling(parameters.slope);
     }
 
     /// Tells which changes are exponential: one of a little more than the wave is, for the carrier follows the greater wave, and the lesser

@@ -109,15 +109,15 @@ impl Model {
         fit: &mut Fit,
     ) -> bool {
         let step = Step::new(self, gradients);
-        parameters.take(&step);
+        let [moved, explained] = parameters.take(&step, gradients, self);
         fit.waves.set(self, parameters);
         for (offset, by) in fit.offsets.iter_mut().zip(step.offset) {
             *offset += by;
         }
-        let (moved, size) = (step.square(), 0.5 * fit.waves.power());
+        let size = 0.5 * fit.waves.power();
         fit.settled = moved <= NEAR * NEAR * size;
         // What is left has no part along the parameters: this much less than before the step.
-        let explained = lesser(step.explained(self, gradients), fit.remains.residual);
+        let explained = lesser(explained, fit.remains.residual);
         fit.remains.residual -= explained;
         let left = explained * fit.remains.freedom * f32::from(self.blocks);
         let negligible = left <= NEGLIGIBLE * fit.remains.residual;

@@ -21,17 +21,6 @@ pub(super) struct Step {
     pub offset: [f32; 2],
 }
 
-impl Parameters {
-    /// Moves by a step.
-    #[inline(always)]
-    pub(super) fn take(&mut self, step: &Step) {
-        for i in 0..2 {
-            self.z[i] += step.z[i];
-            self.slope[i] += step.slope[i];
-        }
-    }
-}
-
 impl Step {
     /// To where the gradients vanish, but for what is not linear.
     #[inline(always)]
@@ -55,27 +44,27 @@ impl Step {
             offset: [offset_c, offset_d],
         }
     }
+}
 
-    /// Σ|Δz|² + Σ|Δz′|².
+impl Parameters {
+    /// Moves by a step from where these are the gradients. Gives Σ|Δz|² + Σ|Δz′|², and by how much the residual's sum of squares is less
+    /// there.
     #[inline(always)]
-    pub(super) fn square(&self) -> f32 {
-        let sum = |[c, d]: &[Complex32; 2]| c.norm_sqr() + d.norm_sqr();
-        sum(&self.z) + sum(&self.slope)
-    }
-
-    /// By how much the residual's sum of squares is less where it leads, from where these are the gradients.
-    #[inline(always)]
-    pub(super) fn explained(&self, model: &Model, gradients: &[Gradient; 2]) -> f32 {
+    pub(super) fn take(&mut self, step: &Step, gradients: &[Gradient; 2], model: &Model) -> [f32; 2] {
         // An offset that every block has to itself has no part in the residual.
         let per_mean = model.response.offset * model.shared;
         let dot = |a: Complex32, b: Complex32| a.re * b.re + a.im * b.im;
-        let of = |channel: usize| {
-            let gradient = &gradients[channel];
-            dot(gradient.level, self.z[channel])
-                + dot(gradient.slope, self.slope[channel])
-                + per_mean * gradient.mean * self.offset[channel]
-        };
-        of(0) + of(1)
+        let (mut moved, mut explained) = (0.0, 0.0);
+        for (channel, gradient) in gradients.iter().enumerate() {
+            let (z, slope) = (step.z[channel], step.slope[channel]);
+            self.z[channel] += z;
+            self.slope[channel] += slope;
+            moved += z.norm_sqr() + slope.norm_sqr();
+            explained += dot(gradient.level, z)
+                + dot(gradient.slope, slope)
+                + per_mean * gradient.mean * step.offset[channel];
+        }
+        [moved, explained]
     }
 }
 

@@ -70,7 +70,7 @@ pub(super) fn examine(
         let mut prediction = Prediction::of_c(model, waves, offsets);
         for (channel, gradient) in gradients.iter_mut().enumerate() {
             if channel > 0 {
-                prediction.change_to_d(model, waves, offsets);
+                prediction.change_to_d(model, offsets);
             }
             if has_own {
                 take_slopes(
@@ -96,7 +96,7 @@ pub(super) fn examine(
         }
         views.take(&left, blocks.len(), model.time(index as u16), model.advance);
         if is_watched {
-            thirds.add(model, waves, offsets, blocks, &course);
+            thirds.add(model, waves, offsets, &prediction.factors, blocks, &course);
         }
     }
     views.conclude(model, remains);

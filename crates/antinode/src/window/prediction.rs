@@ -55,9 +55,9 @@ impl Slopes {
         Gains(gains.map(|gain| Complex32::new(gain.im, -gain.re)))
     }
 
-    /// What raw pick-off D sees of each wave, for a C of one.
+    /// The factors of a [`Prediction`].
     #[inline(always)]
-    pub(super) fn factors(&self, model: &Model) -> [Complex32; 2] {
+    fn factors(&self, model: &Model) -> [Complex32; 2] {
         let delay = model.correction.delay * model.per_half;
         let half = 0.5 * delay * delay;
         let [plus, minus] = self.0;
@@ -74,6 +74,8 @@ pub(super) struct Prediction {
     even: Gains,
     odd: Gains,
     offset: f32,
+    /// What raw pick-off D sees of each wave, for a C of one.
+    pub factors: [Complex32; 2],
 }
 
 impl Prediction {
@@ -87,13 +89,14 @@ impl Prediction {
             even: slopes.even(&response.even),
             odd: slopes.odd(&response.odd),
             offset: response.offset * offsets[0],
+            factors: slopes.factors(model),
         }
     }
 
     /// Becomes that of pick-off D.
     #[inline(never)]
-    pub(super) fn change_to_d(&mut self, model: &Model, waves: &Waves, offsets: &[f32; 2]) {
-        let factors = Slopes::new(waves).factors(model);
+    pub(super) fn change_to_d(&mut self, model: &Model, offsets: &[f32; 2]) {
+        let factors = self.factors;
         for gains in [&mut self.mean, &mut self.even, &mut self.odd] {
             *gains = gains.through(&factors);
         }

@@ -29,6 +29,7 @@ impl Thirds {
         model: &Model,
         waves: &Waves,
         offsets: &[f32; 2],
+        factors: &[Complex32; 2],
         blocks: &[Seen],
         course: &Course,
     ) {
@@ -38,7 +39,6 @@ impl Thirds {
             slopes.even(&response.third_even),
             slopes.odd(&response.third_odd),
         );
-        let factors = slopes.factors(model);
         let offsets = offsets.map(|offset| response.third_offset * offset);
         let turn = model.turn;
         let turn = turn * turn * turn;

@@ -124,5 +124,6 @@ impl Passed {
 #[inline(always)]
 fn beyond(step: f32, variance: f32, floor: f32) -> bool {
     let rest = step.abs() - floor;
-    rest > 0.0 && rest * rest > SIGMAS * SIGMAS * variance || step.is_nan()
+    let is_explained = rest <= 0.0 || rest * rest <= SIGMAS * SIGMAS * variance;
+    !is_explained
 }

@@ -172,13 +172,12 @@ impl Trend {
             s2 - s3 * s3 * bent,
         );
         let (level_value, rate_value) = (v0 - s2 * v2 * bent, v1 - s3 * v2 * bent);
-        let shared = mixed / level;
         // Of a rate a window: a rate a sample is so much less.
         let per_sample = 2.0 * per_window;
-        let variance = 1.0 / (rate - mixed * shared);
+        let per_determinant = per_sample / (level * rate - mixed * mixed);
         Rate {
-            value: (rate_value - level_value * shared) * variance * per_sample,
-            variance: variance * own * per_sample * per_sample,
+            value: (level * rate_value - mixed * level_value) * per_determinant,
+            variance: level * own * per_determinant * per_sample,
         }
     }
 }

@@ -55,7 +55,6 @@ pub(super) fn examine(
     gradients: &mut [Gradient; 2],
 ) {
     let is_watched = blocks.first().is_some_and(|block| block.watched.is_some());
-    let has_own = model.shared == 0.0;
     let mut thirds = Thirds::default();
     let mut views = Views::new(model);
     remains.wander = [0.0; 2];
@@ -68,33 +67,16 @@ pub(super) fn examine(
         }
         let mut left = Left::default();
         let mut prediction = Prediction::of_c(model, waves, offsets);
-        for (channel, gradient) in gradients.iter_mut().enumerate() {
-            if channel > 0 {
-                prediction.change_to_d(model, offsets);
-            }
-            if has_own {
-                take_slopes(
-                    model,
-                    &prediction,
-                    channel,
-                    blocks,
-                    &course,
-                    &mut left.slope,
-                    &mut remains.wander,
-                );
-            }
-            rest(
-                model,
-                &prediction,
-                channel,
-                index,
-                blocks,
-                &course,
-                &mut left,
-                gradient,
-            );
-        }
-        views.take(&left, blocks.len(), model.time(index as u16), model.advance);
+        take_rests(
+            model,
+            &mut prediction,
+            (index, blocks),
+            &course,
+            &mut left,
+            gradients,
+            &mut remains.wander,
+        );
+        views.take(model, index, &left, blocks.len());
         if is_watched {
             thirds.add(model, waves, offsets, &prediction.factors, blocks, &course);
         }
@@ -114,49 +96,58 @@ struct Left {
     slope: [f32; CHUNK],
 }
 
-/// Takes what pick-off `channel` leaves of the blocks from block `index` on: by itself, so that its constants stay in registers.
+/// Takes what both pick-offs leave of the blocks from block `index` on, one after the other: the constants of one stay in registers.
 ///
 /// The sums are against the carrier in the middle of the last block taken, and that along z′ is in blocks before it: at the window's end
 /// both become what they are about its middle.
 #[inline(never)]
-fn rest(
+fn take_rests(
     model: &Model,
-    prediction: &Prediction,
-    channel: usize,
-    index: usize,
-    blocks: &[Seen],
+    prediction: &mut Prediction,
+    (index, blocks): (usize, &[Seen]),
     course: &Course,
     left: &mut Left,
-    gradient: &mut Gradient,
+    gradients: &mut [Gradient; 2],
+    wander: &mut [f32; 2],
 ) {
     let (shared, response) = (model.shared, model.response.in_blocks(model.blocks));
     // Only residuals are turned by it: they have no digits to lose.
     let turn = model.turn;
-    let prediction = *prediction;
-    let mut sums = if index == 0 {
-        Gradient::default()
-    } else {
-        *gradient
-    };
-    let waves = course[0].iter().zip(&course[1]);
-    let left = left.power.iter_mut().zip(&mut left.run).zip(&left.slope);
-    for ((block, (&plus, &minus)), ((power, run), slope)) in blocks.iter().zip(waves).zip(left) {
-        let mut rest = prediction.rest(&block.whitened[channel & 1], &[plus, minus]);
-        rest.odd -= slope;
-        // Of an offset that the block has to itself the mean says nothing else.
-        let known = shared * rest.mean;
-        sums.slope = (sums.slope - sums.level) * turn + response.across(&rest, known);
-        sums.level = sums.level * turn + response.along(&rest, known);
-        sums.mean += rest.mean;
-        *power += known * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
-        *run += sums.level.norm_sqr();
+    for (channel, gradient) in gradients.iter_mut().enumerate() {
+        if channel > 0 {
+            prediction.change_to_d();
+        }
+        if shared == 0.0 {
+            let slopes = &mut left.slope;
+            take_slopes(model, prediction, channel, blocks, course, slopes, wander);
+        }
+        let prediction = *prediction;
+        let mut sums = if index == 0 {
+            Gradient::default()
+        } else {
+            *gradient
+        };
+        let waves = course[0].iter().zip(&course[1]);
+        let left = left.power.iter_mut().zip(&mut left.run).zip(&left.slope);
+        for ((block, (&plus, &minus)), ((power, run), slope)) in blocks.iter().zip(waves).zip(left)
+        {
+            let mut rest = prediction.rest(&block.whitened[channel & 1], &[plus, minus]);
+            rest.odd -= slope;
+            // Of an offset that the block has to itself the mean says nothing else.
+            let known = shared * rest.mean;
+            sums.slope = (sums.slope - sums.level) * turn + response.across(&rest, known);
+            sums.level = sums.level * turn + response.along(&rest, known);
+            sums.mean += rest.mean;
+            *power += known * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
+            *run += sums.level.norm_sqr();
+        }
+        if index + blocks.len() == usize::from(model.blocks) {
+            let last = 1.0 - 0.5 * model.advance;
+            sums.slope = (sums.slope * model.advance + sums.level * last) * model.first;
+            sums.level *= model.first;
+        }
+        *gradient = sums;
     }
-    if index + blocks.len() == usize::from(model.blocks) {
-        let last = 1.0 - 0.5 * model.advance;
-        sums.slope = (sums.slope * model.advance + sums.level * last) * model.first;
-        sums.level *= model.first;
-    }
-    *gradient = sums;
 }
 
 /// The residual as a whole, by blocks, and as a step of the phasors between two blocks.
@@ -181,16 +172,17 @@ impl Views {
         }
     }
 
-    /// Takes what a run of blocks leaves, the first of them at time `u` and each `advance` after the one before.
+    /// Takes what `count` blocks from block `index` on leave.
     #[inline(never)]
-    fn take(&mut self, left: &Left, count: usize, mut u: f32, advance: f32) {
+    fn take(&mut self, model: &Model, index: usize, left: &Left, count: usize) {
         let mut views = Self { ..*self };
+        let mut u = model.time(index as u16);
         let least = 0.2 * views.spread;
         for (&power, &run) in left.power.iter().zip(&left.run).take(count) {
             views.residual += power;
             views.worst_block = greater(power, views.worst_block);
             views.time += u;
-            u += advance;
+            u += model.advance;
             // A step is known by what of it is neither constant nor slope. After n blocks of N it is n − n²/N that is not constant: the
             // sum of their times, but for the sign.
             let room = -views.time * (views.spread + views.time);

@@ -74,8 +74,9 @@ pub(super) struct Prediction {
     even: Gains,
     odd: Gains,
     offset: f32,
-    /// What raw pick-off D sees of each wave, for a C of one.
+    /// What raw pick-off D sees of each wave, for a C of one, and its offset.
     pub factors: [Complex32; 2],
+    offset_d: f32,
 }
 
 impl Prediction {
@@ -90,17 +91,18 @@ impl Prediction {
             odd: slopes.odd(&response.odd),
             offset: response.offset * offsets[0],
             factors: slopes.factors(model),
+            offset_d: response.offset * offsets[1],
         }
     }
 
     /// Becomes that of pick-off D.
-    #[inline(never)]
-    pub(super) fn change_to_d(&mut self, model: &Model, offsets: &[f32; 2]) {
+    #[inline(always)]
+    pub(super) fn change_to_d(&mut self) {
         let factors = self.factors;
         for gains in [&mut self.mean, &mut self.even, &mut self.odd] {
             *gains = gains.through(&factors);
         }
-        self.offset = model.response.offset * offsets[1];
+        self.offset = self.offset_d;
     }
 
     /// The mean alone, less what is predicted here.

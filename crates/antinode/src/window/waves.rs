@@ -50,7 +50,12 @@ impl Parameters {
     /// Moves by a step from where these are the gradients. Gives Σ|Δz|² + Σ|Δz′|², and by how much the residual's sum of squares is less
     /// there.
     #[inline(always)]
-    pub(super) fn take(&mut self, step: &Step, gradients: &[Gradient; 2], model: &Model) -> [f32; 2] {
+    pub(super) fn take(
+        &mut self,
+        step: &Step,
+        gradients: &[Gradient; 2],
+        model: &Model,
+    ) -> [f32; 2] {
         // An offset that every block has to itself has no part in the residual.
         let per_mean = model.response.offset * model.shared;
         let dot = |a: Complex32, b: Complex32| a.re * b.re + a.im * b.im;

@@ -138,7 +138,11 @@ pub(crate) fn solve(
     fit: &mut Fit,
 ) {
     let count = blocks.len() as u16;
-    let mut span = reach(model, count, carrier, uncertainty);
+    let mut span = if uncertainty > 0.0 {
+        reach(model, count, carrier, uncertainty)
+    } else {
+        count
+    };
     let mut moves = 0;
     loop {
         model.retune(carrier, span);

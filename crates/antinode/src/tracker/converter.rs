@@ -137,13 +137,15 @@ impl Range {
             high: [f32::NEG_INFINITY; 2],
             longest: 0,
         };
+        let mut runs = 0;
         for watched in blocks.iter().filter_map(|block| block.watched.as_ref()) {
             for (i, seen) in watched.extremes.iter().enumerate() {
                 range.low[i] = lesser(seen.low, range.low[i]);
                 range.high[i] = greater(seen.high, range.high[i]);
-                range.longest |= seen.low_run | seen.high_run;
+                runs |= seen.runs;
             }
         }
+        range.longest = (runs | runs >> 16) as u16;
         range
     }
 
@@ -155,8 +157,8 @@ impl Range {
         watched.map(|watched| &watched.extremes).any(|extremes| {
             (0..2).any(|i| {
                 let (low, high, seen) = (self.low[i], self.high[i], &extremes[i]);
-                let above = seen.high == high && seen.high_run > crest;
-                let below = seen.low == low && seen.low_run > crest;
+                let above = seen.high == high && (seen.runs >> 16) as u16 > crest;
+                let below = seen.low == low && seen.runs as u16 > crest;
                 high - low > main && (above || below)
             })
         })

@@ -27,8 +27,8 @@ pub(crate) struct Watched {
 pub(crate) struct Extremes {
     pub low: f32,
     pub high: f32,
-    pub low_run: u16,
-    pub high_run: u16,
+    /// The longest runs of samples there, in the halves of one number: that at the low end in the low half.
+    pub runs: u32,
 }
 
 impl Seen {
@@ -74,11 +74,10 @@ fn third<S: Sample>(watch: &ChannelWatch<S>) -> Complex32 {
 
 #[inline(always)]
 fn extremes<S: Sample>(watch: &ChannelWatch<S>) -> Extremes {
-    let [low_run, high_run] = S::runs(watch);
+    let [low, high] = S::runs(watch).map(u32::from);
     Extremes {
         low: watch.low.to_f32(),
         high: watch.high.to_f32(),
-        low_run,
-        high_run,
+        runs: low | high << 16,
     }
 }

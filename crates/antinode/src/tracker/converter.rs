@@ -165,6 +165,7 @@ impl Range {
     }
 
     /// True when samples lie `apart` beyond the wave: what does is not of it, but a tone, say, that the sums of whole blocks do not see.
+    #[inline(always)]
     fn is_beyond(&self, fit: &Fit, apart: f32) -> bool {
         (0..2).any(|i| is_beyond(fit, i, self.low[i], self.high[i], apart))
     }

@@ -83,6 +83,7 @@ impl Noise {
     }
 
     /// Takes the noise of a window that is otherwise clean, and that for which it states its deviations.
+    #[inline(always)]
     pub(super) fn learn(&mut self, variance: f32, stated: f32, wide: f32, freedom: f32) {
         self.stated = stated;
         // What is so much more than this was no noise, but a fault that a first window could not tell.

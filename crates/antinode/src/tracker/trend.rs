@@ -126,6 +126,7 @@ impl Trend {
     /// through more. With none before, the pattern is taken to stand still until a window shows that it does not.
     ///
     /// `per_window` is one over the window's half samples.
+    #[inline(always)]
     fn rate(&self, record: &Record, per_window: f32) -> Rate {
         // Sums of weight·timeⁿ and of weight·timeⁿ·angle; the window itself is at time and angle 0, and its weight is one.
         let own = greater(record.angle_variance, LEAST);

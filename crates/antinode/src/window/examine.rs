@@ -45,7 +45,7 @@ impl Remains {
 /// Passes over the blocks of a window with the waves and offsets found: what they leave, and which way they must still move.
 ///
 /// What it calls is not inlined: it keeps only what one part needs of another, for its stack is the deepest of a window's solution.
-#[inline(never)]
+#[inline(always)]
 pub(super) fn examine(
     model: &Model,
     blocks: &[Seen],

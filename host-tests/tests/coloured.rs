@@ -2,7 +2,7 @@
 
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Gyro, Loss, Wave, random_wave};
-use biquad::{Biquad, Coefficients, DirectForm2Transposed, Hertz, Type};
+use biquad::{Biquad, Coefficients, DirectForm2Transposed, Hertz, Q_BUTTERWORTH_F64, Type};
 use host_tests::score::{Honesty, NAMES};
 use host_tests::{RATE, identify_changed, windows};
 
@@ -21,7 +21,7 @@ const TUNED: Filters = &[(Type::BandPass, 5332.0, 1.0)];
 /// The same, far sharper: noise about the third harmonic is a sixtieth.
 const SHARP: Filters = &[(Type::BandPass, 5332.0, 3.0)];
 /// What a transformer or a coupling capacitor leaves.
-const HIGH_PASS: Filters = &[(Type::HighPass, 2500.0, 0.707_107)];
+const HIGH_PASS: Filters = &[(Type::HighPass, 2500.0, Q_BUTTERWORTH_F64)];
 
 /// Noise of both pick-offs, of this rms before the filters.
 fn noise(filters: Filters, rms: f64, seed: u64) -> Vec<[f64; 2]> {

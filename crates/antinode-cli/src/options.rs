@@ -147,8 +147,8 @@ pub struct Identify {
     pub hum: bool,
     /// The noise is not white, as behind a tuned front end, or a filter that ends below three times the frequency.
     ///
-    /// That it is less there is then no fault, and what it is at low frequencies does not count, as with --hum. A second tone that is there all along
-    /// counts as noise.
+    /// Less of it at three times the frequency is then no fault, and what it has at low frequencies does not count, as with --hum. A second
+    /// tone that is there all along counts as noise.
     #[arg(long)]
     pub coloured: bool,
     /// The first window's angle is chosen within π/4 of this one, rad, within ±10000 [default: π/4, so that it lies in 0…π/2].

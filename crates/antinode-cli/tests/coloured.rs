@@ -86,7 +86,7 @@ fn noise_of_a_tuned_front_end_is_named_and_no_misfit_with_its_option() {
 fn rows_that_scatter_more_than_they_state_are_told() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    record(here, tuned(0.93), 6.0, 0.005);
+    record(here, tuned(0.95), 8.0, 0.005);
     let (plain, [count, flagged]) = identified(here, "");
     assert!(count > 1000 && flagged < 10, "{flagged} of {count}");
     for part in [

@@ -1,62 +1,43 @@
-//! Whether rows scatter as their stated deviations say: of noise that is not white they do not.
+//! Whether rows scatter as their stated deviations say: in noise that is not white they do not.
+
+use std::collections::VecDeque;
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_SQRT_PI};
 
 use antinode::Estimate;
 
-/// Triples of rows from which on their scatter is known well enough.
+/// Fourth differences: what changes smoothly is not in them.
+const WEIGHTS: [f64; 5] = [1.0, -4.0, 6.0, -4.0, 1.0];
+/// Differences from which on the scatter is known well enough.
 const MANY: u32 = 200;
-/// Scatter over stated deviation that is worth a word, and what chance may add in one triple.
+/// Scatter over stated deviation that is worth a word, and what chance may add to that of a single difference.
 const MORE: f64 = 1.25;
 const LESS: f64 = 0.75;
-const CHANCE: f64 = 3.0;
-/// Residual, as a share of a_A, below which rounding and the converter are most of it.
-const LEAST: f32 = 1e-5;
+const CHANCE: f64 = 3.5;
+/// Residual, as a share of a_A, below which harmonics, rounding and the converter are most of it.
+const LEAST: f32 = 1e-4;
 /// Mean of |z| of a normal z, √(2/π).
-const MEAN: f64 = 0.797_884_560_802_865_4;
+const MEAN: f64 = FRAC_2_SQRT_PI * FRAC_1_SQRT_2;
 
-const NAMES: [&str; 4] = [
-    "main amplitude",
-    "quadrature amplitude",
-    "angle",
-    "frequency",
+/// What is compared, with its name.
+const COMPARED: [(&str, fn(&Estimate) -> [f64; 2]); 4] = [
+    ("main amplitude", |e| {
+        [e.main_amplitude.into(), e.main_amplitude_std.into()]
+    }),
+    ("quadrature amplitude", |e| {
+        [
+            e.quadrature_amplitude.into(),
+            e.quadrature_amplitude_std.into(),
+        ]
+    }),
+    ("angle", |e| [e.angle, e.angle_std.into()]),
+    ("frequency", |e| [e.frequency, e.frequency_std.into()]),
 ];
 
-/// What is compared of a row.
-#[derive(Debug, Clone, Copy)]
-struct Row {
-    start: u64,
-    end: u64,
-    values: [f64; 4],
-    variances: [f64; 4],
-}
-
-impl Row {
-    fn of(estimate: &Estimate) -> Self {
-        let e = estimate;
-        let deviations = [
-            e.main_amplitude_std,
-            e.quadrature_amplitude_std,
-            e.angle_std,
-            e.frequency_std,
-        ];
-        Self {
-            start: e.start,
-            end: e.end(),
-            values: [
-                e.main_amplitude.into(),
-                e.quadrature_amplitude.into(),
-                e.angle,
-                e.frequency,
-            ],
-            variances: deviations.map(|x| f64::from(x).powi(2)),
-        }
-    }
-}
-
-/// Second differences of clean rows that share no samples, over their deviations: what changes steadily is not in them.
+/// Differences of clean rows that share no samples, over their deviations.
 #[derive(Debug, Default)]
 pub(super) struct Scatter {
-    rows: [Option<Row>; 2],
-    sums: [f64; 4],
+    rows: VecDeque<Estimate>,
+    sums: [f64; COMPARED.len()],
     count: u32,
 }
 
@@ -65,36 +46,49 @@ impl Scatter {
     pub fn see(&mut self, estimate: &Estimate, resolution: Option<f32>) {
         let least = (LEAST * estimate.main_amplitude).max(resolution.unwrap_or(0.0));
         if !estimate.flags.is_empty() || estimate.residual_rms < least {
-            self.rows = [None; 2];
+            self.rows.clear();
             return;
         }
-        let row = Row::of(estimate);
-        if self.rows[1].is_some_and(|last| row.start < last.end) {
-            return;
-        }
-        if let [Some(first), Some(last)] = self.rows
-            && row.start - last.start == last.start - first.start
-        {
-            for (i, sum) in self.sums.iter_mut().enumerate() {
-                let bend = first.values[i] - 2.0 * last.values[i] + row.values[i];
-                let variance = first.variances[i] + 4.0 * last.variances[i] + row.variances[i];
-                *sum += bend.abs() / variance.sqrt();
+        if let Some(last) = self.rows.back() {
+            if estimate.start < last.end() {
+                return;
             }
-            self.count += 1;
+            // Rows as far apart as those before, or others begin.
+            let apart = estimate.start - last.start;
+            if self.rows.len() > 1 && apart != last.start - self.rows[self.rows.len() - 2].start {
+                self.rows.drain(..self.rows.len() - 1);
+            }
         }
-        self.rows = [self.rows[1], Some(row)];
+        self.rows.push_back(*estimate);
+        if self.rows.len() < WEIGHTS.len() {
+            return;
+        }
+        for (sum, (_, value)) in self.sums.iter_mut().zip(COMPARED) {
+            let (mut difference, mut variance) = (0.0, 0.0);
+            for (row, weight) in self.rows.iter().zip(WEIGHTS) {
+                let [value, deviation] = value(row);
+                difference += weight * value;
+                variance += (weight * deviation).powi(2);
+            }
+            *sum += difference.abs() / variance.sqrt();
+        }
+        self.count += 1;
+        self.rows.pop_front();
     }
 
-    /// What to tell of rows whose noise was taken to be white, or coloured.
-    pub fn told(&self, is_coloured: bool) -> Option<String> {
+    /// What to tell where noise was taken to be white, or, with its option, not to be.
+    pub fn told(&self, has_option: bool) -> Option<String> {
         if self.count < MANY {
             return None;
         }
-        let ratios = self.sums.map(|sum| sum / (MEAN * f64::from(self.count)));
-        let chance = CHANCE / f64::from(self.count).sqrt();
+        let count = f64::from(self.count);
+        let (ratios, chance) = (
+            self.sums.map(|sum| sum / (MEAN * count)),
+            CHANCE / count.sqrt(),
+        );
         if ratios.iter().all(|&ratio| ratio < LESS - 0.5 * chance) {
             let most = ratios.into_iter().fold(0.0, f64::max);
-            let remedy = if is_coloured {
+            let remedy = if has_option {
                 ""
             } else {
                 ", which --hum leaves out"
@@ -103,20 +97,20 @@ impl Scatter {
                 "rows scatter by only {most:.2} of their stated deviations: most of what was taken for noise is at low frequencies{remedy}"
             ));
         }
-        let more: Vec<String> = NAMES
+        let more: Vec<String> = COMPARED
             .iter()
             .zip(ratios)
             .filter(|&(_, ratio)| ratio > MORE + chance)
-            .map(|(name, ratio)| format!("{name} {ratio:.2}"))
+            .map(|((name, _), ratio)| format!("{name} {ratio:.2}"))
             .collect();
-        let remedy = if is_coloured {
+        let remedy = if has_option {
             ""
         } else {
             ", for which there is --coloured"
         };
         (!more.is_empty()).then(|| {
             format!(
-                "rows scatter by more than their stated deviations ({} times): either the wave itself moves, or the noise is not white{remedy}",
+                "rows scatter by more than their stated deviations ({} times): the wave moves or the sampling jitters, or the noise is not white{remedy}",
                 more.join(", ")
             )
         })

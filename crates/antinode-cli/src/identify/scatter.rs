@@ -18,26 +18,31 @@ const LEAST: f32 = 1e-4;
 /// Mean of |z| of a normal z, √(2/π).
 const MEAN: f64 = FRAC_2_SQRT_PI * FRAC_1_SQRT_2;
 
-/// What is compared, with its name.
-const COMPARED: [(&str, fn(&Estimate) -> [f64; 2]); 4] = [
-    ("main amplitude", |e| {
-        [e.main_amplitude.into(), e.main_amplitude_std.into()]
-    }),
-    ("quadrature amplitude", |e| {
+const NAMES: [&str; 4] = [
+    "main amplitude",
+    "quadrature amplitude",
+    "angle",
+    "frequency",
+];
+
+/// What is compared of a row, each with its deviation.
+fn compared(e: &Estimate) -> [[f64; 2]; NAMES.len()] {
+    [
+        [e.main_amplitude.into(), e.main_amplitude_std.into()],
         [
             e.quadrature_amplitude.into(),
             e.quadrature_amplitude_std.into(),
-        ]
-    }),
-    ("angle", |e| [e.angle, e.angle_std.into()]),
-    ("frequency", |e| [e.frequency, e.frequency_std.into()]),
-];
+        ],
+        [e.angle, e.angle_std.into()],
+        [e.frequency, e.frequency_std.into()],
+    ]
+}
 
 /// Differences of clean rows that share no samples, over their deviations.
 #[derive(Debug, Default)]
 pub(super) struct Scatter {
     rows: VecDeque<Estimate>,
-    sums: [f64; COMPARED.len()],
+    sums: [f64; NAMES.len()],
     count: u32,
 }
 
@@ -63,13 +68,14 @@ impl Scatter {
         if self.rows.len() < WEIGHTS.len() {
             return;
         }
-        for (sum, (_, value)) in self.sums.iter_mut().zip(COMPARED) {
-            let (mut difference, mut variance) = (0.0, 0.0);
-            for (row, weight) in self.rows.iter().zip(WEIGHTS) {
-                let [value, deviation] = value(row);
-                difference += weight * value;
-                variance += (weight * deviation).powi(2);
+        let mut differences = [[0.0; 2]; NAMES.len()];
+        for (row, weight) in self.rows.iter().zip(WEIGHTS) {
+            for (total, [value, deviation]) in differences.iter_mut().zip(compared(row)) {
+                total[0] += weight * value;
+                total[1] += (weight * deviation).powi(2);
             }
+        }
+        for (sum, [difference, variance]) in self.sums.iter_mut().zip(differences) {
             *sum += difference.abs() / variance.sqrt();
         }
         self.count += 1;
@@ -97,11 +103,11 @@ impl Scatter {
                 "rows scatter by only {most:.2} of their stated deviations: most of what was taken for noise is at low frequencies{remedy}"
             ));
         }
-        let more: Vec<String> = COMPARED
+        let more: Vec<String> = NAMES
             .iter()
             .zip(ratios)
             .filter(|&(_, ratio)| ratio > MORE + chance)
-            .map(|((name, _), ratio)| format!("{name} {ratio:.2}"))
+            .map(|(name, ratio)| format!("{name} {ratio:.2}"))
             .collect();
         let remedy = if has_option {
             ""

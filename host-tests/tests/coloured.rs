@@ -22,6 +22,8 @@ const TUNED: Filters = &[(Type::BandPass, 5332.0, 1.0)];
 const SHARP: Filters = &[(Type::BandPass, 5332.0, 3.0)];
 /// What a transformer or a coupling capacitor leaves.
 const HIGH_PASS: Filters = &[(Type::HighPass, 2500.0, Q_BUTTERWORTH_F64)];
+/// Noise of 1/f² from 300 Hz on.
+const SLOW: Filters = &[(Type::SinglePoleLowPass, 300.0, 1.0)];
 
 /// Noise of both pick-offs, of this rms before the filters.
 fn noise(filters: Filters, rms: f64, seed: u64) -> Vec<[f64; 2]> {
@@ -77,28 +79,32 @@ fn identified(filters: Filters, settings: Settings, flaws: &Flaws, seed: u64) ->
 
 #[test]
 fn deviations_hold_in_coloured_noise_and_nothing_is_flagged() {
-    for (name, filters, most) in [
-        ("low-pass", LOW_PASS, 1.12),
-        ("tuned", TUNED, 1.2),
-        ("high-pass", HIGH_PASS, 1.12),
-        ("none", &[], 1.08),
+    for (name, filters, range) in [
+        ("low-pass", LOW_PASS, 0.92..1.12),
+        ("tuned", TUNED, 1.0..1.2),
+        ("sharply tuned", SHARP, 1.2..1.6),
+        ("high-pass", HIGH_PASS, 0.92..1.12),
+        ("slow", SLOW, 0.75..1.0),
+        ("none", &[], 0.92..1.08),
     ] {
         for periods in [10, 50] {
-            let (mut honesty, mut rows) = (Honesty::default(), 0);
+            let (mut honesty, mut rows, mut flagged) = (Honesty::default(), 0, 0);
             for seed in 0..30 {
                 let wave = random_wave(seed, 5332.0, 0.5);
                 let settings = settings(periods, true);
                 for estimate in identified(filters, settings, &Flaws::default(), seed) {
-                    assert_eq!(estimate.flags, Flags::empty(), "{name}, seed {seed}");
+                    flagged += usize::from(!estimate.flags.is_empty());
                     honesty.add(&estimate, &wave);
                     rows += 1;
                 }
             }
             let ratios = honesty.ratios();
-            println!("{name}, {periods} periods: error over stated {ratios:.3?} in {rows} windows");
-            assert!(rows > 1000, "{rows}");
+            println!(
+                "{name}, {periods} periods: error over stated {ratios:.3?} in {rows} windows, {flagged} flagged"
+            );
+            assert!(rows > 1000 && flagged == 0, "{flagged} of {rows}");
             for (ratio, name) in ratios.into_iter().zip(NAMES) {
-                assert!((0.92..most).contains(&ratio), "{name} {ratio}");
+                assert!(range.contains(&ratio), "{name} {ratio}");
             }
         }
     }

@@ -160,7 +160,7 @@
 //! [`Settings::hum`] takes it out. Periods are 4 to 200 samples, and with [`Settings::frequency`] 2.5 to as many as a block holds. Deviations and flags take noise to be white, independent, and as large
 //! in both pick-offs: of ten times as much in one of them a window in some ten thousand is flagged, and of noise that both share
 //! deviations are a tenth too small. For noise that is not white there is [`Settings::coloured`]: behind a
-//! low-pass or a high-pass, or of 1/f, errors then are 0.8 to 1.1 of their deviations; behind a band-pass about the wave 1.1 with a quality of 1, 1.5 with
+//! low-pass or a high-pass, or of 1/f², errors then are 0.8 to 1.1 of their deviations; behind a band-pass about the wave 1.1 with a quality of 1, 1.5 with
 //! 3, and 2 to 3 with 10. Noise that grows as the frequency does stays a misfit where it is one.
 //!
 //! Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: 260 rad/s and 480 1/s in ten periods of 5332 Hz,

@@ -94,13 +94,13 @@ impl Scatter {
         );
         if ratios.iter().all(|&ratio| ratio < LESS - 0.5 * chance) {
             let most = ratios.into_iter().fold(0.0, f64::max);
-            let remedy = if has_option {
+            let hum = if has_option {
                 ""
             } else {
-                ", which --hum leaves out"
+                "hum, which --hum leaves out, or "
             };
             return Some(format!(
-                "rows scatter by only {most:.2} of their stated deviations: most of what was taken for noise is at low frequencies{remedy}"
+                "rows scatter by only {most:.2} of their stated deviations: most of what was taken for noise is {hum}a tone that is not near the wave"
             ));
         }
         let more: Vec<String> = NAMES

@@ -33,7 +33,10 @@ pub(super) fn course(model: &Model, waves: &Waves, index: usize) -> Course {
 #[inline(always)]
 fn outwards(model: &Model, mut middle: Complex32, slope: Complex32, u: f32) -> [Complex32; CHUNK] {
     if u != 0.0 {
-        middle += middle * growth(slope * u);
+        // In two halves: the middle of a chunk may lie beyond the window's end.
+        let grown = growth(slope * (0.5 * u));
+        middle += middle * grown;
+        middle += middle * grown;
     }
     // What a block does to the wave.
     let on = model.turn + model.turn * growth(slope * model.advance);
@@ -114,5 +117,24 @@ mod tests {
             let error = libm::sqrt(squares / 1000.0);
             assert!(error < limit, "blocks of {length}: {error:e}");
         }
+    }
+
+    #[test]
+    fn a_chunk_of_one_block_grows_as_far_as_a_course_may() {
+        let carrier = PhaseStep::from_period(18.75);
+        let layout = Layout::new::<f32>(carrier, 19);
+        let blocks = CHUNK as u16 + 1;
+        let model = Model::new(layout, carrier, blocks, Calibration::IDEAL, 1e5, false);
+        let slope = Complex32::new(-0.7, 0.9);
+        let waves = Waves {
+            value: [Complex32::ONE; 2],
+            slope: [slope; 2],
+            ..Waves::default()
+        };
+        let found = course(&model, &waves, CHUNK)[1][0];
+        let (u, unit) = model.carrier(CHUNK);
+        let (sine, cosine) = libm::sincosf(u * slope.im);
+        let truth = unit * Complex32::new(cosine, sine) * (0.5 * libm::expf(u * slope.re));
+        assert!((found - truth).norm_sqr() < 2e-5 * 2e-5 * truth.norm_sqr());
     }
 }

@@ -142,6 +142,7 @@ fn take_rests(
             *run += sums.level.norm_sqr();
         }
         if index + blocks.len() == usize::from(model.blocks) {
+            // The last block lies as far behind the middle as the first before it.
             let last = 1.0 - 0.5 * model.advance;
             sums.slope = (sums.slope * model.advance + sums.level * last) * model.first;
             sums.level *= model.first;

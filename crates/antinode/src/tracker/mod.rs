@@ -189,15 +189,22 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Takes a block; true where it completes a window.
-    #[inline(never)]
+    #[inline]
     fn gather<S: Sample>(&mut self, block: &Block<S>) -> bool {
         let is_same = self
             .model
             .as_ref()
             .is_some_and(|model| model.layout == block.layout);
         if !(is_same && (self.end == block.start || self.gathered.is_new())) {
-            return self.gather_anew(block, is_same);
+            self.gather_anew(block, is_same)
+        } else {
+            self.take(block)
         }
+    }
+
+    /// Takes a block that continues those gathered, or begins a window.
+    #[inline(never)]
+    fn take<S: Sample>(&mut self, block: &Block<S>) -> bool {
         self.end = block.start + u64::from(block.layout.length);
         let (Some(model), Some(place)) = (&self.model, self.gathered.next()) else {
             return false;
@@ -214,7 +221,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         if !is_same {
             self.begin(&block.layout);
         }
-        self.gather(block)
+        self.take(block)
     }
 
     /// True when the wave has been lost for so long that a new period must be searched: two windows, or eight with little of the wave

@@ -54,7 +54,15 @@ impl fmt::Display for Conditions {
     }
 }
 
-/// (17) and (20) less what the exact solution expects of them, each in its own deviations.
+/// What the delayed sums say.
+pub(super) struct OfDelay {
+    /// (17) and (20) less what the exact solution expects of them, each in its own deviations.
+    pub excesses: [f64; 2],
+    /// Deviation of q of (16) at the quarter, input units squared.
+    pub q_deviation: f64,
+}
+
+/// (17), (20) and q beside what the exact solution expects of them.
 ///
 /// Both rest on the delayed sums, and on noise that a quarter period makes independent: hum, a second tone or coloured noise shows
 /// in (17) on a pick-off itself, in (20) between the two. The grid's part of the delay is known and taken out.
@@ -63,7 +71,7 @@ pub(super) fn of_delay(
     expected: &Sums,
     reference: &Reference,
     changing: f64,
-) -> [f64; 2] {
+) -> OfDelay {
     let Sums {
         moments,
         delayed,
@@ -106,5 +114,9 @@ pub(super) fn of_delay(
     let (u, v) = vector(expected, &expected.moments);
     // The angle between the two times their size: on a pick-off's axis without quadrature Δφ itself has no meaning.
     let turn = libm::atan2(y * u - x * v, x * u + y * v);
-    [delay, turn * libm::sqrt(u * u + v * v) / deviation(between)]
+    let across = deviation(between);
+    OfDelay {
+        excesses: [delay, turn * libm::sqrt(u * u + v * v) / across],
+        q_deviation: libm::hypot(across, (c + d) * decay * lag / count / sine),
+    }
 }

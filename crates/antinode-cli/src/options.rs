@@ -116,7 +116,8 @@ pub struct Identify {
     /// Which methods a row shows.
     ///
     /// With `all`, columns method1_… to method4_… follow in CSV and JSON lines; those that end in off_sigma are differences from the
-    /// exact solution in its standard deviations. Windows without a wave have none.
+    /// exact solution in its standard deviations. Windows without a wave have none, nor has one with less than a quarter of a period of
+    /// samples before it.
     #[arg(long, value_enum, default_value_t = Methods::Exact)]
     pub methods: Methods,
     /// Format of raw samples, in whatever is no WAV, no NPY and not named as a text: little-endian, S_C and S_D in turn.

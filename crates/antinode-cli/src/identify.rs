@@ -1,5 +1,6 @@
 //! `antinode identify`: recordings in, rows out, as a stream.
 
+mod scatter;
 mod search;
 mod silence;
 mod span;
@@ -15,6 +16,7 @@ use crate::methods::History;
 use crate::options::{Format, Identify, MOST_PERIODS, Methods};
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
+use scatter::Scatter;
 use search::Search;
 use silence::Silence;
 use span::{Span, Step};
@@ -130,6 +132,7 @@ fn identify(
     let mut search = Search::default();
     let mut span = Span::new(options, &recording, rate);
     let mut silence = Silence::default();
+    let mut scatter = Scatter::default();
     let mut misfits = 0;
     let fault = 'all: loop {
         match recording.read(&mut buffer) {
@@ -179,6 +182,7 @@ fn identify(
                     .as_ref()
                     .and_then(|history| history.compare(&estimate));
                 silence.see(&estimate, rate, options.hop);
+                scatter.see(&estimate, settings.resolution);
                 let estimate = Estimate {
                     time: estimate.time + span.offset(),
                     ..estimate
@@ -197,18 +201,15 @@ fn identify(
     if is_watched && recording.pairs().is_none() {
         eprintln!("{name}: {} sample pairs", core.index());
     }
-    if !options.hum && misfits >= MANY && 4 * misfits > rows.count() {
-        rows.flush()?;
-        eprintln!(
-            "warning: {name}: {misfits} of {} rows are flagged misfit alone; where it is mains hum or an offset that wanders, --hum takes it out; where the \
-             frequency drifts or the pattern turns far within a window, shorter windows do, --periods",
-            rows.count()
-        );
-    }
+    let many = misfits >= MANY && 4 * misfits > rows.count();
+    let of_misfits = many.then(|| misfit_remedies(misfits, rows.count(), options));
     let seconds = core.index() as f64 / rate;
     let of_span = span.warning().filter(|_| fault.is_none());
     let of_silence = silence.told(seconds, span.offset());
-    let told = of_span.into_iter().chain(of_silence);
+    let of_scatter = scatter.told(options.hum || options.coloured);
+    let told = [of_misfits, of_span, of_silence, of_scatter]
+        .into_iter()
+        .flatten();
     let told = told.map(|warning| format!("{name}: {warning}"));
     for warning in recording.late_warning().into_iter().chain(told) {
         rows.flush()?;
@@ -233,6 +234,18 @@ fn identify(
         last = next;
     }
     Err(last)
+}
+
+/// What may be done about rows that are flagged as misfits, and as nothing else.
+fn misfit_remedies(misfits: u64, rows: u64, options: &Identify) -> String {
+    let mut told = format!("{misfits} of {rows} rows are flagged misfit alone; ");
+    if !options.hum && !options.coloured {
+        told += "where it is mains hum or an offset that wanders, --hum takes it out; ";
+    }
+    if !options.coloured {
+        told += "where a filter leaves less noise at three times the frequency, --coloured does; ";
+    }
+    told + "where the frequency drifts or the pattern turns far within a window, shorter windows do, --periods"
 }
 
 /// The rate that was asked for, or else the recording's own.

@@ -146,6 +146,12 @@ pub struct Identify {
     /// Each block, of a period or two, gets an offset of its own. Windows need 5 periods for it, with --hop 10.
     #[arg(long)]
     pub hum: bool,
+    /// The noise is not white, as behind a tuned front end, or a filter that ends below three times the frequency.
+    ///
+    /// Less of it at three times the frequency is then no fault, and what it has at low frequencies does not count, as with --hum. A second
+    /// tone that is there all along counts as noise.
+    #[arg(long)]
+    pub coloured: bool,
     /// The first window's angle is chosen within π/4 of this one, rad, within ±10000 [default: π/4, so that it lies in 0…π/2].
     #[arg(long, value_name = "RAD", value_parser = ranges::start_angle)]
     pub start_angle: Option<f32>,
@@ -282,6 +288,7 @@ impl Identify {
                 Detector::MeanReturn => Detection::MeanReturn,
             },
             hum: self.hum,
+            coloured: self.coloured,
             calibration: self.corrected.calibration(),
             ..plain
         }

@@ -65,6 +65,36 @@ fn check(label: &str, score: &Score, limits: Range<f64>) {
 }
 
 #[test]
+fn more_quadrature_costs_frequency_alone() {
+    for (share, limits) in [(0.65, 1.0..1.4), (0.75, 1.1..1.8), (0.85, 1.5..3.0)] {
+        for periods in [2, 10, 50] {
+            let score = score(PAPER, periods, 0.02, 500, 8, |seed| {
+                let wave = random_wave(seed, 5332.0, 0.5);
+                let size = share * wave.main_amplitude;
+                Wave {
+                    quadrature_amplitude: size.copysign(wave.quadrature_amplitude),
+                    ..wave
+                }
+            });
+            let (error, stated) = (score.error(), score.stated());
+            println!(
+                "a_B of {share} a_A, {periods:2} periods: rms error/bound {error:.3?}, stated/bound {stated:.3?}"
+            );
+            let [others @ .., frequency] = error;
+            assert!(
+                others.iter().all(|ratio| (0.95..1.06).contains(ratio)),
+                "{share}, {periods} periods: {error:?}"
+            );
+            assert!(
+                limits.contains(&frequency),
+                "{share}, {periods} periods: {frequency}"
+            );
+            assert!(stated[3] > 0.94 * frequency);
+        }
+    }
+}
+
+#[test]
 fn reaches_the_bound_from_cold() {
     for (periods, runs) in [(2, 700), (4, 700), (10, 700), (50, 500)] {
         for noise in [0.001, 0.02, 0.2] {

@@ -317,12 +317,14 @@ fn apart(a: &Shape, b: &Shape, unit: &[f64; 3]) -> [f64; 3] {
 pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
     let (omega, count) = (sums.products.omega, sums.products.count);
     let exact = &reference.wave;
-    let expect = |wave: &Wave| Sums {
-        moments: Moments::expected(wave, omega, count, &reference.noise, reference.turn),
-        delayed: Delayed::expected(wave, omega, count, &reference.noise, sums.delayed.lag),
-        products: Products::expected(wave, omega, count),
-    };
-    let expected = waves(&expect(exact));
+    let noise = &reference.noise;
+    let moments_of = |wave| Moments::expected(wave, omega, count, noise, reference.turn);
+    let delayed_of = |wave| Delayed::expected(wave, omega, count, noise, sums.delayed.lag);
+    let expected = waves(&Sums {
+        moments: moments_of(exact),
+        delayed: delayed_of(exact),
+        products: Products::expected(exact, omega, count),
+    });
     let [of_a, of_b, of_angle] = reference.deviations;
     let leakage = libm::sqrt(mean_harmonic(2, omega, count).norm_sqr());
     let imbalance = sums.delayed.imbalance(&sums.moments);
@@ -338,7 +340,13 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
     let OfDelay {
         excesses: [imbalance_excess, phase_excess],
         q_deviation,
-    } = conditions::of_delay(sums, &expect(&fitted), reference, changing);
+    } = conditions::of_delay(
+        sums,
+        &moments_of(&fitted),
+        &delayed_of(&fitted),
+        reference,
+        changing,
+    );
     let conditions = |i: usize| Conditions {
         window,
         no_quadrature: i != NO_QUADRATURE || b.abs() < 2.0 * of_b,

@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Flaws {
-    /// Rms of the noise of (2), (3): white, Gaussian, independent in the two channels. Input units, 0 or more.
+    /// Rms of the noise of (2): white, Gaussian, independent in the two channels. Input units, 0 or more.
     pub noise: f64,
     /// Offset of channel C, input units.
     pub offset_c: f64,
@@ -44,7 +44,7 @@ pub struct Flaws {
     /// Pick-off D stands at 45 degrees + this angle on the resonator's rim, rad, in the sense of theta.
     ///
     /// An angle on the rim counts twice in the pattern, so with eps for this angle channel D gets
-    /// S_D cos 2 eps - S_C sin 2 eps in place of S_D of (3), which is A sin(2 theta - 2 eps) + B cos(2 theta - 2 eps).
+    /// D cos 2 eps - C sin 2 eps in place of D of (3), which is A sin(2 theta - 2 eps) + B cos(2 theta - 2 eps).
     /// To first order: a_A - eps a_A sin 4 theta, theta - (eps / 2) (1 + (E/D) cos 4 theta).
     pub pick_off_error: f64,
     /// Cubic distortion c of both pick-offs: S becomes S + c S^3 / a^2, a being the wave's main amplitude at t = 0. No unit.

@@ -18,7 +18,7 @@ const LAST: u64 = 1 << 53;
 pub struct Pair {
     /// S_C of (2), input units.
     pub c: f64,
-    /// S_D of (3), input units.
+    /// S_D of (2), input units.
     pub d: f64,
 }
 

@@ -17,7 +17,7 @@ pub struct Wave {
     pub main_amplitude: f64,
     /// a_B of (1): amplitude of the quadrature wave at t = 0, input units, signed, |a_B| <= a_A.
     pub quadrature_amplitude: f64,
-    /// theta of (2), (3): pattern angle at t = 0, rad, any.
+    /// theta of (3): pattern angle at t = 0, rad, any.
     pub angle: f64,
     /// alpha of (1), rad, any: tau(t) = 2 pi (f t + `frequency_rate` t^2 / 2) - alpha.
     pub phase: f64,
@@ -70,7 +70,7 @@ pub struct Truth {
     pub main_amplitude: f64,
     /// a_B of (1) at that moment, input units, signed.
     pub quadrature_amplitude: f64,
-    /// theta of (2), (3) at that moment, rad, continuous from [`Wave::angle`] (not reduced).
+    /// theta of (3) at that moment, rad, continuous from [`Wave::angle`] (not reduced).
     ///
     /// Splits may make the pattern a circle, a_A = |a_B|, for a moment; there the angle has no meaning, and may jump.
     pub angle: f64,

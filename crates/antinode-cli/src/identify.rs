@@ -83,7 +83,7 @@ fn identify(
     rows: &mut Rows<impl Write>,
 ) -> Result<(), Failure> {
     let open = OpenOptions {
-        raw: options.raw.map(Into::into),
+        raw: options.raw,
         columns: options.columns.clone(),
         rate: options.rate,
     };

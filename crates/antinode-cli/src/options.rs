@@ -121,7 +121,7 @@ pub struct Identify {
     pub methods: Methods,
     /// Format of raw samples, in whatever is no WAV, no NPY and not named as a text: little-endian, S_C and S_D in turn.
     #[arg(long, value_enum, value_name = "FORMAT")]
-    pub raw: Option<Raw>,
+    pub raw: Option<RawFormat>,
     /// Columns of a text recording, by name or number from 1, as C,D or TIME,C,D [default: by their names or number]; channels of a WAV or
     /// NPY recording, by number, as C,D.
     ///
@@ -220,27 +220,6 @@ pub enum Detector {
     Difference,
     /// Formula (9), the return of the running sum: for little noise, and where a second tone hides the period.
     MeanReturn,
-}
-
-/// Formats of raw samples.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub enum Raw {
-    /// 16-bit integers, full scale reads as 1.
-    I16,
-    /// 32-bit integers, full scale reads as 1.
-    I32,
-    /// 32-bit floating point.
-    F32,
-}
-
-impl From<Raw> for RawFormat {
-    fn from(raw: Raw) -> Self {
-        match raw {
-            Raw::I16 => Self::I16,
-            Raw::I32 => Self::I32,
-            Raw::F32 => Self::F32,
-        }
-    }
 }
 
 /// A skew in the core's unit.

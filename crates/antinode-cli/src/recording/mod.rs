@@ -37,7 +37,7 @@ pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use raw::RawFormat;
 use source::{Kind, Opened, Source, Stream};
-pub use write::{OutputError, RecordingWriter, WavSample, WholeFile};
+pub use write::{OutputError, RecordingWriter, SampleFormat, WholeFile};
 
 /// The capacity given to a buffer that has none: small enough to stay in the cache.
 pub const BLOCK_PAIRS: usize = 1 << 14;

@@ -2,6 +2,8 @@
 
 use std::io::{self, Read};
 
+use clap::ValueEnum;
+
 use super::error::InputError;
 use super::frame::Frame;
 use super::sample::{BadSample, Kind, SampleCode};
@@ -14,13 +16,13 @@ const CHUNK_BYTES: usize = 3 << 16;
 const CHUNK_HEADER: usize = 8;
 
 /// The format of samples that come without a header: little-endian, S_C and S_D in turn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum RawFormat {
-    /// 16-bit integers, full scale 1.0.
+    /// 16-bit integers, full scale reads as 1.
     I16,
-    /// 32-bit integers, full scale 1.0.
+    /// 32-bit integers, full scale reads as 1.
     I32,
-    /// 32-bit floats.
+    /// 32-bit floating point.
     F32,
 }
 

@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use antinode_sim::{ClipSpan, Dropout, Flaws, Loss, Wave};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::fields::Parsed;
 use crate::failure::Failure;
-use crate::recording::WavSample;
+use crate::recording::SampleFormat;
 
 /// `antinode simulate`.
 #[derive(Debug, Args)]
@@ -26,8 +26,8 @@ pub struct Simulate {
     #[arg(long, default_value_t = 1, value_name = "SEED")]
     pub seed: u64,
     /// How samples are stored.
-    #[arg(long, value_enum, default_value_t = Sample::I16, value_name = "FORMAT")]
-    pub sample: Sample,
+    #[arg(long, value_enum, default_value_t = SampleFormat::I16, value_name = "FORMAT")]
+    pub sample: SampleFormat,
 
     #[command(flatten)]
     wave: WaveOptions,
@@ -133,33 +133,6 @@ struct FlawOptions {
     dropout: Vec<Parsed<Dropout>>,
 }
 
-/// How samples are stored.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Sample {
-    /// 16-bit integers, full scale 1; CSV holds their values.
-    I16,
-    /// 24-bit integers, full scale 1; NPY holds them in 32 bits, CSV their values.
-    I24,
-    /// 32-bit integers, full scale 1; CSV holds their values.
-    I32,
-    /// 32-bit floating point.
-    F32,
-    /// 64-bit floating point; not in WAV.
-    F64,
-}
-
-impl From<Sample> for WavSample {
-    fn from(sample: Sample) -> Self {
-        match sample {
-            Sample::I16 => Self::I16,
-            Sample::I24 => Self::I24,
-            Sample::I32 => Self::I32,
-            Sample::F32 => Self::F32,
-            Sample::F64 => Self::F64,
-        }
-    }
-}
-
 impl Simulate {
     /// The wave at the first sample.
     pub fn wave(&self) -> Wave {
@@ -177,11 +150,6 @@ impl Simulate {
             frequency_split: self.wave.frequency_split,
             frequency_angle: self.wave.frequency_angle,
         }
-    }
-
-    /// True for samples that end at full scale.
-    pub fn is_integer(&self) -> bool {
-        !matches!(self.sample, Sample::F32 | Sample::F64)
     }
 
     /// Refuses a frequency whose samples would be those of another one.

@@ -45,7 +45,7 @@ pub enum InputError {
     #[error("{file}: there is no such file; check the path")]
     NotFound { file: String },
     /// The path leads to a directory.
-    #[error("{file}: this is a directory; name the recording inside it")]
+    #[error("{file}: this is a directory; name the file inside it")]
     Directory { file: String },
     /// The file may not be read.
     #[error("{file}: no permission to read it; grant read access to the file and its directory")]

@@ -26,7 +26,6 @@ mod units;
 mod wav;
 mod write;
 
-use std::fs::{self, File};
 use std::io::{self, IsTerminal};
 use std::path::Path;
 
@@ -36,6 +35,7 @@ pub use error::{Channel, InputError};
 pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use raw::RawFormat;
+pub use source::open_file;
 use source::{Kind, Opened, Source, Stream};
 pub use write::{OutputError, RecordingWriter, SampleFormat, WholeFile};
 
@@ -76,12 +76,9 @@ impl Recording {
         }
         let name = path.display().to_string();
         let io = |fault| InputError::io(&name, fault);
-        let metadata = fs::metadata(path).map_err(io)?;
-        if metadata.is_dir() {
-            return Err(InputError::Directory { file: name });
-        }
+        let file = open_file(path)?;
+        let metadata = file.metadata().map_err(io)?;
         let length = metadata.is_file().then_some(metadata.len());
-        let file = File::open(path).map_err(io)?;
         let again = if length.is_some() {
             Some(file.try_clone().map_err(io)?)
         } else {

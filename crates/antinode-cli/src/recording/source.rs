@@ -1,7 +1,8 @@
 //! What every format of recordings is to be read by.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Read;
+use std::path::Path;
 
 use super::error::InputError;
 use super::gaps::Gap;
@@ -9,6 +10,17 @@ use super::not_finite::Written;
 
 /// Where the bytes come from.
 pub(super) type Stream = Box<dyn Read + Send>;
+
+/// Opens a file or a pipe by its path; a directory is neither.
+pub fn open_file(path: &Path) -> Result<File, InputError> {
+    let file = path.display().to_string();
+    match fs::metadata(path) {
+        Ok(metadata) if metadata.is_dir() => Err(InputError::Directory { file }),
+        found => found
+            .and_then(|_| File::open(path))
+            .map_err(|fault| InputError::io(&file, fault)),
+    }
+}
 
 /// A format's way to deliver pairs.
 pub(super) trait Source: Send {

@@ -1,5 +1,6 @@
 //! Opening, and what every format has in common.
 
+use std::fs;
 use std::io::{self, Cursor, Read};
 
 use proptest::prelude::*;
@@ -104,7 +105,7 @@ fn a_path_that_leads_to_no_recording_is_named() {
         format!("{name}: there is no such file; check the path")
     );
     let expected = format!(
-        "{}: this is a directory; name the recording inside it",
+        "{}: this is a directory; name the file inside it",
         directory.path().display()
     );
     assert_eq!(open_fault(directory.path()), expected);

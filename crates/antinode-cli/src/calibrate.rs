@@ -92,7 +92,8 @@ fn tell(
     )?;
     rows.tell_overlaps(out)?;
     for &(quantity, _, value, deviation) in quantities {
-        writeln!(out, "{quantity:<20} {}", with_std(value, deviation))?;
+        let text = with_std(value, deviation);
+        writeln!(out, "{quantity:<20} {}", text.trim_end())?;
     }
     if !found.knows_splits {
         writeln!(

@@ -200,8 +200,8 @@ fn identify(
     if !options.hum && misfits >= MANY && 4 * misfits > rows.count() {
         rows.flush()?;
         eprintln!(
-            "warning: {name}: {misfits} of {} rows are flagged misfit alone; where it is mains hum or an offset that wanders, --hum takes it out; where the \
-             frequency drifts or the pattern turns far within a window, shorter windows do, --periods",
+            "warning: {name}: {misfits} of {} rows are flagged misfit alone; if that is mains hum or an offset that wanders, --hum takes it out; if \
+             the frequency drifts or the pattern turns far within a window, give a smaller --periods",
             rows.count()
         );
     }
@@ -241,7 +241,7 @@ fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, 
         (Some(rate), _) => Ok(rate),
         (None, Some(rate)) if (1.0..=1e10).contains(&rate) => Ok(rate),
         (None, Some(rate)) => Err(Failure::Recording(format!(
-            "{name}: a sample rate of {rate} Hz is absurd; the recording says so itself: give the true one as --rate HZ"
+            "{name}: its own sample rate of {rate} Hz is absurd; give the true one as --rate HZ"
         ))),
         (None, None) => Err(Failure::Recording(format!(
             "{name}: the sample rate is not known: the recording does not say it; give --rate HZ"

@@ -35,7 +35,7 @@ pub const MOST_PERIODS: u16 = 1022;
 #[derive(Debug, Parser)]
 #[command(name = "antinode", version, max_term_width = 100, after_help = EXAMPLES)]
 pub struct Options {
-    /// What to do; nothing: a demonstration.
+    /// What to do; without it, a demonstration.
     #[command(subcommand)]
     pub command: Option<Command>,
 }
@@ -45,31 +45,32 @@ pub struct Options {
 pub enum Command {
     /// Identifies the wave in recordings, one row a window.
     ///
-    /// A row's time is that of the window's middle, from the first sample on; where the recording has a time column, that column's
-    /// first value is added, unless it goes up by 1 a line and --rate makes it an index.
+    /// A row's time is the middle of its window, counted from the first sample. The first value of the recording's time column is
+    /// added, unless that column is an index: it goes up by 1 a line, and --rate is given.
     Identify(Box<Identify>),
     /// Finds the calibration of the pick-offs from rows of a gyro whose pattern turned, and prints it as options.
     ///
     /// Let the gyro ring down on a table that turns until the pattern has turned by 90° or more, and once more the other way around;
-    /// identify both recordings in windows that do not overlap. Energy and quadrature then depend on the angle only by what is
-    /// to be calibrated. The options are printed alone on standard output, their deviations on standard error.
+    /// identify both recordings in windows that do not overlap. Energy and quadrature then depend on the angle only by the flaws of
+    /// the pick-offs. The options alone go to standard output, their deviations to standard error.
     ///
-    /// Rows that were identified with a calibration already: give it here too; what is printed takes its place.
+    /// If the rows were identified with a calibration, give it here too; what is printed replaces it.
     Calibrate(Calibrate),
     /// Finds the resonator's quality factor and the splits of its damping and frequency from rows of ring-downs.
     ///
-    /// Calibrate the pick-offs first, and identify in windows that do not overlap: of a record of hours, as long as the pattern turns by
-    /// less than 22.5° in one. A pattern at rest tells the decay time along it. Ring-downs at pattern angles of 0°, 22.5° and 45°, or of a
-    /// pattern that turns, tell both splits too: how far the decay rates and the frequencies of the two modes are apart, and the
-    /// pattern angle at which each is greatest. What rotation turns each run's pattern by is found beside them.
+    /// Calibrate the pick-offs first, and identify in windows that do not overlap; for a record of hours they may be long, provided that
+    /// the pattern turns by less than 22.5° within one. A pattern at rest gives the decay time at its own angle only. Ring-downs at
+    /// pattern angles of 0°, 22.5° and 45°, or of a pattern that turns, give both splits too: how far the decay rates and the
+    /// frequencies of the two modes are apart, and the pattern angle at which each is greatest; and how fast rotation turns each run's
+    /// pattern.
     ///
-    /// A run ends where the wave was lost or jumps: one recording may hold several ring-downs, and samples that are missing leave the
-    /// rates right.
+    /// A run ends where the wave is lost or jumps: one recording may hold several ring-downs, and missing samples do not falsify the
+    /// rates.
     Resonator(Resonator),
     /// Draws rows over time: both amplitudes, pattern angle, frequency and residual, with their deviations and flags.
     ///
     /// Bands are one standard deviation wide to either side; red marks at a panel's foot are flagged rows. A line ends where rows are missing or
-    /// flagged `lost`. Axes are made for rows without a flag: a flagged value far from them ends at the panel's edge.
+    /// flagged `lost`. Axes fit the rows without a flag: a flagged value far beyond them is held at the panel's edge.
     Plot(Plot),
     /// Writes a simulated recording, and the truth beside it as JSON.
     Simulate(Box<super::simulate::Simulate>),
@@ -77,8 +78,8 @@ pub enum Command {
     Study(super::study::Study),
     /// Shows what a device reports over its serial port, live: estimates as rows, all else on standard error.
     ///
-    /// Bytes may be damaged or missing: what is lost is counted, and told at the end. A device on a port is first asked for its configuration.
-    /// Ctrl-C ends it.
+    /// Damaged and missing reports are counted, and the counts are told at the end. A device on a port is first asked for its configuration.
+    /// Ctrl-C ends the command.
     Monitor(super::device::monitor::Monitor),
     /// Sends a command to a device over its serial port, and waits for its acknowledgement.
     #[command(name = "command")]
@@ -97,14 +98,14 @@ pub struct Identify {
     pub periods: u16,
     /// Blocks from the start of one window to the start of the next [default: those of one window].
     ///
-    /// With it a block is a period; in windows of fewer than ten periods it is a tenth of the window.
+    /// With --hop a block is a period, or a tenth of the window where that has fewer than ten periods.
     /// Fewer blocks than a window has make windows overlap, more leave gaps.
     #[arg(long, value_name = "BLOCKS", value_parser = value_parser!(u16).range(1..))]
     pub hop: Option<u16>,
     /// Sample rate, Hz, 1 to 1e10 [default: the recording's own].
     #[arg(long, value_name = "HZ", value_parser = ranges::rate)]
     pub rate: Option<f64>,
-    /// Only samples from this time on, s, as rows tell it: by the recording's time column, or else from the first sample.
+    /// Only samples from this time on, s, as in the rows: by the recording's time column, or else from the first sample.
     #[arg(long, value_name = "S", value_parser = ranges::time)]
     pub from: Option<f64>,
     /// Only samples before this time, s.
@@ -119,33 +120,34 @@ pub struct Identify {
     /// exact solution in its standard deviations. Windows without a wave have none.
     #[arg(long, value_enum, default_value_t = Methods::Exact)]
     pub methods: Methods,
-    /// Format of raw samples, in whatever is no WAV, no NPY and not named as a text: little-endian, S_C and S_D in turn.
+    /// Format of raw samples, for what is neither WAV nor NPY, nor text by its extension: little-endian, S_C and S_D in turn.
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub raw: Option<RawFormat>,
-    /// Columns of a text recording, by name or number from 1, as C,D or TIME,C,D [default: by their names or number]; channels of a WAV or
-    /// NPY recording, by number, as C,D.
+    /// Columns of a text recording by name or by number from 1, as C,D or TIME,C,D; channels of a WAV or NPY recording by number, as C,D
+    /// [default: told by their names, or how many there are].
     ///
-    /// What is neither WAV nor NPY is then read as text, unless --raw is given. Without it, text is known by its first line.
-    /// Two columns leave the recording's time out: its rate is then that of --rate. Lines that begin with #, % or // are comments,
+    /// With --columns, what is neither WAV nor NPY is read as text, unless --raw is given; without, text is known by its first line.
+    /// Where only two columns are named, the recording's own time is ignored, and --rate gives the rate. Lines that begin with #, % or // are comments,
     /// and settings above the samples are skipped; a line of units may follow the header, and a time in ms, us or ns is understood.
     #[arg(long, value_name = "COLUMNS")]
     pub columns: Option<Columns>,
-    /// The wave's frequency, Hz, within 5 %, where it is known: it is then not searched, and the first window begins with the first
+    /// The wave's frequency, Hz, if it is known within 5 %: it is then not searched for, and the first window begins with the first
     /// sample.
     ///
     /// For noise or tones in which the search finds no period, for recordings of a few periods, and for 2.5 to 1024 samples a period, where
-    /// the search wants 4 to 200.
+    /// the search needs 4 to 200.
     #[arg(long, value_name = "HZ", value_parser = ranges::positive, conflicts_with = "detector")]
     pub frequency: Option<f32>,
-    /// How the period is found: where one way finds none, as a second tone may hide it, try the other.
+    /// How the period is searched for: where one way finds none, as a second tone may hide it, try the other.
     #[arg(long, value_enum, default_value_t = Detector::Difference)]
     pub detector: Detector,
-    /// The signals carry mains hum, or an offset that wanders: it is then neither taken for noise nor for a fault.
+    /// The signals carry mains hum, or an offset that wanders: it is then taken neither for noise nor for a fault.
     ///
-    /// Each block, of a period or two, gets an offset of its own. Windows need 5 periods for it, with --hop 10.
+    /// Each block, of a period or two, gets an offset of its own. Windows must have 5 periods or more, or 10 where --hop is given.
     #[arg(long)]
     pub hum: bool,
-    /// The first window's angle is chosen within π/4 of this one, rad, within ±10000 [default: π/4, so that it lies in 0…π/2].
+    /// Where the pattern stands at first, to within π/4, as the angle is known modulo π/2 only; rad, within ±10000 [default: π/4, so that
+    /// the first window's angle lies in 0…π/2].
     #[arg(long, value_name = "RAD", value_parser = ranges::start_angle)]
     pub start_angle: Option<f32>,
 
@@ -154,11 +156,11 @@ pub struct Identify {
     /// |sample| at which the converter is at its rail, above 0 [default: known for integers, none for others].
     #[arg(long, value_name = "LEVEL", value_parser = ranges::positive, help_heading = "Calibration")]
     pub full_scale: Option<f32>,
-    /// Step between two codes of the converter, above 0, in the unit of the samples [default: told from the first samples].
+    /// Step between two codes of the converter, above 0, in the unit of the samples [default: found in the first samples].
     ///
-    /// There is one where the first samples all lie on its multiples: integers may come from a converter of fewer bits. A file
-    /// may begin with up to 250 000 pairs of silence. Pipes do not tell it before their samples come, but for text with a time; integers
-    /// then have the step of all their bits.
+    /// It is found where the first samples are all multiples of one step; integers are looked through too, as they may come from a
+    /// converter of fewer bits. A file may begin with up to 250 000 pairs of silence. In a pipe it is found only for text with a time
+    /// column; integers then have the step of all their bits.
     #[arg(long, value_name = "STEP", value_parser = ranges::positive, help_heading = "Calibration")]
     pub resolution: Option<f32>,
 }
@@ -216,7 +218,7 @@ pub enum Format {
 /// Formulas for the period.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Detector {
-    /// Formula (10), the squared difference: the sooner one, and the one for noise.
+    /// Formula (10), the squared difference: finds a period sooner, and in more noise.
     Difference,
     /// Formula (9), the return of the running sum: for little noise, and where a second tone hides the period.
     MeanReturn,

@@ -122,8 +122,8 @@ impl Runs {
                 ));
             }
             return recording(format!(
-                "no dozen of clean rows in which the pattern turns by less than {:.1}° from row to row; see their flags, and shorten the \
-                 windows where it turns faster",
+                "no run of {LEAST_ROWS} clean rows in which the pattern turns by less than {:.1}° from row to row; see their flags, and \
+                 shorten the windows if it turns faster",
                 self.most_turn.to_degrees()
             ));
         }

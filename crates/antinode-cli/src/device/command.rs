@@ -20,13 +20,13 @@ use crate::{options, ranges};
 /// `antinode command`.
 #[derive(Debug, Args)]
 pub struct Options {
-    /// The device's serial port. No other program may hold it, `antinode monitor` neither.
+    /// The device's serial port. No other program may have it open, `antinode monitor` included.
     #[arg(value_name = "PORT")]
     pub port: PathBuf,
     /// Speed of the port, baud (bits a second; 8N1).
     #[arg(long, global = true, default_value_t = BAUD, value_name = "BAUD", value_parser = value_parser!(u32).range(1..))]
     pub baud: u32,
-    /// How long to wait for an answer, s; 0.01 to 3600. Without one a command is sent again, three times in all; `restart` is sent once.
+    /// How long to wait for an answer, s; 0.01 to 3600. Unanswered commands are sent again, three times in all; `restart` is sent once.
     #[arg(long, global = true, default_value_t = 2.0, value_name = "SECONDS", value_parser = ranges::seconds)]
     pub timeout: f64,
     /// What the device is to do.
@@ -67,9 +67,9 @@ pub enum Ask {
         #[arg(long, value_name = "RAD", value_parser = ranges::pick_off_angle)]
         pick_off_angle: Option<f32>,
     },
-    /// Has the paper's four methods reported beside every estimate, or no longer.
+    /// Switches the report of the paper's four methods beside every estimate on or off.
     Methods {
-        /// Whether they are.
+        /// Whether they are reported.
         #[arg(value_enum)]
         switch: Switch,
     },

@@ -1,5 +1,6 @@
 //! The command line of `antinode simulate`.
 
+use std::f64::consts::FRAC_PI_6;
 use std::path::PathBuf;
 
 use antinode_sim::{ClipSpan, Dropout, Flaws, Loss, Wave};
@@ -45,11 +46,11 @@ struct WaveOptions {
     /// Quadrature amplitude at the start, signed.
     #[arg(long, default_value_t = 0.025, value_name = "LEVEL")]
     quadrature_amplitude: f64,
-    /// Pattern angle at the start, rad.
-    #[arg(long, default_value_t = std::f64::consts::FRAC_PI_6, value_name = "RAD")]
+    /// Pattern angle at the start, rad [default: π/6].
+    #[arg(long, default_value_t = FRAC_PI_6, hide_default_value = true, value_name = "RAD")]
     angle: f64,
-    /// Phase at the start, rad.
-    #[arg(long, default_value_t = std::f64::consts::FRAC_PI_6, value_name = "RAD")]
+    /// Phase at the start, rad [default: π/6].
+    #[arg(long, default_value_t = FRAC_PI_6, hide_default_value = true, value_name = "RAD")]
     phase: f64,
     /// Frequency at the start, Hz, below half of the rate.
     #[arg(long, default_value_t = 5332.0, value_name = "HZ")]
@@ -160,9 +161,14 @@ impl Simulate {
         if highest < half && lowest > -half {
             return Ok(());
         }
+        let drift = if first == last {
+            String::new()
+        } else {
+            format!(" drifts to {last} Hz, but")
+        };
         Err(Failure::Usage(format!(
-            "--frequency: from {first} Hz it comes to {last} Hz, but must stay below half of --rate, {half} Hz: its samples \
-             would be those of another frequency; lower it, or raise --rate"
+            "--frequency: {first} Hz{drift} must stay below half of --rate, {half} Hz: its samples would be those of another \
+             frequency; lower it, or raise --rate"
         )))
     }
 

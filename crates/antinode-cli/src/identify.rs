@@ -3,36 +3,28 @@
 mod search;
 mod silence;
 mod span;
+mod windows;
 
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::Path;
 
-use antinode::{Estimate, Flags, Identifier, Settings, SettingsError};
+use antinode::{Identifier, Settings};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
-use crate::methods::History;
 use crate::options::{Format, Identify, MOST_PERIODS, Methods};
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
-use search::Search;
-use silence::Silence;
-use span::{Span, Step};
+use span::Span;
+use windows::Windows;
 
-/// Samples of the longest period that may be known, and of the longest that is searched.
+/// Samples of the longest period.
 const LONGEST: usize = 1024;
-const SEARCHED: usize = 200;
 /// Windows of up to 1022 periods.
 type Core = Identifier<f32, LONGEST, { MOST_PERIODS as usize + 2 }>;
 
-/// Pairs between two looks at the search: no period is found and refused in fewer.
-const GLANCE: usize = 8;
-
 /// Recordings longer than this show how far they have come.
 const LONG: u64 = 32 << 20;
-
-/// Windows flagged as misfit from which on a remedy is named, where they are a quarter of all.
-const MANY: u64 = 20;
 
 /// Identifies every file; a fault in one does not keep the others from being read.
 pub fn run(options: &Identify) -> Result<(), Failure> {
@@ -102,17 +94,7 @@ fn identify(
     for warning in recording.warnings() {
         eprintln!("warning: {warning}");
     }
-    let settings = options.settings(rate, recording.full_scale(), recording.resolution());
-    let mut core = Box::new(Core::new(settings).map_err(|error| match error {
-        SettingsError::Frequency(frequency) => Failure::Usage(format!(
-            "{name}: --frequency: {frequency} Hz, but at {rate} Hz it must lie within {:.6} to {} Hz, {LONGEST} to 2.5 samples a period",
-            rate / LONGEST as f64,
-            rate / 2.5
-        )),
-        error => error.into(),
-    })?);
-    let mut history =
-        (options.methods == Methods::All).then(|| History::new(&settings, longest(&settings)));
+    let mut windows = Windows::new(&name, options, &recording, rate)?;
     let bar = progress(&recording);
     let length = recording
         .pairs()
@@ -127,65 +109,14 @@ fn identify(
     rows.begin(several.then_some(title));
 
     let live = io::stdout().is_terminal();
-    let mut search = Search::default();
-    let mut span = Span::new(options, &recording, rate);
-    let mut silence = Silence::default();
-    let mut misfits = 0;
-    let fault = 'all: loop {
+    let fault = loop {
         match recording.read(&mut buffer) {
             Ok(0) => break None,
             Ok(_) => {}
             Err(error) => break Some(error),
         }
-        let mut pairs = buffer.as_slice();
-        while !pairs.is_empty() {
-            let mut most = match span.step(&mut recording, pairs) {
-                Step::End => break 'all None,
-                Step::Leave(count) => {
-                    pairs = &pairs[count..];
-                    continue;
-                }
-                Step::Lost(lost) => {
-                    core.skip(lost);
-                    if let Some(history) = &mut history {
-                        history.skip(lost);
-                    }
-                    continue;
-                }
-                Step::Take(most) => most,
-            };
-            if !span.has_begun() {
-                search.begin(&pairs[..most]);
-                if let Some(frequency) = options.frequency
-                    && let Some(warning) = search::elsewhere(&pairs[..most], rate, frequency)
-                {
-                    eprintln!("warning: {name}: {warning}");
-                }
-            }
-            // Until the first row, what becomes of the search is to be seen.
-            if rows.count() == 0 {
-                most = most.min(GLANCE);
-            }
-            let (taken, estimate) = core.push_slice(&pairs[..most]);
-            search.see(core.is_searching());
-            let (new, rest) = pairs.split_at(taken);
-            pairs = rest;
-            recording.look(span.take(taken), new);
-            if let Some(history) = &mut history {
-                history.extend(new);
-            }
-            if let Some(estimate) = estimate {
-                let methods = history
-                    .as_ref()
-                    .and_then(|history| history.compare(&estimate));
-                silence.see(&estimate, rate, options.hop);
-                let estimate = Estimate {
-                    time: estimate.time + span.offset(),
-                    ..estimate
-                };
-                misfits += u64::from(estimate.flags == Flags::MISFIT);
-                rows.print(&name, &estimate, methods.as_ref())?;
-            }
+        if !windows.take(&mut recording, &buffer, rows)? {
+            break None;
         }
         if live || is_pipe {
             // Somebody watches, or the samples arrive as they are taken.
@@ -195,44 +126,9 @@ fn identify(
     };
     bar.finish_and_clear();
     if is_watched && recording.pairs().is_none() {
-        eprintln!("{name}: {} sample pairs", core.index());
+        eprintln!("{name}: {} sample pairs", windows.pairs());
     }
-    if !options.hum && misfits >= MANY && 4 * misfits > rows.count() {
-        rows.flush()?;
-        eprintln!(
-            "warning: {name}: {misfits} of {} rows are flagged misfit alone; if that is mains hum or an offset that wanders, --hum takes it out; if \
-             the frequency drifts or the pattern turns far within a window, give a smaller --periods",
-            rows.count()
-        );
-    }
-    let seconds = core.index() as f64 / rate;
-    let of_span = span.warning().filter(|_| fault.is_none());
-    let of_silence = silence.told(seconds, span.offset());
-    let told = of_span.into_iter().chain(of_silence);
-    let told = told.map(|warning| format!("{name}: {warning}"));
-    for warning in recording.late_warning().into_iter().chain(told) {
-        rows.flush()?;
-        eprintln!("warning: {warning}");
-    }
-    let failure = match fault {
-        Some(error) => Some(error.into()),
-        None if rows.count() > 0 => None,
-        None => Some(
-            span.missing(&name)
-                .unwrap_or_else(|| search.no_rows(&name, rate, &core, options)),
-        ),
-    };
-    let told = [recording.lost(), recording.not_finite()];
-    let mut failures = told.into_iter().flatten().map(Failure::from).chain(failure);
-    let Some(mut last) = failures.next() else {
-        return Ok(());
-    };
-    rows.flush()?;
-    for next in failures {
-        eprintln!("error: {last}");
-        last = next;
-    }
-    Err(last)
+    windows.conclude(&recording, fault, rows)
 }
 
 /// The rate that was asked for, or else the recording's own.
@@ -247,12 +143,6 @@ fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, 
             "{name}: the sample rate is not known: the recording does not say it; give --rate HZ"
         ))),
     }
-}
-
-/// Samples of the longest period that may come, a little more of a known one.
-fn longest(settings: &Settings) -> usize {
-    let known = |frequency| (1.1 * settings.sample_rate / f64::from(frequency)) as usize + 1;
-    settings.frequency.map_or(SEARCHED, known)
 }
 
 /// A progress bar where a person watches and rows go elsewhere.

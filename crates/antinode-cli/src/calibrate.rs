@@ -53,7 +53,7 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
         ("pick-off angle, rad", "--pick-off-angle", angle, of_angle),
     ];
     let mut report = io::stderr().lock();
-    // Nobody need see the report: the result is on the other stream.
+    // The result goes to the other stream: standard error may be closed.
     let _ = tell(&mut report, &name, &rows, &found, &quantities);
     // One digit more than the report's two of the deviation.
     let options = quantities.map(|(_, option, value, deviation)| {

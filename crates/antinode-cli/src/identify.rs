@@ -1,5 +1,6 @@
 //! `antinode identify`: recordings in, rows out, as a stream.
 
+mod options;
 mod search;
 mod silence;
 mod span;
@@ -12,9 +13,11 @@ use antinode::{Identifier, Settings};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
-use crate::options::{Format, Identify, MOST_PERIODS, Methods};
+use crate::options::Format;
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
+pub use options::Identify;
+use options::{MOST_PERIODS, Methods};
 use span::Span;
 use windows::Windows;
 

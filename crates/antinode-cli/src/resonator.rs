@@ -30,7 +30,7 @@ const BREAKS: Flags = Flags::REACQUIRED.with(Flags::PHASE_JUMP).with(Flags::STEP
 const SPLIT_SEEN: f64 = 3.0;
 /// A decay of fewer deviations than this is none.
 const DECAY_SEEN: f64 = 3.0;
-/// Rows that follow each other are alike by this, where their windows overlap by a tenth unseen, and fewer deviations than this: that is noise.
+/// Residuals of neighbouring rows correlate by up to this where windows overlap by a tenth unseen, and by so many deviations more by chance.
 const ALIKE: f64 = 0.1;
 const ALIKE_SEEN: f64 = 5.0;
 
@@ -128,7 +128,7 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
             }
         }
     }
-    // Nobody need see what is told of the result.
+    // The result is printed: standard error may be closed.
     let _ = tell(&mut io::stderr().lock(), &rows, &found);
     Ok(())
 }

@@ -10,7 +10,7 @@ use csv::StringRecord;
 use crate::failure::Failure;
 use crate::row_file::{RowFile, has_flag};
 
-/// The rms residual over the rows' own deviations from which on it is told that something else moves.
+/// From this rms residual over the rows' own deviations on, it is told that something else moves.
 pub const BEYOND_NOISE: f64 = 2.0;
 /// The least rows of a run: four unknowns are its own.
 const LEAST_ROWS: usize = 12;

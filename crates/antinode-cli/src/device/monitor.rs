@@ -77,7 +77,6 @@ fn follow(
     input: &std::sync::mpsc::Receiver<Input>,
     screen: &mut Screen<impl Write>,
 ) -> Result<(), Failure> {
-    // The reader always tells its end; without a reader there is nothing more either.
     for input in input {
         match input {
             Input::Bytes(bytes) => screen.take(&bytes)?,

@@ -1,7 +1,7 @@
 //! Which samples of a recording are identified: `--from` and `--to`.
 
+use super::options::Identify;
 use crate::failure::Failure;
-use crate::options::Identify;
 use crate::recording::Recording;
 
 /// How much of a sample a time may be rounded by.

@@ -4,13 +4,13 @@ use std::io::Write;
 
 use antinode::{Estimate, Flags, SettingsError};
 
+use super::options::{Identify, Methods};
 use super::search::{Search, elsewhere};
 use super::silence::Silence;
 use super::span::{Span, Step};
 use super::{Core, LONGEST};
 use crate::failure::Failure;
 use crate::methods::History;
-use crate::options::{Identify, Methods};
 use crate::recording::{InputError, Recording};
 use crate::rows::Rows;
 

@@ -1,4 +1,4 @@
-//! What of the rows is drawn, recording by recording.
+//! What is drawn of the rows, recording by recording.
 
 use std::collections::HashMap;
 use std::io::Read;

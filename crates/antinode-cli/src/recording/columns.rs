@@ -67,7 +67,7 @@ pub(super) struct FirstLine<'a> {
 }
 
 impl FirstLine<'_> {
-    /// The places of the `chosen` columns, or else of those that names or number suggest.
+    /// The places of the `chosen` columns, or else of those that the names, or how many there are, suggest.
     pub fn places(&self, chosen: Option<&Columns>) -> Result<Places, LineFault> {
         match chosen {
             Some(columns) => self.chosen(columns),
@@ -134,7 +134,7 @@ impl FirstLine<'_> {
         places
     }
 
-    /// The places of the columns that names or number suggest among these.
+    /// The places that the names of these columns, or how many they are, suggest.
     fn among(&self, columns: &[usize]) -> Result<Places, LineFault> {
         let role = |place: usize| self.names.and_then(|names| role(&names[place]));
         let places = || columns.iter().copied();

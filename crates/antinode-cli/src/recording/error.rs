@@ -101,13 +101,13 @@ pub enum InputError {
         }
     )]
     Channels { file: String, found: usize },
-    /// Samples behind those that the header tells.
+    /// More samples than the header tells.
     #[error(
         "{file}: the WAV header says {promised} sample pairs, and more follow that are not read: it was never finished, or they are too many \
          for it; mend it, for example with `sox --ignore-length {file} whole.wav`"
     )]
     MoreData { file: String, promised: u64 },
-    /// Channels that there are not, or not by their numbers.
+    /// Channels that do not exist, or are not given by number.
     #[error(
         "{file}: --columns {chosen}: give the numbers of the channels of S_C and S_D, two of 1 to {channels}"
     )]

@@ -45,7 +45,7 @@ pub(super) struct Interleaved {
     /// The bytes of a pair begun, at the front of `chunk`.
     begun: usize,
     live: bool,
-    /// Where what is promised ends, another chunk of a WAV file begins, or nothing.
+    /// True where only other chunks of a WAV file may follow what is promised.
     before_chunks: bool,
 }
 
@@ -88,7 +88,7 @@ impl Interleaved {
         }
     }
 
-    /// As the data of a WAV file, behind which only its other chunks may stand.
+    /// Only other chunks of a WAV file may follow what is promised.
     pub fn before_chunks(self) -> Self {
         Self {
             before_chunks: true,
@@ -96,7 +96,7 @@ impl Interleaved {
         }
     }
 
-    /// Other channels beside the two.
+    /// Takes the two channels out of frames with others.
     pub fn of(self, frame: Frame) -> Self {
         Self { frame, ..self }
     }
@@ -106,7 +106,7 @@ impl Interleaved {
         self.frame.channels * self.code.sample_bytes()
     }
 
-    /// No more than `bytes` of samples, and an error if there are fewer.
+    /// Reads no more than `bytes` of samples, and fails if there are fewer.
     pub fn promise(mut self, bytes: u64) -> Self {
         self.promised = Some(bytes / self.frame_bytes() as u64);
         self.left = Some(bytes);

@@ -1,4 +1,4 @@
-//! What every format of recordings is to be read by.
+//! What a format of recordings implements to be read.
 
 use std::fs::{self, File};
 use std::io::Read;
@@ -40,15 +40,15 @@ pub(super) trait Source: Send {
         None
     }
 
-    /// Goes on to the gap behind the next one; it is told at the end, or not.
+    /// Passes the next gap; it is told at the end, or not.
     fn pass_gap(&mut self, _is_told: bool) {}
 
-    /// What is to be told at the end of samples that are missing.
+    /// What to tell, at the end, of samples that are missing.
     fn lost(&self) -> Option<InputError> {
         None
     }
 
-    /// What is to be known of the samples delivered, and could not be known before.
+    /// A warning about the samples delivered that could not be given before.
     fn late_warning(&self) -> Option<String> {
         None
     }
@@ -61,7 +61,7 @@ pub(super) trait Source: Send {
 
 /// What is known of a stream beside its bytes.
 #[derive(Default)]
-pub(super) struct Kind {
+pub(super) struct Known {
     /// False for standard input.
     pub is_named: bool,
     /// In lower case.

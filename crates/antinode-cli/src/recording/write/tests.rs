@@ -7,6 +7,8 @@ use super::super::{OpenOptions, Recording};
 use super::encode::{MAX_WAV_DATA, Stored};
 use std::fs::{self, File};
 
+use clap::ValueEnum;
+
 use super::*;
 
 fn signal(count: usize) -> Vec<[f64; 2]> {
@@ -38,21 +40,13 @@ fn fault(name: &str, rate: f64, sample: SampleFormat, pairs: &[[f64; 2]]) -> Str
         .replace(&format!("{}/", directory.path().display()), "")
 }
 
-const ALL: [SampleFormat; 5] = [
-    SampleFormat::I16,
-    SampleFormat::I24,
-    SampleFormat::I32,
-    SampleFormat::F32,
-    SampleFormat::F64,
-];
-
 #[test]
 fn what_is_written_is_read_back() {
     let directory = tempfile::tempdir().unwrap();
     let pairs = signal(1000);
     for name in ["a.wav", "a.CSV", "a.npy"] {
         let path = directory.path().join(name);
-        for sample in ALL {
+        for &sample in SampleFormat::value_variants() {
             if name == "a.wav" && sample == SampleFormat::F64 {
                 continue;
             }
@@ -242,7 +236,7 @@ fn scipy_and_numpy_read_what_is_written() {
          s = float(n.iinfo(a.dtype).max) + 1 if a.dtype.kind == 'i' else 1\n\
          assert r == 1e5 and a.shape == (500, 2) and abs(a / s - e).max() < 2e-5, (r, a.shape, abs(a / s - e).max())";
     for name in ["a.wav", "a.csv", "a.npy"] {
-        for sample in &ALL[..4] {
+        for sample in &SampleFormat::value_variants()[..4] {
             let path = directory.path().join(name);
             write(&path, 1e5, *sample, &pairs).unwrap();
             let read = Command::new("python3")

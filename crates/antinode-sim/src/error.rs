@@ -57,3 +57,26 @@ pub enum Error {
     #[error("there are no ADC codes without an ADC: set bits and full_scale")]
     NoBits,
 }
+
+/// Refuses a value that does not hold.
+pub(crate) fn require(
+    what: &'static str,
+    value: f64,
+    holds: bool,
+    need: &'static str,
+) -> Result<(), Error> {
+    if holds {
+        Ok(())
+    } else {
+        Err(Error::OutOfRange { what, value, need })
+    }
+}
+
+pub(crate) fn finite(what: &'static str, value: f64) -> Result<(), Error> {
+    require(what, value, value.is_finite(), "finite")
+}
+
+pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), Error> {
+    let holds = value > 0.0 && value.is_finite();
+    require(what, value, holds, "finite and above 0")
+}

@@ -23,7 +23,7 @@ const MOST_TURN: f64 = 0.1;
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub struct Calibrate {
-    /// Rows of `antinode identify --output csv` or `antinode monitor --format csv`; `-` is standard input.
+    /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
     #[arg(required = true, value_name = "ROWS")]
     pub rows: Vec<PathBuf>,
     // What the rows were identified with.

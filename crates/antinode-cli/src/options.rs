@@ -24,7 +24,7 @@ Examples:
   antinode identify --output csv --periods 1000 long.wav | antinode resonator -
   antinode plot rows.csv -o ring.svg
   antinode simulate -o ring.wav --noise 0.005 --decay-rate 0.5
-  antinode monitor /dev/ttyACM0 --format csv > rows.csv
+  antinode monitor /dev/ttyACM0 --output csv > rows.csv
   antinode command /dev/ttyACM0 window 20";
 
 /// Identifies the standing wave of a hemispherical resonator gyro, window by window, in recordings of its two pick-offs.

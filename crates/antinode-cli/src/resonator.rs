@@ -37,7 +37,7 @@ const ALIKE_SEEN: f64 = 5.0;
 /// `antinode resonator`.
 #[derive(Debug, Args)]
 pub struct Resonator {
-    /// Rows of `antinode identify --output csv` or `antinode monitor --format csv`; `-` is standard input.
+    /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
     #[arg(required = true, value_name = "ROWS")]
     pub rows: Vec<PathBuf>,
     /// How the quantities are printed: a table in degrees, or CSV or JSON lines in radians.

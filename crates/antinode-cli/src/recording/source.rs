@@ -9,7 +9,7 @@ use super::gaps::Gap;
 use super::not_finite::Written;
 
 /// Where the bytes come from.
-pub(super) type Stream = Box<dyn Read + Send>;
+pub(super) type Stream = Box<dyn Read>;
 
 /// Opens a file or a pipe by its path; a directory is neither.
 pub fn open_file(path: &Path) -> Result<File, InputError> {
@@ -23,7 +23,7 @@ pub fn open_file(path: &Path) -> Result<File, InputError> {
 }
 
 /// A format's way to deliver pairs.
-pub(super) trait Source: Send {
+pub(super) trait Source {
     /// Appends pairs until there are `capacity`; none at the end. Good pairs come before an error.
     fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), InputError>;
 

@@ -232,12 +232,6 @@ fn a_buffer_without_capacity_is_given_some() {
     assert_eq!(recording.read(&mut Vec::new()).unwrap(), 2);
 }
 
-#[test]
-fn a_recording_can_go_to_another_thread() {
-    fn send<T: Send>() {}
-    send::<Recording>();
-}
-
 /// Beginnings that lead deep into each reader.
 fn beginnings() -> impl Strategy<Value = Vec<u8>> {
     let wav = b"RIFF\x24\0\0\0WAVEfmt \x10\0\0\0\x01\0\x02\0\0\0\x01\0\0\0\x04\0\x04\0\x10\0data";

@@ -247,22 +247,3 @@ fn scipy_and_numpy_read_what_is_written() {
         }
     }
 }
-
-#[test]
-#[ignore = "a measurement, for an optimised build"]
-fn throughput() {
-    let directory = tempfile::tempdir().unwrap();
-    let pairs = signal(10_000_000);
-    for (name, sample) in [
-        ("a.wav", SampleFormat::I16),
-        ("a.npy", SampleFormat::F32),
-        ("a.csv", SampleFormat::F32),
-    ] {
-        let start = std::time::Instant::now();
-        write(&directory.path().join(name), 1e5, sample, &pairs).unwrap();
-        println!(
-            "{name}: {:.1} M pairs/s",
-            10.0 / start.elapsed().as_secs_f64()
-        );
-    }
-}

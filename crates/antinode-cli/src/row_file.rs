@@ -86,6 +86,11 @@ impl<R: Read> RowFile<R> {
     }
 }
 
+/// The number in a field of a row.
+pub fn number(row: &StringRecord, place: usize) -> Option<f64> {
+    row.get(place)?.trim().parse().ok()
+}
+
 /// Whether a row's column `flags` has a flag.
 pub fn has_flag(flags: &str, flag: Flags) -> bool {
     flags

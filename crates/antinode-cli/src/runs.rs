@@ -8,7 +8,7 @@ use antinode::Flags;
 use csv::StringRecord;
 
 use crate::failure::Failure;
-use crate::row_file::{RowFile, has_flag};
+use crate::row_file::{RowFile, has_flag, number};
 
 /// From this rms residual over the rows' own deviations on, it is told that something else moves.
 pub const BEYOND_NOISE: f64 = 2.0;
@@ -266,32 +266,27 @@ impl Row {
         places: [usize; COLUMNS.len()],
         others: [Option<usize>; OTHER_DEVIATIONS.len()],
     ) -> Option<Self> {
-        let mut numbers = [0f64; COLUMNS.len()];
-        for (number, place) in numbers.iter_mut().zip(places) {
-            *number = record.get(place)?.parse().ok()?;
-        }
+        let numbers = places.map(|place| number(record, place).filter(|number| number.is_finite()));
         let [
-            time,
-            main,
-            quadrature,
-            angle,
-            frequency,
-            of_main,
-            of_quadrature,
-            of_angle,
-        ] = numbers;
+            Some(time),
+            Some(main),
+            Some(quadrature),
+            Some(angle),
+            Some(frequency),
+            Some(of_main),
+            Some(of_quadrature),
+            Some(of_angle),
+        ] = numbers
+        else {
+            return None;
+        };
+        let other =
+            |place: Option<usize>| place.map_or(Some(f64::INFINITY), |place| number(record, place));
+        let (of_frequency, of_rate) = (other(others[0])?, other(others[1])?);
         let deviations = [of_main, of_quadrature, of_angle];
-        let mut unknown = [f64::INFINITY; OTHER_DEVIATIONS.len()];
-        for (number, place) in unknown.iter_mut().zip(others) {
-            if let Some(place) = place {
-                *number = record.get(place)?.parse().ok()?;
-            }
-        }
-        let [of_frequency, of_rate] = unknown;
-        let usable = numbers.iter().all(|number| number.is_finite()) && main > 0.0;
-        let known = deviations.iter().all(|&deviation| deviation > 0.0)
-            && unknown.iter().all(|&deviation| deviation > 0.0);
-        (usable && known).then_some(Self {
+        let mut positive = deviations.into_iter().chain([main, of_frequency, of_rate]);
+        let is_usable = positive.all(|number| number > 0.0);
+        is_usable.then_some(Self {
             time,
             main,
             quadrature,

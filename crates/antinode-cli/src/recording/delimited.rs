@@ -209,7 +209,7 @@ impl Delimited {
                  are from the first sample on; if it is seconds, leave {RATE_OPTION} out"
             ),
             Meaning::OtherRate { own, asked } => format!(
-                "by the time column the sample rate is {own} Hz, but {RATE_OPTION} makes it {asked} Hz, and goes before; \
+                "by the time column the sample rate is {own} Hz, but {RATE_OPTION} makes it {asked} Hz, and takes precedence; \
                  leave {RATE_OPTION} out, or if the column is wrong, {ignored}"
             ),
         })

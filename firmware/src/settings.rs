@@ -18,6 +18,10 @@ pub const PERIODS: u16 = 10;
 pub const HOP: Option<u16> = None;
 /// The wave's frequency, Hz, within 5 %, where it need not be searched; `None`: it is.
 pub const FREQUENCY: Option<f32> = None;
+/// Whether the signals carry mains hum, or an offset that wanders.
+pub const HUM: bool = false;
+/// Whether the noise is not white: a tuned front end, or a filter that ends below three times the wave's frequency.
+pub const COLOURED: bool = false;
 /// How the pick-offs differ from ideal ones: gain ratio, skew in s, angle in rad.
 pub const CALIBRATION: Calibration = Calibration::IDEAL;
 
@@ -62,6 +66,8 @@ pub const fn configuration(front_end: FrontEnd, rails: [i16; 2]) -> Configuratio
         rails: Some([rails[0] as f32, rails[1] as f32]),
         resolution: Some(1.0),
         frequency: FREQUENCY,
+        hum: HUM,
+        coloured: COLOURED,
         calibration: CALIBRATION,
         ..Settings::new(SAMPLE_RATE as f64)
     };

@@ -153,6 +153,8 @@ enum
     ANTINODE_ERROR_HUM = -21,
     // `frequency_hz` is neither 0 nor within `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5.
     ANTINODE_ERROR_FREQUENCY = -22,
+    // `coloured` is neither 0 nor 1.
+    ANTINODE_ERROR_COLOURED = -23,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -210,8 +212,10 @@ typedef struct {
     // only moves an offset is neither noise nor a fault. In windows of less than five periods, or ten where there is a hop, blocks are
     // shorter, and this does nothing. 0, the default: not.
     uint32_t hum;
-    // Not read, default 0: the struct ends at a multiple of eight bytes on every machine.
-    uint32_t reserved;
+    // 1 where the noise is not white: a tuned front end, or a filter that ends below three times the frequency, leaves less than a
+    // sixteenth of its power there. That is no fault then, and blocks have offsets of their own as with `hum`. Of what is in every window
+    // nothing is told: a second tone counts as noise, and so does a fault in the first window. 0, the default: not.
+    uint32_t coloured;
 } antinode_settings_t;
 
 // The wave over one window, at the window's middle. Each `_std` is one standard deviation.

@@ -57,8 +57,10 @@ pub struct Settings {
     /// only moves an offset is neither noise nor a fault. In windows of less than five periods, or ten where there is a hop, blocks are
     /// shorter, and this does nothing. 0, the default: not.
     pub hum: u32,
-    /// Not read, default 0: the struct ends at a multiple of eight bytes on every machine.
-    pub reserved: u32,
+    /// 1 where the noise is not white: a tuned front end, or a filter that ends below three times the frequency, leaves less than a
+    /// sixteenth of its power there. That is no fault then, and blocks have offsets of their own as with `hum`. Of what is in every window
+    /// nothing is told: a second tone counts as noise, and so does a fault in the first window. 0, the default: not.
+    pub coloured: u32,
 }
 
 /// Settings with every default: windows of 10 periods that follow each other, ideal pick-offs, no known rails, everything watched.
@@ -84,7 +86,7 @@ pub extern "C" fn antinode_settings_default(sample_rate_hz: f64) -> Settings {
             pick_off_angle_rad: plain.calibration.pick_off_angle,
         },
         hum: u32::from(plain.hum),
-        reserved: 0,
+        coloured: u32::from(plain.coloured),
     }
 }
 
@@ -123,6 +125,7 @@ impl Settings {
             },
             watch: switched(self.watch).ok_or(Status::ErrorWatch)?,
             hum: switched(self.hum).ok_or(Status::ErrorHum)?,
+            coloured: switched(self.coloured).ok_or(Status::ErrorColoured)?,
             calibration: self.calibration.into(),
             ..core_crate::Settings::new(self.sample_rate_hz)
         };

@@ -51,10 +51,12 @@ pub enum Status {
     ErrorHum = -21,
     /// `frequency_hz` is neither 0 nor within `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5.
     ErrorFrequency = -22,
+    /// `coloured` is neither 0 nor 1.
+    ErrorColoured = -23,
 }
 
 impl Status {
-    const ALL: [(Self, &'static CStr); 21] = [
+    const ALL: [(Self, &'static CStr); 22] = [
         (Self::Ok, c"done"),
         (Self::Ready, c"done: finished blocks wait to be solved"),
         (Self::Estimate, c"done: an estimate was written"),
@@ -112,6 +114,7 @@ impl Status {
             Self::ErrorFrequency,
             c"frequency_hz must be 0 or lie within sample_rate_hz / 200 and sample_rate_hz / 2.5",
         ),
+        (Self::ErrorColoured, c"coloured must be 0 or 1"),
     ];
 }
 

@@ -192,6 +192,7 @@ fn settings_out_of_range_are_named() {
     assert_eq!(refused(&|s| s.detection = 2), Status::ErrorDetection);
     assert_eq!(refused(&|s| s.watch = 2), Status::ErrorWatch);
     assert_eq!(refused(&|s| s.hum = 2), Status::ErrorHum);
+    assert_eq!(refused(&|s| s.coloured = 2), Status::ErrorColoured);
     assert_eq!(
         refused(&|s| s.calibration.gain_ratio = 0.0),
         Status::ErrorGainRatio

@@ -1,6 +1,7 @@
 //! `antinode identify`: recordings in, rows out, as a stream.
 
 mod options;
+mod scatter;
 mod search;
 mod silence;
 mod span;

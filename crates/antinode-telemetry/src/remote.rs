@@ -104,6 +104,7 @@ pub struct SettingsFields {
     detection: Detection,
     watch: bool,
     hum: bool,
+    coloured: bool,
     #[serde(with = "CalibrationFields")]
     calibration: Calibration,
 }

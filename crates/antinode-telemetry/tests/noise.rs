@@ -152,9 +152,9 @@ proptest! {
 
 #[test]
 fn another_version_is_named() {
-    let got = decode::<ReportFrame>(&checked(&[8, 0, 2, 2]));
-    assert_eq!(got, [Err(Damage::Header(8))]);
-    assert!(Damage::Header(8).to_string().contains("version 4"));
+    let got = decode::<ReportFrame>(&checked(&[10, 0, 2, 2]));
+    assert_eq!(got, [Err(Damage::Header(10))]);
+    assert!(Damage::Header(10).to_string().contains("version 5"));
 }
 
 #[test]

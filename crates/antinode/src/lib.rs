@@ -154,18 +154,22 @@
 //!
 //! # Limits
 //!
-//! Phase wraps at 2π and θ is known modulo π/2: only continuity makes θ run on. A frequency that drifts so fast that it bends the
-//! phase within one window beyond the noise (2 Hz/s in a window of 60 ms, say) is flagged as a misfit; one that is not may
-//! leave the phase, and nothing else, off by some of its deviations: shorter windows know it better. Mains hum is a misfit too, unless
-//! [`Settings::hum`] takes it out. Periods are 4 to 200 samples, and with [`Settings::frequency`] 2.5 to as many as a block holds. Deviations and flags take noise to be white, independent, and as large
-//! in both pick-offs: of ten times as much in one of them a window in some ten thousand is flagged, of noise that both share
-//! deviations are a tenth too small, and of noise without low frequencies windows are misfits.
-//!
-//! Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: 260 rad/s and 480 1/s in ten periods of 5332 Hz,
-//! 2.6 rad/s and 4.8 1/s in a thousand. Beyond about 0.6 rad amplitudes are some per cent off, which windows of more than ten periods flag
-//! as a misfit and shorter ones may not. Amplitudes are 10⁻¹⁵ to 10¹⁷ input units, so that their squares are numbers of f32.
-//! Sums of f32 round: of an offset beyond twenty times a_A, in 140 samples a period or more, what that leaves is a misfit in noise below
-//! 2·10⁻⁴ of a_A. Integers, or f32 less the offset, leave nothing.
+//! - Phase wraps at 2π, and θ is known modulo π/2: only continuity makes θ run on.
+//! - Periods are 4 to 200 samples, and with [`Settings::frequency`] 2.5 to as many as a block holds.
+//! - Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: 260 rad/s and 480 1/s in ten periods of
+//!   5332 Hz, 2.6 rad/s and 4.8 1/s in a thousand. Where it turns by more than about 0.6 rad amplitudes are some per cent off, which
+//!   windows of more than ten periods flag as a misfit and shorter ones may not.
+//! - A frequency that drifts within a window bends the phase: by much more than the noise (2 Hz/s in a window of 60 ms, say), and the
+//!   window is a misfit; by less, and the phase may be off by some of its deviations, but nothing else. Shorter windows know it better.
+//! - Mains hum is a misfit too, unless [`Settings::hum`] takes it out.
+//! - Deviations and flags take noise to be white. Where it is not there is [`Settings::coloured`]: behind a low-pass or a high-pass, or in
+//!   noise of 1/f², errors then are 0.8 to 1.1 of their deviations; behind a band-pass about the wave 1.1 with a quality of 1, 1.5 with 3,
+//!   and 2 to 3 with 10. Of noise that grows with the frequency some windows stay misfits.
+//! - They take it to be independent, and as large in both pick-offs. Of ten times as much in one of them a window in some ten thousand is
+//!   flagged; of noise that both share deviations are a tenth too small.
+//! - Amplitudes are 10⁻¹⁵ to 10¹⁷ input units, so that their squares are numbers of f32.
+//! - Sums of f32 round. In noise below 2·10⁻⁴ of a_A an offset beyond twenty times a_A, at 140 samples a period or more, leaves enough for
+//!   a misfit. Integers leave nothing, nor do f32 less the offset.
 #![no_std]
 
 #[cfg(test)]

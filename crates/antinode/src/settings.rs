@@ -34,12 +34,14 @@ pub enum Detection {
 /// let overlapping = Settings { periods: 50, hop: Some(5), ..base };
 /// // Mains hum on the lines.
 /// let hum = Settings { periods: 20, hum: true, ..base };
+/// // Noise through a band-pass about the wave.
+/// let tuned = Settings { coloured: true, ..base };
 /// // Pick-offs that differ, as the command `antinode calibrate` finds them.
 /// let calibration = Calibration { gain_ratio: 1.02, skew: 150e-9, pick_off_angle: -0.004 };
 /// let calibrated = Settings { calibration, ..base };
 /// // Codes of a signed converter of 24 bits.
 /// let codes = Settings { rails: Some([-8_388_608.0, 8_388_607.0]), resolution: Some(1.0), ..base };
-/// for settings in [known, overlapping, hum, calibrated, codes] {
+/// for settings in [known, overlapping, hum, tuned, calibrated, codes] {
 ///     Identifier::<i32, 200, 64>::new(settings)?;
 /// }
 /// # Ok::<(), antinode::SettingsError>(())
@@ -76,6 +78,10 @@ pub struct Settings {
     /// True where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
     /// only moves an offset is neither noise nor a fault. Windows need 5 periods for it, with a hop 10; shorter ones do without.
     pub hum: bool,
+    /// True where the noise is not white: a tuned front end, or a filter that ends below three times the frequency, leaves less than a
+    /// sixteenth of its power there. That is no fault then, and blocks have offsets of their own as with `hum`. Of what is in every window
+    /// nothing is told: a second tone counts as noise, and so does a fault in the first window.
+    pub coloured: bool,
     /// How the pick-offs differ from ideal ones.
     pub calibration: Calibration,
 }
@@ -182,6 +188,7 @@ impl Settings {
         detection: Detection::Difference,
         watch: false,
         hum: false,
+        coloured: false,
         calibration: Calibration {
             gain_ratio: 0.0,
             skew: 0.0,
@@ -202,6 +209,7 @@ impl Settings {
             detection: Detection::Difference,
             watch: true,
             hum: false,
+            coloured: false,
             calibration: Calibration::IDEAL,
         }
     }

@@ -48,6 +48,7 @@ pub fn core_settings(settings: &Settings) -> antinode::Settings {
         },
         watch: settings.watch == 1,
         hum: settings.hum == 1,
+        coloured: settings.coloured == 1,
         calibration: core_calibration(settings.calibration),
     }
 }

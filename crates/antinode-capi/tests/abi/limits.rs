@@ -11,7 +11,7 @@ fn defaults_are_those_that_the_header_states() {
     assert_eq!(core_settings(&default), antinode::Settings::new(RATE));
     assert_eq!((default.periods, default.hop_blocks), (10, 0));
     assert_eq!(default.start_angle_rad, std::f32::consts::FRAC_PI_4);
-    assert_eq!((default.watch, default.hum, default.reserved), (1, 0, 0));
+    assert_eq!((default.watch, default.hum, default.coloured), (1, 0, 0));
     assert_eq!(default.detection, ANTINODE_DETECTION_DIFFERENCE);
 }
 

@@ -10,7 +10,7 @@ use crate::gyro::{Arithmetic, Gyro, UNWRITTEN, Way};
 type Change = fn(&mut Settings);
 
 /// One of each field.
-const CHANGES: [(&str, Change); 15] = [
+const CHANGES: [(&str, Change); 16] = [
     ("sample rate", |s| s.sample_rate_hz = 90_000.0),
     ("periods", |s| s.periods = 13),
     ("hop", |s| s.hop_blocks = 3),
@@ -30,12 +30,13 @@ const CHANGES: [(&str, Change); 15] = [
     ("skew", |s| s.calibration.skew_s = 3e-6),
     ("pick-off angle", |s| s.calibration.pick_off_angle_rad = 0.1),
     ("hum", |s| s.hum = 1),
+    ("coloured", |s| s.coloured = 1),
 ];
 
 fn every_setting_reaches_the_core<S: Arithmetic>() {
     let mut codes = codes(8_000, 5_332.0);
     for (k, pair) in codes.iter_mut().enumerate() {
-        // Hum, and crests cut off: without these, nothing would tell `hum` and `watch`.
+        // Hum, and crests cut off: without these, nothing would tell `hum`, `coloured` and `watch`.
         let hum = 200.0 * (TAU * 300.0 / RATE * k as f64).sin();
         *pair = pair.map(|code| (code / 2).clamp(-8_000, 8_000) + hum as i16);
     }
@@ -60,7 +61,7 @@ fn every_setting_reaches_the_core_in_both() {
 fn refused_settings_leave_no_state<S: Arithmetic>() {
     let codes = codes(100, 5_332.0);
     let plain = antinode_settings_default(RATE);
-    let refused: [(Status, Change); 13] = [
+    let refused: [(Status, Change); 14] = [
         (Status::ErrorSampleRate, |s| s.sample_rate_hz = 0.5),
         (Status::ErrorPeriods, |s| s.periods = 51),
         (Status::ErrorHop, |s| s.hop_blocks = 65_536),
@@ -71,6 +72,7 @@ fn refused_settings_leave_no_state<S: Arithmetic>() {
         (Status::ErrorDetection, |s| s.detection = 2),
         (Status::ErrorWatch, |s| s.watch = 2),
         (Status::ErrorHum, |s| s.hum = 2),
+        (Status::ErrorColoured, |s| s.coloured = 2),
         (Status::ErrorGainRatio, |s| s.calibration.gain_ratio = 0.0),
         (Status::ErrorSkew, |s| s.calibration.skew_s = 1.0),
         (Status::ErrorPickOffAngle, |s| {

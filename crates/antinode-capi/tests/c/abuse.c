@@ -126,6 +126,7 @@ static void bad_settings(state_t *state)
     REFUSED(detection, UINT32_MAX, ANTINODE_ERROR_DETECTION);
     REFUSED(watch, 2, ANTINODE_ERROR_WATCH);
     REFUSED(hum, 2, ANTINODE_ERROR_HUM);
+    REFUSED(coloured, 2, ANTINODE_ERROR_COLOURED);
     REFUSED(calibration.gain_ratio, 0, ANTINODE_ERROR_GAIN_RATIO);
     REFUSED(calibration.skew_s, HUGE_VALF, ANTINODE_ERROR_SKEW);
     REFUSED(calibration.pick_off_angle_rad, nanf(""), ANTINODE_ERROR_PICK_OFF_ANGLE);

@@ -20,7 +20,7 @@ pub fn hello(hello: &Hello) -> String {
     let level = |name, value: Option<f32>| value.map_or(String::new(), |x| format!(", {name} {x}"));
     format!(
         "firmware {}, protocol {}, {}, {} Hz, window {} periods, {hop}, methods {}, gain ratio {}, skew {} ns, \
-         pick-off angle {} rad, start angle {} rad{}{}{}{}{}{}",
+         pick-off angle {} rad, start angle {} rad{}{}{}{}{}{}{}",
         hello.firmware,
         hello.protocol,
         source(*front_end),
@@ -43,6 +43,7 @@ pub fn hello(hello: &Hello) -> String {
         },
         if s.watch { "" } else { ", samples not watched" },
         if s.hum { ", hum" } else { "" },
+        if s.coloured { ", coloured noise" } else { "" },
     )
 }
 

@@ -72,6 +72,12 @@ pub struct Identify {
     /// Each block, of a period or two, gets an offset of its own. Windows must have 5 periods or more, or 10 where --hop is given.
     #[arg(long)]
     pub hum: bool,
+    /// The noise is not white, as behind a tuned front end, or a filter that ends below three times the frequency.
+    ///
+    /// Less of it at three times the frequency is then no fault, and what it has at low frequencies does not count, as with --hum. A second
+    /// tone that is there all along counts as noise.
+    #[arg(long)]
+    pub coloured: bool,
     /// Where the pattern stands at first, to within π/4, as the angle is known modulo π/2 only; rad, within ±10000 [default: π/4, so that
     /// the first window's angle lies in 0…π/2].
     #[arg(long, value_name = "RAD", value_parser = ranges::start_angle)]
@@ -130,6 +136,7 @@ impl Identify {
                 Detector::MeanReturn => Detection::MeanReturn,
             },
             hum: self.hum,
+            coloured: self.coloured,
             calibration: self.corrected.calibration(),
             ..plain
         }

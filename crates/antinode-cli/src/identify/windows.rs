@@ -5,6 +5,7 @@ use std::io::Write;
 use antinode::{Estimate, Flags, SettingsError};
 
 use super::options::{Identify, Methods};
+use super::scatter::Scatter;
 use super::search::{Search, elsewhere};
 use super::silence::Silence;
 use super::span::{Span, Step};
@@ -33,6 +34,8 @@ pub(super) struct Windows<'a> {
     search: Search,
     span: Span,
     silence: Silence,
+    scatter: Scatter,
+    resolution: Option<f32>,
     misfits: u64,
 }
 
@@ -66,6 +69,8 @@ impl<'a> Windows<'a> {
             search: Search::default(),
             span: Span::new(options, recording, rate),
             silence: Silence::default(),
+            scatter: Scatter::default(),
+            resolution: settings.resolution,
             misfits: 0,
         })
     }
@@ -134,6 +139,7 @@ impl<'a> Windows<'a> {
         let history = self.history.as_ref();
         let methods = history.and_then(|history| history.compare(estimate));
         self.silence.see(estimate, self.rate, self.options.hop);
+        self.scatter.see(estimate, self.resolution);
         self.misfits += u64::from(estimate.flags == Flags::MISFIT);
         let estimate = Estimate {
             time: estimate.time + self.span.offset(),
@@ -153,21 +159,18 @@ impl<'a> Windows<'a> {
         // Rows before what is told of them.
         rows.flush()?;
         let name = self.name;
-        let misfits = self.misfits;
-        if !self.options.hum && misfits >= MANY && 4 * misfits > rows.count() {
-            eprintln!(
-                "warning: {name}: {misfits} of {} rows are flagged misfit alone; if that is mains hum or an offset that wanders, --hum takes it out; if \
-                 the frequency drifts or the pattern turns far within a window, give a smaller --periods",
-                rows.count()
-            );
-        }
         if let Some(warning) = recording.late_warning() {
             eprintln!("warning: {warning}");
         }
-        let of_span = self.span.warning().filter(|_| fault.is_none());
+        let many = self.misfits >= MANY && 4 * self.misfits > rows.count();
         let seconds = self.core.index() as f64 / self.rate;
-        let of_silence = self.silence.told(seconds, self.span.offset());
-        for warning in of_span.into_iter().chain(of_silence) {
+        let warnings = [
+            many.then(|| misfit_remedies(self.misfits, rows.count(), self.options)),
+            self.span.warning().filter(|_| fault.is_none()),
+            self.silence.told(seconds, self.span.offset()),
+            self.scatter.told(self.options.hum || self.options.coloured),
+        ];
+        for warning in warnings.into_iter().flatten() {
             eprintln!("warning: {name}: {warning}");
         }
         let failure = match fault {
@@ -189,4 +192,16 @@ impl<'a> Windows<'a> {
         }
         Err(last)
     }
+}
+
+/// What may be done about rows that are flagged as misfits, and as nothing else.
+fn misfit_remedies(misfits: u64, rows: u64, options: &Identify) -> String {
+    let mut told = format!("{misfits} of {rows} rows are flagged misfit alone; ");
+    if !options.hum && !options.coloured {
+        told += "if that is mains hum or an offset that wanders, --hum takes it out; ";
+    }
+    if !options.coloured {
+        told += "if a filter leaves less noise at three times the frequency, give --coloured; ";
+    }
+    told + "if the frequency drifts or the pattern turns far within a window, give a smaller --periods"
 }

@@ -72,7 +72,7 @@ fn configuration() -> impl Strategy<Value = Configuration> {
     (
         (
             double(),
-            any::<(u16, Option<u16>, bool, bool, bool, bool)>(),
+            any::<(u16, Option<u16>, bool, bool, bool, [bool; 2])>(),
             single(),
         ),
         proptest::option::of([single(), single()]),
@@ -82,8 +82,11 @@ fn configuration() -> impl Strategy<Value = Configuration> {
     )
         .prop_map(
             |(plain, rails, [resolution, frequency], calibration, front_end)| {
-                let (sample_rate, (periods, hop, detection, methods, watch, hum), start_angle) =
-                    plain;
+                let (
+                    sample_rate,
+                    (periods, hop, detection, methods, watch, [hum, coloured]),
+                    start_angle,
+                ) = plain;
                 Configuration {
                     settings: Settings {
                         sample_rate,
@@ -100,6 +103,7 @@ fn configuration() -> impl Strategy<Value = Configuration> {
                         },
                         watch,
                         hum,
+                        coloured,
                         calibration,
                     },
                     front_end,

@@ -19,8 +19,8 @@ const HARMONIC_FLOOR: f32 = 1e-3;
 const RESIDUAL_FLOOR: f32 = 4e-8;
 /// Residual of a first window's blocks, as a share of the wave's own power, beyond which it is no wave: 20 % noise leaves 0.1.
 const STRANGER: f32 = 0.25;
-/// By how much the residual variance about the carrier may exceed that about the third harmonic.
-const COLOUR: f32 = 16.0;
+/// By how much the residual variance about the carrier may exceed that about the third harmonic, where noise is not coloured.
+pub(super) const COLOUR: f32 = 16.0;
 
 /// True when the first window after a search holds no wave, or as much else beside it: two tones, say.
 pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -> bool {
@@ -52,12 +52,12 @@ fn is_significant(wave: &Standing) -> bool {
 /// Tests of one window by itself and against the noise of those before.
 ///
 /// `variance` is the noise variance that it leaves, `stated` that for which it states its deviations, `coding` what the converter's steps
-/// may add; the next window begins `advance` blocks later.
+/// may add, `colour` how many times that about the third harmonic it may be; the next window begins `advance` blocks later.
 pub(crate) fn within(
     model: &Model,
     fit: &Fit,
     wave: &Standing,
-    [variance, stated, coding]: [f32; 3],
+    [variance, stated, coding, colour]: [f32; 4],
     noise: &mut Noise,
     advance: u16,
 ) -> Flags {
@@ -70,7 +70,7 @@ pub(crate) fn within(
     flags = flags.with_if(!significant, Flags::LOST);
 
     let known = noise.freedom > 0.0;
-    // White noise is the same about the carrier and about its third harmonic. A first window has no other noise to be compared with, and
+    // Noise that is not coloured is the same about the carrier and about its third harmonic. A first window has no other noise to be compared with, and
     // one block's fault may be in that too: to leave out the worst of n makes chance no more than n times as likely.
     let (about_third, reach) = if known {
         (remains.third_noise, REACH)
@@ -80,7 +80,7 @@ pub(crate) fn within(
     };
     let beyond = variance - 4.0 * floor;
     let coloured = remains.third_freedom >= 12.0
-        && beyond > COLOUR * about_third
+        && beyond > colour * about_third
         && beyond > limit_of(reach, remains.freedom, remains.third_freedom) * about_third;
     // What is white is seen better in both together.
     let both = remains.freedom + remains.third_freedom;

@@ -70,11 +70,16 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
 
         let own = wave.record.residual;
         let advance = self.settings.hop.unwrap_or(self.count);
+        let colour = if self.settings.coloured {
+            f32::INFINITY
+        } else {
+            checks::COLOUR
+        };
         let mut flags = checks::within(
             model,
             fit,
             wave,
-            [own, stated, coding],
+            [own, stated, coding, colour],
             &mut self.noise,
             advance,
         );

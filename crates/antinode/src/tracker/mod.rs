@@ -269,7 +269,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let rate = self.units.sample_rate;
         self.model
             .insert(Model::empty(layout, settings.calibration, rate))
-            .begin(layout.step, self.count, settings.hum);
+            .begin(layout.step, self.count, settings.hum || settings.coloured);
         self.noise = Noise::NONE;
         self.trend.clear();
         self.before = None;

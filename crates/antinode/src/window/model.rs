@@ -46,10 +46,10 @@ impl Model {
         blocks: u16,
         calibration: Calibration,
         sample_rate: f32,
-        hum: bool,
+        own_offsets: bool,
     ) -> Self {
         let mut model = Self::empty(layout, calibration, sample_rate);
-        model.begin(carrier, blocks, hum);
+        model.begin(carrier, blocks, own_offsets);
         model
     }
 
@@ -76,11 +76,11 @@ impl Model {
     }
 
     /// Builds all of it.
-    pub(crate) fn begin(&mut self, carrier: PhaseStep, blocks: u16, hum: bool) {
+    pub(crate) fn begin(&mut self, carrier: PhaseStep, blocks: u16, own_offsets: bool) {
         self.basis = Basis::new(self.layout);
         // It costs a block of a period or more next to nothing, and a shorter one what it knows of the wave.
         let is_long = f32::from(self.layout.length) > LEAST_PERIODS * carrier.period();
-        self.shared = if hum && is_long { 0.0 } else { 1.0 };
+        self.shared = if own_offsets && is_long { 0.0 } else { 1.0 };
         self.retune(carrier, blocks);
     }
 

@@ -1,0 +1,148 @@
+//! Noise that is not white: what front ends leave of it, with the setting for it and without.
+
+use antinode::{Estimate, Flags, Settings};
+use antinode_sim::{Flaws, Gyro, Loss, Wave, random_wave};
+use biquad::{Biquad, Coefficients, DirectForm2Transposed, Hertz, Q_BUTTERWORTH_F64, Type};
+use host_tests::score::{Honesty, NAMES};
+use host_tests::{RATE, identify_changed, windows};
+
+const SAMPLES: usize = 40_000;
+
+/// A chain of second-order filters: kind, frequency in Hz, quality.
+type Filters = &'static [(Type<f64>, f64, f64)];
+
+/// Butterworth's fourth order, ending well below three times the frequency.
+const LOW_PASS: Filters = &[
+    (Type::LowPass, 8000.0, 0.541_196),
+    (Type::LowPass, 8000.0, 1.306_563),
+];
+/// A charge amplifier tuned to the resonator.
+const TUNED: Filters = &[(Type::BandPass, 5332.0, 1.0)];
+/// The same, far sharper: noise about the third harmonic is a sixtieth.
+const SHARP: Filters = &[(Type::BandPass, 5332.0, 3.0)];
+/// What a transformer or a coupling capacitor leaves.
+const HIGH_PASS: Filters = &[(Type::HighPass, 2500.0, Q_BUTTERWORTH_F64)];
+/// Noise of 1/f² from 300 Hz on.
+const SLOW: Filters = &[(Type::SinglePoleLowPass, 300.0, 1.0)];
+
+/// Noise of both pick-offs, of this rms before the filters.
+fn noise(filters: Filters, rms: f64, seed: u64) -> Vec<[f64; 2]> {
+    let filter = || -> Vec<_> {
+        filters
+            .iter()
+            .map(|&(kind, frequency, quality)| {
+                let [rate, frequency] = [RATE, frequency].map(|f| Hertz::from_hz(f).unwrap());
+                let coefficients = Coefficients::from_params(kind, rate, frequency, quality);
+                DirectForm2Transposed::<f64>::new(coefficients.unwrap())
+            })
+            .collect()
+    };
+    let mut both = [filter(), filter()];
+    let gyro = |noise| {
+        let flaws = Flaws {
+            noise,
+            ..Flaws::default()
+        };
+        Gyro::new(Wave::default(), flaws, RATE, seed).unwrap()
+    };
+    let white = gyro(rms)
+        .zip(gyro(0.0))
+        .map(|(with, without)| [with.c - without.c, with.d - without.d]);
+    let mut filtered = |pair: [f64; 2]| {
+        let mut chains = both.iter_mut();
+        pair.map(|x| chains.next().unwrap().iter_mut().fold(x, |x, f| f.run(x)))
+    };
+    // The filters settle before the first sample.
+    white
+        .skip(1)
+        .map(&mut filtered)
+        .skip(1000)
+        .take(SAMPLES)
+        .collect()
+}
+
+fn settings(periods: u16, coloured: bool) -> Settings {
+    Settings {
+        coloured,
+        ..windows(periods)
+    }
+}
+
+/// A wave in such noise of 2 %, before the filters.
+fn identified(filters: Filters, settings: Settings, flaws: &Flaws, seed: u64) -> Vec<Estimate> {
+    let wave = random_wave(seed, 5332.0, 0.5);
+    let noise = noise(filters, 0.02 * wave.main_amplitude, seed);
+    identify_changed(wave, flaws, settings, SAMPLES, seed, |k, [c, d]| {
+        [c + noise[k][0], d + noise[k][1]]
+    })
+}
+
+#[test]
+fn deviations_hold_in_coloured_noise_and_nothing_is_flagged() {
+    for (name, filters, range) in [
+        ("low-pass", LOW_PASS, 0.92..1.12),
+        ("tuned", TUNED, 1.0..1.2),
+        ("sharply tuned", SHARP, 1.2..1.6),
+        ("high-pass", HIGH_PASS, 0.92..1.12),
+        ("slow", SLOW, 0.75..1.0),
+        ("none", &[], 0.92..1.08),
+    ] {
+        for periods in [10, 50] {
+            let (mut honesty, mut rows, mut flagged) = (Honesty::default(), 0, 0);
+            for seed in 0..30 {
+                let wave = random_wave(seed, 5332.0, 0.5);
+                let settings = settings(periods, true);
+                for estimate in identified(filters, settings, &Flaws::default(), seed) {
+                    flagged += usize::from(!estimate.flags.is_empty());
+                    honesty.add(&estimate, &wave);
+                    rows += 1;
+                }
+            }
+            let ratios = honesty.ratios();
+            println!(
+                "{name}, {periods} periods: error over stated {ratios:.3?} in {rows} windows, {flagged} flagged"
+            );
+            assert!(rows > 1000 && flagged == 0, "{flagged} of {rows}");
+            for (ratio, name) in ratios.into_iter().zip(NAMES) {
+                assert!(range.contains(&ratio), "{name} {ratio}");
+            }
+        }
+    }
+}
+
+#[test]
+fn without_the_setting_less_noise_about_the_third_harmonic_is_a_misfit() {
+    for filters in [LOW_PASS, SHARP] {
+        let [plain, coloured] = [false, true].map(|coloured| {
+            let found =
+                |seed| identified(filters, settings(100, coloured), &Flaws::default(), seed);
+            let rows: Vec<Estimate> = (0..10).flat_map(found).collect();
+            let told = rows.iter().filter(|e| e.flags == Flags::MISFIT).count();
+            let clean = rows.iter().filter(|e| e.flags.is_empty()).count();
+            assert_eq!(told + clean, rows.len());
+            [told, clean]
+        });
+        println!("misfit and clean: {plain:?}, with the setting {coloured:?}");
+        assert!(plain[0] > 150 && plain[0] > 4 * plain[1], "{plain:?}");
+        assert!(coloured[1] > 190 && coloured[0] == 0, "{coloured:?}");
+    }
+}
+
+#[test]
+fn faults_are_told_in_coloured_noise() {
+    for seed in 0..20 {
+        let at = 20_000 + 97 * seed;
+        let flaws = Flaws {
+            lost: vec![Loss { at, count: 3 }],
+            ..Flaws::default()
+        };
+        let found = identified(LOW_PASS, settings(10, true), &flaws, seed);
+        let near = |e: &Estimate| e.start + 400 > at && e.start < at + 400;
+        let (near, far): (Vec<Estimate>, Vec<Estimate>) = found.into_iter().partition(near);
+        assert!(
+            near.iter().any(|e| e.flags.contains(Flags::PHASE_JUMP)),
+            "seed {seed}: {near:?}"
+        );
+        assert!(far.iter().all(|e| e.flags.is_empty()), "seed {seed}");
+    }
+}

@@ -1,6 +1,6 @@
 //! The flaws of the electronics, as they are asked for.
 
-use crate::error::Error;
+use crate::error::{Error, finite, positive, require};
 use crate::timed::{ClipSpan, Dropout, Loss};
 use serde::{Deserialize, Serialize};
 
@@ -111,7 +111,7 @@ impl Flaws {
             ("pick_off_error", self.pick_off_error),
             ("cubic", self.cubic),
         ] {
-            require(what, value, value.is_finite(), "finite")?;
+            finite(what, value)?;
         }
         for (what, value) in [("noise", self.noise), ("jitter", self.jitter)] {
             require(
@@ -121,14 +121,6 @@ impl Flaws {
                 "finite and 0 or more",
             )?;
         }
-        let positive = |what, value: f64| {
-            require(
-                what,
-                value,
-                value > 0.0 && value.is_finite(),
-                "finite and above 0",
-            )
-        };
         positive("gain_ratio", self.gain_ratio)?;
         if let Some(clip) = self.clip {
             positive("clip", clip)?;
@@ -141,14 +133,6 @@ impl Flaws {
             positive("full_scale", self.full_scale)?;
         }
         Ok(())
-    }
-}
-
-fn require(what: &'static str, value: f64, holds: bool, need: &'static str) -> Result<(), Error> {
-    if holds {
-        Ok(())
-    } else {
-        Err(Error::OutOfRange { what, value, need })
     }
 }
 

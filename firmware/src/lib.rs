@@ -16,11 +16,12 @@
 //! | `bench_longest_*` | the longest call that takes one pair, of searching and of tracking |
 //! | `bench_solution_*` | the solution of one window |
 //! | `bench_pipeline_*`, `bench_unwatched_*` | the whole core, with and without the watch |
-//! | `bench_methods_fixed`, `_f32` | block sums with the sums of the paper's four methods beside them |
+//! | `bench_methods_*` | block sums with the sums of the paper's four methods beside them |
 //! | `bench_interrupt`, `bench_application` | the instrument's interrupt alone, and all of the instrument |
 //! | `bench_idsp_sums` | the peer: the same sums with the crate idsp |
 //! | `bench_nothing` | what every other bench has beside its kernel |
 //! | `check_arch` | compares the core's kernels in instructions with their portable twins |
+//! | `check_memory` | proves that memory is copied, moved and cleared as the ABI wants it |
 //!
 //! A bench works between `mark_begin` and `mark_end`, where a counting tool may look too, and at its end prints one line over
 //! semihosting: `NAME instructions=… units=… state=… stack=…`, with `cycles` for `instructions` on hardware, whose cycle counter
@@ -42,7 +43,7 @@
 //! | `bench`, `beside`, `load`, `codes` | what is measured, and of what |
 //! | `marks`, `gauge`, `line` | between which marks, how, and how it is told |
 //!
-//! All but the last four lines knows no hardware, and is tested on the host too. Pins and ranges are in `firmware/docs/wiring.md`.
+//! All but the last four lines know no hardware, and are tested on the host too. Pins and ranges are in `firmware/docs/wiring.md`.
 #![no_std]
 
 #[cfg(test)]

@@ -32,3 +32,19 @@ pub fn fail() -> ! {
         debug::exit(debug::EXIT_FAILURE);
     }
 }
+
+/// An image of one bench, which is called with the image's name and these arguments; it leaves the emulator where it panics too.
+#[macro_export]
+macro_rules! bench_image {
+    ($bench:expr $(, $argument:expr)*) => {
+        #[cortex_m_rt::entry]
+        fn main() -> ! {
+            $bench(env!("CARGO_BIN_NAME") $(, $argument)*)
+        }
+
+        #[panic_handler]
+        fn panic(_: &core::panic::PanicInfo) -> ! {
+            $crate::marks::leave()
+        }
+    };
+}

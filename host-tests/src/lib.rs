@@ -7,10 +7,7 @@ pub mod printed;
 pub mod score;
 pub mod table;
 
-use antinode::Calibration;
-use antinode::Estimate;
-use antinode::Identifier;
-use antinode::Settings;
+use antinode::{Calibration, Estimate, Identifier, Settings};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 
 #[cfg(doctest)]

@@ -1,5 +1,7 @@
 //! Root mean squares of errors over the bound, and of what the core says its errors are.
 
+use std::ops::Range;
+
 use antinode::Estimate;
 use antinode_sim::{Bound, Wave};
 
@@ -54,6 +56,26 @@ impl Score {
     /// Rms of the stated standard deviations over the bound.
     pub fn stated(&self) -> [f64; 4] {
         self.stated.map(|sum| (sum / self.windows).sqrt())
+    }
+
+    /// Prints both, and asserts that the errors over the bound and the stated deviations over the errors lie within these.
+    pub fn check(&self, label: &str, of_errors: Range<f64>, of_stated: Range<f64>) {
+        let (error, stated) = (self.error(), self.stated());
+        println!(
+            "{label}: {} windows, rms error/bound {error:.3?}, stated/bound {stated:.3?}",
+            self.windows()
+        );
+        for i in 0..4 {
+            let (name, error, ratio) = (NAMES[i], error[i], stated[i] / error[i]);
+            assert!(
+                of_errors.contains(&error),
+                "{label}: {name} at {error:.3} of the bound"
+            );
+            assert!(
+                of_stated.contains(&ratio),
+                "{label}: stated {name} is {ratio:.3} of the scatter"
+            );
+        }
     }
 }
 

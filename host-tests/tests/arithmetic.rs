@@ -6,7 +6,7 @@ use antinode::phase::PhaseStep;
 use antinode::{Estimate, Flags, Packed, Sample, SamplePair, Settings};
 use antinode_sim::{Flaws, random_wave};
 use host_tests::codes::{codes, converted, identify, settings};
-use host_tests::score::{NAMES, Score, errors};
+use host_tests::score::{Score, errors};
 use host_tests::{RATE, gyro};
 
 /// Period of the paper's gyro, samples.
@@ -58,21 +58,8 @@ fn all_reach_the_bound_on_codes() {
                 for (arithmetic, score) in scores {
                     let label =
                         format!("{arithmetic}, {bits} bits, {periods} periods, noise {noise}");
-                    let (error, stated) = (score.error(), score.stated());
-                    println!(
-                        "{label}: {} windows, {error:.3?}, stated {stated:.3?}",
-                        score.windows()
-                    );
                     assert!(score.windows() >= 7 * runs as usize, "{label}");
-                    for i in 0..4 {
-                        assert!(error[i] < limit, "{label}: {} {:.3}", NAMES[i], error[i]);
-                        let ratio = stated[i] / error[i];
-                        assert!(
-                            (0.9..1.12).contains(&ratio),
-                            "{label}: {} stated {ratio:.3}",
-                            NAMES[i]
-                        );
-                    }
+                    score.check(&label, 0.0..limit, 0.9..1.12);
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use antinode::Settings;
 use antinode::methods::comparison::{
     Comparison, Conditions, DISAGREEMENT, Reference, Sums, compare,
 };
@@ -18,26 +19,43 @@ fn comparisons(
     seed: u64,
     spoil: impl Fn(usize, [f64; 2]) -> [f64; 2],
 ) -> Vec<Comparison> {
+    comparisons_with(windows(periods), wave, flaws, samples, seed, spoil)
+}
+
+/// The same with other settings, but for windows that begin before a quarter of a period has passed.
+fn comparisons_with(
+    settings: Settings,
+    wave: Wave,
+    flaws: &Flaws,
+    samples: usize,
+    seed: u64,
+    spoil: impl Fn(usize, [f64; 2]) -> [f64; 2],
+) -> Vec<Comparison> {
     let gyro = Gyro::new(wave, flaws.clone(), RATE, seed).expect("a valid gyro");
     let pairs: Vec<[f32; 2]> = gyro
         .take(samples)
         .enumerate()
         .map(|(k, pair)| spoil(k, [pair.c, pair.d]).map(|x| x as f32))
         .collect();
-    let mut core = Box::new(Core::new(windows(periods)).expect("valid settings"));
+    let mut core = Box::new(Core::new(settings).expect("valid settings"));
     let mut found = Vec::new();
     core.extend(&pairs, |estimate| {
         let omega = TAU * estimate.frequency / RATE;
         let (start, end) = (estimate.start as usize, estimate.end() as usize);
         let offsets = estimate.offsets;
-        let centred: Vec<[f32; 2]> = pairs[start - 20..end]
+        let lag = algorithm2::quarter_lag((TAU / omega) as f32);
+        let lead = usize::from(lag);
+        if start < lead {
+            return;
+        }
+        let centred: Vec<[f32; 2]> = pairs[start - lead..end]
             .iter()
             .map(|p| [p[0] - offsets[0], p[1] - offsets[1]])
             .collect();
         let sums = Sums {
-            moments: Moments::of(&centred[20..]),
-            delayed: Delayed::of(&centred, 20, algorithm2::quarter_lag((TAU / omega) as f32)),
-            products: Products::of(&centred[20..], omega),
+            moments: Moments::of(&centred[lead..]),
+            delayed: Delayed::of(&centred, lead, lag),
+            products: Products::of(&centred[lead..], omega),
         };
         found.push(compare(&sums, &Reference::of(&estimate, RATE)));
     });
@@ -82,6 +100,42 @@ fn methods_agree_in_white_noise() {
         }
     }
     assert!(total > 10_000);
+}
+
+#[test]
+fn methods_agree_where_samples_are_many_and_near_a_circle() {
+    let mut total = 0;
+    for (frequency, noises) in [(600.0, [0.1, 0.2]), (5332.0, [1e-3, 0.02])] {
+        for noise in noises {
+            for periods in [2, 4, 10] {
+                let (mut count, mut loud) = (0, 0);
+                for seed in 0..60 {
+                    let wave = random_wave(seed, frequency, 0.5);
+                    // 0.05 to 0.9 of a_A, of either sign.
+                    let share = 0.05 + 0.85 * (seed / 2) as f64 / 29.0;
+                    let sign = if seed % 2 == 0 { 1.0 } else { -1.0 };
+                    let wave = Wave {
+                        quadrature_amplitude: sign * share * wave.main_amplitude,
+                        ..wave
+                    };
+                    let flaws = Flaws {
+                        noise: noise * wave.main_amplitude,
+                        ..Flaws::default()
+                    };
+                    let samples = (500.0 * RATE / frequency) as usize;
+                    let found = comparisons(wave, &flaws, periods, samples, seed, |_, pair| pair);
+                    count += found.len();
+                    loud += disagree(&found);
+                }
+                println!(
+                    "{frequency} Hz, noise {noise}, {periods} periods: {loud} of {count} windows disagree"
+                );
+                assert_eq!(loud, 0, "{frequency} Hz, noise {noise}, {periods} periods");
+                total += count;
+            }
+        }
+    }
+    assert!(total > 50_000);
 }
 
 #[test]
@@ -197,6 +251,33 @@ fn the_conditions_of_the_delay_hold_in_white_noise_and_are_as_sharp_as_it_lets_t
             }
         }
     }
+}
+
+#[test]
+fn the_conditions_of_the_delay_hold_where_blocks_do_not_fit_the_period() {
+    let (mut count, mut failed, mut squares) = (0, 0, [0.0; 2]);
+    for seed in 0..20 {
+        let wave = random_wave(seed, 5332.0, 0.5);
+        let flaws = Flaws {
+            noise: 0.02 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let known = Settings {
+            frequency: Some(5550.0),
+            ..windows(200)
+        };
+        for found in comparisons_with(known, wave, &flaws, 40_000, seed, |_, pair| pair) {
+            let Conditions { delay, monitor, .. } = found.methods[1].conditions;
+            count += 1;
+            failed += usize::from(!delay || !monitor);
+            squares[0] += found.imbalance_excess.powi(2);
+            squares[1] += found.phase_excess.powi(2);
+        }
+    }
+    let rms = squares.map(|sum| (sum / f64::from(count)).sqrt());
+    println!("4 % off: (17), (20) rms {rms:.2?} deviations, {failed} of {count} fail");
+    assert!(count > 150 && failed * 40 <= count as usize);
+    assert!(rms.iter().all(|x| (0.4..1.2).contains(x)), "{rms:.2?}");
 }
 
 #[test]

@@ -23,7 +23,7 @@ const MOST_TURN: f64 = 0.1;
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub struct Calibrate {
-    /// Rows of `antinode identify --output csv` or `antinode monitor --format csv`; `-` is standard input.
+    /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
     #[arg(required = true, value_name = "ROWS")]
     pub rows: Vec<PathBuf>,
     // What the rows were identified with.
@@ -53,7 +53,7 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
         ("pick-off angle, rad", "--pick-off-angle", angle, of_angle),
     ];
     let mut report = io::stderr().lock();
-    // Nobody need see the report: the result is on the other stream.
+    // The result goes to the other stream: standard error may be closed.
     let _ = tell(&mut report, &name, &rows, &found, &quantities);
     // One digit more than the report's two of the deviation.
     let options = quantities.map(|(_, option, value, deviation)| {
@@ -92,7 +92,8 @@ fn tell(
     )?;
     rows.tell_overlaps(out)?;
     for &(quantity, _, value, deviation) in quantities {
-        writeln!(out, "{quantity:<20} {}", with_std(value, deviation))?;
+        let text = with_std(value, deviation);
+        writeln!(out, "{quantity:<20} {}", text.trim_end())?;
     }
     if !found.knows_splits {
         writeln!(

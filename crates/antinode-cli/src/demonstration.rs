@@ -60,7 +60,7 @@ pub fn run() -> Result<(), Failure> {
     }
     let mut score = Score::new(noise, RATE);
     for estimate in &estimates {
-        score.add(estimate, &wave.at(estimate.time));
+        score.add(estimate, &wave);
     }
     score.print(&mut out)?;
     writeln!(

@@ -1,6 +1,5 @@
 //! Why the command ends without success.
 
-use std::fmt;
 use std::io;
 
 use antinode::SettingsError;
@@ -8,24 +7,28 @@ use antinode::SettingsError;
 use crate::recording::{InputError, OutputError};
 
 /// A failure, and so an exit code: 1 for what was found in the data or the system, 2 for what was asked, 130 for an interruption.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// A recording is at fault.
-    Input(InputError),
+    #[error(transparent)]
+    Input(#[from] InputError),
     /// A recording or a figure could not be written.
-    Output(OutputError),
-    /// A recording is whole and yet not what was wanted: the message names the file and the remedy.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// Anything else that is wrong with a file, a port or the system: the message names it and the remedy.
+    #[error("{0}")]
     Recording(String),
     /// What was asked makes no sense.
+    #[error("{0}")]
     Usage(String),
-    /// Ctrl-C, or the system, came before a recording was whole.
-    Interrupted {
-        /// The recording.
-        file: String,
-    },
+    /// Ctrl-C, or the system, came before this file was whole.
+    #[error("{file}: interrupted, and not written; run it again")]
+    Interrupted { file: String },
     /// The reader of our output has gone: nothing is wrong.
+    #[error("")]
     Closed,
     /// The system failed while writing rows.
+    #[error("rows cannot be written: {0}; check the disk or the pipe")]
     Rows(io::Error),
 }
 
@@ -40,36 +43,6 @@ impl Failure {
             Self::Output(error) if error.is_usage() => 2,
             _ => 1,
         }
-    }
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Input(error) => error.fmt(f),
-            Self::Output(error) => error.fmt(f),
-            Self::Recording(message) | Self::Usage(message) => f.write_str(message),
-            Self::Interrupted { file } => {
-                write!(f, "{file}: interrupted, and not written; run it again")
-            }
-            Self::Closed => Ok(()),
-            Self::Rows(error) => write!(
-                f,
-                "rows cannot be written: {error}; check the disk or the pipe"
-            ),
-        }
-    }
-}
-
-impl From<InputError> for Failure {
-    fn from(error: InputError) -> Self {
-        Self::Input(error)
-    }
-}
-
-impl From<OutputError> for Failure {
-    fn from(error: OutputError) -> Self {
-        Self::Output(error)
     }
 }
 
@@ -91,7 +64,7 @@ impl From<SettingsError> for Failure {
 impl From<antinode_sim::Error> for Failure {
     fn from(error: antinode_sim::Error) -> Self {
         use antinode_sim::Error;
-        Self::Usage(match error {
+        Self::Usage(match &error {
             Error::OutOfRange { what, need, .. } => {
                 format!("{}: it must be {need}", simulate_option(what))
             }
@@ -107,6 +80,7 @@ impl From<antinode_sim::Error> for Failure {
                 "--quadrature-amplitude: {quadrature} exceeds the main amplitude of {main} in size; \
                  exchange the two and turn the angle by 45°"
             ),
+            Error::EndlessLoss { .. } => format!("--lost: {error}"),
             other => other.to_string(),
         })
     }
@@ -119,6 +93,7 @@ fn simulate_option(field: &str) -> String {
         "skew" | "jitter" => format!("--{field}-ns"),
         "pick_off_error" => "--pick-off-angle".to_owned(),
         "clip_spans" => "--clip-span".to_owned(),
+        "level of clip_spans" => "--clip-span, the level".to_owned(),
         "dropouts" => "--dropout".to_owned(),
         other => format!("--{}", other.replace('_', "-")),
     }

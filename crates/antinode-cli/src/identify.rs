@@ -1,40 +1,34 @@
 //! `antinode identify`: recordings in, rows out, as a stream.
 
+mod options;
 mod scatter;
 mod search;
 mod silence;
 mod span;
+mod windows;
 
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::Path;
 
-use antinode::{Estimate, Flags, Identifier, Settings, SettingsError};
+use antinode::{Identifier, Settings};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
-use crate::methods::History;
-use crate::options::{Format, Identify, MOST_PERIODS, Methods};
+use crate::options::Format;
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
-use scatter::Scatter;
-use search::Search;
-use silence::Silence;
-use span::{Span, Step};
+pub use options::Identify;
+use options::{MOST_PERIODS, Methods};
+use span::Span;
+use windows::Windows;
 
-/// Samples of the longest period that may be known, and of the longest that is searched.
+/// Samples of the longest period.
 const LONGEST: usize = 1024;
-const SEARCHED: usize = 200;
 /// Windows of up to 1022 periods.
 type Core = Identifier<f32, LONGEST, { MOST_PERIODS as usize + 2 }>;
 
-/// Pairs between two looks at the search: no period is found and refused in fewer.
-const GLANCE: usize = 8;
-
 /// Recordings longer than this show how far they have come.
 const LONG: u64 = 32 << 20;
-
-/// Windows flagged as misfit from which on a remedy is named, where they are a quarter of all.
-const MANY: u64 = 20;
 
 /// Identifies every file; a fault in one does not keep the others from being read.
 pub fn run(options: &Identify) -> Result<(), Failure> {
@@ -85,7 +79,7 @@ fn identify(
     rows: &mut Rows<impl Write>,
 ) -> Result<(), Failure> {
     let open = OpenOptions {
-        raw: options.raw.map(Into::into),
+        raw: options.raw,
         columns: options.columns.clone(),
         rate: options.rate,
     };
@@ -104,17 +98,7 @@ fn identify(
     for warning in recording.warnings() {
         eprintln!("warning: {warning}");
     }
-    let settings = options.settings(rate, recording.full_scale(), recording.resolution());
-    let mut core = Box::new(Core::new(settings).map_err(|error| match error {
-        SettingsError::Frequency(frequency) => Failure::Usage(format!(
-            "{name}: --frequency: {frequency} Hz, but at {rate} Hz it must lie within {:.6} to {} Hz, {LONGEST} to 2.5 samples a period",
-            rate / LONGEST as f64,
-            rate / 2.5
-        )),
-        error => error.into(),
-    })?);
-    let mut history =
-        (options.methods == Methods::All).then(|| History::new(&settings, longest(&settings)));
+    let mut windows = Windows::new(&name, options, &recording, rate)?;
     let bar = progress(&recording);
     let length = recording
         .pairs()
@@ -129,67 +113,14 @@ fn identify(
     rows.begin(several.then_some(title));
 
     let live = io::stdout().is_terminal();
-    let mut search = Search::default();
-    let mut span = Span::new(options, &recording, rate);
-    let mut silence = Silence::default();
-    let mut scatter = Scatter::default();
-    let mut misfits = 0;
-    let fault = 'all: loop {
+    let fault = loop {
         match recording.read(&mut buffer) {
             Ok(0) => break None,
             Ok(_) => {}
             Err(error) => break Some(error),
         }
-        let mut pairs = buffer.as_slice();
-        while !pairs.is_empty() {
-            let mut most = match span.step(&mut recording, pairs) {
-                Step::End => break 'all None,
-                Step::Leave(count) => {
-                    pairs = &pairs[count..];
-                    continue;
-                }
-                Step::Lost(lost) => {
-                    core.skip(lost);
-                    if let Some(history) = &mut history {
-                        history.skip(lost);
-                    }
-                    continue;
-                }
-                Step::Take(most) => most,
-            };
-            if !span.has_begun() {
-                search.begin(&pairs[..most]);
-                if let Some(frequency) = options.frequency
-                    && let Some(warning) = search::elsewhere(&pairs[..most], rate, frequency)
-                {
-                    eprintln!("warning: {name}: {warning}");
-                }
-            }
-            // Until the first row, what becomes of the search is to be seen.
-            if rows.count() == 0 {
-                most = most.min(GLANCE);
-            }
-            let (taken, estimate) = core.push_slice(&pairs[..most]);
-            search.see(core.is_searching());
-            let (new, rest) = pairs.split_at(taken);
-            pairs = rest;
-            recording.look(span.take(taken), new);
-            if let Some(history) = &mut history {
-                history.extend(new);
-            }
-            if let Some(estimate) = estimate {
-                let methods = history
-                    .as_ref()
-                    .and_then(|history| history.compare(&estimate));
-                silence.see(&estimate, rate, options.hop);
-                scatter.see(&estimate, settings.resolution);
-                let estimate = Estimate {
-                    time: estimate.time + span.offset(),
-                    ..estimate
-                };
-                misfits += u64::from(estimate.flags == Flags::MISFIT);
-                rows.print(&name, &estimate, methods.as_ref())?;
-            }
+        if !windows.take(&mut recording, &buffer, rows)? {
+            break None;
         }
         if live || is_pipe {
             // Somebody watches, or the samples arrive as they are taken.
@@ -199,53 +130,9 @@ fn identify(
     };
     bar.finish_and_clear();
     if is_watched && recording.pairs().is_none() {
-        eprintln!("{name}: {} sample pairs", core.index());
+        eprintln!("{name}: {} sample pairs", windows.pairs());
     }
-    let many = misfits >= MANY && 4 * misfits > rows.count();
-    let of_misfits = many.then(|| misfit_remedies(misfits, rows.count(), options));
-    let seconds = core.index() as f64 / rate;
-    let of_span = span.warning().filter(|_| fault.is_none());
-    let of_silence = silence.told(seconds, span.offset());
-    let of_scatter = scatter.told(options.hum || options.coloured);
-    let told = [of_misfits, of_span, of_silence, of_scatter]
-        .into_iter()
-        .flatten();
-    let told = told.map(|warning| format!("{name}: {warning}"));
-    for warning in recording.late_warning().into_iter().chain(told) {
-        rows.flush()?;
-        eprintln!("warning: {warning}");
-    }
-    let failure = match fault {
-        Some(error) => Some(error.into()),
-        None if rows.count() > 0 => None,
-        None => Some(
-            span.missing(&name)
-                .unwrap_or_else(|| search.no_rows(&name, rate, &core, options)),
-        ),
-    };
-    let told = [recording.lost(), recording.not_finite()];
-    let mut failures = told.into_iter().flatten().map(Failure::from).chain(failure);
-    let Some(mut last) = failures.next() else {
-        return Ok(());
-    };
-    rows.flush()?;
-    for next in failures {
-        eprintln!("error: {last}");
-        last = next;
-    }
-    Err(last)
-}
-
-/// What may be done about rows that are flagged as misfits, and as nothing else.
-fn misfit_remedies(misfits: u64, rows: u64, options: &Identify) -> String {
-    let mut told = format!("{misfits} of {rows} rows are flagged misfit alone; ");
-    if !options.hum && !options.coloured {
-        told += "where it is mains hum or an offset that wanders, --hum takes it out; ";
-    }
-    if !options.coloured {
-        told += "where a filter leaves less noise at three times the frequency, --coloured does; ";
-    }
-    told + "where the frequency drifts or the pattern turns far within a window, shorter windows do, --periods"
+    windows.conclude(&recording, fault, rows)
 }
 
 /// The rate that was asked for, or else the recording's own.
@@ -254,18 +141,12 @@ fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, 
         (Some(rate), _) => Ok(rate),
         (None, Some(rate)) if (1.0..=1e10).contains(&rate) => Ok(rate),
         (None, Some(rate)) => Err(Failure::Recording(format!(
-            "{name}: a sample rate of {rate} Hz is absurd; the recording says so itself: give the true one as --rate HZ"
+            "{name}: its own sample rate of {rate} Hz is absurd; give the true one as --rate HZ"
         ))),
         (None, None) => Err(Failure::Recording(format!(
             "{name}: the sample rate is not known: the recording does not say it; give --rate HZ"
         ))),
     }
-}
-
-/// Samples of the longest period that may come, a little more of a known one.
-fn longest(settings: &Settings) -> usize {
-    let known = |frequency| (1.1 * settings.sample_rate / f64::from(frequency)) as usize + 1;
-    settings.frequency.map_or(SEARCHED, known)
 }
 
 /// A progress bar where a person watches and rows go elsewhere.

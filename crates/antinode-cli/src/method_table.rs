@@ -9,6 +9,10 @@ use crate::fixed::with_sigmas;
 use crate::method_rows::worst;
 use crate::methods::Methods;
 
+/// What to tell where the methods disagree.
+pub const DISAGREE: &str =
+    "the methods disagree beyond noise: the signal is not one steady wave in white noise";
+
 /// What the lines mean, once a table.
 pub fn legend(out: &mut impl Write) -> io::Result<()> {
     writeln!(
@@ -57,11 +61,7 @@ pub fn table(out: &mut impl Write, e: &Estimate, methods: &Methods) -> io::Resul
         )?;
     }
     if comparison.disagree {
-        writeln!(
-            out,
-            "{:>10} the methods disagree beyond noise: the signal is not one steady wave in white noise",
-            "warning:"
-        )?;
+        writeln!(out, "{:>10} {DISAGREE}", "warning:")?;
     }
     Ok(())
 }

@@ -21,7 +21,7 @@ use rows::Trust;
 /// `antinode plot`.
 #[derive(Debug, Args)]
 pub struct Plot {
-    /// Rows of `antinode identify --output csv` or `antinode monitor --format csv`; `-` is standard input.
+    /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
     #[arg(required = true, value_name = "ROWS")]
     pub rows: Vec<PathBuf>,
     /// The figure to write: .svg or .png.

@@ -30,14 +30,14 @@ const BREAKS: Flags = Flags::REACQUIRED.with(Flags::PHASE_JUMP).with(Flags::STEP
 const SPLIT_SEEN: f64 = 3.0;
 /// A decay of fewer deviations than this is none.
 const DECAY_SEEN: f64 = 3.0;
-/// Rows that follow each other are alike by this, where their windows overlap by a tenth unseen, and fewer deviations than this: that is noise.
+/// Residuals of neighbouring rows correlate by up to this where windows overlap by a tenth unseen, and by so many deviations more by chance.
 const ALIKE: f64 = 0.1;
 const ALIKE_SEEN: f64 = 5.0;
 
 /// `antinode resonator`.
 #[derive(Debug, Args)]
 pub struct Resonator {
-    /// Rows of `antinode identify --output csv` or `antinode monitor --format csv`; `-` is standard input.
+    /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
     #[arg(required = true, value_name = "ROWS")]
     pub rows: Vec<PathBuf>,
     /// How the quantities are printed: a table in degrees, or CSV or JSON lines in radians.
@@ -128,7 +128,7 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
             }
         }
     }
-    // Nobody need see what is told of the result.
+    // The result is printed: standard error may be closed.
     let _ = tell(&mut io::stderr().lock(), &rows, &found);
     Ok(())
 }

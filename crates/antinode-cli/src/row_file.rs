@@ -1,6 +1,5 @@
 //! Rows as `antinode identify --output csv` prints them, from a file or standard input, and what is told where they are not.
 
-use std::fs::File;
 use std::io::{self, IsTerminal, Read};
 use std::path::Path;
 
@@ -8,6 +7,7 @@ use antinode::Flags;
 use csv::{Position, Reader, StringRecord};
 
 use crate::failure::Failure;
+use crate::recording::open_file;
 
 /// A file of rows, read line by line.
 pub struct RowFile<R> {
@@ -27,12 +27,7 @@ impl RowFile<Box<dyn Read>> {
             return Self::new("standard input", Box::new(io::stdin()));
         }
         let name = path.display().to_string();
-        match File::open(path) {
-            Ok(file) => Self::new(&name, Box::new(file)),
-            Err(error) => Err(Failure::Recording(format!(
-                "{name}: {error}; give the CSV file of rows that `antinode identify --output csv` printed"
-            ))),
-        }
+        Self::new(&name, Box::new(open_file(path)?))
     }
 }
 
@@ -89,6 +84,11 @@ impl<R: Read> RowFile<R> {
             self.name
         ))
     }
+}
+
+/// The number in a field of a row.
+pub fn number(row: &StringRecord, place: usize) -> Option<f64> {
+    row.get(place)?.trim().parse().ok()
 }
 
 /// Whether a row's column `flags` has a flag.

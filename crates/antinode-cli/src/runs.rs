@@ -1,54 +1,24 @@
 //! Rows that `antinode identify` printed become runs: spans of time in which the pattern moves without a break.
 
+mod row;
+
 use std::f64::consts::FRAC_PI_2;
 use std::io::{self, Read, Write};
 use std::path::PathBuf;
 
 use antinode::Flags;
-use csv::StringRecord;
 
 use crate::failure::Failure;
 use crate::row_file::{RowFile, has_flag};
+use row::Places;
+pub use row::Row;
 
-/// The rms residual over the rows' own deviations from which on it is told that something else moves.
+/// From this rms residual over the rows' own deviations on, it is told that something else moves.
 pub const BEYOND_NOISE: f64 = 2.0;
 /// The least rows of a run: four unknowns are its own.
 const LEAST_ROWS: usize = 12;
-/// Columns that are read.
-const COLUMNS: [&str; 8] = [
-    "time_s",
-    "main_amplitude",
-    "quadrature_amplitude",
-    "angle_rad",
-    "frequency_hz",
-    "main_amplitude_std",
-    "quadrature_amplitude_std",
-    "angle_std_rad",
-];
-
-/// Those of the frequency, Hz, and of the decay rate, 1/s; rows may lack them.
-const OTHER_DEVIATIONS: [&str; 2] = ["frequency_std_hz", "decay_rate_std_s"];
 /// Windows overlap where one follows another by less than this share of its length, which is known to some per cent.
 const APART: f64 = 0.9;
-
-/// What is used of a row.
-#[derive(Debug, Clone, Copy)]
-pub struct Row {
-    /// s.
-    pub time: f64,
-    /// a_A and a_B, in the samples' unit.
-    pub main: f64,
-    pub quadrature: f64,
-    /// θ_A, rad.
-    pub angle: f64,
-    /// Hz, and one standard deviation of it: infinite where the rows do not tell it.
-    pub frequency: f64,
-    pub frequency_deviation: f64,
-    /// One standard deviation each of a_A, a_B and θ_A.
-    pub deviations: [f64; 3],
-    /// Length of the window, s, from what it knows of an amplitude and its rate; 0 where the rows do not tell the latter.
-    pub seconds: f64,
-}
 
 /// A span of rows without a break.
 #[derive(Debug, Clone, Default)]
@@ -122,8 +92,8 @@ impl Runs {
                 ));
             }
             return recording(format!(
-                "no dozen of clean rows in which the pattern turns by less than {:.1}° from row to row; see their flags, and shorten the \
-                 windows where it turns faster",
+                "no run of {LEAST_ROWS} clean rows in which the pattern turns by less than {:.1}° from row to row; see their flags, and \
+                 shorten the windows if it turns faster",
                 self.most_turn.to_degrees()
             ));
         }
@@ -160,11 +130,7 @@ impl Runs {
 
     /// Adds the rows of a file.
     fn read(&mut self, mut rows: RowFile<impl Read>) -> Result<(), Failure> {
-        let mut places = [0; COLUMNS.len()];
-        for (to, column) in places.iter_mut().zip(COLUMNS) {
-            *to = rows.needed(column)?;
-        }
-        let others = OTHER_DEVIATIONS.map(|column| rows.place(column));
+        let places = Places::of(&rows)?;
         let flags = rows.needed("flags")?;
         let file = rows.place("file");
 
@@ -180,7 +146,7 @@ impl Runs {
                 continue;
             }
             // Only here: a flagged row need not have numbers.
-            let Some(row) = Row::parse(record, places, others) else {
+            let Some(row) = Row::parse(record, &places) else {
                 return Err(rows.fault(
                     "a time, amplitude, angle, frequency or deviation is no number, or an amplitude or a deviation not above 0",
                 ));
@@ -257,52 +223,6 @@ fn given_twice(what: &str) -> Failure {
 /// An angle's change, known modulo π/2: −π/4 to π/4.
 pub fn turn(change: f64) -> f64 {
     change - FRAC_PI_2 * (change / FRAC_PI_2).round()
-}
-
-impl Row {
-    /// None where a number is missing or not finite.
-    fn parse(
-        record: &StringRecord,
-        places: [usize; COLUMNS.len()],
-        others: [Option<usize>; OTHER_DEVIATIONS.len()],
-    ) -> Option<Self> {
-        let mut numbers = [0f64; COLUMNS.len()];
-        for (number, place) in numbers.iter_mut().zip(places) {
-            *number = record.get(place)?.parse().ok()?;
-        }
-        let [
-            time,
-            main,
-            quadrature,
-            angle,
-            frequency,
-            of_main,
-            of_quadrature,
-            of_angle,
-        ] = numbers;
-        let deviations = [of_main, of_quadrature, of_angle];
-        let mut unknown = [f64::INFINITY; OTHER_DEVIATIONS.len()];
-        for (number, place) in unknown.iter_mut().zip(others) {
-            if let Some(place) = place {
-                *number = record.get(place)?.parse().ok()?;
-            }
-        }
-        let [of_frequency, of_rate] = unknown;
-        let usable = numbers.iter().all(|number| number.is_finite()) && main > 0.0;
-        let known = deviations.iter().all(|&deviation| deviation > 0.0)
-            && unknown.iter().all(|&deviation| deviation > 0.0);
-        (usable && known).then_some(Self {
-            time,
-            main,
-            quadrature,
-            angle,
-            frequency,
-            frequency_deviation: of_frequency,
-            deviations,
-            // A straight line through evenly spread samples knows its slope so much worse than its middle.
-            seconds: 12f64.sqrt() * of_main / main / of_rate,
-        })
-    }
 }
 
 #[cfg(test)]

@@ -46,7 +46,7 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     options.check_frequency()?;
     // Files that have no name yet go as they are dropped, but not with a process that is killed.
     let interrupted = interrupted()?;
-    let mut writer = RecordingWriter::create(&options.to, options.rate, options.sample.into())?;
+    let mut writer = RecordingWriter::create(&options.to, options.rate, options.sample)?;
     let truth = Truth {
         sample_rate_hz: options.rate,
         sample_pairs: pairs,
@@ -72,7 +72,7 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     }
     writer.finish()?;
     beside_whole.finish()?;
-    if options.is_integer() && beyond > 0 {
+    if options.sample.is_integer() && beyond > 0 {
         eprintln!(
             "warning: {beyond} of {pairs} sample pairs lay beyond the file's full scale of 1 and were limited to it; \
              lower the amplitudes, or give --sample f32"

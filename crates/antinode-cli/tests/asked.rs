@@ -5,25 +5,11 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::{RATE, WAVE, npy, raw, rows, run, run_with, wav};
+use common::{RATE, WAVE, npy, raw, rows, run, wav};
 
 /// Runs `identify`, which must exit 1 without a row, with one message that holds all of these.
 fn fault(directory: &Path, arguments: &str, input: Vec<u8>, told: &[&str]) {
-    let run = run_with(directory, &format!("identify {arguments}"), input);
-    assert_eq!(
-        (run.code, run.out.as_str()),
-        (1, ""),
-        "{arguments}: {}",
-        run.err
-    );
-    assert_eq!(run.err.lines().count(), 1, "{}", run.err);
-    for part in told {
-        assert!(
-            run.err.contains(part),
-            "{arguments}: `{part}` is not in {}",
-            run.err
-        );
-    }
+    assert_eq!(common::fault(directory, arguments, input, told), []);
 }
 
 #[test]

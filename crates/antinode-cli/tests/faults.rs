@@ -30,7 +30,7 @@ fn what_is_not_a_recording_is_told() {
             "none.wav",
             &["none.wav: ", "no such file", "check the path"],
         ),
-        (".", &[".: ", "directory", "name the recording"]),
+        (".", &[".: ", "directory", "name the file"]),
         ("empty.wav", &["empty.wav: ", "nothing in it", "check"]),
         (
             "header.wav",
@@ -53,7 +53,10 @@ fn what_is_not_a_recording_is_told() {
             "words.csv",
             &["words.csv:2:2: ", "`half`", "correct or delete the line"],
         ),
-        ("one.csv", &["one.csv:1: ", "found 1 column", "--columns"]),
+        (
+            "one.csv",
+            &["one.csv:1: ", "found 1 column", "one sample pair a line"],
+        ),
         (
             "short.csv --rate 1e5",
             &["short.csv:3", "missing", "complete or delete the line"],

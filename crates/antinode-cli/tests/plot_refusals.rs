@@ -78,7 +78,7 @@ fn what_is_no_row_is_told() {
         "plot none.csv -o it.svg",
         "",
         1,
-        &["none.csv: ", "identify --output csv"],
+        &["none.csv: there is no such file; check the path"],
     );
     assert_eq!(names(here), ["bad.csv"]);
 }

@@ -284,7 +284,7 @@ fn what_is_wrong_is_told() {
     let found = resonator(here, &lines.join("\n"), "");
     assert!(found.err.contains("times their noise"), "{}", found.err);
     for (rows, told) in [
-        (lines[0].clone(), "no dozen of clean rows"),
+        (lines[0].clone(), "no run of 12 clean rows"),
         ("a,b\n1,2\n".to_owned(), "no column time_s"),
     ] {
         let found = resonator(here, &rows, "");

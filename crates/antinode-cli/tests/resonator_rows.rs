@@ -164,7 +164,7 @@ fn ring_downs_in_one_recording_are_runs_of_their_own() {
         }
         let calibrated = run_with(here, "calibrate -", rows.out.into());
         assert!(
-            calibrated.err.contains("must by 90° or more"),
+            calibrated.err.contains("must turn by 90° or more"),
             "{}",
             calibrated.err
         );

@@ -37,7 +37,7 @@ fn what_makes_no_sense_is_refused() {
         ("-o a.wav --frequency 20000 --rate 39000", "raise --rate"),
         (
             "-o a.wav --frequency 49999 --frequency-rate 2",
-            "--frequency: from 49999 Hz it comes to 50001 Hz",
+            "--frequency: 49999 Hz drifts to 50001 Hz",
         ),
         (
             "-o a.wav --damping-split inf",

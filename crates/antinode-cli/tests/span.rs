@@ -177,7 +177,7 @@ fn a_span_that_is_not_there_is_told() {
     for (arguments, told) in [
         (
             "a.wav --from 0.2 --to 0.1",
-            "error: --to: 0.1 s must lie behind --from, 0.2 s",
+            "error: --to: 0.1 s must be later than --from, 0.2 s",
         ),
         ("a.wav --from x", "it must be a number of seconds"),
         ("a.wav --to inf", "it must be a number of seconds"),

@@ -1,12 +1,11 @@
 //! What can be wrong with the description of a gyro.
 
-use std::fmt;
-
 /// Why a [`Gyro`](crate::Gyro) cannot be made: what was wrong, and (in the message) what would be right.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A number outside its range.
+    #[error("{what} is {value}: it must be {need}")]
     OutOfRange {
         /// The field, as it is spelt in [`Wave`](crate::Wave) or [`Flaws`](crate::Flaws), or `sample_rate`.
         what: &'static str,
@@ -16,6 +15,10 @@ pub enum Error {
         need: &'static str,
     },
     /// The quadrature wave is larger than the main wave, so it would be the main wave itself.
+    #[error(
+        "quadrature_amplitude is {quadrature} with main_amplitude {main}: it must not exceed it in size \
+         (exchange the two and turn the angle by 45 degrees)"
+    )]
     QuadratureAboveMain {
         /// `main_amplitude` as given, input units.
         main: f64,
@@ -23,6 +26,9 @@ pub enum Error {
         quadrature: f64,
     },
     /// A time span that does not end after it begins, or whose ends are not finite.
+    #[error(
+        "one of {what} goes from {from} s to {to} s: it must end after it begins, and both ends must be finite"
+    )]
     EmptySpan {
         /// The list it stands in: `dropouts` or `clip_spans`.
         what: &'static str,
@@ -32,6 +38,7 @@ pub enum Error {
         to: f64,
     },
     /// Two time spans of one list share a sample of one channel.
+    #[error("two of {what} share sample {index} of a channel: they must not overlap")]
     Overlap {
         /// The list: `dropouts` or `clip_spans`.
         what: &'static str,
@@ -39,6 +46,7 @@ pub enum Error {
         index: u64,
     },
     /// A loss that reaches beyond sample 2^53, where an index is no longer an exact `f64`.
+    #[error("{count} samples are lost from sample {at} on: a loss must end before sample 2^53")]
     EndlessLoss {
         /// The index of the first sample lost.
         at: u64,
@@ -46,38 +54,29 @@ pub enum Error {
         count: u64,
     },
     /// ADC codes were asked of a gyro that has no ADC.
+    #[error("there are no ADC codes without an ADC: set bits and full_scale")]
     NoBits,
 }
 
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Error::OutOfRange { what, value, need } => {
-                write!(f, "{what} is {value}: it must be {need}")
-            }
-            Error::QuadratureAboveMain { main, quadrature } => write!(
-                f,
-                "quadrature_amplitude is {quadrature} with main_amplitude {main}: it must not exceed it in size \
-                 (exchange the two and turn the angle by 45 degrees)"
-            ),
-            Error::EmptySpan { what, from, to } => write!(
-                f,
-                "one of {what} goes from {from} s to {to} s: it must end after it begins, and both ends must be finite"
-            ),
-            Error::Overlap { what, index } => write!(
-                f,
-                "two of {what} share sample {index} of a channel: they must not overlap"
-            ),
-            Error::EndlessLoss { at, count } => write!(
-                f,
-                "{count} samples are lost from sample {at} on: a loss must end before sample 2^53"
-            ),
-            Error::NoBits => write!(
-                f,
-                "there are no ADC codes without an ADC: set bits and full_scale"
-            ),
-        }
+/// Refuses a value that does not hold.
+pub(crate) fn require(
+    what: &'static str,
+    value: f64,
+    holds: bool,
+    need: &'static str,
+) -> Result<(), Error> {
+    if holds {
+        Ok(())
+    } else {
+        Err(Error::OutOfRange { what, value, need })
     }
 }
 
-impl std::error::Error for Error {}
+pub(crate) fn finite(what: &'static str, value: f64) -> Result<(), Error> {
+    require(what, value, value.is_finite(), "finite")
+}
+
+pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), Error> {
+    let holds = value > 0.0 && value.is_finite();
+    require(what, value, holds, "finite and above 0")
+}

@@ -1,6 +1,6 @@
 //! The flaws of the electronics, as they are asked for.
 
-use crate::error::Error;
+use crate::error::{Error, finite, positive, require};
 use crate::timed::{ClipSpan, Dropout, Loss};
 use serde::{Deserialize, Serialize};
 
@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Flaws {
-    /// Rms of the noise of (2), (3): white, Gaussian, independent in the two channels. Input units, 0 or more.
+    /// Rms of the noise of (2): white, Gaussian, independent in the two channels. Input units, 0 or more.
     pub noise: f64,
     /// Offset of channel C, input units.
     pub offset_c: f64,
@@ -44,7 +44,7 @@ pub struct Flaws {
     /// Pick-off D stands at 45 degrees + this angle on the resonator's rim, rad, in the sense of theta.
     ///
     /// An angle on the rim counts twice in the pattern, so with eps for this angle channel D gets
-    /// S_D cos 2 eps - S_C sin 2 eps in place of S_D of (3), which is A sin(2 theta - 2 eps) + B cos(2 theta - 2 eps).
+    /// D cos 2 eps - C sin 2 eps in place of D of (3), which is A sin(2 theta - 2 eps) + B cos(2 theta - 2 eps).
     /// To first order: a_A - eps a_A sin 4 theta, theta - (eps / 2) (1 + (E/D) cos 4 theta).
     pub pick_off_error: f64,
     /// Cubic distortion c of both pick-offs: S becomes S + c S^3 / a^2, a being the wave's main amplitude at t = 0. No unit.
@@ -111,7 +111,7 @@ impl Flaws {
             ("pick_off_error", self.pick_off_error),
             ("cubic", self.cubic),
         ] {
-            require(what, value, value.is_finite(), "finite")?;
+            finite(what, value)?;
         }
         for (what, value) in [("noise", self.noise), ("jitter", self.jitter)] {
             require(
@@ -121,14 +121,6 @@ impl Flaws {
                 "finite and 0 or more",
             )?;
         }
-        let positive = |what, value: f64| {
-            require(
-                what,
-                value,
-                value > 0.0 && value.is_finite(),
-                "finite and above 0",
-            )
-        };
         positive("gain_ratio", self.gain_ratio)?;
         if let Some(clip) = self.clip {
             positive("clip", clip)?;
@@ -141,14 +133,6 @@ impl Flaws {
             positive("full_scale", self.full_scale)?;
         }
         Ok(())
-    }
-}
-
-fn require(what: &'static str, value: f64, holds: bool, need: &'static str) -> Result<(), Error> {
-    if holds {
-        Ok(())
-    } else {
-        Err(Error::OutOfRange { what, value, need })
     }
 }
 

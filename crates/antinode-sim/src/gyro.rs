@@ -2,7 +2,7 @@
 
 use crate::adc::Adc;
 use crate::dropouts::{Fill, fills};
-use crate::error::Error;
+use crate::error::{Error, positive};
 use crate::flaws::Flaws;
 use crate::front::{Front, Input};
 use crate::spans::{Span, Spans, check_apart};
@@ -18,7 +18,7 @@ const LAST: u64 = 1 << 53;
 pub struct Pair {
     /// S_C of (2), input units.
     pub c: f64,
-    /// S_D of (3), input units.
+    /// S_D of (2), input units.
     pub d: f64,
 }
 
@@ -49,13 +49,7 @@ impl Gyro {
     ///
     /// The first fault found of those that [`Error`] names, but for [`Error::NoBits`].
     pub fn new(wave: Wave, flaws: Flaws, sample_rate: f64, seed: u64) -> Result<Gyro, Error> {
-        if !(sample_rate > 0.0 && sample_rate.is_finite()) {
-            return Err(Error::OutOfRange {
-                what: "sample_rate",
-                value: sample_rate,
-                need: "finite and above 0",
-            });
-        }
+        positive("sample_rate", sample_rate)?;
         wave.check()?;
         flaws.check()?;
         let mut front = Front::new(wave, &flaws, sample_rate, seed);

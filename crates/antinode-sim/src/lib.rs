@@ -5,8 +5,8 @@
 //!
 //! ```text
 //! tau = omega t - alpha,   A = a_A cos tau,   B = a_B sin tau              (1)
-//! S_C = A cos 2 theta - B sin 2 theta + noise                              (2)
-//! S_D = A sin 2 theta + B cos 2 theta + noise                              (3)
+//! S_C = C + noise,   S_D = D + noise                                       (2)
+//! C = A cos 2 theta - B sin 2 theta,   D = A sin 2 theta + B cos 2 theta   (3)
 //! ```
 //!
 //! The numbers are those of Mingazov & Shishakov 2021, DOI 10.22213/2410-9304-2021-3-12-24; they are used throughout.

@@ -47,7 +47,7 @@ pub enum DropoutKind {
 pub enum Channel {
     /// S_C of (2).
     C,
-    /// S_D of (3).
+    /// S_D of (2).
     D,
 }
 

@@ -1,6 +1,6 @@
 //! The true wave and its motion.
 
-use crate::error::Error;
+use crate::error::{Error, finite, positive, require};
 use crate::split::SplitWave;
 use crate::time::Instant;
 use libm::{exp, sincos};
@@ -17,7 +17,7 @@ pub struct Wave {
     pub main_amplitude: f64,
     /// a_B of (1): amplitude of the quadrature wave at t = 0, input units, signed, |a_B| <= a_A.
     pub quadrature_amplitude: f64,
-    /// theta of (2), (3): pattern angle at t = 0, rad, any.
+    /// theta of (3): pattern angle at t = 0, rad, any.
     pub angle: f64,
     /// alpha of (1), rad, any: tau(t) = 2 pi (f t + `frequency_rate` t^2 / 2) - alpha.
     pub phase: f64,
@@ -70,7 +70,7 @@ pub struct Truth {
     pub main_amplitude: f64,
     /// a_B of (1) at that moment, input units, signed.
     pub quadrature_amplitude: f64,
-    /// theta of (2), (3) at that moment, rad, continuous from [`Wave::angle`] (not reduced).
+    /// theta of (3) at that moment, rad, continuous from [`Wave::angle`] (not reduced).
     ///
     /// Splits may make the pattern a circle, a_A = |a_B|, for a moment; there the angle has no meaning, and may jump.
     pub angle: f64,
@@ -136,18 +136,8 @@ impl Wave {
     }
 
     pub(crate) fn check(&self) -> Result<(), Error> {
-        for (what, value) in [
-            ("main_amplitude", self.main_amplitude),
-            ("frequency", self.frequency),
-        ] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::OutOfRange {
-                    what,
-                    value,
-                    need: "finite and above 0",
-                });
-            }
-        }
+        positive("main_amplitude", self.main_amplitude)?;
+        positive("frequency", self.frequency)?;
         for (what, value) in [
             ("quadrature_amplitude", self.quadrature_amplitude),
             ("angle", self.angle),
@@ -160,21 +150,14 @@ impl Wave {
             ("frequency_split", self.frequency_split),
             ("frequency_angle", self.frequency_angle),
         ] {
-            if !value.is_finite() {
-                return Err(Error::OutOfRange {
-                    what,
-                    value,
-                    need: "finite",
-                });
-            }
+            finite(what, value)?;
         }
-        if self.frequency_split.abs() > 0.1 * self.frequency {
-            return Err(Error::OutOfRange {
-                what: "frequency_split",
-                value: self.frequency_split,
-                need: "within a tenth of the frequency",
-            });
-        }
+        require(
+            "frequency_split",
+            self.frequency_split,
+            self.frequency_split.abs() <= 0.1 * self.frequency,
+            "within a tenth of the frequency",
+        )?;
         if self.quadrature_amplitude.abs() > self.main_amplitude {
             return Err(Error::QuadratureAboveMain {
                 main: self.main_amplitude,

@@ -2,15 +2,4 @@
 #![no_std]
 #![no_main]
 
-use cortex_m_rt::entry;
-use firmware::{bench, marks};
-
-#[entry]
-fn main() -> ! {
-    bench::pipeline::<i16>(env!("CARGO_BIN_NAME"), true)
-}
-
-#[panic_handler]
-fn panic(_: &core::panic::PanicInfo) -> ! {
-    marks::leave()
-}
+firmware::bench_image!(firmware::bench::pipeline::<i16>, true);

@@ -116,7 +116,7 @@ impl Converter for DualAdc {
     const RAILS: [i16; 2] = DUAL_ADC_RAILS;
 
     #[allow(unsafe_code, reason = "the fields take any bits")]
-    fn stop(&mut self, _: &mut Ring) {
+    fn stop(&mut self) {
         // SAFETY: EXTEN 0: no trigger is heard. CCR.MULTI 0 and DMA 0: nothing is fetched, and both converters forget their sequence.
         unsafe {
             self.first.cr2().modify(|_, w| w.exten().bits(0b00));
@@ -127,7 +127,7 @@ impl Converter for DualAdc {
     }
 
     #[allow(unsafe_code, reason = "the fields take any bits")]
-    fn arm(&mut self, _: &mut Ring) {
+    fn arm(&mut self) {
         // At most two periods, and for ever neither: a dead timer must not hang the interrupt.
         let _ =
             (0..4 * TICKS).any(|_| (QUIET[0]..QUIET[1]).contains(&self.timer.cnt().read().bits()));

@@ -57,11 +57,6 @@ impl Ring {
         }
     }
 
-    /// The controller, for the other streams.
-    pub fn dma(&self) -> &DMA2 {
-        &self.dma
-    }
-
     /// Stops the stream, and starts it at the ring's first word.
     pub fn restart(&mut self) {
         let stream = self.dma.st(0);

@@ -11,11 +11,11 @@ use crate::settings::HALF;
 /// A converter that follows a timer.
 pub trait Converter {
     /// Makes it give no more data.
-    fn stop(&mut self, ring: &mut Ring);
+    fn stop(&mut self);
 
     /// Makes it give data from the next trigger on, after the ring was started. It returns between that trigger and the one before,
     /// well away from both, so that the count of triggers tells which pair comes first.
-    fn arm(&mut self, ring: &mut Ring);
+    fn arm(&mut self);
 
     /// True where it gave data that nobody fetched.
     fn has_overrun(&self) -> bool;
@@ -42,7 +42,7 @@ impl<C: Converter> Sampler<C> {
     /// Starts sampling.
     pub fn new(mut converter: C, mut ring: Ring, clock: PairClock) -> Self {
         ring.restart();
-        converter.arm(&mut ring);
+        converter.arm();
         let taken = clock.now();
         Self {
             converter,
@@ -91,9 +91,9 @@ impl<C: Converter> Source for Sampler<C> {
 
     #[cold]
     fn restart(&mut self, cause: Cause) -> Lapse {
-        self.converter.stop(&mut self.ring);
+        self.converter.stop();
         self.ring.restart();
-        self.converter.arm(&mut self.ring);
+        self.converter.arm();
         let now = self.clock.now();
         let lost = now.wrapping_sub(self.taken);
         self.taken = now;

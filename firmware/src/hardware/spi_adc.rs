@@ -179,7 +179,7 @@ impl SpiAdc {
 impl Converter for SpiAdc {
     const RAILS: [i16; 2] = AD7380_RAILS;
 
-    fn stop(&mut self, _: &mut Ring) {
+    fn stop(&mut self) {
         // Between frames, so that the next one begins with A. DIER 0: no writes. CR2.RXDMAEN 0: no fetches.
         self.wait();
         self.timer
@@ -188,7 +188,7 @@ impl Converter for SpiAdc {
         self.spi.cr2().modify(|_, w| w.rxdmaen().clear_bit());
     }
 
-    fn arm(&mut self, _: &mut Ring) {
+    fn arm(&mut self) {
         self.wait();
         // Reading DR and then SR empties the buffer and clears SR.OVR.
         for _ in 0..2 {

@@ -92,7 +92,7 @@ impl Fault {
     pub fn of(&self, name: &str) -> Failure {
         Failure::Recording(match self {
             Self::Still(turned) => format!(
-                "{name}: the pattern turns by {:.1}° only, but must by 90° or more: turn the gyro while it rings down",
+                "{name}: the pattern turns by only {:.1}°, but must turn by 90° or more: turn the gyro while it rings down",
                 turned.to_degrees()
             ),
             Self::Unsettled => format!(

@@ -1,10 +1,9 @@
 //! Errors over all windows, against the least that any unbiased identification could have.
 
-use std::f64::consts::TAU;
 use std::io::{self, Write};
 
 use antinode::Estimate;
-use antinode_sim::Truth;
+use antinode_sim::{Bound, Wave};
 
 /// What is scored.
 const NAMES: [&str; 4] = ["main amplitude", "quadrature", "angle, °", "frequency, Hz"];
@@ -30,29 +29,28 @@ impl Score {
         }
     }
 
-    /// Takes one window and its truth.
-    pub fn add(&mut self, e: &Estimate, truth: &Truth) {
-        self.windows += 1;
+    /// Takes one window of a wave.
+    pub fn add(&mut self, e: &Estimate, wave: &Wave) {
+        let Some(bound) = Bound::new(wave, e.samples, e.time, self.sample_rate) else {
+            return;
+        };
+        let truth = wave.at(e.time);
         let errors = [
             f64::from(e.main_amplitude) - truth.main_amplitude,
             f64::from(e.quadrature_amplitude) - truth.quadrature_amplitude,
             (e.angle - truth.angle).to_degrees(),
             e.frequency - truth.frequency,
         ];
-        let n = f64::from(e.samples);
-        let (main, quadrature) = (
-            truth.main_amplitude.powi(2),
-            truth.quadrature_amplitude.powi(2),
-        );
-        let power = main + quadrature;
-        let amplitude = self.noise * (2.0 / n).sqrt();
-        let angle = self.noise * (power / (2.0 * n)).sqrt() / (main - quadrature);
-        let duration = n / self.sample_rate;
-        let frequency = self.noise * (24.0 / (power * n)).sqrt() / (TAU * duration);
-        let bounds = [amplitude, amplitude, angle.to_degrees(), frequency];
+        let bounds = [
+            bound.main_amplitude,
+            bound.quadrature_amplitude,
+            bound.angle.to_degrees(),
+            bound.frequency,
+        ];
+        self.windows += 1;
         for i in 0..NAMES.len() {
             self.errors[i] += errors[i].powi(2);
-            self.bounds[i] += bounds[i].powi(2);
+            self.bounds[i] += (self.noise * bounds[i]).powi(2);
         }
     }
 

@@ -20,8 +20,8 @@ pub struct Monitor {
     #[arg(value_name = "PORT|FILE|-")]
     pub source: PathBuf,
     /// How estimates are printed; the columns are those of `identify`.
-    #[arg(long, visible_alias = "output", value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
-    pub format: Format,
+    #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
+    pub output: Format,
     /// Speed of the port, baud (bits a second; 8N1). Files and standard input have none.
     #[arg(long, default_value_t = BAUD, value_name = "BAUD", value_parser = clap::value_parser!(u32).range(1..))]
     pub baud: u32,
@@ -44,7 +44,7 @@ pub fn run(options: &Monitor) -> Result<(), Failure> {
     let source = Source::open(&options.source, options.baud, greeting)?;
     let out = BufWriter::new(io::stdout().lock());
     let mut screen = Screen {
-        rows: Rows::new(out, options.format, false),
+        rows: Rows::new(out, options.output, false),
         name: source.name,
         receiver: Receiver::new(),
         estimates: 0,
@@ -77,7 +77,6 @@ fn follow(
     input: &std::sync::mpsc::Receiver<Input>,
     screen: &mut Screen<impl Write>,
 ) -> Result<(), Failure> {
-    // The reader always tells its end; without a reader there is nothing more either.
     for input in input {
         match input {
             Input::Bytes(bytes) => screen.take(&bytes)?,

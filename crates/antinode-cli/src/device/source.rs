@@ -1,6 +1,5 @@
 //! Where the device's bytes come from: a port, a file, or standard input, read beside the thread that prints.
 
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -9,7 +8,7 @@ use std::thread;
 use super::port;
 use crate::failure::Failure;
 use crate::interrupt::on_interrupt;
-use crate::recording::InputError;
+use crate::recording::open_file;
 
 /// What comes from a source.
 pub enum Input {
@@ -58,10 +57,7 @@ impl Source {
             let _ = port.write_all(greeting);
             thread::spawn(move || read(port, &sender));
         } else {
-            let file = File::open(path).map_err(|fault| InputError::io(&name, fault))?;
-            if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
-                return Err(InputError::Directory { file: name }.into());
-            }
+            let file = open_file(path)?;
             thread::spawn(move || read(file, &sender));
         }
         Ok(Self { name, input })

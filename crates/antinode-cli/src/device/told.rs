@@ -3,6 +3,8 @@
 use antinode::Detection;
 use antinode_telemetry::{Configuration, Counters, FrontEnd, Hello, Methods};
 
+use crate::method_table::DISAGREE;
+
 /// Who the device is and what it is set to, in one line.
 pub fn hello(hello: &Hello) -> String {
     let Configuration {
@@ -96,7 +98,7 @@ pub fn methods(methods: &Methods) -> String {
         );
     }
     if methods.disagree {
-        lines += "  warning: the methods disagree beyond noise: the signal is not one steady wave in white noise\n";
+        lines += &format!("  warning: {DISAGREE}\n");
     }
     lines
 }

@@ -3,10 +3,10 @@
 use antinode::period::DifferenceDetector;
 
 use super::Core;
+use super::options::{Detector, Identify};
 use crate::failure::Failure;
-use crate::options::{Detector, Identify};
 
-/// An offset of so many times what is about it leaves single precision too few digits for a wave.
+/// An offset this many times the rms about it leaves single precision too few digits for a wave.
 const LARGE_OFFSET: f64 = 300.0;
 
 /// A known frequency may be 5 % off, and so may one that was found.

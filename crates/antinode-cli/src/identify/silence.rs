@@ -2,11 +2,11 @@
 
 use antinode::{Estimate, Flags};
 
-/// A search, and the window that begins behind it, may take so many windows or periods.
+/// A search and the window that follows it may take so many windows or periods.
 const WINDOWS: f64 = 3.0;
 const PERIODS: f64 = 20.0;
 
-/// Of the whole, or s, from which on it is worth a word.
+/// Silence is worth a word from this share of the whole on, or from this many seconds.
 const SHARE: f64 = 0.01;
 const LONG: f64 = 1.0;
 
@@ -47,7 +47,7 @@ impl Silence {
         let (begin, end) = (start + begin, start + end);
         (!parts.is_empty()).then(|| {
             format!(
-                "no wave was found in {} of {seconds:.4} s: rows with one go from {begin:.4} s to {end:.4} s",
+                "no wave was found in {} of {seconds:.4} s: the rows that show one go from {begin:.4} s to {end:.4} s",
                 parts.join(" and ")
             )
         })

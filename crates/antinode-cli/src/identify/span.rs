@@ -1,7 +1,7 @@
 //! Which samples of a recording are identified: `--from` and `--to`.
 
+use super::options::Identify;
 use crate::failure::Failure;
-use crate::options::Identify;
 use crate::recording::Recording;
 
 /// How much of a sample a time may be rounded by.
@@ -56,7 +56,7 @@ impl Span {
     pub fn check(options: &Identify) -> Result<(), Failure> {
         match (options.from, options.to) {
             (Some(from), Some(to)) if to <= from => Err(Failure::Usage(format!(
-                "--to: {to} s must lie behind --from, {from} s"
+                "--to: {to} s must be later than --from, {from} s"
             ))),
             _ => Ok(()),
         }

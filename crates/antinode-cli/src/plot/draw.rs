@@ -178,7 +178,7 @@ where
         .y_label_formatter(&|y| number(*y, of_values))
         .draw()?;
     let plane = chart.plotting_area();
-    // What stands back first.
+    // From the last recording to the first, which is drawn on top.
     for (index, pieces) in panel.curves.iter().enumerate().rev() {
         let colour = legend.colour(index);
         for piece in pieces {

@@ -18,7 +18,7 @@ const COLOURS: [RGBColor; 6] = [
     canvas::ORANGE,
     canvas::SKY_BLUE,
 ];
-/// Characters of a name that are shown: its end tells more than its folder.
+/// Most characters of a name that are shown: the last ones, as its end tells more than its folder.
 const MOST_CHARACTERS: usize = 70;
 /// All in pixels: from a line to the next, the margin, a key before its text, and the gap behind that.
 const LINE: u32 = 24;
@@ -125,7 +125,7 @@ impl Legend {
     }
 }
 
-/// A name that fits, without what no file of text may hold.
+/// A name short enough to fit, without control characters.
 fn shortened(name: &str) -> String {
     let count = name.chars().count();
     let plain = |c: char| if c.is_control() { ' ' } else { c };

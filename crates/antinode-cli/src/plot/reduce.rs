@@ -110,17 +110,9 @@ impl Column {
         if one.0 > other.0 {
             std::mem::swap(&mut one, &mut other);
         }
-        let from = piece.line.len();
-        piece.line.extend([self.first, one, other, self.last]);
-        // Points that are one and the same follow each other.
-        let mut kept = from + 1;
-        for index in from + 1..piece.line.len() {
-            if piece.line[index] != piece.line[kept - 1] {
-                piece.line[kept] = piece.line[index];
-                kept += 1;
-            }
-        }
-        piece.line.truncate(kept);
+        let mut points = vec![self.first, one, other, self.last];
+        points.dedup();
+        piece.line.extend(points);
         piece.band.push((self.first.0, self.band));
         if self.last.0 > self.first.0 {
             piece.band.push((self.last.0, self.band));

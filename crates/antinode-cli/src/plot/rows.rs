@@ -1,4 +1,4 @@
-//! What of the rows is drawn, recording by recording.
+//! What is drawn of the rows, recording by recording.
 
 use std::collections::HashMap;
 use std::io::Read;
@@ -9,7 +9,7 @@ use csv::StringRecord;
 
 use super::scale::drawable;
 use crate::failure::Failure;
-use crate::row_file::{RowFile, has_flag};
+use crate::row_file::{RowFile, has_flag, number};
 
 /// Quantities that are drawn: their columns, and those of their deviations.
 pub const COLUMNS: [(&str, Option<&str>); 5] = [
@@ -131,7 +131,7 @@ fn parse(
     places: [(usize, Option<usize>); COLUMNS.len()],
     samples: Option<usize>,
 ) -> Option<Row> {
-    let number = |place: usize| record.get(place)?.trim().parse::<f64>().ok();
+    let number = |place| number(record, place);
     let mut values = [0.0; COLUMNS.len()];
     let mut deviations = [f32::NAN; COLUMNS.len()];
     for (index, (value, deviation)) in places.into_iter().enumerate() {

@@ -16,10 +16,8 @@ pub struct Columns {
 
 /// Why a choice of columns cannot be understood.
 #[derive(Debug, thiserror::Error)]
-#[error(
-    "columns `{0}`: give two (S_C, S_D) or three (time, S_C, S_D) names or numbers, separated by commas"
-)]
-pub struct ColumnsError(String);
+#[error("give two (S_C, S_D) or three (time, S_C, S_D) names or numbers, separated by commas")]
+pub struct ColumnsError;
 
 impl FromStr for Columns {
     type Err = ColumnsError;
@@ -27,10 +25,10 @@ impl FromStr for Columns {
     fn from_str(text: &str) -> Result<Self, ColumnsError> {
         let names: Vec<String> = text.split(',').map(|name| name.trim().to_owned()).collect();
         let (time, signals) = match names.as_slice() {
-            _ if names.iter().any(String::is_empty) => return Err(ColumnsError(text.to_owned())),
+            _ if names.iter().any(String::is_empty) => return Err(ColumnsError),
             [c, d] => (None, [c.clone(), d.clone()]),
             [time, c, d] => (Some(time.clone()), [c.clone(), d.clone()]),
-            _ => return Err(ColumnsError(text.to_owned())),
+            _ => return Err(ColumnsError),
         };
         Ok(Self { time, signals })
     }
@@ -69,7 +67,7 @@ pub(super) struct FirstLine<'a> {
 }
 
 impl FirstLine<'_> {
-    /// The places of the `chosen` columns, or else of those that names or number suggest.
+    /// The places of the `chosen` columns, or else of those that the names, or how many there are, suggest.
     pub fn places(&self, chosen: Option<&Columns>) -> Result<Places, LineFault> {
         match chosen {
             Some(columns) => self.chosen(columns),
@@ -136,7 +134,7 @@ impl FirstLine<'_> {
         places
     }
 
-    /// The places of the columns that names or number suggest among these.
+    /// The places that the names of these columns, or how many they are, suggest.
     fn among(&self, columns: &[usize]) -> Result<Places, LineFault> {
         let role = |place: usize| self.names.and_then(|names| role(&names[place]));
         let places = || columns.iter().copied();
@@ -264,7 +262,7 @@ mod tests {
             fault("a,b", Some("a,e")).starts_with("there is no column `e`; choose among `a`, `b`")
         );
         assert!(fault("a,b", Some("0,1")).starts_with("there is no column `0`"));
-        assert!(fault("a,b", Some("a")).starts_with("columns `a`: give two"));
-        assert!(fault("a,b", Some("a,,b")).starts_with("columns `a,,b`: give two"));
+        assert!(fault("a,b", Some("a")).starts_with("give two"));
+        assert!(fault("a,b", Some("a,,b")).starts_with("give two"));
     }
 }

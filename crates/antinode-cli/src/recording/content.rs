@@ -62,7 +62,7 @@ impl Content {
     }
 }
 
-/// Whether the first line that is neither blank nor a comment is one of CSV, or a later one holds samples; what is read goes behind
+/// Whether the first line that is neither blank nor a comment is one of CSV, or a later one holds samples; what is read is appended to
 /// `head`.
 fn is_text(head: &mut Vec<u8>, stream: &mut Stream) -> io::Result<bool> {
     // The bytes of whole lines that are looked through, and whether the first line is among them.

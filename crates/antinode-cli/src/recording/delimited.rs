@@ -72,7 +72,7 @@ struct Delimited {
     live: bool,
     /// Pairs read to tell the sample rate, and not yet delivered.
     ahead: std::vec::IntoIter<[f32; 2]>,
-    /// Met behind the last of them.
+    /// What is wrong behind the last of them.
     fault: Option<InputError>,
 }
 
@@ -195,7 +195,7 @@ impl Delimited {
         Err(self.time_fault(line, fault))
     }
 
-    /// What is understood, but hardly meant.
+    /// Warns of a time column that is read as what it hardly is.
     fn warning(&self, meaning: Meaning) -> Option<String> {
         let samples = self.rows.header.samples();
         let ignored = format!("ignore it with {COLUMNS_OPTION} {samples} {RATE_OPTION} HZ");
@@ -209,7 +209,7 @@ impl Delimited {
                  are from the first sample on; if it is seconds, leave {RATE_OPTION} out"
             ),
             Meaning::OtherRate { own, asked } => format!(
-                "by the time column the sample rate is {own} Hz, but {RATE_OPTION} makes it {asked} Hz, and goes before; \
+                "by the time column the sample rate is {own} Hz, but {RATE_OPTION} makes it {asked} Hz, and takes precedence; \
                  leave {RATE_OPTION} out, or if the column is wrong, {ignored}"
             ),
         })

@@ -45,7 +45,7 @@ pub enum InputError {
     #[error("{file}: there is no such file; check the path")]
     NotFound { file: String },
     /// The path leads to a directory.
-    #[error("{file}: this is a directory; name the recording inside it")]
+    #[error("{file}: this is a directory; name the file inside it")]
     Directory { file: String },
     /// The file may not be read.
     #[error("{file}: no permission to read it; grant read access to the file and its directory")]
@@ -101,13 +101,13 @@ pub enum InputError {
         }
     )]
     Channels { file: String, found: usize },
-    /// Samples behind those that the header tells.
+    /// More samples than the header tells.
     #[error(
         "{file}: the WAV header says {promised} sample pairs, and more follow that are not read: it was never finished, or they are too many \
          for it; mend it, for example with `sox --ignore-length {file} whole.wav`"
     )]
     MoreData { file: String, promised: u64 },
-    /// Channels that there are not, or not by their numbers.
+    /// Channels that do not exist, or are not given by number.
     #[error(
         "{file}: --columns {chosen}: give the numbers of the channels of S_C and S_D, two of 1 to {channels}"
     )]

@@ -51,7 +51,7 @@ impl Gaps {
         self.ahead.front().map(|found| found.gap)
     }
 
-    /// Goes on to the one behind it; it `is_told` at the end, or not.
+    /// Passes the next one; it `is_told` at the end, or not.
     pub fn pass(&mut self, is_told: bool) {
         if let Some(found) = self.ahead.pop_front().filter(|_| is_told) {
             self.count += 1;

@@ -17,7 +17,7 @@ pub(super) struct Header {
     pub exponent: i32,
     /// The times of the samples, where the first column counts them.
     pub sequence: Option<Sequence>,
-    /// What S_C and S_D are to be divided by, so that both have one unit.
+    /// What brings S_C and S_D to one unit: each is divided by its own.
     pub divisors: [f32; 2],
     /// Their units, and what became of them.
     units: ([String; 2], Together),

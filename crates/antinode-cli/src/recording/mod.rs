@@ -26,7 +26,6 @@ mod units;
 mod wav;
 mod write;
 
-use std::fs::{self, File};
 use std::io::{self, IsTerminal};
 use std::path::Path;
 
@@ -36,8 +35,9 @@ pub use error::{Channel, InputError};
 pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use raw::RawFormat;
-use source::{Kind, Opened, Source, Stream};
-pub use write::{OutputError, RecordingWriter, WavSample, WholeFile};
+pub use source::open_file;
+use source::{Known, Opened, Source, Stream};
+pub use write::{OutputError, RecordingWriter, SampleFormat, WholeFile};
 
 /// The capacity given to a buffer that has none: small enough to stay in the cache.
 pub const BLOCK_PAIRS: usize = 1 << 14;
@@ -49,7 +49,7 @@ pub struct OpenOptions {
     pub raw: Option<RawFormat>,
     /// The columns of a text recording, or the channels of another; by default, they are told from the header or their number.
     pub columns: Option<Columns>,
-    /// The sample rate that goes before the recording's own, Hz.
+    /// The sample rate that takes precedence over the recording's own, Hz.
     pub rate: Option<f64>,
 }
 
@@ -76,12 +76,9 @@ impl Recording {
         }
         let name = path.display().to_string();
         let io = |fault| InputError::io(&name, fault);
-        let metadata = fs::metadata(path).map_err(io)?;
-        if metadata.is_dir() {
-            return Err(InputError::Directory { file: name });
-        }
+        let file = open_file(path)?;
+        let metadata = file.metadata().map_err(io)?;
         let length = metadata.is_file().then_some(metadata.len());
-        let file = File::open(path).map_err(io)?;
         let again = if length.is_some() {
             Some(file.try_clone().map_err(io)?)
         } else {
@@ -90,13 +87,13 @@ impl Recording {
         let extension = path
             .extension()
             .map(|text| text.to_string_lossy().to_lowercase());
-        let kind = Kind {
+        let known = Known {
             is_named: true,
             extension: extension.unwrap_or_default(),
             length,
             again,
         };
-        let opened = Self::stream(&name, Box::new(file), kind, options)?;
+        let opened = Self::stream(&name, Box::new(file), known, options)?;
         Ok(Self::new(name, opened, length))
     }
 
@@ -107,7 +104,7 @@ impl Recording {
         if !is_told && stdin.is_terminal() {
             return Err(InputError::RawFormatNeeded { file: name });
         }
-        let opened = Self::stream(&name, Box::new(stdin), Kind::default(), options)?;
+        let opened = Self::stream(&name, Box::new(stdin), Known::default(), options)?;
         Ok(Self::new(name, opened, None))
     }
 
@@ -115,19 +112,19 @@ impl Recording {
     fn stream(
         name: &str,
         stream: Stream,
-        kind: Kind,
+        known: Known,
         options: &OpenOptions,
     ) -> Result<Opened, InputError> {
-        let length = kind.length;
-        let is_text = matches!(kind.extension.as_str(), "csv" | "tsv" | "txt")
+        let length = known.length;
+        let is_text = matches!(known.extension.as_str(), "csv" | "tsv" | "txt")
             || options.columns.is_some() && options.raw.is_none();
         let (content, stream) = Content::look(stream, !is_text && options.raw.is_none())
             .map_err(|fault| InputError::io(name, fault))?;
         let file = name.to_owned();
-        match (content, kind.extension.as_str(), options.raw) {
+        match (content, known.extension.as_str(), options.raw) {
             (Content::Nothing, ..) => Err(InputError::Empty { file }),
             (Content::Wav, ..) => wav::open(name, stream, length, options.columns.as_ref()),
-            (Content::Npy, ..) => npy::open(name, stream, kind, options.columns.as_ref()),
+            (Content::Npy, ..) => npy::open(name, stream, known, options.columns.as_ref()),
             (_, "wav" | "wave", _) => Err(InputError::NotOfKind {
                 file,
                 kind: "a WAV file",
@@ -141,7 +138,7 @@ impl Recording {
                 delimited::open(name, stream, options, length.is_none())
             }
             (_, _, Some(format)) => Ok(raw::open(name, stream, format, length)),
-            _ if kind.is_named => Err(InputError::Unknown { file }),
+            _ if known.is_named => Err(InputError::Unknown { file }),
             _ => Err(InputError::RawFormatNeeded { file }),
         }
     }
@@ -193,12 +190,12 @@ impl Recording {
         self.opened.start
     }
 
-    /// What is understood, but hardly meant, or not as it is written.
+    /// Warnings: what can be read, but is hardly meant, or is not read as it is written.
     pub fn warnings(&self) -> &[String] {
         &self.opened.warnings
     }
 
-    /// What is to be known once all is read.
+    /// A warning that can be given only once all is read.
     pub fn late_warning(&self) -> Option<String> {
         self.opened.source.late_warning()
     }
@@ -256,7 +253,7 @@ impl Recording {
         self.opened.source.next_gap()
     }
 
-    /// Goes on to the gap behind the next one; it `is_told` at the end, or not asked for.
+    /// Passes the next gap; it `is_told` at the end, or was not asked for.
     pub fn pass_gap(&mut self, is_told: bool) {
         self.opened.source.pass_gap(is_told);
     }

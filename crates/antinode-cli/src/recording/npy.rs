@@ -10,7 +10,7 @@ use super::error::InputError;
 use super::frame::Frame;
 use super::raw::{Interleaved, bad_sample};
 use super::sample::{Kind, SampleCode};
-use super::source::Kind as Known;
+use super::source::Known;
 use super::{Opened, Source, Stream};
 
 /// No header of a plain array is as long; `numpy` itself refuses longer ones.
@@ -22,8 +22,7 @@ const MAX_DEPTH: usize = 8;
 /// Pairs read at a time where the signals lie apart.
 const PLANE_PAIRS: usize = 1 << 14;
 
-/// Opens an NPY file; of what is known beside its content the file itself is wanted, to be sought in, and its length. `columns` are the
-/// channels asked for.
+/// Opens an NPY file; `columns` are the channels asked for.
 pub(super) fn open(
     file: &str,
     mut stream: Stream,

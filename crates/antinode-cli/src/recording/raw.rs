@@ -2,6 +2,8 @@
 
 use std::io::{self, Read};
 
+use clap::ValueEnum;
+
 use super::error::InputError;
 use super::frame::Frame;
 use super::sample::{BadSample, Kind, SampleCode};
@@ -14,13 +16,13 @@ const CHUNK_BYTES: usize = 3 << 16;
 const CHUNK_HEADER: usize = 8;
 
 /// The format of samples that come without a header: little-endian, S_C and S_D in turn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum RawFormat {
-    /// 16-bit integers, full scale 1.0.
+    /// 16-bit integers, full scale reads as 1.
     I16,
-    /// 32-bit integers, full scale 1.0.
+    /// 32-bit integers, full scale reads as 1.
     I32,
-    /// 32-bit floats.
+    /// 32-bit floating point.
     F32,
 }
 
@@ -43,7 +45,7 @@ pub(super) struct Interleaved {
     /// The bytes of a pair begun, at the front of `chunk`.
     begun: usize,
     live: bool,
-    /// Where what is promised ends, another chunk of a WAV file begins, or nothing.
+    /// True where only other chunks of a WAV file may follow what is promised.
     before_chunks: bool,
 }
 
@@ -86,7 +88,7 @@ impl Interleaved {
         }
     }
 
-    /// As the data of a WAV file, behind which only its other chunks may stand.
+    /// Only other chunks of a WAV file may follow what is promised.
     pub fn before_chunks(self) -> Self {
         Self {
             before_chunks: true,
@@ -94,7 +96,7 @@ impl Interleaved {
         }
     }
 
-    /// Other channels beside the two.
+    /// Takes the two channels out of frames with others.
     pub fn of(self, frame: Frame) -> Self {
         Self { frame, ..self }
     }
@@ -104,7 +106,7 @@ impl Interleaved {
         self.frame.channels * self.code.sample_bytes()
     }
 
-    /// No more than `bytes` of samples, and an error if there are fewer.
+    /// Reads no more than `bytes` of samples, and fails if there are fewer.
     pub fn promise(mut self, bytes: u64) -> Self {
         self.promised = Some(bytes / self.frame_bytes() as u64);
         self.left = Some(bytes);

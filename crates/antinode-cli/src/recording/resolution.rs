@@ -1,4 +1,4 @@
-//! The step between a converter's codes, found in samples that came as text or floats.
+//! The step between a converter's codes, found in the samples.
 
 use super::error::InputError;
 use super::{BLOCK_PAIRS, Source};

@@ -1,6 +1,6 @@
 //! The units of the two signals, and what brings them together.
 
-/// What a signal may be measured in, as it is written; lower case where that makes no other unit of it.
+/// What a signal may be measured in, in each spelling; in lower case too where that is no other unit.
 const BASES: [(&str, &[&str]); 10] = [
     (
         "V",
@@ -46,7 +46,7 @@ const PREFIXES: [(&str, i32); 14] = [
 /// What to do about the units of two signals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Together {
-    /// They are the same, or none that is known.
+    /// They are the same, or not known.
     Same,
     /// Each is to be divided by this, which brings both to the larger unit.
     Divided([f32; 2]),

@@ -1,17 +1,29 @@
-//! What every format of recordings is to be read by.
+//! What a format of recordings implements to be read.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Read;
+use std::path::Path;
 
 use super::error::InputError;
 use super::gaps::Gap;
 use super::not_finite::Written;
 
 /// Where the bytes come from.
-pub(super) type Stream = Box<dyn Read + Send>;
+pub(super) type Stream = Box<dyn Read>;
+
+/// Opens a file or a pipe by its path; a directory is neither.
+pub fn open_file(path: &Path) -> Result<File, InputError> {
+    let file = path.display().to_string();
+    match fs::metadata(path) {
+        Ok(metadata) if metadata.is_dir() => Err(InputError::Directory { file }),
+        found => found
+            .and_then(|_| File::open(path))
+            .map_err(|fault| InputError::io(&file, fault)),
+    }
+}
 
 /// A format's way to deliver pairs.
-pub(super) trait Source: Send {
+pub(super) trait Source {
     /// Appends pairs until there are `capacity`; none at the end. Good pairs come before an error.
     fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), InputError>;
 
@@ -28,15 +40,15 @@ pub(super) trait Source: Send {
         None
     }
 
-    /// Goes on to the gap behind the next one; it is told at the end, or not.
+    /// Passes the next gap; it is told at the end, or not.
     fn pass_gap(&mut self, _is_told: bool) {}
 
-    /// What is to be told at the end of samples that are missing.
+    /// What to tell, at the end, of samples that are missing.
     fn lost(&self) -> Option<InputError> {
         None
     }
 
-    /// What is to be known of the samples delivered, and could not be known before.
+    /// A warning about the samples delivered that could not be given before.
     fn late_warning(&self) -> Option<String> {
         None
     }
@@ -49,7 +61,7 @@ pub(super) trait Source: Send {
 
 /// What is known of a stream beside its bytes.
 #[derive(Default)]
-pub(super) struct Kind {
+pub(super) struct Known {
     /// False for standard input.
     pub is_named: bool,
     /// In lower case.

@@ -1,5 +1,6 @@
 //! Opening, and what every format has in common.
 
+use std::fs;
 use std::io::{self, Cursor, Read};
 
 use proptest::prelude::*;
@@ -104,7 +105,7 @@ fn a_path_that_leads_to_no_recording_is_named() {
         format!("{name}: there is no such file; check the path")
     );
     let expected = format!(
-        "{}: this is a directory; name the recording inside it",
+        "{}: this is a directory; name the file inside it",
         directory.path().display()
     );
     assert_eq!(open_fault(directory.path()), expected);
@@ -205,7 +206,7 @@ fn a_stream_needs_a_format_unless_it_is_a_file() {
             ..OpenOptions::default()
         };
         let stream = Box::new(Cursor::new(bytes.to_vec()));
-        Recording::stream("standard input", stream, Kind::default(), &options)
+        Recording::stream("standard input", stream, Known::default(), &options)
             .map(|opened| opened.full_scale)
     };
     assert!(open(b"abcd", Some(RawFormat::F32)).is_ok());
@@ -229,12 +230,6 @@ fn a_buffer_without_capacity_is_given_some() {
     let (_directory, path) = file("a.csv", b"1,2\n3,4\n");
     let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
     assert_eq!(recording.read(&mut Vec::new()).unwrap(), 2);
-}
-
-#[test]
-fn a_recording_can_go_to_another_thread() {
-    fn send<T: Send>() {}
-    send::<Recording>();
 }
 
 /// Beginnings that lead deep into each reader.

@@ -2,11 +2,12 @@
 
 use super::error::TimeFault;
 use super::printed::Printed;
+use crate::fixed::significant;
 
 /// How far a step may be off, in samples.
 const STEP_TOLERANCE: f64 = 0.01;
 
-/// Above this many samples, rounding hides a lost one.
+/// Times rounded by more than this many samples hide a lost one.
 const COARSE: f64 = 0.25;
 
 /// How many lines the rate is averaged over before it is compared.
@@ -56,7 +57,7 @@ pub(super) struct TimeAxis {
     /// Where the current average of the rate begins.
     anchor: f64,
     lines: u64,
-    /// The uncertainty of `step` from the rounding of the first lines; a stretch's ends are rounded as those of the next.
+    /// The uncertainty of `step` from the rounding of the first lines.
     uncertainty: f64,
     /// Up to here, the rounding does no harm: the first steps are even in spite of it.
     harmless: f64,
@@ -218,9 +219,8 @@ pub(super) fn standstill(times: &[f64], printed: Printed) -> Option<(usize, Time
 /// The number of fewest digits within `uncertainty` of `value`.
 pub(super) fn roundest(value: f64, uncertainty: f64) -> f64 {
     let magnitude = value.log10().floor() as i32;
-    (0..=15)
-        .map(|digits| format!("{:.*e}", digits, value))
-        .filter_map(|text| text.parse::<f64>().ok())
+    (1..=16)
+        .map(|digits| significant(value, digits))
         .find(|round| (round - value).abs() <= uncertainty.max(10f64.powi(magnitude - 14)))
         .unwrap_or(value)
 }

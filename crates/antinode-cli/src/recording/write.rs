@@ -7,7 +7,7 @@ mod whole;
 use std::path::Path;
 
 use super::Channel;
-pub use encode::WavSample;
+pub use encode::SampleFormat;
 use encode::{Encoder, Format};
 pub use error::OutputError;
 pub use whole::WholeFile;
@@ -15,14 +15,18 @@ pub use whole::WholeFile;
 /// Writes pairs of samples to a file, which takes its name only in [`finish`](Self::finish).
 pub struct RecordingWriter {
     whole: WholeFile,
-    sample: WavSample,
+    sample: SampleFormat,
     encoder: Encoder,
     pairs: u64,
 }
 
 impl RecordingWriter {
     /// Begins a `.wav`, `.csv` or `.npy` file; whatever is at `path` stays there until it is finished.
-    pub fn create(path: &Path, sample_rate: f64, sample: WavSample) -> Result<Self, OutputError> {
+    pub fn create(
+        path: &Path,
+        sample_rate: f64,
+        sample: SampleFormat,
+    ) -> Result<Self, OutputError> {
         let file = path.display().to_string();
         let extension = path
             .extension()
@@ -40,7 +44,7 @@ impl RecordingWriter {
                 remedy,
             });
         }
-        if format == Format::Wav && sample == WavSample::F64 {
+        if format == Format::Wav && sample == SampleFormat::F64 {
             return Err(OutputError::Wav64 { file });
         }
         let (whole, output) = WholeFile::create(path)?;

@@ -11,22 +11,22 @@ use super::model::{Model, Term, parameters};
 use super::motion::{Motion, PARAMETERS};
 use crate::runs::{Run, turn};
 
-/// From this residual over the rows' own deviations on runs are not each by themselves.
+/// From this residual over the rows' own deviations on, the runs do not explain the rows each by itself.
 const TOGETHER: f64 = 1.5;
 /// Below this all patterns are one, and what seems to tell them apart is noise: 3° between two runs, 5° of one that turns.
 const LEAST_SPREAD: f64 = 0.005;
 /// Steps at most; ten do.
 const STEPS: usize = 100;
-/// The last step takes less than this off the squares of the residual, in squares of deviations as they are stated: it moves by less than a
-/// hundredth of one.
+/// A step that takes less than this off the squares of the residual, in squares of the stated deviations, is the last: it moves by less
+/// than a hundredth of one.
 const SETTLED: f64 = 1e-4;
-/// Or than this where no step leads down any more: the derivatives leave out what a window averages.
+/// The same where no step leads down any more, as the derivatives leave out what a window averages.
 const SETTLED_AT_FOOT: f64 = 1e-2;
-/// Steps that are damped by this are none.
+/// With more damping than this, a step leads nowhere.
 const FOOT: f64 = 1e3;
-/// Rows tell a split that they know to so many times the damping: that of damping, and that of frequency.
+/// The splits of damping and of frequency are told where their deviations are below these shares of the damping.
 const TOLD: [f64; 2] = [0.2, 1.0];
-/// Or, that of frequency, to this share of what is seen of it.
+/// That of frequency also where its deviation is below this share of what is seen of it.
 const TOLD_SHARE: f64 = 0.1;
 
 /// The steps do not settle.

@@ -121,7 +121,7 @@ fn headers_of_files_that_were_put_together_are_passed_over() {
 fn what_leaves_no_run_is_told() {
     let told = |text: &str| read(text).fault("it").map(|fault| fault.to_string());
     let few = rows("a", 11, 0.01, |_| "");
-    assert!(told(&few).unwrap().contains("no dozen of clean rows"));
+    assert!(told(&few).unwrap().contains("no run of 12 clean rows"));
     let backwards: String = rows("a", 40, 0.01, |_| "")
         .lines()
         .rev()

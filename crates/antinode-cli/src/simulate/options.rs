@@ -1,13 +1,14 @@
 //! The command line of `antinode simulate`.
 
+use std::f64::consts::FRAC_PI_6;
 use std::path::PathBuf;
 
 use antinode_sim::{ClipSpan, Dropout, Flaws, Loss, Wave};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::fields::Parsed;
 use crate::failure::Failure;
-use crate::recording::WavSample;
+use crate::recording::SampleFormat;
 
 /// `antinode simulate`.
 #[derive(Debug, Args)]
@@ -26,8 +27,8 @@ pub struct Simulate {
     #[arg(long, default_value_t = 1, value_name = "SEED")]
     pub seed: u64,
     /// How samples are stored.
-    #[arg(long, value_enum, default_value_t = Sample::I16, value_name = "FORMAT")]
-    pub sample: Sample,
+    #[arg(long, value_enum, default_value_t = SampleFormat::I16, value_name = "FORMAT")]
+    pub sample: SampleFormat,
 
     #[command(flatten)]
     wave: WaveOptions,
@@ -45,11 +46,11 @@ struct WaveOptions {
     /// Quadrature amplitude at the start, signed.
     #[arg(long, default_value_t = 0.025, value_name = "LEVEL")]
     quadrature_amplitude: f64,
-    /// Pattern angle at the start, rad.
-    #[arg(long, default_value_t = std::f64::consts::FRAC_PI_6, value_name = "RAD")]
+    /// Pattern angle at the start, rad [default: π/6].
+    #[arg(long, default_value_t = FRAC_PI_6, hide_default_value = true, value_name = "RAD")]
     angle: f64,
-    /// Phase at the start, rad.
-    #[arg(long, default_value_t = std::f64::consts::FRAC_PI_6, value_name = "RAD")]
+    /// Phase at the start, rad [default: π/6].
+    #[arg(long, default_value_t = FRAC_PI_6, hide_default_value = true, value_name = "RAD")]
     phase: f64,
     /// Frequency at the start, Hz, below half of the rate.
     #[arg(long, default_value_t = 5332.0, value_name = "HZ")]
@@ -133,33 +134,6 @@ struct FlawOptions {
     dropout: Vec<Parsed<Dropout>>,
 }
 
-/// How samples are stored.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Sample {
-    /// 16-bit integers, full scale 1; CSV holds their values.
-    I16,
-    /// 24-bit integers, full scale 1; NPY holds them in 32 bits, CSV their values.
-    I24,
-    /// 32-bit integers, full scale 1; CSV holds their values.
-    I32,
-    /// 32-bit floating point.
-    F32,
-    /// 64-bit floating point; not in WAV.
-    F64,
-}
-
-impl From<Sample> for WavSample {
-    fn from(sample: Sample) -> Self {
-        match sample {
-            Sample::I16 => Self::I16,
-            Sample::I24 => Self::I24,
-            Sample::I32 => Self::I32,
-            Sample::F32 => Self::F32,
-            Sample::F64 => Self::F64,
-        }
-    }
-}
-
 impl Simulate {
     /// The wave at the first sample.
     pub fn wave(&self) -> Wave {
@@ -179,11 +153,6 @@ impl Simulate {
         }
     }
 
-    /// True for samples that end at full scale.
-    pub fn is_integer(&self) -> bool {
-        !matches!(self.sample, Sample::F32 | Sample::F64)
-    }
-
     /// Refuses a frequency whose samples would be those of another one.
     pub fn check_frequency(&self) -> Result<(), Failure> {
         let (first, half) = (self.wave.frequency, 0.5 * self.rate);
@@ -192,9 +161,14 @@ impl Simulate {
         if highest < half && lowest > -half {
             return Ok(());
         }
+        let drift = if first == last {
+            String::new()
+        } else {
+            format!(" drifts to {last} Hz, but")
+        };
         Err(Failure::Usage(format!(
-            "--frequency: from {first} Hz it comes to {last} Hz, but must stay below half of --rate, {half} Hz: its samples \
-             would be those of another frequency; lower it, or raise --rate"
+            "--frequency: {first} Hz{drift} must stay below half of --rate, {half} Hz: its samples would be those of another \
+             frequency; lower it, or raise --rate"
         )))
     }
 

@@ -1,5 +1,6 @@
 //! The paper's conclusions, each held against the curves computed here.
 
+use antinode::methods::{Moments, Ratio, algorithm1};
 use antinode_sim::Wave;
 
 use super::evaluate::{CURVES, errors};
@@ -43,6 +44,8 @@ pub fn check(
         ),
         divides_by_four(wave),
         floor(wave, first),
+        longer(first),
+        rougher(wave),
         alike(first),
         grid(first),
         noise(wave, third, options),
@@ -149,6 +152,46 @@ fn floor(wave: &Wave, first: &Figure) -> Conclusion {
             wave.quadrature_amplitude.powi(2) / (2.0 * wave.main_amplitude),
             without[0],
             without[2],
+        ),
+    }
+}
+
+fn longer(first: &Figure) -> Conclusion {
+    let at = |periods: usize| {
+        let curve = first.curve('c', Name::Algorithm1);
+        curve.get(periods - 1).copied().unwrap_or(f64::NAN)
+    };
+    Conclusion {
+        claim: "Algorithm 1's angle gets worse as windows get longer, from neglecting quadrature.",
+        confirmed: at(8) > 1.1 * at(4),
+        found: format!(
+            "Angle error {:.3}° on one period, {:.3}° on four, {:.3}° on eight: it settles at the floor.",
+            at(1),
+            at(4),
+            at(8)
+        ),
+    }
+}
+
+fn rougher(wave: &Wave) -> Conclusion {
+    let least = 0.1 * wave.main_amplitude;
+    let (mut low, mut high) = (f64::INFINITY, 0f64);
+    for periods in 1..=10 {
+        let samples = Samples::simulate(wave, periods, RATE, 0.0, 0);
+        let window = samples.window();
+        let [ratio, roots] = [
+            algorithm1::rough_angle(&Ratio::of(window, least as f32)),
+            algorithm1::shape(&Moments::of(window)).angle,
+        ]
+        .map(|angle| (angle - wave.angle).abs());
+        low = low.min(ratio / roots);
+        high = high.max(ratio / roots);
+    }
+    Conclusion {
+        claim: "Formula (13) for the angle is rougher than (12).",
+        confirmed: low > 2.0,
+        found: format!(
+            "{low:.1} to {high:.1} times over 1 to 10 periods, samples of S_C below 0.1 a_A left out."
         ),
     }
 }

@@ -61,7 +61,9 @@ fn conclusions_and_files_are_those_of_the_documentation() {
         .collect();
     assert_eq!(
         confirmed,
-        [true, true, true, true, true, true, true, true, false]
+        [
+            true, true, true, true, false, true, true, true, true, true, false
+        ]
     );
     let mut count = [0; 3];
     for entry in fs::read_dir(&options.out).expect("the folder made") {

@@ -43,7 +43,7 @@
 //! # Ok::<(), antinode::SettingsError>(())
 //! ```
 
-use super::conditions;
+use super::conditions::{self, OfDelay};
 pub use super::conditions::{CONDITION, Conditions};
 use super::delayed::Delayed;
 use super::moments::Moments;
@@ -54,7 +54,7 @@ use crate::estimate::Estimate;
 
 /// Beyond this many deviations from what its own leakage and bias explain, a method tells of a fault.
 ///
-/// In white noise of up to 20 % of a_A none of 76 000 windows of 2 to 50 periods reached it.
+/// In white noise of up to 20 % of a_A none of 176 000 windows of 2 to 50 periods reached it, with |a_B| up to 0.9 a_A.
 pub const DISAGREEMENT: f64 = 6.0;
 
 /// The place of algorithm 1.
@@ -223,41 +223,84 @@ fn changing(leakage: f64, omega: f64, count: u32) -> f64 {
     leakage.max(0.5 * (cosine - sine / x).abs() / x)
 }
 
+/// By how much of itself a noise variance may be above what was found, in parts of [`DISAGREEMENT`]: the quantile that a chi-square of
+/// such an uncertainty, 0.3 and less, is below in 1 of 300 000 windows, by Wilson and Hilferty.
+fn above(uncertainty: f64) -> f64 {
+    let third = uncertainty / 3.0;
+    let least = (1.0 - third * (third + 4.5)).max(0.1);
+    (1.0 / (least * least * least) - 1.0) / DISAGREEMENT
+}
+
+/// What `square` may be off by in its root, by `deviation` of its own, in parts of [`DISAGREEMENT`].
+fn of_root(square: f64, deviation: f64) -> f64 {
+    let most = DISAGREEMENT * deviation;
+    let root = libm::sqrt(square);
+    let below = root - libm::sqrt((square - most).max(0.0));
+    below.max(libm::sqrt(square + most) - root) / DISAGREEMENT
+}
+
 /// What the method of this place may differ by without a fault, beside `explained`: the exact solution's own deviations, how little
 /// the noise and its mean square over the window are known, and what turning, decay and f32 rounding leave.
+///
+/// `seen` is the a_A² − a_B² that the method has its angle from.
 fn scatter(
     place: usize,
     explained: &Shape,
+    seen: f64,
     reference: &Reference,
     count: u32,
     changing: f64,
+    q_deviation: f64,
 ) -> [f64; 3] {
-    let square = reference.noise_uncertainty * reference.noise_uncertainty + 2.0 / f64::from(count);
     let [of_c, of_d, _] = reference.noise.moments;
-    let noise = of_c.max(of_d) * libm::sqrt(square);
+    let mean_square = libm::sqrt(2.0 / f64::from(count));
+    let noise = of_c.max(of_d) * libm::hypot(above(reference.noise_uncertainty), mean_square);
     let size = reference.wave.shape.main_amplitude;
     let rest = slow(reference.turn, reference.decay, changing);
     let [a, b, angle] = reference.deviations;
     let quadrature = explained.quadrature_amplitude.abs().max(b);
-    // (12) takes the angle from the root of a mean square, which is all noise where a pick-off sees nothing else.
-    let root = if place == NO_QUADRATURE {
+    let sum = |x: f64, y: f64, z: f64| libm::sqrt(x * x + y * y + z * z);
+    // What leaks of the exact solution's deviations.
+    let leaks = 4.0 * changing * size * a;
+    let of_angle = if place == NO_QUADRATURE {
+        // (12) takes the angle from roots of mean squares, and one is all noise where a pick-off sees nothing else.
         let (sine, cosine) = libm::sincos(2.0 * explained.angle);
-        let least = core::f64::consts::FRAC_1_SQRT_2 * sine.abs().min(cosine.abs());
-        noise / (size * (least * explained.main_amplitude).max(angle * size))
+        let whole = core::f64::consts::FRAC_1_SQRT_2 * explained.main_amplitude;
+        let root = |share: f64| of_root((share * whole) * (share * whole), noise);
+        let roots = libm::hypot(cosine * root(sine), sine * root(cosine));
+        sum(angle, 0.5 * roots / whole, rest)
+    } else {
+        let own = angle * difference(&reference.wave.shape);
+        let deviation = libm::hypot(own, rest * size * size + leaks);
+        // An angle that rests on less than that means nothing.
+        deviation / (seen - DISAGREEMENT * deviation).max(0.0)
+    };
+    // (16) takes a_A − |a_B| from the root of a difference, which is small where the pattern is near a circle.
+    let of_amplitudes = if place == DELAY {
+        let root = explained.main_amplitude - explained.quadrature_amplitude.abs();
+        let exact = size - reference.wave.shape.quadrature_amplitude.abs();
+        let of_exact = 2.0 * exact * (a + b) + leaks;
+        let deviation = sum(4.0 * noise, 4.0 * q_deviation, of_exact);
+        0.5 * of_root(root * root, deviation)
     } else {
         0.0
     };
-    let sum = |x: f64, y: f64, z: f64| libm::sqrt(x * x + y * y + z * z);
     // (22) adds the noise's square to a_B's: a small quadrature and a little excess make a large difference.
     [
-        sum(a, noise / size, rest * size),
+        sum(libm::hypot(a, of_amplitudes), noise / size, rest * size),
         sum(
-            b,
+            libm::hypot(b, of_amplitudes),
             noise / quadrature,
             rest * size * (1.0 + rest * size / quadrature),
         ),
-        sum(angle, root, rest),
+        of_angle,
     ]
+}
+
+/// a_A² − a_B², which the angle rests on.
+fn difference(shape: &Shape) -> f64 {
+    let (a, b) = (shape.main_amplitude, shape.quadrature_amplitude);
+    a * a - b * b
 }
 
 fn apart(a: &Shape, b: &Shape, unit: &[f64; 3]) -> [f64; 3] {
@@ -274,12 +317,14 @@ fn apart(a: &Shape, b: &Shape, unit: &[f64; 3]) -> [f64; 3] {
 pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
     let (omega, count) = (sums.products.omega, sums.products.count);
     let exact = &reference.wave;
-    let expected_sums = Sums {
-        moments: Moments::expected(exact, omega, count, &reference.noise, reference.turn),
-        delayed: Delayed::expected(exact, omega, count, &reference.noise, sums.delayed.lag),
+    let noise = &reference.noise;
+    let moments_of = |wave| Moments::expected(wave, omega, count, noise, reference.turn);
+    let delayed_of = |wave| Delayed::expected(wave, omega, count, noise, sums.delayed.lag);
+    let expected = waves(&Sums {
+        moments: moments_of(exact),
+        delayed: delayed_of(exact),
         products: Products::expected(exact, omega, count),
-    };
-    let expected = waves(&expected_sums);
+    });
     let [of_a, of_b, of_angle] = reference.deviations;
     let leakage = libm::sqrt(mean_harmonic(2, omega, count).norm_sqr());
     let imbalance = sums.delayed.imbalance(&sums.moments);
@@ -290,8 +335,18 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
     } = exact.shape;
     let window = 0.5 * a * leakage < of_a.max(0.5 * a * of_angle);
     let changing = changing(leakage, omega, count);
-    let [imbalance_excess, phase_excess] =
-        conditions::of_delay(sums, &expected_sums, reference, changing);
+    // Of the very samples: blocks that do not fit the period leave the estimate less exact.
+    let fitted = super::exact::at(&sums.products, &sums.moments).wave;
+    let OfDelay {
+        excesses: [imbalance_excess, phase_excess],
+        q_deviation,
+    } = conditions::of_delay(
+        sums,
+        &moments_of(&fitted),
+        &delayed_of(&fitted),
+        reference,
+        changing,
+    );
     let conditions = |i: usize| Conditions {
         window,
         no_quadrature: i != NO_QUADRATURE || b.abs() < 2.0 * of_b,
@@ -314,7 +369,17 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
             // So is the side of the pick-off's axis on which (12) sees the wave.
             seen.angle = libm::copysign(seen.angle, explained.shape.angle);
         }
-        let unit = scatter(i, &explained.shape, reference, count, changing);
+        // 2 has its angle from the same sums as 3.
+        let angle_of = expected.get(i.max(AXES)).copied().unwrap_or(*exact).shape;
+        let unit = scatter(
+            i,
+            &explained.shape,
+            difference(&angle_of),
+            reference,
+            count,
+            changing,
+            q_deviation,
+        );
         Method {
             wave: wave.near(exact.shape.angle),
             j: functional::above_zero(functional::squares(&wave, &sums.moments, &sums.products)),

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::comparison::{Reference, Sums, slow};
+use super::delayed::Delayed;
 use super::moments::Moments;
 
 /// (17) and (20) fail beyond this many of their deviations.
@@ -54,16 +55,25 @@ impl fmt::Display for Conditions {
     }
 }
 
-/// (17) and (20) less what the exact solution expects of them, each in its own deviations.
+/// What the delayed sums say.
+pub(super) struct OfDelay {
+    /// (17) and (20) less what the exact solution expects of them, each in its own deviations.
+    pub excesses: [f64; 2],
+    /// Deviation of q of (16) at the quarter, input units squared.
+    pub q_deviation: f64,
+}
+
+/// (17), (20) and q beside what the exact solution expects of them.
 ///
 /// Both rest on the delayed sums, and on noise that a quarter period makes independent: hum, a second tone or coloured noise shows
 /// in (17) on a pick-off itself, in (20) between the two. The grid's part of the delay is known and taken out.
 pub(super) fn of_delay(
     found: &Sums,
-    expected: &Sums,
+    expected_moments: &Moments,
+    expected_delayed: &Delayed,
     reference: &Reference,
     changing: f64,
-) -> [f64; 2] {
+) -> OfDelay {
     let Sums {
         moments,
         delayed,
@@ -74,7 +84,7 @@ pub(super) fn of_delay(
     let (sine, cosine) = libm::sincos(products.omega * lag);
     let [noise_c, noise_d, _] = reference.noise.moments;
     // The exact fit leaves its residual no part along the wave, but where the delay reaches over the window's ends.
-    let (cc, dd, _) = expected.moments.means();
+    let (cc, dd, _) = expected_moments.means();
     let ends = 2.0 * lag / (count * count);
     let (c, d) = ((cc - noise_c).max(0.0), (dd - noise_d).max(0.0));
     let squares = (noise_c * noise_c + noise_d * noise_d) / count;
@@ -92,19 +102,24 @@ pub(super) fn of_delay(
     let rest = (c + d) * (slow(turn, decay, changing) + during);
     let deviation = |variance: f64| libm::sqrt(variance + rest * rest) / sine.abs();
 
-    let at_quarter = |sums: &Sums| {
-        let sum = sums.delayed.own / f64::from(sums.delayed.count);
-        (sum - sums.moments.power() * cosine) / sine
+    let at_quarter = |moments: &Moments, delayed: &Delayed| {
+        let sum = delayed.own / f64::from(delayed.count);
+        (sum - moments.power() * cosine) / sine
     };
-    let delay = (at_quarter(found) - at_quarter(expected)) / deviation(own);
+    let delay = (at_quarter(moments, delayed) - at_quarter(expected_moments, expected_delayed))
+        / deviation(own);
 
-    let vector = |sums: &Sums, moments: &Moments| {
+    let vector = |moments: &Moments, delayed: &Delayed| {
         let (_, _, cd) = moments.means();
-        (cd, sums.delayed.quarter(moments, products.omega))
+        (cd, delayed.quarter(moments, products.omega))
     };
-    let (x, y) = vector(found, moments);
-    let (u, v) = vector(expected, &expected.moments);
+    let (x, y) = vector(moments, delayed);
+    let (u, v) = vector(expected_moments, expected_delayed);
     // The angle between the two times their size: on a pick-off's axis without quadrature Δφ itself has no meaning.
     let turn = libm::atan2(y * u - x * v, x * u + y * v);
-    [delay, turn * libm::sqrt(u * u + v * v) / deviation(between)]
+    let across = deviation(between);
+    OfDelay {
+        excesses: [delay, turn * libm::sqrt(u * u + v * v) / across],
+        q_deviation: libm::hypot(across, (c + d) * decay * lag / count / sine),
+    }
 }

@@ -28,7 +28,7 @@
 //! | all side by side, ranked | | [`comparison`] |
 //!
 //! Formula numbers: R. I. Mingazov, K. V. Shishakov, 2021, DOI 10.22213/2410-9304-2021-3-12-24, with these errata: (12) takes its sign
-//! from ⟨S_C S_D⟩; the arguments in (14), (15), (18) are τ = ωt − α; in (16) a_B = (F − E)/2; in (22) a_B has the sign of Q in
+//! from ⟨S_C S_D⟩; the arguments in (14) and (18) are τ = ωt − α; in (16) a_B = (F − E)/2; in (22) a_B has the sign of Q in
 //! (24), or of −q in (16); (25) needs cos 2Φ too; every arctangent is of two sums, so that the quadrant is right.
 //!
 //! # Example

@@ -10,10 +10,10 @@ use super::super::not_finite::Written;
 use super::super::printed::Printed;
 use super::super::text::number;
 
-/// As much of a bad field as an error shows.
+/// How much of a bad field an error shows.
 const SHOWN_LETTERS: usize = 40;
 
-/// As many lines without a good one before them are no glitch, but something else than samples.
+/// So many bad lines before the first good one are no glitch, but something other than samples.
 const NO_GLITCH: u64 = 2;
 
 /// A line's time, if it is known, and its pair.

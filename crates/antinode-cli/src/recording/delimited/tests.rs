@@ -248,28 +248,3 @@ fn progress_reaches_the_size_of_the_file() {
     while recording.read(&mut block).unwrap() > 0 {}
     assert_eq!(Some(recording.bytes_read()), recording.bytes_total());
 }
-
-#[test]
-#[ignore = "a measurement, for an optimised build"]
-fn throughput() {
-    let mut text = String::new();
-    let lines = 3_000_000;
-    (0..lines).for_each(|k| {
-        writeln!(
-            text,
-            "{:.6},{:.7},0.1234567",
-            f64::from(k) * 1e-5,
-            f64::from(k) * 1e-7
-        )
-        .unwrap()
-    });
-    let (_directory, path) = file("a.csv", text.as_bytes());
-    let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
-    let start = std::time::Instant::now();
-    let mut block = Vec::new();
-    while recording.read(&mut block).unwrap() > 0 {}
-    println!(
-        "{:.1} M lines/s",
-        f64::from(lines) / start.elapsed().as_secs_f64() / 1e6
-    );
-}

@@ -35,9 +35,13 @@ pub enum LineFault {
     LineTooLong { limit: usize },
     /// More or fewer columns than can be understood.
     #[error(
-        "found {found} {}, but two (S_C, S_D) or three (time in s, S_C, S_D) are needed; \
-         drop the others, or name the right ones with {COLUMNS_OPTION}",
-        if *.found == 1 { "column" } else { "columns" }
+        "found {found} {}, but two (S_C, S_D) or three (time in s, S_C, S_D) are needed; {}",
+        if *.found == 1 { "column" } else { "columns" },
+        if *.found == 1 {
+            "give text with one sample pair a line".to_owned()
+        } else {
+            format!("drop the others, or name the right ones with {COLUMNS_OPTION}")
+        }
     )]
     ColumnCount { found: usize },
     /// One signal beside its time.

@@ -3,7 +3,8 @@
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 
-use hound::{SampleFormat, WavSpec, WavWriter};
+use clap::ValueEnum;
+use hound::{WavSpec, WavWriter};
 
 /// A WAV file's sizes are 32-bit numbers, which count the longest header too.
 pub(super) const MAX_WAV_DATA: u64 = u32::MAX as u64 - 60;
@@ -15,17 +16,17 @@ const NPY_HEADER: usize = 128;
 const BUFFER_BYTES: usize = 1 << 18;
 
 /// How samples are stored: in a WAV file as they are, in others as numbers of this resolution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WavSample {
-    /// 16-bit integers, full scale 1.0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SampleFormat {
+    /// 16-bit integers, full scale 1; CSV holds their values.
     I16,
-    /// 24-bit integers, full scale 1.0.
+    /// 24-bit integers, full scale 1; NPY holds them in 32 bits, CSV their values.
     I24,
-    /// 32-bit integers, full scale 1.0.
+    /// 32-bit integers, full scale 1; CSV holds their values.
     I32,
-    /// 32-bit floats.
+    /// 32-bit floating point.
     F32,
-    /// 64-bit floats; not in WAV files.
+    /// 64-bit floating point; not in WAV.
     F64,
 }
 
@@ -37,7 +38,7 @@ pub(super) enum Stored {
     F64(f64),
 }
 
-impl WavSample {
+impl SampleFormat {
     fn bits(self) -> u16 {
         match self {
             Self::I16 => 16,
@@ -45,6 +46,11 @@ impl WavSample {
             Self::I32 | Self::F32 => 32,
             Self::F64 => 64,
         }
+    }
+
+    /// True for samples that end at full scale.
+    pub fn is_integer(self) -> bool {
+        !matches!(self, Self::F32 | Self::F64)
     }
 
     fn pair_bytes(self) -> u64 {
@@ -94,7 +100,7 @@ impl Format {
     }
 
     /// Whether the format can hold a sample rate, or what to do instead.
-    pub fn check_rate(self, rate: f64, sample: WavSample) -> Result<(), &'static str> {
+    pub fn check_rate(self, rate: f64, sample: SampleFormat) -> Result<(), &'static str> {
         let per_second = rate * sample.pair_bytes() as f64;
         if !rate.is_finite() || rate <= 0.0 {
             Err("give a positive number of Hz")
@@ -108,7 +114,7 @@ impl Format {
 
 /// A file begun.
 pub(super) struct Encoder {
-    sample: WavSample,
+    sample: SampleFormat,
     rate: f64,
     output: Output,
 }
@@ -121,7 +127,7 @@ enum Output {
 }
 
 impl Encoder {
-    pub fn begin(format: Format, file: File, rate: f64, sample: WavSample) -> io::Result<Self> {
+    pub fn begin(format: Format, file: File, rate: f64, sample: SampleFormat) -> io::Result<Self> {
         let mut output = BufWriter::with_capacity(BUFFER_BYTES, file);
         let output = match format {
             Format::Wav => {
@@ -185,16 +191,16 @@ impl Encoder {
     }
 }
 
-fn spec(rate: f64, sample: WavSample) -> WavSpec {
-    let float = sample == WavSample::F32;
+fn spec(rate: f64, sample: SampleFormat) -> WavSpec {
+    let float = sample == SampleFormat::F32;
     WavSpec {
         channels: 2,
         sample_rate: rate as u32,
         bits_per_sample: sample.bits(),
         sample_format: if float {
-            SampleFormat::Float
+            hound::SampleFormat::Float
         } else {
-            SampleFormat::Int
+            hound::SampleFormat::Int
         },
     }
 }
@@ -216,7 +222,7 @@ fn write_wav(wav: &mut WavWriter<BufWriter<File>>, value: Stored) -> io::Result<
 }
 
 /// The fewest digits that read back as the same number.
-fn write_text(output: &mut impl Write, sample: WavSample, value: Stored) -> io::Result<()> {
+fn write_text(output: &mut impl Write, sample: SampleFormat, value: Stored) -> io::Result<()> {
     match value {
         Stored::Code(code) => write!(output, "{:?}", f64::from(code) / sample.scale()),
         Stored::F32(value) => write!(output, "{value:?}"),
@@ -224,9 +230,9 @@ fn write_text(output: &mut impl Write, sample: WavSample, value: Stored) -> io::
     }
 }
 
-fn write_npy(output: &mut impl Write, sample: WavSample, value: Stored) -> io::Result<()> {
+fn write_npy(output: &mut impl Write, sample: SampleFormat, value: Stored) -> io::Result<()> {
     match value {
-        Stored::Code(code) if sample == WavSample::I16 => {
+        Stored::Code(code) if sample == SampleFormat::I16 => {
             output.write_all(&(code as i16).to_le_bytes())
         }
         // There are no 24-bit numbers: they take the upper bits of 32.
@@ -236,12 +242,12 @@ fn write_npy(output: &mut impl Write, sample: WavSample, value: Stored) -> io::R
     }
 }
 
-fn npy_header(sample: WavSample, pairs: u64) -> Vec<u8> {
+fn npy_header(sample: SampleFormat, pairs: u64) -> Vec<u8> {
     let kind = match sample {
-        WavSample::I16 => "i2",
-        WavSample::I24 | WavSample::I32 => "i4",
-        WavSample::F32 => "f4",
-        WavSample::F64 => "f8",
+        SampleFormat::I16 => "i2",
+        SampleFormat::I24 | SampleFormat::I32 => "i4",
+        SampleFormat::F32 => "f4",
+        SampleFormat::F64 => "f8",
     };
     let mut header = b"\x93NUMPY\x01\x00".to_vec();
     header.extend_from_slice(&(NPY_HEADER as u16 - 10).to_le_bytes());

@@ -7,6 +7,8 @@ use super::super::{OpenOptions, Recording};
 use super::encode::{MAX_WAV_DATA, Stored};
 use std::fs::{self, File};
 
+use clap::ValueEnum;
+
 use super::*;
 
 fn signal(count: usize) -> Vec<[f64; 2]> {
@@ -16,7 +18,12 @@ fn signal(count: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-fn write(path: &Path, rate: f64, sample: WavSample, pairs: &[[f64; 2]]) -> Result<(), OutputError> {
+fn write(
+    path: &Path,
+    rate: f64,
+    sample: SampleFormat,
+    pairs: &[[f64; 2]],
+) -> Result<(), OutputError> {
     let mut writer = RecordingWriter::create(path, rate, sample)?;
     for &pair in pairs {
         writer.write(pair)?;
@@ -24,7 +31,7 @@ fn write(path: &Path, rate: f64, sample: WavSample, pairs: &[[f64; 2]]) -> Resul
     writer.finish()
 }
 
-fn fault(name: &str, rate: f64, sample: WavSample, pairs: &[[f64; 2]]) -> String {
+fn fault(name: &str, rate: f64, sample: SampleFormat, pairs: &[[f64; 2]]) -> String {
     let directory = tempfile::tempdir().unwrap();
     let fault = write(&directory.path().join(name), rate, sample, pairs).unwrap_err();
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 0);
@@ -33,22 +40,14 @@ fn fault(name: &str, rate: f64, sample: WavSample, pairs: &[[f64; 2]]) -> String
         .replace(&format!("{}/", directory.path().display()), "")
 }
 
-const ALL: [WavSample; 5] = [
-    WavSample::I16,
-    WavSample::I24,
-    WavSample::I32,
-    WavSample::F32,
-    WavSample::F64,
-];
-
 #[test]
 fn what_is_written_is_read_back() {
     let directory = tempfile::tempdir().unwrap();
     let pairs = signal(1000);
     for name in ["a.wav", "a.CSV", "a.npy"] {
         let path = directory.path().join(name);
-        for sample in ALL {
-            if name == "a.wav" && sample == WavSample::F64 {
+        for &sample in SampleFormat::value_variants() {
+            if name == "a.wav" && sample == SampleFormat::F64 {
                 continue;
             }
             write(&path, 100_000.0, sample, &pairs).unwrap();
@@ -63,7 +62,7 @@ fn what_is_written_is_read_back() {
             assert!(fault.is_none());
             assert_eq!(read.len(), pairs.len());
             let step = match sample {
-                WavSample::I16 => 0.5 / 32_768.0,
+                SampleFormat::I16 => 0.5 / 32_768.0,
                 _ => 1e-7,
             };
             for (read, pair) in read.as_flattened().iter().zip(pairs.as_flattened()) {
@@ -79,9 +78,9 @@ fn what_is_written_is_read_back() {
 #[test]
 fn integers_are_rounded_and_held_at_the_rails() {
     for (sample, top) in [
-        (WavSample::I16, 32_767),
-        (WavSample::I24, 8_388_607),
-        (WavSample::I32, i32::MAX),
+        (SampleFormat::I16, 32_767),
+        (SampleFormat::I24, 8_388_607),
+        (SampleFormat::I32, i32::MAX),
     ] {
         assert_eq!(sample.store(1.0), Some(Stored::Code(top)));
         assert_eq!(sample.store(7.0), Some(Stored::Code(top)));
@@ -102,15 +101,15 @@ fn text_has_the_fewest_digits_that_read_back() {
         fs::read_to_string(&path).unwrap()
     };
     assert_eq!(
-        text(WavSample::F64, [0.1, 1e-7]),
+        text(SampleFormat::F64, [0.1, 1e-7]),
         "time,c,d\n0.0,0.0,-1.0\n1e-5,0.1,1e-7\n"
     );
     assert_eq!(
-        text(WavSample::F32, [1.0 / 3.0, 2.5]),
+        text(SampleFormat::F32, [1.0 / 3.0, 2.5]),
         "time,c,d\n0.0,0.0,-1.0\n1e-5,0.33333334,2.5\n"
     );
     assert_eq!(
-        text(WavSample::I16, [0.5, 1.0]),
+        text(SampleFormat::I16, [0.5, 1.0]),
         "time,c,d\n0.0,0.0,-1.0\n1e-5,0.5,0.999969482421875\n"
     );
 }
@@ -118,7 +117,7 @@ fn text_has_the_fewest_digits_that_read_back() {
 #[test]
 fn what_cannot_be_written_is_named() {
     let pairs = signal(3);
-    let f32s = WavSample::F32;
+    let f32s = SampleFormat::F32;
     assert!(
         fault("a.flac", 1e5, f32s, &pairs)
             .starts_with("a.flac: the extension names no format; end the name in")
@@ -133,7 +132,7 @@ fn what_cannot_be_written_is_named() {
         assert!(fault("a.csv", rate, f32s, &pairs).contains("cannot hold a sample rate of "));
     }
     assert!(
-        fault("a.wav", 1e5, WavSample::F64, &pairs)
+        fault("a.wav", 1e5, SampleFormat::F64, &pairs)
             .starts_with("a.wav: a WAV file of 64-bit floats is not")
     );
     for (pair, channel) in [
@@ -141,7 +140,7 @@ fn what_cannot_be_written_is_named() {
         ([0.0, -f64::INFINITY], "S_D (right): -inf"),
     ] {
         let expected = format!("a.npy: sample pair 1 (from 0), {channel} is not a finite number; ");
-        assert!(fault("a.npy", 1e5, WavSample::I24, &[[0.0, 0.0], pair]).starts_with(&expected));
+        assert!(fault("a.npy", 1e5, SampleFormat::I24, &[[0.0, 0.0], pair]).starts_with(&expected));
     }
     assert!(
         fault("a.csv", 1e5, f32s, &[[1e300, 0.0]])
@@ -163,7 +162,7 @@ fn what_cannot_be_written_is_named() {
 fn a_full_wav_file_can_still_be_finished() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("a.wav");
-    let mut writer = RecordingWriter::create(&path, 1e5, WavSample::I16).unwrap();
+    let mut writer = RecordingWriter::create(&path, 1e5, SampleFormat::I16).unwrap();
     writer.write([0.5, 0.5]).unwrap();
     writer.pairs = MAX_WAV_DATA / 4;
     let fault = writer.write([0.5, 0.5]).unwrap_err().to_string();
@@ -185,13 +184,13 @@ fn what_is_there_stays_until_the_new_file_is_whole() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("a.csv");
     fs::write(&path, "good").unwrap();
-    let mut writer = RecordingWriter::create(&path, 1.0, WavSample::F64).unwrap();
+    let mut writer = RecordingWriter::create(&path, 1.0, SampleFormat::F64).unwrap();
     writer.write([1.0, 2.0]).unwrap();
     assert_eq!(fs::read_to_string(&path).unwrap(), "good");
     drop(writer);
     assert_eq!(fs::read_to_string(&path).unwrap(), "good");
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
-    write(&path, 1.0, WavSample::F64, &[[1.0, 2.0]]).unwrap();
+    write(&path, 1.0, SampleFormat::F64, &[[1.0, 2.0]]).unwrap();
     assert_eq!(
         fs::read_to_string(&path).unwrap(),
         "time,c,d\n0.0,1.0,2.0\n"
@@ -210,7 +209,7 @@ fn a_link_keeps_leading_to_its_file() {
     );
     fs::write(&path, "good").unwrap();
     symlink(&path, &link).unwrap();
-    write(&link, 1.0, WavSample::F64, &[[1.0, 2.0]]).unwrap();
+    write(&link, 1.0, SampleFormat::F64, &[[1.0, 2.0]]).unwrap();
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(
         fs::read_to_string(&path).unwrap(),
@@ -237,7 +236,7 @@ fn scipy_and_numpy_read_what_is_written() {
          s = float(n.iinfo(a.dtype).max) + 1 if a.dtype.kind == 'i' else 1\n\
          assert r == 1e5 and a.shape == (500, 2) and abs(a / s - e).max() < 2e-5, (r, a.shape, abs(a / s - e).max())";
     for name in ["a.wav", "a.csv", "a.npy"] {
-        for sample in &ALL[..4] {
+        for sample in &SampleFormat::value_variants()[..4] {
             let path = directory.path().join(name);
             write(&path, 1e5, *sample, &pairs).unwrap();
             let read = Command::new("python3")
@@ -246,24 +245,5 @@ fn scipy_and_numpy_read_what_is_written() {
                 .status();
             assert!(read.unwrap().success(), "{name} {sample:?}");
         }
-    }
-}
-
-#[test]
-#[ignore = "a measurement, for an optimised build"]
-fn throughput() {
-    let directory = tempfile::tempdir().unwrap();
-    let pairs = signal(10_000_000);
-    for (name, sample) in [
-        ("a.wav", WavSample::I16),
-        ("a.npy", WavSample::F32),
-        ("a.csv", WavSample::F32),
-    ] {
-        let start = std::time::Instant::now();
-        write(&directory.path().join(name), 1e5, sample, &pairs).unwrap();
-        println!(
-            "{name}: {:.1} M pairs/s",
-            10.0 / start.elapsed().as_secs_f64()
-        );
     }
 }

@@ -40,7 +40,7 @@ fn as_the_two_modes_move() {
     };
     let (main, quadrature, angle) = (1.0f64, 0.2f64, 0.35f64);
     let (sine, cosine) = (2.0 * angle).sin_cos();
-    // (1) and (2) at τ = 0.
+    // (1) and (3) at τ = 0.
     let mut state = [
         main * cosine,
         main * sine,

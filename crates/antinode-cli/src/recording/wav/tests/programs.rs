@@ -3,9 +3,8 @@
 use std::io::Cursor;
 use std::process::Command;
 
-use super::{format, wav};
-use crate::recording::tests::{drain, file, read};
-use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
+use crate::recording::tests::{drain, read};
+use crate::recording::{OpenOptions, Recording};
 
 #[test]
 fn what_hound_writes_is_read_alike() {
@@ -92,36 +91,5 @@ fn what_sox_and_scipy_write_is_read() {
              w.write(sys.argv[1], 100000, a)";
         make("python3", &["-c", script, name, dtype]);
         check(1e-4);
-    }
-}
-
-#[test]
-#[ignore = "a measurement, for an optimised build"]
-fn throughput() {
-    let pairs = 20_000_000u32;
-    for (tag, bits) in [(1, 16), (1, 24), (1, 32), (3, 32)] {
-        let mut long = wav(format(tag, 2, bits), &[]);
-        // Bytes of every value, which as floats are all finite.
-        let sample = |k: u32| (k.wrapping_mul(40_503) & 0x3fff_ffff).to_le_bytes();
-        let bytes = usize::from(bits / 8);
-        long.data = (0..2 * pairs)
-            .flat_map(|k| sample(k).into_iter().take(bytes))
-            .collect();
-        long.size = long.data.len() as u32;
-        let (_directory, path) = file("a.wav", &long.bytes());
-        let mut block = Vec::with_capacity(BLOCK_PAIRS);
-        let mut best = 0.0f64;
-        for _ in 0..5 {
-            let start = std::time::Instant::now();
-            let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
-            let mut count = 0;
-            while recording.read(&mut block).unwrap() > 0 {
-                count += block.len();
-                std::hint::black_box(&mut block);
-            }
-            assert_eq!(count, pairs as usize);
-            best = best.max(f64::from(pairs) / start.elapsed().as_secs_f64());
-        }
-        println!("encoding {tag}, {bits} bits: {:.0} M pairs/s", best / 1e6);
     }
 }

@@ -1,0 +1,207 @@
+//! A recording's samples become rows: what is done with each stretch of pairs, and what is told once all are read.
+
+use std::io::Write;
+
+use antinode::{Estimate, Flags, SettingsError};
+
+use super::options::{Identify, Methods};
+use super::scatter::Scatter;
+use super::search::{Search, elsewhere};
+use super::silence::Silence;
+use super::span::{Span, Step};
+use super::{Core, LONGEST};
+use crate::failure::Failure;
+use crate::methods::History;
+use crate::recording::{InputError, Recording};
+use crate::rows::Rows;
+
+/// Samples of the longest period that is searched.
+const SEARCHED: usize = 200;
+
+/// Pairs between two looks at the search: no period is found and refused in fewer.
+const GLANCE: usize = 8;
+
+/// Windows flagged as misfit from which on a remedy is named, where they are a quarter of all.
+const MANY: u64 = 20;
+
+/// The identification of one recording.
+pub(super) struct Windows<'a> {
+    name: &'a str,
+    options: &'a Identify,
+    rate: f64,
+    core: Box<Core>,
+    history: Option<History>,
+    search: Search,
+    span: Span,
+    silence: Silence,
+    scatter: Scatter,
+    resolution: Option<f32>,
+    misfits: u64,
+}
+
+impl<'a> Windows<'a> {
+    /// Of a recording of this name and sample rate.
+    pub fn new(
+        name: &'a str,
+        options: &'a Identify,
+        recording: &Recording,
+        rate: f64,
+    ) -> Result<Self, Failure> {
+        let settings = options.settings(rate, recording.full_scale(), recording.resolution());
+        let core = Core::new(settings).map_err(|error| match error {
+            SettingsError::Frequency(frequency) => Failure::Usage(format!(
+                "{name}: --frequency: {frequency} Hz, but at {rate} Hz it must lie within {:.6} to {} Hz, {LONGEST} to 2.5 samples a period",
+                rate / LONGEST as f64,
+                rate / 2.5
+            )),
+            error => error.into(),
+        })?;
+        // A little more of a period that is known.
+        let known = |frequency| (1.1 * rate / f64::from(frequency)) as usize + 1;
+        let longest = options.frequency.map_or(SEARCHED, known);
+        let history = (options.methods == Methods::All).then(|| History::new(&settings, longest));
+        Ok(Self {
+            name,
+            options,
+            rate,
+            core: Box::new(core),
+            history,
+            search: Search::default(),
+            span: Span::new(options, recording, rate),
+            silence: Silence::default(),
+            scatter: Scatter::default(),
+            resolution: settings.resolution,
+            misfits: 0,
+        })
+    }
+
+    /// Sample pairs identified, lost ones counted.
+    pub fn pairs(&self) -> u64 {
+        self.core.index()
+    }
+
+    /// Takes the next pairs of the recording, and prints the rows that they complete; false where no more are asked for.
+    pub fn take(
+        &mut self,
+        recording: &mut Recording,
+        mut pairs: &[[f32; 2]],
+        rows: &mut Rows<impl Write>,
+    ) -> Result<bool, Failure> {
+        while !pairs.is_empty() {
+            let mut most = match self.span.step(recording, pairs) {
+                Step::End => return Ok(false),
+                Step::Leave(count) => {
+                    pairs = &pairs[count..];
+                    continue;
+                }
+                Step::Lost(lost) => {
+                    self.core.skip(lost);
+                    if let Some(history) = &mut self.history {
+                        history.skip(lost);
+                    }
+                    continue;
+                }
+                Step::Take(most) => most,
+            };
+            if !self.span.has_begun() {
+                self.begin(&pairs[..most]);
+            }
+            // Until the first row, what becomes of the search is to be seen.
+            if rows.count() == 0 {
+                most = most.min(GLANCE);
+            }
+            let (taken, estimate) = self.core.push_slice(&pairs[..most]);
+            self.search.see(self.core.is_searching());
+            let (new, rest) = pairs.split_at(taken);
+            pairs = rest;
+            recording.look(self.span.take(taken), new);
+            if let Some(history) = &mut self.history {
+                history.extend(new);
+            }
+            if let Some(estimate) = estimate {
+                self.print(&estimate, rows)?;
+            }
+        }
+        Ok(true)
+    }
+
+    /// Looks at the first pairs that are identified.
+    fn begin(&mut self, pairs: &[[f32; 2]]) {
+        self.search.begin(pairs);
+        if let Some(frequency) = self.options.frequency
+            && let Some(warning) = elsewhere(pairs, self.rate, frequency)
+        {
+            eprintln!("warning: {}: {warning}", self.name);
+        }
+    }
+
+    fn print(&mut self, estimate: &Estimate, rows: &mut Rows<impl Write>) -> Result<(), Failure> {
+        let history = self.history.as_ref();
+        let methods = history.and_then(|history| history.compare(estimate));
+        self.silence.see(estimate, self.rate, self.options.hop);
+        self.scatter.see(estimate, self.resolution);
+        self.misfits += u64::from(estimate.flags == Flags::MISFIT);
+        let estimate = Estimate {
+            time: estimate.time + self.span.offset(),
+            ..*estimate
+        };
+        rows.print(self.name, &estimate, methods.as_ref())?;
+        Ok(())
+    }
+
+    /// Tells what is to be known of a recording that was read as far as was asked, or up to a fault.
+    pub fn conclude(
+        &self,
+        recording: &Recording,
+        fault: Option<InputError>,
+        rows: &mut Rows<impl Write>,
+    ) -> Result<(), Failure> {
+        // Rows before what is told of them.
+        rows.flush()?;
+        let name = self.name;
+        if let Some(warning) = recording.late_warning() {
+            eprintln!("warning: {warning}");
+        }
+        let many = self.misfits >= MANY && 4 * self.misfits > rows.count();
+        let seconds = self.core.index() as f64 / self.rate;
+        let warnings = [
+            many.then(|| misfit_remedies(self.misfits, rows.count(), self.options)),
+            self.span.warning().filter(|_| fault.is_none()),
+            self.silence.told(seconds, self.span.offset()),
+            self.scatter.told(self.options.hum || self.options.coloured),
+        ];
+        for warning in warnings.into_iter().flatten() {
+            eprintln!("warning: {name}: {warning}");
+        }
+        let failure = match fault {
+            Some(error) => Some(error.into()),
+            None if rows.count() > 0 => None,
+            None => Some(self.span.missing(name).unwrap_or_else(|| {
+                self.search
+                    .no_rows(name, self.rate, &self.core, self.options)
+            })),
+        };
+        let told = [recording.lost(), recording.not_finite()];
+        let mut failures = told.into_iter().flatten().map(Failure::from).chain(failure);
+        let Some(mut last) = failures.next() else {
+            return Ok(());
+        };
+        for next in failures {
+            eprintln!("error: {last}");
+            last = next;
+        }
+        Err(last)
+    }
+}
+
+/// What may be done about rows that are flagged as misfits, and as nothing else.
+fn misfit_remedies(misfits: u64, rows: u64, options: &Identify) -> String {
+    let mut told = format!("{misfits} of {rows} rows are flagged misfit alone; ");
+    if !options.hum && !options.coloured {
+        told += "if that is mains hum or an offset that wanders, --hum takes it out; ";
+    }
+    if !options.coloured {
+        told += "if a filter leaves less noise at three times the frequency, give --coloured; ";
+    }
+    told + "if the frequency drifts or the pattern turns far within a window, give a smaller --periods"
+}

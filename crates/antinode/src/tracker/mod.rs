@@ -189,7 +189,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Takes a block; true where it completes a window.
-    #[inline]
+    #[inline(never)]
     fn gather<S: Sample>(&mut self, block: &Block<S>) -> bool {
         let is_same = self
             .model

@@ -30,7 +30,7 @@ pub(super) fn course(model: &Model, waves: &Waves, index: usize) -> Course {
 }
 
 /// A wave from its chunk's middle outwards: at time `u`, where it is `middle` but for what it has grown since the window's middle.
-#[inline(always)]
+#[inline(never)]
 fn outwards(model: &Model, mut middle: Complex32, slope: Complex32, u: f32) -> [Complex32; CHUNK] {
     if u != 0.0 {
         // In two halves: the middle of a chunk may lie beyond the window's end.

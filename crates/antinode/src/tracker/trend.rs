@@ -167,12 +167,10 @@ impl Trend {
         let [v0, v1, v2] = values;
         // The curve is taken out of level and rate where there are points for it, then the level out of the rate.
         let bent = if used > 3 && s4 > 0.0 { 1.0 / s4 } else { 0.0 };
-        let (level, mixed, rate) = (
-            s0 - s2 * s2 * bent,
-            s1 - s2 * s3 * bent,
-            s2 - s3 * s3 * bent,
-        );
-        let (level_value, rate_value) = (v0 - s2 * v2 * bent, v1 - s3 * v2 * bent);
+        // First over s4: a product of two sums may be beyond f32, where noise was far less long ago.
+        let (of_level, of_rate) = (s2 * bent, s3 * bent);
+        let (level, mixed, rate) = (s0 - s2 * of_level, s1 - s2 * of_rate, s2 - s3 * of_rate);
+        let (level_value, rate_value) = (v0 - of_level * v2, v1 - of_rate * v2);
         // Of a rate a window: a rate a sample is so much less.
         let per_sample = 2.0 * per_window;
         let per_determinant = per_sample / (level * rate - mixed * mixed);

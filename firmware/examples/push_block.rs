@@ -79,7 +79,7 @@ fn measure<S: Sample>(
             interrupt(&mut front, &mut queue, pairs);
             ticks += begin.wrapping_sub(SYST::get_current()) & 0xff_ffff;
             while let Some(block) = queue.dequeue() {
-                tracker.push(&block);
+                let _ = tracker.push(&block);
             }
             at += count;
         }

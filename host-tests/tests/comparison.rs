@@ -215,6 +215,33 @@ fn methods_part_company_where_the_signal_is_not_one_wave() {
     assert_eq!([tone, harmonic, limited], [1.0; 3]);
 }
 
+/// How often the conditions of the delay fail, and by how much.
+#[derive(Default)]
+struct OfDelay {
+    count: u32,
+    failed: u32,
+    squares: [f64; 2],
+}
+
+impl OfDelay {
+    fn add(&mut self, found: &Comparison) {
+        let Conditions { delay, monitor, .. } = found.methods[1].conditions;
+        self.count += 1;
+        self.failed += u32::from(!delay || !monitor);
+        self.squares[0] += found.imbalance_excess.powi(2);
+        self.squares[1] += found.phase_excess.powi(2);
+    }
+
+    /// Asserts that no more than one in forty fails; gives the rms of (17) and (20) in their deviations.
+    fn rms(&self, name: &str) -> [f64; 2] {
+        let Self { count, failed, .. } = self;
+        let rms = self.squares.map(|sum| (sum / f64::from(*count)).sqrt());
+        println!("{name}: (17), (20) rms {rms:.2?} deviations, {failed} of {count} fail");
+        assert!(failed * 40 <= *count, "{failed} of {count}");
+        rms
+    }
+}
+
 #[test]
 fn the_conditions_of_the_delay_hold_in_white_noise_and_are_as_sharp_as_it_lets_them() {
     let turning = |seed| Wave {
@@ -224,7 +251,7 @@ fn the_conditions_of_the_delay_hold_in_white_noise_and_are_as_sharp_as_it_lets_t
     };
     for noise in [0.0, 1e-4, 0.001, 0.02, 0.2] {
         for periods in [2, 4, 10, 50] {
-            let (mut count, mut failed, mut squares) = (0, 0, [0.0; 2]);
+            let mut of_delay = OfDelay::default();
             for seed in 0..30 {
                 let wave = turning(seed);
                 let flaws = Flaws {
@@ -233,18 +260,10 @@ fn the_conditions_of_the_delay_hold_in_white_noise_and_are_as_sharp_as_it_lets_t
                     ..Flaws::default()
                 };
                 for found in comparisons(wave, &flaws, periods, 9000, seed, |_, pair| pair) {
-                    let Conditions { delay, monitor, .. } = found.methods[1].conditions;
-                    count += 1;
-                    failed += usize::from(!delay || !monitor);
-                    squares[0] += found.imbalance_excess.powi(2);
-                    squares[1] += found.phase_excess.powi(2);
+                    of_delay.add(&found);
                 }
             }
-            let rms = squares.map(|sum| (sum / f64::from(count)).sqrt());
-            println!(
-                "noise {noise}, {periods} periods: (17), (20) rms {rms:.2?} deviations, {failed} of {count} fail"
-            );
-            assert!(failed * 40 <= count as usize, "{failed} of {count}");
+            let rms = of_delay.rms(&format!("noise {noise}, {periods} periods"));
             // Where noise and not f32 is the limit, a deviation is one: a condition that always held would ask nothing.
             if noise >= 0.02 {
                 assert!(rms.iter().all(|x| (0.4..1.1).contains(x)), "{rms:.2?}");
@@ -255,7 +274,7 @@ fn the_conditions_of_the_delay_hold_in_white_noise_and_are_as_sharp_as_it_lets_t
 
 #[test]
 fn the_conditions_of_the_delay_hold_where_blocks_do_not_fit_the_period() {
-    let (mut count, mut failed, mut squares) = (0, 0, [0.0; 2]);
+    let mut of_delay = OfDelay::default();
     for seed in 0..20 {
         let wave = random_wave(seed, 5332.0, 0.5);
         let flaws = Flaws {
@@ -267,16 +286,11 @@ fn the_conditions_of_the_delay_hold_where_blocks_do_not_fit_the_period() {
             ..windows(200)
         };
         for found in comparisons_with(known, wave, &flaws, 40_000, seed, |_, pair| pair) {
-            let Conditions { delay, monitor, .. } = found.methods[1].conditions;
-            count += 1;
-            failed += usize::from(!delay || !monitor);
-            squares[0] += found.imbalance_excess.powi(2);
-            squares[1] += found.phase_excess.powi(2);
+            of_delay.add(&found);
         }
     }
-    let rms = squares.map(|sum| (sum / f64::from(count)).sqrt());
-    println!("4 % off: (17), (20) rms {rms:.2?} deviations, {failed} of {count} fail");
-    assert!(count > 150 && failed * 40 <= count as usize);
+    let rms = of_delay.rms("4 % off");
+    assert!(of_delay.count > 150);
     assert!(rms.iter().all(|x| (0.4..1.2).contains(x)), "{rms:.2?}");
 }
 

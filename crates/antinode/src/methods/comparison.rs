@@ -48,9 +48,10 @@ pub use super::conditions::{CONDITION, Conditions};
 use super::delayed::Delayed;
 use super::moments::Moments;
 use super::products::{Products, mean_harmonic};
+pub use super::reference::{Noise, Reference};
+use super::scatter::{changing, difference, scatter};
 use super::wave::{Shape, Wave};
 use super::{algorithm1, algorithm2, algorithm3, algorithm4, functional, phase};
-use crate::estimate::Estimate;
 
 /// Beyond this many deviations from what its own leakage and bias explain, a method tells of a fault.
 ///
@@ -58,9 +59,9 @@ use crate::estimate::Estimate;
 pub const DISAGREEMENT: f64 = 6.0;
 
 /// The place of algorithm 1.
-const NO_QUADRATURE: usize = 0;
+pub(super) const NO_QUADRATURE: usize = 0;
 /// The place of algorithm 2.
-const DELAY: usize = 1;
+pub(super) const DELAY: usize = 1;
 /// The place of algorithm 3.
 const AXES: usize = 2;
 
@@ -74,85 +75,6 @@ pub struct Sums {
     pub delayed: Delayed,
     /// Products with the reference, at the wave's frequency.
     pub products: Products,
-}
-
-/// White noise as a window's sums see it, input units squared.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Noise {
-    /// ⟨n_C²⟩, ⟨n_D²⟩ and ⟨n_C n_D⟩.
-    pub moments: [f64; 3],
-    /// ⟨n_D(t) n_D(t − t₃)⟩: 0, but where S_D was made from samples that lie t₃ apart.
-    pub delayed: f64,
-}
-
-impl Noise {
-    /// Noise of one variance on both pick-offs, independent from sample to sample: what a converter gives.
-    pub fn alike(variance: f64) -> Self {
-        Self {
-            moments: [variance, variance, 0.0],
-            delayed: 0.0,
-        }
-    }
-}
-
-/// The exact solution that the methods are held against.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reference {
-    /// The wave, its phase about the window's first sample.
-    pub wave: Wave,
-    /// Standard deviations of a_A and a_B, input units, and θ, rad; all > 0.
-    pub deviations: [f64; 3],
-    /// Noise of the samples that the sums were taken of.
-    pub noise: Noise,
-    /// Standard deviation of a noise variance, as a share of it.
-    pub noise_uncertainty: f64,
-    /// How far the pattern turns in the window, rad.
-    pub turn: f64,
-    /// The share of its amplitude that the wave loses in the window.
-    pub decay: f64,
-    /// Standard deviations of `turn` and `decay`: both are 0 where they are lost in these.
-    pub change_deviations: [f64; 2],
-}
-
-impl Reference {
-    /// The reference of an estimate at a sample rate in Hz, for sums of the samples as they came: a calibration that mixes or scales
-    /// samples changes [`Noise`] too.
-    pub fn of(estimate: &Estimate, sample_rate: f64) -> Self {
-        let omega = core::f64::consts::TAU * estimate.frequency / sample_rate;
-        let samples = f64::from(estimate.samples);
-        let seconds = samples / sample_rate;
-        // A rate that is lost in noise is none.
-        let change = |rate: f32, deviation: f32| {
-            let significant = rate.abs() > 3.0 * deviation;
-            f64::from(if significant { rate } else { 0.0 }) * seconds
-        };
-        let deviations = [
-            estimate.main_amplitude_std,
-            estimate.quadrature_amplitude_std,
-            estimate.angle_std,
-        ];
-        let noise = f64::from(estimate.residual_rms);
-        // The core sees noise in three sums a block of each pick-off, less ten unknowns: blocks of two periods, five at the least.
-        let blocks = (0.5 * samples * omega / core::f64::consts::TAU).max(5.0);
-        Self {
-            wave: Wave {
-                shape: Shape {
-                    main_amplitude: estimate.main_amplitude.into(),
-                    quadrature_amplitude: estimate.quadrature_amplitude.into(),
-                    angle: estimate.angle,
-                },
-                // The estimate's phase stands at the middle of the window.
-                phase: f64::from(estimate.phase) + 0.5 * omega * (samples - 1.0),
-            },
-            deviations: deviations.map(|x| f64::from(x.max(f32::MIN_POSITIVE))),
-            noise: Noise::alike(noise * noise),
-            noise_uncertainty: libm::sqrt(2.0 / (6.0 * blocks - 10.0)),
-            turn: change(estimate.angle_rate, estimate.angle_rate_std),
-            decay: change(estimate.decay_rate, estimate.decay_rate_std),
-            change_deviations: [estimate.angle_rate_std, estimate.decay_rate_std]
-                .map(|deviation| f64::from(deviation) * seconds),
-        }
-    }
 }
 
 /// One method in a window.
@@ -206,101 +128,6 @@ fn waves(sums: &Sums) -> [Wave; 4] {
         phase::align(&algorithm3::shape(moments, products.q()), products),
         algorithm4::wave(products),
     ]
-}
-
-/// What turning by `turn` rad, a loss of `decay`, and f32 rounding leave in a window's sums, as a share of them.
-pub(super) fn slow(turn: f64, decay: f64, changing: f64) -> f64 {
-    let (turn, decay) = (2.0 * turn, decay);
-    // What leaks changes over the window at first order.
-    (turn * turn + decay * decay) / 12.0 + changing * (turn.abs() + decay.abs()) + 1e-6
-}
-
-/// How much of a steady change leaks: as much as of what is constant, or |⟨t e^{2jωt}⟩| with t in windows from the middle, which does
-/// not vanish where a window fits the period.
-fn changing(leakage: f64, omega: f64, count: u32) -> f64 {
-    let x = omega * f64::from(count);
-    let (sine, cosine) = libm::sincos(x);
-    leakage.max(0.5 * (cosine - sine / x).abs() / x)
-}
-
-/// By how much of itself a noise variance may be above what was found, in parts of [`DISAGREEMENT`]: the quantile that a chi-square of
-/// such an uncertainty, 0.3 and less, is below in 1 of 300 000 windows, by Wilson and Hilferty.
-fn above(uncertainty: f64) -> f64 {
-    let third = uncertainty / 3.0;
-    let least = (1.0 - third * (third + 4.5)).max(0.1);
-    (1.0 / (least * least * least) - 1.0) / DISAGREEMENT
-}
-
-/// What `square` may be off by in its root, by `deviation` of its own, in parts of [`DISAGREEMENT`].
-fn of_root(square: f64, deviation: f64) -> f64 {
-    let most = DISAGREEMENT * deviation;
-    let root = libm::sqrt(square);
-    let below = root - libm::sqrt((square - most).max(0.0));
-    below.max(libm::sqrt(square + most) - root) / DISAGREEMENT
-}
-
-/// What the method of this place may differ by without a fault, beside `explained`: the exact solution's own deviations, how little
-/// the noise and its mean square over the window are known, and what turning, decay and f32 rounding leave.
-///
-/// `seen` is the a_A² − a_B² that the method has its angle from.
-fn scatter(
-    place: usize,
-    explained: &Shape,
-    seen: f64,
-    reference: &Reference,
-    count: u32,
-    changing: f64,
-    q_deviation: f64,
-) -> [f64; 3] {
-    let [of_c, of_d, _] = reference.noise.moments;
-    let mean_square = libm::sqrt(2.0 / f64::from(count));
-    let noise = of_c.max(of_d) * libm::hypot(above(reference.noise_uncertainty), mean_square);
-    let size = reference.wave.shape.main_amplitude;
-    let rest = slow(reference.turn, reference.decay, changing);
-    let [a, b, angle] = reference.deviations;
-    let quadrature = explained.quadrature_amplitude.abs().max(b);
-    let sum = |x: f64, y: f64, z: f64| libm::sqrt(x * x + y * y + z * z);
-    // What leaks of the exact solution's deviations.
-    let leaks = 4.0 * changing * size * a;
-    let of_angle = if place == NO_QUADRATURE {
-        // (12) takes the angle from roots of mean squares, and one is all noise where a pick-off sees nothing else.
-        let (sine, cosine) = libm::sincos(2.0 * explained.angle);
-        let whole = core::f64::consts::FRAC_1_SQRT_2 * explained.main_amplitude;
-        let root = |share: f64| of_root((share * whole) * (share * whole), noise);
-        let roots = libm::hypot(cosine * root(sine), sine * root(cosine));
-        sum(angle, 0.5 * roots / whole, rest)
-    } else {
-        let own = angle * difference(&reference.wave.shape);
-        let deviation = libm::hypot(own, rest * size * size + leaks);
-        // An angle that rests on less than that means nothing.
-        deviation / (seen - DISAGREEMENT * deviation).max(0.0)
-    };
-    // (16) takes a_A − |a_B| from the root of a difference, which is small where the pattern is near a circle.
-    let of_amplitudes = if place == DELAY {
-        let root = explained.main_amplitude - explained.quadrature_amplitude.abs();
-        let exact = size - reference.wave.shape.quadrature_amplitude.abs();
-        let of_exact = 2.0 * exact * (a + b) + leaks;
-        let deviation = sum(4.0 * noise, 4.0 * q_deviation, of_exact);
-        0.5 * of_root(root * root, deviation)
-    } else {
-        0.0
-    };
-    // (22) adds the noise's square to a_B's: a small quadrature and a little excess make a large difference.
-    [
-        sum(libm::hypot(a, of_amplitudes), noise / size, rest * size),
-        sum(
-            libm::hypot(b, of_amplitudes),
-            noise / quadrature,
-            rest * size * (1.0 + rest * size / quadrature),
-        ),
-        of_angle,
-    ]
-}
-
-/// a_A² − a_B², which the angle rests on.
-fn difference(shape: &Shape) -> f64 {
-    let (a, b) = (shape.main_amplitude, shape.quadrature_amplitude);
-    a * a - b * b
 }
 
 fn apart(a: &Shape, b: &Shape, unit: &[f64; 3]) -> [f64; 3] {

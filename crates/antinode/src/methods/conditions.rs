@@ -2,9 +2,11 @@
 
 use core::fmt;
 
-use super::comparison::{Reference, Sums, slow};
+use super::comparison::Sums;
 use super::delayed::Delayed;
 use super::moments::Moments;
+use super::reference::Reference;
+use super::scatter::slow;
 
 /// (17) and (20) fail beyond this many of their deviations.
 pub const CONDITION: f64 = 3.0;

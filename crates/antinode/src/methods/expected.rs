@@ -2,10 +2,10 @@
 //!
 //! With these each method's own leakage and bias is known beforehand, so that it is not taken for a fault.
 
-use super::comparison::Noise;
 use super::delayed::Delayed;
 use super::moments::Moments;
 use super::products::{Products, mean_harmonic};
+use super::reference::Noise;
 use super::wave::Wave;
 
 /// ⟨cos²⟩, ⟨sin²⟩ and ⟨sin cos⟩ of ωt over a window.

@@ -73,6 +73,8 @@ mod expected;
 mod moments;
 mod products;
 mod ratio;
+mod reference;
+mod scatter;
 mod wave;
 
 pub use delayed::{Delayed, DelayedSums};

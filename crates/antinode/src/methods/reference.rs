@@ -1,0 +1,83 @@
+//! The exact solution that the methods are held against, and the noise that it leaves.
+
+use super::wave::{Shape, Wave};
+use crate::estimate::Estimate;
+
+/// White noise as a window's sums see it, input units squared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Noise {
+    /// ⟨n_C²⟩, ⟨n_D²⟩ and ⟨n_C n_D⟩.
+    pub moments: [f64; 3],
+    /// ⟨n_D(t) n_D(t − t₃)⟩: 0, but where S_D was made from samples that lie t₃ apart.
+    pub delayed: f64,
+}
+
+impl Noise {
+    /// Noise of one variance on both pick-offs, independent from sample to sample: what a converter gives.
+    pub fn alike(variance: f64) -> Self {
+        Self {
+            moments: [variance, variance, 0.0],
+            delayed: 0.0,
+        }
+    }
+}
+
+/// The exact solution that the methods are held against.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reference {
+    /// The wave, its phase about the window's first sample.
+    pub wave: Wave,
+    /// Standard deviations of a_A and a_B, input units, and θ, rad; all > 0.
+    pub deviations: [f64; 3],
+    /// Noise of the samples that the sums were taken of.
+    pub noise: Noise,
+    /// Standard deviation of a noise variance, as a share of it.
+    pub noise_uncertainty: f64,
+    /// How far the pattern turns in the window, rad.
+    pub turn: f64,
+    /// The share of its amplitude that the wave loses in the window.
+    pub decay: f64,
+    /// Standard deviations of `turn` and `decay`: both are 0 where they are lost in these.
+    pub change_deviations: [f64; 2],
+}
+
+impl Reference {
+    /// The reference of an estimate at a sample rate in Hz, for sums of the samples as they came: a calibration that mixes or scales
+    /// samples changes [`Noise`] too.
+    pub fn of(estimate: &Estimate, sample_rate: f64) -> Self {
+        let omega = core::f64::consts::TAU * estimate.frequency / sample_rate;
+        let samples = f64::from(estimate.samples);
+        let seconds = samples / sample_rate;
+        // A rate that is lost in noise is none.
+        let change = |rate: f32, deviation: f32| {
+            let significant = rate.abs() > 3.0 * deviation;
+            f64::from(if significant { rate } else { 0.0 }) * seconds
+        };
+        let deviations = [
+            estimate.main_amplitude_std,
+            estimate.quadrature_amplitude_std,
+            estimate.angle_std,
+        ];
+        let noise = f64::from(estimate.residual_rms);
+        // The core sees noise in three sums a block of each pick-off, less ten unknowns: blocks of two periods, five at the least.
+        let blocks = (0.5 * samples * omega / core::f64::consts::TAU).max(5.0);
+        Self {
+            wave: Wave {
+                shape: Shape {
+                    main_amplitude: estimate.main_amplitude.into(),
+                    quadrature_amplitude: estimate.quadrature_amplitude.into(),
+                    angle: estimate.angle,
+                },
+                // The estimate's phase stands at the middle of the window.
+                phase: f64::from(estimate.phase) + 0.5 * omega * (samples - 1.0),
+            },
+            deviations: deviations.map(|x| f64::from(x.max(f32::MIN_POSITIVE))),
+            noise: Noise::alike(noise * noise),
+            noise_uncertainty: libm::sqrt(2.0 / (6.0 * blocks - 10.0)),
+            turn: change(estimate.angle_rate, estimate.angle_rate_std),
+            decay: change(estimate.decay_rate, estimate.decay_rate_std),
+            change_deviations: [estimate.angle_rate_std, estimate.decay_rate_std]
+                .map(|deviation| f64::from(deviation) * seconds),
+        }
+    }
+}

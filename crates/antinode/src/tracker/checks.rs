@@ -71,8 +71,9 @@ pub(crate) fn within(
     flags = flags.with_if(!significant, Flags::LOST);
 
     let known = noise.freedom > 0.0;
-    // Noise that is not coloured is the same about the carrier and about its third harmonic. A first window has no other noise to be compared with, and
-    // one block's fault may be in that too: to leave out the worst of n makes chance no more than n times as likely.
+    // White noise is the same about the carrier and about its third harmonic, and what is coloured may be any times as much. A first
+    // window has no other noise to be compared with, and one block's fault may be in that too: to leave out the worst of n makes chance
+    // no more than n times as likely.
     let (about_third, reach) = if known {
         (remains.third_noise, REACH)
     } else {

@@ -195,10 +195,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             .model
             .as_ref()
             .is_some_and(|model| model.layout == block.layout);
-        if !(is_same && (self.end == block.start || self.gathered.is_new())) {
-            self.gather_anew(block, is_same)
-        } else {
+        if is_same && (self.end == block.start || self.gathered.is_new()) {
             self.take(block)
+        } else {
+            self.gather_anew(block, is_same)
         }
     }
 

@@ -54,8 +54,9 @@ pub struct Identify {
     /// [default: told by their names, or how many there are].
     ///
     /// With --columns, what is neither WAV nor NPY is read as text, unless --raw is given; without, text is known by its first line.
-    /// Where only two columns are named, the recording's own time is ignored, and --rate gives the rate. Lines that begin with #, % or // are comments,
-    /// and settings above the samples are skipped; a line of units may follow the header, and a time in ms, us or ns is understood.
+    /// Where only two columns are named, the recording's own time is ignored, and --rate gives the rate. Lines that begin with #, % or //
+    /// are comments, and settings above the samples are skipped; a line of units may follow the header, and a time in ms, us or ns is
+    /// understood.
     #[arg(long, value_name = "COLUMNS")]
     pub columns: Option<Columns>,
     /// The wave's frequency, Hz, if it is known within 5 %: it is then not searched for, and the first window begins with the first

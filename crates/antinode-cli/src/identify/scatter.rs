@@ -39,17 +39,29 @@ fn compared(e: &Estimate) -> [[f64; 2]; NAMES.len()] {
 }
 
 /// Differences of clean rows that share no samples, over their deviations.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Scatter {
+    /// The converter's step, 0 where it is not known: below it the residual is no noise.
+    resolution: f32,
     rows: VecDeque<Estimate>,
     sums: [f64; NAMES.len()],
     count: u32,
 }
 
 impl Scatter {
-    /// Takes a row, of samples of this resolution where it is known.
-    pub fn see(&mut self, estimate: &Estimate, resolution: Option<f32>) {
-        let least = (LEAST * estimate.main_amplitude).max(resolution.unwrap_or(0.0));
+    /// Of samples of this resolution, where it is known.
+    pub fn new(resolution: Option<f32>) -> Self {
+        Self {
+            resolution: resolution.unwrap_or(0.0),
+            rows: VecDeque::with_capacity(WEIGHTS.len()),
+            sums: [0.0; NAMES.len()],
+            count: 0,
+        }
+    }
+
+    /// Takes a row.
+    pub fn see(&mut self, estimate: &Estimate) {
+        let least = (LEAST * estimate.main_amplitude).max(self.resolution);
         if !estimate.flags.is_empty() || estimate.residual_rms < least {
             self.rows.clear();
             return;

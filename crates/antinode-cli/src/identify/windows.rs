@@ -35,7 +35,6 @@ pub(super) struct Windows<'a> {
     span: Span,
     silence: Silence,
     scatter: Scatter,
-    resolution: Option<f32>,
     misfits: u64,
 }
 
@@ -69,8 +68,7 @@ impl<'a> Windows<'a> {
             search: Search::default(),
             span: Span::new(options, recording, rate),
             silence: Silence::default(),
-            scatter: Scatter::default(),
-            resolution: settings.resolution,
+            scatter: Scatter::new(settings.resolution),
             misfits: 0,
         })
     }
@@ -139,7 +137,7 @@ impl<'a> Windows<'a> {
         let history = self.history.as_ref();
         let methods = history.and_then(|history| history.compare(estimate));
         self.silence.see(estimate, self.rate, self.options.hop);
-        self.scatter.see(estimate, self.resolution);
+        self.scatter.see(estimate);
         self.misfits += u64::from(estimate.flags == Flags::MISFIT);
         let estimate = Estimate {
             time: estimate.time + self.span.offset(),

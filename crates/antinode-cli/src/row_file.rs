@@ -7,7 +7,7 @@ use antinode::Flags;
 use csv::{Position, Reader, StringRecord};
 
 use crate::failure::Failure;
-use crate::recording::open_file;
+use crate::recording::{in_utf8, open_file};
 
 /// A file of rows, read line by line.
 pub struct RowFile<R> {
@@ -24,10 +24,10 @@ impl RowFile<Box<dyn Read>> {
             if io::stdin().is_terminal() {
                 eprintln!("reading rows from standard input; Ctrl-D ends them");
             }
-            return Self::new("standard input", Box::new(io::stdin()));
+            return Self::new("standard input", Box::new(in_utf8(io::stdin())));
         }
         let name = path.display().to_string();
-        Self::new(&name, Box::new(open_file(path)?))
+        Self::new(&name, Box::new(in_utf8(open_file(path)?)))
     }
 }
 

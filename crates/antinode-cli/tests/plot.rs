@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use common::svg::{FIRST, HEADER, SECOND, Svg, TITLES, drawn, names};
-use common::{Row, run};
+use common::{Row, run, run_with};
 
 /// Rows of a ring-down that precesses and is interrupted twice.
 fn ring_down(here: &Path) -> String {
@@ -229,6 +229,20 @@ fn what_has_no_number_is_skipped() {
             vec![6, 2]
         ]
     );
+}
+
+#[test]
+fn rows_may_be_utf_16_as_windows_writes_them() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let text = format!("\u{feff}{HEADER}0,0.5,0.001,0.1,0.2,5332,0.1,,Ö\r\n");
+    let little: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    fs::write(here.join("rows.csv"), &little).unwrap();
+    for (rows, input) in [("rows.csv", Vec::new()), ("-", little)] {
+        let made = run_with(here, &format!("plot {rows} -o it.svg"), input);
+        let told = (made.code, made.out.as_str());
+        assert_eq!(told, (0, "it.svg: 1 row of Ö; 0 flagged\n"), "{}", made.err);
+    }
 }
 
 #[test]

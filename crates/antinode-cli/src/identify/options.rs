@@ -76,8 +76,8 @@ pub struct Identify {
     pub hum: bool,
     /// The noise is not white, as behind a tuned front end, or a filter that ends below three times the frequency.
     ///
-    /// Less of it at three times the frequency is then no fault, and what it has at low frequencies does not count, as with --hum. A second
-    /// tone that is there all along counts as noise.
+    /// Less of it at three times the frequency is then no fault, and what it has at low frequencies does not count, as with --hum, in windows
+    /// of 5 periods or more, or 10 where --hop is given. A second tone that is there all along counts as noise.
     #[arg(long)]
     pub coloured: bool,
     /// Where the pattern stands at first, to within π/4, as the angle is known modulo π/2 only; rad, within ±10000 [default: π/4, so that

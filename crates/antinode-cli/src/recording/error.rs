@@ -181,9 +181,6 @@ pub enum InputError {
     )]
     NpyPipe { file: String },
 
-    /// Text of two bytes a character.
-    #[error("{file}: this is UTF-16 text; save it as UTF-8")]
-    Utf16 { file: String },
     /// A line of text is wrong.
     #[error("{file}:{place}: {fault}")]
     Line {

@@ -35,8 +35,8 @@ pub use error::{Channel, InputError};
 pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use raw::RawFormat;
-pub use source::open_file;
 use source::{Known, Opened, Source, Stream};
+pub use source::{in_utf8, open_file};
 pub use write::{OutputError, RecordingWriter, SampleFormat, WholeFile};
 
 /// The capacity given to a buffer that has none: small enough to stay in the cache.
@@ -118,8 +118,14 @@ impl Recording {
         let length = known.length;
         let is_text = matches!(known.extension.as_str(), "csv" | "tsv" | "txt")
             || options.columns.is_some() && options.raw.is_none();
-        let (content, stream) = Content::look(stream, !is_text && options.raw.is_none())
-            .map_err(|fault| InputError::io(name, fault))?;
+        let look = |stream| {
+            Content::look(stream, !is_text && options.raw.is_none())
+                .map_err(|fault| InputError::io(name, fault))
+        };
+        let (mut content, mut stream) = look(stream)?;
+        if content == Content::Utf16 && options.raw.is_none() {
+            (content, stream) = look(Box::new(in_utf8(stream)))?;
+        }
         let file = name.to_owned();
         match (content, known.extension.as_str(), options.raw) {
             (Content::Nothing, ..) => Err(InputError::Empty { file }),
@@ -133,7 +139,6 @@ impl Recording {
                 file,
                 kind: "an NPY file",
             }),
-            (Content::Utf16, ..) if is_text => Err(InputError::Utf16 { file }),
             _ if is_text || content == Content::Text => {
                 delimited::open(name, stream, options, length.is_none())
             }

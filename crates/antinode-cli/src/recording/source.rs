@@ -4,6 +4,8 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
 
+use encoding_rs_io::DecodeReaderBytesBuilder;
+
 use super::error::InputError;
 use super::gaps::Gap;
 use super::not_finite::Written;
@@ -20,6 +22,14 @@ pub fn open_file(path: &Path) -> Result<File, InputError> {
             .and_then(|_| File::open(path))
             .map_err(|fault| InputError::io(&file, fault)),
     }
+}
+
+/// Text in UTF-8, whatever its byte order mark says it is: Windows writes UTF-16, PowerShell by `>` too.
+pub fn in_utf8(text: impl Read) -> impl Read {
+    DecodeReaderBytesBuilder::new()
+        .utf8_passthru(true)
+        .strip_bom(true)
+        .build(text)
 }
 
 /// A format's way to deliver pairs.

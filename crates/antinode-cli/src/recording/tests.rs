@@ -142,9 +142,9 @@ fn content_that_is_no_recording_is_named() {
             "a.mat: neither its content nor its extension is known; give a .wav",
         ),
         (
-            "a.csv",
-            b"\xff\xfe1\0,\x002\0",
-            "a.csv: this is UTF-16 text; save it as UTF-8",
+            "a.dat",
+            b"\xff\xfeM\0A\0T\0",
+            "a.dat: neither its content nor its extension is known; give a .wav",
         ),
     ] {
         let (pairs, fault) = read(name, bytes);
@@ -152,6 +152,29 @@ fn content_that_is_no_recording_is_named() {
         let fault = fault.expect("a fault");
         assert!(fault.starts_with(expected), "{fault}");
     }
+}
+
+#[test]
+fn text_may_be_utf_16() {
+    let text = "\u{feff}# µs\nc,d\r\n0.5,-0.25\r\n0.25,x\r\n";
+    let little = text.encode_utf16().flat_map(u16::to_le_bytes);
+    let big = text.encode_utf16().flat_map(u16::to_be_bytes);
+    for bytes in [little.collect::<Vec<u8>>(), big.collect()] {
+        for name in ["a.csv", "a.dat"] {
+            let (pairs, fault) = read(name, &bytes);
+            assert_eq!(pairs[0], [0.5, -0.25]);
+            let expected =
+                format!("{name}:4:2: sample pair 1 (from 0), S_D (right): the value is `x`");
+            assert!(fault.as_ref().unwrap().starts_with(&expected), "{fault:?}");
+        }
+    }
+    // Raw samples may begin with any of them.
+    let options = OpenOptions {
+        raw: Some(RawFormat::I16),
+        ..OpenOptions::default()
+    };
+    let (pairs, fault) = read_with("a", b"\xff\xfe\0\x40", &options);
+    assert_eq!((pairs, fault), (vec![[-257.0 / 32768.0, 0.5]], None));
 }
 
 #[test]

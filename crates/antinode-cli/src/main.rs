@@ -31,7 +31,8 @@ use clap::Parser;
 use options::{Command, Options};
 
 fn main() -> ExitCode {
-    let result = match Options::parse().command {
+    // Windows leaves it to the program what `*.wav` is.
+    let result = match Options::parse_from(wild::args_os()).command {
         None => demonstration::run(),
         Some(Command::Identify(options)) => identify::run(&options),
         Some(Command::Calibrate(options)) => calibrate::run(&options),

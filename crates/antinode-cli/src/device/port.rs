@@ -1,5 +1,6 @@
 //! Serial ports, and what to do where one does not open.
 
+#[cfg(unix)]
 use std::fs;
 use std::io;
 use std::path::Path;
@@ -12,7 +13,7 @@ use crate::failure::Failure;
 /// How long a read waits for a byte before it looks around.
 const PATIENCE: Duration = Duration::from_millis(100);
 
-/// True where a path can only be a port: a character device, or what is no file at all on a system whose ports are none.
+/// True where a path can only be a port: a character device, or on Windows a name such as `COM3`, which is in no folder.
 pub fn is_port(path: &Path) -> bool {
     #[cfg(unix)]
     {
@@ -21,7 +22,11 @@ pub fn is_port(path: &Path) -> bool {
     }
     #[cfg(not(unix))]
     {
-        fs::metadata(path).is_err()
+        let name = path.to_string_lossy().to_uppercase();
+        name.starts_with(r"\\.\")
+            || name
+                .strip_prefix("COM")
+                .is_some_and(|number| number.parse::<u8>().is_ok())
     }
 }
 
@@ -43,12 +48,12 @@ pub fn open(path: &Path, baud: u32) -> Result<Box<dyn SerialPort>, Failure> {
         _ if cfg!(unix) && !is_port(path) => format!("this is no serial port; {}", ports()),
         ErrorKind::NoDevice => format!(
             "it does not open: {}; end any other program that holds it, or else: {}",
-            error.description,
+            error.description.trim_end_matches('.'),
             ports()
         ),
         _ => format!(
             "it does not open at {baud} baud: {}; check that it is a serial port, and --baud",
-            error.description
+            error.description.trim_end_matches('.')
         ),
     };
     Err(Failure::Recording(format!("{name}: {what}")))

@@ -45,20 +45,19 @@ impl Source {
             let name = "standard input".to_owned();
             return Ok(Self { name, input });
         }
-        if cfg!(unix) && !path.exists() {
-            return Err(Failure::Recording(format!(
-                "{name}: there is neither such a port nor such a file; {}",
-                port::ports()
-            )));
-        }
         if port::is_port(path) {
             let mut port = port::open(path, baud)?;
             // A line that only receives is good enough to listen.
             let _ = port.write_all(greeting);
             thread::spawn(move || read(port, &sender));
-        } else {
+        } else if path.exists() {
             let file = open_file(path)?;
             thread::spawn(move || read(file, &sender));
+        } else {
+            return Err(Failure::Recording(format!(
+                "{name}: there is neither such a port nor such a file; {}",
+                port::ports()
+            )));
         }
         Ok(Self { name, input })
     }

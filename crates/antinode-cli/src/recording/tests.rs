@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::io::{self, Cursor, Read};
+use std::path::MAIN_SEPARATOR;
 
 use proptest::prelude::*;
 
@@ -84,7 +85,7 @@ pub(super) fn read_with(
         }
         Err(fault) => (Vec::new(), Some(fault)),
     };
-    let prefix = format!("{}/", directory.path().display());
+    let prefix = format!("{}{MAIN_SEPARATOR}", directory.path().display());
     (
         pairs,
         fault.map(|fault| fault.to_string().replace(&prefix, "")),

@@ -6,6 +6,7 @@ use super::super::tests::drain;
 use super::super::{OpenOptions, Recording};
 use super::encode::{MAX_WAV_DATA, Stored};
 use std::fs::{self, File};
+use std::path::MAIN_SEPARATOR;
 
 use clap::ValueEnum;
 
@@ -35,9 +36,10 @@ fn fault(name: &str, rate: f64, sample: SampleFormat, pairs: &[[f64; 2]]) -> Str
     let directory = tempfile::tempdir().unwrap();
     let fault = write(&directory.path().join(name), rate, sample, pairs).unwrap_err();
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 0);
-    fault
-        .to_string()
-        .replace(&format!("{}/", directory.path().display()), "")
+    fault.to_string().replace(
+        &format!("{}{MAIN_SEPARATOR}", directory.path().display()),
+        "",
+    )
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //!
 //! All but those of `line` need the ARM target and QEMU, and so are run by name:
 //! `cargo test --release -p host-tests --test firmware -- --ignored`.
+#![cfg(unix)] // the emulator's serial line is a Unix socket
 
 mod commands;
 mod emulator;

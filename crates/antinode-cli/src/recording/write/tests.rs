@@ -5,7 +5,7 @@ use std::process::Command;
 use super::super::tests::drain;
 use super::super::{OpenOptions, Recording};
 use super::encode::{MAX_WAV_DATA, Stored};
-use std::fs::{self, File};
+use std::fs;
 use std::path::MAIN_SEPARATOR;
 
 use clap::ValueEnum;
@@ -218,7 +218,7 @@ fn a_link_keeps_leading_to_its_file() {
         "time,c,d\n0.0,1.0,2.0\n"
     );
     let plain = directory.path().join("plain");
-    File::create(&plain).unwrap();
+    fs::File::create(&plain).unwrap();
     let mode = |path| fs::metadata(path).unwrap().permissions().mode();
     assert_eq!(mode(&path), mode(&plain));
 }

@@ -31,7 +31,7 @@ pub struct Done {
 pub struct Origin {
     /// The data register's address.
     pub register: u32,
-    /// The request's channel on stream 0, RM0090, table 43.
+    /// The request's channel on stream 0, RM0090, 10.3.3.
     pub channel: u8,
     /// True where a pair comes as two words of 16 bits, S_C first, rather than as one of 32.
     pub by_halves: bool,

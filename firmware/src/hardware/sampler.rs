@@ -20,6 +20,9 @@ pub trait Converter {
     /// True where it gave data that nobody fetched.
     fn has_overrun(&self) -> bool;
 
+    /// Fails to compile where it cannot have [`SAMPLE_RATE`](crate::settings::SAMPLE_RATE); evaluated for an image that samples with it.
+    const RATE: ();
+
     /// The least and the greatest code.
     const RAILS: [i16; 2];
 
@@ -41,6 +44,7 @@ pub struct Sampler<C: Converter> {
 impl<C: Converter> Sampler<C> {
     /// Starts sampling.
     pub fn new(mut converter: C, mut ring: Ring, clock: PairClock) -> Self {
+        const { C::RATE };
         ring.restart();
         converter.arm();
         let taken = clock.now();

@@ -56,6 +56,15 @@ fn a_probe_flashes_and_is_told_the_chip() {
         told,
         "probe-rs run --chip STM32F405RGTx /x/stm32f405 --connect-under-reset\n"
     );
+    // One that would halt at a reset is told not to.
+    let folder = tools("newer", &["probe-rs"], "");
+    let script = "#!/bin/sh\n[ \"$*\" != 'run --help' ] || { echo ' --no-catch-reset'; exit; }\necho \"$@\"\n";
+    fs::write(folder.join("probe-rs"), script).expect("it can be written");
+    let [told, _] = texts(&run(&folder, None));
+    assert_eq!(
+        told,
+        "run --chip STM32F405RGTx --no-catch-reset /x/stm32f405 --connect-under-reset\n"
+    );
 }
 
 #[test]

@@ -47,6 +47,8 @@ pub const INBOX: usize = 256;
 pub const BAUD: u32 = 921_600;
 /// The board's crystal, MHz: 4 to 26, whole. With another one at the pins every rate is wrong, that of the line too.
 pub const CRYSTAL_MHZ: u32 = 8;
+/// Whether an oscillator drives PH0, rather than a crystal between PH0 and PH1; its frequency is `CRYSTAL_MHZ` then.
+pub const OSCILLATOR: bool = false;
 /// Without a pair for so long, ms, sampling is started anew: longer than two halves of the ring take.
 pub const STALL_MS: u32 = 20;
 /// Without a live pipeline for so long, ms, the watchdog resets the chip.

@@ -8,7 +8,7 @@ use cortex_m::peripheral::{SYST, syst::SystClkSource};
 use stm32f4xx_hal::pac::{FLASH, RCC};
 
 use crate::clocks::{CORE, HSI_MHZ, Pll, pll};
-use crate::settings::{CRYSTAL_MHZ, WATCHDOG_MS};
+use crate::settings::{CRYSTAL_MHZ, OSCILLATOR, WATCHDOG_MS};
 
 /// How long the crystal is waited for, ms: it takes some milliseconds.
 const CRYSTAL_MS: u32 = 30;
@@ -68,7 +68,8 @@ pub fn start(rcc: &RCC, flash: &FLASH) -> bool {
     });
     // CFGR: APB1 at 42 MHz, APB2 at 84 MHz, their most (RM0090, 7.2).
     rcc.cfgr().modify(|_, w| w.ppre1().div4().ppre2().div2());
-    // CR.HSEON: the crystal's oscillator.
+    // CR.HSEBYP: an oscillator instead of the crystal (RM0090, 7.2.1). CR.HSEON: on.
+    rcc.cr().modify(|_, w| w.hsebyp().bit(OSCILLATOR));
     rcc.cr().modify(|_, w| w.hseon().set_bit());
     let swings = (0..CRYSTAL_MS * LOOKS).any(|_| rcc.cr().read().hserdy().bit_is_set());
     let crystal = swings && lock(rcc, true, CRYSTAL);

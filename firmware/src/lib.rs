@@ -37,7 +37,7 @@
 //! | [`pipeline`] | both halves and the queues between them, for images and tests |
 //! | [`supervision`] | whether the pipeline lives, and why the device started |
 //! | [`methods`] | the paper's four methods beside every estimate, with the feature `methods` |
-//! | `counts`, `wav` | the interrupt's counters; where a WAV file's samples lie |
+//! | `counts`, `wav`, `clocks` | the interrupt's counters; where a WAV file's samples lie; frequencies and dividers |
 //! | `hardware` | clocks, converters, DMA, line, watchdog, log, main loop: registers by their names in RM0090 |
 //! | `replay` | the emulator's source |
 //! | `bench`, `beside`, `load`, `codes` | what is measured, and of what |
@@ -49,6 +49,7 @@
 #[cfg(test)]
 extern crate std;
 
+pub mod clocks;
 pub mod counts;
 pub mod gather;
 pub mod inbox;

@@ -1,7 +1,8 @@
-//! Everything that an owner of another gyro may want to change, in one place, with units.
+//! Everything that an owner of another gyro may want to change, in one place, with units. What cannot be does not compile, and the
+//! compiler says what could.
 
 use antinode::{Calibration, Settings};
-use antinode_telemetry::{Configuration, FrontEnd};
+use antinode_telemetry::{Configuration, FrontEnd, MAX_FRAME};
 
 /// Samples and their arithmetic: 16-bit codes, or the same codes in f32 with the feature `f32`.
 #[cfg(not(feature = "f32"))]
@@ -10,7 +11,8 @@ pub type Arithmetic = i16;
 #[cfg(feature = "f32")]
 pub type Arithmetic = f32;
 
-/// Sample pairs a second, Hz. It must divide the timers' clocks: 84 MHz for the converters of the chip, 168 MHz for the AD7380.
+/// Sample pairs a second, Hz: 1300 to 150 000, and a divisor of 21 MHz, for the converters of the chip; 2600 to 168 000, and a divisor
+/// of 168 MHz, for the AD7380. It is as exact as the crystal.
 pub const SAMPLE_RATE: u32 = 100_000;
 /// Periods a window at the start; 2 to `RING` − 2.
 pub const PERIODS: u16 = 10;
@@ -27,7 +29,7 @@ pub const CALIBRATION: Calibration = Calibration::IDEAL;
 
 /// Sample pairs of half of the DMA's ring: 1.28 ms, the time that the interrupt has for them.
 pub const HALF: usize = 128;
-/// Longest period, sample pairs.
+/// Longest period, sample pairs: 8 or more, even.
 pub const LONGEST_PERIOD: usize = 200;
 /// Blocks that the tracker holds: a window has up to two periods less.
 pub const RING: usize = 24;
@@ -35,16 +37,19 @@ pub const RING: usize = 24;
 pub const QUEUE: usize = if cfg!(feature = "methods") { 32 } else { 16 };
 /// Requests that may wait for the interrupt, and one more.
 pub const REQUESTS: usize = 4;
-/// Bytes that may wait for the line: 15 estimates of 110 bytes, 18 ms, and what goes before them.
+/// Bytes that may wait for the line: 15 estimates of 110 bytes, 18 ms, and what goes before them. Four frames and more.
 pub const OUTBOX: usize = 2048;
-/// Bytes that may wait for the main loop, and one more: two frames, 2.8 ms.
+/// Bytes that may wait for the main loop, and one more: two frames, 2.8 ms. A frame and more.
 pub const INBOX: usize = 256;
 
-/// The serial line's rate, baud, 8N1.
+/// The serial line's rate, baud, 8N1. Every estimate takes 1100 bits: 921 600 baud carry 800 a second, and what is too much is left out
+/// and counted.
 pub const BAUD: u32 = 921_600;
-/// The board's crystal, MHz: 4 to 26.
+/// The board's crystal, MHz: 4 to 26, whole. With another one at the pins every rate is wrong, that of the line too.
 pub const CRYSTAL_MHZ: u32 = 8;
-/// Without a pair for so long, ms, sampling is started anew.
+/// Whether an oscillator drives PH0, rather than a crystal between PH0 and PH1; its frequency is `CRYSTAL_MHZ` then.
+pub const OSCILLATOR: bool = false;
+/// Without a pair for so long, ms, sampling is started anew: longer than two halves of the ring take.
 pub const STALL_MS: u32 = 20;
 /// Without a live pipeline for so long, ms, the watchdog resets the chip.
 pub const WATCHDOG_MS: u32 = 250;
@@ -73,3 +78,69 @@ pub const fn configuration(front_end: FrontEnd, rails: [i16; 2]) -> Configuratio
     };
     Configuration::new(settings, front_end)
 }
+
+/// True within a range that has no exact end.
+const fn within(value: f32, [least, most]: [f32; 2]) -> bool {
+    value >= least && value <= most
+}
+
+// What `antinode::Settings::check` would refuse only on the board.
+const _: () = {
+    assert!(
+        PERIODS >= 2 && PERIODS as usize + 2 <= RING,
+        "PERIODS must be 2 to RING - 2: make RING greater for longer windows"
+    );
+    assert!(
+        !matches!(HOP, Some(0)),
+        "HOP must be None, or Some of 1 or more"
+    );
+    if let Some(frequency) = FREQUENCY {
+        let period = SAMPLE_RATE as f32 / frequency;
+        assert!(
+            within(period, [2.5, LONGEST_PERIOD as f32]),
+            "FREQUENCY must be None, or Some of SAMPLE_RATE / LONGEST_PERIOD to SAMPLE_RATE / 2.5"
+        );
+    }
+    assert!(
+        within(CALIBRATION.gain_ratio, [0.1, 10.0])
+            && within(CALIBRATION.skew, [-1e-3, 1e-3])
+            && within(CALIBRATION.pick_off_angle, [-0.3, 0.3]),
+        "CALIBRATION must have a gain_ratio of 0.1 to 10, a skew of -1e-3 to 1e-3 s, a pick_off_angle of -0.3 to 0.3 rad"
+    );
+};
+
+// Sizes and times that need each other.
+const _: () = {
+    assert!(
+        SAMPLE_RATE >= 1300 && SAMPLE_RATE <= 168_000,
+        "SAMPLE_RATE must be 1300 to 168_000"
+    );
+    assert!(
+        HALF >= 16 && HALF <= 16_000,
+        "HALF must be 16 to 16_000: the DMA counts four half-words a pair in 16 bits"
+    );
+    assert!(
+        2_000 * HALF as u64 <= STALL_MS as u64 * SAMPLE_RATE as u64,
+        "STALL_MS must be 2_000 * HALF / SAMPLE_RATE or more: pairs come by halves of the ring"
+    );
+    assert!(
+        WATCHDOG_MS >= 3 * STALL_MS,
+        "WATCHDOG_MS must be 3 * STALL_MS or more: sampling is started anew before the chip is"
+    );
+    assert!(
+        LONGEST_PERIOD >= 8 && LONGEST_PERIOD.is_multiple_of(2),
+        "LONGEST_PERIOD must be even, 8 or more"
+    );
+    assert!(
+        QUEUE >= 2 && REQUESTS >= 2,
+        "QUEUE and REQUESTS must be 2 or more"
+    );
+    assert!(
+        OUTBOX >= 4 * MAX_FRAME,
+        "OUTBOX must be 4 * MAX_FRAME or more: the hello, an answer, and an estimate beside them"
+    );
+    assert!(
+        INBOX > MAX_FRAME && INBOX < 1 << 16,
+        "INBOX must be MAX_FRAME + 1 to 65_535"
+    );
+};

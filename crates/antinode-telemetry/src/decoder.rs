@@ -35,7 +35,7 @@ impl fmt::Display for Damage {
             }
             Self::Header(header) => write!(
                 f,
-                "a frame of protocol version {}, where {PROTOCOL_VERSION} is spoken here",
+                "a frame of protocol version {}, where {PROTOCOL_VERSION} is spoken here: both ends must be of one release",
                 header / 2
             ),
             Self::Content => f.write_str("sound, but with content that is not known here"),

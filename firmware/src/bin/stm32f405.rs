@@ -70,7 +70,7 @@ mod app {
 
         let settings = configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS);
         let Ok(parts) = c.local.queues.split(c.local.places, settings, cause) else {
-            // The host's tests check the settings.
+            // Never: settings that cannot be do not compile.
             reset::restart(Cause::Unknown, line!())
         };
         let line = Line::new(device.USART1, &rcc, parts.out, parts.inbox, By::Dma);

@@ -76,7 +76,7 @@ mod app {
 
         let settings = configuration(FrontEnd::Spi, AD7380_RAILS);
         let Ok(parts) = c.local.queues.split(c.local.places, settings, cause) else {
-            // The host's tests check the settings.
+            // Never: settings that cannot be do not compile.
             reset::restart(Cause::Unknown, line!())
         };
         let line = Line::new(device.USART1, &rcc, parts.out, parts.inbox, By::Dma);
@@ -87,7 +87,7 @@ mod app {
                 (device.DMA2, c.local.memory),
                 data,
                 cs,
-                &rcc,
+                (&rcc, &device.SYSCFG),
             )
             .map_err(|_| Cause::Converter)
         } else {

@@ -14,7 +14,8 @@ use antinode::Packed;
 use stm32f4xx_hal::gpio::{Analog, PA1, PA2};
 use stm32f4xx_hal::pac::{ADC_COMMON, ADC1, ADC2, DMA2, RCC, TIM2, TIM3};
 
-use crate::hardware::clock::{self, APB1_TIMERS, APB2};
+use crate::clocks::{APB1_TIMERS, APB2};
+use crate::hardware::clock;
 use crate::hardware::pair_clock::{PairClock, Trigger};
 use crate::hardware::ring::{Memory, Origin, Ring};
 use crate::hardware::sampler::{Converter, Sampler};
@@ -25,22 +26,12 @@ use crate::settings::{DUAL_ADC_RAILS, SAMPLE_RATE};
 const TICKS: u32 = APB1_TIMERS / SAMPLE_RATE;
 /// The converters' clock, Hz: at most 36 MHz.
 const ADC_CLOCK: u32 = APB2 / 4;
+/// Ticks of TIM3 in one of the converters' clocks. A trigger that falls between two of these waits for the next.
+const ADC_TICKS: u32 = APB1_TIMERS / ADC_CLOCK;
 /// A conversion: 84 cycles of sampling, ample for the source of 10 kΩ that the chip's accuracy is given for, and 12 for the 12 bits.
-const CONVERSION: u32 = (84 + 12) * (APB1_TIMERS / ADC_CLOCK);
+const CONVERSION: u32 = (84 + 12) * ADC_TICKS;
 /// When nothing is under way, in ticks after a trigger: the conversion has ended, and the next trigger is a microsecond away.
 const QUIET: [u32; 2] = [CONVERSION + 40, TICKS.saturating_sub(84)];
-
-const _: () = {
-    assert!(
-        APB1_TIMERS.is_multiple_of(SAMPLE_RATE),
-        "TIM3 cannot divide its clock into this sample rate exactly"
-    );
-    assert!(TICKS <= 1 << 16, "the sample rate is too low for TIM3");
-    assert!(
-        QUIET[0] + 40 < QUIET[1],
-        "a conversion takes too long for this sample rate"
-    );
-};
 
 /// The two converters and their trigger.
 pub struct DualAdc {
@@ -55,6 +46,8 @@ pub type Pins = (PA1<Analog>, PA2<Analog>);
 
 impl DualAdc {
     /// Starts sampling into `memory`.
+    // Compiled for the image that calls it.
+    #[inline]
     pub fn start(
         (first, second, common): (ADC1, ADC2, ADC_COMMON),
         (timer, counter): (TIM3, TIM2),
@@ -75,7 +68,13 @@ impl DualAdc {
             common,
             timer,
         };
-        adc.configure();
+        // ARR: the period. CR2.MMS 2: the update is TIM3's TRGO.
+        #[allow(unsafe_code, reason = "the fields take any bits")]
+        // SAFETY: each value is one that RM0090 lists for its field.
+        unsafe {
+            adc.timer.arr().write(|w| w.bits(TICKS - 1));
+            adc.timer.cr2().write(|w| w.mms().bits(0b010));
+        }
         let clock = PairClock::new(counter, rcc, Trigger::Tim3);
         // CR1.CEN: the triggers begin.
         adc.timer.cr1().write(|w| w.cen().set_bit());
@@ -87,6 +86,7 @@ impl DualAdc {
         Sampler::new(adc, Ring::new(dma, memory, origin), clock)
     }
 
+    /// Sets up both converters, which are as after a reset.
     #[allow(unsafe_code, reason = "the fields take any bits")]
     fn configure(&self) {
         // SAFETY: each value is one that RM0090 lists for its field.
@@ -105,43 +105,52 @@ impl DualAdc {
             // CR1.OVRIE: an interrupt where a result is not fetched before the next.
             self.first.cr1().write(|w| w.ovrie().set_bit());
             self.second.cr1().write(|w| w.ovrie().set_bit());
-            // ARR: the period. CR2.MMS 2: the update is TIM3's TRGO.
-            self.timer.arr().write(|w| w.bits(TICKS - 1));
-            self.timer.cr2().write(|w| w.mms().bits(0b010));
         }
     }
 }
 
 impl Converter for DualAdc {
+    const RATE: () = {
+        assert!(
+            ADC_CLOCK.is_multiple_of(SAMPLE_RATE),
+            "SAMPLE_RATE must divide 21_000_000, the converters' clock, lest samples jitter: 75_000, 84_000, 100_000, 120_000, 125_000, 150_000"
+        );
+        assert!(
+            TICKS <= 1 << 16,
+            "SAMPLE_RATE must be 1300 or more: TIM3 has 16 bits"
+        );
+        assert!(
+            QUIET[0] + 40 < QUIET[1],
+            "SAMPLE_RATE must be 150_000 or less: a conversion takes 4.6 us"
+        );
+    };
     const RAILS: [i16; 2] = DUAL_ADC_RAILS;
 
-    #[allow(unsafe_code, reason = "the fields take any bits")]
+    #[allow(unsafe_code, reason = "the reset belongs to all converters")]
     fn stop(&mut self) {
-        // SAFETY: EXTEN 0: no trigger is heard. CCR.MULTI 0 and DMA 0: nothing is fetched, and both converters forget their sequence.
-        unsafe {
-            self.first.cr2().modify(|_, w| w.exten().bits(0b00));
-            self.common
-                .ccr()
-                .modify(|_, w| w.multi().bits(0).dma().bits(0).dds().clear_bit());
-        }
+        // SAFETY: after the start nothing else touches this register.
+        let reset = unsafe { RCC::steal() };
+        // APB2RSTR.ADCRST: whatever became of them, both converters and what is between them begin anew as they did at the start. An
+        // overrun leaves requests blocked and triggers unheard until DMA and converters are set up again (RM0090, 13.8.1 and 13.9).
+        reset.apb2rstr().modify(|_, w| w.adcrst().set_bit());
+        reset.apb2rstr().modify(|_, w| w.adcrst().clear_bit());
+        clock::settle();
     }
 
     #[allow(unsafe_code, reason = "the fields take any bits")]
     fn arm(&mut self) {
+        self.configure();
         // At most two periods, and for ever neither: a dead timer must not hang the interrupt.
         let _ =
             (0..4 * TICKS).any(|_| (QUIET[0]..QUIET[1]).contains(&self.timer.cnt().read().bits()));
-        // SR 0: OVR is forgotten, else DMA requests stay blocked, and EOC of a result that nobody fetched, else it asks or overruns anew.
-        self.first.sr().reset();
-        self.second.sr().reset();
         // SAFETY: each value is one that RM0090 lists for its field.
         unsafe {
             // CCR.MULTI 6: regular simultaneous mode. DMA 2: one word a pair, ADC2 in its upper half. DDS: requests go on after the
-            // DMA's last transfer, for it is circular.
+            // DMA's last transfer, for it is circular (RM0090, 13.13.16).
             self.common
                 .ccr()
                 .modify(|_, w| w.multi().bits(0b00110).dma().bits(0b10).dds().set_bit());
-            // CR2.EXTSEL 8: TIM3's TRGO. EXTEN 1: its rising edge. ADC2 has none of its own: ADC1 starts it.
+            // CR2.EXTSEL 8: TIM3's TRGO. EXTEN 1: its rising edge. ADC2 has none of its own: ADC1 starts it (RM0090, 13.9).
             self.first
                 .cr2()
                 .modify(|_, w| w.extsel().bits(0b1000).exten().bits(0b01));

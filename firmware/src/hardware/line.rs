@@ -9,27 +9,30 @@
 
 use stm32f4xx_hal::pac::{DMA2, RCC, USART1};
 
-use crate::hardware::clock::{self, APB2};
+use crate::clocks::{baud_error_ppm, usart_divider};
+use crate::hardware::clock;
 use crate::inbox::Inbox;
 use crate::link::{Outgoing, Run};
 use crate::settings::{BAUD, INBOX};
 
-/// BRR: the divider in sixteenths of 16 samples a bit, that is APB2's clock over the baud rate, rounded.
-const DIVIDER: u32 = (APB2 + BAUD / 2) / BAUD;
+/// BRR.
+const DIVIDER: u32 = usart_divider(BAUD);
 
 const _: () = {
     assert!(
         DIVIDER >= 16 && DIVIDER < 1 << 16,
-        "the baud rate is out of the USART's reach"
+        "BAUD must be 1300 to 5_250_000"
     );
-    let error = (APB2 / DIVIDER).abs_diff(BAUD);
-    assert!(error < BAUD / 100, "the baud rate is more than 1 % off");
+    assert!(
+        baud_error_ppm(BAUD) < 10_000,
+        "BAUD must be within 1 % of 84 MHz over a whole number, such as 115_200, 460_800, 921_600, 1_000_000 or 3_000_000"
+    );
 };
 
 /// How bytes leave and arrive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum By {
-    /// Streams 7 and 5 of DMA2, channel 4 (RM0090, table 43).
+    /// Streams 7 and 5 of DMA2, channel 4 (RM0090, 10.3.3).
     Dma,
     /// One after the other: the emulator has no DMA, its USART takes a byte at once, and keeps one until it is read.
     Hand,
@@ -161,14 +164,15 @@ fn receive(inbox: &'static Inbox, register: u32) {
             .m0ar()
             .write(|w| w.bits(inbox.places().as_ptr() as u32));
         stream.ndtr().write(|w| w.bits(INBOX as u32));
-        // CHSEL 4: USART1_RX. DIR 0: from the peripheral. MINC, CIRC: along the ring, round and round, byte by byte. EN: on.
+        // CHSEL 4: USART1_RX. DIR 0: from the peripheral. MINC, CIRC: along the ring, round and round, byte by byte.
         stream.cr().write(|w| {
             w.chsel().bits(4);
             w.minc().set_bit();
-            w.circ().set_bit();
-            w.en().set_bit()
+            w.circ().set_bit()
         });
     }
+    // EN: on, once all else stands (RM0090, 10.3.17).
+    stream.cr().modify(|_, w| w.en().set_bit());
 }
 
 /// Starts stream 7 on a run.
@@ -182,14 +186,15 @@ fn send(run: &Run<'static>, register: u32) {
         stream.par().write(|w| w.bits(register));
         stream.m0ar().write(|w| w.bits(run.as_ptr() as u32));
         stream.ndtr().write(|w| w.bits(run.len() as u32));
-        // CHSEL 4: USART1_TX. DIR 1: to the peripheral. MINC: along the run, byte by byte. TCIE, TEIE: interrupts at the end. EN: on.
+        // CHSEL 4: USART1_TX. DIR 1: to the peripheral. MINC: along the run, byte by byte. TCIE, TEIE: interrupts at the end.
         stream.cr().write(|w| {
             w.chsel().bits(4);
             w.dir().bits(0b01);
             w.minc().set_bit();
             w.tcie().set_bit();
-            w.teie().set_bit();
-            w.en().set_bit()
+            w.teie().set_bit()
         });
     }
+    // EN: on.
+    stream.cr().modify(|_, w| w.en().set_bit());
 }

@@ -7,7 +7,9 @@ use stm32f4xx_hal::pac::Interrupt;
 
 use super::watchdog::Watchdog;
 use super::{clock, log, reset};
+use crate::clocks::CORE;
 use crate::instrument::Instrument;
+use crate::settings::BAUD;
 
 /// Lets the instrument work, feeds the watchdog while the pipeline lives, and sleeps from interrupt to interrupt.
 pub fn run<S: Sample>(instrument: &mut Instrument<'_, S>, watchdog: &mut Watchdog) -> ! {
@@ -20,8 +22,8 @@ pub fn run<S: Sample>(instrument: &mut Instrument<'_, S>, watchdog: &mut Watchdo
             NVIC::pend(Interrupt::DMA2_STREAM0);
         }
         if instrument.wants_restart() {
-            // The last bytes are still in the USART.
-            cortex_m::asm::delay(clock::CORE / 1000);
+            // The last two bytes are still in the USART, of ten bits each.
+            cortex_m::asm::delay(20 * (CORE / BAUD + 1));
             reset::restart(Cause::Command, 0);
         }
         cortex_m::asm::wfi();

@@ -4,7 +4,7 @@ use stm32f4xx_hal::pac::{RCC, TIM2};
 
 use crate::hardware::clock;
 
-/// The timer whose update is the sampling trigger, as TIM2's internal trigger input (RM0090, table 97).
+/// The timer whose update is the sampling trigger, as TIM2's internal trigger input (RM0090, 18.4.3).
 #[derive(Debug, Clone, Copy)]
 pub enum Trigger {
     /// ITR0. An update counts once though TIM1 has twice TIM2's clock, as in ST's example TIM_Synchronization for the STM32F407.

@@ -31,7 +31,7 @@ pub struct Done {
 pub struct Origin {
     /// The data register's address.
     pub register: u32,
-    /// The request's channel on stream 0, RM0090, table 43.
+    /// The request's channel on stream 0, RM0090, 10.3.3.
     pub channel: u8,
     /// True where a pair comes as two words of 16 bits, S_C first, rather than as one of 32.
     pub by_halves: bool,
@@ -57,12 +57,18 @@ impl Ring {
         }
     }
 
-    /// Stops the stream, and starts it at the ring's first word.
-    pub fn restart(&mut self) {
+    /// Stops the stream; only then may what it fetches from be switched off (RM0090, 10.3.17).
+    pub fn stop(&mut self) {
         let stream = self.dma.st(0);
         // CR.EN: off; it reads as on until the transfer under way has ended, within some bus cycles.
         stream.cr().modify(|_, w| w.en().clear_bit());
         let _ = (0..1000).any(|_| stream.cr().read().en().bit_is_clear());
+    }
+
+    /// Starts the stopped stream at the ring's first word.
+    pub fn start(&mut self) {
+        let stream = self.dma.st(0);
+        // With flags left it could not be switched on.
         self.done();
         let transfers = if self.origin.by_halves {
             4 * HALF

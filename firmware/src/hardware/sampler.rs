@@ -10,7 +10,7 @@ use crate::settings::HALF;
 
 /// A converter that follows a timer.
 pub trait Converter {
-    /// Makes it give no more data.
+    /// Makes it give no more data, after the ring was stopped.
     fn stop(&mut self);
 
     /// Makes it give data from the next trigger on, after the ring was started. It returns between that trigger and the one before,
@@ -19,6 +19,9 @@ pub trait Converter {
 
     /// True where it gave data that nobody fetched.
     fn has_overrun(&self) -> bool;
+
+    /// Fails to compile where it cannot have [`SAMPLE_RATE`](crate::settings::SAMPLE_RATE); evaluated for an image that samples with it.
+    const RATE: ();
 
     /// The least and the greatest code.
     const RAILS: [i16; 2];
@@ -41,7 +44,8 @@ pub struct Sampler<C: Converter> {
 impl<C: Converter> Sampler<C> {
     /// Starts sampling.
     pub fn new(mut converter: C, mut ring: Ring, clock: PairClock) -> Self {
-        ring.restart();
+        const { C::RATE };
+        ring.start();
         converter.arm();
         let taken = clock.now();
         Self {
@@ -91,8 +95,9 @@ impl<C: Converter> Source for Sampler<C> {
 
     #[cold]
     fn restart(&mut self, cause: Cause) -> Lapse {
+        self.ring.stop();
         self.converter.stop();
-        self.ring.restart();
+        self.ring.start();
         self.converter.arm();
         let now = self.clock.now();
         let lost = now.wrapping_sub(self.taken);

@@ -22,9 +22,10 @@ use antinode::Packed;
 use embedded_hal::delay::DelayNs;
 use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
 use stm32f4xx_hal::gpio::{Alternate, Output, PA5, PA6, PA7, PA8};
-use stm32f4xx_hal::pac::{DMA2, RCC, SPI1, TIM1, TIM2};
+use stm32f4xx_hal::pac::{DMA2, RCC, SPI1, SYSCFG, TIM1, TIM2};
 
-use crate::hardware::clock::{self, APB2, APB2_TIMERS, CORE};
+use crate::clocks::{APB2, APB2_TIMERS, CORE};
+use crate::hardware::clock;
 use crate::hardware::pair_clock::{PairClock, Trigger};
 use crate::hardware::ring::{Memory, Origin, Ring};
 use crate::hardware::sampler::{Converter, Sampler};
@@ -42,25 +43,6 @@ const RISES: u32 =
     WRITES[0] + ad7380::timing::FRAME_CLOCKS * (APB2_TIMERS / SCLK) + APB2_TIMERS / 2_000_000;
 /// When nothing is under way, in ticks.
 const QUIET: [u32; 2] = [RISES + 84, TICKS.saturating_sub(168)];
-
-const _: () = {
-    assert!(
-        APB2_TIMERS.is_multiple_of(SAMPLE_RATE),
-        "TIM1 cannot divide its clock into this sample rate exactly"
-    );
-    assert!(TICKS <= 1 << 16, "the sample rate is too low for TIM1");
-    assert!(
-        QUIET[0] + 84 < QUIET[1],
-        "a frame takes too long for this sample rate"
-    );
-    match ad7380::timing::min_sclk_hz(SAMPLE_RATE) {
-        Some(least) => assert!(
-            SCLK > least,
-            "the SPI clock is too slow for this sample rate"
-        ),
-        None => panic!("the AD7380 has no such sample rate"),
-    }
-};
 
 /// What the DMA sends: the chip's no-operation.
 static ZERO: u16 = 0;
@@ -83,19 +65,24 @@ impl SpiAdc {
     /// # Errors
     ///
     /// Those of [`Ad7380::new`].
+    // Compiled for the image that calls it.
+    #[inline]
     pub fn start(
         spi: SPI1,
         (timer, counter): (TIM1, TIM2),
         (dma, memory): (DMA2, &'static mut Memory),
         _: Pins,
         mut cs: PA8<Output>,
-        rcc: &RCC,
+        (rcc, system): (&RCC, &SYSCFG),
     ) -> Result<Sampler<Self>, StartError> {
         // AHB1ENR, APB2ENR: the clocks of all of them.
         rcc.ahb1enr().modify(|_, w| w.dma2en().set_bit());
         rcc.apb2enr()
-            .modify(|_, w| w.spi1en().set_bit().tim1en().set_bit());
+            .modify(|_, w| w.spi1en().set_bit().tim1en().set_bit().syscfgen().set_bit());
         clock::settle();
+        // CMPCR.CMP_PD: on, so that fast pins make less noise on the supply (RM0090, 9.1).
+        // SAFETY: a register whose bit 0 is to be written, which the crate's description of the chip has left out.
+        unsafe { system.cmpcr().as_ptr().write_volatile(1) };
         cs.set_high();
         // CR1: master, CPOL 1 and CPHA 0 (the chip's mode 2), BR 2: APB2 over 8. SSM, SSI: CS is ours. DFF 0: bytes.
         spi.cr1().write(|w| {
@@ -131,7 +118,7 @@ impl SpiAdc {
         self.spi
             .cr1()
             .modify(|_, w| w.dff().set_bit().spe().set_bit());
-        // Streams 2 and 6, channel 6: TIM1's compare events 2 and 3 (RM0090, table 43).
+        // Streams 2 and 6, channel 6: TIM1's compare events 2 and 3 (RM0090, 10.3.3).
         for stream in [dma.st(2), dma.st(6)] {
             // SAFETY: one half-word again and again from a static to the SPI's data register.
             unsafe {
@@ -177,6 +164,24 @@ impl SpiAdc {
 }
 
 impl Converter for SpiAdc {
+    const RATE: () = {
+        assert!(
+            APB2_TIMERS.is_multiple_of(SAMPLE_RATE),
+            "SAMPLE_RATE must divide 168_000_000, TIM1's clock: 80_000, 96_000, 100_000, 112_000, 120_000, 125_000, 150_000"
+        );
+        assert!(
+            TICKS <= 1 << 16,
+            "SAMPLE_RATE must be 2600 or more: TIM1 has 16 bits"
+        );
+        assert!(
+            QUIET[0] + 84 < QUIET[1],
+            "SAMPLE_RATE must be 168_000 or less: a frame takes 3.8 us"
+        );
+        match ad7380::timing::min_sclk_hz(SAMPLE_RATE) {
+            Some(least) => assert!(SCLK > least, "SAMPLE_RATE is too high for SCLK"),
+            None => panic!("SAMPLE_RATE is beyond the AD7380"),
+        }
+    };
     const RAILS: [i16; 2] = AD7380_RAILS;
 
     fn stop(&mut self) {

@@ -10,7 +10,7 @@ use crate::settings::WATCHDOG_MS;
 const RELOAD: u16 = WATCHDOG_MS as u16;
 const _: () = assert!(
     WATCHDOG_MS > 0 && WATCHDOG_MS < 1 << 12,
-    "the watchdog waits 1 to 4095 ms"
+    "WATCHDOG_MS must be 1 to 4095"
 );
 
 /// Looks at its status before it is fed unready, some 12 ms at the start's 16 MHz. Its registers take five or six cycles of its

@@ -16,7 +16,7 @@ pub struct Layout {
 
 /// The reference at one sample of a block, times the scale where there is one.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Reference {
+pub struct Reference {
     pub cosine: f32,
     pub sine: f32,
     pub third_cosine: f32,

@@ -9,6 +9,7 @@ mod runs;
 mod sums;
 
 pub use layout::Layout;
+pub(crate) use layout::Reference;
 pub use runs::Runs;
 pub use sums::{ChannelSums, ChannelWatch};
 
@@ -52,8 +53,7 @@ struct Summing<S: Sample, const N: usize> {
     /// How much of the tables is made: they grow with the first block, so that no sample waits for all of them.
     known: u16,
     block: Block<S>,
-    table: [S::Weight; N],
-    third: [S::Third; N],
+    weights: S::Weights<N>,
 }
 
 impl<S: Sample, const N: usize> Demodulator<S, N> {
@@ -78,8 +78,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
                     sums: [ChannelSums::empty(); 2],
                     watch: None,
                 },
-                table: [S::Weight::ZERO; N],
-                third: [S::Third::ZERO; N],
+                weights: S::Weights::ZERO,
             },
         }
     }
@@ -186,7 +185,7 @@ impl<S: Sample, const N: usize> Summing<S, N> {
         }
         let index = index as u16;
         let Block { sums, watch, .. } = &mut self.block;
-        S::add_slice(sums, watch, pairs, (&self.table, &self.third), index);
+        S::add_slice(sums, watch, pairs, &self.weights, index);
         (pairs.len(), count == length)
     }
 
@@ -216,10 +215,7 @@ impl<S: Sample, const N: usize> Summing<S, N> {
     fn extend_table(&mut self) {
         for index in self.known..self.count {
             let reference = self.block.layout.reference(index);
-            let index = usize::from(index);
-            S::set_weight(&mut self.table, index, [reference.cosine, reference.sine]);
-            let third = [reference.third_cosine, reference.third_sine];
-            S::set_third(&mut self.third, index, third);
+            S::set_weights(&mut self.weights, usize::from(index), reference);
         }
         self.known = self.count;
     }

@@ -145,7 +145,6 @@ impl<S: Sample, const N: usize> Front<S, N> {
     }
 
     /// Apart from the rest: only here a detector is on the stack.
-    #[cold]
     #[inline(never)]
     fn replace_detector(&mut self, detection: Detection) {
         self.detector = Detector::new(detection);

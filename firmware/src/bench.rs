@@ -4,7 +4,7 @@
 
 use core::hint::black_box;
 
-use antinode::block::{Demodulator, Layout};
+use antinode::block::Demodulator;
 use antinode::phase::PhaseStep;
 use antinode::{Front, Identifier, Packed, Sample, SamplePair, Settings, Tracker};
 
@@ -21,8 +21,7 @@ pub(crate) const HALF_BUFFER: usize = 128;
 
 pub(crate) fn demodulator<S: Sample>(watch: bool) -> Demodulator<S, 200> {
     // Two periods, as those of a window of 10.
-    let layout = Layout::new::<S>(PhaseStep::from_period(PERIOD), 38);
-    Demodulator::new(layout, 0, watch)
+    Demodulator::new(PhaseStep::from_period(PERIOD), 38, 0, watch)
 }
 
 /// Block sums from half-buffers, with or without the watch.

@@ -2,7 +2,6 @@
 
 use crate::block::Layout;
 use crate::order::lesser;
-use crate::phase::PhaseStep;
 
 /// Blocks that a window is cut into at least: regression over K blocks keeps all but 1/K² of what its samples know of frequency.
 const BLOCKS_A_WINDOW: f32 = 5.0;
@@ -25,9 +24,9 @@ pub(crate) struct Cut {
 }
 
 impl Cut {
-    /// The blocks for a wave of `period` samples: two periods each, or a fifth of a window where that is less; where there is a hop,
-    /// half of it, so that windows move in finer steps. At most `most` pairs. The scale is that of f32: a demodulator puts in its own.
-    pub(crate) fn layout(self, period: f32, most: u16) -> Layout {
+    /// Sample pairs of a block for a wave of `period` samples: two periods, or a fifth of a window where that is less; where there is a
+    /// hop, half of it, so that windows move in finer steps. At most `most`.
+    pub(crate) fn length(self, period: f32, most: u16) -> u16 {
         let window = period * f32::from(self.periods);
         let longest = lesser(LONGEST_BLOCK * period, window / BLOCKS_A_WINDOW);
         let length = if self.has_hop {
@@ -38,8 +37,7 @@ impl Cut {
             // Samples are summed in twos.
             2 * rounded(0.5 * longest)
         };
-        let length = self.fitting(window, length.max(1));
-        Layout::new::<f32>(PhaseStep::from_period(period), length.min(most).max(1))
+        self.fitting(window, length.max(1)).min(most).max(1)
     }
 
     /// The length from `length` down to half of it that brings whole blocks near enough to `window` samples.
@@ -92,6 +90,7 @@ fn rounded(x: f32) -> u16 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::phase::PhaseStep;
 
     #[test]
     fn windows_fit_the_smallest_ring_that_is_accepted() {
@@ -101,7 +100,8 @@ mod tests {
                 for i in 0..400 {
                     // 2.5 to 200 samples a period.
                     let period = 2.5 * libm::powf(200.0 / 2.5, i as f32 / 400.0);
-                    let layout = cut.layout(period, 200);
+                    let length = cut.length(period, 200);
+                    let layout = Layout::unrounded(PhaseStep::from_period(period), length);
                     let blocks = cut.blocks(layout);
                     let samples = f32::from(blocks) * f32::from(layout.length);
                     let window = period * f32::from(periods);

@@ -5,6 +5,7 @@ use crate::cut::Cut;
 use crate::period::DifferenceDetector;
 #[cfg(feature = "mean-return")]
 use crate::period::MeanReturnDetector;
+use crate::phase::PhaseStep;
 use crate::sample::{Sample, SamplePair};
 use crate::settings::{Detection, Settings, SettingsError};
 
@@ -227,8 +228,9 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Begins blocks for a wave of `period` samples.
     #[inline(never)]
     fn begin(&mut self, period: f32) {
-        let layout = self.cut.layout(period, N as u16);
-        self.demodulator.begin(layout, self.index);
+        let length = self.cut.length(period, N as u16);
+        self.demodulator
+            .begin(PhaseStep::from_period(period), length, self.index);
         self.stage = Stage::Gathering;
     }
 
@@ -255,7 +257,6 @@ impl<S: Sample, const N: usize> Front<S, N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::phase::PhaseStep;
 
     #[test]
     fn without_settings_nothing_is_found_and_with_them_it_is_as_new() {

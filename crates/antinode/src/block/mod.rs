@@ -13,6 +13,7 @@ pub(crate) use layout::Reference;
 pub use runs::Runs;
 pub use sums::{ChannelSums, ChannelWatch};
 
+use crate::phase::PhaseStep;
 use crate::sample::{Sample, SamplePair, Zero};
 
 /// One sample pair in f32: pick-offs S_C and S_D, sampled together, in input units.
@@ -74,7 +75,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
                 known: 0,
                 block: Block {
                     start: 0,
-                    layout: Layout::NONE,
+                    layout: Layout::unrounded(PhaseStep(0), 0),
                     sums: [ChannelSums::empty(); 2],
                     watch: None,
                 },
@@ -83,13 +84,13 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         }
     }
 
-    /// A demodulator whose first block starts at sample pair `start` of the stream, and which watches the samples or does not.
+    /// A demodulator for blocks of `length` pairs about the frequency `step`, which watches the samples or does not.
     ///
-    /// A length beyond 1…`N` is brought into it; the scale is that of `S`.
-    pub fn new(layout: Layout, start: u64, watch: bool) -> Self {
+    /// Its first block starts at sample pair `start` of the stream. A length beyond 1…`N` is brought into it.
+    pub fn new(step: PhaseStep, length: u16, start: u64, watch: bool) -> Self {
         let mut demodulator = Self::unset();
         demodulator.set_watch(watch);
-        demodulator.begin(layout, start);
+        demodulator.begin(step, length, start);
         demodulator
     }
 
@@ -144,10 +145,14 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         is_full.then_some(&self.summing.block)
     }
 
-    /// Begins anew, with blocks of another layout from sample pair `start` of the stream on.
-    pub(crate) fn begin(&mut self, layout: Layout, start: u64) {
-        let length = layout.length.clamp(1, N as u16);
-        self.summing.block.layout = Layout::new::<S>(layout.step, length);
+    /// Begins anew, with blocks of another frequency and length from sample pair `start` of the stream on.
+    pub(crate) fn begin(&mut self, step: PhaseStep, length: u16, start: u64) {
+        let length = length.clamp(1, N as u16);
+        self.summing.block.layout = Layout {
+            step,
+            length,
+            scale: S::scale(length),
+        };
         self.summing.known = 0;
         self.restart(start);
     }

@@ -62,7 +62,7 @@ pub struct Settings {
     /// The least and the greatest sample that the converter gives, input units: at or beyond them a window is flagged as clipped.
     /// `None` where they are not known. A signed converter of 12 bits, taken as codes, has −2048 and 2047.
     pub rails: Option<[f32; 2]>,
-    /// Step between neighbouring codes of the converter, input units, > 0, where it is known: of codes it is 1. A signal with less noise
+    /// Step between neighbouring codes of the converter, input units, > 0, where it is known: 1 of codes. A signal with less noise
     /// than a step has errors that repeat with it and do not average: with this they count in the standard deviations.
     pub resolution: Option<f32>,
     /// The wave's frequency in Hz, where it is known within 5 %: no period is searched, and the first window begins with the first

@@ -59,10 +59,11 @@ pub enum Form {
 /// | type | for | sums of a block |
 /// |---|---|---|
 /// | `f32` | any input unit | f32 |
-/// | `i16` | converter codes of up to 16 bits | i32, reference weights as large as cannot overflow |
-/// | `i32` | converter codes of up to 32 bits | i64 |
+/// | `i16` | signed codes of up to 16 bits | i32, reference weights as large as cannot overflow |
+/// | `i32` | signed codes of up to 32 bits | i64 |
 ///
-/// With integers the input unit is the code. All three reach the same accuracy: the reference's own rounding is part of the
+/// With integers the input unit is the code; 24 bits in the upper ones of 32, as audio converters send them, are codes in steps of 256,
+/// which [`Settings::resolution`](crate::Settings::resolution) tells. All three reach the same accuracy: the reference's own rounding is part of the
 /// window's equations. Integers need no floating point at sample rate once the period is known.
 ///
 /// No other type can be one: what the core does with them has no public path.
@@ -80,9 +81,11 @@ impl Sample for i32 {}
 /// | `i16` | `[i16; 2]`, `[I1F15; 2]`, [`Packed`], `u32` |
 /// | `i32` | `[i32; 2]`, `[i16; 2]`, `[u16; 2]`, `[I1F31; 2]`, [`Packed`], `u32` |
 ///
-/// A `u32` is what a [`Packed`] holds: a DMA's buffer of words is taken as it is.
+/// A `u32` is what a [`Packed`] holds: a DMA's buffer of words is taken as it is. A buffer of samples in turn, C, D, C, D, becomes pairs by
+/// `as_chunks::<2>().0`.
 ///
-/// No other type can be one. `I1F15` and `I1F31` are those of the crate `fixed`, with the feature of that name; a unit of the estimates is then 2⁻¹⁵ or 2⁻³¹.
+/// No other type can be one. `I1F15` and `I1F31` are those of the crate `fixed`, with the feature of that name; a unit of the estimates
+/// is then 2⁻¹⁵ or 2⁻³¹.
 pub trait SamplePair<S>: Copy + sealed::Pair {
     /// S_C and S_D.
     fn pair(self) -> [S; 2];

@@ -58,9 +58,9 @@ enum Stage {
 /// The sample-rate half of an identification on samples of type `S`, for blocks of up to `N` sample pairs:
 /// [its place in firmware](crate#on-a-microcontroller).
 ///
-/// `N` is even, 2 to 65 534, and bounds the period: 200 is for all that is searched, 40 for waves of 4 to 40 samples a period, more for
-/// slower ones whose frequency is known. Blocks are two periods long where they have room; above `N`/2 samples a period they are shorter,
-/// more of them make a window, and one may be up to a tenth off the length asked.
+/// `N` is even, 2 to 65 534, and is the longest period too: 200 for every wave that can be searched, 40 where a period has no more than 40
+/// samples, more for a slower wave whose frequency is known. Where two periods are more than `N` pairs a block is shorter than that, and
+/// a window may be up to a tenth off the length asked.
 #[derive(Debug, Clone)]
 pub struct Front<S: Sample, const N: usize> {
     cut: Cut,

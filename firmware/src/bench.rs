@@ -5,6 +5,7 @@
 use core::hint::black_box;
 
 use antinode::block::Demodulator;
+use antinode::phase::PhaseStep;
 use antinode::{Front, Identifier, Packed, Sample, SamplePair, Settings, Tracker};
 
 use crate::codes::{Codes, PERIOD};
@@ -19,8 +20,8 @@ const LONGEST_OF: usize = 2_000;
 pub(crate) const HALF_BUFFER: usize = 128;
 
 pub(crate) fn demodulator<S: Sample>(watch: bool) -> Demodulator<S, 200> {
-    // The blocks of a window of 10 periods.
-    Demodulator::new(Settings::new(100_000.0).layout(PERIOD, 200), 0, watch)
+    // Two periods, as those of a window of 10.
+    Demodulator::new(PhaseStep::from_period(PERIOD), 38, 0, watch)
 }
 
 /// Block sums from half-buffers, with or without the watch.

@@ -4,7 +4,7 @@
 //! The offsets and the delay that the sums need are those of the last estimate. Samples are taken as they come: a calibration other
 //! than the ideal one excludes the methods.
 
-use antinode::block::{Demodulator, Layout};
+use antinode::block::Demodulator;
 use antinode::methods::comparison::{Reference, Sums, compare};
 use antinode::methods::{Delayed, DelayedSums, MomentSums, Moments, Products, algorithm2};
 use antinode::phase::PhaseStep;
@@ -128,7 +128,7 @@ impl<S: Sample> Running<S> {
             tuning,
             moments: MomentSums::new(tuning.offsets),
             delayed: DelayedSums::new(tuning.lag, tuning.offsets),
-            demodulator: Demodulator::new(Layout::new::<S>(tuning.step, length), start, false),
+            demodulator: Demodulator::new(tuning.step, length, start, false),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Every arithmetic of the core on converter codes: error over the bound with the quantisation noise counted in, overflow, faults.
 
-use antinode::block::{Demodulator, Layout};
+use antinode::block::Demodulator;
 use antinode::period::DifferenceDetector;
 use antinode::phase::PhaseStep;
 use antinode::{Estimate, Flags, Packed, Sample, SamplePair, Settings};
@@ -110,8 +110,8 @@ fn sums_at_full_scale<S: Sample>(length: u16, least: S, most: S) -> [[f64; 3]; 2
 where
     [S; 2]: SamplePair<S>,
 {
-    let layout = Layout::new::<S>(PhaseStep::from_period(f32::from(length.max(4))), length);
-    let mut demodulator = Demodulator::<S, 256>::new(layout, 0, true);
+    let step = PhaseStep::from_period(f32::from(length.max(4)));
+    let mut demodulator = Demodulator::<S, 256>::new(step, length, 0, true);
     let middle = f64::from(length - 1) / 2.0;
     let mut block = None;
     for k in 0..length {
@@ -124,7 +124,7 @@ where
     let block = block.expect("the block is whole");
     block.sums.map(|sums| {
         [sums.cosine, sums.sine, sums.sum]
-            .map(|sum| f64::from(S::sum_to_f32(sum)) / f64::from(layout.scale.max(1)))
+            .map(|sum| f64::from(S::sum_to_f32(sum)) / f64::from(block.layout.scale.max(1)))
     })
 }
 
@@ -149,8 +149,8 @@ fn nothing_overflows_at_full_scale() {
             }
         }
         // All samples at the rail: the plain sum is at its bound.
-        let layout = Layout::new::<i16>(PhaseStep::from_period(20.0), length);
-        let mut demodulator = Demodulator::<i16, 256>::new(layout, 0, false);
+        let step = PhaseStep::from_period(20.0);
+        let mut demodulator = Demodulator::<i16, 256>::new(step, length, 0, false);
         let rail = vec![Packed(0x8000_8000); usize::from(length)];
         let (_, block) = demodulator.push_slice(&rail);
         let sums = block.expect("the block is whole").sums;
@@ -160,19 +160,19 @@ fn nothing_overflows_at_full_scale() {
 
 #[test]
 fn packed_codes_and_single_words_give_the_same_blocks() {
-    let layout = Layout::new::<i16>(PhaseStep::from_period(18.75), 19);
+    let step = PhaseStep::from_period(18.75);
     let pairs: Vec<[i16; 2]> = (0..2_000)
         .map(|k: i32| [(k * 7_919) as i16, (k * 104_729) as i16])
         .collect();
     let packed: Vec<Packed> = pairs.iter().map(|&pair| pair.into()).collect();
-    let mut single = Demodulator::<i16, 64>::new(layout, 0, true);
+    let mut single = Demodulator::<i16, 64>::new(step, 19, 0, true);
     let expected: Vec<_> = pairs
         .iter()
         .filter_map(|&pair| single.push(pair).copied())
         .collect();
     // Cut at every length, so that slices begin at even and at odd samples, mixed with single pushes.
     for cut in 1..40 {
-        let mut mixed = Demodulator::<i16, 64>::new(layout, 0, true);
+        let mut mixed = Demodulator::<i16, 64>::new(step, 19, 0, true);
         let mut found = Vec::new();
         for (i, part) in packed.chunks(cut).enumerate() {
             if i % 3 == 2 {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use antinode::block::{Demodulator, Layout};
+use antinode::block::Demodulator;
 use antinode::methods::{
     Delayed, DelayedSums, MomentSums, Moments, Products, Wave as Found, algorithm1, algorithm3,
     algorithm4, exact, frequency, functional, phase,
@@ -171,9 +171,9 @@ fn streaming_sums_are_those_of_the_slice() {
         .iter()
         .map(|p| [p[0] + offsets[0], p[1] + offsets[1]])
         .collect();
-    let layout = Layout::new::<f32>(PhaseStep::from_period(18.754_688), length);
+    let step = PhaseStep::from_period(18.754_688);
     let mut blocks = Vec::new();
-    let mut demodulator = Demodulator::<f32, 64>::new(layout, 0, true);
+    let mut demodulator = Demodulator::<f32, 64>::new(step, length, 0, true);
     let mut moment_sums = MomentSums::new(offsets);
     let mut delayed_sums = DelayedSums::<50>::new(5, offsets);
     let (mut moments, mut delayed) = (
@@ -235,8 +235,7 @@ fn streaming_sums_are_those_of_the_slice() {
 fn products_of_codes_know_how_the_reference_was_rounded() {
     let step = PhaseStep::from_period(18.754);
     for length in [5, 19, 38, 75] {
-        let mut demodulator =
-            Demodulator::<i16, 200>::new(Layout::new::<i16>(step, length), 0, false);
+        let mut demodulator = Demodulator::<i16, 200>::new(step, length, 0, false);
         let wave =
             |k: usize, phase: f64| (1500.0 * (0.335 * k as f64 + phase).sin()).round() as i16;
         // At mid-scale, as a converter without a sign gives them.

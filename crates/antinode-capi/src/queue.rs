@@ -134,7 +134,7 @@ mod tests {
     use core::cell::Cell;
 
     use super::*;
-    use antinode::block::{Demodulator, Layout};
+    use antinode::block::Demodulator;
     use antinode::phase::PhaseStep;
 
     struct Shared(Queue<f32>);
@@ -144,8 +144,8 @@ mod tests {
 
     /// A block that begins at `start`.
     fn block(start: u32) -> Block<f32> {
-        let layout = Layout::new::<f32>(PhaseStep::from_period(4.0), 1);
-        let mut demodulator = Demodulator::<f32, 2>::new(layout, u64::from(start), false);
+        let step = PhaseStep::from_period(4.0);
+        let mut demodulator = Demodulator::<f32, 2>::new(step, 1, u64::from(start), false);
         *demodulator.push([0.0; 2]).unwrap()
     }
 

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use std::time::SystemTime;
 use std::{env, fs};
 
-use antinode::block::{Demodulator, Layout};
+use antinode::block::Demodulator;
 use antinode::phase::PhaseStep;
 use antinode::{Front, Identifier, Sample, SamplePair, Settings};
 use antinode_sim::{Flaws, Gyro, Wave};
@@ -76,7 +76,7 @@ fn idsp_sums(group: &mut Group, codes: &[Code]) {
 
 fn demodulator<S: Sample>(watch: bool) -> Demodulator<S, 200> {
     let step = PhaseStep::from_period((RATE / FREQUENCY) as f32);
-    Demodulator::new(Layout::new::<S>(step, 19), 0, watch)
+    Demodulator::new(step, 19, 0, watch)
 }
 
 /// The stages of the core in one arithmetic.

@@ -2,7 +2,6 @@
 
 use crate::block::Layout;
 use crate::order::lesser;
-use crate::phase::PhaseStep;
 
 /// Blocks that a window is cut into at least: regression over K blocks keeps all but 1/K² of what its samples know of frequency.
 const BLOCKS_A_WINDOW: f32 = 5.0;
@@ -25,8 +24,9 @@ pub(crate) struct Cut {
 }
 
 impl Cut {
-    /// As [`Settings::layout`](crate::Settings::layout).
-    pub(crate) fn layout(self, period: f32, most: u16) -> Layout {
+    /// Sample pairs of a block for a wave of `period` samples: two periods, or a fifth of a window where that is less; where there is a
+    /// hop, half of it, so that windows move in finer steps. At most `most`.
+    pub(crate) fn length(self, period: f32, most: u16) -> u16 {
         let window = period * f32::from(self.periods);
         let longest = lesser(LONGEST_BLOCK * period, window / BLOCKS_A_WINDOW);
         let length = if self.has_hop {
@@ -37,8 +37,7 @@ impl Cut {
             // Samples are summed in twos.
             2 * rounded(0.5 * longest)
         };
-        let length = self.fitting(window, length.max(1));
-        Layout::new::<f32>(PhaseStep::from_period(period), length.min(most).max(1))
+        self.fitting(window, length.max(1)).min(most).max(1)
     }
 
     /// The length from `length` down to half of it that brings whole blocks near enough to `window` samples.
@@ -91,22 +90,19 @@ fn rounded(x: f32) -> u16 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::settings::Settings;
+    use crate::phase::PhaseStep;
 
     #[test]
     fn windows_fit_the_smallest_ring_that_is_accepted() {
-        for hop in [None, Some(1)] {
+        for has_hop in [false, true] {
             for periods in 2..=100u16 {
-                let settings = Settings {
-                    periods,
-                    hop,
-                    ..Settings::new(1e5)
-                };
+                let cut = Cut { periods, has_hop };
                 for i in 0..400 {
                     // 2.5 to 200 samples a period.
                     let period = 2.5 * libm::powf(200.0 / 2.5, i as f32 / 400.0);
-                    let layout = settings.layout(period, 200);
-                    let blocks = settings.blocks(layout);
+                    let length = cut.length(period, 200);
+                    let layout = Layout::unrounded(PhaseStep::from_period(period), length);
+                    let blocks = cut.blocks(layout);
                     let samples = f32::from(blocks) * f32::from(layout.length);
                     let window = period * f32::from(periods);
                     let off = (samples / window - 1.0).abs();
@@ -114,7 +110,7 @@ mod tests {
                         (4..=periods.max(MOST_BLOCKS)).contains(&blocks)
                             && (off < 0.1 || samples == f32::from(LEAST_PAIRS))
                             && samples >= f32::from(LEAST_PAIRS),
-                        "{period} samples a period, {periods} periods, hop {hop:?}: {blocks} blocks, {off} off"
+                        "{period} samples a period, {periods} periods, hop {has_hop}: {blocks} blocks, {off} off"
                     );
                 }
             }

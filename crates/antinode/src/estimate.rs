@@ -143,9 +143,10 @@ impl defmt::Format for Flags {
 
 /// The wave over one window, at the window's middle. Amplitudes, offsets and residual are in input units.
 ///
-/// Each `_std` is one standard deviation, from the information in the window's samples and their noise: that of its own residual and
-/// of the clean windows before, which count twice as much at most (in windows of a few samples more), and the less the less it agrees with
-/// them. Where noise becomes less by half at once the first two windows state a third too much, where it becomes more a tenth too little.
+/// Each `_std` is one standard deviation, from what the window's samples tell of the value and from their noise. The noise is that of the
+/// window's own residual and of the clean windows before: together these count up to twice as much as the window itself (more where it
+/// has few samples), and less where they do not agree with it. Where noise halves at once the first two windows state a third too much;
+/// where it grows they state a tenth too little.
 ///
 /// Of a window without a wave, [`Flags::LOST`], no number means anything, and some may be NaN or infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]

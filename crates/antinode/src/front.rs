@@ -5,6 +5,7 @@ use crate::cut::Cut;
 use crate::period::DifferenceDetector;
 #[cfg(feature = "mean-return")]
 use crate::period::MeanReturnDetector;
+use crate::phase::PhaseStep;
 use crate::sample::{Sample, SamplePair};
 use crate::settings::{Detection, Settings, SettingsError};
 
@@ -57,9 +58,9 @@ enum Stage {
 /// The sample-rate half of an identification on samples of type `S`, for blocks of up to `N` sample pairs:
 /// [its place in firmware](crate#on-a-microcontroller).
 ///
-/// `N` is even, 2 to 65 534, and bounds the period: 200 is for all that is searched, 40 for waves of 4 to 40 samples a period, more for
-/// slower ones whose frequency is known. Blocks are two periods long where they have room; above `N`/2 samples a period they are shorter,
-/// more of them make a window, and one may be up to a tenth off the length asked.
+/// `N` is even, 2 to 65 534, and is the longest period too: 200 for every wave that can be searched, 40 where a period has no more than 40
+/// samples, more for a slower wave whose frequency is known. Where two periods are more than `N` pairs a block is shorter than that, and
+/// a window may be up to a tenth off the length asked.
 #[derive(Debug, Clone)]
 pub struct Front<S: Sample, const N: usize> {
     cut: Cut,
@@ -145,7 +146,6 @@ impl<S: Sample, const N: usize> Front<S, N> {
     }
 
     /// Apart from the rest: only here a detector is on the stack.
-    #[cold]
     #[inline(never)]
     fn replace_detector(&mut self, detection: Detection) {
         self.detector = Detector::new(detection);
@@ -228,8 +228,9 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Begins blocks for a wave of `period` samples.
     #[inline(never)]
     fn begin(&mut self, period: f32) {
-        let layout = self.cut.layout(period, N as u16);
-        self.demodulator.begin(layout, self.index);
+        let length = self.cut.length(period, N as u16);
+        self.demodulator
+            .begin(PhaseStep::from_period(period), length, self.index);
         self.stage = Stage::Gathering;
     }
 
@@ -256,7 +257,6 @@ impl<S: Sample, const N: usize> Front<S, N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::phase::PhaseStep;
 
     #[test]
     fn without_settings_nothing_is_found_and_with_them_it_is_as_new() {

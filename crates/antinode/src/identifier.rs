@@ -87,10 +87,14 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     }
 
     /// Takes one sample pair; gives the estimate of the window that it completes.
+    ///
+    /// [`extend`](Self::extend) costs far less a pair.
     #[must_use = "the estimate is given once"]
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<Estimate> {
-        self.push_slice(&[pair]).1
+        let estimate = self.tracker.push(self.front.push(pair)?);
+        self.search_if_lost();
+        estimate
     }
 
     /// Takes pairs from the start of a slice up to the end of a window; gives how many it took and the estimate, if any.
@@ -100,9 +104,14 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<Estimate>) {
         let mut rest = pairs;
         while !rest.is_empty() {
-            let estimate = self.push_block(&mut rest);
-            if estimate.is_some() {
-                return (pairs.len() - rest.len(), estimate);
+            let (taken, block) = self.front.push_slice(rest);
+            rest = rest.get(taken..).unwrap_or(&[]);
+            if let Some(block) = block {
+                let estimate = self.tracker.push(block);
+                self.search_if_lost();
+                if estimate.is_some() {
+                    return (pairs.len() - rest.len(), estimate);
+                }
             }
         }
         (pairs.len(), None)
@@ -118,16 +127,6 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
                 self.search_if_lost();
             }
         }
-    }
-
-    /// Takes pairs from the start of a slice up to the end of a block, and leaves the rest there.
-    #[inline]
-    fn push_block<P: SamplePair<S>>(&mut self, pairs: &mut &[P]) -> Option<Estimate> {
-        let (taken, block) = self.front.push_slice(pairs);
-        *pairs = pairs.get(taken..).unwrap_or(&[]);
-        let estimate = self.tracker.push(block?);
-        self.search_if_lost();
-        estimate
     }
 
     /// Searches a new period where the wave is lost.

@@ -1,51 +1,21 @@
-//! Streaming identification of the standing wave of a hemispherical resonator gyro, or any two-mode Coriolis vibratory gyro.
+#![doc = include_str!("../README.md")]
 //!
-//! A resonator rings down freely. Two pick-offs 45° apart give two signals, sampled together:
+//! # The wave
 //!
 //! ```text
 //! τ = ωt − α,   A = a_A cos τ,   B = a_B sin τ                                (1), (11)
 //! S_C = A cos 2θ − B sin 2θ + noise,   S_D = A sin 2θ + B cos 2θ + noise      (2), (3)
 //! ```
 //!
-//! Window by window this crate finds a_A, a_B, θ, ω and α, with their rates, standard deviations, and flags for whatever the
-//! model does not explain. Numbers in parentheses are formulas of R. I. Mingazov, K. V. Shishakov, DOI
-//! 10.22213/2410-9304-2021-3-12-24, whose four algorithms are in [`methods`]; the identification itself is the exact counterpart of the fourth.
+//! An [`Estimate`] has a_A, a_B, θ, ω and α of one window, with their rates and standard deviations, and [`Flags`] for whatever the model
+//! does not explain. Numbers in parentheses are formulas of R. I. Mingazov, K. V. Shishakov, DOI 10.22213/2410-9304-2021-3-12-24, whose
+//! four algorithms are in [`methods`]; the identification itself is the exact counterpart of the fourth.
 //!
-//! Data flows one way:
-//!
-//! | step | at | module |
+//! | step | at | by |
 //! |---|---|---|
-//! | samples become a period, then block sums | sample rate | [`Front`]: [`period`], [`block`] |
-//! | block sums become a window's waves | window rate | [`Tracker`]: an exact least-squares fit over the blocks |
-//! | waves become a tracked wave with flags | window rate | [`Tracker`]: [`Estimate`], [`Flags`] |
-//!
-//! [`Identifier`] is all of it in one thread. In firmware a [`Front`] gathers blocks in the interrupt, and a [`Tracker`] solves them
-//! in thread context: see [on a microcontroller](#on-a-microcontroller).
-//!
-//! # Example
-//!
-//! ```
-//! use antinode::{Identifier, Settings};
-//!
-//! // Blocks of up to 200 sample pairs, and so periods of up to 200; a ring of 16 blocks, enough for 10 periods.
-//! let mut identifier = Identifier::<f32, 200, 16>::new(Settings::new(100_000.0))?;
-//! let (mut windows, omega) = (0, core::f32::consts::TAU * 5_332.0 / 100_000.0);
-//! for k in 0..2_000 {
-//!     // A main wave of 1 at θ = 0.3 rad, a quadrature wave of 0.1.
-//!     let (sine, cosine) = (omega * k as f32).sin_cos();
-//!     let (s2, c2) = 0.6f32.sin_cos();
-//!     let pair = [cosine * c2 - 0.1 * sine * s2, cosine * s2 + 0.1 * sine * c2];
-//!     if let Some(estimate) = identifier.push(pair) {
-//!         assert!(estimate.flags.is_empty());
-//!         assert!((estimate.main_amplitude - 1.0).abs() < 1e-3);
-//!         assert!((estimate.quadrature_amplitude - 0.1).abs() < 1e-3);
-//!         assert!((estimate.angle - 0.3).abs() < 1e-3);
-//!         windows += 1;
-//!     }
-//! }
-//! assert_eq!(windows, 10);
-//! # Ok::<(), antinode::SettingsError>(())
-//! ```
+//! | the period is searched, then samples are summed in blocks of about two periods | sample rate | [`Front`], of [`period`] and [`block`] |
+//! | a window of blocks is solved for its waves by exact least squares, and joined to those before | window rate | [`Tracker`] |
+//! | both, and a new search where the wave is lost | | [`Identifier`] |
 //!
 //! [`Settings`] shows how a known frequency, overlapping windows, hum and pick-offs that differ are told, [`Identifier`] what to do where
 //! samples are lost.
@@ -71,6 +41,7 @@
 //!
 //! // Whenever the DMA has filled half of its buffer. A timer's interrupt would `Front::push` each pair.
 //! let mut interrupt = |mut pairs: &[[i16; 2]]| {
+//!     // Not by `swap`, which a Cortex-M0 does not have.
 //!     if SEARCH.load(Relaxed) {
 //!         SEARCH.store(false, Relaxed);
 //!         front.search();
@@ -84,10 +55,12 @@
 //!         }
 //!     }
 //! };
+//! # let mut estimates = Vec::new();
 //! let mut main_loop = || {
-//!     let mut latest = None;
 //!     while let Some(block) = gathered.dequeue() {
-//!         latest = tracker.push(&block).or(latest);
+//!         if let Some(estimate) = tracker.push(&block) {
+//!             estimates.push(estimate);
+//!         }
 //!         // After every block: it may be so without an estimate.
 //!         if tracker.has_lost() {
 //!             SEARCH.store(true, Relaxed);
@@ -96,7 +69,6 @@
 //!             tracker.forget();
 //!         }
 //!     }
-//!     latest
 //! };
 //!
 //! # let signal = |k: usize| {
@@ -104,14 +76,15 @@
 //! #     let (s2, c2) = 0.6f64.sin_cos();
 //! #     [cosine * c2 - 0.1 * sine * s2, cosine * s2 + 0.1 * sine * c2].map(|x| (20_000.0 * x) as i16)
 //! # };
-//! let mut found = None;
 //! for half in 0..10 {
 //!     let codes: Vec<[i16; 2]> = (0..128).map(|i| signal(128 * half + i)).collect();
 //!     interrupt(&codes);
-//!     found = main_loop().or(found);
+//!     main_loop();
 //! }
-//! let estimate = found.expect("a window");
-//! assert!(estimate.flags.is_empty() && (estimate.main_amplitude - 20_000.0).abs() < 2.0);
+//! assert_eq!(estimates.len(), 6);
+//! for estimate in estimates {
+//!     assert!(estimate.flags.is_empty() && (estimate.main_amplitude - 20_000.0).abs() < 2.0);
+//! }
 //! # Ok::<(), antinode::SettingsError>(())
 //! ```
 //!
@@ -134,9 +107,9 @@
 //!
 //! | feature | on by default | what it adds |
 //! |---|---|---|
-//! | `fixed` | yes | pairs of `I1F15` and `I1F31` of the crate `fixed`: [`SamplePair`] |
 //! | `mean-return` | yes | the period detector of formula (9): `Detection::MeanReturn`, `period::MeanReturnDetector` |
-//! | `defmt` | no | `defmt::Format` of [`Estimate`], [`Flags`], [`Settings`], [`SettingsError`], [`Calibration`] and [`Detection`] |
+//! | `fixed` | no | pairs of `I1F15` and `I1F31` of the crate `fixed`: [`SamplePair`] |
+//! | `defmt` | no | `defmt::Format` of [`Estimate`], [`Flags`], [`Settings`], [`Calibration`], [`Detection`] and the errors |
 //!
 //! Firmware that needs none takes `default-features = false`. To send estimates and settings over a line, or to keep them, take
 //! the crate `antinode-telemetry`.
@@ -154,22 +127,22 @@
 //!
 //! # Limits
 //!
-//! - Phase wraps at 2π, and θ is known modulo π/2: only continuity makes θ run on.
-//! - Periods are 4 to 200 samples, and with [`Settings::frequency`] 2.5 to as many as a block holds.
+//! - θ is known modulo π/2, and phase modulo 2π: only continuity from window to window makes θ run on.
+//! - A period is 4 to 200 samples, and with [`Settings::frequency`] 2.5 to as many as a block holds.
 //! - Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: 260 rad/s and 480 1/s in ten periods of
 //!   5332 Hz, 2.6 rad/s and 4.8 1/s in a thousand. Where it turns by more than about 0.6 rad amplitudes are some per cent off, which
 //!   windows of more than ten periods flag as a misfit and shorter ones may not.
-//! - A frequency that drifts within a window bends the phase: by much more than the noise (2 Hz/s in a window of 60 ms, say), and the
-//!   window is a misfit; by less, and the phase may be off by some of its deviations, but nothing else. Shorter windows know it better.
+//! - A frequency that drifts within a window bends the phase. Where it bends by much more than the noise (2 Hz/s in a window of 60 ms, say)
+//!   the window is a misfit; where by less, the phase may be off by some of its deviations, but nothing else. Shorter windows help.
 //! - Mains hum is a misfit too, unless [`Settings::hum`] takes it out.
-//! - Deviations and flags take noise to be white. Where it is not there is [`Settings::coloured`]: behind a low-pass or a high-pass, or in
-//!   noise of 1/f², errors then are 0.8 to 1.1 of their deviations; behind a band-pass about the wave 1.1 with a quality of 1, 1.5 with 3,
-//!   and 2 to 3 with 10. Of noise that grows with the frequency some windows stay misfits.
-//! - They take it to be independent, and as large in both pick-offs. Of ten times as much in one of them a window in some ten thousand is
-//!   flagged; of noise that both share deviations are a tenth too small.
+//! - Deviations and flags take noise to be white; [`Settings::coloured`] is for noise that is not. With it errors are 0.8 to 1.1 of their
+//!   deviations behind a low-pass or a high-pass, or in noise of 1/f²; behind a band-pass about the wave they are 1.1 with a quality of 1,
+//!   1.5 with 3, and 2 to 3 with 10. Of noise that grows with the frequency some windows stay misfits.
+//! - They also take noise to be independent, and as large in both pick-offs. Where one has ten times as much a window in some ten thousand
+//!   is flagged; where both share it deviations are a tenth too small.
 //! - Amplitudes are 10⁻¹⁵ to 10¹⁷ input units, so that their squares are numbers of f32.
-//! - Sums of f32 round. In noise below 2·10⁻⁴ of a_A an offset beyond twenty times a_A, at 140 samples a period or more, leaves enough for
-//!   a misfit. Integers leave nothing, nor do f32 less the offset.
+//! - Sums of f32 round: in noise below 2·10⁻⁴ of a_A an offset beyond twenty times a_A, at 140 samples a period or more, is a misfit.
+//!   Codes do not round, nor do samples of f32 less their offset.
 #![no_std]
 
 #[cfg(test)]
@@ -207,10 +180,6 @@ pub use sample::Form;
 pub use sample::{Packed, Sample, SamplePair};
 pub use settings::{Detection, Settings, SettingsError};
 pub use tracker::Tracker;
-
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;
 
 #[cfg(test)]
 mod tests {

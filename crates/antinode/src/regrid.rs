@@ -38,6 +38,7 @@ const PLACES: usize = 64;
 
 /// A grid that cannot be made.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum RegridError {
     /// The period is outside 2.5 to 1000 samples.

@@ -2,7 +2,6 @@
 
 use core::fmt;
 
-use crate::block::Layout;
 use crate::calibration::Calibration;
 use crate::cut::Cut;
 use crate::double::to_single;
@@ -20,7 +19,7 @@ pub enum Detection {
     MeanReturn,
 }
 
-/// Settings of an identification. Start from [`Settings::new`] and change what differs.
+/// Settings of an identification. Start from [`Settings::new`] and change what differs; later versions may have more of them.
 ///
 /// # Example
 ///
@@ -51,36 +50,36 @@ pub enum Detection {
 pub struct Settings {
     /// Sample rate in Hz, 10⁻³ to 10¹².
     pub sample_rate: f64,
-    /// Length of a window in periods, 2 to two less than the ring of blocks holds. A window is a whole number of blocks, up to a tenth
-    /// off this length; see [`Settings::layout`].
+    /// Length of a window in periods, 2 to two less than the ring of blocks holds; 10 unless changed. A window is a whole number of blocks,
+    /// up to a tenth off this length: a block has up to two periods, or a fifth of the window where that is less.
     pub periods: u16,
-    /// Blocks from the start of one window to the start of the next, 1 or more; a block then is about one period, or a tenth of a
-    /// window of less than 10. A hop beyond the window leaves gaps. `None`: windows follow each other without gap or overlap, and have half as
-    /// many blocks.
+    /// Blocks from the start of one window to the start of the next, 1 or more. Blocks are then half as long, about one period, so that
+    /// windows move in finer steps. A hop beyond the window leaves gaps. `None`: windows follow each other without gap or overlap.
     pub hop: Option<u16>,
-    /// The pattern angle nearest to which the first window's angle is chosen, rad; π/4 puts it in 0…π/2.
+    /// The angle is known modulo π/2: in the first window the one nearest to this is taken, rad, within ±10⁴. With π/4, as it is unless
+    /// changed, that lies in 0…π/2.
     pub start_angle: f32,
     /// The least and the greatest sample that the converter gives, input units: at or beyond them a window is flagged as clipped.
     /// `None` where they are not known. A signed converter of 12 bits, taken as codes, has −2048 and 2047.
     pub rails: Option<[f32; 2]>,
-    /// Step between neighbouring codes of the converter, input units, where it is known. A signal with less noise than a step has
-    /// errors that repeat with it and do not average: with this they count in the standard deviations. Of codes it is 1.
+    /// Step between neighbouring codes of the converter, input units, > 0, where it is known: 1 of codes. A signal with less noise
+    /// than a step has errors that repeat with it and do not average: with this they count in the standard deviations.
     pub resolution: Option<f32>,
-    /// The wave's frequency in Hz, within 5 %, where it is known: it is then not searched, and the first window begins with the first
-    /// sample, in noise nearly as large as the wave too. 2.5 to `N` samples a period, the most that a block holds. Where the
-    /// wave is elsewhere, there is no window, or a flagged one. `None`: the period is found as `detection` says.
+    /// The wave's frequency in Hz, where it is known within 5 %: no period is searched, and the first window begins with the first
+    /// sample, even in noise nearly as large as the wave. It may have 2.5 samples a period or more, and no more than a block holds, `N`.
+    /// Where the wave is elsewhere there is no window, or a flagged one. `None`: the period is found as `detection` says.
     pub frequency: Option<f32>,
     /// How the period is found from cold.
     pub detection: Detection,
-    /// True when the third harmonic and the extremes of the samples are watched: [`Flags::CLIPPED`](crate::Flags::CLIPPED) needs
-    /// it, and other faults are found earlier with it. It about doubles the work at sample rate.
+    /// True, unless changed, where the third harmonic and the extremes of the samples are watched: [`Flags::CLIPPED`](crate::Flags::CLIPPED)
+    /// needs it, and other faults are found earlier with it. It about doubles the work at sample rate.
     pub watch: bool,
     /// True where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
     /// only moves an offset is neither noise nor a fault. Windows need 5 periods for it, with a hop 10; shorter ones do without.
     pub hum: bool,
     /// True where the noise is not white: a tuned front end, or a filter that ends below three times the frequency, leaves less than a
-    /// sixteenth of its power there. That is no fault then, and blocks have offsets of their own as with `hum`. Of what is in every window
-    /// nothing is told: a second tone counts as noise, and so does a fault in the first window.
+    /// sixteenth of its power there. That is no fault then, and blocks have offsets of their own as with `hum`. In return what is in every
+    /// window is not told: a second tone counts as noise, and so does a fault in the first window.
     pub coloured: bool,
     /// How the pick-offs differ from ideal ones.
     pub calibration: Calibration,
@@ -260,18 +259,6 @@ impl Settings {
         } else {
             Ok(())
         }
-    }
-
-    /// The blocks for a wave of `period` samples: two periods each, or a fifth of a window where that is less; where there is a hop,
-    /// half of it, so that windows move in finer steps. At most `most` pairs, the capacity of the
-    /// [`Demodulator`](crate::block::Demodulator). The scale is that of f32; a demodulator puts in its own.
-    pub fn layout(&self, period: f32, most: u16) -> Layout {
-        self.cut().layout(period, most)
-    }
-
-    /// How many blocks of `layout` come nearest to a window.
-    pub fn blocks(&self, layout: Layout) -> u16 {
-        self.cut().blocks(layout)
     }
 
     /// How windows are cut into blocks.

@@ -2,6 +2,7 @@
 
 use core::arch::naked_asm;
 
+use super::portable;
 use crate::block::ChannelSums;
 use crate::sample::{Form, SamplePair};
 
@@ -27,22 +28,18 @@ pub fn add_floats<P: SamplePair<f32>>(
     index: u16,
 ) {
     const { assert!(size_of::<[ChannelSums<f32>; 2]>() == 24) };
-    let count = pairs.len();
-    let Some(by) = weights.get(usize::from(index)..) else {
+    let Some(by) = portable::weights_from(weights, index, pairs.len()) else {
         return;
     };
-    if count == 0 || count > by.len() {
-        return;
-    }
     // The first pairs of a block begin its sums.
-    let count = count << 1 | usize::from(index == 0);
+    let count = pairs.len() << 1 | usize::from(index == 0);
     let (from, by) = (pairs.as_ptr(), by.as_ptr());
     match P::FORM {
         // SAFETY: the pairs are words of memory, weights for all are there, and the sums are six words.
         Form::Codes => unsafe { add_codes(sums, from.cast(), by, count) },
         // SAFETY: as above, and a pair is two words.
         Form::Floats => unsafe { add_pairs(sums, from.cast(), by, count) },
-        Form::Other => super::portable::add_floats(sums, pairs, weights, index),
+        Form::Other => portable::add_floats(sums, pairs, weights, index),
     }
 }
 

@@ -115,9 +115,7 @@ pub fn add_floats<P: SamplePair<f32>>(
     weights: &[[f32; 2]],
     index: u16,
 ) {
-    let index = usize::from(index);
-    let weights = weights.get(index..index + pairs.len());
-    let Some(weights) = weights.filter(|weights| !weights.is_empty()) else {
+    let Some(weights) = weights_from(weights, index, pairs.len()) else {
         return;
     };
     let mut now = if index == 0 {
@@ -144,12 +142,9 @@ pub fn watch_floats<P: SamplePair<f32>>(
     weights: &[[f32; 2]],
     index: u16,
 ) {
-    let Some(weights) = weights.get(usize::from(index)..) else {
+    let Some(weights) = weights_from(weights, index, pairs.len()) else {
         return;
     };
-    if pairs.is_empty() || pairs.len() > weights.len() {
-        return;
-    }
     if index == 0 {
         *sums = [ChannelSums::empty(); 2];
         *watch = [ChannelWatch::empty(); 2];
@@ -168,6 +163,13 @@ pub fn watch_floats<P: SamplePair<f32>>(
             watch.see(sample, index);
         }
     }
+}
+
+/// The weights from sample `index` on, where there is a pair and there are weights for all `count` of them.
+#[inline(always)]
+pub fn weights_from<W>(weights: &[W], index: u16, count: usize) -> Option<&[W]> {
+    let weights = weights.get(usize::from(index)..)?;
+    (count > 0 && count <= weights.len()).then_some(weights)
 }
 
 /// Pairs with a cosine and a sine for each, where there are weights for all.

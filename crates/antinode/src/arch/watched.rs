@@ -2,6 +2,7 @@
 
 use core::arch::naked_asm;
 
+use super::portable;
 use crate::block::{ChannelSums, ChannelWatch};
 use crate::sample::{Form, SamplePair};
 
@@ -15,7 +16,7 @@ pub fn watch_floats<P: SamplePair<f32>>(
     index: u16,
 ) {
     if P::FORM == Form::Other {
-        return super::portable::watch_floats(sums, watch, pairs, weights, index);
+        return portable::watch_floats(sums, watch, pairs, weights, index);
     }
     let Some(by) = begin(sums, watch, pairs, weights, index) else {
         return;

@@ -1,7 +1,6 @@
 //! What a block is, and the reference that its samples are multiplied with.
 
 use crate::phase::{Phase, PhaseStep};
-use crate::sample::Sample;
 
 /// What a block is: its reference frequency, its count of sample pairs, and how its reference is rounded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,7 +15,7 @@ pub struct Layout {
 
 /// The reference at one sample of a block, times the scale where there is one.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Reference {
+pub struct Reference {
     pub cosine: f32,
     pub sine: f32,
     pub third_cosine: f32,
@@ -24,19 +23,12 @@ pub(crate) struct Reference {
 }
 
 impl Layout {
-    /// That of a demodulator which has not begun.
-    pub(crate) const NONE: Self = Self {
-        step: PhaseStep(0),
-        length: 0,
-        scale: 0,
-    };
-
-    /// The layout of blocks of `length` pairs of samples of type `S`.
-    pub fn new<S: Sample>(step: PhaseStep, length: u16) -> Self {
+    /// Blocks whose reference is not rounded: those of f32.
+    pub(crate) const fn unrounded(step: PhaseStep, length: u16) -> Self {
         Self {
             step,
             length,
-            scale: S::scale(length),
+            scale: 0,
         }
     }
 

@@ -9,9 +9,11 @@ mod runs;
 mod sums;
 
 pub use layout::Layout;
+pub(crate) use layout::Reference;
 pub use runs::Runs;
 pub use sums::{ChannelSums, ChannelWatch};
 
+use crate::phase::PhaseStep;
 use crate::sample::{Sample, SamplePair, Zero};
 
 /// One sample pair in f32: pick-offs S_C and S_D, sampled together, in input units.
@@ -52,8 +54,7 @@ struct Summing<S: Sample, const N: usize> {
     /// How much of the tables is made: they grow with the first block, so that no sample waits for all of them.
     known: u16,
     block: Block<S>,
-    table: [S::Weight; N],
-    third: [S::Third; N],
+    weights: S::Weights<N>,
 }
 
 impl<S: Sample, const N: usize> Demodulator<S, N> {
@@ -74,23 +75,22 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
                 known: 0,
                 block: Block {
                     start: 0,
-                    layout: Layout::NONE,
+                    layout: Layout::unrounded(PhaseStep(0), 0),
                     sums: [ChannelSums::empty(); 2],
                     watch: None,
                 },
-                table: [S::Weight::ZERO; N],
-                third: [S::Third::ZERO; N],
+                weights: S::Weights::ZERO,
             },
         }
     }
 
-    /// A demodulator whose first block starts at sample pair `start` of the stream, and which watches the samples or does not.
+    /// A demodulator for blocks of `length` pairs about the frequency `step`, which watches the samples or does not.
     ///
-    /// A length beyond 1…`N` is brought into it; the scale is that of `S`.
-    pub fn new(layout: Layout, start: u64, watch: bool) -> Self {
+    /// Its first block starts at sample pair `start` of the stream. A length beyond 1…`N` is brought into it.
+    pub fn new(step: PhaseStep, length: u16, start: u64, watch: bool) -> Self {
         let mut demodulator = Self::unset();
         demodulator.set_watch(watch);
-        demodulator.begin(layout, start);
+        demodulator.begin(step, length, start);
         demodulator
     }
 
@@ -145,10 +145,14 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         is_full.then_some(&self.summing.block)
     }
 
-    /// Begins anew, with blocks of another layout from sample pair `start` of the stream on.
-    pub(crate) fn begin(&mut self, layout: Layout, start: u64) {
-        let length = layout.length.clamp(1, N as u16);
-        self.summing.block.layout = Layout::new::<S>(layout.step, length);
+    /// Begins anew, with blocks of another frequency and length from sample pair `start` of the stream on.
+    pub(crate) fn begin(&mut self, step: PhaseStep, length: u16, start: u64) {
+        let length = length.clamp(1, N as u16);
+        self.summing.block.layout = Layout {
+            step,
+            length,
+            scale: S::scale(length),
+        };
         self.summing.known = 0;
         self.restart(start);
     }
@@ -186,7 +190,7 @@ impl<S: Sample, const N: usize> Summing<S, N> {
         }
         let index = index as u16;
         let Block { sums, watch, .. } = &mut self.block;
-        S::add_slice(sums, watch, pairs, (&self.table, &self.third), index);
+        S::add_slice(sums, watch, pairs, &self.weights, index);
         (pairs.len(), count == length)
     }
 
@@ -216,10 +220,7 @@ impl<S: Sample, const N: usize> Summing<S, N> {
     fn extend_table(&mut self) {
         for index in self.known..self.count {
             let reference = self.block.layout.reference(index);
-            let index = usize::from(index);
-            S::set_weight(&mut self.table, index, [reference.cosine, reference.sine]);
-            let third = [reference.third_cosine, reference.third_sine];
-            S::set_third(&mut self.third, index, third);
+            S::set_weights(&mut self.weights, usize::from(index), reference);
         }
         self.known = self.count;
     }

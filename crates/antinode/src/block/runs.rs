@@ -53,7 +53,6 @@ impl Runs {
     }
 
     /// Takes the last run to the others.
-    #[inline(never)]
     fn take_last(&mut self) {
         let (value, length) = (self.now.value, self.now.to - self.now.from);
         let beyond = [value < self.values[0], value > self.values[1]];

@@ -1,6 +1,5 @@
 //! Algorithm 3: the axes of the wave, formulas (21) and (22).
 
-use super::axes::rotated;
 use super::moments::Moments;
 use super::wave::Shape;
 
@@ -17,4 +16,15 @@ pub fn shape(moments: &Moments, sign: f64) -> Shape {
         quadrature_amplitude: libm::copysign(libm::sqrt((2.0 * quadrature).max(0.0)), sign),
         angle,
     }
+}
+
+/// (⟨S_A²⟩, ⟨S_B²⟩) by (5): the second moments along the axes at `angle` rad, input units squared.
+fn rotated(moments: &Moments, angle: f64) -> (f64, f64) {
+    let (cc, dd, cd) = moments.means();
+    let (s, c) = libm::sincos(2.0 * angle);
+    let across = 2.0 * cd * s * c;
+    (
+        cc * c * c + dd * s * s + across,
+        cc * s * s + dd * c * c - across,
+    )
 }

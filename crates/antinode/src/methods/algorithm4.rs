@@ -3,7 +3,7 @@
 //! It holds exactly only where the window fits the period, condition (8); elsewhere leakage remains: 7·10⁻³ of amplitude for a window
 //! of 19 samples at 18.75 a period. The window solution of the [`Tracker`](crate::Tracker) is its exact counterpart and has none.
 
-use super::axes::resolve_half_period;
+use super::phase;
 use super::products::Products;
 use super::wave::{Shape, Wave};
 
@@ -26,7 +26,7 @@ pub fn wave(products: &Products) -> Wave {
         quadrature_amplitude: 0.5 * (sum - difference),
         angle: 0.25 * libm::atan2(s, r),
     };
-    resolve_half_period(
+    phase::resolve_half_period(
         Wave {
             shape,
             phase: 0.5 * libm::atan2(l, m),

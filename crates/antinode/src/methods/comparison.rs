@@ -49,7 +49,7 @@ use super::delayed::Delayed;
 use super::moments::Moments;
 use super::products::{Products, mean_harmonic};
 pub use super::reference::{Noise, Reference};
-use super::scatter::{changing, difference, scatter};
+use super::scatter::{Scatter, changing, difference};
 use super::wave::{Shape, Wave};
 use super::{algorithm1, algorithm2, algorithm3, algorithm4, functional, phase};
 
@@ -182,6 +182,12 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
         monitor: i != DELAY || phase_excess.abs() <= CONDITION,
     };
 
+    let scatter = Scatter {
+        reference,
+        count,
+        changing,
+        q_deviation,
+    };
     let found = waves(sums);
     let mut methods = core::array::from_fn(|i| {
         let wave = found.get(i).copied().unwrap_or(*exact);
@@ -198,15 +204,7 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
         }
         // 2 has its angle from the same sums as 3.
         let angle_of = expected.get(i.max(AXES)).copied().unwrap_or(*exact).shape;
-        let unit = scatter(
-            i,
-            &explained.shape,
-            difference(&angle_of),
-            reference,
-            count,
-            changing,
-            q_deviation,
-        );
+        let unit = scatter.of(i, &explained.shape, difference(&angle_of));
         Method {
             wave: wave.near(exact.shape.angle),
             j: functional::above_zero(functional::squares(&wave, &sums.moments, &sums.products)),

@@ -2,7 +2,7 @@
 
 use super::moments::Moments;
 use crate::block::Pair;
-use crate::sample::{Sample, SamplePair};
+use crate::sample::{Arithmetic, Sample, SamplePair};
 
 /// Delayed products of a window. Those of two windows with one lag add.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -28,7 +28,7 @@ impl Delayed {
         for (&now, &before) in now.iter().zip(before) {
             f32::add_delayed(&mut sums, now, before);
         }
-        Self::new(lag, now.len() as u32, f32::delayed(sums))
+        Self::new(lag, now.len() as u32, sums.map(f32::product_to_f64))
     }
 
     fn new(lag: u16, count: u32, [own, cd]: [f64; 2]) -> Self {
@@ -86,7 +86,7 @@ pub struct DelayedSums<const LAGS: usize, S: Sample = f32> {
     /// Pairs in the line, up to the lag.
     filled: u16,
     count: u32,
-    sums: S::Delayed,
+    sums: [S::Product; 2],
 }
 
 impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
@@ -100,7 +100,7 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
             place: 0,
             filled: 0,
             count: 0,
-            sums: S::Delayed::default(),
+            sums: Default::default(),
         }
     }
 
@@ -171,7 +171,7 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
 
     /// The products since the last call; the sums start anew, the line goes on.
     pub fn take(&mut self) -> Delayed {
-        let sums = S::delayed(core::mem::take(&mut self.sums));
+        let sums = core::mem::take(&mut self.sums).map(S::product_to_f64);
         Delayed::new(self.lag, core::mem::take(&mut self.count), sums)
     }
 

@@ -4,32 +4,9 @@
 
 use super::delayed::Delayed;
 use super::moments::Moments;
-use super::products::{Products, mean_harmonic};
+use super::products::{Means, Products, mean_harmonic};
 use super::reference::Noise;
 use super::wave::Wave;
-
-/// ⟨cos²⟩, ⟨sin²⟩ and ⟨sin cos⟩ of ωt over a window.
-struct Means {
-    cosines: f64,
-    sines: f64,
-    mixed: f64,
-}
-
-impl Means {
-    fn new(omega: f64, count: u32) -> Self {
-        let double = mean_harmonic(2, omega, count);
-        Self {
-            cosines: 0.5 * (1.0 + double.re),
-            sines: 0.5 * (1.0 - double.re),
-            mixed: -0.5 * double.im,
-        }
-    }
-
-    /// ⟨(u cos + v sin)(x cos + y sin)⟩.
-    fn product(&self, u: f64, v: f64, x: f64, y: f64) -> f64 {
-        u * x * self.cosines + v * y * self.sines + (u * y + v * x) * self.mixed
-    }
-}
 
 impl Moments {
     /// Those of `wave` at `omega` rad a sample over `count` pairs, in `noise`, while the pattern turns by `turn` rad from the first

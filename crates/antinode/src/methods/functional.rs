@@ -1,23 +1,20 @@
 //! How badly a wave explains a window: the functionals (6), (18), (23), and (15).
 
 use super::moments::Moments;
-use super::products::{Products, mean_harmonic};
+use super::products::{Means, Products};
 use super::wave::Wave;
 use crate::block::Pair;
 
 /// J of (6), input units squared: the mean over samples of the squared residuals of both pick-offs. (14), (18) and (23) are this one.
 ///
-/// From sums alone, and exact: ⟨cos² ωt⟩ and its kin are Dirichlet sums, not (8). With noise of σ a sample a perfect wave has 2σ².
+/// From sums alone, and exact for any window. With noise of σ a sample a perfect wave has 2σ².
 pub fn squares(wave: &Wave, moments: &Moments, products: &Products) -> f64 {
     let (u, v) = wave.quadratures();
-    let double = mean_harmonic(2, products.omega, products.count);
-    let cosines = 0.5 * (1.0 + double.re);
-    let sines = 0.5 * (1.0 - double.re);
-    let mixed = -0.5 * double.im;
+    let means = Means::new(products.omega, products.count);
     let mut j = moments.power();
     for i in 0..2 {
         j -= 2.0 * (u[i] * products.cosine[i] + v[i] * products.sine[i]);
-        j += u[i] * u[i] * cosines + v[i] * v[i] * sines + 2.0 * u[i] * v[i] * mixed;
+        j += means.product(u[i], v[i], u[i], v[i]);
     }
     j
 }

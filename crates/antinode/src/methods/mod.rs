@@ -20,8 +20,7 @@
 //! | algorithm 2, phase shift | (16), (17), (20) | [`algorithm2`] |
 //! | algorithm 3, wave axes | (21), (22) | [`algorithm3`] |
 //! | algorithm 4, demodulation | (24), (25) | [`algorithm4`] |
-//! | rotation, half periods | (5) | [`axes`] |
-//! | phase | (14), (18), (19) | [`phase`] |
+//! | phase and its half periods | (5), (14), (18), (19) | [`phase`] |
 //! | functionals | (6), (15), (23) | [`functional`] |
 //! | J → min(ω) | | [`frequency`] |
 //! | the exact solution, to compare with | (6) without (8) | [`exact`] |
@@ -60,7 +59,6 @@ pub mod algorithm1;
 pub mod algorithm2;
 pub mod algorithm3;
 pub mod algorithm4;
-pub mod axes;
 pub mod comparison;
 pub mod exact;
 pub mod frequency;

@@ -61,7 +61,7 @@ impl Moments {
 pub struct MomentSums<S: Sample = f32> {
     offsets: S::Centred,
     count: u32,
-    sums: S::Products,
+    sums: [S::Product; 3],
 }
 
 impl<S: Sample> MomentSums<S> {
@@ -70,7 +70,7 @@ impl<S: Sample> MomentSums<S> {
         Self {
             offsets: S::offsets(offsets),
             count: 0,
-            sums: S::Products::default(),
+            sums: Default::default(),
         }
     }
 
@@ -102,7 +102,7 @@ impl<S: Sample> MomentSums<S> {
 
     /// The moments since the last call; the sums start anew.
     pub fn take(&mut self) -> Moments {
-        let [cc, dd, cd] = S::products(core::mem::take(&mut self.sums));
+        let [cc, dd, cd] = core::mem::take(&mut self.sums).map(S::product_to_f64);
         let count = core::mem::take(&mut self.count);
         Moments { count, cc, dd, cd }
     }

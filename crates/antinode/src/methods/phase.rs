@@ -1,4 +1,6 @@
-//! The phase that fits a shape best: (14), and (19) from (18).
+//! The phase that fits a shape best: (14), and (19) from (18); the half period that an arctangent leaves open, (5).
+
+use core::f64::consts::PI;
 
 use super::products::Products;
 use super::wave::{Shape, Wave};
@@ -14,5 +16,20 @@ pub fn align(shape: &Shape, products: &Products) -> Wave {
     Wave {
         shape: *shape,
         phase: libm::atan2(a_sine - ratio * b_cosine, a_cosine + ratio * b_sine),
+    }
+}
+
+/// Of α and α + π the one that makes the main wave a_A cos(ωt − α) with a_A > 0, (5): the one of smaller J.
+pub fn resolve_half_period(wave: Wave, products: &Products) -> Wave {
+    let (s2, c2) = libm::sincos(2.0 * wave.shape.angle);
+    let (cosine, sine) = products.along(c2, s2);
+    let (s, c) = libm::sincos(wave.phase);
+    if cosine * c + sine * s >= 0.0 {
+        return wave;
+    }
+    let turn = if wave.phase > 0.0 { -PI } else { PI };
+    Wave {
+        phase: wave.phase + turn,
+        ..wave
     }
 }

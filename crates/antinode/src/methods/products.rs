@@ -169,3 +169,26 @@ pub fn mean_harmonic(m: u32, omega: f64, count: u32) -> Complex64 {
     let (sine, cosine) = libm::sincos(half * (n - 1.0));
     Complex64::new(size * cosine, -size * sine)
 }
+
+/// ⟨cos²⟩, ⟨sin²⟩ and ⟨sin cos⟩ of ωt over a window: Dirichlet sums, not (8).
+pub(super) struct Means {
+    cosines: f64,
+    sines: f64,
+    mixed: f64,
+}
+
+impl Means {
+    pub(super) fn new(omega: f64, count: u32) -> Self {
+        let double = mean_harmonic(2, omega, count);
+        Self {
+            cosines: 0.5 * (1.0 + double.re),
+            sines: 0.5 * (1.0 - double.re),
+            mixed: -0.5 * double.im,
+        }
+    }
+
+    /// ⟨(u cos + v sin)(x cos + y sin)⟩.
+    pub(super) fn product(&self, u: f64, v: f64, x: f64, y: f64) -> f64 {
+        u * x * self.cosines + v * y * self.sines + (u * y + v * x) * self.mixed
+    }
+}

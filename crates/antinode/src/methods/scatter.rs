@@ -35,62 +35,68 @@ fn of_root(square: f64, deviation: f64) -> f64 {
     below.max(libm::sqrt(square + most) - root) / DISAGREEMENT
 }
 
-/// What the method of this place may differ by without a fault, beside `explained`: the exact solution's own deviations, how little
-/// the noise and its mean square over the window are known, and what turning, decay and f32 rounding leave.
-///
-/// `seen` is the a_A² − a_B² that the method has its angle from.
-pub(super) fn scatter(
-    place: usize,
-    explained: &Shape,
-    seen: f64,
-    reference: &Reference,
-    count: u32,
-    changing: f64,
-    q_deviation: f64,
-) -> [f64; 3] {
-    let [of_c, of_d, _] = reference.noise.moments;
-    let mean_square = libm::sqrt(2.0 / f64::from(count));
-    let noise = of_c.max(of_d) * libm::hypot(above(reference.noise_uncertainty), mean_square);
-    let size = reference.wave.shape.main_amplitude;
-    let rest = slow(reference.turn, reference.decay, changing);
-    let [a, b, angle] = reference.deviations;
-    let quadrature = explained.quadrature_amplitude.abs().max(b);
-    let sum = |x: f64, y: f64, z: f64| libm::sqrt(x * x + y * y + z * z);
-    // What leaks of the exact solution's deviations.
-    let leaks = 4.0 * changing * size * a;
-    let of_angle = if place == NO_QUADRATURE {
-        // (12) takes the angle from roots of mean squares, and one is all noise where a pick-off sees nothing else.
-        let (sine, cosine) = libm::sincos(2.0 * explained.angle);
-        let whole = core::f64::consts::FRAC_1_SQRT_2 * explained.main_amplitude;
-        let root = |share: f64| of_root((share * whole) * (share * whole), noise);
-        let roots = libm::hypot(cosine * root(sine), sine * root(cosine));
-        sum(angle, 0.5 * roots / whole, rest)
-    } else {
-        let own = angle * difference(&reference.wave.shape);
-        let deviation = libm::hypot(own, rest * size * size + leaks);
-        // An angle that rests on less than that means nothing.
-        deviation / (seen - DISAGREEMENT * deviation).max(0.0)
-    };
-    // (16) takes a_A − |a_B| from the root of a difference, which is small where the pattern is near a circle.
-    let of_amplitudes = if place == DELAY {
-        let root = explained.main_amplitude - explained.quadrature_amplitude.abs();
-        let exact = size - reference.wave.shape.quadrature_amplitude.abs();
-        let of_exact = 2.0 * exact * (a + b) + leaks;
-        let deviation = sum(4.0 * noise, 4.0 * q_deviation, of_exact);
-        0.5 * of_root(root * root, deviation)
-    } else {
-        0.0
-    };
-    // (22) adds the noise's square to a_B's: a small quadrature and a little excess make a large difference.
-    [
-        sum(libm::hypot(a, of_amplitudes), noise / size, rest * size),
-        sum(
-            libm::hypot(b, of_amplitudes),
-            noise / quadrature,
-            rest * size * (1.0 + rest * size / quadrature),
-        ),
-        of_angle,
-    ]
+/// What may separate the methods of one window without a fault.
+pub(super) struct Scatter<'a> {
+    pub reference: &'a Reference,
+    /// Sample pairs.
+    pub count: u32,
+    /// How much of a steady change leaks, by [`changing`].
+    pub changing: f64,
+    /// Deviation of q of (16) at the quarter, input units squared.
+    pub q_deviation: f64,
+}
+
+impl Scatter<'_> {
+    /// By how much the method of this place may differ from `explained`: the exact solution's own deviations, how little the noise and
+    /// its mean square over the window are known, and what turning, decay and f32 rounding leave.
+    ///
+    /// `seen` is the a_A² − a_B² that the method has its angle from.
+    pub fn of(&self, place: usize, explained: &Shape, seen: f64) -> [f64; 3] {
+        let (reference, changing) = (self.reference, self.changing);
+        let [of_c, of_d, _] = reference.noise.moments;
+        let mean_square = libm::sqrt(2.0 / f64::from(self.count));
+        let noise = of_c.max(of_d) * libm::hypot(above(reference.noise_uncertainty), mean_square);
+        let size = reference.wave.shape.main_amplitude;
+        let rest = slow(reference.turn, reference.decay, changing);
+        let [a, b, angle] = reference.deviations;
+        let quadrature = explained.quadrature_amplitude.abs().max(b);
+        let sum = |x: f64, y: f64, z: f64| libm::sqrt(x * x + y * y + z * z);
+        // What leaks of the exact solution's deviations.
+        let leaks = 4.0 * changing * size * a;
+        let of_angle = if place == NO_QUADRATURE {
+            // (12) takes the angle from roots of mean squares, and one is all noise where a pick-off sees nothing else.
+            let (sine, cosine) = libm::sincos(2.0 * explained.angle);
+            let whole = core::f64::consts::FRAC_1_SQRT_2 * explained.main_amplitude;
+            let root = |share: f64| of_root((share * whole) * (share * whole), noise);
+            let roots = libm::hypot(cosine * root(sine), sine * root(cosine));
+            sum(angle, 0.5 * roots / whole, rest)
+        } else {
+            let own = angle * difference(&reference.wave.shape);
+            let deviation = libm::hypot(own, rest * size * size + leaks);
+            // An angle that rests on less than that means nothing.
+            deviation / (seen - DISAGREEMENT * deviation).max(0.0)
+        };
+        // (16) takes a_A − |a_B| from the root of a difference, which is small where the pattern is near a circle.
+        let of_amplitudes = if place == DELAY {
+            let root = explained.main_amplitude - explained.quadrature_amplitude.abs();
+            let exact = size - reference.wave.shape.quadrature_amplitude.abs();
+            let of_exact = 2.0 * exact * (a + b) + leaks;
+            let deviation = sum(4.0 * noise, 4.0 * self.q_deviation, of_exact);
+            0.5 * of_root(root * root, deviation)
+        } else {
+            0.0
+        };
+        // (22) adds the noise's square to a_B's: a small quadrature and a little excess make a large difference.
+        [
+            sum(libm::hypot(a, of_amplitudes), noise / size, rest * size),
+            sum(
+                libm::hypot(b, of_amplitudes),
+                noise / quadrature,
+                rest * size * (1.0 + rest * size / quadrature),
+            ),
+            of_angle,
+        ]
+    }
 }
 
 /// a_A² − a_B², which the angle rests on.

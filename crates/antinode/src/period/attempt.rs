@@ -1,7 +1,7 @@
 //! A frame of the search that may hold a wave, tried a few samples at a time: no single call pays for all of it.
 
-use super::confirm::{Fitted, Rests, Trial};
 use super::octave::{FRAME, Frame};
+use super::trial::{Fitted, Rests, Trial};
 use crate::sample::Sample;
 
 /// Samples tried in one call, an even number.

@@ -131,6 +131,19 @@ impl<S: Sample> DifferenceDetector<S> {
         }
     }
 
+    /// Puts the frame of an octave on trial: by itself, so that a look that finds nothing is short.
+    #[inline(never)]
+    fn propose(&mut self, halvings: usize, period: f32) {
+        if let Some((below, [octave, ..])) = self.octaves.split_at_checked(halvings) {
+            let candidate = &mut self.candidate;
+            candidate.is_open = true;
+            candidate.halvings = halvings as u8;
+            candidate.lost = below.iter().map(Octave::lost).sum();
+            let length = usize::from(octave.count);
+            candidate.attempt.begin(&octave.frame, length, period);
+        }
+    }
+
     /// Goes on with the trial of the candidate.
     #[inline(never)]
     fn attempt(&mut self) -> Option<f32> {
@@ -142,22 +155,6 @@ impl<S: Sample> DifferenceDetector<S> {
         };
         candidate.is_open = false;
         period
-    }
-
-    /// Puts the frame of an octave on trial.
-    #[inline(never)]
-    fn propose(&mut self, halvings: usize, period: f32) {
-        let below = self.octaves.iter().take(halvings);
-        let lost = below.map(Octave::lost).sum();
-        if let Some(octave) = self.octaves.get(halvings) {
-            let candidate = &mut self.candidate;
-            candidate
-                .attempt
-                .begin(&octave.frame, usize::from(octave.count), period);
-            candidate.halvings = halvings as u8;
-            candidate.lost = lost;
-            candidate.is_open = true;
-        }
     }
 }
 

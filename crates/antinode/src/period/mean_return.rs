@@ -8,7 +8,7 @@
 use core::f32::consts::TAU;
 
 use super::PERIODS;
-use super::confirm::Trial;
+use super::trial::Trial;
 use crate::block::Pair;
 use crate::order::{greater, lesser};
 

@@ -12,11 +12,11 @@
 //! ```
 
 mod attempt;
-mod confirm;
 mod difference;
 #[cfg(feature = "mean-return")]
 mod mean_return;
 mod octave;
+mod trial;
 
 pub use difference::DifferenceDetector;
 #[cfg(feature = "mean-return")]

@@ -3,7 +3,7 @@
 use num_complex::Complex32;
 
 use crate::phase::{Phase, argument};
-use crate::sample::{Sample, Zero};
+use crate::sample::{Arithmetic, Sample, Zero};
 
 /// Lags of an octave.
 pub(crate) const LAGS: usize = 10;
@@ -18,7 +18,7 @@ const LEAST: u16 = 10;
 const OFTEN: u16 = 22;
 
 /// D(1)…D(10), not yet divided by the count of pairs in each.
-pub(crate) type Lags<S> = [<S as Sample>::Square; LAGS];
+pub(crate) type Lags<S> = [<S as Arithmetic>::Square; LAGS];
 /// Two sample pairs that follow each other.
 pub(super) type Two<S> = [[S; 2]; 2];
 /// The samples of a frame.

@@ -1,9 +1,9 @@
 //! Arithmetic at sample rate on 16-bit codes: two products an instruction where the core has them, sums in 32 bits.
 
 use super::codes;
-use super::{Sample, SamplePair};
+use super::{Arithmetic, Form, SamplePair};
 use crate::arch;
-use crate::block::{ChannelSums, ChannelWatch};
+use crate::block::{ChannelSums, ChannelWatch, Reference};
 use crate::period::Lags;
 
 /// Two 16-bit halves as a word.
@@ -18,21 +18,36 @@ fn pair(word: u32) -> [i16; 2] {
     [word as i16, (word >> 16) as i16]
 }
 
-impl Sample for i16 {
+/// Puts the weights of sample `index` into a table: cosines of two samples in the even places, their sines in the odd ones.
+#[inline(always)]
+fn set_weight(table: &mut [u32], index: usize, weight: [f32; 2]) {
+    let [cosine, sine] = weight.map(|value| value as i16);
+    if let Some([cosines, sines, ..]) = table.get_mut(index & !1..) {
+        let set = |two: u32, value: i16| {
+            let [low, high] = pair(two);
+            if index.is_multiple_of(2) {
+                word([value, high])
+            } else {
+                word([low, value])
+            }
+        };
+        (*cosines, *sines) = (set(*cosines, cosine), set(*sines, sine));
+    }
+}
+
+impl Arithmetic for i16 {
     type Sum = i32;
-    // Cosines of two samples in the even places, their sines in the odd ones.
-    type Weight = u32;
-    type Third = u32;
     type Runs = ();
+    type Weights<const N: usize> = [[u32; N]; 2];
     type Square = u32;
+    type Level = u32;
     // A word of two. Products are at most 2³⁰, two of them 2³¹: 2³² stay below 2⁶³.
     type Centred = u32;
-    type Products = [i64; 3];
-    type Delayed = [i64; 2];
-    type Level = u32;
+    type Product = i64;
 
-    const WATCHED_AT_ONCE: u16 = 32;
+    const FORM: Form = Form::Codes;
     const EXTREMES: [Self; 2] = [i16::MIN, i16::MAX];
+    const WATCHED_AT_ONCE: u16 = 32;
 
     #[inline(always)]
     fn to_f32(self) -> f32 {
@@ -55,33 +70,21 @@ impl Sample for i16 {
     }
 
     #[inline(always)]
-    fn set_weight(table: &mut [u32], index: usize, weight: [f32; 2]) {
-        let [cosine, sine] = weight.map(|value| value as i16);
-        let place = table.get_mut(index & !1..);
-        if let Some([cosines, sines, ..]) = place {
-            let set = |word: u32, value: i16| {
-                let [low, high] = pair(word);
-                if index.is_multiple_of(2) {
-                    self::word([value, high])
-                } else {
-                    self::word([low, value])
-                }
-            };
-            (*cosines, *sines) = (set(*cosines, cosine), set(*sines, sine));
-        }
+    fn set_weights<const N: usize>(
+        [carrier, third]: &mut [[u32; N]; 2],
+        index: usize,
+        reference: Reference,
+    ) {
+        set_weight(carrier, index, [reference.cosine, reference.sine]);
+        set_weight(third, index, [reference.third_cosine, reference.third_sine]);
     }
 
     #[inline(always)]
-    fn set_third(table: &mut [u32], index: usize, weight: [f32; 2]) {
-        Self::set_weight(table, index, weight);
-    }
-
-    #[inline(always)]
-    fn add_slice<P: SamplePair<Self>>(
+    fn add_slice<P: SamplePair<Self>, const N: usize>(
         sums: &mut [ChannelSums<Self>; 2],
         watch: &mut Option<[ChannelWatch<Self>; 2]>,
         pairs: &[P],
-        (carrier, third): (&[u32], &[u32]),
+        [carrier, third]: &[[u32; N]; 2],
         index: u16,
     ) {
         arch::add_pairs(sums, pairs, carrier, index);
@@ -110,12 +113,8 @@ impl Sample for i16 {
         *sums = arch::add_delayed(*sums, now, before);
     }
 
-    fn products(sums: [i64; 3]) -> [f64; 3] {
-        sums.map(|sum| sum as f64)
-    }
-
-    fn delayed(sums: [i64; 2]) -> [f64; 2] {
-        sums.map(|sum| sum as f64)
+    fn product_to_f64(sum: i64) -> f64 {
+        sum as f64
     }
 
     #[inline(always)]

@@ -1,8 +1,8 @@
 //! Arithmetic at sample rate on codes of up to 32 bits: sums in 64 bits.
 
 use super::codes;
-use super::{Sample, SamplePair};
-use crate::block::{ChannelSums, ChannelWatch};
+use super::{Arithmetic, Form, SamplePair};
+use crate::block::{ChannelSums, ChannelWatch, Reference};
 use crate::period::Lags;
 use crate::sum::{self, Sum};
 
@@ -11,19 +11,18 @@ fn product(sample: i32, weight: i16) -> i64 {
     i64::from(sample) * i64::from(weight)
 }
 
-impl Sample for i32 {
+impl Arithmetic for i32 {
     type Sum = i64;
-    type Weight = [i16; 2];
-    type Third = [i16; 2];
     type Runs = ();
+    type Weights<const N: usize> = [[[i16; 2]; N]; 2];
     type Square = u64;
-    type Centred = [f32; 2];
-    type Products = [Sum; 3];
-    type Delayed = [Sum; 2];
     type Level = u32;
+    type Centred = [f32; 2];
+    type Product = Sum;
 
-    const WATCHED_AT_ONCE: u16 = 14;
+    const FORM: Form = Form::Other;
     const EXTREMES: [Self; 2] = [i32::MIN, i32::MAX];
+    const WATCHED_AT_ONCE: u16 = 14;
 
     #[inline(always)]
     fn to_f32(self) -> f32 {
@@ -45,23 +44,23 @@ impl Sample for i32 {
     }
 
     #[inline(always)]
-    fn set_weight(table: &mut [[i16; 2]], index: usize, weight: [f32; 2]) {
-        if let Some(entry) = table.get_mut(index) {
-            *entry = weight.map(|value| value as i16);
+    fn set_weights<const N: usize>(
+        [carrier, third]: &mut [[[i16; 2]; N]; 2],
+        index: usize,
+        reference: Reference,
+    ) {
+        if let (Some(carrier), Some(third)) = (carrier.get_mut(index), third.get_mut(index)) {
+            *carrier = [reference.cosine as i16, reference.sine as i16];
+            *third = [reference.third_cosine as i16, reference.third_sine as i16];
         }
     }
 
     #[inline(always)]
-    fn set_third(table: &mut [[i16; 2]], index: usize, weight: [f32; 2]) {
-        Self::set_weight(table, index, weight);
-    }
-
-    #[inline(always)]
-    fn add_slice<P: SamplePair<Self>>(
+    fn add_slice<P: SamplePair<Self>, const N: usize>(
         sums: &mut [ChannelSums<Self>; 2],
         watch: &mut Option<[ChannelWatch<Self>; 2]>,
         pairs: &[P],
-        (carrier, third): (&[[i16; 2]], &[[i16; 2]]),
+        [carrier, third]: &[[[i16; 2]; N]; 2],
         index: u16,
     ) {
         add_pairs(sums, pairs, carrier, index);
@@ -90,12 +89,8 @@ impl Sample for i32 {
         sum::add_delayed(sums, now, before);
     }
 
-    fn products(sums: [Sum; 3]) -> [f64; 3] {
-        sums.map(Sum::value)
-    }
-
-    fn delayed(sums: [Sum; 2]) -> [f64; 2] {
-        sums.map(Sum::value)
+    fn product_to_f64(sum: Sum) -> f64 {
+        sum.value()
     }
 
     #[inline(always)]

@@ -1,25 +1,24 @@
 //! Arithmetic at sample rate in f32.
 
-use super::{Sample, SamplePair};
+use super::{Arithmetic, Form, SamplePair};
 use crate::arch;
-use crate::block::{ChannelSums, ChannelWatch, Runs};
+use crate::block::{ChannelSums, ChannelWatch, Reference, Runs};
 use crate::period::{FRAME, Lags};
 use crate::sum::{self, Sum};
 
-impl Sample for f32 {
+impl Arithmetic for f32 {
     type Sum = f32;
-    type Weight = [f32; 2];
-    type Third = ();
     type Runs = Runs;
+    type Weights<const N: usize> = [[f32; 2]; N];
     type Square = f32;
-    type Centred = [f32; 2];
-    type Products = [Sum; 3];
-    type Delayed = [Sum; 2];
     type Level = f32;
+    type Centred = [f32; 2];
+    type Product = Sum;
 
+    const FORM: Form = Form::Floats;
+    const EXTREMES: [Self; 2] = [f32::NEG_INFINITY, f32::INFINITY];
     // A signal that comes twice each costs twice the usual.
     const WATCHED_AT_ONCE: u16 = 8;
-    const EXTREMES: [Self; 2] = [f32::NEG_INFINITY, f32::INFINITY];
 
     #[inline(always)]
     fn to_f32(self) -> f32 {
@@ -41,26 +40,27 @@ impl Sample for f32 {
     }
 
     #[inline(always)]
-    fn set_weight(table: &mut [[f32; 2]], index: usize, weight: [f32; 2]) {
-        if let Some(entry) = table.get_mut(index) {
-            *entry = weight;
+    fn set_weights<const N: usize>(
+        weights: &mut [[f32; 2]; N],
+        index: usize,
+        reference: Reference,
+    ) {
+        if let Some(weight) = weights.get_mut(index) {
+            *weight = [reference.cosine, reference.sine];
         }
     }
 
     #[inline(always)]
-    fn set_third(_: &mut [()], _: usize, _: [f32; 2]) {}
-
-    #[inline(always)]
-    fn add_slice<P: SamplePair<Self>>(
+    fn add_slice<P: SamplePair<Self>, const N: usize>(
         sums: &mut [ChannelSums<Self>; 2],
         watch: &mut Option<[ChannelWatch<Self>; 2]>,
         pairs: &[P],
-        (table, _): (&[[f32; 2]], &[()]),
+        weights: &[[f32; 2]; N],
         index: u16,
     ) {
         match watch {
-            Some(watch) => arch::watch_floats(sums, watch, pairs, table, index),
-            None => arch::add_floats(sums, pairs, table, index),
+            Some(watch) => arch::watch_floats(sums, watch, pairs, weights, index),
+            None => arch::add_floats(sums, pairs, weights, index),
         }
     }
 
@@ -84,12 +84,8 @@ impl Sample for f32 {
         sum::add_delayed(sums, now, before);
     }
 
-    fn products(sums: [Sum; 3]) -> [f64; 3] {
-        sums.map(Sum::value)
-    }
-
-    fn delayed(sums: [Sum; 2]) -> [f64; 2] {
-        sums.map(Sum::value)
+    fn product_to_f64(sum: Sum) -> f64 {
+        sum.value()
     }
 
     #[inline(always)]

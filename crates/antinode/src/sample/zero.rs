@@ -1,7 +1,6 @@
 //! Zero as a constant: a static of zeros takes neither flash nor stack.
 
-/// Numbers of samples and sums that are nothing.
-#[doc(hidden)]
+/// Samples, sums and tables of them that are nothing.
 pub trait Zero: Copy {
     /// Nothing.
     const ZERO: Self;
@@ -17,4 +16,8 @@ macro_rules! zero {
     };
 }
 
-zero!(i16: 0, i32: 0, i64: 0, u32: 0, u64: 0, f32: 0.0, (): (), [f32; 2]: [0.0; 2], [i16; 2]: [0; 2]);
+zero!(i16: 0, i32: 0, i64: 0, u32: 0, u64: 0, f32: 0.0);
+
+impl<T: Zero, const N: usize> Zero for [T; N] {
+    const ZERO: Self = [T::ZERO; N];
+}

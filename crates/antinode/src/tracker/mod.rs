@@ -274,7 +274,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     fn begin(&mut self, &layout: &Layout) {
         let settings = &self.settings;
         self.units = Units::at(settings.sample_rate);
-        self.count = settings.blocks(layout).clamp(1, BLOCKS as u16);
+        self.count = settings.cut().blocks(layout).clamp(1, BLOCKS as u16);
         let rate = self.units.sample_rate;
         self.model
             .insert(Model::empty(layout, settings.calibration, rate))

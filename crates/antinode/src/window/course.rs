@@ -85,7 +85,7 @@ mod tests {
             let mut squares = 0.0;
             for _ in 0..1000 {
                 let carrier = PhaseStep::from_period(18.75 + 0.5 * random());
-                let layout = Layout::new::<f32>(carrier, length);
+                let layout = Layout::unrounded(carrier, length);
                 let model = Model::new(
                     layout,
                     carrier,
@@ -122,7 +122,7 @@ mod tests {
     #[test]
     fn a_chunk_of_one_block_grows_as_far_as_a_course_may() {
         let carrier = PhaseStep::from_period(18.75);
-        let layout = Layout::new::<f32>(carrier, 19);
+        let layout = Layout::unrounded(carrier, 19);
         let blocks = CHUNK as u16 + 1;
         let model = Model::new(layout, carrier, blocks, Calibration::IDEAL, 1e5, false);
         let slope = Complex32::new(-0.7, 0.9);

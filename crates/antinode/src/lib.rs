@@ -108,7 +108,7 @@
 //! | feature | on by default | what it adds |
 //! |---|---|---|
 //! | `mean-return` | yes | the period detector of formula (9): `Detection::MeanReturn`, `period::MeanReturnDetector` |
-//! | `fixed` | no | pairs of `I1F15` and `I1F31` of the crate `fixed`: [`SamplePair`] |
+//! | `fixed` | yes | pairs of `I1F15` and `I1F31` of the crate `fixed`: [`SamplePair`] |
 //! | `defmt` | no | `defmt::Format` of [`Estimate`], [`Flags`], [`Settings`], [`Calibration`], [`Detection`] and the errors |
 //!
 //! Firmware that needs none takes `default-features = false`. To send estimates and settings over a line, or to keep them, take

@@ -197,3 +197,43 @@ impl SamplePair<i32> for [fixed::types::I1F31; 2] {
         self.map(fixed::types::I1F31::to_bits)
     }
 }
+
+#[cfg(all(test, feature = "fixed"))]
+mod tests {
+    use std::vec::Vec;
+
+    use fixed::types::{I1F15, I1F31};
+
+    use super::*;
+    use crate::identifier::Identifier;
+    use crate::settings::Settings;
+
+    fn estimates<S: Sample>(pairs: &[impl SamplePair<S>]) -> Vec<crate::Estimate> {
+        let mut identifier = Identifier::<S, 200, 16>::new(Settings::new(1e5)).unwrap();
+        let mut all = Vec::new();
+        identifier.extend(pairs, |estimate| all.push(estimate));
+        assert_eq!(all.len(), 5);
+        all
+    }
+
+    #[test]
+    fn numbers_of_fixed_are_taken_as_their_codes() {
+        let signal = |k: u16| {
+            let (sine, cosine) = libm::sincos(0.335 * f64::from(k));
+            [0.8 * cosine, 0.4 * cosine + 0.1 * sine]
+        };
+        let signals: Vec<_> = (0..1100).map(signal).collect();
+        let short: Vec<_> = signals.iter().map(|s| s.map(I1F15::from_num)).collect();
+        let codes: Vec<_> = short.iter().map(|s| s.map(I1F15::to_bits)).collect();
+        let found = estimates::<i16>(&short);
+        assert_eq!(found, estimates::<i16>(&codes));
+        let unit = 1.0 / 32_768.0;
+        let [c, d] = [0.8, f32::hypot(0.4, 0.1)];
+        let power = f32::hypot(found[0].main_amplitude, found[0].quadrature_amplitude) * unit;
+        assert!((power - f32::hypot(c, d)).abs() < 1e-4, "{power}");
+
+        let long: Vec<_> = signals.iter().map(|s| s.map(I1F31::from_num)).collect();
+        let codes: Vec<_> = long.iter().map(|s| s.map(I1F31::to_bits)).collect();
+        assert_eq!(estimates::<i32>(&long), estimates::<i32>(&codes));
+    }
+}

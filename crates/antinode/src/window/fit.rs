@@ -8,6 +8,7 @@
 use super::examine::{Remains, examine};
 use super::gradient::{self, Gradient};
 use super::model::Model;
+use super::normal::Covariance;
 use super::seen::Seen;
 use super::waves::{Parameters, Step, Waves};
 use crate::arch::square_root;
@@ -25,6 +26,8 @@ const SETTLED: f32 = 2.5e-7;
 /// What a step may take off the residual, in variances of the noise and divided by the blocks, before the residual is looked at anew:
 /// what is not taken off looks like a step between the first block and the others, as many times as large as there are blocks.
 const NEGLIGIBLE: f32 = 0.5;
+/// A step that explains less than this share of the variance of the noise moves nothing by a hundredth of its standard deviation.
+const FUTILE: f32 = 1e-4;
 /// Steps at most.
 const STEPS: usize = 6;
 
@@ -77,7 +80,7 @@ impl Model {
         let mut gradients = gradient::of_sums(self, blocks);
         let mut parameters = Parameters::default();
         fit.offsets = [0.0; 2];
-        self.step(&gradients, 0, &mut parameters, fit);
+        self.step(&gradients, &mut parameters, fit);
         for pass in 0..STEPS {
             fit.waves.take_course();
             examine(
@@ -88,7 +91,13 @@ impl Model {
                 &mut fit.remains,
                 &mut gradients,
             );
-            if self.step(&gradients, pass, &mut parameters, fit) {
+            // With offsets of their own the linear solution does not know what the waves put into the blocks' means.
+            let knows_offset = pass > 0 || self.shared > 0.0;
+            if knows_offset && self.is_futile(&gradients, fit) {
+                fit.settled = true;
+                break;
+            }
+            if self.step(&gradients, &mut parameters, fit) && knows_offset {
                 break;
             }
         }
@@ -99,12 +108,32 @@ impl Model {
         }
     }
 
+    /// True when a step from where these are the gradients would be lost in the noise, and that is far below the wave.
+    #[inline(never)]
+    fn is_futile(&self, gradients: &[Gradient; 2], fit: &Fit) -> bool {
+        let Covariance { even, odd } = &self.covariance;
+        let per_mean = self.response.offset;
+        let mut explained = 0.0;
+        for Gradient { level, slope, mean } in gradients {
+            let mean = per_mean * mean;
+            explained += even[0][0] * (level.re * level.re)
+                + even[1][1] * (slope.im * slope.im)
+                + even[2][2] * (mean * mean)
+                + odd[0][0] * (level.im * level.im)
+                + odd[1][1] * (slope.re * slope.re);
+        }
+        // Parameters that depend on each other explain up to as many times more as there are of them.
+        let most = 3.0 * explained * fit.remains.freedom;
+        let residual = fit.remains.residual;
+        most <= FUTILE * residual
+            && even[1][1] * residual <= fit.remains.freedom * fit.waves.power()
+    }
+
     /// Moves to where the gradients vanish; true when no further step is needed.
     #[inline(never)]
     fn step(
         &self,
         gradients: &[Gradient; 2],
-        pass: usize,
         parameters: &mut Parameters,
         fit: &mut Fit,
     ) -> bool {
@@ -121,9 +150,7 @@ impl Model {
         fit.remains.residual -= explained;
         let left = explained * fit.remains.freedom * f32::from(self.blocks);
         let negligible = left <= NEGLIGIBLE * fit.remains.residual;
-        // With offsets of their own the linear solution does not know what the waves put into the blocks' means.
-        let knows_offset = pass > 0 || self.shared > 0.0;
-        fit.settled && knows_offset && (negligible || moved <= SETTLED * SETTLED * size)
+        fit.settled && (negligible || moved <= SETTLED * SETTLED * size)
     }
 }
 

@@ -146,14 +146,15 @@ fn has_harmonic(
     let share = greater(even[0][0], odd[0][0]);
     let floor = HARMONIC_FLOOR * wave.record.main.value;
     let [per_gain, _] = model.correction.noise_gains;
-    [floor, floor / per_gain]
+    // As a pick-off of C's gain would see it.
+    [1.0, per_gain]
         .iter()
         .zip(&remains.third)
-        .any(|(floor, third)| {
-            let square = third.norm_sqr();
+        .any(|(gain, third)| {
+            let square = gain * gain * third.norm_sqr();
             square > floor * floor && {
                 let chance = square_root(1.2 * share * noise) + square_root(share * coding);
-                let limit = SIGMAS * chance + floor;
+                let limit = SIGMAS * gain * chance + floor;
                 square > limit * limit
             }
         })

@@ -112,21 +112,16 @@ impl Model {
     #[inline(never)]
     fn is_futile(&self, gradients: &[Gradient; 2], fit: &Fit) -> bool {
         let Covariance { even, odd } = &self.covariance;
-        let per_mean = self.response.offset;
-        let mut explained = 0.0;
-        for Gradient { level, slope, mean } in gradients {
-            let mean = per_mean * mean;
-            explained += even[0][0] * (level.re * level.re)
-                + even[1][1] * (slope.im * slope.im)
-                + even[2][2] * (mean * mean)
-                + odd[0][0] * (level.im * level.im)
-                + odd[1][1] * (slope.re * slope.re);
-        }
+        let (of_level, of_slope) = (even[0][0] + odd[0][0], even[1][1] + odd[1][1]);
+        let of_mean = even[2][2] * self.response.offset * self.response.offset;
+        let explained = gradients.iter().map(|Gradient { level, slope, mean }| {
+            of_level * level.norm_sqr() + of_slope * slope.norm_sqr() + of_mean * mean * mean
+        });
         // Parameters that depend on each other explain up to as many times more as there are of them.
-        let most = 3.0 * explained * fit.remains.freedom;
+        let explained = 3.0 * explained.sum::<f32>();
+        let most = explained * fit.remains.freedom;
         let residual = fit.remains.residual;
-        most <= FUTILE * residual
-            && even[1][1] * residual <= fit.remains.freedom * fit.waves.power()
+        most <= FUTILE * residual && of_slope * residual <= fit.remains.freedom * fit.waves.power()
     }
 
     /// Moves to where the gradients vanish; true when no further step is needed.

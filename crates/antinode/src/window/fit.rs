@@ -199,3 +199,61 @@ fn reach(model: &Model, count: u16, carrier: PhaseStep, uncertainty: f32) -> u16
     let shortest = (2.5 * carrier.period() / length) as u16 + 1;
     ((1.0 / whole) as u16).max(shortest.max(3)).min(count)
 }
+
+#[cfg(test)]
+mod tests {
+    use num_complex::Complex32;
+
+    use super::*;
+    use crate::block::Layout;
+    use crate::calibration::Calibration;
+
+    #[test]
+    fn a_futile_step_is_lost_in_the_noise() {
+        let mut seed = 1u32;
+        let mut random = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / 8_388_608.0 - 1.0
+        };
+        // A fifth of a period, two fifths, one and two, and windows of two periods and more.
+        for (length, blocks) in [(4u16, 11u16), (8, 5), (19, 4), (37, 5), (37, 50)] {
+            let carrier = PhaseStep::from_period(18.75);
+            let layout = Layout::new::<f32>(carrier, length);
+            let model = Model::new(layout, carrier, blocks, Calibration::IDEAL, 1e5, false);
+            let (mut futile, mut others) = (0, 0);
+            for i in 0..2000 {
+                // From 10⁻⁶ of the noise's deviation to that; of every other one the offset's part is next to nothing.
+                let scale = square_root(f32::from(length) * f32::from(blocks))
+                    * libm::powf(10.0, -6.0 * (i % 500) as f32 / 500.0);
+                let share = if i % 2 == 0 { 1.0 } else { 1e-6 };
+                let gradients = core::array::from_fn(|_| Gradient {
+                    level: Complex32::new(random(), random()) * scale,
+                    slope: Complex32::new(random(), random()) * scale,
+                    mean: random() * scale * share,
+                });
+                let mut fit = Fit::default();
+                fit.remains.freedom = model.freedom();
+                fit.remains.residual = fit.remains.freedom;
+                // A wave no greater than the noise of its own rate of change.
+                let least = model.covariance.even[1][1] + model.covariance.odd[1][1];
+                fit.waves.value[0].re = 1.001 * square_root(least);
+                let is_futile = model.is_futile(&gradients, &fit);
+                let step = Step::new(&model, &gradients);
+                let [moved, explained] = Parameters::default().take(&step, &gradients, &model);
+                if is_futile {
+                    futile += 1;
+                    assert!(explained <= FUTILE, "{length}, {blocks}: {explained}");
+                    let size = 0.5 * fit.waves.power();
+                    assert!(moved <= NEAR * NEAR * size, "{length}, {blocks}: {moved}");
+                } else {
+                    others += 1;
+                    assert!(explained > 0.01 * FUTILE, "{length}, {blocks}: {explained}");
+                }
+                // A lesser wave may be at another frequency: whether its steps settle tells.
+                fit.waves.value[0].re *= 0.99;
+                assert!(!model.is_futile(&gradients, &fit));
+            }
+            assert!(futile > 200 && others > 200, "{length}: {futile}, {others}");
+        }
+    }
+}

@@ -23,8 +23,12 @@ pub(crate) fn units(count: i64, unit: f64) -> f64 {
     let halves = |x: u64| [x & 0xffff_ffff, x >> 32];
     let ([a_low, a_high], [b_low, b_high]) = (halves(a), halves(b));
     let product = a_high * b_high + ((a_high * b_low) >> 32) + ((a_low * b_high) >> 32);
-    let lead = product.leading_zeros();
-    let fraction = product << lead;
+    // Both begin with a one: their product does, or at its second bit.
+    let (fraction, lead) = if product >> 63 == 1 {
+        (product, 0)
+    } else {
+        (product << 1, 1)
+    };
     // Rounding may carry into the exponent, as it should; the leading one is taken off it.
     let rounded = (fraction >> 11) + ((fraction >> 10) & 1);
     let exponent = (bits >> 52) + 63 - u64::from(shift + lead);

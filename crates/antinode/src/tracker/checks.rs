@@ -2,7 +2,7 @@
 //!
 //! Every threshold is a false-alarm rate below 10⁻⁹ a window for white noise, plus a floor under which a deviation is no fault.
 
-use super::noise::{Noise, REACH, RISE, is_louder, limit, limit_of};
+use super::noise::{Noise, REACH, RISE, is_beyond_chance, is_louder, limit_of};
 use super::standing::Standing;
 use crate::arch::square_root;
 use crate::estimate::Flags;
@@ -101,8 +101,8 @@ pub(crate) fn within(
             (greater(remains.residual - part, 0.0) / rest, rest)
         };
         // Of so few degrees the limit is more than that.
-        part > RISE * degrees * level + floor
-            && part > limit(degrees, freedom) * degrees * level + floor
+        let (part, level) = (part - floor, degrees * level);
+        part > RISE * level && is_beyond_chance(part, level, degrees, freedom)
     };
     // One block out of line with all others: a step, a spike or a short dropout.
     // Of both pick-offs' sums of a block, those that its own offsets leave.
@@ -146,14 +146,15 @@ fn has_harmonic(
     let share = greater(even[0][0], odd[0][0]);
     let floor = HARMONIC_FLOOR * wave.record.main.value;
     let [per_gain, _] = model.correction.noise_gains;
-    [floor, floor / per_gain]
+    // As a pick-off of C's gain would see it.
+    [1.0, per_gain]
         .iter()
         .zip(&remains.third)
-        .any(|(floor, third)| {
-            let square = third.norm_sqr();
+        .any(|(gain, third)| {
+            let square = gain * gain * third.norm_sqr();
             square > floor * floor && {
                 let chance = square_root(1.2 * share * noise) + square_root(share * coding);
-                let limit = SIGMAS * chance + floor;
+                let limit = SIGMAS * gain * chance + floor;
                 square > limit * limit
             }
         })

@@ -98,24 +98,34 @@ impl Noise {
     }
 
     /// True when a variance of `freedom` exceeds the one remembered, and a floor.
+    #[inline]
     pub(super) fn is_exceeded(&self, variance: f32, freedom: f32, floor: f32) -> bool {
         self.freedom > 0.0 && is_louder(variance - floor, self.variance, freedom, self.freedom)
     }
 }
 
 /// True when a variance exceeds a level by more than noise may rise, and by more than chance explains from their degrees of freedom.
+#[inline]
 pub(super) fn is_louder(variance: f32, level: f32, freedom: f32, other: f32) -> bool {
-    variance > RISE * level && variance > limit(freedom, other) * level
+    variance > RISE * level && is_beyond_chance(variance, level, freedom, other)
+}
+
+/// True when a variance of `freedom` degrees exceeds a level of `other` by more than chance explains.
+#[cold]
+#[inline(never)]
+pub(super) fn is_beyond_chance(variance: f32, level: f32, freedom: f32, other: f32) -> bool {
+    variance > limit(freedom, other) * level
 }
 
 /// How many times a variance of `freedom` degrees may exceed another of `other` by chance, three times in 10¹⁰.
-pub(super) fn limit(freedom: f32, other: f32) -> f32 {
+fn limit(freedom: f32, other: f32) -> f32 {
     limit_of(REACH, freedom, other)
 }
 
 /// The same for a chance of so many standard deviations: Paulson's approximation.
 ///
 /// Infinite where the other is known too badly for that.
+#[cold]
 #[inline(never)]
 pub(super) fn limit_of(reach: f32, freedom: f32, other: f32) -> f32 {
     // The cube root of a variance is nearly normal, its mean less than one by its own variance.

@@ -95,7 +95,17 @@ impl Record {
         let angle = self.angle.radians();
         let frequency = self.carrier.hertz(self.drift, units.turn);
         let rate = units.sample_rate;
-        let root = |variance: f32| square_root(self.share * variance);
+        let variances = [
+            self.main.variance,
+            self.quadrature.variance,
+            self.angle_variance,
+            self.phase_variance,
+            self.drift_variance,
+            self.turning_variance,
+            self.main.rate_variance,
+        ];
+        let stated = variances.map(|variance| square_root(self.share * variance));
+        let [main, quadrature, of_angle, phase, drift, turning, decay] = stated;
         let per_amplitude = rate / self.main.value;
         Estimate {
             start: (self.middle + 1 - u64::from(self.samples)) / 2,
@@ -109,13 +119,13 @@ impl Record {
             angle_rate: self.turning * rate,
             decay_rate: -self.main.rate * per_amplitude,
             offsets: self.offsets,
-            main_amplitude_std: root(self.main.variance),
-            quadrature_amplitude_std: root(self.quadrature.variance),
-            angle_std: root(self.angle_variance),
-            phase_std: root(self.phase_variance),
-            frequency_std: root(self.drift_variance) * rate * (1.0 / core::f32::consts::TAU),
-            angle_rate_std: root(self.turning_variance) * rate,
-            decay_rate_std: root(self.main.rate_variance) * per_amplitude,
+            main_amplitude_std: main,
+            quadrature_amplitude_std: quadrature,
+            angle_std: of_angle,
+            phase_std: phase,
+            frequency_std: drift * rate * (1.0 / core::f32::consts::TAU),
+            angle_rate_std: turning * rate,
+            decay_rate_std: decay * per_amplitude,
             residual_rms: square_root(self.residual),
             flags,
         }

@@ -8,6 +8,7 @@
 use super::examine::{Remains, examine};
 use super::gradient::{self, Gradient};
 use super::model::Model;
+use super::normal::Covariance;
 use super::seen::Seen;
 use super::waves::{Parameters, Step, Waves};
 use crate::arch::square_root;
@@ -25,6 +26,8 @@ const SETTLED: f32 = 2.5e-7;
 /// What a step may take off the residual, in variances of the noise and divided by the blocks, before the residual is looked at anew:
 /// what is not taken off looks like a step between the first block and the others, as many times as large as there are blocks.
 const NEGLIGIBLE: f32 = 0.5;
+/// A step that explains less than this share of the variance of the noise moves nothing by a hundredth of its standard deviation.
+const FUTILE: f32 = 1e-4;
 /// Steps at most.
 const STEPS: usize = 6;
 
@@ -77,7 +80,7 @@ impl Model {
         let mut gradients = gradient::of_sums(self, blocks);
         let mut parameters = Parameters::default();
         fit.offsets = [0.0; 2];
-        self.step(&gradients, 0, &mut parameters, fit);
+        self.step(&gradients, &mut parameters, fit);
         for pass in 0..STEPS {
             fit.waves.take_course();
             examine(
@@ -88,7 +91,13 @@ impl Model {
                 &mut fit.remains,
                 &mut gradients,
             );
-            if self.step(&gradients, pass, &mut parameters, fit) {
+            // With offsets of their own the linear solution does not know what the waves put into the blocks' means.
+            let knows_offset = pass > 0 || self.shared > 0.0;
+            if knows_offset && self.is_futile(&gradients, fit) {
+                fit.settled = true;
+                break;
+            }
+            if self.step(&gradients, &mut parameters, fit) && knows_offset {
                 break;
             }
         }
@@ -99,15 +108,25 @@ impl Model {
         }
     }
 
+    /// True when a step from where these are the gradients would be lost in the noise, and that is far below the wave.
+    #[inline(never)]
+    fn is_futile(&self, gradients: &[Gradient; 2], fit: &Fit) -> bool {
+        let Covariance { even, odd } = &self.covariance;
+        let (of_level, of_slope) = (even[0][0] + odd[0][0], even[1][1] + odd[1][1]);
+        let of_mean = even[2][2] * self.response.offset * self.response.offset;
+        let explained = gradients.iter().map(|Gradient { level, slope, mean }| {
+            of_level * level.norm_sqr() + of_slope * slope.norm_sqr() + of_mean * mean * mean
+        });
+        // Parameters that depend on each other explain up to as many times more as there are of them.
+        let explained = 3.0 * explained.sum::<f32>();
+        let most = explained * fit.remains.freedom;
+        let residual = fit.remains.residual;
+        most <= FUTILE * residual && of_slope * residual <= fit.remains.freedom * fit.waves.power()
+    }
+
     /// Moves to where the gradients vanish; true when no further step is needed.
     #[inline(never)]
-    fn step(
-        &self,
-        gradients: &[Gradient; 2],
-        pass: usize,
-        parameters: &mut Parameters,
-        fit: &mut Fit,
-    ) -> bool {
+    fn step(&self, gradients: &[Gradient; 2], parameters: &mut Parameters, fit: &mut Fit) -> bool {
         let step = Step::new(self, gradients);
         let [moved, explained] = parameters.take(&step, gradients, self);
         fit.waves.set(self, parameters);
@@ -121,9 +140,7 @@ impl Model {
         fit.remains.residual -= explained;
         let left = explained * fit.remains.freedom * f32::from(self.blocks);
         let negligible = left <= NEGLIGIBLE * fit.remains.residual;
-        // With offsets of their own the linear solution does not know what the waves put into the blocks' means.
-        let knows_offset = pass > 0 || self.shared > 0.0;
-        fit.settled && knows_offset && (negligible || moved <= SETTLED * SETTLED * size)
+        fit.settled && (negligible || moved <= SETTLED * SETTLED * size)
     }
 }
 
@@ -181,4 +198,62 @@ fn reach(model: &Model, count: u16, carrier: PhaseStep, uncertainty: f32) -> u16
     }
     let shortest = (2.5 * carrier.period() / length) as u16 + 1;
     ((1.0 / whole) as u16).max(shortest.max(3)).min(count)
+}
+
+#[cfg(test)]
+mod tests {
+    use num_complex::Complex32;
+
+    use super::*;
+    use crate::block::Layout;
+    use crate::calibration::Calibration;
+
+    #[test]
+    fn a_futile_step_is_lost_in_the_noise() {
+        let mut seed = 1u32;
+        let mut random = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / 8_388_608.0 - 1.0
+        };
+        // A fifth of a period, two fifths, one and two, and windows of two periods and more.
+        for (length, blocks) in [(4u16, 11u16), (8, 5), (19, 4), (37, 5), (37, 50)] {
+            let carrier = PhaseStep::from_period(18.75);
+            let layout = Layout::new::<f32>(carrier, length);
+            let model = Model::new(layout, carrier, blocks, Calibration::IDEAL, 1e5, false);
+            let (mut futile, mut others) = (0, 0);
+            for i in 0..2000 {
+                // From 10⁻⁶ of the noise's deviation to that; of every other one the offset's part is next to nothing.
+                let scale = square_root(f32::from(length) * f32::from(blocks))
+                    * libm::powf(10.0, -6.0 * (i % 500) as f32 / 500.0);
+                let share = if i % 2 == 0 { 1.0 } else { 1e-6 };
+                let gradients = core::array::from_fn(|_| Gradient {
+                    level: Complex32::new(random(), random()) * scale,
+                    slope: Complex32::new(random(), random()) * scale,
+                    mean: random() * scale * share,
+                });
+                let mut fit = Fit::default();
+                fit.remains.freedom = model.freedom();
+                fit.remains.residual = fit.remains.freedom;
+                // A wave no greater than the noise of its own rate of change.
+                let least = model.covariance.even[1][1] + model.covariance.odd[1][1];
+                fit.waves.value[0].re = 1.001 * square_root(least);
+                let is_futile = model.is_futile(&gradients, &fit);
+                let step = Step::new(&model, &gradients);
+                let [moved, explained] = Parameters::default().take(&step, &gradients, &model);
+                if is_futile {
+                    futile += 1;
+                    assert!(explained <= FUTILE, "{length}, {blocks}: {explained}");
+                    let size = 0.5 * fit.waves.power();
+                    assert!(moved <= NEAR * NEAR * size, "{length}, {blocks}: {moved}");
+                } else {
+                    others += 1;
+                    assert!(explained > 0.01 * FUTILE, "{length}, {blocks}: {explained}");
+                }
+                // A lesser wave may be at another frequency: whether its steps settle tells.
+                fit.waves.value[0].re *= 0.99;
+                assert!(!model.is_futile(&gradients, &fit));
+            }
+            assert!(futile > 200 && others > 200, "{length}: {futile}, {others}");
+        }
+    }
 }

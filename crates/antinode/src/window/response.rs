@@ -148,22 +148,17 @@ impl Response {
             let twice = layout.twice_from_middle(k);
             let t = 0.5 * per_half * twice as i32 as f32;
             let wave = carrier.after_half_samples(twice).unit();
-            let weights = [
-                (basis.one, false),
-                ((reference.cosine - basis.cosine_mean) * basis.cosine, false),
-                (reference.sine * basis.sine, true),
-                (reference.third_cosine, false),
-                (reference.third_sine, true),
+            // An odd sum sees of a wave what an even one sees of it turned by a quarter.
+            let turned = Complex32::new(-wave.im, wave.re);
+            let weighted = [
+                wave * basis.one,
+                wave * ((reference.cosine - basis.cosine_mean) * basis.cosine),
+                turned * (reference.sine * basis.sine),
+                wave * reference.third_cosine,
+                turned * reference.third_sine,
             ];
-            for (sums, (weight, odd)) in sums.iter_mut().zip(weights) {
-                let (level, slope) = if odd {
-                    (-wave.im, -wave.re)
-                } else {
-                    (wave.re, -wave.im)
-                };
-                sums[0].add(weight * level);
-                sums[1].add(weight * t * slope);
-                sums[2].add(0.5 * weight * t * t * level);
+            for (sums, wave) in sums.iter_mut().zip(weighted) {
+                add(sums, wave, t);
             }
             third_offset.add(reference.third_cosine);
         }
@@ -182,4 +177,12 @@ impl Response {
             third_offset: third_offset.get(),
         }
     }
+}
+
+/// Adds what a wave's sample at time `t` makes of its level, of its slope and of its curve.
+#[inline(never)]
+fn add(sums: &mut [Sum; 3], wave: Complex32, t: f32) {
+    sums[0].add(wave.re);
+    sums[1].add(-wave.im * t);
+    sums[2].add(0.5 * wave.re * t * t);
 }

@@ -218,7 +218,7 @@ mod tests {
         // A fifth of a period, two fifths, one and two, and windows of two periods and more.
         for (length, blocks) in [(4u16, 11u16), (8, 5), (19, 4), (37, 5), (37, 50)] {
             let carrier = PhaseStep::from_period(18.75);
-            let layout = Layout::new::<f32>(carrier, length);
+            let layout = Layout::unrounded(carrier, length);
             let model = Model::new(layout, carrier, blocks, Calibration::IDEAL, 1e5, false);
             let (mut futile, mut others) = (0, 0);
             for i in 0..2000 {

@@ -14,7 +14,7 @@ pub(super) struct Gains([Complex32; 2]);
 
 impl Gains {
     #[inline(always)]
-    fn of(&self, [plus, minus]: &[Complex32; 2]) -> f32 {
+    pub(super) fn of(&self, [plus, minus]: &[Complex32; 2]) -> f32 {
         let [p, m] = &self.0;
         p.re * plus.re - p.im * plus.im + m.re * minus.re - m.im * minus.im
     }
@@ -26,34 +26,30 @@ impl Gains {
     }
 }
 
-/// The constant by which a sum answers to a wave of this z′/z and its square: an even one is the real part of their product, an odd one
-/// the imaginary part.
-#[inline(always)]
-pub(super) fn gain([slope, square]: [Complex32; 2], answer: &Answer) -> Complex32 {
-    let turned = Complex32::new(slope.im, -slope.re) * answer.slope;
-    turned + square * answer.curve + answer.level
-}
-
 /// z′/z of each wave, and its square.
-struct Slopes([[Complex32; 2]; 2]);
+pub(super) struct Slopes([[Complex32; 2]; 2]);
 
 impl Slopes {
     #[inline(always)]
-    fn new(waves: &Waves) -> Self {
+    pub(super) fn new(waves: &Waves) -> Self {
         let [plus, minus] = waves.slope;
         Self([[plus, plus * plus], [minus, minus * minus]])
     }
 
     /// The gains in a sum that is even in time.
     #[inline(always)]
-    fn even(&self, answer: &Answer) -> Gains {
+    pub(super) fn even(&self, answer: &Answer) -> Gains {
+        let gain = |[slope, square]: [Complex32; 2]| {
+            let turned = Complex32::new(slope.im, -slope.re) * answer.slope;
+            turned + square * answer.curve + answer.level
+        };
         let [plus, minus] = self.0;
-        Gains([gain(plus, answer), gain(minus, answer)])
+        Gains([gain(plus), gain(minus)])
     }
 
     /// The gains in a sum that is odd in time.
     #[inline(always)]
-    fn odd(&self, answer: &Answer) -> Gains {
+    pub(super) fn odd(&self, answer: &Answer) -> Gains {
         // The imaginary part of a number is the real part of −j times it.
         let Gains(gains) = self.even(answer);
         Gains(gains.map(|gain| Complex32::new(gain.im, -gain.re)))

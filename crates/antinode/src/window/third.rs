@@ -5,7 +5,7 @@ use num_complex::Complex32;
 use super::course::Course;
 use super::examine::Remains;
 use super::model::Model;
-use super::prediction::gain;
+use super::prediction::Slopes;
 use super::seen::Seen;
 use super::waves::Waves;
 use crate::order::greater;
@@ -33,14 +33,11 @@ impl Thirds {
         blocks: &[Seen],
         course: &Course,
     ) {
-        // Both waves are taken to change as the greater does: of a change within a block these sums see next to nothing.
-        let [plus, minus] = waves.value.map(|value| value.norm_sqr());
-        let slope = waves.slope[usize::from(minus > plus)];
-        let slope = [slope, slope * slope];
+        let slopes = Slopes::new(waves);
         let response = &model.response;
         let (cosine, sine) = (
-            gain(slope, &response.third_even),
-            gain(slope, &response.third_odd),
+            slopes.even(&response.third_even),
+            slopes.odd(&response.third_odd),
         );
         let offsets = offsets.map(|offset| response.third_offset * offset);
         let turn = model.turn;
@@ -51,21 +48,20 @@ impl Thirds {
             let Some(seen) = &block.watched else {
                 continue;
             };
-            let waves = [plus + minus, plus * factors[0] + minus * factors[1]];
-            let mut power = 0.0;
+            let waves = [[plus, minus], [plus * factors[0], minus * factors[1]]];
+            let before = thirds.power;
             for (channel, sum) in thirds.sum.iter_mut().enumerate() {
-                let (third, wave) = (seen.third[channel], waves[channel]);
+                let (third, waves) = (seen.third[channel], &waves[channel]);
                 // Σ S e^(−3jφ).
                 let rest = Complex32::new(
-                    third.re - offsets[channel] - (cosine.re * wave.re - cosine.im * wave.im),
-                    (sine.re * wave.im + sine.im * wave.re) - third.im,
+                    third.re - offsets[channel] - cosine.of(waves),
+                    sine.of(waves) - third.im,
                 );
                 // Against thrice the carrier's phase in the middle of the last block taken.
                 *sum = *sum * turn + rest;
-                power += rest.norm_sqr();
+                thirds.power += rest.norm_sqr();
             }
-            thirds.power += power;
-            thirds.most = greater(power, thirds.most);
+            thirds.most = greater(thirds.power - before, thirds.most);
             thirds.watched += 1;
         }
         *self = thirds;

@@ -58,6 +58,35 @@ fn much_turning_beside_much_quadrature_is_neither_biased_nor_flagged() {
 }
 
 #[test]
+fn quick_turning_and_decay_in_little_noise_are_not_taken_for_clipping() {
+    // Samples a period; a share of a_A; rad and the share of the wave that a window loses; noise in a_A.
+    for (period, share, turn, decay, noise) in [
+        (28.2, 0.13, 0.12, 0.09, 3.4e-5),
+        (35.1, 0.16, 0.22, 0.14, 3.6e-5),
+        (64.3, 0.0, 0.08, 0.17, 3.7e-5),
+        (77.5, -0.29, -0.15, 0.11, 6e-5),
+        (94.9, 0.0, -0.29, 0.19, 1e-4),
+        (155.3, 0.0, -0.29, 0.27, 4e-5),
+    ] {
+        let mut rows = 0;
+        for seed in 0..20 {
+            let frequency = RATE / period;
+            let wave = Wave {
+                decay_rate: decay * frequency / 10.0,
+                ..turning(seed, frequency, share, turn * frequency / 10.0)
+            };
+            let samples = (60.0 * period) as usize;
+            for estimate in identify(wave, &noisy(&wave, noise), windows(10), samples, seed) {
+                let flags = estimate.flags;
+                assert!(!flags.intersects(Flags::CLIPPED), "{period}: {estimate:?}");
+                rows += 1;
+            }
+        }
+        assert!(rows >= 80, "{rows}");
+    }
+}
+
+#[test]
 fn overlapping_windows_know_how_little_they_know_at_the_start_and_after_a_fault() {
     for (periods, hop, rate, noise) in [(10, 5, 0.5, 0.001), (50, 20, 0.1, 0.005)] {
         let settings = Settings {

@@ -126,12 +126,7 @@ impl Model {
 
     /// Moves to where the gradients vanish; true when no further step is needed.
     #[inline(never)]
-    fn step(
-        &self,
-        gradients: &[Gradient; 2],
-        parameters: &mut Parameters,
-        fit: &mut Fit,
-    ) -> bool {
+    fn step(&self, gradients: &[Gradient; 2], parameters: &mut Parameters, fit: &mut Fit) -> bool {
         let step = Step::new(self, gradients);
         let [moved, explained] = parameters.take(&step, gradients, self);
         fit.waves.set(self, parameters);

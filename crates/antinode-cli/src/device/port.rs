@@ -40,6 +40,8 @@ pub fn open(path: &Path, baud: u32) -> Result<Box<dyn SerialPort>, Failure> {
         Ok(port) => return Ok(port),
         Err(error) => error,
     };
+    // Windows ends it as a sentence.
+    let told = error.description.trim_end_matches('.');
     let what = match error.kind {
         ErrorKind::Io(io::ErrorKind::PermissionDenied) => {
             "no permission to use it; on Linux join the group that owns it (dialout or uucp) and log in again".to_owned()
@@ -47,13 +49,11 @@ pub fn open(path: &Path, baud: u32) -> Result<Box<dyn SerialPort>, Failure> {
         _ if cfg!(unix) && !path.exists() => format!("there is no such port; {}", ports()),
         _ if cfg!(unix) && !is_port(path) => format!("this is no serial port; {}", ports()),
         ErrorKind::NoDevice => format!(
-            "it does not open: {}; end any other program that holds it, or else: {}",
-            error.description.trim_end_matches('.'),
+            "it does not open: {told}; end any other program that holds it, or else: {}",
             ports()
         ),
         _ => format!(
-            "it does not open at {baud} baud: {}; check that it is a serial port, and --baud",
-            error.description.trim_end_matches('.')
+            "it does not open at {baud} baud: {told}; check that it is a serial port, and --baud",
         ),
     };
     Err(Failure::Recording(format!("{name}: {what}")))

@@ -85,11 +85,14 @@ pub(super) fn read_with(
         }
         Err(fault) => (Vec::new(), Some(fault)),
     };
-    let prefix = format!("{}{MAIN_SEPARATOR}", directory.path().display());
-    (
-        pairs,
-        fault.map(|fault| fault.to_string().replace(&prefix, "")),
-    )
+    let fault = fault.map(|fault| without(directory.path(), &fault));
+    (pairs, fault)
+}
+
+/// What is said of a fault, with the path of this directory left out.
+pub(super) fn without(directory: &Path, fault: &dyn std::error::Error) -> String {
+    let prefix = format!("{}{MAIN_SEPARATOR}", directory.display());
+    fault.to_string().replace(&prefix, "")
 }
 
 fn open_fault(path: &Path) -> String {

@@ -1,7 +1,7 @@
 //! Everything that an owner of another gyro may want to change, in one place, with units. What cannot be does not compile, and the
 //! compiler says what could.
 
-use antinode::{Calibration, Settings};
+use antinode::{Calibration, Settings, SettingsError};
 use antinode_telemetry::{Configuration, FrontEnd, MAX_FRAME};
 
 /// Samples and their arithmetic: 16-bit codes, or the same codes in f32 with the feature `f32`.
@@ -79,34 +79,33 @@ pub const fn configuration(front_end: FrontEnd, rails: [i16; 2]) -> Configuratio
     Configuration::new(settings, front_end)
 }
 
-/// True within a range that has no exact end.
-const fn within(value: f32, [least, most]: [f32; 2]) -> bool {
-    value >= least && value <= most
-}
-
-// What `antinode::Settings::check` would refuse only on the board.
+// What the tracker and the front would refuse only on the board.
 const _: () = {
-    assert!(
-        PERIODS >= 2 && PERIODS as usize + 2 <= RING,
-        "PERIODS must be 2 to RING - 2: make RING greater for longer windows"
-    );
-    assert!(
-        !matches!(HOP, Some(0)),
-        "HOP must be None, or Some of 1 or more"
-    );
+    match configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS)
+        .settings
+        .check(RING)
+    {
+        Ok(()) => {}
+        Err(SettingsError::PeriodsTooFew(_) | SettingsError::PeriodsTooMany { .. }) => {
+            panic!("PERIODS must be 2 to RING - 2: make RING greater for longer windows")
+        }
+        Err(SettingsError::Hop) => panic!("HOP must be None, or Some of 1 or more"),
+        Err(SettingsError::Frequency(_)) => {
+            panic!("FREQUENCY must be None, or have 2.5 samples a period or more")
+        }
+        Err(SettingsError::GainRatio(_)) => panic!("CALIBRATION: gain_ratio must be 0.1 to 10"),
+        Err(SettingsError::Skew(_)) => panic!("CALIBRATION: skew must be -1e-3 to 1e-3 s"),
+        Err(SettingsError::PickOffAngle(_)) => {
+            panic!("CALIBRATION: pick_off_angle must be -0.3 to 0.3 rad")
+        }
+        Err(_) => panic!("see antinode::Settings"),
+    }
     if let Some(frequency) = FREQUENCY {
-        let period = SAMPLE_RATE as f32 / frequency;
         assert!(
-            within(period, [2.5, LONGEST_PERIOD as f32]),
-            "FREQUENCY must be None, or Some of SAMPLE_RATE / LONGEST_PERIOD to SAMPLE_RATE / 2.5"
+            SAMPLE_RATE as f32 / frequency <= LONGEST_PERIOD as f32,
+            "FREQUENCY must be SAMPLE_RATE / LONGEST_PERIOD or more: make LONGEST_PERIOD greater for less"
         );
     }
-    assert!(
-        within(CALIBRATION.gain_ratio, [0.1, 10.0])
-            && within(CALIBRATION.skew, [-1e-3, 1e-3])
-            && within(CALIBRATION.pick_off_angle, [-0.3, 0.3]),
-        "CALIBRATION must have a gain_ratio of 0.1 to 10, a skew of -1e-3 to 1e-3 s, a pick_off_angle of -0.3 to 0.3 rad"
-    );
 };
 
 // Sizes and times that need each other.

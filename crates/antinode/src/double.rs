@@ -42,7 +42,7 @@ pub(crate) fn scaled(x: f64, exponent: i64) -> f64 {
 }
 
 /// The nearest f32.
-pub(crate) fn to_single(x: f64) -> f32 {
+pub(crate) const fn to_single(x: f64) -> f32 {
     let half = 1 << (FRACTION - 1);
     f32::from_bits((((x.to_bits() + half) >> FRACTION) - EXPONENT) as u32)
 }

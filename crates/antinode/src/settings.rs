@@ -215,50 +215,68 @@ impl Settings {
 
     /// Checks every value for a ring of `blocks`, the `BLOCKS` of a [`Tracker`](crate::Tracker).
     ///
+    /// ```
+    /// use antinode::Settings;
+    ///
+    /// const SETTINGS: Settings = Settings { periods: 20, ..Settings::new(100_000.0) };
+    /// // Settings that cannot be do not compile.
+    /// const _: () = assert!(SETTINGS.check(24).is_ok());
+    /// ```
+    ///
     /// # Errors
     ///
     /// The first value that cannot be; its message says what could.
-    pub fn check(&self, blocks: usize) -> Result<(), SettingsError> {
-        let within = |x: f32, least: f32, most: f32| x >= least && x <= most;
-        let most = blocks.saturating_sub(2).min(60_000) as u16;
-        let c = &self.calibration;
-        // Numbers above zero are in the order of their bits, and all else is beyond: no comparison in f64 is linked in.
-        if !(1e-3f64.to_bits()..=1e12f64.to_bits()).contains(&self.sample_rate.to_bits()) {
-            Err(SettingsError::SampleRate(self.sample_rate))
-        } else if self.periods < 2 {
-            Err(SettingsError::PeriodsTooFew(self.periods))
-        } else if self.periods > most {
-            Err(SettingsError::PeriodsTooMany {
+    pub const fn check(&self, blocks: usize) -> Result<(), SettingsError> {
+        let most = blocks.saturating_sub(2);
+        let most = if most < 60_000 { most as u16 } else { 60_000 };
+        if !is_rate(self.sample_rate) {
+            return Err(SettingsError::SampleRate(self.sample_rate));
+        }
+        if self.periods < 2 {
+            return Err(SettingsError::PeriodsTooFew(self.periods));
+        }
+        if self.periods > most {
+            return Err(SettingsError::PeriodsTooMany {
                 periods: self.periods,
                 most,
-            })
-        } else if self.hop == Some(0) {
-            Err(SettingsError::Hop)
-        } else if !within(self.start_angle, -1e4, 1e4) {
-            Err(SettingsError::StartAngle(self.start_angle))
-        } else if let Some(rails) = self.rails.filter(|rails| {
-            // Not a number, either of them, is no order.
-            rails[0].partial_cmp(&rails[1]) != Some(core::cmp::Ordering::Less)
-        }) {
-            Err(SettingsError::Rails(rails))
-        } else if let Some(resolution) = self
-            .resolution
-            .filter(|&x| !within(x, f32::MIN_POSITIVE, f32::MAX))
+            });
+        }
+        if let Some(0) = self.hop {
+            return Err(SettingsError::Hop);
+        }
+        if !within(self.start_angle, -1e4, 1e4) {
+            return Err(SettingsError::StartAngle(self.start_angle));
+        }
+        if let Some([low, high]) = self.rails
+            && !is_less(low, high)
         {
-            Err(SettingsError::Resolution(resolution))
-        } else if let (Some(frequency), Some(period)) = (self.frequency, self.period())
+            return Err(SettingsError::Rails([low, high]));
+        }
+        if let Some(resolution) = self.resolution
+            && !within(resolution, f32::MIN_POSITIVE, f32::MAX)
+        {
+            return Err(SettingsError::Resolution(resolution));
+        }
+        if let (Some(frequency), Some(period)) = (self.frequency, self.period())
             && !within(period, SHORTEST_PERIOD, f32::MAX)
         {
-            Err(SettingsError::Frequency(frequency))
-        } else if !within(c.gain_ratio, 0.1, 10.0) {
-            Err(SettingsError::GainRatio(c.gain_ratio))
-        } else if !within(c.skew, -1e-3, 1e-3) {
-            Err(SettingsError::Skew(c.skew))
-        } else if !within(c.pick_off_angle, -0.3, 0.3) {
-            Err(SettingsError::PickOffAngle(c.pick_off_angle))
-        } else {
-            Ok(())
+            return Err(SettingsError::Frequency(frequency));
         }
+        let Calibration {
+            gain_ratio,
+            skew,
+            pick_off_angle,
+        } = self.calibration;
+        if !within(gain_ratio, 0.1, 10.0) {
+            return Err(SettingsError::GainRatio(gain_ratio));
+        }
+        if !within(skew, -1e-3, 1e-3) {
+            return Err(SettingsError::Skew(skew));
+        }
+        if !within(pick_off_angle, -0.3, 0.3) {
+            return Err(SettingsError::PickOffAngle(pick_off_angle));
+        }
+        Ok(())
     }
 
     /// How windows are cut into blocks.
@@ -270,8 +288,25 @@ impl Settings {
     }
 
     /// Samples in a period, where the frequency is known.
-    pub(crate) fn period(&self) -> Option<f32> {
-        let rate = to_single(self.sample_rate);
-        self.frequency.map(|frequency| rate / frequency)
+    pub(crate) const fn period(&self) -> Option<f32> {
+        match self.frequency {
+            Some(frequency) => Some(to_single(self.sample_rate) / frequency),
+            None => None,
+        }
     }
+}
+
+/// Numbers above zero are in the order of their bits, and all else is beyond: no comparison in f64 is linked in.
+const fn is_rate(rate: f64) -> bool {
+    rate.to_bits() >= 1e-3f64.to_bits() && rate.to_bits() <= 1e12f64.to_bits()
+}
+
+/// False where the value is not a number.
+const fn within(value: f32, least: f32, most: f32) -> bool {
+    value >= least && value <= most
+}
+
+/// False where either is not a number.
+const fn is_less(low: f32, high: f32) -> bool {
+    low < high
 }

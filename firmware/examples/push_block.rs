@@ -27,16 +27,10 @@ const HALF_BUFFER: usize = 128;
 fn interrupt<S: Sample, P: SamplePair<S>>(
     front: &mut Front<S, 200>,
     queue: &mut Queue<Block<S>, 16>,
-    mut pairs: &[P],
+    pairs: &[P],
 ) -> bool {
     let mut room = true;
-    while !pairs.is_empty() {
-        let (taken, block) = front.push_slice(pairs);
-        if let Some(block) = block {
-            room &= queue.enqueue(*block).is_ok();
-        }
-        pairs = pairs.get(taken..).unwrap_or(&[]);
-    }
+    front.extend(pairs, |block| room &= queue.enqueue(*block).is_ok());
     room
 }
 

@@ -201,14 +201,11 @@ fn other_settings_in_place_do_what_a_new_start_does() {
     };
     let pairs = stream(wave, flaws, 8000, 7);
     let run = |front: &mut Front<f32, 200>, tracker: &mut Tracker<40>| {
-        let mut rest = pairs.as_slice();
         let mut found = Vec::new();
-        while !rest.is_empty() {
-            let (taken, block) = front.push_slice(rest);
-            rest = &rest[taken..];
-            let estimate = block.and_then(|block| tracker.push(block));
+        front.extend(&pairs, |block| {
+            let estimate = tracker.push(block);
             found.extend(estimate.map(|e| (e.main_amplitude, e.angle, e.frequency, e.flags)));
-        }
+        });
         found
     };
     let second = Settings {

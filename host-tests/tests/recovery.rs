@@ -42,14 +42,10 @@ fn a_wave_that_comes_back_is_reacquired_once_and_its_angle_runs_on() {
 fn follow(
     front: &mut Front<f32, 200>,
     tracker: &mut Tracker<16>,
-    mut pairs: &[[f32; 2]],
+    pairs: &[[f32; 2]],
 ) -> Vec<Estimate> {
     let mut found = Vec::new();
-    while !pairs.is_empty() {
-        let (taken, block) = front.push_slice(pairs);
-        pairs = &pairs[taken..];
-        found.extend(block.and_then(|block| tracker.push(block)));
-    }
+    front.extend(pairs, |block| found.extend(tracker.push(block)));
     found
 }
 

@@ -190,7 +190,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
 
     /// Takes one sample pair; gives the block that it finished.
     ///
-    /// [`push_slice`](Self::push_slice) costs far less a pair.
+    /// [`extend`](Self::extend) costs far less a pair.
     #[must_use = "the next pair overwrites the block"]
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<&Block<S>> {
@@ -214,6 +214,18 @@ impl<S: Sample, const N: usize> Front<S, N> {
         let (taken, block) = self.demodulator.push_slice(pairs);
         self.index += taken as u64;
         (taken, block)
+    }
+
+    /// Takes all pairs of a slice and hands every block to `report`.
+    #[inline]
+    pub fn extend<P: SamplePair<S>>(&mut self, mut pairs: &[P], mut report: impl FnMut(&Block<S>)) {
+        while !pairs.is_empty() {
+            let (taken, block) = self.push_slice(pairs);
+            pairs = pairs.get(taken..).unwrap_or(&[]);
+            if let Some(block) = block {
+                report(block);
+            }
+        }
     }
 
     /// True when the next pair belongs to a block, perhaps the first.
@@ -267,16 +279,11 @@ mod tests {
         });
         let settings = Settings::new(1e5);
         let blocks = |front: &mut Front<i16, 200>| {
-            let (mut pairs, mut found) = (pairs.as_slice(), 0);
-            let mut last = None;
-            while !pairs.is_empty() {
-                let (taken, block) = front.push_slice(pairs);
-                pairs = &pairs[taken..];
-                if let Some(block) = block {
-                    found += 1;
-                    last = Some((block.layout, block.sums, block.watch));
-                }
-            }
+            let (mut found, mut last) = (0, None);
+            front.extend(&pairs, |block| {
+                found += 1;
+                last = Some((block.layout, block.sums, block.watch));
+            });
             (found, last)
         };
         let mut front = Front::UNSET;

@@ -40,20 +40,16 @@
 //! let (mut blocks, mut gathered) = queue.split();
 //!
 //! // Whenever the DMA has filled half of its buffer. A timer's interrupt would `Front::push` each pair.
-//! let mut interrupt = |mut pairs: &[[i16; 2]]| {
+//! let mut interrupt = |pairs: &[[i16; 2]]| {
 //!     // Not by `swap`, which a Cortex-M0 does not have.
 //!     if SEARCH.load(Relaxed) {
 //!         SEARCH.store(false, Relaxed);
 //!         front.search();
 //!     }
-//!     while !pairs.is_empty() {
-//!         let (taken, block) = front.push_slice(pairs);
-//!         pairs = &pairs[taken..];
-//!         if let Some(block) = block {
-//!             // A block that finds the queue full costs its window, no more: the tracker sees that it is missing.
-//!             let _ = blocks.enqueue(*block);
-//!         }
-//!     }
+//!     front.extend(pairs, |block| {
+//!         // A block that finds the queue full costs its window, no more: the tracker sees that it is missing.
+//!         let _ = blocks.enqueue(*block);
+//!     });
 //! };
 //! # let mut estimates = Vec::new();
 //! let mut main_loop = || {

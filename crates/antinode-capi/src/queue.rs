@@ -94,7 +94,12 @@ impl<S: Sample> Queue<S> {
             (&raw mut (*place).start).write(block.start);
             (&raw mut (*place).layout).write(block.layout);
             (&raw mut (*place).sums).write(block.sums);
-            (&raw mut (*place).watch).write(block.watch);
+            // Where nothing is watched there is nothing to move.
+            let watch = &raw mut (*place).watch;
+            match block.watch {
+                Some(channels) => watch.write(Some(channels)),
+                None => watch.write(None),
+            }
         }
         self.put.store(put.wrapping_add(1), Ordering::Release);
         true

@@ -91,7 +91,7 @@ pub(super) fn sample_flags(
     noise: f32,
     is_first: bool,
 ) -> Flags {
-    let broken = !(wave.record.main.value + wave.record.quadrature.value).is_finite();
+    let broken = !wave.record.main.value.is_finite();
     let flags = Flags::empty().with_if(broken, Flags::NOT_FINITE.with(Flags::LOST));
     let range = Range::of(blocks);
     if range.longest == 0 {

@@ -259,7 +259,7 @@ fn an_identification_takes_a_calibration_and_settings_on_its_way() {
         .is_err()
     );
     core.calibrate(calibration).unwrap();
-    assert!(!core.is_searching());
+    assert!(!core.is_searching() && core.has_wave());
     let calibrated = run(&mut core);
     assert!(calibrated[0].flags.contains(Flags::REACQUIRED));
     assert!((calibrated[5].main_amplitude - ideal).abs() < 0.01);

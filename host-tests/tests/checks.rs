@@ -2,7 +2,7 @@
 
 use antinode::{Estimate, Flags, Identifier, Settings};
 use antinode_sim::{Flaws, Loss, Wave, random_wave};
-use host_tests::{Core, RATE, changed, gyro, identify, stream, touched, windows};
+use host_tests::{Core, RATE, changed, gyro, identify, identify_changed, stream, touched, windows};
 
 #[test]
 fn a_sample_lost_between_two_windows_is_flagged() {
@@ -289,6 +289,48 @@ fn a_lasting_rise_of_noise_becomes_the_new_level() {
                 "{factor} times, seed {seed}"
             );
         }
+    }
+}
+
+#[test]
+fn a_first_window_with_a_sample_that_is_no_number_gives_no_row() {
+    let (wave, flaws) = gyro(3);
+    let settings = Settings {
+        frequency: Some(5332.0),
+        ..windows(10)
+    };
+    let found = identify_changed(wave, &flaws, settings, 5000, 3, |k, [c, d]| {
+        [if k == 50 { f64::NAN } else { c }, d]
+    });
+    assert!(found.len() > 20 && found[0].start > 50);
+    assert!(found.iter().all(|e| e.flags.is_empty()));
+}
+
+#[test]
+fn noise_that_rises_is_told_in_three_windows_however_far_they_are_apart() {
+    for hop in [10, 60] {
+        let settings = Settings {
+            hop: Some(hop),
+            ..windows(10)
+        };
+        let (wave, mut flaws) = gyro(3);
+        flaws.noise = 0.0;
+        let noise = [1e-3, 1e-2].map(|noise| Flaws {
+            noise,
+            ..Flaws::default()
+        });
+        let still = Wave {
+            main_amplitude: 1e-12,
+            quadrature_amplitude: 0.0,
+            ..Wave::default()
+        };
+        let [quiet, loud] = noise.map(|noise| stream(still, noise, 60_000, 4));
+        let found = identify_changed(wave, &flaws, settings, 60_000, 3, |k, [c, d]| {
+            let [more_c, more_d] = if k < 20_000 { quiet[k] } else { loud[k] };
+            [c + f64::from(more_c), d + f64::from(more_d)]
+        });
+        let flagged = found.iter().filter(|e| !e.flags.is_empty()).count();
+        assert!((3..=4).contains(&flagged), "{hop}: {flagged}");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use antinode::{Flags, Settings};
 use antinode_sim::{Flaws, Wave};
-use host_tests::{RATE, identify, identify_changed, windows};
+use host_tests::{Core, RATE, identify, identify_changed, windows};
 
 #[test]
 fn a_pattern_is_circular_where_noise_or_rounding_hides_its_angle() {
@@ -128,4 +128,24 @@ fn a_circle_that_is_passed_has_neither_a_step_nor_a_jump() {
         }
     }
     assert!(circular > 40, "{circular}");
+}
+
+#[test]
+fn an_exact_circle_has_a_frequency() {
+    let settings = Settings {
+        frequency: Some(25_000.0),
+        ..windows(10)
+    };
+    // One of both waves is zero to the last digit.
+    let circle = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+    let mut core = Core::new(settings).unwrap();
+    let found = (0..4000).filter_map(|k| core.push(circle[k % 4]));
+    let found: Vec<_> = found.collect();
+    assert!(found.len() > 90);
+    for estimate in found {
+        assert_eq!(estimate.flags, Flags::CIRCULAR);
+        let error = (estimate.frequency - 25_000.0).abs();
+        assert!(error < 5e-3, "{error} Hz");
+        assert!((1e-5..1e-3).contains(&estimate.frequency_std));
+    }
 }

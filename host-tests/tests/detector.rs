@@ -2,7 +2,7 @@
 
 use antinode::period::{DifferenceDetector, MeanReturnDetector};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
-use host_tests::{Core, RATE, identify, windows};
+use host_tests::{Core, RATE, identify, stream, windows};
 
 /// A wave whose period runs evenly over 4 to 200 samples in its logarithm.
 fn wave(seed: u64) -> (Wave, f64) {
@@ -98,6 +98,19 @@ fn noise_is_no_wave() {
             let pair = [pair.c as f32, pair.d as f32];
             assert_eq!(difference.push(pair), None, "seed {seed}");
             assert_eq!(mean_return.push(pair), None, "seed {seed}");
+        }
+    }
+}
+
+#[test]
+fn waves_beyond_4_to_200_samples_a_period_are_not_found() {
+    for period in [3.75, 240.0] {
+        let wave = random_wave(1, RATE / period, 0.3);
+        let (mut difference, mut mean_return) =
+            (DifferenceDetector::new(), MeanReturnDetector::new());
+        for pair in stream(wave, Flaws::default(), 10_000, 1) {
+            assert_eq!(difference.push(pair), None, "{period}");
+            assert_eq!(mean_return.push(pair), None, "{period}");
         }
     }
 }

@@ -237,13 +237,37 @@ fn a_front_that_is_set_anew_amid_its_search_forgets_what_it_saw() {
         let values = |e: &Estimate| (e.main_amplitude, e.angle, e.frequency, e.flags);
         found.iter().map(values).collect::<Vec<_>>()
     };
-    let mut front = Front::new(windows(10)).unwrap();
-    let _ = front.push_slice(&pairs[..28]);
-    assert!(front.is_searching());
-    front.configure(windows(10)).unwrap();
-    let found = run(&mut front, 37);
-    assert!(found.len() > 10);
-    assert_eq!(found, run(&mut Front::new(windows(10)).unwrap(), 37));
+    let wanted = run(&mut Front::new(windows(10)).unwrap(), 37);
+    assert!(wanted.len() > 10);
+    // Before there is a candidate, and while one is tried.
+    for seen in 20.. {
+        let mut front = Front::new(windows(10)).unwrap();
+        let _ = front.push_slice(&pairs[..seen]);
+        if !front.is_searching() {
+            assert!(seen > 40);
+            break;
+        }
+        front.configure(windows(10)).unwrap();
+        assert_eq!(run(&mut front, 37), wanted, "{seen}");
+    }
+}
+
+#[test]
+fn blocks_of_another_layout_begin_a_new_window() {
+    let (mut front, mut tracker) = (
+        Front::new(windows(10)).unwrap(),
+        Tracker::new(windows(10)).unwrap(),
+    );
+    for (frequency, flag) in [(5332.0, Flags::empty()), (9000.0, Flags::REACQUIRED)] {
+        let pairs = stream(random_wave(4, frequency, 0.3), Flaws::default(), 5000, 4);
+        front.search();
+        let found = follow(&mut front, &mut tracker, &pairs);
+        assert!(found.len() > 20 && found[0].flags == flag);
+        for estimate in &found {
+            assert!((estimate.frequency - frequency).abs() < 0.01);
+        }
+        assert!(found[1..].iter().all(|e| e.flags.is_empty()));
+    }
 }
 
 #[test]

@@ -59,7 +59,8 @@ impl<S: Sample> Attempt<S> {
                 self.trial.begin(self.period, self.length);
             }
             self.try_some();
-            return if self.seen == self.length && self.seen - from <= LAST {
+            // No other call takes so few.
+            return if self.seen - from <= LAST {
                 self.judge()
             } else {
                 Verdict::Open

@@ -29,13 +29,12 @@ impl<S: Sample> Candidate<S> {
     /// The period in samples of the stream, where halving took little of the wave found: it takes all of a faster one that folds
     /// down to the same period or hides it.
     fn accept(&self, period: f32, power: f32) -> Option<f32> {
-        let scale = (1u32 << self.halvings.min(OCTAVES as u8)) as f32;
+        let scale = (1u32 << self.halvings) as f32;
         let found = period * scale;
         // cos ½t cos ¼t … is sin t over all halvings of t and the sine of what is left: a small angle.
         let turn = core::f32::consts::PI / period;
         let rest = turn / scale;
-        let square = rest * rest;
-        let least = turn * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));
+        let least = turn * (1.0 - rest * rest * (1.0 / 6.0));
         let whole = Phase::from_radians(turn).unit().im;
         let kept = whole * whole / (least * least);
         let is_whole = self.lost < power * (1.0 / kept - 1.0 + STRANGER);

@@ -104,7 +104,6 @@ impl MeanReturnDetector {
     #[inline(never)]
     pub(crate) fn restart(&mut self) {
         self.stage = Self::START;
-        self.channel = 0;
         self.time = 0;
     }
 
@@ -162,7 +161,7 @@ impl MeanReturnDetector {
                     return self.wait();
                 }
                 // The crossing itself lies on the line through the last two samples, so long before this one.
-                let late = if rise > 0.0 { height / rise } else { 0.0 };
+                let late = height / rise;
                 let triangle = 0.5 * height * late;
                 *crossings += 1;
                 if *crossings == 1 {
@@ -216,14 +215,11 @@ impl MeanReturnDetector {
                 if *returns < SPAN {
                     return self.wait();
                 }
-                let late = if step > 0.0 {
-                    lesser(*sum / step, 1.0)
-                } else {
-                    0.0
-                };
+                // Of the step that took the sum over zero.
+                let late = *sum / step;
                 let period = (f32::from(self.time) - late) / f32::from(SPAN);
                 let length = (TRIED * period) as usize + 1;
-                self.trial.begin(period.clamp(2.5, 400.0), length.max(12));
+                self.trial.begin(period, length.max(12));
                 Stage::Try
             }
             Stage::Try => {

@@ -50,7 +50,6 @@ impl<S: Sample> Octave<S> {
     /// Forgets all samples.
     pub(super) fn restart(&mut self) {
         self.count = 0;
-        self.last = 0.0;
     }
 
     /// Keeps a sample; true when it is the second of two, which are to be taken into D(T) before the next comes.
@@ -121,7 +120,7 @@ impl<S: Sample> Octave<S> {
         let mut lag = 1;
         while lag <= most {
             let after = level(lag + 1);
-            if here < S::halved(greatest) && here <= before && here < after {
+            if here < S::halved(greatest) && here < after {
                 return self.between(lag as f32, [before, here, after]);
             }
             if after > greatest {

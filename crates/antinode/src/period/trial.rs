@@ -3,7 +3,6 @@
 use num_complex::Complex32;
 
 use crate::block::Pair;
-use crate::order::greater;
 use crate::phase::PhaseStep;
 
 /// The share of the signal's power that a wave may leave unexplained; 20 % noise leaves 14 %.
@@ -181,7 +180,6 @@ impl Trial {
             for value in [a[0], a[1], b[0], b[1]] {
                 sums.square += value * value;
             }
-            self.count += 2;
         }
         self.sums = sums;
     }
@@ -219,10 +217,10 @@ impl Trial {
         }
         let sums = self.sums.gradient.map(|gradient| gradient[4]);
         let power = self.sums.square - (sums[0] * sums[0] + sums[1] * sums[1]) / n;
-        if !(power > 1e-6 * self.sums.square && size > 0.0) {
+        if power.is_nan() || power <= 1e-6 * self.sums.square {
             return None;
         }
-        let rest = greater((self.sums.square - explained) / power, 1e-6);
+        let rest = (self.sums.square - explained) / power;
         let drift = turned / size;
         if !(rest < UNEXPLAINED && by_chance(rest, self.length) < FALSE_ALARM && drift.abs() < 1.0)
         {
@@ -242,7 +240,7 @@ impl Trial {
     pub(crate) fn again(&self) -> Rests {
         Rests {
             row: Row::new(self.step, self.length),
-            sums: [f32::MIN_POSITIVE, 0.0, 0.0],
+            sums: [0.0; 3],
             before: [[0.0; 2]; 2],
         }
     }
@@ -251,8 +249,7 @@ impl Trial {
 /// The chance that noise leaves less than `rest` of 2n numbers less ten parameters: rest^(n−5).
 fn by_chance(rest: f32, n: usize) -> f32 {
     let (mut chance, mut power) = (1.0, rest);
-    // Longer stretches only make it smaller.
-    let mut left = n.min(64).saturating_sub(5);
+    let mut left = n.saturating_sub(5);
     while left > 0 {
         if left % 2 == 1 {
             chance *= power;

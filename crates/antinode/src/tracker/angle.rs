@@ -71,3 +71,13 @@ impl Angle {
         units((i64::from(self.quarters) << 32) + rest, unit)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_a_turn_is_positive() {
+        assert_eq!([wrap(PI), wrap(-PI)], [PI; 2]);
+    }
+}

@@ -58,13 +58,16 @@ fn phases(frequency: PhaseStep, samples: f32, width: f32) -> f32 {
     let (mut far, mut near) = (0u32, frequency.0);
     let (mut before, mut count) = (0u32, 1u32);
     let mut least = lesser(samples, 1.0 / width);
-    while near > 0 && (count as f32) < least {
+    while (count as f32) < least {
         let slipped = samples * (near as f32 * (1.0 / 4_294_967_296.0)) / width;
         // Half a wave has the errors of the other half.
         let share = if count.is_multiple_of(2) { 0.5 } else { 1.0 };
         least = lesser(least, share * (count as f32 + slipped));
-        // A step of Euclid's algorithm; a first `far` of zero is a whole turn.
-        let times = far.wrapping_sub(near) / near + 1;
+        // A step of Euclid's algorithm; a first `far` of zero is a whole turn. None is left where the fraction is exact.
+        let Some(more) = far.wrapping_sub(near).checked_div(near) else {
+            break;
+        };
+        let times = more + 1;
         (far, near) = (near, far.wrapping_sub(times.wrapping_mul(near)));
         (before, count) = (count, count.saturating_mul(times).saturating_add(before));
     }
@@ -91,7 +94,7 @@ pub(super) fn sample_flags(
     noise: f32,
     is_first: bool,
 ) -> Flags {
-    let broken = !(wave.record.main.value + wave.record.quadrature.value).is_finite();
+    let broken = !wave.record.main.value.is_finite();
     let flags = Flags::empty().with_if(broken, Flags::NOT_FINITE.with(Flags::LOST));
     let range = Range::of(blocks);
     if range.longest == 0 {
@@ -210,6 +213,8 @@ mod tests {
         // 75 samples are four periods; the frequency is rounded to 24 bits. 20 are ten each side.
         assert_eq!(count(20.0, 2000, 1e-3).round(), 10.0);
         assert_eq!(count(18.75, 1875, 1e-3).round(), 75.0);
+        // Exact to the unit, and the last fraction there is.
+        assert_eq!(count(16.0, 2000, 1e-3), 8.0);
         assert_eq!(count(18.75, 30, 1e-3), 30.0);
         // No more than there is room for.
         assert_eq!(count(18.72, 100_000, 0.01), 100.0);

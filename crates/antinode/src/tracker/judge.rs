@@ -138,7 +138,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             let is_clean = !flags.intersects(BROKEN);
             if self.lost || !is_certain && is_clean && !flags.contains(Flags::CIRCULAR) {
                 flags = flags.with(Flags::REACQUIRED);
-                self.trend.clear();
                 self.lost = false;
             }
             self.ever = true;
@@ -176,7 +175,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
                     before.phase_variance = f32::INFINITY;
                 }
                 for amplitude in [&mut before.main, &mut before.quadrature] {
-                    amplitude.variance = f32::INFINITY;
                     amplitude.rate_variance = f32::INFINITY;
                 }
                 before.angle_variance = f32::INFINITY;

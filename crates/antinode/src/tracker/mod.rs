@@ -195,7 +195,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             .model
             .as_ref()
             .is_some_and(|model| model.layout == block.layout);
-        if is_same && (self.end == block.start || self.gathered.is_new()) {
+        if is_same && self.end == block.start {
             self.take(block)
         } else {
             self.gather_anew(block, is_same)
@@ -243,7 +243,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// the one nearest to the last.
     pub fn forget(&mut self) {
         self.model = None;
-        self.gathered.clear();
         self.failures = Failures::NONE;
         self.found = false;
     }

@@ -100,7 +100,8 @@ impl Noise {
     /// True when a variance of `freedom` exceeds the one remembered, and a floor.
     #[inline]
     pub(super) fn is_exceeded(&self, variance: f32, freedom: f32, floor: f32) -> bool {
-        self.freedom > 0.0 && is_louder(variance - floor, self.variance, freedom, self.freedom)
+        // Where none is known the limit is infinite, and of a level of zero that is no number.
+        is_louder(variance - floor, self.variance, freedom, self.freedom)
     }
 }
 

@@ -110,8 +110,8 @@ impl Standing {
         let absolute = |z: Complex32| square_root(z.norm_sqr());
         let (plus_angle, minus_angle) = (argument(plus), argument(minus));
         let (p, m) = (absolute(plus), absolute(minus));
-        // A wave of less than this beside the other has no direction.
-        let least = greater(1e-12 * (p + m), f32::MIN_POSITIVE);
+        // A wave of less than this beside the other is rounding, and has no direction.
+        let least = greater(1e-7 * (p + m), f32::MIN_POSITIVE);
         let per_size = [p, m].map(|size| 1.0 / greater(size, least));
         let along = |z: Complex32, size: f32, per_size: f32| {
             if size > least {

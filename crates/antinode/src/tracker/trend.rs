@@ -6,15 +6,12 @@
 use super::angle::Angle;
 use super::record::Record;
 use super::standing::Standing;
-use crate::order::greater;
 use crate::window::Model;
 
 /// Windows kept.
 const KEPT: usize = 5;
-/// Windows ago beyond which an angle says nothing of the present rate: what its powers leave of nearer ones is lost in rounding.
-const OLDEST: f32 = 1e3;
-/// The least variance of an angle, rad².
-const LEAST: f32 = 1e-18;
+/// Quarter windows ago beyond which an angle says nothing of the present rate: what its powers leave of nearer ones is lost in rounding.
+const OLDEST: f32 = 4e3;
 
 /// A rate in rad/sample and its variance.
 #[derive(Debug, Clone, Copy)]
@@ -85,7 +82,7 @@ impl Trend {
             *place = Point {
                 middle,
                 angle,
-                weight: 1.0 / greater(variance, LEAST),
+                weight: 1.0 / variance,
             };
         }
     }
@@ -99,7 +96,7 @@ impl Trend {
     #[inline]
     pub(crate) fn take_turning_out(&self, wave: &mut Standing, model: &Model) {
         let record = &mut wave.record;
-        let rate = self.rate(record, 0.25 * model.per_half);
+        let rate = self.rate(record, model.per_half);
         if rate.variance == 0.0 && !self.is_empty() {
             // All of them overlap this window: nothing is known of its rate, and least of all that it stands still.
             return;
@@ -111,7 +108,7 @@ impl Trend {
             record.promised -= share * apart;
             record.promised_variance = share * rate.variance;
         }
-        if spread > 0.0 && apart * apart < 16.0 * spread {
+        if apart * apart < 16.0 * spread {
             let (squared, per_half) = (model.half * model.half, model.per_half);
             let per_spread = 1.0 / (squared * spread);
             record.drift -= wave.drift_turning * per_spread * apart;
@@ -125,11 +122,11 @@ impl Trend {
     /// The rate at the middle of a window, from its own angle and the angles before: constant through three points, linear in time
     /// through more. With none before, the pattern is taken to stand still until a window shows that it does not.
     ///
-    /// `per_window` is one over the window's half samples.
+    /// `per_half` is one over half the window's samples.
     #[inline(always)]
-    fn rate(&self, record: &Record, per_window: f32) -> Rate {
+    fn rate(&self, record: &Record, per_half: f32) -> Rate {
         // Sums of weight·timeⁿ and of weight·timeⁿ·angle; the window itself is at time and angle 0, and its weight is one.
-        let own = greater(record.angle_variance, LEAST);
+        let own = record.angle_variance;
         let mut powers = [1.0, 0.0, 0.0, 0.0, 0.0];
         let mut values = [0.0; 3];
         let mut used = 1;
@@ -142,7 +139,7 @@ impl Trend {
             if passed < 2 * record.samples {
                 continue;
             }
-            let time = -(passed as f32) * per_window;
+            let time = -(passed as f32) * per_half;
             if time < -OLDEST {
                 continue;
             }
@@ -166,13 +163,13 @@ impl Trend {
         let [s0, s1, s2, s3, s4] = powers;
         let [v0, v1, v2] = values;
         // The curve is taken out of level and rate where there are points for it, then the level out of the rate.
-        let bent = if used > 3 && s4 > 0.0 { 1.0 / s4 } else { 0.0 };
+        let bent = if used > 3 { 1.0 / s4 } else { 0.0 };
         // First over s4: a product of two sums may be beyond f32, where noise was far less long ago.
         let (of_level, of_rate) = (s2 * bent, s3 * bent);
         let (level, mixed, rate) = (s0 - s2 * of_level, s1 - s2 * of_rate, s2 - s3 * of_rate);
         let (level_value, rate_value) = (v0 - of_level * v2, v1 - of_rate * v2);
-        // Of a rate a window: a rate a sample is so much less.
-        let per_sample = 2.0 * per_window;
+        // Of a rate a quarter window: a rate a sample is so much less.
+        let per_sample = 2.0 * per_half;
         let per_determinant = per_sample / (level * rate - mixed * mixed);
         Rate {
             value: (level * rate_value - mixed * level_value) * per_determinant,

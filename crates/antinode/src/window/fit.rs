@@ -69,9 +69,7 @@ impl Model {
         let noise = fit.remains.variance();
         let variance = 2.0 * noise * self.covariance.even[1][1] / fit.waves.power();
         let uncertainty = 4.0 * square_root(variance) * self.per_half;
-        reach(self, count, carrier, uncertainty)
-            .max(span + 1)
-            .min(count)
+        reach(self, count, carrier, uncertainty).max(span + 1)
     }
 
     /// Fits `blocks`, which are as many as the model was built for, into `fit`.
@@ -193,9 +191,6 @@ pub(crate) fn solve(
 fn reach(model: &Model, count: u16, carrier: PhaseStep, uncertainty: f32) -> u16 {
     let length = f32::from(model.layout.length);
     let whole = uncertainty * length;
-    if whole * f32::from(count) <= 1.0 {
-        return count;
-    }
     let shortest = (2.5 * carrier.period() / length) as u16 + 1;
     ((1.0 / whole) as u16).max(shortest.max(3)).min(count)
 }

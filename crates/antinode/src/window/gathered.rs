@@ -26,11 +26,6 @@ impl<const BLOCKS: usize> Gathered<BLOCKS> {
         self.gap = 0;
     }
 
-    /// True when no block is held and none is left out.
-    pub(crate) fn is_new(&self) -> bool {
-        self.length == 0 && self.gap == 0
-    }
-
     /// The place of the next block, to be filled; none where it is to be left out.
     #[inline]
     pub(crate) fn next(&mut self) -> Option<&mut Seen> {

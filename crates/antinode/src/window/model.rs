@@ -6,7 +6,6 @@ use super::normal::{Covariance, Normal, PARAMETERS, Row};
 use super::response::{Answer, Basis, Response};
 use crate::block::Layout;
 use crate::calibration::{Calibration, Correction};
-use crate::order::greater;
 use crate::phase::{Phase, PhaseStep};
 
 /// Periods of a block that can have an offset of its own: a little less than one, for it is a whole number of samples.
@@ -97,7 +96,7 @@ impl Model {
         // An offset that a block has to itself takes its mean, and is no parameter of the window.
         let own = 1.0 - self.shared;
         let sums = (f32::from(self.basis.rank) - own) * f32::from(self.blocks);
-        2.0 * greater(sums - (PARAMETERS as f32 - own), 0.5)
+        2.0 * (sums - (PARAMETERS as f32 - own))
     }
 
     /// Blocks, twice, from the middle of the window to that of block `index`.

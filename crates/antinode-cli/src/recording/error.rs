@@ -68,6 +68,13 @@ pub enum InputError {
          columns of a text with {COLUMNS_OPTION}"
     )]
     Unknown { file: String },
+    /// What the content is, which is not read.
+    #[error("{file}: this is {kind}, which is not read; {remedy}")]
+    Foreign {
+        file: String,
+        kind: &'static str,
+        remedy: String,
+    },
     /// The content is not what the extension promises.
     #[error(
         "{file}: this is not {kind}, whatever its extension says; export it again, or rename it to what it is"

@@ -4,6 +4,7 @@ mod columns;
 mod content;
 mod delimited;
 mod error;
+mod foreign;
 mod frame;
 mod gaps;
 mod header;
@@ -32,6 +33,7 @@ use std::path::Path;
 pub use columns::Columns;
 use content::Content;
 pub use error::{Channel, InputError};
+use foreign::{Foreign, MAT};
 pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use raw::RawFormat;
@@ -127,10 +129,16 @@ impl Recording {
             (content, stream) = look(Box::new(in_utf8(stream)))?;
         }
         let file = name.to_owned();
+        let foreign = |found: &Foreign| InputError::Foreign {
+            file: file.clone(),
+            kind: found.kind,
+            remedy: found.remedy(known.is_named.then_some(name)),
+        };
         match (content, known.extension.as_str(), options.raw) {
             (Content::Nothing, ..) => Err(InputError::Empty { file }),
             (Content::Wav, ..) => wav::open(name, stream, length, options.columns.as_ref()),
             (Content::Npy, ..) => npy::open(name, stream, known, options.columns.as_ref()),
+            (Content::Foreign(found), _, None) => Err(foreign(found)),
             (_, "wav" | "wave", _) => Err(InputError::NotOfKind {
                 file,
                 kind: "a WAV file",
@@ -143,6 +151,7 @@ impl Recording {
                 delimited::open(name, stream, options, length.is_none())
             }
             (_, _, Some(format)) => Ok(raw::open(name, stream, format, length)),
+            (_, "mat", None) => Err(foreign(&MAT)),
             _ if known.is_named => Err(InputError::Unknown { file }),
             _ => Err(InputError::RawFormatNeeded { file }),
         }

@@ -132,18 +132,18 @@ fn content_that_is_no_recording_is_named() {
         ("a.wav", &b""[..], "a.wav: there is nothing in it; check"),
         (
             "a.wav",
-            b"OggS and more",
+            b"no sound and more",
             "a.wav: this is not a WAV file, whatever its extension says; ",
         ),
         (
             "a.npy",
-            b"PK\x03\x04 and more",
+            b"no array and more",
             "a.npy: this is not an NPY file, whatever its extension says; ",
         ),
         (
-            "a.mat",
-            b"MATLAB 5.0 MAT-file",
-            "a.mat: neither its content nor its extension is known; give a .wav",
+            "a.dat",
+            b"MATHLAB 5.0 MAT-file",
+            "a.dat: neither its content nor its extension is known; give a .wav",
         ),
         (
             "a.dat",

@@ -48,14 +48,14 @@ fn what_is_not_a_recording_is_told() {
             "text.wav",
             &["text.wav: ", "not a WAV file", "export it again"],
         ),
-        ("other.bin", &["other.bin: ", "--raw i16, i32 or f32"]),
+        ("other.bin", &["other.bin: ", "--raw i16, i32, f32 or f64"]),
         (
             "words.csv",
             &["words.csv:2:2: ", "`half`", "correct or delete the line"],
         ),
         (
             "one.csv",
-            &["one.csv:1: ", "found 1 column", "one sample pair a line"],
+            &["one.csv:1: ", "found 1 column", "`paste -d, c.csv d.csv`"],
         ),
         (
             "short.csv --rate 1e5",

@@ -172,6 +172,17 @@ fn text_may_be_utf_16() {
             assert!(fault.as_ref().unwrap().starts_with(&expected), "{fault:?}");
         }
     }
+    // All of it is read, by the bytes that are in the file.
+    let (_directory, path) = file(
+        "a.csv",
+        &"\u{feff}1,2\n"
+            .encode_utf16()
+            .flat_map(u16::to_le_bytes)
+            .collect::<Vec<u8>>(),
+    );
+    let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+    drain(&mut recording);
+    assert_eq!(Some(recording.bytes_read()), recording.bytes_total());
     // Raw samples may begin with any of them.
     let options = OpenOptions {
         raw: Some(RawFormat::I16),

@@ -172,7 +172,7 @@ pub enum InputError {
     /// Neither (N, 2) nor (2, N).
     #[error(
         "{file}: NPY header: the shape is {shape}, but (N, 2) is needed; of more channels \
-         give two, --columns 1,2, or save `numpy.stack([c, d], axis=1)`"
+         give two, --columns 2,3 where the first is the time, or save `numpy.stack([c, d], axis=1)`"
     )]
     NpyShape { file: String, shape: String },
     /// A type of number that has no scale here.

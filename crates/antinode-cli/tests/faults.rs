@@ -6,7 +6,7 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 
-use common::{Row, WAVE, fault, npy, raw, rows, run, wav};
+use common::{RATE, Row, WAVE, fault, npy, raw, rows, run, wav};
 
 #[test]
 fn what_is_not_a_recording_is_told() {
@@ -48,14 +48,14 @@ fn what_is_not_a_recording_is_told() {
             "text.wav",
             &["text.wav: ", "not a WAV file", "export it again"],
         ),
-        ("other.bin", &["other.bin: ", "--raw i16, i32 or f32"]),
+        ("other.bin", &["other.bin: ", "--raw i16, i32, f32 or f64"]),
         (
             "words.csv",
             &["words.csv:2:2: ", "`half`", "correct or delete the line"],
         ),
         (
             "one.csv",
-            &["one.csv:1: ", "found 1 column", "one sample pair a line"],
+            &["one.csv:1: ", "found 1 column", "`paste -d, c.csv d.csv`"],
         ),
         (
             "short.csv --rate 1e5",
@@ -220,4 +220,23 @@ fn a_reader_that_goes_ends_the_command_quietly() {
         assert_eq!(output.status.code(), Some(0), "{arguments:?}");
         assert_eq!(String::from_utf8_lossy(&output.stderr), "", "{arguments:?}");
     }
+}
+
+#[test]
+fn a_time_without_a_name_is_no_signal() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let codes = WAVE.codes(5000);
+    let lines = |first: &dyn Fn(usize) -> f64| -> String {
+        let line = |(k, pair): (usize, &[i16; 2])| format!("{},{}\n", first(k), pair[1]);
+        codes.iter().enumerate().map(line).collect()
+    };
+    fs::write(here.join("one.csv"), lines(&|k| k as f64 / RATE)).unwrap();
+    let told = ["one.csv:1: found the time and one signal", "--columns C,D"];
+    assert!(fault(here, "one.csv --rate 100000", Vec::new(), &told).is_empty());
+    // A wave as slow as can be goes up for as long, without noise, but not as evenly.
+    let slow = |k: usize| (k as f64 / RATE * 614.0).sin();
+    fs::write(here.join("two.csv"), lines(&slow)).unwrap();
+    let run = run(here, "identify two.csv --rate 100000");
+    assert!(!run.err.contains("found the time"), "{}", run.err);
 }

@@ -152,9 +152,8 @@ impl FirstLine<'_> {
         let clock = columns.first().copied().filter(|_| {
             columns.len() == 3
                 || columns.len() == 2
-                    && is_instrument
                     && self.names.is_none()
-                    && self.start.is_clocked
+                    && (is_instrument && self.start.is_clocked || self.start.is_surely_clocked)
         });
         let time = time.or(clock);
         let mut signals = places().filter(|&place| Some(place) != time);

@@ -4,10 +4,8 @@ use std::io::{self, Cursor, Read};
 
 use super::Stream;
 use super::columns::is_known;
+use super::foreign::{FEW_BYTES, Foreign};
 use super::text::{MAX_LINE, fields, is_skipped, number, separator, without_mark};
-
-/// Enough of the first bytes to know a sound file or an array.
-const HEAD_BYTES: usize = 12;
 
 /// Bytes read at a time while a text's first line is looked for.
 const PIECE: usize = 4096;
@@ -19,6 +17,8 @@ pub(super) enum Content {
     Wav,
     Npy,
     Utf16,
+    /// What is known, and not read.
+    Foreign(&'static Foreign),
     /// Its first line is a CSV header or numbers, or such numbers follow behind settings.
     Text,
     Other,
@@ -27,11 +27,11 @@ pub(super) enum Content {
 impl Content {
     /// Looks at a stream, and gives it back whole. Text is looked for only where `or_text` says so, for it takes a line or more.
     pub fn look(mut stream: Stream, or_text: bool) -> io::Result<(Self, Stream)> {
-        let mut head = Vec::with_capacity(HEAD_BYTES);
-        stream
-            .by_ref()
-            .take(HEAD_BYTES as u64)
-            .read_to_end(&mut head)?;
+        let mut head = Vec::new();
+        for most in [|_: &[u8]| FEW_BYTES, Foreign::head_bytes] {
+            let more = most(&head) - head.len();
+            stream.by_ref().take(more as u64).read_to_end(&mut head)?;
+        }
         let mut content = Self::of(&head);
         if or_text && content == Self::Other && is_text(&mut head, &mut stream)? {
             content = Self::Text;
@@ -57,7 +57,7 @@ impl Content {
             ] => Self::Wav,
             [0x93, b'N', b'U', b'M', b'P', b'Y', ..] => Self::Npy,
             [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Self::Utf16,
-            _ => Self::Other,
+            _ => Foreign::find(head).map_or(Self::Other, Self::Foreign),
         }
     }
 }
@@ -156,6 +156,11 @@ mod tests {
             "\u{feff}# a comment as long as you like, \n\n# one more\nt\tx\ty\r0\t1\t2\r",
             "2024-05-01T00:00:00,1,2\n",
             "LabVIEW Measurement\t\nSeparator\tTab\n\n0.1\t0.2\t\n",
+            // As a Parquet file, a sound file and a waveform begin.
+            "PAR1,PAR2,PAR3\n1,2,3\n",
+            "ID3;ID4\n1;2\n",
+            "#9\n1,2\n",
+            "#9 channels of which two are of use, and the others are not\n1,2\n",
         ] {
             assert_eq!(content(text.as_bytes()), Content::Text, "{text}");
         }
@@ -163,7 +168,6 @@ mod tests {
             &b"these are no samples at all"[..],
             b"these are\n12 samples\n0.5 mm apart\n",
             b"Samples\n1 2 3\x07",
-            b"MATLAB 5.0 MAT-file, made on a PC\0\x01IM",
             b"1,2\x07\n",
             b"# nothing but a comment",
             b"\xe9t\xe9,c,d\n",

@@ -64,10 +64,17 @@ pub enum InputError {
     /// Neither the content nor the extension is known.
     #[error(
         "{file}: neither its content nor its extension is known; give a .wav, .csv, .tsv, .txt or \
-         .npy file, or the sample format of a raw one with {RAW_OPTION} i16, i32 or f32, or the \
+         .npy file, or the sample format of a raw one with {RAW_OPTION} i16, i32, f32 or f64, or the \
          columns of a text with {COLUMNS_OPTION}"
     )]
     Unknown { file: String },
+    /// What the content is, which is not read.
+    #[error("{file}: this is {kind}, which is not read; {remedy}")]
+    Foreign {
+        file: String,
+        kind: &'static str,
+        remedy: String,
+    },
     /// The content is not what the extension promises.
     #[error(
         "{file}: this is not {kind}, whatever its extension says; export it again, or rename it to what it is"
@@ -76,7 +83,7 @@ pub enum InputError {
     /// Standard input without a sample format.
     #[error(
         "{file}: this is neither WAV, NPY nor CSV, and raw samples do not tell their format; give it \
-         with {RAW_OPTION} i16, i32 or f32 (little-endian, S_C and S_D in turn)"
+         with {RAW_OPTION} i16, i32, f32 or f64 (little-endian, S_C and S_D in turn)"
     )]
     RawFormatNeeded { file: String },
 
@@ -165,7 +172,7 @@ pub enum InputError {
     /// Neither (N, 2) nor (2, N).
     #[error(
         "{file}: NPY header: the shape is {shape}, but (N, 2) is needed; of more channels \
-         give two, --columns 1,2, or save `numpy.stack([c, d], axis=1)`"
+         give two, --columns 2,3 where the first is the time, or save `numpy.stack([c, d], axis=1)`"
     )]
     NpyShape { file: String, shape: String },
     /// A type of number that has no scale here.

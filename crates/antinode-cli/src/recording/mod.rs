@@ -4,6 +4,7 @@ mod columns;
 mod content;
 mod delimited;
 mod error;
+mod foreign;
 mod frame;
 mod gaps;
 mod header;
@@ -26,16 +27,19 @@ mod units;
 mod wav;
 mod write;
 
+use std::cell::Cell;
 use std::io::{self, IsTerminal};
 use std::path::Path;
+use std::rc::Rc;
 
 pub use columns::Columns;
 use content::Content;
 pub use error::{Channel, InputError};
+use foreign::{Foreign, MAT};
 pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use raw::RawFormat;
-use source::{Known, Opened, Source, Stream};
+use source::{Counted, Known, Opened, Source, Stream};
 pub use source::{in_utf8, open_file};
 pub use write::{OutputError, RecordingWriter, SampleFormat, WholeFile};
 
@@ -57,6 +61,8 @@ pub struct OpenOptions {
 pub struct Recording {
     name: String,
     bytes_total: Option<u64>,
+    /// The bytes read of a text that is decoded.
+    encoded: Rc<Cell<u64>>,
     opened: Opened,
     /// Pairs read to tell the resolution, and not yet delivered.
     head: std::vec::IntoIter<[f32; 2]>,
@@ -87,14 +93,19 @@ impl Recording {
         let extension = path
             .extension()
             .map(|text| text.to_string_lossy().to_lowercase());
+        let encoded = Rc::default();
         let known = Known {
+            encoded: Rc::clone(&encoded),
             is_named: true,
             extension: extension.unwrap_or_default(),
             length,
             again,
         };
         let opened = Self::stream(&name, Box::new(file), known, options)?;
-        Ok(Self::new(name, opened, length))
+        Ok(Self {
+            encoded,
+            ..Self::new(name, opened, length)
+        })
     }
 
     fn standard_input(options: &OpenOptions) -> Result<Self, InputError> {
@@ -124,13 +135,20 @@ impl Recording {
         };
         let (mut content, mut stream) = look(stream)?;
         if content == Content::Utf16 && options.raw.is_none() {
-            (content, stream) = look(Box::new(in_utf8(stream)))?;
+            let count = Rc::clone(&known.encoded);
+            (content, stream) = look(Box::new(in_utf8(Counted { stream, count })))?;
         }
         let file = name.to_owned();
+        let foreign = |found: &Foreign| InputError::Foreign {
+            file: file.clone(),
+            kind: found.kind,
+            remedy: found.remedy(known.is_named.then_some(name)),
+        };
         match (content, known.extension.as_str(), options.raw) {
             (Content::Nothing, ..) => Err(InputError::Empty { file }),
             (Content::Wav, ..) => wav::open(name, stream, length, options.columns.as_ref()),
             (Content::Npy, ..) => npy::open(name, stream, known, options.columns.as_ref()),
+            (Content::Foreign(found), _, None) => Err(foreign(found)),
             (_, "wav" | "wave", _) => Err(InputError::NotOfKind {
                 file,
                 kind: "a WAV file",
@@ -143,6 +161,7 @@ impl Recording {
                 delimited::open(name, stream, options, length.is_none())
             }
             (_, _, Some(format)) => Ok(raw::open(name, stream, format, length)),
+            (_, "mat", None) => Err(foreign(&MAT)),
             _ if known.is_named => Err(InputError::Unknown { file }),
             _ => Err(InputError::RawFormatNeeded { file }),
         }
@@ -152,6 +171,7 @@ impl Recording {
         Self {
             name,
             bytes_total,
+            encoded: Rc::default(),
             opened,
             head: Vec::new().into_iter(),
             step: None,
@@ -219,7 +239,8 @@ impl Recording {
     pub fn bytes_read(&self) -> u64 {
         // A text file without a last end of line is read as if it had one.
         let most = self.bytes_total.unwrap_or(u64::MAX);
-        self.opened.source.bytes_read().min(most)
+        let read = self.opened.source.bytes_read();
+        read.max(self.encoded.get()).min(most)
     }
 
     /// The magnitude from which an integer sample is at its rail, 32767/32768 for 16 bits, 2047/2048 where only the upper 12 are in use;

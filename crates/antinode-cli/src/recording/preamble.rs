@@ -22,6 +22,9 @@ const FEWEST_LABELS: usize = 4;
 /// How far the longest step of a time may exceed the shortest, which rounding makes uneven.
 const UNEVEN: f64 = 1.5;
 
+/// The same where nothing else speaks for a time: a wave bends more within these lines, at 1024 samples a period too.
+const UNBENT: f64 = 1.0001;
+
 /// Where to read from, and what was seen on the way.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Start {
@@ -32,6 +35,8 @@ pub(super) struct Start {
     pub numbers: Vec<usize>,
     /// Whether the first of these goes up as time does.
     pub is_clocked: bool,
+    /// Whether it does so as no signal does.
+    pub is_surely_clocked: bool,
     /// The unit of time among the settings, and its line.
     pub unit: Option<(String, usize)>,
 }
@@ -163,7 +168,8 @@ fn start(lines: &[Line], numbers: Vec<usize>, separator: u8) -> Option<Start> {
     (are_safe && !is_header_lost).then(|| Start {
         lines: lines[first].before,
         bytes: lines[first].start,
-        is_clocked: is_clock(&lines[rows..], numbers[0], separator),
+        is_clocked: is_clock(&lines[rows..], numbers[0], separator, UNEVEN),
+        is_surely_clocked: is_clock(&lines[rows..], numbers[0], separator, UNBENT),
         unit: settings.iter().find_map(unit),
         numbers,
     })
@@ -244,7 +250,7 @@ fn are_units(line: &Line, width: usize, is_second: bool, separator: u8) -> bool 
 }
 
 /// Whether a column goes up by the same step from each of these lines to the next.
-fn is_clock(rows: &[Line], column: usize, separator: u8) -> bool {
+fn is_clock(rows: &[Line], column: usize, separator: u8, uneven: f64) -> bool {
     let time = |line: &Line| number::<f64>(line.fields.get(column)?, separator);
     let times: Option<Vec<f64>> = rows.iter().map(time).collect();
     let Some(times) = times else { return false };
@@ -253,7 +259,7 @@ fn is_clock(rows: &[Line], column: usize, separator: u8) -> bool {
         steps().fold(f64::INFINITY, f64::min),
         steps().fold(0.0, f64::max),
     );
-    least > 0.0 && most <= UNEVEN * least
+    least > 0.0 && most <= uneven * least
 }
 
 /// The unit that a line of settings tells of the time.

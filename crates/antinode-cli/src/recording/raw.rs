@@ -24,6 +24,8 @@ pub enum RawFormat {
     I32,
     /// 32-bit floating point.
     F32,
+    /// 64-bit floating point.
+    F64,
 }
 
 /// Reads interleaved samples as long as there are any.
@@ -55,6 +57,7 @@ pub(super) fn open(file: &str, stream: Stream, format: RawFormat, length: Option
         RawFormat::I16 => Kind::I16,
         RawFormat::I32 => Kind::I32,
         RawFormat::F32 => Kind::F32,
+        RawFormat::F64 => Kind::F64,
     });
     let source = Interleaved::new(file, stream, code, 0).live(length.is_none());
     Opened {

@@ -1,8 +1,10 @@
 //! What a format of recordings implements to be read.
 
+use std::cell::Cell;
 use std::fs::{self, File};
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
+use std::rc::Rc;
 
 use encoding_rs_io::DecodeReaderBytesBuilder;
 
@@ -30,6 +32,20 @@ pub fn in_utf8(text: impl Read) -> impl Read {
         .utf8_passthru(true)
         .strip_bom(true)
         .build(text)
+}
+
+/// A stream that counts the bytes read from it.
+pub(super) struct Counted {
+    pub stream: Stream,
+    pub count: Rc<Cell<u64>>,
+}
+
+impl Read for Counted {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let read = self.stream.read(bytes)?;
+        self.count.set(self.count.get() + read as u64);
+        Ok(read)
+    }
 }
 
 /// A format's way to deliver pairs.
@@ -80,6 +96,8 @@ pub(super) struct Known {
     pub length: Option<u64>,
     /// The file once more, to be sought in.
     pub again: Option<File>,
+    /// The bytes read so far of a text that is decoded, which are others than its format counts.
+    pub encoded: Rc<Cell<u64>>,
 }
 
 /// A source, and what its header tells.

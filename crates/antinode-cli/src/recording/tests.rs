@@ -132,18 +132,18 @@ fn content_that_is_no_recording_is_named() {
         ("a.wav", &b""[..], "a.wav: there is nothing in it; check"),
         (
             "a.wav",
-            b"OggS and more",
+            b"no sound and more",
             "a.wav: this is not a WAV file, whatever its extension says; ",
         ),
         (
             "a.npy",
-            b"PK\x03\x04 and more",
+            b"no array and more",
             "a.npy: this is not an NPY file, whatever its extension says; ",
         ),
         (
-            "a.mat",
-            b"MATLAB 5.0 MAT-file",
-            "a.mat: neither its content nor its extension is known; give a .wav",
+            "a.dat",
+            b"MATHLAB 5.0 MAT-file",
+            "a.dat: neither its content nor its extension is known; give a .wav",
         ),
         (
             "a.dat",
@@ -172,6 +172,17 @@ fn text_may_be_utf_16() {
             assert!(fault.as_ref().unwrap().starts_with(&expected), "{fault:?}");
         }
     }
+    // All of it is read, by the bytes that are in the file.
+    let (_directory, path) = file(
+        "a.csv",
+        &"\u{feff}1,2\n"
+            .encode_utf16()
+            .flat_map(u16::to_le_bytes)
+            .collect::<Vec<u8>>(),
+    );
+    let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+    drain(&mut recording);
+    assert_eq!(Some(recording.bytes_read()), recording.bytes_total());
     // Raw samples may begin with any of them.
     let options = OpenOptions {
         raw: Some(RawFormat::I16),

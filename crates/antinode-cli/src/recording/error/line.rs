@@ -38,7 +38,8 @@ pub enum LineFault {
         "found {found} {}, but two (S_C, S_D) or three (time in s, S_C, S_D) are needed; {}",
         if *.found == 1 { "column" } else { "columns" },
         if *.found == 1 {
-            "give text with one sample pair a line".to_owned()
+            "give one sample pair a line: of two files `paste -d, c.csv d.csv`, of two variables in MATLAB or Octave \
+             `dlmwrite('both.csv', [c(:) d(:)], 'precision', 9)`".to_owned()
         } else {
             format!("drop the others, or name the right ones with {COLUMNS_OPTION}")
         }

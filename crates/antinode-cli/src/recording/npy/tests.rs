@@ -114,7 +114,7 @@ fn other_shapes_and_types_are_named() {
         ("()", "()"),
     ] {
         let expected = format!(
-            "a.npy: NPY header: the shape is {shown}, but (N, 2) is needed; of more channels give two, --columns 1,2, or save `numpy.stack("
+            "a.npy: NPY header: the shape is {shown}, but (N, 2) is needed; of more channels give two, --columns 2,3 where the first is the time, or save `numpy.stack("
         );
         assert!(
             fault("'<i2'", shape).starts_with(&expected),

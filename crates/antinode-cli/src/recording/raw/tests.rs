@@ -34,7 +34,12 @@ fn every_format_is_read_across_ragged_chunks() {
         .iter()
         .flat_map(|value| value.to_le_bytes())
         .collect();
+    let f64s = values[..998]
+        .iter()
+        .flat_map(|&value| f64::from(value).to_le_bytes())
+        .collect();
     for (bytes, format) in [
+        (f64s, RawFormat::F64),
         (i16s, RawFormat::I16),
         (i32s, RawFormat::I32),
         (f32s, RawFormat::F32),

@@ -1,0 +1,185 @@
+//! Files that are not read: what they are, by their first bytes, and how each becomes one that is.
+
+/// What a file is that is not read.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Foreign {
+    /// The bytes that tell it, and where they stand.
+    mark: &'static [u8],
+    at: usize,
+    pub kind: &'static str,
+    /// What to do, with `FILE` for its name.
+    remedy: &'static str,
+}
+
+/// Enough of the first bytes to know most of these.
+pub(super) const FEW_BYTES: usize = 12;
+
+/// Enough to know those of which the first tell too little.
+pub(super) const MORE_BYTES: usize = 64;
+
+const ZIP: &[u8] = b"PK\x03\x04";
+
+/// The beginning of the length of a waveform of LeCroy, nine digits: a comment may begin so too.
+const LECROY: &[u8] = b"#9";
+
+/// Marks of so many letters may begin a text.
+const SHORT: usize = 4;
+
+const MATLAB: &str = "write text in MATLAB or Octave, `load('FILE'); dlmwrite('both.csv', [c(:) d(:)], 'precision', 9)`, with the names of your two \
+                      signals for c and d";
+const HDF5: &str = "write NPY in Python, `import h5py, numpy; f = h5py.File(r'FILE'); numpy.save('both.npy', numpy.stack([f['c'][()].ravel(), \
+                    f['d'][()].ravel()], axis=1))`, with the names of your two signals for c and d";
+const NPZ: &str = "write NPY in Python, `import numpy; z = numpy.load(r'FILE'); numpy.save('both.npy', numpy.stack([z['c'], z['d']], axis=1))`, \
+                   with the names of your two signals for c and d";
+const TDMS: &str = "write text in Python with npTDMS, `from nptdms import TdmsFile; TdmsFile.read(r'FILE').as_dataframe().to_csv('both.csv', \
+                    index=False)`";
+const SCOPE: &str = "save the waveforms as CSV, on the oscilloscope or by its maker's program";
+const SOX: &str = "convert it, `sox FILE -t wav - | antinode identify -`";
+const LOSSY: &str = "what it lost does not come back: record WAV or FLAC; only for a look, `sox FILE -t wav - | antinode identify -`";
+const SHEET: &str = "save its sheet as CSV";
+const UNZIP: &str = "where it holds one recording alone, `unzip -p FILE | antinode identify -`, and else unpack it first";
+
+/// By its name alone: files of level 4 begin with no mark.
+pub(super) const MAT: Foreign = of(b"", 0, "a MATLAB file", MATLAB);
+const ARRAYS: Foreign = of(ZIP, 0, "an NPZ archive of NumPy", NPZ);
+const WORKBOOK: Foreign = of(ZIP, 0, "a spreadsheet", SHEET);
+const ARCHIVE: Foreign = of(ZIP, 0, "a ZIP archive", UNZIP);
+
+static KNOWN: [Foreign; 33] = [
+    of(b"MATLAB 5.0 M", 0, "a MATLAB file", MATLAB),
+    of(b"MATLAB 7.3 M", 0, "a MATLAB file", MATLAB),
+    of(b"Octave-1-", 0, "a binary file of Octave", MATLAB),
+    of(b"\x89HDF\r\n\x1a\n", 0, "an HDF5 file", HDF5),
+    of(b"TDSm", 0, "a TDMS file of LabVIEW", TDMS),
+    of(
+        b"PAR1",
+        0,
+        "a Parquet file",
+        "write text in Python, `import pandas; pandas.read_parquet(r'FILE').to_csv('both.csv', index=False)`",
+    ),
+    of(
+        b"ARROW1\0\0",
+        0,
+        "a Feather file",
+        "write text in Python, `import pandas; pandas.read_feather(r'FILE').to_csv('both.csv', index=False)`",
+    ),
+    of(
+        b"\x1f\x8b\x08",
+        0,
+        "compressed by gzip",
+        "unpack it, `gzip -dc FILE | antinode identify -`",
+    ),
+    of(
+        b"BZh91AY&SY",
+        0,
+        "compressed by bzip2",
+        "unpack it, `bzip2 -dc FILE | antinode identify -`",
+    ),
+    of(
+        b"\xfd7zXZ\0",
+        0,
+        "compressed by xz",
+        "unpack it, `xz -dc FILE | antinode identify -`",
+    ),
+    of(
+        b"\x28\xb5\x2f\xfd",
+        0,
+        "compressed by zstd",
+        "unpack it, `zstd -dc FILE | antinode identify -`",
+    ),
+    of(
+        b"7z\xbc\xaf\x27\x1c",
+        0,
+        "a 7-Zip archive",
+        "where it holds one recording alone, `7z x -so FILE | antinode identify -`, and else unpack it first",
+    ),
+    of(
+        b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1",
+        0,
+        "an Excel workbook",
+        SHEET,
+    ),
+    of(b"fLaC", 0, "a FLAC file", SOX),
+    of(b"AIF", 8, "an AIFF file", SOX),
+    of(b".snd", 0, "an AU file", SOX),
+    of(b"caff", 0, "a CAF file", SOX),
+    of(b"riff\x2e\x91\xcf\x11", 0, "a Wave64 file", SOX),
+    of(b"OggS", 0, "an Ogg file", LOSSY),
+    of(b"ID3", 0, "an MP3 file", LOSSY),
+    of(b"\xff\xfb", 0, "an MP3 file", LOSSY),
+    of(b":WFM#00", 2, "a waveform of Tektronix (.wfm)", SCOPE),
+    of(b":WFMP", 0, "a waveform of Tektronix (.isf)", SCOPE),
+    of(b":WFMO", 0, "a waveform of Tektronix (.isf)", SCOPE),
+    of(b"WAVEDESC", 0, "a waveform of LeCroy (.trc)", SCOPE),
+    of(b"WAVEDESC", 11, "a waveform of LeCroy (.trc)", SCOPE),
+    of(b"AG01", 0, "a waveform of Keysight (.bin)", SCOPE),
+    of(b"AG03", 0, "a waveform of Keysight (.bin)", SCOPE),
+    of(b"AG10", 0, "a waveform of Keysight (.bin)", SCOPE),
+    of(b"RG01", 0, "a waveform of Rigol (.bin)", SCOPE),
+    of(b"RG03", 0, "a waveform of Rigol (.bin)", SCOPE),
+    of(b"\xa5\xa5\0\0", 0, "a waveform of Rigol (.wfm)", SCOPE),
+    of(b"\xa5\xa5\x38\0", 0, "a waveform of Rigol (.wfm)", SCOPE),
+];
+
+const fn of(mark: &'static [u8], at: usize, kind: &'static str, remedy: &'static str) -> Foreign {
+    Foreign {
+        mark,
+        at,
+        kind,
+        remedy,
+    }
+}
+
+impl Foreign {
+    /// How many of the first bytes tell what a file is, by the first few of them.
+    pub fn head_bytes(few: &[u8]) -> usize {
+        let is_more = few.starts_with(ZIP) || few.starts_with(LECROY);
+        if is_more { MORE_BYTES } else { FEW_BYTES }
+    }
+
+    /// What begins so.
+    pub fn find(head: &[u8]) -> Option<&'static Self> {
+        if head.starts_with(ZIP) {
+            return Some(zipped(head));
+        }
+        let few = &head[..head.len().min(FEW_BYTES)];
+        let is_text = few
+            .iter()
+            .all(|byte| (b' '..=b'~').contains(byte) || byte.is_ascii_whitespace());
+        KNOWN.iter().find(|known| {
+            let begins = head
+                .get(known.at..)
+                .is_some_and(|head| head.starts_with(known.mark));
+            begins && !(is_text && known.mark.len() <= SHORT)
+        })
+    }
+
+    /// What to do with a file of this name.
+    pub fn remedy(&self, name: Option<&str>) -> String {
+        let name = name.unwrap_or("FILE");
+        // Between quotes it is as it is; a shell wants them where it has blanks.
+        let argument = if name.contains(' ') {
+            format!("\"{name}\"")
+        } else {
+            name.to_owned()
+        };
+        self.remedy
+            .replace("'FILE'", &format!("'{name}'"))
+            .replace(" FILE ", &format!(" {argument} "))
+    }
+}
+
+/// What a ZIP archive holds, by the name of the first file in it.
+fn zipped(head: &[u8]) -> &'static Foreign {
+    let has = |part: &[u8]| head.windows(part.len()).any(|bytes| bytes == part);
+    if has(b".npy") {
+        &ARRAYS
+    } else if has(b".xml") || has(b"_rels/") || has(b"mimetype") {
+        &WORKBOOK
+    } else {
+        &ARCHIVE
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -13,18 +13,23 @@
  *     while (antinode_fixed_solve(&gyro, &estimate) == ANTINODE_ESTIMATE)
  *         use(&estimate);
  *
- * Samples: S_C and S_D of pick-offs 45 degrees apart; the unit of amplitudes, offsets and residuals is that of the samples.
+ * Samples: S_C and S_D of pick-offs 45 degrees apart; the unit of amplitudes, offsets and residuals is that of the samples. Codes are
+ * two's complement of 16 bits, and so are unsigned ones of up to 15 bits as they are (a 12-bit converter, aligned to the right): the
+ * offset is found. Unsigned ones of 16 bits, oversampled or aligned to the left, would wrap around at half scale, and with `watch` of 0
+ * no flag tells: turn the highest bits, word ^ 0x80008000, which takes 32768 from the offsets and from the rails.
  *
  * Memory: a state is the caller's, static or on a stack; there is no heap, no global and no callback. Zeroed memory is not an
  * initialised state. A state may be copied or moved while nobody uses it.
  *
  * Concurrency, without a lock:
- *  - Interrupt side: _push, _push_block*, _skip. One of them at a time; they take finished blocks to a queue inside the state.
+ *  - Interrupt side: _push, _push_block*, _skip. One of them at a time: interrupts that call them must have one priority. They take
+ *    finished blocks to a queue inside the state.
  *  - Thread side: _solve, _search, _set_calibration. One of them at a time. They take blocks from the queue.
  *  - One call of each side may be under way at once: the interrupt may break into the thread anywhere, or run on another core that
  *    shares coherent memory.
  *  - _health may be called from anywhere at any time except during _init and _reset; the functions without a state at any time.
- *  - _init, _reset and _identify use both sides: nothing else of that state may be under way, but _health during _identify.
+ *  - _init, _reset and _identify use both sides: nothing else of that state may be under way, but _health during _identify, and during
+ *    _init and _reset an interrupt of the same core, whose samples are refused.
  *  - States are independent of each other.
  *
  * The interrupt's cost on a Cortex-M4: while a period is searched 370 to 570 instructions a sample pair, then 10 to 70; up to 0.8 KiB
@@ -191,9 +196,10 @@ typedef struct {
     uint32_t hop_blocks;
     // The first window's angle is chosen within pi/4 of this one, rad. Within +-10000; default pi/4, which puts it in 0 to pi/2.
     float start_angle_rad;
-    // The least sample that the converter gives, input units: at or below it a window is flagged as clipped. Default 0.
+    // The least sample that the converter gives, input units: at or below it a window is flagged as clipped. Default 0,
+    // which is that of a converter with unsigned codes.
     float rail_low;
-    // The greatest sample that the converter gives, input units, above `rail_low`. Both 0, the default: not known.
+    // The greatest sample that the converter gives, input units, above `rail_low`: 4095 for 12 bits. Both 0, the default: not known.
     float rail_high;
     // Step between neighbouring codes of the converter, input units, > 0: its share counts in the standard deviations. 0, the
     // default: not known.
@@ -289,10 +295,12 @@ extern "C" {
 #endif // __cplusplus
 
 // Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised.
-// Before anything else; neither side may run.
-antinode_status_t antinode_fixed_init(antinode_fixed_t *state, const antinode_settings_t *settings);
+// Before anything else; neither side may run, but an interrupt of the same core may break in: ANTINODE_ERROR_NOT_INITIALISED tells
+// it that its pairs were not taken.
+antinode_status_t antinode_fixed_init(antinode_fixed_t *state,
+                                      const antinode_settings_t *settings);
 
-// Makes a state as it was after its initialisation, with its present calibration. Neither side may run.
+// Makes a state as it was after its initialisation, with its present calibration. Otherwise as the initialisation.
 antinode_status_t antinode_fixed_reset(antinode_fixed_t *state);
 
 // Interrupt side. Takes one sample pair, converter codes. ANTINODE_OK; ANTINODE_READY when it finished a block;
@@ -306,8 +314,9 @@ antinode_status_t antinode_fixed_push_block(antinode_fixed_t *state, const int16
 // antinode_fixed_push().
 antinode_status_t antinode_fixed_push_block_interleaved(antinode_fixed_t *state, const int16_t *samples, size_t count);
 
-// Interrupt side. Takes `count` sample pairs of two's complement codes, C in the low half of a word and D in the high half, as a
-// dual converter's DMA leaves them. Answers as antinode_fixed_push().
+// Interrupt side. Takes `count` sample pairs of 16-bit codes, C in the low half of a word and D in the high half, as a dual
+// converter's DMA leaves them; unsigned ones of 16 bits as `word ^ 0x80008000`, see the head of the header. Answers as
+// antinode_fixed_push().
 antinode_status_t antinode_fixed_push_block_packed(antinode_fixed_t *state, const uint32_t *words, size_t count);
 
 // Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is
@@ -339,10 +348,12 @@ antinode_status_t antinode_fixed_identify(antinode_fixed_t *state,
                                           antinode_estimate_t *estimate);
 
 // Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised.
-// Before anything else; neither side may run.
-antinode_status_t antinode_float_init(antinode_float_t *state, const antinode_settings_t *settings);
+// Before anything else; neither side may run, but an interrupt of the same core may break in: ANTINODE_ERROR_NOT_INITIALISED tells
+// it that its pairs were not taken.
+antinode_status_t antinode_float_init(antinode_float_t *state,
+                                      const antinode_settings_t *settings);
 
-// Makes a state as it was after its initialisation, with its present calibration. Neither side may run.
+// Makes a state as it was after its initialisation, with its present calibration. Otherwise as the initialisation.
 antinode_status_t antinode_float_reset(antinode_float_t *state);
 
 // Interrupt side. Takes one sample pair, in any unit. ANTINODE_OK; ANTINODE_READY when it finished a block;
@@ -356,8 +367,9 @@ antinode_status_t antinode_float_push_block(antinode_float_t *state, const float
 // antinode_float_push().
 antinode_status_t antinode_float_push_block_interleaved(antinode_float_t *state, const float *samples, size_t count);
 
-// Interrupt side. Takes `count` sample pairs of two's complement codes, C in the low half of a word and D in the high half, as a
-// dual converter's DMA leaves them. Answers as antinode_float_push().
+// Interrupt side. Takes `count` sample pairs of 16-bit codes, C in the low half of a word and D in the high half, as a dual
+// converter's DMA leaves them; unsigned ones of 16 bits as `word ^ 0x80008000`, see the head of the header. Answers as
+// antinode_float_push().
 antinode_status_t antinode_float_push_block_packed(antinode_float_t *state, const uint32_t *words, size_t count);
 
 // Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is

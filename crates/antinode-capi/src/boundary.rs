@@ -5,7 +5,7 @@
 )]
 
 use core::mem::MaybeUninit;
-use core::sync::atomic::Ordering;
+use core::sync::atomic::{Ordering, compiler_fence};
 
 use antinode::{Packed, SamplePair};
 
@@ -94,11 +94,7 @@ pub(crate) unsafe fn init<S: Arithmetic, O>(opaque: *mut O, settings: *const Set
     status((|| {
         check(opaque)?;
         // SAFETY: the memory is the caller's. Settings that are refused must not leave an older state behind.
-        unsafe {
-            (*opaque.cast::<State<S>>())
-                .magic
-                .store(0, Ordering::Release)
-        };
+        unsafe { close::<S>(opaque.cast()) };
         check(settings)?;
         // SAFETY: looked at.
         let settings = unsafe { &*settings }.checked(RING_BLOCKS)?;
@@ -111,10 +107,26 @@ pub(crate) unsafe fn init<S: Arithmetic, O>(opaque: *mut O, settings: *const Set
 /// As [`init`].
 pub(crate) unsafe fn reset<S: Arithmetic, O>(opaque: *mut O) -> Status {
     // SAFETY: the caller's contract.
-    status(unsafe { open::<S, O>(opaque).and_then(|state| start(state, (*state).thread.settings)) })
+    status(unsafe {
+        open::<S, O>(opaque).and_then(|state| {
+            close(state);
+            start(state, (*state).thread.settings)
+        })
+    })
 }
 
-/// Writes a state part by part, each in its place.
+/// Makes a state one that is not initialised, before anything else of it is written: an interrupt that breaks in leaves it alone.
+///
+/// # Safety
+/// `state` points to memory for one.
+#[inline]
+unsafe fn close<S: Arithmetic>(state: *mut State<S>) {
+    // SAFETY: the caller's contract.
+    unsafe { (*state).magic.store(0, Ordering::Relaxed) };
+    compiler_fence(Ordering::SeqCst);
+}
+
+/// Writes a closed state part by part, each in its place.
 ///
 /// # Safety
 /// `state` points to memory for one that nobody else uses.
@@ -124,7 +136,6 @@ unsafe fn start<S: Arithmetic>(
 ) -> Checked<Status> {
     // SAFETY: the memory is there and aligned; what was in it needs no drop.
     unsafe {
-        (&raw mut (*state).magic).write(0.into());
         Shared::write(&raw mut (*state).shared, settings.frequency.is_none());
         Interrupt::write(&raw mut (*state).interrupt, settings)?;
         Thread::write(&raw mut (*state).thread, settings)?;

@@ -17,7 +17,8 @@ use crate::state::Health;
 use crate::status::Status;
 
 /// Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised.
-/// Before anything else; neither side may run.
+/// Before anything else; neither side may run, but an interrupt of the same core may break in: ANTINODE_ERROR_NOT_INITIALISED tells
+/// it that its pairs were not taken.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_init(
     state: *mut Fixed,
@@ -26,7 +27,7 @@ pub unsafe extern "C" fn antinode_fixed_init(
     boundary::init::<i16, _>(state, settings)
 }
 
-/// Makes a state as it was after its initialisation, with its present calibration. Neither side may run.
+/// Makes a state as it was after its initialisation, with its present calibration. Otherwise as the initialisation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_reset(state: *mut Fixed) -> Status {
     boundary::reset::<i16, _>(state)
@@ -61,8 +62,9 @@ pub unsafe extern "C" fn antinode_fixed_push_block_interleaved(
     boundary::push_pairs::<i16, _, _>(state, samples.cast::<[i16; 2]>(), count)
 }
 
-/// Interrupt side. Takes `count` sample pairs of two's complement codes, C in the low half of a word and D in the high half, as a
-/// dual converter's DMA leaves them. Answers as antinode_fixed_push().
+/// Interrupt side. Takes `count` sample pairs of 16-bit codes, C in the low half of a word and D in the high half, as a dual
+/// converter's DMA leaves them; unsigned ones of 16 bits as `word ^ 0x80008000`, see the head of the header. Answers as
+/// antinode_fixed_push().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_push_block_packed(
     state: *mut Fixed,

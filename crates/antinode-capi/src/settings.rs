@@ -36,9 +36,10 @@ pub struct Settings {
     pub hop_blocks: u32,
     /// The first window's angle is chosen within π/4 of this one, rad. Within ±10000; default π/4, which puts it in 0…π/2.
     pub start_angle_rad: f32,
-    /// The least sample that the converter gives, input units: at or below it a window is flagged as clipped. Default 0.
+    /// The least sample that the converter gives, input units: at or below it a window is flagged as clipped. Default 0,
+    /// which is that of a converter with unsigned codes.
     pub rail_low: f32,
-    /// The greatest sample that the converter gives, input units, above `rail_low`. Both 0, the default: not known.
+    /// The greatest sample that the converter gives, input units, above `rail_low`: 4095 for 12 bits. Both 0, the default: not known.
     pub rail_high: f32,
     /// Step between neighbouring codes of the converter, input units, > 0: its share counts in the standard deviations. 0, the
     /// default: not known.

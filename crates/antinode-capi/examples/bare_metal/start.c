@@ -20,10 +20,13 @@ static void stop(void)
         ;
 }
 
+/* A program's own, where it has one. */
+void SysTick_Handler(void) __attribute__((weak, alias("stop")));
+
 __attribute__((section(".vectors"), used)) static const struct {
     uint32_t *stack;
     void (*handlers[15])(void);
 } vectors = {
     stack_top,
-    {reset, stop, stop, stop, stop, stop, stop, stop, stop, stop, stop, stop, stop, stop, stop},
+    {reset, stop, stop, stop, stop, stop, stop, stop, stop, stop, stop, stop, stop, stop, SysTick_Handler},
 };

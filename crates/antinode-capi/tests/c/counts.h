@@ -30,7 +30,7 @@ static inline uint32_t next_pairs(uint32_t at, uint32_t to)
 }
 
 #define SYSTICK ((volatile uint32_t *)0xE000E010u)
-static uint32_t now(void) { return SYSTICK[2]; }
+static inline uint32_t now(void) { return SYSTICK[2]; }
 
 /* Words below the stack pointer that are painted, more than any call takes. */
 enum { PAINTED = 2560 };

@@ -12,7 +12,7 @@ mod dsp;
 #[cfg(has_vsqrt)]
 mod fpu;
 #[cfg_attr(
-    has_dsp,
+    any(has_dsp, has_vsqrt),
     allow(dead_code, reason = "the instructions take their place")
 )]
 pub mod portable;

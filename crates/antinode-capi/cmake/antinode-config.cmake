@@ -1,7 +1,7 @@
 # find_package(antinode) gives
 #   antinode::antinode   the static library: of this PC, or of the core that a cross build is for
 #   antinode::shared     the shared library, on a PC
-# A cross build names the Rust target in ANTINODE_TARGET (thumbv7em-none-eabihf, thumbv7m-none-eabi, thumbv6m-none-eabi); where it
+# A cross build names the Rust target in ANTINODE_TARGET (README.md has which: thumbv7em-none-eabihf, ...); where it
 # does not, the target follows from -mcpu and -mfloat-abi in CMAKE_C_FLAGS, CMAKE_CXX_FLAGS or add_compile_options().
 get_filename_component(_antinode_prefix "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 set(_antinode_lib "${_antinode_prefix}/lib")
@@ -11,17 +11,24 @@ if(CMAKE_CROSSCOMPILING)
         get_directory_property(_antinode_options COMPILE_OPTIONS)
         set(_antinode_flags " ${CMAKE_C_FLAGS} ${CMAKE_CXX_FLAGS} ${_antinode_options} ")
         set(_antinode_core "")
-        if(_antinode_flags MATCHES "[ ;]-mcpu=cortex-m([0-9a-z]+)[ ;+.]")
+        if(_antinode_flags MATCHES "[ ;]-mcpu=cortex-m([0-9a-z]+)([+.][^ ;]*)?[ ;]")
             set(_antinode_core "${CMAKE_MATCH_1}")
+            if(CMAKE_MATCH_2 MATCHES "[+]nodsp")
+                string(APPEND _antinode_core "+nodsp")
+            endif()
         endif()
         # Never across float ABIs: the linker may not see it, and arguments would go astray.
         if(_antinode_flags MATCHES "[ ;]-mfloat-abi=hard[ ;]")
-            if(_antinode_core MATCHES "^[47]$")
+            if(_antinode_core MATCHES "^(4|7|33)$")
                 set(_antinode_target thumbv7em-none-eabihf)
+            elseif(_antinode_core STREQUAL "33+nodsp")
+                set(_antinode_target thumbv8m.main-none-eabihf)
             endif()
-        elseif(_antinode_core MATCHES "^[347]$")
+        elseif(_antinode_core MATCHES "^(4|7|33)$" AND EXISTS "${_antinode_lib}/thumbv7em-none-eabi/libantinode.a")
+            set(_antinode_target thumbv7em-none-eabi)
+        elseif(_antinode_core MATCHES "^(3|4|7|33|33[+]nodsp)$")
             set(_antinode_target thumbv7m-none-eabi)
-        elseif(_antinode_core MATCHES "^(0|0plus|1)$")
+        elseif(_antinode_core MATCHES "^(0|0plus|1|23)$")
             set(_antinode_target thumbv6m-none-eabi)
         endif()
     endif()

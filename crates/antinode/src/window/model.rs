@@ -185,3 +185,31 @@ impl Model {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::Cut;
+
+    #[test]
+    fn every_window_knows_its_noise() {
+        for periods in [2, 3, 4, 5, 7, 10, 20] {
+            for (has_hop, own_offsets) in [(false, false), (true, false), (false, true)] {
+                let cut = Cut { periods, has_hop };
+                for i in 0..200 {
+                    // 2.5 to 200 samples a period.
+                    let period = 2.5 * libm::powf(200.0 / 2.5, i as f32 / 200.0);
+                    let length = cut.length(period, 200);
+                    let layout = Layout::unrounded(PhaseStep::from_period(period), length);
+                    let (blocks, ideal) = (cut.blocks(layout), Calibration::IDEAL);
+                    let model = Model::new(layout, layout.step, blocks, ideal, 1e5, own_offsets);
+                    let freedom = model.freedom();
+                    assert!(
+                        freedom >= 2.0,
+                        "{period}, {periods}, {has_hop}, {own_offsets}: {freedom}"
+                    );
+                }
+            }
+        }
+    }
+}

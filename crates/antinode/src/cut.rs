@@ -1,7 +1,7 @@
 //! How the windows of a wave are cut into blocks.
 
 use crate::block::Layout;
-use crate::order::lesser;
+use crate::scalar::lesser;
 
 /// Blocks that a window is cut into at least: regression over K blocks keeps all but 1/K² of what its samples know of frequency.
 const BLOCKS_A_WINDOW: f32 = 5.0;

@@ -2,7 +2,7 @@
 
 use num_complex::Complex32;
 
-use crate::order::{greater, lesser};
+use crate::scalar::{greater, lesser};
 
 /// e^x − 1: within 10⁻⁸ for |x| up to 0.5, 3·10⁻⁶ up to 1, and 10⁻⁵ up to 1.14, which no course exceeds.
 #[inline(never)]

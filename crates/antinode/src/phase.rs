@@ -5,7 +5,7 @@ use core::f32::consts::{FRAC_PI_4, TAU};
 use num_complex::Complex32;
 
 use crate::double::units;
-use crate::order::{greater, nearest};
+use crate::scalar::{greater, nearest};
 
 /// One turn, in units of [`Phase`].
 const TURN: f32 = 4_294_967_296.0;

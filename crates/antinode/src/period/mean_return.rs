@@ -10,7 +10,7 @@ use core::f32::consts::TAU;
 use super::PERIODS;
 use super::trial::Trial;
 use crate::block::Pair;
-use crate::order::{greater, lesser};
+use crate::scalar::{greater, lesser};
 
 /// Whole periods that the mean and the return are measured over.
 const SPAN: u16 = 2;

@@ -3,7 +3,7 @@
 use core::f32::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
 
 use crate::double::units;
-use crate::order::nearest;
+use crate::scalar::nearest;
 
 /// Takes whole turns off an angle in radians: (−π, π].
 pub(crate) fn wrap(angle: f32) -> f32 {

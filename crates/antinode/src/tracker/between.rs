@@ -7,7 +7,7 @@ use super::checks::SIGMAS;
 use super::record::{Amplitude, Record};
 use crate::estimate::Flags;
 use crate::exponential::exponential;
-use crate::order::{greater, long};
+use crate::scalar::{greater, long};
 
 /// Below this share of a_A a step of an amplitude or an offset between windows is no fault.
 const AMPLITUDE_FLOOR: f32 = 2e-3;

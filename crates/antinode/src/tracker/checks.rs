@@ -6,7 +6,7 @@ use super::noise::{Noise, REACH, RISE, is_beyond_chance, is_louder, limit_of};
 use super::standing::Standing;
 use crate::arch::square_root;
 use crate::estimate::Flags;
-use crate::order::{greater, lesser};
+use crate::scalar::{greater, lesser};
 use crate::window::{Covariance, Fit, Model, Remains};
 
 /// Standard deviations of an innocent deviation.

@@ -4,8 +4,8 @@ use super::standing::Standing;
 use crate::arch::square_root;
 use crate::estimate::Flags;
 use crate::exponential::exponential;
-use crate::order::{greater, lesser};
 use crate::phase::PhaseStep;
+use crate::scalar::{greater, lesser};
 use crate::settings::Settings;
 use crate::window::{Fit, Model, Seen};
 

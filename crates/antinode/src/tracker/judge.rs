@@ -9,7 +9,7 @@ use super::standing::Standing;
 use super::{Tracker, between};
 use crate::arch::square_root;
 use crate::estimate::Flags;
-use crate::order::greater;
+use crate::scalar::greater;
 use crate::window::Fit;
 
 /// Flags of a window that says nothing about those after it.

@@ -1,7 +1,7 @@
 //! The noise of the windows before, beside which one window's own is looked at, and by how much variances may differ by chance.
 
 use crate::arch::square_root;
-use crate::order::{greater, lesser};
+use crate::scalar::{greater, lesser};
 
 /// Standard deviations of an innocent variance: three in 10¹⁰, as a window has several parts.
 pub(super) const REACH: f32 = 6.2;

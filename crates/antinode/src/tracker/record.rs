@@ -4,8 +4,8 @@ use super::angle::Angle;
 use crate::arch::square_root;
 use crate::double::{self, reciprocal, scaled, to_single};
 use crate::estimate::{Estimate, Flags};
-use crate::order::{greater, long};
 use crate::phase::PhaseStep;
+use crate::scalar::{greater, long};
 
 /// Deviation of a promised angle, rad, of which six reach the next angle that looks the same.
 const UNKNOWN_TURN: f32 = 0.13;

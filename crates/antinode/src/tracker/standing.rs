@@ -8,8 +8,8 @@ use num_complex::Complex32;
 use super::angle::Angle;
 use super::record::{Amplitude, Record};
 use crate::arch::square_root;
-use crate::order::{greater, lesser};
 use crate::phase::argument;
+use crate::scalar::{greater, lesser};
 use crate::window::{Covariance, Fit, Model};
 
 /// The standing wave at the middle of a window, with variances for the fit's own noise, and what only its own window asks.

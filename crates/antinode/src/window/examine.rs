@@ -11,7 +11,7 @@ use super::response::Response;
 use super::seen::Seen;
 use super::third::Thirds;
 use super::waves::Waves;
-use crate::order::{greater, lesser};
+use crate::scalar::{greater, lesser};
 
 /// The residual of a fit, in several views. Squares are in input units squared.
 #[derive(Debug, Clone, Copy, Default)]

@@ -12,8 +12,8 @@ use super::normal::Covariance;
 use super::seen::Seen;
 use super::waves::{Parameters, Step, Waves};
 use crate::arch::square_root;
-use crate::order::lesser;
 use crate::phase::PhaseStep;
+use crate::scalar::lesser;
 
 /// Beyond this phase (rad) between a window's middle and its end the carrier is moved before the fit is believed.
 pub(crate) const CARRIER_REACH: f32 = 0.05;

@@ -8,7 +8,7 @@ use super::model::Model;
 use super::prediction::Slopes;
 use super::seen::Seen;
 use super::waves::Waves;
-use crate::order::greater;
+use crate::scalar::greater;
 
 /// Gathers the third-harmonic sums of the blocks, turned back by the carrier, less what the wave itself puts there in blocks that do
 /// not fit its period.

@@ -1,5 +1,8 @@
 //! `antinode identify`: recordings in, rows out, as a stream.
 
+mod first;
+mod in_turn;
+mod mistaken;
 mod options;
 mod scatter;
 mod search;

@@ -136,7 +136,7 @@
 //!   1.5 with 3, and 2 to 3 with 10. Of noise that grows with the frequency some windows stay misfits.
 //! - They also take noise to be independent, and as large in both pick-offs. Where one has ten times as much a window in some ten thousand
 //!   is flagged; where both share it deviations are a tenth too small.
-//! - Amplitudes are 10⁻¹⁵ to 10¹⁷ input units, so that their squares are numbers of f32.
+//! - Amplitudes are 10⁻¹⁵ to 10¹⁷ input units, so that their squares are numbers of f32. Beyond, estimates may be none, without a flag.
 //! - Sums of f32 round: in noise below 2·10⁻⁴ of a_A an offset beyond twenty times a_A, at 140 samples a period or more, is a misfit.
 //!   Codes do not round, nor do samples of f32 less their offset.
 #![no_std]

@@ -3,6 +3,7 @@
 use antinode::period::DifferenceDetector;
 
 use super::Core;
+use super::mistaken::amplitude_beyond;
 use super::options::{Detector, Identify};
 use crate::failure::Failure;
 
@@ -20,12 +21,24 @@ pub(super) struct Search {
     refused: u64,
     /// The mean of the first samples, and their rms about it, where that is much less.
     offset: Option<[f64; 2]>,
+    /// How far the first samples swing, where that is no amplitude that can be identified.
+    beyond: Option<f64>,
 }
 
 impl Search {
-    /// Takes the first pairs, which tell the offset.
+    /// Takes the first pairs, which tell the offset and the scale.
     pub fn begin(&mut self, pairs: &[[f32; 2]]) {
         self.offset = large_offset(pairs);
+        self.beyond = amplitude_beyond(pairs);
+    }
+
+    /// What to tell of a scale that is not identified.
+    pub fn scale(&self) -> Option<String> {
+        self.beyond.map(|swing| {
+            format!(
+                "the first samples swing by {swing:.0e}, and amplitudes are identified from 1e-15 to 1e17: give the samples in another unit"
+            )
+        })
     }
 
     /// Takes a look at the core.
@@ -38,12 +51,14 @@ impl Search {
     pub fn no_rows(&self, name: &str, rate: f64, core: &Core, options: &Identify) -> Failure {
         let (pairs, seconds) = (core.index(), core.index() as f64 / rate);
         let periods = options.periods;
-        let offset = self.offset.map_or(String::new(), |[mean, rms]| {
+        let offset = self.offset.map(|[mean, rms]| {
             format!(
-                "; the samples lie about an offset of {mean:.4e} and only {rms:.1e} rms off it, too little for single precision: \
+                "the samples lie about an offset of {mean:.4e} and only {rms:.1e} rms off it, too little for single precision: \
                  take the offset off"
             )
         });
+        let amiss = self.scale().or(offset);
+        let amiss = amiss.map_or(String::new(), |told| format!("; {told}"));
         // A window may be so much longer than asked.
         let longest = |frequency: f32| 1.1 * f64::from(periods) * rate / f64::from(frequency);
         let near = options
@@ -53,14 +68,14 @@ impl Search {
             format!(
                 "{name}: no window of {periods} periods in {pairs} sample pairs ({seconds:.4} s) is mostly one wave within 5 % of \
                  {frequency} Hz: check --frequency and the sample rate, or leave --frequency out, and the period is searched; a wave that \
-                 changes fast wants shorter windows, --periods{offset}"
+                 changes fast wants shorter windows, --periods{amiss}"
             )
         } else if self.refused > 0 {
             format!(
                 "{name}: a period was found, but no window of {periods} periods in {pairs} sample pairs ({seconds:.4} s) is mostly \
                  one wave; the wave may have fewer than 4 samples a period: check the sample rate; or look for a second tone; \
                  or the wave changes too fast: give a smaller --periods; and check the scale of the samples, --full-scale and \
-                 --resolution{offset}"
+                 --resolution{amiss}"
             )
         } else if core.is_searching() {
             let other = match options.detector {
@@ -70,7 +85,7 @@ impl Search {
             format!(
                 "{name}: no period found in {pairs} sample pairs ({seconds:.4} s): no wave of 4 to 200 samples a period \
                  stands out of the noise; check the sample rate, the channels and the signal; try --detector {other}, \
-                 as a second tone may hide the period, or give --frequency where it is known{offset}"
+                 as a second tone may hide the period, or give --frequency where it is known{amiss}"
             )
         } else {
             let found = if options.frequency.is_some() {

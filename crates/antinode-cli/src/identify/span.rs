@@ -108,7 +108,7 @@ impl Span {
     }
 
     /// Whether a pair has been taken.
-    pub fn has_begun(&self) -> bool {
+    fn has_begun(&self) -> bool {
         self.begun.is_some()
     }
 

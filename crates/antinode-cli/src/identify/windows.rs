@@ -4,6 +4,9 @@ use std::io::Write;
 
 use antinode::{Estimate, Flags, SettingsError};
 
+use super::first::First;
+use super::in_turn::InTurn;
+use super::mistaken::straight;
 use super::options::{Identify, Methods};
 use super::scatter::Scatter;
 use super::search::{Search, elsewhere};
@@ -31,10 +34,12 @@ pub(super) struct Windows<'a> {
     rate: f64,
     core: Box<Core>,
     history: Option<History>,
+    first: First,
     search: Search,
     span: Span,
     silence: Silence,
     scatter: Scatter,
+    in_turn: InTurn,
     misfits: u64,
 }
 
@@ -65,10 +70,12 @@ impl<'a> Windows<'a> {
             rate,
             core: Box::new(core),
             history,
+            first: First::default(),
             search: Search::default(),
             span: Span::new(options, recording, rate),
             silence: Silence::default(),
             scatter: Scatter::new(settings.resolution),
+            in_turn: InTurn::default(),
             misfits: 0,
         })
     }
@@ -101,8 +108,8 @@ impl<'a> Windows<'a> {
                 }
                 Step::Take(most) => most,
             };
-            if !self.span.has_begun() {
-                self.begin(&pairs[..most]);
+            if let Some(first) = self.first.see(&pairs[..most]) {
+                self.begin(&first)?;
             }
             // Until the first row, what becomes of the search is to be seen.
             if rows.count() == 0 {
@@ -110,6 +117,7 @@ impl<'a> Windows<'a> {
             }
             let (taken, estimate) = self.core.push_slice(&pairs[..most]);
             self.search.see(self.core.is_searching());
+            self.first.pass(taken);
             let (new, rest) = pairs.split_at(taken);
             pairs = rest;
             recording.look(self.span.take(taken), new);
@@ -124,13 +132,20 @@ impl<'a> Windows<'a> {
     }
 
     /// Looks at the first pairs that are identified.
-    fn begin(&mut self, pairs: &[[f32; 2]]) {
+    fn begin(&mut self, pairs: &[[f32; 2]]) -> Result<(), Failure> {
+        let name = self.name;
+        if let Some(channel) = straight(pairs) {
+            return Err(Failure::Recording(format!(
+                "{name}: {channel} goes up in equal steps, as a time or a counter does: give the two signals alone"
+            )));
+        }
         self.search.begin(pairs);
         if let Some(frequency) = self.options.frequency
             && let Some(warning) = elsewhere(pairs, self.rate, frequency)
         {
-            eprintln!("warning: {}: {warning}", self.name);
+            eprintln!("warning: {name}: {warning}");
         }
+        Ok(())
     }
 
     fn print(&mut self, estimate: &Estimate, rows: &mut Rows<impl Write>) -> Result<(), Failure> {
@@ -138,6 +153,7 @@ impl<'a> Windows<'a> {
         let methods = history.and_then(|history| history.compare(estimate));
         self.silence.see(estimate, self.rate, self.options.hop);
         self.scatter.see(estimate);
+        self.in_turn.see(estimate, self.rate);
         self.misfits += u64::from(estimate.flags == Flags::MISFIT);
         let estimate = Estimate {
             time: estimate.time + self.span.offset(),
@@ -149,13 +165,16 @@ impl<'a> Windows<'a> {
 
     /// Tells what is to be known of a recording that was read as far as was asked, or up to a fault.
     pub fn conclude(
-        &self,
+        mut self,
         recording: &Recording,
         fault: Option<InputError>,
         rows: &mut Rows<impl Write>,
     ) -> Result<(), Failure> {
         // Rows before what is told of them.
         rows.flush()?;
+        if let Some(first) = self.first.rest() {
+            self.begin(&first)?;
+        }
         let name = self.name;
         if let Some(warning) = recording.late_warning() {
             eprintln!("warning: {warning}");
@@ -167,6 +186,8 @@ impl<'a> Windows<'a> {
             self.span.warning().filter(|_| fault.is_none()),
             self.silence.told(seconds, self.span.offset()),
             self.scatter.told(self.options.hum || self.options.coloured),
+            self.in_turn.told(),
+            self.search.scale().filter(|_| rows.count() > 0),
         ];
         for warning in warnings.into_iter().flatten() {
             eprintln!("warning: {name}: {warning}");

@@ -1,0 +1,129 @@
+//! Rows of one signal whose samples went to both pick-offs in turn: all of S_C stored before all of S_D, or `--raw` of other bits.
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
+
+use antinode::Estimate;
+
+/// Rows that tell something from which on they are believed.
+const MANY: u32 = 16;
+/// Deviations that a row may be off.
+const OFF: f64 = 4.0;
+/// Deviations with which a row tells nothing: of the angle, rad, and of the quadrature's share over the share expected.
+const VAGUE: [f64; 2] = [2e-3, 0.05];
+
+/// How many rows look like one signal of which S_D is half a sample later than S_C.
+#[derive(Debug, Default)]
+pub(super) struct InTurn {
+    /// Rows that tell something.
+    count: u32,
+    alike: u32,
+}
+
+impl InTurn {
+    /// Takes a row of a recording of this sample rate.
+    pub fn see(&mut self, row: &Estimate, rate: f64) {
+        if !row.flags.is_empty() {
+            return;
+        }
+        // Equal amplitudes stand at 22.5°, and half a sample between them is an ellipse.
+        let expected = -(FRAC_PI_2 * row.frequency / rate).tan();
+        let share = row.quadrature_amplitude / row.main_amplitude;
+        let share_std = row
+            .quadrature_amplitude_std
+            .hypot(share * row.main_amplitude_std)
+            / row.main_amplitude;
+        let apart = (row.angle - FRAC_PI_8) / FRAC_PI_2;
+        let off = [
+            (apart - apart.round()) * FRAC_PI_2 / f64::from(row.angle_std),
+            (f64::from(share) - expected) / f64::from(share_std),
+        ];
+        let vague = [
+            f64::from(row.angle_std),
+            f64::from(share_std) / expected.abs(),
+        ];
+        if vague.iter().zip(VAGUE).any(|(&vague, most)| vague > most) {
+            return;
+        }
+        self.count += 1;
+        self.alike += u32::from(off.iter().all(|off| off.abs() < OFF));
+    }
+
+    /// What to tell of a recording whose rows are nearly all so.
+    pub fn told(&self) -> Option<String> {
+        (self.alike >= MANY && self.alike > self.count - self.count / 16).then(|| {
+            "both pick-offs seem to be one signal, sampled in turn: the angle is 22.5° and S_D half a sample late; if all of S_C is stored \
+             before all of S_D, store them pair by pair, or as NPY of shape (2, N); if --raw was given, check its bits"
+                .to_owned()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use antinode_sim::{Flaws, Gyro, Wave};
+
+    use super::*;
+    use crate::identify::Core;
+
+    const RATE: f64 = 1e5;
+
+    /// What is told of the rows of so many pairs.
+    fn told(pairs: &[[f32; 2]]) -> Option<String> {
+        let mut core = Box::new(Core::new(antinode::Settings::new(RATE)).expect("good settings"));
+        let mut in_turn = InTurn::default();
+        core.extend(pairs, |row| in_turn.see(&row, RATE));
+        in_turn.told()
+    }
+
+    fn samples(angle: f64, quadrature: f64, frequency: f64, noise: f64) -> Vec<[f32; 2]> {
+        let wave = Wave {
+            main_amplitude: 0.8,
+            quadrature_amplitude: quadrature,
+            angle,
+            frequency,
+            ..Wave::default()
+        };
+        let flaws = Flaws {
+            noise,
+            ..Flaws::default()
+        };
+        let gyro = Gyro::new(wave, flaws, RATE, 7).expect("a valid gyro");
+        gyro.take(40_000)
+            .map(|pair| [pair.c as f32, pair.d as f32])
+            .collect()
+    }
+
+    #[test]
+    fn one_signal_in_turn_is_told() {
+        for (frequency, noise) in [
+            (1500.0, 1e-5),
+            (5332.0, 1e-6),
+            (5332.0, 1e-2),
+            (12_000.0, 1e-3),
+        ] {
+            let one = samples(0.3, 0.02, 0.5 * frequency, noise);
+            let in_turn: Vec<[f32; 2]> = one
+                .chunks_exact(2)
+                .map(|two| [two[0][0], two[1][0]])
+                .collect();
+            assert!(told(&in_turn).is_some(), "{frequency} {noise}");
+            assert!(told(&one).is_none(), "{frequency} {noise}");
+        }
+    }
+
+    #[test]
+    fn a_pattern_that_stands_there_is_not() {
+        let half = (FRAC_PI_2 * 5332.0 / RATE).tan();
+        // The angle alone, the quadrature alone, both with the other sign, and noise that hides either.
+        for (angle, share, noise) in [
+            (FRAC_PI_8, 0.0, 1e-3),
+            (FRAC_PI_8 + 0.02, -half, 1e-3),
+            (FRAC_PI_8, half, 1e-3),
+            (FRAC_PI_8, -half, 0.1),
+        ] {
+            let pairs = samples(angle, 0.8 * share, 5332.0, noise);
+            assert!(told(&pairs).is_none(), "{angle} {share} {noise}");
+        }
+        assert!(told(&samples(FRAC_PI_8, -0.8 * half, 5332.0, 1e-3)).is_some());
+    }
+}

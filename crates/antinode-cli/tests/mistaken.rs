@@ -1,0 +1,64 @@
+//! `antinode identify` on samples that are not what they are taken for: rows would look well.
+
+mod common;
+
+use common::{RATE, WAVE, fault, raw, run_with};
+
+#[test]
+fn one_pick_off_behind_the_other_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let codes = WAVE.codes(20_000);
+    let [c, d] = [0, 1].map(|channel| codes.iter().map(move |pair| pair[channel]));
+    let behind: Vec<u8> = c.chain(d).flat_map(i16::to_le_bytes).collect();
+    for (bytes, bits) in [(behind, "i16"), (raw(&codes), "i32")] {
+        let arguments = format!("identify - --raw {bits} --rate 100000");
+        let run = run_with(directory.path(), &arguments, bytes);
+        assert_eq!(run.code, 0, "{}", run.err);
+        assert!(
+            run.err
+                .contains("warning: standard input: both pick-offs seem to be one signal"),
+            "{bits}: {}",
+            run.err
+        );
+    }
+}
+
+#[test]
+fn a_time_among_raw_samples_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let pair = |(k, pair): (usize, &[i16; 2])| [k as f64 / RATE, f64::from(pair[0])];
+    let pairs: Vec<[f64; 2]> = WAVE.codes(20_000).iter().enumerate().map(pair).collect();
+    let bytes = |bits: &str| -> Vec<u8> {
+        let samples = pairs.as_flattened().iter();
+        match bits {
+            "f32" => samples.flat_map(|&x| (x as f32).to_le_bytes()).collect(),
+            _ => samples.flat_map(|x| x.to_le_bytes()).collect(),
+        }
+    };
+    for bits in ["f32", "f64"] {
+        let arguments = format!("- --raw {bits} --rate 100000");
+        let told = ["standard input: S_C goes up in equal steps"];
+        let rows = fault(directory.path(), &arguments, bytes(bits), &told);
+        assert!(rows.is_empty());
+    }
+}
+
+#[test]
+fn amplitudes_that_are_not_identified_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let codes = WAVE.codes(20_000);
+    for (scale, is_beyond) in [(1e-21, true), (1e-18, false), (1e12, false), (1e14, true)] {
+        let samples = codes.as_flattened().iter();
+        let bytes = samples.flat_map(|&code| (scale * f32::from(code)).to_le_bytes());
+        let run = run_with(
+            directory.path(),
+            "identify - --raw f32 --rate 100000",
+            bytes.collect(),
+        );
+        let is_told = run
+            .err
+            .contains("amplitudes are identified from 1e-15 to 1e17");
+        assert_eq!(is_told, is_beyond, "{scale}: {}", run.err);
+        assert!(is_beyond || run.code == 0, "{scale}: {}", run.err);
+    }
+}

@@ -1,0 +1,114 @@
+"""The wave of two pick-off signals from Python: a numpy array of samples in, a numpy array of windows out.
+
+    import antinode
+
+    gyro = antinode.Gyro(100e3, periods=50)        # Hz; settings as antinode_settings_t has them
+    windows = gyro.push(samples)                   # samples: (N, 2), S_C and S_D; again and again, as they come
+    clean = windows[windows["flags"] == 0]
+    clean["angle_rad"], clean["angle_std_rad"]     # fields as antinode_estimate_t has them
+
+Needs numpy, and the shared library: `crates/antinode-capi/install PREFIX`. ANTINODE_LIBRARY names it where the system does not find it:
+PREFIX/lib/libantinode.so, libantinode.dylib or antinode.dll.
+"""
+
+import ctypes
+import os
+
+import numpy
+
+#: The header that this file was written for.
+VERSION = 256
+STATE_WORDS = 1560
+WINDOW_ENDED = 2
+
+#: antinode_estimate_t: one window.
+WINDOW = numpy.dtype(
+    [("start", "u8")]
+    + [(name, "f8") for name in ("time_s", "angle_rad", "frequency_hz")]
+    + [(name, "u4") for name in ("samples", "flags")]
+    + [
+        (name, "f4")
+        for name in (
+            "main_amplitude", "quadrature_amplitude", "phase_rad", "angle_rate_rad_s", "decay_rate_s", "offset_c", "offset_d",
+            "main_amplitude_std", "quadrature_amplitude_std", "angle_std_rad", "phase_std_rad", "frequency_std_hz",
+            "angle_rate_std_rad_s", "decay_rate_std_s", "residual_rms",
+        )
+    ]
+    + [("reserved", "u4")]
+)  # fmt: skip
+
+#: Names of the bits of `flags`, from the lowest.
+FLAGS = ("clipped", "lost", "phase_jump", "step", "circular", "misfit", "dead_channel", "reacquired", "not_finite")
+
+
+class _Settings(ctypes.Structure):
+    """antinode_settings_t, and antinode_calibration_t where it stands within."""
+
+    _fields_ = [
+        ("sample_rate_hz", ctypes.c_double),
+        ("periods", ctypes.c_uint32),
+        ("hop_blocks", ctypes.c_uint32),
+        ("start_angle_rad", ctypes.c_float),
+        ("rail_low", ctypes.c_float),
+        ("rail_high", ctypes.c_float),
+        ("resolution", ctypes.c_float),
+        ("frequency_hz", ctypes.c_float),
+        ("detection", ctypes.c_uint32),
+        ("watch", ctypes.c_uint32),
+        ("gain_ratio", ctypes.c_float),
+        ("skew_s", ctypes.c_float),
+        ("pick_off_angle_rad", ctypes.c_float),
+        ("hum", ctypes.c_uint32),
+        ("coloured", ctypes.c_uint32),
+    ]
+
+
+_library = ctypes.CDLL(os.environ.get("ANTINODE_LIBRARY", "libantinode.so"))
+_library.antinode_settings_default.argtypes = [ctypes.c_double]
+_library.antinode_settings_default.restype = _Settings
+_library.antinode_status_string.restype = ctypes.c_char_p
+_library.antinode_float_skip.argtypes = [ctypes.c_void_p, ctypes.c_uint32]
+_identify = _library.antinode_float_identify
+_identify.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.POINTER(ctypes.c_size_t), ctypes.c_void_p]
+if _library.antinode_version() != VERSION:
+    raise ImportError(f"antinode {VERSION:#x} is wanted, and the library is {_library.antinode_version():#x}")
+
+
+def _check(status):
+    if status < 0:
+        raise ValueError(_library.antinode_status_string(status).decode())
+    return status
+
+
+class Gyro:
+    """One stream of sample pairs, identified window by window."""
+
+    def __init__(self, sample_rate_hz, **settings):
+        """Cold, at this sample rate in Hz; `settings` are those of antinode_settings_t and antinode_calibration_t, by name."""
+        wanted = _library.antinode_settings_default(sample_rate_hz)
+        for name, value in settings.items():
+            if not hasattr(wanted, name):
+                raise TypeError(f"no setting is called {name}")
+            setattr(wanted, name, value)
+        self._state = numpy.zeros(STATE_WORDS, "u8")
+        _check(_library.antinode_float_init(ctypes.c_void_p(self._state.ctypes.data), ctypes.byref(wanted)))
+
+    def push(self, samples):
+        """The windows that these sample pairs complete, an array of WINDOW; samples of shape (N, 2), in any unit."""
+        pairs = numpy.ascontiguousarray(samples, "f4")
+        if pairs.ndim != 2 or pairs.shape[1] != 2:
+            raise ValueError(f"samples are to be of shape (N, 2), not {pairs.shape}")
+        windows, window, taken, at = [], numpy.zeros(1, WINDOW), ctypes.c_size_t(), 0
+        while at < len(pairs):
+            here = pairs.ctypes.data + at * pairs.strides[0]
+            status = _identify(self._state.ctypes.data, here, len(pairs) - at, ctypes.byref(taken), window.ctypes.data)
+            if _check(status) == WINDOW_ENDED:
+                windows.append(window.copy())
+            at += taken.value
+        return numpy.concatenate(windows) if windows else numpy.zeros(0, WINDOW)
+
+    def skip(self, pairs):
+        """Tells that so many sample pairs were lost before the next, fewer than 2**32."""
+        if not 0 <= pairs < 1 << 32:
+            raise ValueError(f"{pairs} pairs cannot be skipped at once")
+        _check(_library.antinode_float_skip(self._state.ctypes.data, pairs))

@@ -1,0 +1,70 @@
+"""examples/antinode.py against the header and the rows of `antinode identify`:  python.py RECORDING.wav ROWS.csv"""
+
+import csv
+import ctypes
+import pathlib
+import re
+import sys
+import wave
+
+import numpy
+
+folder = pathlib.Path(__file__).parent.parent
+sys.path.insert(0, str(folder / "examples"))
+import antinode
+
+header = (folder / "include/antinode.h").read_text()
+
+
+def fields(struct):
+    """Names and sizes of a struct's fields in the header, those of the calibration in its place."""
+    body = re.search(r"typedef struct \{([^}]*)\} " + struct + ";", header).group(1)
+    found = []
+    for kind, name in re.findall(r"^\s+(\w+) (\w+);", body, re.M):
+        sizes = {"uint64_t": 8, "double": 8, "uint32_t": 4, "float": 4}
+        found += [(name, sizes[kind])] if kind in sizes else fields(kind)
+    return found
+
+
+window = [(name, antinode.WINDOW[name].itemsize) for name in antinode.WINDOW.names]
+assert window == fields("antinode_estimate_t"), window
+settings = [(name, ctypes.sizeof(kind)) for name, kind in antinode._Settings._fields_]
+assert settings == fields("antinode_settings_t"), settings
+for name, value in [("ANTINODE_VERSION", antinode.VERSION), ("ANTINODE_FLOAT_WORDS", antinode.STATE_WORDS)]:
+    assert re.search(rf"#define {name} {value}u?\n", header), name
+for bit, name in enumerate(antinode.FLAGS):
+    assert f"#define ANTINODE_FLAG_{name.upper()} {1 << bit}u" in header, name
+
+with wave.open(sys.argv[1]) as file:
+    rate = file.getframerate()
+    samples = numpy.frombuffer(file.readframes(file.getnframes()), "<i2").reshape(-1, 2) / 32768
+step = 1 / 32768
+gyro = antinode.Gyro(rate, resolution=step, rail_low=step - 1, rail_high=1 - step)
+windows = numpy.concatenate([gyro.push(part) for part in numpy.array_split(samples, 77)])
+rows = list(csv.DictReader(open(sys.argv[2], encoding="utf-8")))
+assert len(windows) == len(rows) > 100, (len(windows), len(rows))
+names = [name for name in antinode.WINDOW.names if name in rows[0] and name != "flags"]
+assert len(names) == 19, names
+for name in names:
+    values = windows[name]
+    theirs = numpy.array([float(row[name]) for row in rows])
+    # The rows round numbers of double precision.
+    rounding = 1e-9 if values.dtype == "f8" else 0
+    assert numpy.all(numpy.abs(values - theirs.astype(values.dtype)) <= rounding), name
+for ours, row in zip(windows["flags"], rows):
+    assert "+".join(name for bit, name in enumerate(antinode.FLAGS) if ours >> bit & 1) == row["flags"]
+
+for wrong, told in [
+    (lambda: antinode.Gyro(0), "sample_rate_hz"),
+    (lambda: antinode.Gyro(rate, period=3), "period"),
+    (lambda: gyro.push(samples[:, 0]), "(N, 2)"),
+    (lambda: gyro.skip(-1), "-1"),
+]:
+    try:
+        wrong()
+    except (TypeError, ValueError) as error:
+        assert told in str(error), error
+    else:
+        raise AssertionError(told)
+assert len(gyro.push(samples[:3])) == 0
+print(f"{len(windows)} windows are the same")

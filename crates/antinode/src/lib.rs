@@ -138,12 +138,12 @@
 //!   deviations behind a low-pass or a high-pass, or in noise of 1/f²; behind a band-pass about the wave they are 1.1 with a quality of 1,
 //!   1.5 with 3, and 2 to 3 with 10. Of noise that grows with the frequency some windows stay misfits.
 //! - They also take noise to be independent, and as large in both pick-offs. Where one has ten times as much a window in some ten thousand
-//!   is flagged. Where both have the share r of its variance in common the deviations of a_A, f and phase are up to √(1 + r) times too small,
-//!   at an angle of 22.5°, and those of a_B and θ at −22.5°.
-//! - Deviations are those of noise and of the converter's steps, taken to be equal. What the curves of pick-offs and converter do is in none
-//!   of them, and of less than 10⁻³ of a_A of third harmonic there is no flag: a cubic of that size may move a_A by 0.4 %, θ by
-//!   5·10⁻⁴ rad and, with |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. Of a second harmonic 2·10⁻³ get into a_A and
-//!   phase in windows of 10 periods that are no whole number of samples.
+//!   is flagged. Where both have the share r of its variance in common deviations are up to √(1 + r) times too small: at an angle of
+//!   22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.
+//! - Deviations are those of noise and of the converter's steps, taken to be equal. What the curves of pick-offs and converter do is in
+//!   none of them, and of less than 10⁻³ of a_A of third harmonic there is no flag: a cubic of that size may move a_A by 0.4 %, θ by
+//!   5·10⁻⁴ rad and, with |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. Of a second harmonic 2·10⁻³ get into a_A and phase
+//!   in windows of 10 periods that are no whole number of samples.
 //! - Amplitudes are 10⁻¹⁵ to 10¹⁷ input units, so that their squares are numbers of f32. Beyond, estimates may be none, without a flag.
 //! - Sums of f32 round: in noise below 2·10⁻⁴ of a_A an offset beyond twenty times a_A, at 140 samples a period or more, is a misfit.
 //!   Codes do not round, nor do samples of f32 less their offset.

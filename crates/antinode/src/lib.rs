@@ -130,9 +130,9 @@
 //!   windows of more than ten periods flag as a misfit and shorter ones may not.
 //! - A course that bends within a window, as where the frequency drifts or depends on the amplitude, or damping and frequency are split,
 //!   is a misfit where it bends by much more than the noise (2 Hz/s in a window of 60 ms, say) or than 2·10⁻⁴ of a_A, whichever is more.
-//!   Where by less, values may be off: phase where the frequency bends, a_B and θ too where there are splits. In windows of 10 periods
-//!   that is up to 6 of their deviations, in those of 100 and more up to 30; 6·10⁻⁵ rad of phase in noise of 10⁻⁴ of a_A, 4·10⁻⁴ rad in
-//!   noise of 10⁻³. Shorter windows help.
+//!   Where by less, values may be off: phase where the frequency bends, amplitudes and θ too where there are splits. In windows of 10
+//!   periods that is up to 6 of their deviations, in those of 100 and more up to 30; 6·10⁻⁵ rad of phase in noise of 10⁻⁴ of a_A, 4·10⁻⁴
+//!   rad in noise of 10⁻³. Shorter windows help.
 //! - Mains hum is a misfit too, unless [`Settings::hum`] takes it out.
 //! - Deviations and flags take noise to be white; [`Settings::coloured`] is for noise that is not. With it errors are 0.8 to 1.1 of their
 //!   deviations behind a low-pass or a high-pass, or in noise of 1/f²; behind a band-pass about the wave they are 1.1 with a quality of 1,

@@ -128,14 +128,22 @@
 //! - Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: 260 rad/s and 480 1/s in ten periods of
 //!   5332 Hz, 2.6 rad/s and 4.8 1/s in a thousand. Where it turns by more than about 0.6 rad amplitudes are some per cent off, which
 //!   windows of more than ten periods flag as a misfit and shorter ones may not.
-//! - A frequency that drifts within a window bends the phase. Where it bends by much more than the noise (2 Hz/s in a window of 60 ms, say)
-//!   the window is a misfit; where by less, the phase may be off by some of its deviations, but nothing else. Shorter windows help.
+//! - A course that bends within a window, as where the frequency drifts or depends on the amplitude, or damping and frequency are split,
+//!   is a misfit where it bends by much more than the noise (2 Hz/s in a window of 60 ms, say) or than 2·10⁻⁴ of a_A, whichever is more.
+//!   Where by less, values may be off: phase where the frequency bends, amplitudes and θ too where there are splits. In windows of 10
+//!   periods that is up to 6 of their deviations, in those of 100 and more up to 30; 6·10⁻⁵ rad of phase in noise of 10⁻⁴ of a_A, 4·10⁻⁴
+//!   rad in noise of 10⁻³. Shorter windows help.
 //! - Mains hum is a misfit too, unless [`Settings::hum`] takes it out.
 //! - Deviations and flags take noise to be white; [`Settings::coloured`] is for noise that is not. With it errors are 0.8 to 1.1 of their
 //!   deviations behind a low-pass or a high-pass, or in noise of 1/f²; behind a band-pass about the wave they are 1.1 with a quality of 1,
 //!   1.5 with 3, and 2 to 3 with 10. Of noise that grows with the frequency some windows stay misfits.
 //! - They also take noise to be independent, and as large in both pick-offs. Where one has ten times as much a window in some ten thousand
-//!   is flagged; where both share it deviations are a tenth too small.
+//!   is flagged. Where both have the share r of its variance in common deviations are up to √(1 + r) times too small: at an angle of
+//!   22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.
+//! - Deviations are those of noise and of the converter's steps, taken to be equal. What the curves of pick-offs and converter do is in
+//!   none of them, and of less than 10⁻³ of a_A of third harmonic there is no flag: a cubic of that size may move a_A by 0.4 %, θ by
+//!   5·10⁻⁴ rad and, with |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. Of a second harmonic 2·10⁻³ get into a_A and phase
+//!   in windows of 10 periods that are no whole number of samples.
 //! - Amplitudes are 10⁻¹⁵ to 10¹⁷ input units, so that their squares are numbers of f32. Beyond, estimates may be none, without a flag.
 //! - Sums of f32 round: in noise below 2·10⁻⁴ of a_A an offset beyond twenty times a_A, at 140 samples a period or more, is a misfit.
 //!   Codes do not round, nor do samples of f32 less their offset.

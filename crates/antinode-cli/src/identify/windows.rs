@@ -24,8 +24,10 @@ const SEARCHED: usize = 200;
 /// Pairs between two looks at the search: no period is found and refused in fewer.
 const GLANCE: usize = 8;
 
-/// Windows flagged as misfit from which on a remedy is named, where they are a quarter of all.
+/// Windows flagged as misfit from which on a remedy is named, where they are a tenth of all.
 const MANY: u64 = 20;
+/// The same where they are most of all: a recording may have but a few long windows.
+const SOME: u64 = 4;
 
 /// The identification of one recording.
 pub(super) struct Windows<'a> {
@@ -179,10 +181,11 @@ impl<'a> Windows<'a> {
         if let Some(warning) = recording.late_warning() {
             eprintln!("warning: {warning}");
         }
-        let many = self.misfits >= MANY && 4 * self.misfits > rows.count();
+        let (misfits, all) = (self.misfits, rows.count());
+        let many = misfits >= MANY && 10 * misfits > all || misfits >= SOME && 2 * misfits > all;
         let seconds = self.core.index() as f64 / self.rate;
         let warnings = [
-            many.then(|| misfit_remedies(self.misfits, rows.count(), self.options)),
+            many.then(|| misfit_remedies(misfits, all, self.options)),
             self.span.warning().filter(|_| fault.is_none()),
             self.silence.told(seconds, self.span.offset()),
             self.scatter.told(self.options.hum || self.options.coloured),
@@ -222,5 +225,13 @@ fn misfit_remedies(misfits: u64, rows: u64, options: &Identify) -> String {
     if !options.coloured {
         told += "if a filter leaves less noise at three times the frequency, give --coloured; ";
     }
+    let coloured = if options.coloured {
+        ""
+    } else {
+        "--coloured and "
+    };
+    told += &format!(
+        "if there is a second tone, give {coloured}a --periods that holds several of its beats with the wave; "
+    );
     told + "if the frequency drifts or the pattern turns far within a window, give a smaller --periods"
 }

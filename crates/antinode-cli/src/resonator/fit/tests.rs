@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::deviates::Deviates;
-use crate::runs::Row;
+use crate::runs::{Row, turn};
 
 /// 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω.
 const RESONATOR: [f64; 5] = [0.05, 0.006, -0.008, 0.03, 0.04];
@@ -31,7 +31,7 @@ fn run(
             if index > 0 {
                 motion.advance(step);
             }
-            let (wave, _) = motion.wave();
+            let wave = motion.wave();
             turned += turn(wave[2] - before);
             before = wave[2];
             let (main, quadrature) = (wave[0], wave[1]);

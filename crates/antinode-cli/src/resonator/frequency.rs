@@ -10,12 +10,12 @@ use crate::runs::Runs;
 pub struct Frequency {
     /// Hz.
     pub mean: Measured,
-    /// By how much it moves from row to row beyond their noise, rms, Hz; none where rows differ by no more, or by chance.
+    /// By how much it moves beyond noise, rms, Hz: with the energy, or from row to row; none where it does by chance.
     pub moves: Option<f64>,
 }
 
 /// The mean frequency, of which each row tells as much as its deviation says; wider where rows differ by more than that, and by all that it
-/// moves where rows that follow each other differ alike.
+/// moves with the energy, or alike in rows that follow each other.
 ///
 /// A row has the frequency along its pattern: what the splits make of that is taken off, where they are told. With quadrature a pattern that
 /// turns looks like another frequency, and a row takes it to turn as the rows before do: what that has changed by adds to its deviation.
@@ -39,20 +39,32 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
         for (sum, by) in mean_by.iter_mut().zip(moved.by_splits) {
             *sum += weight * by;
         }
-        seen.push((weight.sqrt(), beyond));
+        seen.push((weight, row.main.powi(2) + row.quadrature.powi(2), beyond));
     }
     mean /= weights;
-    let rest: Vec<_> = seen
-        .iter()
-        .map(|(root, beyond)| root * (beyond - mean))
-        .collect();
-    let squares: f64 = rest.iter().map(|rest| rest * rest).sum();
-    let neighbours: f64 = rest.windows(2).map(|pair| pair[0] * pair[1]).sum();
-    let count = rest.len() as f64;
+    let energies: f64 = seen.iter().map(|(weight, energy, _)| weight * energy).sum();
+    let (mut squares, mut neighbours, mut before) = (0.0, 0.0, 0.0);
+    let (mut of_energy, mut product) = (0.0, 0.0);
+    for (weight, energy, beyond) in &seen {
+        let (energy, rest) = (energy - energies / weights, beyond - mean);
+        squares += weight * rest * rest;
+        neighbours += weight.sqrt() * rest * std::mem::replace(&mut before, weight.sqrt() * rest);
+        of_energy += weight * energy * energy;
+        product += weight * energy * rest;
+    }
+    let count = seen.len() as f64;
     let scatter = squares / (count - 1.0);
     let widened = if is_told { scatter.max(1.0) } else { scatter };
-    let is_alike = neighbours > (ALIKE + ALIKE_SEEN / count.sqrt()) * squares;
-    let moves = (is_told && is_alike).then(|| ((widened - 1.0) * count / weights).sqrt());
+    // The square of what goes with the energy, as the rest is weighted.
+    let along = product * product / of_energy;
+    let is_along = along > ALIKE_SEEN * ALIKE_SEEN * widened;
+    let is_alike = is_told && neighbours > (ALIKE + ALIKE_SEEN / count.sqrt()) * squares;
+    let moved_alike = if is_alike {
+        (widened - 1.0) * count
+    } else {
+        0.0
+    };
+    let moves = (is_along || is_alike).then(|| (along.max(moved_alike) / weights).sqrt());
     // What is not known of the splits is not known of what they make either.
     let (_, of_splits) = found.splits(&mean_by.map(|sum| sum / weights / TAU));
     let std = (widened / weights).sqrt().hypot(of_splits);

@@ -5,6 +5,7 @@ mod found;
 mod frequency;
 mod model;
 mod motion;
+mod start;
 
 use std::f64::consts::{PI, TAU};
 use std::io::{self, Write};
@@ -20,7 +21,7 @@ use crate::options::Format;
 use crate::runs::{BEYOND_NOISE, Runs};
 use fit::fit;
 use found::{Found, Measured};
-use frequency::frequency;
+use frequency::{Frequency, frequency};
 
 /// The pattern turns by no more than this from row to row, rad: half of what leaves it known.
 const MOST_TURN: f64 = PI / 8.0;
@@ -108,7 +109,8 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
             "{name}: no resonator explains the rows: see that nothing drives the gyro while it rings down, and leave out rows that lie far off all others"
         ))
     })?;
-    let quantities = quantities(&rows, &found);
+    let frequency = frequency(&rows, &found);
+    let quantities = quantities(&rows, &found, frequency.mean);
     let mut out = io::stdout().lock();
     match options.output {
         Format::Table => table(&mut out, &name, &rows, &quantities)?,
@@ -129,12 +131,12 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
         }
     }
     // The result is printed: standard error may be closed.
-    let _ = tell(&mut io::stderr().lock(), &rows, &found);
+    let _ = tell(&mut io::stderr().lock(), &rows, &found, &frequency);
     Ok(())
 }
 
 /// All that was found, run by run and then of the resonator.
-fn quantities(rows: &Runs, found: &Found) -> Vec<Quantity> {
+fn quantities(rows: &Runs, found: &Found, mean_frequency: Measured) -> Vec<Quantity> {
     let mut list = Vec::new();
     let mut add = |run, kind, (value, std): Measured| {
         list.push(Quantity {
@@ -144,7 +146,6 @@ fn quantities(rows: &Runs, found: &Found) -> Vec<Quantity> {
             std,
         });
     };
-    let mean_frequency = frequency(rows, found);
     let (frequency, _) = mean_frequency;
     let resonator = found.resonator();
     for index in 0..rows.runs.len() {
@@ -221,7 +222,7 @@ fn table(out: &mut impl Write, name: &str, rows: &Runs, quantities: &[Quantity])
 }
 
 /// Tells what the numbers leave open.
-fn tell(out: &mut impl Write, rows: &Runs, found: &Found) -> io::Result<()> {
+fn tell(out: &mut impl Write, rows: &Runs, found: &Found, frequency: &Frequency) -> io::Result<()> {
     rows.tell_overlaps(out)?;
     for run in 0..rows.runs.len() {
         let (decay, std) = found.decay_of_run(run);
@@ -237,7 +238,14 @@ fn tell(out: &mut impl Write, rows: &Runs, found: &Found) -> io::Result<()> {
         writeln!(
             out,
             "the rows do not tell the splits of damping and frequency: give ring-downs at pattern angles of 0°, 22.5° and 45°, or of a \
-             pattern that turns by 45° and more"
+             pattern that turns by 45° and more; the mean frequency is that along the patterns, which a split moves"
+        )?;
+    }
+    if let Some(moves) = frequency.moves {
+        writeln!(
+            out,
+            "warning: the frequency moves by {moves:.2e} Hz, rms, beyond noise: with the amplitude, or the temperature; the deviation of \
+             the mean frequency is wider by that"
         )?;
     }
     let why = "the rotation or the damping changes meanwhile, or the pick-offs are not calibrated";

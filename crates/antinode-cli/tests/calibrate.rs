@@ -31,6 +31,16 @@ fn calibrate(here: &Path, recordings: &str, options: &str) -> Run {
     run_with(here, &format!("calibrate - {options}"), rows.out.into())
 }
 
+/// What it makes of both in such windows.
+fn of_windows(here: &Path, windows: &str) -> Run {
+    let rows = run(
+        here,
+        &format!("identify --output csv one.wav other.wav {windows}"),
+    );
+    assert_eq!(rows.code, 0, "{}", rows.err);
+    run_with(here, "calibrate -", rows.out.into())
+}
+
 /// The numbers of the options printed, and the deviations told of them.
 fn numbers(run: &Run) -> ([f64; 3], [f64; 3]) {
     assert_eq!(run.code, 0, "{}", run.err);
@@ -82,6 +92,37 @@ fn windows_in_which_the_pattern_turns_far_tell_the_same() {
                 );
             }
         }
+    }
+}
+
+#[test]
+fn gains_that_are_very_unlike_are_found_to_their_deviations() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (gain, amplitude) in [("3", "0.25"), ("0.33", "0.75")] {
+        let mut errors = Vec::new();
+        for seed in 1..=6 {
+            for (name, rate) in [("one", 0.8), ("other", -0.8)] {
+                let made = run(
+                    here,
+                    &format!(
+                        "simulate -o {name}.wav --main-amplitude {amplitude} --quadrature-amplitude 0.01 --seconds 3 --seed {seed} --angle-rate {rate} --noise 5e-4 \
+                         --decay-rate 0.1 --gain-ratio {gain} --skew-ns 800 --pick-off-angle 0.02"
+                    ),
+                );
+                assert_eq!(made.code, 0, "{}", made.err);
+            }
+            // The pattern seems to turn by 0.4° to 3.9° in each.
+            let found = of_windows(here, "--periods 50");
+            assert!(!found.err.contains("warning"), "{}", found.err);
+            let (values, deviations) = numbers(&found);
+            let truth = [gain.parse().unwrap(), 800.0, 0.02];
+            let all = values.iter().zip(truth).zip(deviations);
+            errors.extend(all.map(|((value, truth), deviation)| (value - truth) / deviation));
+        }
+        let rms =
+            (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt();
+        assert!((0.6..1.5).contains(&rms), "{gain}: {errors:.1?}");
     }
 }
 

@@ -262,3 +262,65 @@ fn rows_that_overlap_by_a_block_are_not_taken_for_a_change() {
     assert_eq!(found.code, 0);
     assert!(!found.err.contains("warning"), "{}", found.err);
 }
+
+#[test]
+fn a_frequency_that_moves_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (rate, is_told) in [("0", false), ("0.05", true), ("-0.3", true)] {
+        rows(
+            here,
+            &format!(
+                "--seconds 4 --noise 0.002 --decay-rate 0.1 --angle-rate 0.4 --frequency-rate {rate}"
+            ),
+            "--periods 50",
+        );
+        let found = run(here, "resonator rows.csv --output csv");
+        assert_eq!(found.code, 0);
+        assert_eq!(
+            found.err.contains("the frequency moves by"),
+            is_told,
+            "{rate}: {}",
+            found.err
+        );
+        // At the first sample it is 5332 Hz; in the middle of the recording it has moved by two seconds of its rate.
+        let (frequency, std) = of_resonator(&found.out, "frequency_hz");
+        let mean = 5332.0 + 2.0 * rate.parse::<f64>().unwrap();
+        assert!((frequency - mean).abs() < 4.0 * std, "{}", found.out);
+    }
+}
+
+#[test]
+fn a_pattern_that_is_a_circle_meanwhile_tells_the_resonator() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let mut all = Vec::new();
+    for seed in 1..=6 {
+        // Between the axes of frequency a line becomes a circle and a line again, four times.
+        rows(
+            here,
+            &format!(
+                "--seconds 8 --noise 0.002 --decay-rate 0.08 --damping-split 0.012 --damping-angle 0.5 --frequency-split 0.25 \
+                 --frequency-angle -0.3 --angle 0.1 --seed {seed}"
+            ),
+            "--periods 100",
+        );
+        let found = run(here, "resonator rows.csv --output csv");
+        assert_eq!((found.code, found.err.as_str()), (0, ""));
+        for (quantity, truth) in [
+            ("frequency_hz", 5332.0),
+            ("decay_time_s", 12.5),
+            ("damping_split_s", 0.012),
+            ("most_damped_at_rad", 0.5),
+            ("frequency_split_hz", 0.25),
+            ("highest_at_rad", -0.3),
+        ] {
+            let (value, std) = of_resonator(&found.out, quantity);
+            assert!((value - truth).abs() < 5.0 * std, "{}", found.out);
+            assert!(std < 0.02 * truth.abs(), "{}", found.out);
+            all.push((value - truth) / std);
+        }
+    }
+    let rms = (all.iter().map(|error| error * error).sum::<f64>() / all.len() as f64).sqrt();
+    assert!((0.7..1.4).contains(&rms), "{rms}: {all:.1?}");
+}

@@ -16,12 +16,12 @@ pub struct Moment {
     pub raw: [Complex<f64>; 2],
     /// 2πf, rad/s.
     pub omega: f64,
-    /// Standard deviation of an amplitude, in the samples' unit.
-    pub deviation: f64,
+    /// Variance of the real part of a phasor, and of its imaginary one, as noise that is alike on both pick-offs has it.
+    pub variance: f64,
     /// What the window was identified with.
     pub corrected: PickOffs,
-    /// By how much the pattern turns in the window, rad.
-    pub turn: f64,
+    /// Length of the window, s.
+    pub seconds: f64,
 }
 
 /// A span of moments without a break.
@@ -35,47 +35,66 @@ pub struct Run {
 impl Run {
     /// Of rows that were identified with a calibration.
     pub fn new(run: &runs::Run, corrected: &PickOffs) -> Self {
-        let rate = |index: usize| {
-            let (before, after) = (index.saturating_sub(1), (index + 1).min(run.rows.len() - 1));
-            let (before, after) = (&run.rows[before], &run.rows[after]);
-            turn(after.angle - before.angle) / (after.time - before.time)
-        };
-        let moments = run
-            .rows
-            .iter()
-            .enumerate()
-            .map(|(index, row)| Moment::new(row, corrected, rate(index)));
+        let moments = run.rows.iter().map(|row| Moment::new(row, corrected));
         Self {
             moments: moments.collect(),
             turned: run.turned,
         }
     }
+
+    /// Phasors of ideal pick-offs in the middle of each window, where the true ones are these.
+    pub fn ideal(&self, pick_offs: &PickOffs) -> Vec<[Complex<f64>; 2]> {
+        // As the rows have the pattern, it would turn unevenly.
+        let angles: Vec<_> = self
+            .moments
+            .iter()
+            .map(|moment| moment.angle(pick_offs))
+            .collect();
+        let rate = |index: usize| {
+            let (before, after) = (index.saturating_sub(1), (index + 1).min(angles.len() - 1));
+            let seconds = self.moments[after].time - self.moments[before].time;
+            turn(angles[after] - angles[before]) / seconds
+        };
+        let moments = self.moments.iter().enumerate();
+        moments
+            .map(|(index, moment)| moment.ideal(pick_offs, rate(index) * moment.seconds))
+            .collect()
+    }
 }
 
 impl Moment {
-    /// The phasors of (1) to (3), as pick-offs of this calibration show them, of a pattern that turns at `rate` rad/s.
-    fn new(row: &Row, corrected: &PickOffs, rate: f64) -> Self {
+    /// The phasors of (1) to (3), as pick-offs of this calibration show them.
+    fn new(row: &Row, corrected: &PickOffs) -> Self {
         let (sine, cosine) = (2.0 * row.angle).sin_cos();
         let ideal = [
             Complex::new(row.main * cosine, row.quadrature * sine),
             Complex::new(row.main * sine, -row.quadrature * cosine),
         ];
         let omega = TAU * row.frequency;
+        let [of_main, of_quadrature, _] = row.deviations;
+        let [d, c] = corrected.noise_gains();
         Self {
             time: row.time,
             raw: corrected.distort(ideal, omega),
             omega,
-            deviation: row.deviations[0],
+            // Wherever the pattern stands, both amplitudes together have the noise of both ideal pick-offs.
+            variance: (of_main.powi(2) + of_quadrature.powi(2)) / (1.0 + c * c + d * d),
             corrected: *corrected,
-            turn: rate * row.seconds,
+            seconds: row.seconds,
         }
     }
 
-    /// Phasors of ideal pick-offs in the middle of the window, where the true ones are these.
+    /// Where the pattern stands, rad, modulo π/2.
+    fn angle(&self, pick_offs: &PickOffs) -> f64 {
+        let [plus, minus] = waves(pick_offs.correct(self.raw, self.omega));
+        0.25 * (minus * plus.conj()).arg()
+    }
+
+    /// Phasors of ideal pick-offs in the middle of the window, where the true ones are these and the pattern turns by `turn` rad in it.
     ///
     /// Within a window each of both travelling waves is taken to turn evenly. Through a calibration that is not right both are seen in
     /// each, which then does not: its logarithm comes out as the mean over the window, by Simpson's rule.
-    pub fn ideal(&self, pick_offs: &PickOffs) -> [Complex<f64>; 2] {
+    fn ideal(&self, pick_offs: &PickOffs, turn: f64) -> [Complex<f64>; 2] {
         let true_waves = waves(pick_offs.correct(self.raw, self.omega));
         // As the window saw them when the pattern stood so much further.
         let seen = |by: f64| {
@@ -85,7 +104,7 @@ impl Moment {
             let raw = pick_offs.distort(ideal, self.omega);
             waves(self.corrected.correct(raw, self.omega))
         };
-        let [before, middle, after] = [-0.5, 0.0, 0.5].map(|part| seen(part * self.turn));
+        let [before, middle, after] = [-0.5, 0.0, 0.5].map(|part| seen(part * turn));
         let momentary = [0, 1].map(|i| {
             let bent = (before[i] * after[i] / (middle[i] * middle[i])).ln() / 6.0;
             // A wave of nothing is seen as nothing.

@@ -25,6 +25,8 @@ const OWN: usize = 4;
 const LEAST_TURN: f64 = FRAC_PI_2;
 /// Steps at most; four do where the pick-offs are nearly ideal.
 const STEPS: usize = 50;
+/// No step is longer than this, in ln g and rad: from an ideal pick-off to one of a tenth of its gain the way is not straight.
+const LONGEST: f64 = 0.3;
 /// A step below this is none, whatever the noise.
 const SETTLED: f64 = 1e-10;
 
@@ -62,6 +64,12 @@ impl PickOffs {
         let lag = Complex::from_polar(self.gain_ratio, omega * self.skew);
         [c, (d / lag + c * sine) / cosine]
     }
+
+    /// What the noise of pick-off D, and of C, is multiplied by in an ideal D.
+    pub fn noise_gains(&self) -> [f64; 2] {
+        let (sine, cosine) = (2.0 * self.angle).sin_cos();
+        [1.0 / (self.gain_ratio * cosine), sine / cosine]
+    }
 }
 
 /// What was found.
@@ -92,8 +100,10 @@ impl Fault {
     pub fn of(&self, name: &str) -> Failure {
         Failure::Recording(match self {
             Self::Still(turned) => format!(
-                "{name}: the pattern turns by only {:.1}°, but must turn by 90° or more: turn the gyro while it rings down",
-                turned.to_degrees()
+                "{name}: the pattern turns by only {:.1}°, but must turn by 90° or more: turn the gyro while it rings down; where it does, shorten \
+                 the windows, for it must turn by less than {:.1}° from row to row",
+                turned.to_degrees(),
+                super::MOST_TURN.to_degrees()
             ),
             Self::Unsettled => format!(
                 "{name}: no calibration explains the rows: see that columns C and D are the pick-offs, and that nothing but the gyro's turning \
@@ -123,9 +133,10 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
         };
         let step = factors.solve(&normal.right);
         let omega = normal.omega;
-        pick_offs.gain_ratio *= step[0].exp();
-        pick_offs.skew += step[1] / omega;
-        pick_offs.angle += step[2];
+        let part = (LONGEST / step.rows(0, FLAWS).amax()).min(1.0);
+        pick_offs.gain_ratio *= (part * step[0]).exp();
+        pick_offs.skew += part * step[1] / omega;
+        pick_offs.angle += part * step[2];
         let sense = pick_offs.gain_ratio.is_finite() && pick_offs.angle.abs() < 0.7;
         if !sense {
             return Err(Fault::Unsettled);
@@ -178,18 +189,22 @@ impl Normal {
             let own = shared + OWN * index;
             let middle = run.moments[0].time + 0.5 * span(run);
             let mut sums = Sums::default();
-            for moment in &run.moments {
-                let [energy, r, s, q] = shares(moment.ideal(pick_offs));
+            let tangent = (2.0 * pick_offs.angle).tan();
+            for (moment, ideal) in run.moments.iter().zip(run.ideal(pick_offs)) {
+                let [energy, r, s, q] = shares(ideal);
                 sums.advance(moment.time, [r, s, q * r, q * s]);
                 let [to_r, to_s, to_qr, to_qs] = sums.value.map(|sum| sum / longest);
                 let time = 2.0 * (moment.time - middle) / longest;
-                // Both are known to the same deviation.
-                let weight = 0.25 * energy / (moment.deviation * moment.deviation);
-                let of_energy = [-r, 0.0, -2.0 * s, to_r, to_s, 0.0, 0.0];
-                let of_quadrature = [q * r, s, 2.0 * q * s, -to_qr, -to_qs, to_r, to_s];
-                for (row, seen, first) in
+                let of_angle = 2.0 * (s - tangent * r);
+                let of_energy = [-r, 0.0, -of_angle, to_r, to_s, 0.0, 0.0];
+                let of_quadrature = [q * r, s, q * of_angle, -to_qr, -to_qs, to_r, to_s];
+                let variances = variances(ideal, pick_offs).map(|part| part * moment.variance);
+                for ((row, seen, first), variance) in
                     [(of_energy, energy.ln(), own), (of_quadrature, q, own + 2)]
+                        .into_iter()
+                        .zip(variances)
                 {
+                    let weight = 1.0 / variance;
                     let columns = (0..shared).chain([first, first + 1]);
                     let entries = row.into_iter().take(shared).chain([1.0, time]);
                     normal.add(columns.zip(entries), seen, weight);
@@ -224,6 +239,22 @@ fn shares([c, d]: [Complex<f64>; 2]) -> [f64; 4] {
         2.0 * product.re / energy,
         2.0 * product.im / energy,
     ]
+}
+
+/// The variances of ln E and Q/E of the phasors of ideal pick-offs, where noise of variance one is on the raw ones of these.
+fn variances([c, d]: [Complex<f64>; 2], pick_offs: &PickOffs) -> [f64; 2] {
+    let [d_on_d, c_on_d] = pick_offs.noise_gains();
+    let [energy, _, _, q] = shares([c, d]);
+    // What noise of each raw phasor moves, of which the real parts of the products count.
+    let [c, d] = [c.conj(), d.conj()];
+    let by_energy = [c + d * c_on_d, d * d_on_d];
+    let by_quadrature = [(d - c * c_on_d) * Complex::i(), -c * d_on_d * Complex::i()];
+    let mut variances = [0.0; 2];
+    for (energy, quadrature) in by_energy.into_iter().zip(by_quadrature) {
+        variances[0] += energy.norm_sqr();
+        variances[1] += (quadrature - energy * q).norm_sqr();
+    }
+    variances.map(|sum| 4.0 * sum / (energy * energy))
 }
 
 /// Integrals over time, by the trapezoidal rule.

@@ -1,15 +1,16 @@
 //! Runs become a resonator, by least squares.
 //!
-//! Every row is a measurement of a_A, a_B and θ. First each run gets a decay, a rotation and a growth of its quadrature of its own, which
-//! any run tells. The resonator that the runs share takes their place where they tell it: a pattern that stands still sees one side of each
-//! split alone. The steps are those of Levenberg and Marquardt.
+//! Every row is a measurement of a_A, a_B and θ, or near a circle of both travelling waves. First each run gets a decay, a rotation and a
+//! growth of its quadrature of its own, which any run tells. The resonator that the runs share takes their place where they tell it: a
+//! pattern that stands still sees one side of each split alone. The steps are those of Levenberg and Marquardt.
 
 use nalgebra::{Cholesky, Complex, DMatrix, DVector, Dyn};
 
 use super::found::Found;
 use super::model::{Model, Term, parameters};
 use super::motion::{Motion, PARAMETERS};
-use crate::runs::{Run, turn};
+use super::start::start;
+use crate::runs::Run;
 
 /// From this residual over the rows' own deviations on, the runs do not explain the rows each by itself.
 const TOGETHER: f64 = 1.5;
@@ -35,21 +36,35 @@ pub struct Unsettled;
 
 /// Finds the resonator whose waves come nearest to the rows.
 pub fn fit(runs: &[Run]) -> Result<Found, Unsettled> {
-    let each = settle(runs, Model::Each, start(runs))?;
+    let found = |model| {
+        let values = start(runs, model).ok_or(Unsettled)?;
+        settle(runs, model, values)
+    };
+    let each = found(Model::Each);
     // Beyond noise even one pattern that hardly moves shows how the splits move it.
-    if spread(runs) < LEAST_SPREAD && each.residual < TOGETHER {
-        return Ok(each);
+    let is_enough = |each: &Found| {
+        each.residual < TOGETHER && (spread(runs) < LEAST_SPREAD || !may_tell(runs, each))
+    };
+    if each.as_ref().is_ok_and(is_enough) {
+        return each;
     }
-    let values = shared(runs.len(), &each);
-    let told = |covariance: &DMatrix<f64>| is_told(runs.len(), covariance, &each);
-    let rough = Normal::of(runs, Model::Shared, &values).covariance();
-    if rough.is_some_and(|covariance| told(&covariance))
-        && let Ok(found) = settle(runs, Model::Shared, values)
-        && told(&found.covariance)
-    {
-        return Ok(found);
+    match found(Model::Shared) {
+        Ok(shared) if is_told(&shared.covariance, &shared, each.as_ref().ok()) => Ok(shared),
+        _ => each,
     }
-    Ok(each)
+}
+
+/// True where rows of such runs tell the splits, if these are small: where nothing tells them a fit may find great ones, which seem told.
+fn may_tell(runs: &[Run], each: &Found) -> bool {
+    let model = Model::Shared;
+    let mut values = DVector::zeros(model.unknowns(runs.len()));
+    for run in 0..runs.len() {
+        values[model.decay_at(run)] += each.values[each.model.decay_at(run)] / runs.len() as f64;
+        let from = each.values.rows(each.model.own_at(run), 4);
+        values.rows_mut(model.own_at(run), 4).copy_from(&from);
+    }
+    let rough = Normal::of(runs, model, &values).covariance();
+    rough.is_some_and(|rough| is_told(&rough, each, Some(each)))
 }
 
 /// How far the rows' patterns stand apart, up to 1: the circular variance of 4θ, less what noise makes of it.
@@ -63,37 +78,16 @@ fn spread(runs: &[Run]) -> f64 {
     1.0 - (sum.norm() + noise) / count
 }
 
-/// Where the search begins: runs that decay and turn as their first and last rows do.
-fn start(runs: &[Run]) -> DVector<f64> {
-    let own = runs.iter().flat_map(|run| {
-        let (first, last) = (run.rows[0], run.rows[run.rows.len() - 1]);
-        let seconds = run.seconds();
-        let kappa = -2.0 * run.turned / seconds;
-        let decay = (first.main / last.main).ln() / seconds;
-        [kappa, first.main, first.quadrature, first.angle, decay, 0.0]
-    });
-    DVector::from_iterator(Model::Each.unknowns(runs.len()), own)
-}
-
-/// The values of each run as the start of what they share: the mean of their decays, and no splits.
-fn shared(runs: usize, each: &Found) -> DVector<f64> {
-    let model = Model::Shared;
-    let mut values = DVector::zeros(model.unknowns(runs));
-    for run in 0..runs {
-        values[model.decay_at(run)] += each.values[each.model.decay_at(run)] / runs as f64;
-        let from = each.values.rows(each.model.own_at(run), 4);
-        values.rows_mut(model.own_at(run), 4).copy_from(&from);
-    }
-    values
-}
-
-/// True where the rows tell both splits, whose unknowns have this covariance.
-fn is_told(runs: usize, covariance: &DMatrix<f64>, each: &Found) -> bool {
-    let own = |offset: usize| {
-        (0..runs).map(move |run| each.values[each.model.own_at(run) + offset].abs())
-    };
-    let decay = own(4).sum::<f64>() / runs as f64;
-    let growth = own(5).fold(0.0, f64::max);
+/// True where the rows tell both splits, whose unknowns have this covariance; what `found` says of the decays along the patterns is known
+/// wherever these stand.
+fn is_told(covariance: &DMatrix<f64>, found: &Found, each: Option<&Found>) -> bool {
+    let runs = found.shares.len();
+    let decays = (0..runs).map(|run| found.decay_of_run(run).0.abs());
+    let decay = decays.sum::<f64>() / runs as f64;
+    let growths = each
+        .iter()
+        .flat_map(|each| (0..runs).map(move |run| each.values[each.model.own_at(run) + 5].abs()));
+    let growth = growths.fold(0.0, f64::max);
     let knows = |at: usize, most: f64| (at..at + 2).all(|i| covariance[(i, i)] < most * most);
     knows(Model::DAMPING, TOLD[0] * decay)
         && knows(Model::FREQUENCY, (TOLD[1] * decay).max(TOLD_SHARE * growth))
@@ -168,17 +162,11 @@ impl Normal {
         for row in &run.rows {
             motion.advance(row.time - time);
             time = row.time;
-            let (now, by_parameters) = motion.wave();
             // What a window averages changes the derivatives by too little to matter.
-            let wave = now + motion.averaged(row.seconds);
+            let (rest, by_parameters) = motion.rest(row);
             let derivatives = by_parameters * &directions;
-            let rest = [
-                row.main - wave[0],
-                row.quadrature - wave[1],
-                turn(row.angle - wave[2]),
-            ];
-            for (index, (rest, deviation)) in rest.into_iter().zip(row.deviations).enumerate() {
-                let (rest, line) = (rest / deviation, derivatives.row(index) / deviation);
+            for (index, (rest, deviation)) in rest.iter().zip(row.deviations).enumerate() {
+                let (rest, line) = (*rest / deviation, derivatives.row(index) / deviation);
                 self.squares += rest * rest;
                 self.neighbours += rest * std::mem::replace(&mut before[index], rest);
                 right += line.transpose() * rest;

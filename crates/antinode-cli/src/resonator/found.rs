@@ -25,6 +25,14 @@ pub struct Found {
 /// A value and its standard deviation.
 pub type Measured = (f64, f64);
 
+/// What moves the frequency of a row.
+pub struct Moved {
+    /// What the splits add to it, rad/s, as [`Found::splits`] takes it; nothing where they are not told.
+    pub by_splits: [f64; 4],
+    /// By how much what the turning of the pattern makes of it differs from what it made of the row before, rad/s.
+    pub change: f64,
+}
+
 /// What the runs share.
 #[derive(Debug)]
 pub struct Resonator {
@@ -78,21 +86,26 @@ impl Found {
         })
     }
 
-    /// What the splits add to the frequency of each row, rad/s, as [`splits`](Self::splits) takes it; nothing where they are not told.
-    pub fn frequency_by_splits(&self, runs: &[Run]) -> Vec<[f64; 4]> {
+    /// What moves the frequency of each row.
+    pub fn frequency_moved(&self, runs: &[Run]) -> Vec<Moved> {
         let mut list = Vec::new();
         for (index, run) in runs.iter().enumerate() {
-            if self.model == Model::Each {
-                list.extend(run.rows.iter().map(|_| [0.0; 4]));
-                continue;
-            }
             let mut motion = Motion::new(&parameters(&self.model.terms(index, run), &self.values));
             let mut time = run.rows[0].time;
-            list.extend(run.rows.iter().map(|row| {
+            let mut before = motion.frequency_by_turning();
+            for row in &run.rows {
                 motion.advance(row.time - time);
                 time = row.time;
-                motion.frequency_by_splits()
-            }));
+                let by_turning = motion.frequency_by_turning();
+                let by_splits = match self.model {
+                    Model::Each => [0.0; 4],
+                    Model::Shared => motion.frequency_by_splits(),
+                };
+                list.push(Moved {
+                    by_splits,
+                    change: by_turning - std::mem::replace(&mut before, by_turning),
+                });
+            }
         }
         list
     }

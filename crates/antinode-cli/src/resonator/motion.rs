@@ -9,9 +9,9 @@
 //! where 1/τ is the mean of the damping of both modes and δ its split, Δω the split of the frequencies in rad/s, c and s the cosine and sine
 //! of four times the angle at which the damping, or the frequency, is greatest, and −κ/2 what rotation turns the pattern by.
 
-use nalgebra::{Matrix3x4, Matrix4, Matrix4x3, SMatrix, Vector3, Vector4};
+use nalgebra::{Complex, Matrix3x4, Matrix4, Matrix4x3, RowVector4, SMatrix, Vector3, Vector4};
 
-use crate::runs::turn;
+use crate::runs::Row;
 
 /// What moves a wave: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, κ.
 pub const RATES: usize = 6;
@@ -23,6 +23,8 @@ const COLUMNS: usize = 1 + PARAMETERS;
 const STEP: f64 = 0.02;
 /// Steps from one row to the next at most: the pattern then turns by a radian and more, or the wave is gone, and no rows fit.
 const MOST_STEPS: f64 = 500.0;
+/// The square of what a wave changes by in half a window, over its own, up to which the core takes it to grow and turn evenly.
+const MOST_CHANGE: f64 = 1.3;
 
 /// The state E, R, S, Q, and its derivatives by the rates and by what it started with.
 #[derive(Debug, Clone)]
@@ -111,30 +113,35 @@ impl Motion {
         columns
     }
 
-    /// By how much a_A, a_B and θ of a window of so many seconds about now differ from what they are now.
-    ///
-    /// Within a window each of both travelling waves, a_A ± a_B, is taken to grow and to turn evenly. What it does beyond that is averaged: its
-    /// logarithm, and θ, come out as their means over the window, here by Simpson's rule.
-    pub fn averaged(&self, seconds: f64) -> Vector3<f64> {
-        let now = self.columns.column(0).into_owned();
-        let at = |by: f64| Self::logarithms(&self.moved(now, by, |state| self.matrix * state));
-        let (before, middle, after) = (
-            at(-0.5 * seconds),
-            Self::logarithms(&now),
-            at(0.5 * seconds),
-        );
-        let beyond = |i: usize| (before[i] + after[i] - 2.0 * middle[i]) / 6.0;
-        let [plus, minus] = [0, 1].map(|i| middle[i].exp() * beyond(i).exp_m1());
-        let bent = turn(before[2] - middle[2]) + turn(after[2] - middle[2]);
-        Vector3::new(0.5 * (plus + minus), 0.5 * (plus - minus), bent / 6.0)
+    /// The travelling waves now, of which that of `sign` is the greater: its size, and the lesser one, whose phase against it is 4θ.
+    pub fn travelling(state: &Vector4<f64>, sign: f64) -> (f64, Complex<f64>) {
+        let [e, r, s, q] = (*state).into();
+        // A wave of nothing has no size: it stays next to nothing.
+        let greater = (e + sign * q).max(f64::MIN_POSITIVE).sqrt();
+        (greater, Complex::new(r, s) / greater)
     }
 
-    /// The logarithms of a_A + a_B and of a_A − a_B, and θ, of a state.
-    fn logarithms(state: &Vector4<f64>) -> [f64; 3] {
-        let [e, r, s, q] = (*state).into();
-        // A wave of nothing has no logarithm: it stays next to nothing.
-        let log = |square: f64| 0.5 * square.max(f64::MIN_POSITIVE).ln();
-        [log(e + q), log(e - q), 0.25 * s.atan2(r)]
+    /// The travelling waves as a window of so many seconds about now has them in its middle.
+    ///
+    /// Within a window each is taken to grow and to turn evenly, or along a straight line where it changes by more than it is, as the
+    /// core does. What it does beyond that is averaged: its logarithm, or itself, comes out as the mean over the window, here by Simpson's rule.
+    fn averaged(&self, seconds: f64, sign: f64) -> (f64, Complex<f64>) {
+        let now = self.columns.column(0).into_owned();
+        let at = |by: f64| {
+            let state = self.moved(now, by, |state| self.matrix * state);
+            Self::travelling(&state, sign)
+        };
+        let (greater, lesser) = Self::travelling(&now, sign);
+        let [before, after] = [at(-0.5 * seconds), at(0.5 * seconds)];
+        let grown = (before.0 * after.0 / (greater * greater)).powf(1.0 / 6.0);
+        let change = 0.5 * (after.1 - before.1);
+        let mean = if change.norm_sqr() < MOST_CHANGE * lesser.norm_sqr() {
+            let bent = (before.1 / lesser).ln() + (after.1 / lesser).ln();
+            lesser * (bent / 6.0).exp()
+        } else {
+            (before.1 + lesser * 4.0 + after.1) / 6.0
+        };
+        (greater * grown, mean)
     }
 
     /// R/E and S/E now.
@@ -151,35 +158,56 @@ impl Motion {
             .map(|product: f64| 0.5 * product / apart.max(f64::MIN_POSITIVE))
     }
 
-    /// a_A, a_B and θ (−π/4 to π/4) now, and their derivatives by the rates and by what they started with.
-    pub fn wave(&self) -> (Vector3<f64>, SMatrix<f64, 3, PARAMETERS>) {
-        let [e, r, s, q] = self.columns.column(0).into_owned().into();
-        let apart = r.hypot(s);
-        let main = (0.5 * (e + apart)).sqrt();
-        let quadrature = 0.5 * q / main;
-        let wave = Vector3::new(main, quadrature, 0.25 * s.atan2(r));
-        let [by_e, by_r, by_s] = [1.0, r / apart, s / apart].map(|part| 0.25 * part / main);
-        let share = -quadrature / main;
-        let by_state = Matrix3x4::new(
-            by_e,
-            by_r,
-            by_s,
-            0.0,
-            share * by_e,
-            share * by_r,
-            share * by_s,
-            0.5 / main,
-            0.0,
-            -0.25 * s / (apart * apart),
-            0.25 * r / (apart * apart),
-            0.0,
-        );
-        (wave, by_state * self.columns.fixed_columns::<PARAMETERS>(1))
+    /// What the turning of the pattern now makes of the frequency, beside the mean of both travelling waves' by their energies, rad/s: 2 θ̇ Q/E.
+    pub fn frequency_by_turning(&self) -> f64 {
+        let state = self.columns.column(0).into_owned();
+        let [e, r, s, q] = state.into();
+        let slope = self.matrix * state;
+        let turning = 0.25 * (r * slope[2] - s * slope[1]) / (r * r + s * s).max(f64::MIN_POSITIVE);
+        2.0 * turning * q / e
+    }
+
+    /// What a row has more of a_A, a_B and θ than the wave now, and the derivatives of the wave's by the rates and by what it started with.
+    ///
+    /// Near a circle these three are not smooth, nor is noise in them symmetric. But the greater travelling wave has a size, and the lesser one
+    /// its parts along what the row says of it and across it: the differences are those of these, which elsewhere are the same.
+    pub fn rest(&self, row: &Row) -> (Vector3<f64>, SMatrix<f64, 3, PARAMETERS>) {
+        let sign = 1f64.copysign(row.quadrature);
+        let state = self.columns.column(0).into_owned();
+        let (now, lesser) = Self::travelling(&state, sign);
+        let back = Complex::from_polar(1.0, -4.0 * row.angle);
+        let [along, across] = [lesser * back, back * Complex::i()];
+        // By E, R, S and Q: of the greater wave, and of the lesser along the row's and across it.
+        let of_greater = RowVector4::new(0.5, 0.0, 0.0, 0.5 * sign) / now;
+        let of_along =
+            RowVector4::new(0.0, back.re, across.re, 0.0) / now - of_greater * (along.re / now);
+        let of_across =
+            RowVector4::new(0.0, back.im, across.im, 0.0) / now - of_greater * (along.im / now);
+
+        let size = row.main - row.quadrature.abs();
+        // Below its noise a wave has no direction.
+        let per_turn = 0.25 / size.max(row.deviations[0]);
+        let (greater, lesser) = self.averaged(row.seconds, sign);
+        let of_row = lesser * back;
+        let (greater, along) = (row.main + row.quadrature.abs() - greater, size - of_row.re);
+        let by_state = Matrix3x4::from_rows(&[
+            (of_greater + of_along) * 0.5,
+            (of_greater - of_along) * (0.5 * sign),
+            of_across * per_turn,
+        ]);
+        (
+            Vector3::new(
+                0.5 * (greater + along),
+                0.5 * sign * (greater - along),
+                -of_row.im * per_turn,
+            ),
+            by_state * self.columns.fixed_columns::<PARAMETERS>(1),
+        )
     }
 }
 
 /// What each rate does to E, R, S and Q.
-fn parts() -> [Matrix4<f64>; RATES] {
+pub fn parts() -> [Matrix4<f64>; RATES] {
     let part = |entries: &[(usize, usize, f64)]| {
         let mut part = Matrix4::zeros();
         for &(row, column, entry) in entries {

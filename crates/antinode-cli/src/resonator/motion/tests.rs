@@ -7,6 +7,29 @@ use super::*;
 /// A resonator with splits: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, κ.
 const RATES_OF_ALL: [f64; RATES] = [0.11, 0.05, -0.03, 0.2, 0.13, 0.3];
 
+impl Motion {
+    /// a_A, a_B and θ (−π/4 to π/4) now.
+    pub fn wave(&self) -> Vector3<f64> {
+        let [e, r, s, q] = self.columns.column(0).into_owned().into();
+        let main = (0.5 * (e + r.hypot(s))).sqrt();
+        Vector3::new(main, 0.5 * q / main, 0.25 * s.atan2(r))
+    }
+}
+
+/// A row of this a_A, a_B and θ, whose window lasted so many seconds.
+fn row([main, quadrature, angle]: [f64; 3], seconds: f64) -> Row {
+    Row {
+        time: 0.0,
+        main,
+        quadrature,
+        angle,
+        frequency: 5332.0,
+        frequency_deviation: 1e-3,
+        deviations: [1e-6; 3],
+        seconds,
+    }
+}
+
 #[test]
 fn as_the_two_modes_move() {
     // Modes 1 and 2 stand along an angle ϑ and across it; what pick-off C sees is x, what D sees y.
@@ -89,67 +112,113 @@ fn as_the_two_modes_move() {
     }
 }
 
+/// A pattern near a line, and both ways round near a circle.
+const QUADRATURES: [f64; 4] = [-0.1, 0.0, 0.7999, -0.8];
+
+/// The motion some seconds after it began so.
+fn after(parameters: &[f64; PARAMETERS]) -> Motion {
+    let mut motion = Motion::new(parameters);
+    for _ in 0..5 {
+        motion.advance(0.7);
+    }
+    motion
+}
+
 #[test]
-fn derivatives_are_those_of_differences() {
+fn a_pattern_stays_one() {
     let [a, b, c, d, e, f] = RATES_OF_ALL;
     let parameters = [a, b, c, d, e, f, 0.8, -0.1, 0.6];
-    let after = |parameters: &[f64; PARAMETERS]| {
-        let mut motion = Motion::new(parameters);
-        for _ in 0..5 {
-            motion.advance(0.7);
-        }
-        motion.wave()
-    };
-    let (wave, derivatives) = after(&parameters);
-    // A pattern of E² = R² + S² + Q² stays one.
+    // E² = R² + S² + Q², in whatever steps.
     let mut motion = Motion::new(&parameters);
     motion.advance(3.5);
     let [e, r, s, q] = motion.columns.column(0).into_owned().into();
     assert!((e * e - r * r - s * s - q * q).abs() < 1e-8 * e * e);
-    assert!((motion.wave().0 - wave).norm() < 1e-9);
-    for parameter in 0..PARAMETERS {
-        let moved = |by: f64| {
-            let mut parameters = parameters;
-            parameters[parameter] += by;
-            after(&parameters).0
-        };
-        let difference = (moved(1e-5) - moved(-1e-5)) / 2e-5;
-        let apart = (difference - derivatives.column(parameter)).norm();
-        assert!(apart < 1e-7, "{parameter}: {apart:e}");
+    assert!((motion.wave() - after(&parameters).wave()).norm() < 1e-9);
+}
+
+#[test]
+fn derivatives_are_those_of_differences() {
+    let [a, b, c, d, e, f] = RATES_OF_ALL;
+    for quadrature in QUADRATURES {
+        let parameters = [a, b, c, d, e, f, 0.8, quadrature, 0.6];
+        let wave = after(&parameters).wave();
+        let row = row([wave[0] + 0.003, wave[1] - 0.002, wave[2] + 0.1], 0.0);
+        let (_, derivatives) = after(&parameters).rest(&row);
+        for parameter in 0..PARAMETERS {
+            let moved = |by: f64| {
+                let mut parameters = parameters;
+                parameters[parameter] += by;
+                after(&parameters).rest(&row).0
+            };
+            let difference = (moved(-1e-5) - moved(1e-5)) / 2e-5;
+            let apart = (difference - derivatives.column(parameter)).norm();
+            assert!(apart < 1e-7, "{quadrature}, {parameter}: {apart:e}");
+        }
+    }
+}
+
+#[test]
+fn what_a_row_has_more_is_what_was_added() {
+    let [a, b, c, d, e, f] = RATES_OF_ALL;
+    for quadrature in QUADRATURES {
+        let motion = Motion::new(&[a, b, c, d, e, f, 0.8, quadrature, 0.6]);
+        let wave = motion.wave();
+        let added = Vector3::new(1e-9, 2e-9, 3e-9);
+        let (rest, _) = motion.rest(&row((wave + added).into(), 0.0));
+        // Of the angle of a circle nothing is seen.
+        let known = if wave[0] - wave[1].abs() < 1e-6 { 2 } else { 3 };
+        let apart = (rest - added).rows(0, known).norm();
+        assert!(apart < 1e-11, "{quadrature}: {rest}");
+        // An eighth of a turn, and the signs change: the same pattern, where it is a circle.
+        let turned = Vector3::new(0.0, 0.0, std::f64::consts::FRAC_PI_4);
+        let (rest, _) = motion.rest(&row((wave + turned).into(), 0.0));
+        let lesser = wave[0] - wave[1].abs();
+        assert!(
+            (rest[0] - lesser).abs() < 1e-9 + 1e-9 * lesser,
+            "{quadrature}: {rest}"
+        );
     }
 }
 
 #[test]
 fn a_window_averages_what_is_not_even() {
     let [a, b, c, d, e, f] = RATES_OF_ALL;
-    let mut motion = Motion::new(&[a, b, c, d, e, f, 0.8, -0.1, 0.6]);
-    motion.advance(1.3);
-    let (now, _) = motion.wave();
-    for seconds in [0.0, 0.1, 0.4] {
-        // The means of both logarithms and of the angle over 200 parts of the window.
+    // The last one changes by more than it is.
+    for (quadrature, seconds) in [(-0.1, 0.0), (-0.1, 0.1), (-0.1, 0.4), (-0.799, 0.1)] {
+        let motion = Motion::new(&[a, b, c, d, e, f, 0.8, quadrature, 0.6]);
+        let now = motion.columns.column(0).into_owned();
+        let (greater, lesser) = Motion::travelling(&now, -1.0);
+        // The means of both, or of their logarithms, over 200 parts of the window.
         let parts = 200;
-        let mut means = [0.0; 3];
+        let (mut of_greater, mut of_lesser, mut of_log) =
+            (0.0, Complex::new(0.0, 0.0), Complex::new(0.0, 0.0));
         for part in 0..parts {
             let by = seconds * ((f64::from(part) + 0.5) / f64::from(parts) - 0.5);
-            let state = motion.moved(motion.columns, by, |columns| motion.matrix * columns);
-            let [plus, minus, angle] = Motion::logarithms(&state.column(0).into_owned());
-            for (mean, value) in means.iter_mut().zip([plus, minus, angle]) {
-                *mean += value / f64::from(parts);
-            }
+            let state = motion.moved(now, by, |state| motion.matrix * state);
+            let (plus, minus) = Motion::travelling(&state, -1.0);
+            of_greater += plus.ln() / f64::from(parts);
+            of_lesser += minus / f64::from(parts);
+            of_log += (minus / lesser).ln() / f64::from(parts);
         }
-        let [plus, minus] = [means[0].exp(), means[1].exp()];
-        let wanted = Vector3::new(0.5 * (plus + minus), 0.5 * (plus - minus), means[2]);
-        let apart = (now + motion.averaged(seconds) - wanted).norm();
-        let size = motion.averaged(seconds).norm();
+        let wanted = if quadrature == -0.1 {
+            lesser * of_log.exp()
+        } else {
+            of_lesser
+        };
+        let averaged = motion.averaged(seconds, -1.0);
+        let size = (wanted - lesser).norm() + (of_greater.exp() - greater).abs();
+        let apart = (averaged.1 - wanted).norm() + (averaged.0 - of_greater.exp()).abs();
         assert!(
             apart < 0.01 * size + 1e-9,
-            "{seconds}: {apart:e} of {size:e}"
+            "{quadrature}, {seconds}: {apart:e} of {size:e}"
         );
     }
     // A wave that only decays and turns does both evenly.
     let mut even = Motion::new(&[a, 0.0, 0.0, 0.0, 0.0, f, 0.8, -0.1, 0.6]);
     even.advance(1.3);
-    assert!(even.averaged(1.0).norm() < 1e-9);
+    let (greater, lesser) = even.averaged(1.0, -1.0);
+    let now = Motion::travelling(&even.columns.column(0).into_owned(), -1.0);
+    assert!((greater - now.0).abs() < 1e-9 && (lesser - now.1).norm() < 1e-9);
 }
 
 #[test]

@@ -106,7 +106,8 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
     let (rows, name) = Runs::open(&options.rows, MOST_TURN, BREAKS)?;
     let found = fit(&rows.runs).map_err(|_| {
         Failure::Recording(format!(
-            "{name}: no resonator explains the rows: see that nothing drives the gyro while it rings down, and leave out rows that lie far off all others"
+            "{name}: no resonator explains the rows: see that nothing drives the gyro while it rings down, \
+             and leave out rows that lie far off all others"
         ))
     })?;
     let frequency = frequency(&rows, &found);

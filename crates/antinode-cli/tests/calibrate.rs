@@ -106,8 +106,8 @@ fn gains_that_are_very_unlike_are_found_to_their_deviations() {
                 let made = run(
                     here,
                     &format!(
-                        "simulate -o {name}.wav --main-amplitude {amplitude} --quadrature-amplitude 0.01 --seconds 3 --seed {seed} --angle-rate {rate} --noise 5e-4 \
-                         --decay-rate 0.1 --gain-ratio {gain} --skew-ns 800 --pick-off-angle 0.02"
+                        "simulate -o {name}.wav --main-amplitude {amplitude} --quadrature-amplitude 0.01 --seconds 3 \
+                         --seed {seed} --angle-rate {rate} --noise 5e-4 --decay-rate 0.1 --gain-ratio {gain} --skew-ns 800 --pick-off-angle 0.02"
                     ),
                 );
                 assert_eq!(made.code, 0, "{}", made.err);

@@ -133,6 +133,9 @@
 //!   Where by less, values may be off: phase where the frequency bends, amplitudes and θ too where there are splits. In windows of 10
 //!   periods that is up to 6 of their deviations, in those of 100 and more up to 30; 6·10⁻⁵ rad of phase in noise of 10⁻⁴ of a_A, 4·10⁻⁴
 //!   rad in noise of 10⁻³. Shorter windows help.
+//! - A pattern that turns looks like a frequency off by 2 a_A a_B θ̇/π(a_A² + a_B²), which is taken out with θ̇ as the windows before have
+//!   it. Where that changes at once, as splits make it near a circle, f may be off: 20 deviations at |a_B| of 0.94 a_A in windows of 100
+//!   periods.
 //! - Mains hum is a misfit too, unless [`Settings::hum`] takes it out.
 //! - Deviations and flags take noise to be white; [`Settings::coloured`] is for noise that is not. With it errors are 0.8 to 1.1 of their
 //!   deviations behind a low-pass or a high-pass, or in noise of 1/f²; behind a band-pass about the wave they are 1.1 with a quality of 1,

@@ -150,7 +150,8 @@ impl Motion {
         [state[1] / state[0], state[2] / state[0]]
     }
 
-    /// What one rad/s of δ c_τ, δ s_τ, Δω c_ω and Δω s_ω adds to the frequency now, rad/s: it is ½ Δω cos 4(θ−θ_ω) E/D − ½ δ sin 4(θ−θ_τ) Q/D.
+    /// What one rad/s of δ c_τ, δ s_τ, Δω c_ω and Δω s_ω adds to the frequency now, rad/s:
+    /// it is ½ Δω cos 4(θ−θ_ω) E/D − ½ δ sin 4(θ−θ_τ) Q/D.
     pub fn frequency_by_splits(&self) -> [f64; 4] {
         let [e, r, s, q] = self.columns.column(0).into_owned().into();
         let apart = r * r + s * s;

@@ -1,6 +1,7 @@
 //! `antinode identify`: recordings in, rows out, as a stream.
 
 mod first;
+mod flagged;
 mod in_turn;
 mod mistaken;
 mod options;

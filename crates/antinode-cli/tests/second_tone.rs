@@ -17,9 +17,14 @@ const STEADY: Wave = Wave {
 
 /// The wave in this noise, and beside it a tone 300 Hz above of this share of a_A, which both pick-offs see.
 fn record(directory: &Path, pairs: usize, noise: f64, share: f64) {
+    record_at(STEADY.frequency + 300.0, directory, pairs, noise, share);
+}
+
+/// The same with a tone of this frequency.
+fn record_at(frequency: f64, directory: &Path, pairs: usize, noise: f64, share: f64) {
     let mut codes = Wave { noise, ..STEADY }.codes(pairs);
     for (k, pair) in codes.iter_mut().enumerate() {
-        let turns = (STEADY.frequency + 300.0) * k as f64 / RATE;
+        let turns = frequency * k as f64 / RATE;
         let tone = 32_768.0 * STEADY.main * share * (TAU * turns).cos();
         pair[0] += (0.8 * tone).round() as i16;
         pair[1] += (0.6 * tone).round() as i16;
@@ -96,6 +101,20 @@ fn scatter_between_misfits_or_below_a_step_is_told() {
     let (told, _, flagged) = identified(here, "");
     assert_eq!(flagged, 0);
     for part in ["rows scatter by more", "second tone", "--periods"] {
+        assert!(told.err.contains(part), "{}", told.err);
+    }
+    let (told, _, flagged) = identified(here, "--periods 100");
+    assert_eq!((told.err.as_str(), flagged), ("", 0));
+}
+
+#[test]
+fn a_tone_near_the_third_harmonic_is_told_from_it_by_longer_windows() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    record_at(3.0 * STEADY.frequency + 60.0, here, 200_000, 0.0006, 0.01);
+    let (told, rows, flagged) = identified(here, "");
+    assert_eq!(flagged, rows.len());
+    for part in ["rows are flagged clipped alone", "a larger --periods"] {
         assert!(told.err.contains(part), "{}", told.err);
     }
     let (told, _, flagged) = identified(here, "--periods 100");

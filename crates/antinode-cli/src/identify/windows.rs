@@ -2,9 +2,10 @@
 
 use std::io::Write;
 
-use antinode::{Estimate, Flags, SettingsError};
+use antinode::{Estimate, SettingsError};
 
 use super::first::First;
+use super::flagged::Flagged;
 use super::in_turn::InTurn;
 use super::mistaken::straight;
 use super::options::{Identify, Methods};
@@ -24,11 +25,6 @@ const SEARCHED: usize = 200;
 /// Pairs between two looks at the search: no period is found and refused in fewer.
 const GLANCE: usize = 8;
 
-/// Windows flagged as misfit from which on a remedy is named, where they are a tenth of all.
-const MANY: u64 = 20;
-/// The same where they are most of all: a recording may have but a few long windows.
-const SOME: u64 = 4;
-
 /// The identification of one recording.
 pub(super) struct Windows<'a> {
     name: &'a str,
@@ -42,7 +38,7 @@ pub(super) struct Windows<'a> {
     silence: Silence,
     scatter: Scatter,
     in_turn: InTurn,
-    misfits: u64,
+    flagged: Flagged,
 }
 
 impl<'a> Windows<'a> {
@@ -78,7 +74,7 @@ impl<'a> Windows<'a> {
             silence: Silence::default(),
             scatter: Scatter::new(settings.resolution),
             in_turn: InTurn::default(),
-            misfits: 0,
+            flagged: Flagged::default(),
         })
     }
 
@@ -156,7 +152,7 @@ impl<'a> Windows<'a> {
         self.silence.see(estimate, self.rate, self.options.hop);
         self.scatter.see(estimate);
         self.in_turn.see(estimate, self.rate);
-        self.misfits += u64::from(estimate.flags == Flags::MISFIT);
+        self.flagged.see(estimate.flags);
         let estimate = Estimate {
             time: estimate.time + self.span.offset(),
             ..*estimate
@@ -181,11 +177,11 @@ impl<'a> Windows<'a> {
         if let Some(warning) = recording.late_warning() {
             eprintln!("warning: {warning}");
         }
-        let (misfits, all) = (self.misfits, rows.count());
-        let many = misfits >= MANY && 10 * misfits > all || misfits >= SOME && 2 * misfits > all;
+        let [misfits, clipped] = self.flagged.told(rows.count(), self.options);
         let seconds = self.core.index() as f64 / self.rate;
         let warnings = [
-            many.then(|| misfit_remedies(misfits, all, self.options)),
+            misfits,
+            clipped,
             self.span.warning().filter(|_| fault.is_none()),
             self.silence.told(seconds, self.span.offset()),
             self.scatter.told(self.options.hum || self.options.coloured),
@@ -214,24 +210,4 @@ impl<'a> Windows<'a> {
         }
         Err(last)
     }
-}
-
-/// What may be done about rows that are flagged as misfits, and as nothing else.
-fn misfit_remedies(misfits: u64, rows: u64, options: &Identify) -> String {
-    let mut told = format!("{misfits} of {rows} rows are flagged misfit alone; ");
-    if !options.hum && !options.coloured {
-        told += "if that is mains hum or an offset that wanders, --hum takes it out; ";
-    }
-    if !options.coloured {
-        told += "if a filter leaves less noise at three times the frequency, give --coloured; ";
-    }
-    let coloured = if options.coloured {
-        ""
-    } else {
-        "--coloured and "
-    };
-    told += &format!(
-        "if there is a second tone, give {coloured}a --periods that holds several of its beats with the wave; "
-    );
-    told + "if the frequency drifts or the pattern turns far within a window, give a smaller --periods"
 }

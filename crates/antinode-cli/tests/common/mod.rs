@@ -44,11 +44,16 @@ pub fn run_with(directory: &Path, arguments: &str, input: Vec<u8>) -> Run {
     }
 }
 
-/// Runs `identify --output csv`, which must succeed and say nothing else.
+/// Runs `identify --output csv`, which must succeed and say nothing else, but that most rows are clipped where they are.
 pub fn rows(directory: &Path, arguments: &str) -> Vec<Row> {
     let run = run(directory, &format!("identify --output csv {arguments}"));
-    assert_eq!((run.code, run.err.as_str()), (0, ""), "{arguments}");
-    Row::all(&run.out)
+    let rows = Row::all(&run.out);
+    let clipped = rows.iter().filter(|row| row.text("flags") == "clipped");
+    let is_clipped = 2 * clipped.count() > rows.len();
+    let is_known = |line: &str| is_clipped && line.contains("rows are flagged clipped alone; ");
+    let else_said: Vec<&str> = run.err.lines().filter(|line| !is_known(line)).collect();
+    assert_eq!((run.code, else_said), (0, Vec::new()), "{arguments}");
+    rows
 }
 
 /// The rows of a text, which must be read without a word.

@@ -27,7 +27,8 @@ fn one_pick_off_behind_the_other_is_told() {
 fn a_time_among_raw_samples_is_told() {
     let directory = tempfile::tempdir().unwrap();
     let pair = |(k, pair): (usize, &[i16; 2])| [k as f64 / RATE, f64::from(pair[0])];
-    let pairs: Vec<[f64; 2]> = WAVE.codes(20_000).iter().enumerate().map(pair).collect();
+    let codes = WAVE.codes(20_000);
+    let pairs: Vec<[f64; 2]> = codes.iter().enumerate().map(pair).collect();
     let bytes = |bits: &str| -> Vec<u8> {
         let samples = pairs.as_flattened().iter();
         match bits {
@@ -40,6 +41,15 @@ fn a_time_among_raw_samples_is_told() {
         let told = ["standard input: S_C goes up in equal steps"];
         let rows = fault(directory.path(), &arguments, bytes(bits), &told);
         assert!(rows.is_empty());
+        // Fewer pairs are looked at once all are read; what else is wrong with them is told too.
+        let all = bytes(bits);
+        let few = all[..all.len() / codes.len() * 300 + 3].to_vec();
+        let run = run_with(directory.path(), &format!("identify {arguments}"), few);
+        assert_eq!(run.code, 1);
+        for part in ["S_C goes up in equal steps", "the data end in the middle"] {
+            assert!(run.err.contains(part), "{bits}: {}", run.err);
+        }
+        assert_eq!(run.err.lines().count(), 2, "{}", run.err);
     }
 }
 

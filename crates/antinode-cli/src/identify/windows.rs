@@ -170,9 +170,8 @@ impl<'a> Windows<'a> {
     ) -> Result<(), Failure> {
         // Rows before what is told of them.
         rows.flush()?;
-        if let Some(first) = self.first.rest() {
-            self.begin(&first)?;
-        }
+        let first = self.first.rest();
+        let mistaken = first.and_then(|first| self.begin(&first).err());
         let name = self.name;
         if let Some(warning) = recording.late_warning() {
             eprintln!("warning: {warning}");
@@ -193,14 +192,15 @@ impl<'a> Windows<'a> {
         }
         let failure = match fault {
             Some(error) => Some(error.into()),
-            None if rows.count() > 0 => None,
+            None if rows.count() > 0 || mistaken.is_some() => None,
             None => Some(self.span.missing(name).unwrap_or_else(|| {
                 self.search
                     .no_rows(name, self.rate, &self.core, self.options)
             })),
         };
         let told = [recording.lost(), recording.not_finite()];
-        let mut failures = told.into_iter().flatten().map(Failure::from).chain(failure);
+        let told = told.into_iter().flatten().map(Failure::from);
+        let mut failures = told.chain(mistaken).chain(failure);
         let Some(mut last) = failures.next() else {
             return Ok(());
         };

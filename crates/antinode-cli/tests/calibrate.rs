@@ -5,7 +5,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::{Row, Run, rows, run, run_with};
+use common::{Row, Run, rms, rows, run, run_with};
 
 const FLAWS: &str =
     "--gain-ratio 1.012 --skew-ns 130 --pick-off-angle 0.008 --noise 0.003 --decay-rate 0.05";
@@ -31,14 +31,25 @@ fn calibrate(here: &Path, recordings: &str, options: &str) -> Run {
     run_with(here, &format!("calibrate - {options}"), rows.out.into())
 }
 
-/// What it makes of both in such windows.
-fn of_windows(here: &Path, windows: &str) -> Run {
+/// One such recording of a pattern that turns at this rate, and another of one that turns the other way.
+fn record_both_ways(here: &Path, simulated: &str, rate: f64) {
+    for (name, rate) in [("one", rate), ("other", -rate)] {
+        let made = run(
+            here,
+            &format!("simulate -o {name}.wav --angle-rate {rate} {simulated}"),
+        );
+        assert_eq!(made.code, 0, "{}", made.err);
+    }
+}
+
+/// What `calibrate` makes of both in such windows.
+fn of_windows(here: &Path, windows: &str, options: &str) -> Run {
     let rows = run(
         here,
-        &format!("identify --output csv one.wav other.wav {windows}"),
+        &format!("identify --output csv one.wav other.wav {windows} {options}"),
     );
     assert_eq!(rows.code, 0, "{}", rows.err);
-    run_with(here, "calibrate -", rows.out.into())
+    run_with(here, &format!("calibrate - {options}"), rows.out.into())
 }
 
 /// The numbers of the options printed, and the deviations told of them.
@@ -63,24 +74,13 @@ fn windows_in_which_the_pattern_turns_far_tell_the_same() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for seed in 1..=4 {
-        for (name, rate) in [("one", 1.5), ("other", -1.5)] {
-            let made = run(
-                here,
-                &format!(
-                    "simulate -o {name}.wav --sample f32 --seconds 4 --seed {seed} --angle-rate {rate} --noise 5e-4 --decay-rate 0.1 \
-                     --gain-ratio 1.03 --skew-ns 800 --pick-off-angle 0.02"
-                ),
-            );
-            assert_eq!(made.code, 0, "{}", made.err);
-        }
+        let simulated = format!(
+            "--sample f32 --seconds 4 --seed {seed} --noise 5e-4 --decay-rate 0.1 --gain-ratio 1.03 --skew-ns 800 --pick-off-angle 0.02"
+        );
+        record_both_ways(here, &simulated, 1.5);
         // 4° in each: what they average of the flaws is half a per cent less than there is.
         for options in ["", "--gain-ratio 0.98 --skew-ns -100"] {
-            let rows = run(
-                here,
-                &format!("identify --periods 250 --output csv one.wav other.wav {options}"),
-            );
-            assert_eq!(rows.code, 0, "{}", rows.err);
-            let found = run_with(here, &format!("calibrate - {options}"), rows.out.into());
+            let found = of_windows(here, "--periods 250", options);
             let (values, deviations) = numbers(&found);
             for ((value, truth), deviation) in
                 values.iter().zip([1.03, 800.0, 0.02]).zip(deviations)
@@ -102,26 +102,20 @@ fn gains_that_are_very_unlike_are_found_to_their_deviations() {
     for (gain, amplitude) in [("3", "0.25"), ("0.33", "0.75")] {
         let mut errors = Vec::new();
         for seed in 1..=6 {
-            for (name, rate) in [("one", 0.8), ("other", -0.8)] {
-                let made = run(
-                    here,
-                    &format!(
-                        "simulate -o {name}.wav --main-amplitude {amplitude} --quadrature-amplitude 0.01 --seconds 3 \
-                         --seed {seed} --angle-rate {rate} --noise 5e-4 --decay-rate 0.1 --gain-ratio {gain} --skew-ns 800 --pick-off-angle 0.02"
-                    ),
-                );
-                assert_eq!(made.code, 0, "{}", made.err);
-            }
+            let simulated = format!(
+                "--main-amplitude {amplitude} --quadrature-amplitude 0.01 --seconds 3 --seed {seed} --noise 5e-4 --decay-rate 0.1 \
+                 --gain-ratio {gain} --skew-ns 800 --pick-off-angle 0.02"
+            );
+            record_both_ways(here, &simulated, 0.8);
             // The pattern seems to turn by 0.4° to 3.9° in each.
-            let found = of_windows(here, "--periods 50");
+            let found = of_windows(here, "--periods 50", "");
             assert!(!found.err.contains("warning"), "{}", found.err);
             let (values, deviations) = numbers(&found);
             let truth = [gain.parse().unwrap(), 800.0, 0.02];
             let all = values.iter().zip(truth).zip(deviations);
             errors.extend(all.map(|((value, truth), deviation)| (value - truth) / deviation));
         }
-        let rms =
-            (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt();
+        let rms = rms(&errors);
         assert!((0.6..1.5).contains(&rms), "{gain}: {errors:.1?}");
     }
 }

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
-use common::{Run, run, run_with};
+use common::{Run, rms, run, run_with};
 
 /// Decay time and quality factor of a decay rate of 0.08 1/s at 5332 Hz.
 const TRUTH: [(&str, f64); 2] = [("decay_time_s", 12.5), ("quality_factor", 209_387.2)];
@@ -235,7 +235,7 @@ fn the_splits_of_simulated_ring_downs_are_found_to_their_deviations() {
     let worst = all
         .iter()
         .fold(0.0f64, |worst, error| worst.max(error.abs()));
-    let rms = (all.iter().map(|error| error * error).sum::<f64>() / all.len() as f64).sqrt();
+    let rms = rms(&all);
     assert!(worst < 4.0 && (0.7..1.3).contains(&rms), "{all:.1?}");
 }
 

@@ -6,7 +6,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::{run, run_with};
+use common::{rms, run, run_with};
 
 /// Rows of a simulated ring-down, in a file.
 fn rows(here: &Path, simulated: &str, identified: &str) {
@@ -43,7 +43,7 @@ fn the_mean_frequency_of_a_ring_down_that_ends_in_noise_is_found_to_its_deviatio
         let (residual, of_residual) = of_resonator(&found.out, "residual_over_noise");
         assert!((residual - 1.0).abs() < 5.0 * of_residual, "{}", found.out);
     }
-    let rms = (all.iter().map(|error| error * error).sum::<f64>() / all.len() as f64).sqrt();
+    let rms = rms(&all);
     assert!((0.6..1.5).contains(&rms), "{rms}: {all:.1?}");
 }
 
@@ -321,6 +321,6 @@ fn a_pattern_that_is_a_circle_meanwhile_tells_the_resonator() {
             all.push((value - truth) / std);
         }
     }
-    let rms = (all.iter().map(|error| error * error).sum::<f64>() / all.len() as f64).sqrt();
+    let rms = rms(&all);
     assert!((0.7..1.4).contains(&rms), "{rms}: {all:.1?}");
 }

@@ -12,6 +12,9 @@ const AMPLITUDES: RangeInclusive<f64> = 1e-15..=1e17;
 
 /// The pick-off whose samples go up in equal steps, as a time or a counter does.
 pub(super) fn straight(pairs: &[[f32; 2]]) -> Option<&'static str> {
+    if pairs.len() < STRAIGHT {
+        return None;
+    }
     let is_straight = |channel: usize| {
         let value = |k: usize| f64::from(pairs[k][channel]);
         let last = pairs.len() - 1;
@@ -19,12 +22,8 @@ pub(super) fn straight(pairs: &[[f32; 2]]) -> Option<&'static str> {
         let line = |k: usize| value(0) + rise * k as f64 / last as f64;
         rise > 0.0 && (0..last).all(|k| (value(k) - line(k)).abs() <= ROUNDING * rise)
     };
-    let channels = ["S_C", "S_D"].into_iter().enumerate();
-    let mut straight = channels.filter(|&(channel, _)| is_straight(channel));
-    (pairs.len() >= STRAIGHT)
-        .then(|| straight.next())
-        .flatten()
-        .map(|(_, name)| name)
+    let mut channels = ["S_C", "S_D"].into_iter().enumerate();
+    channels.find_map(|(channel, name)| is_straight(channel).then_some(name))
 }
 
 /// How far samples swing, where that is no amplitude that can be identified.

@@ -99,7 +99,7 @@ impl Scatter {
 
     /// Takes the difference of the rows.
     fn differ(&mut self) {
-        let times: Vec<f64> = self.rows.iter().map(|row| row.time).collect();
+        let times: [f64; ROWS] = std::array::from_fn(|i| self.rows[i].time);
         let least = |row: &Estimate| (LEAST_NOISE * row.main_amplitude).max(self.resolution);
         let is_noisy = self.rows.iter().all(|row| row.residual_rms >= least(row));
         let mut differences = [[0.0; 2]; NAMES.len()];

@@ -35,6 +35,11 @@ const DECAY_SEEN: f64 = 3.0;
 const ALIKE: f64 = 0.1;
 const ALIKE_SEEN: f64 = 5.0;
 
+/// True where so many residuals that follow each other correlate by this, and not by chance.
+fn is_alike(correlation: f64, count: f64) -> bool {
+    correlation > ALIKE + ALIKE_SEEN / count.sqrt()
+}
+
 /// `antinode resonator`.
 #[derive(Debug, Args)]
 pub struct Resonator {
@@ -256,7 +261,7 @@ fn tell(out: &mut impl Write, rows: &Runs, found: &Found, frequency: &Frequency)
             "warning: rows differ from the resonator's motion by {:.1} times their noise: {why}; the deviations above are wider by that",
             found.residual
         )?;
-    } else if found.alike > ALIKE + ALIKE_SEEN / (3.0 * rows.used() as f64).sqrt() {
+    } else if is_alike(found.alike, 3.0 * rows.used() as f64) {
         writeln!(
             out,
             "warning: rows that follow each other differ from the resonator's motion alike, which noise does not: {why}; the values may be \

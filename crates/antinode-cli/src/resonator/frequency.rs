@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::found::{Found, Measured};
-use super::{ALIKE, ALIKE_SEEN};
+use super::{ALIKE_SEEN, is_alike};
 use crate::runs::Runs;
 
 /// The mean frequency.
@@ -58,7 +58,7 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
     // The square of what goes with the energy, as the rest is weighted.
     let along = product * product / of_energy;
     let is_along = along > ALIKE_SEEN * ALIKE_SEEN * widened;
-    let is_alike = is_told && neighbours > (ALIKE + ALIKE_SEEN / count.sqrt()) * squares;
+    let is_alike = is_told && is_alike(neighbours / squares, count);
     let moved_alike = if is_alike {
         (widened - 1.0) * count
     } else {

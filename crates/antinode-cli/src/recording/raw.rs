@@ -1,6 +1,7 @@
 //! Interleaved samples, one pair after the other: the body of WAV and most NPY files, and raw streams.
 
 use std::io::{self, Read};
+use std::mem;
 
 use clap::ValueEnum;
 
@@ -140,11 +141,13 @@ impl Interleaved {
     }
 
     /// True where what comes behind the promised bytes is neither a chunk, whose name is text, nor padding. A pipe is not waited for.
+    ///
+    /// It looks once: behind the name is what may be anything.
     fn goes_on(&mut self) -> bool {
         let mut name = [0; CHUNK_HEADER];
-        self.before_chunks
+        self.left == Some(0)
+            && mem::take(&mut self.before_chunks)
             && !self.live
-            && self.left == Some(0)
             && self.stream.read_exact(&mut name).is_ok()
             && !name[..4]
                 .iter()

@@ -3,19 +3,22 @@
 //! Samples arrive as packed codes; slices are half-buffers of 128 pairs. `S` decides the arithmetic: `i16` or `f32`.
 
 use core::hint::black_box;
+use core::ops::RangeInclusive;
 
 use antinode::block::Demodulator;
 use antinode::phase::PhaseStep;
 use antinode::{Front, Identifier, Packed, Sample, SamplePair, Settings, Tracker};
 
-use crate::codes::{Codes, PERIOD};
+use crate::codes::{Codes, Flaw, PERIOD};
 use crate::gauge::{Gauge, apart};
 use crate::marks::{leave, mark_begin, mark_end};
 
 /// Sample pairs that a bench works through.
 pub const PAIRS: usize = 16_384;
-/// Calls of which the longest is looked for.
+/// Calls of which the longest is looked for, of each wave.
 const LONGEST_OF: usize = 2_000;
+/// Periods in 1406 pairs of those waves: 4.3 to 176 samples a period.
+const WAVES: RangeInclusive<u64> = 8..=327;
 /// Pairs of a half-buffer.
 pub(crate) const HALF_BUFFER: usize = 128;
 
@@ -207,28 +210,44 @@ where
     taken
 }
 
-/// The longest single call in an interrupt that hands over one pair at a time, from cold through the search into the tracking.
+/// The longest single call in an interrupt that hands over one pair at a time, from cold through the search into the tracking: of many
+/// waves, which may be clipped, or come in steps.
 pub fn longest<S: Sample>(name: &'static str) -> !
 where
     Packed: SamplePair<S>,
 {
-    let codes = Codes::new();
+    let mut codes = Codes::new();
     let settings = Settings::new(100_000.0);
     let Ok(mut front) = Front::<S, 200>::new(settings) else {
         leave()
     };
     let mut gauge = Gauge::new(name, 1, size_of::<Front<S, 200>>());
     // Which call it is: they are the same in every run.
-    let (mut longest, mut at) = (0, 0);
-    for index in 0..LONGEST_OF {
-        if let [pair] = *codes.slice(index, 1) {
-            let lap = gauge.lap(|| push_front(&mut front, pair));
-            if lap > longest {
-                (longest, at) = (lap, index);
+    let (mut longest, mut call) = (0, None);
+    for periods in WAVES.step_by(7) {
+        for flaw in [Flaw::None, Flaw::Clipped, Flaw::Held] {
+            codes.make(periods, flaw);
+            if front.configure(settings).is_err() {
+                leave()
+            }
+            for index in 0..LONGEST_OF {
+                if let [pair] = *codes.slice(index, 1) {
+                    let lap = gauge.lap(|| push_front(&mut front, pair));
+                    if lap > longest {
+                        (longest, call) = (lap, Some((periods, flaw, index)));
+                    }
+                }
+            }
+            if matches!(flaw, Flaw::None) && front.is_searching() {
+                leave()
             }
         }
     }
-    if front.is_searching() || front.configure(settings).is_err() {
+    let Some((periods, flaw, at)) = call else {
+        leave()
+    };
+    codes.make(periods, flaw);
+    if front.configure(settings).is_err() {
         leave()
     }
     for index in 0..at {

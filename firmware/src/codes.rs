@@ -10,6 +10,17 @@ const PERIODS: u64 = 75;
 /// Period of the wave, in samples.
 pub const PERIOD: f32 = RING as f32 / PERIODS as f32;
 
+/// What may be wrong with a wave.
+#[derive(Clone, Copy)]
+pub enum Flaw {
+    /// Nothing.
+    None,
+    /// It is clipped.
+    Clipped,
+    /// Every pair comes twice.
+    Held,
+}
+
 /// A wave with quadrature, both offsets, and noise of two codes, repeated without end.
 pub struct Codes {
     ring: [Packed; RING],
@@ -18,22 +29,36 @@ pub struct Codes {
 impl Codes {
     /// Computes the codes; slow, before the marks.
     pub fn new() -> Self {
-        let mut ring = [Packed(0); RING];
+        let mut codes = Self {
+            ring: [Packed(0); RING],
+        };
+        codes.make(PERIODS, Flaw::None);
+        codes
+    }
+
+    /// Computes those of a wave of so many periods in 1406 pairs.
+    pub fn make(&mut self, periods: u64, flaw: Flaw) {
         let mut seed = 1u32;
         let mut noise = || {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             ((seed >> 29) as i16) - 4
         };
-        for (k, pair) in ring.iter_mut().enumerate() {
+        let mut last = Packed(0);
+        for (k, pair) in self.ring.iter_mut().enumerate() {
             let phase =
-                antinode::phase::Phase(((k as u64 * PERIODS * (1 << 32)) / RING as u64) as u32);
+                antinode::phase::Phase(((k as u64 * periods * (1 << 32)) / RING as u64) as u32);
             let wave = phase.unit();
             let (main, quadrature) = (1600.0 * wave.re, 80.0 * wave.im);
-            let c = (main * 0.5 - quadrature * 0.866) as i16 + 20 + noise();
-            let d = (main * 0.866 + quadrature * 0.5) as i16 - 15 + noise();
-            *pair = Packed(u32::from(c as u16) | u32::from(d as u16) << 16);
+            let mut c = (main * 0.5 - quadrature * 0.866) as i16 + 20 + noise();
+            let mut d = (main * 0.866 + quadrature * 0.5) as i16 - 15 + noise();
+            if let Flaw::Clipped = flaw {
+                (c, d) = (c.clamp(-400, 400), d.clamp(-700, 700));
+            }
+            if !matches!(flaw, Flaw::Held) || k % 2 == 0 {
+                last = Packed(u32::from(c as u16) | u32::from(d as u16) << 16);
+            }
+            *pair = last;
         }
-        Self { ring }
     }
 
     /// A slice of `length` pairs that begins at pair `from` of the endless stream, as far as the ring's end.

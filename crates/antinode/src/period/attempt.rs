@@ -6,6 +6,8 @@ use crate::sample::Sample;
 
 /// Samples tried in one call, an even number.
 const STRIDE: usize = 12;
+/// Samples looked at once more in one call: each takes as long as three that are tried.
+const LOOKED_AT: usize = 4;
 /// Samples tried in a call that also judges.
 const LAST: usize = 2;
 
@@ -18,7 +20,9 @@ pub(super) struct Attempt<S: Sample> {
     /// Samples seen in this pass.
     seen: usize,
     trial: Trial,
-    doubt: Option<(Fitted, Rests)>,
+    /// A wave that is to be looked at once more, and what it leaves of the samples so far.
+    doubt: Option<Fitted>,
+    rests: Option<Rests>,
 }
 
 /// Where an attempt stands.
@@ -38,22 +42,29 @@ impl<S: Sample> Attempt<S> {
             seen: 0,
             trial: Trial::NONE,
             doubt: None,
+            rests: None,
         }
     }
 
-    /// Begins an attempt at a wave of `period` samples in the first `length` of `frame`, an even number. Nothing is tried yet: to
-    /// find the frame took long enough.
+    /// Begins an attempt at a wave of `period` samples in the first `length` of `frame`, an even number. Nothing is tried yet, and of
+    /// the frame no more is copied than the next sample may overwrite: to find it took long enough.
     pub(super) fn begin(&mut self, frame: &Frame<S>, length: usize, period: f32) {
-        self.frame = *frame;
+        self.frame[0] = frame[0];
         self.length = length;
         self.period = period;
         self.seen = 0;
         self.doubt = None;
+        self.rests = None;
+    }
+
+    /// Copies the rest of the frame, before the next sample but one.
+    pub(super) fn complete(&mut self, frame: &Frame<S>) {
+        self.frame[1..].copy_from_slice(&frame[1..]);
     }
 
     /// Goes on by a few samples.
     pub(super) fn advance(&mut self) -> Verdict {
-        if self.doubt.is_none() {
+        let Some(fitted) = &self.doubt else {
             let from = self.seen;
             if from == 0 {
                 self.trial.begin(self.period, self.length);
@@ -65,11 +76,15 @@ impl<S: Sample> Attempt<S> {
             } else {
                 Verdict::Open
             };
-        }
-        let from = self.step();
-        let Some((fitted, rests)) = &mut self.doubt else {
-            return Verdict::Refused;
         };
+        // Once more from the first sample on, in a call of its own: to judge took long enough.
+        let Some(rests) = &mut self.rests else {
+            self.rests = Some(self.trial.again());
+            self.seen = 0;
+            return Verdict::Open;
+        };
+        let from = self.seen;
+        self.seen = (from + LOOKED_AT).min(self.length);
         let samples = self.frame.as_flattened();
         for pair in samples.get(from..self.seen).unwrap_or(&[]) {
             rests.push(pair.map(S::to_f32), fitted);
@@ -83,16 +98,10 @@ impl<S: Sample> Attempt<S> {
         }
     }
 
-    /// Gives where the next samples begin; they end at `seen`.
-    fn step(&mut self) -> usize {
-        let from = self.seen;
-        self.seen = (from + STRIDE).min(self.length);
-        from
-    }
-
     /// Takes the next samples into the trial, from both ends at once: of the two halves, what comes next.
     fn try_some(&mut self) {
-        let from = self.step();
+        let from = self.seen;
+        self.seen = (from + STRIDE).min(self.length);
         let halves = self.frame.as_flattened().split_at_checked(self.length / 2);
         let (first, last) = halves.unwrap_or((&[], &[]));
         let first = first.get(from / 2..self.seen / 2).unwrap_or(&[]);
@@ -107,9 +116,7 @@ impl<S: Sample> Attempt<S> {
         match self.trial.fitted() {
             None => Verdict::Refused,
             Some(fitted) if fitted.doubt > 0.0 => {
-                self.seen = 0;
-                let rests = self.trial.again();
-                self.doubt = Some((fitted, rests));
+                self.doubt = Some(fitted);
                 Verdict::Open
             }
             Some(fitted) => Verdict::Accepted(fitted),

@@ -5,7 +5,7 @@ mod common;
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
 
-use common::{Row, WAVE, rows_of, run, same_later, text};
+use common::{Row, WAVE, fault, rows_of, run, same_later, text};
 
 /// A recording under another header, each line as `print` has its number and its samples.
 fn recording(header: &str, print: impl Fn(usize, [f64; 2]) -> String) -> String {
@@ -86,6 +86,70 @@ fn a_sequence_has_the_rate_of_its_increment() {
         "{}",
         one.err
     );
+}
+
+#[test]
+fn lines_may_end_in_a_mark() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    // Rigol's DS1000E and DS2000.
+    let timed = |k: usize, [c, d]: [f64; 2]| format!("{:.7e},{c},{d},", k as f64 * 1e-5 - 0.05);
+    let header = "X,CH1,CH2,\nSecond,Volt,Volt,\n";
+    same_later(
+        &rows_of(here, &recording(header, timed), ""),
+        &expected,
+        -0.05,
+    );
+    let header = "X,CH1,CH2,Start,Increment,\nSequence,Volt,Volt,-5.000000e-02,1.000000e-05,\n";
+    let counted = recording(header, |k, [c, d]| format!("{k},{c},{d},"));
+    same_later(&rows_of(here, &counted, ""), &expected, -0.05);
+}
+
+#[test]
+fn a_line_of_marks_is_blank_where_lines_tell_their_time() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    // As a spreadsheet fills PicoScope's blank line, and others.
+    let header = "Time;Channel A;Channel B\n(ms);(V);(V)\n;;\n";
+    let filled = recording(header, |k, [c, d]| {
+        let more = if k % 1000 == 999 { "\n;;" } else { "" };
+        format!("{:.5};{c};{d}{more}", k as f64 * 1e-2)
+    });
+    same_later(&rows_of(here, &filled, ""), &expected, 0.0);
+    // Where they tell none, it is a pair that is missing.
+    let header = "Channel A;Channel B\n;\n";
+    let untimed = recording(header, |_, [c, d]| format!("{c};{d}"));
+    let told = "2:1: sample pair 0 (from 0), S_C (left): the value is missing";
+    fault(here, "- --rate 1e5", untimed.into(), &[told]);
+}
+
+#[test]
+fn an_increment_tells_the_rate_without_a_column_for_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    let header = "CH1,CH2,Start,Increment,\nVolt,Volt,-5.00000e-02,1.00000e-05\n";
+    let text = recording(header, |_, [c, d]| format!("{c},{d},"));
+    for arguments in ["", "--rate 1e5", "--columns CH1,CH2"] {
+        same_later(&rows_of(here, &text, arguments), &expected, -0.05);
+    }
+    // Of three channels none is the time.
+    let header = "CH1,CH2,CH3,Start,Increment,\nVolt,Volt,Volt,-5.00000e-02,1.00000e-05\n";
+    let text = recording(header, |_, [c, d]| format!("1.5,{c},{d},"));
+    fault(
+        here,
+        "-",
+        text.clone().into(),
+        &["1: found 3 columns, but two"],
+    );
+    same_later(&rows_of(here, &text, "--columns 2,3"), &expected, -0.05);
+    // Without what the names promise.
+    let text = recording("CH1,CH2,Start,Increment,\n", |_, [c, d]| {
+        format!("{c},{d},")
+    });
+    fault(here, "-", text.into(), &["sample rate is not known"]);
 }
 
 #[test]

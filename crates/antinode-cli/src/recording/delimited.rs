@@ -162,7 +162,9 @@ impl Delimited {
     /// The first sample's time, s.
     fn start(&self) -> f64 {
         match self.rows.header.sequence {
-            Some(sequence) if self.axis.is_some() => sequence.seconds(self.start),
+            Some(sequence) if self.axis.is_some() || !sequence.is_counted => {
+                sequence.seconds(self.start)
+            }
             _ => self.start,
         }
     }

@@ -4,7 +4,7 @@ use super::columns::{Columns, FirstLine, Places};
 use super::error::{InputError, LineFault, TimeFault};
 use super::heading::is_header;
 use super::lines::{Beginning, Lines};
-use super::sequence::{Sequence, names_end};
+use super::sequence::{Counted, Sequence, counted};
 use super::signal_units::{Together, together};
 use super::text::{fields, number};
 use super::units::{bare, is_bracketed, is_unit, of_name, time_exponent};
@@ -21,8 +21,8 @@ pub(super) struct Header {
     pub divisors: [f32; 2],
     /// Their units, and what became of them.
     units: ([String; 2], Together),
-    /// The columns that have units.
-    columns: usize,
+    /// What the names tell of a start and an increment.
+    counted: Option<Counted>,
 }
 
 impl Header {
@@ -37,11 +37,12 @@ impl Header {
         let Beginning { first, next, start } = beginning;
         let mut names: Vec<String> = fields(first, separator).map(lossy).collect();
         let width = names.len();
-        let end = names_end(&names);
-        if end.is_some() && chosen.is_none() {
+        let counted = counted(&names);
+        let has_numbers = counted.is_some_and(|counted| counted.has_numbers);
+        if has_numbers && chosen.is_none() {
             names[0] = "time".to_owned();
         }
-        let columns = end.unwrap_or(width);
+        let columns = counted.map_or(width, |counted| counted.columns);
         let names = is_header(first, next, separator).then_some(&names[..columns]);
         lines.advance()?;
         let line = FirstLine {
@@ -49,9 +50,13 @@ impl Header {
             width: columns,
             start,
         };
-        let places = line
-            .places(chosen)
-            .map_err(|fault| InputError::line(file, lines.number(), fault))?;
+        let places = if counted.is_some() && !has_numbers && chosen.is_none() && columns != 2 {
+            // None of these is a time.
+            Err(LineFault::ColumnCount { found: columns })
+        } else {
+            line.places(chosen)
+        };
+        let places = places.map_err(|fault| InputError::line(file, lines.number(), fault))?;
         let mut header = Self {
             width,
             places,
@@ -59,7 +64,7 @@ impl Header {
             sequence: None,
             divisors: [1.0; 2],
             units: (Default::default(), Together::Same),
-            columns,
+            counted,
         };
         let fault =
             |header: &Self, line, fault| InputError::line(file, line, header.time_fault(fault));
@@ -168,15 +173,20 @@ impl Header {
     /// The time's unit, if this is a line of units.
     fn units(&mut self, lines: &Lines) -> Option<String> {
         let mut found: Vec<String> = lines.fields().map(lossy).collect();
+        // One mark at the end of a line ends its last field; it does not begin another.
+        if found.len() == self.width + 1 && found[self.width].is_empty() {
+            found.pop();
+        }
         if found.len() > self.width {
             return None;
         }
-        if self.columns < self.width {
+        if let Some(counted) = self.counted {
             // Another column than the first holds times of its own.
-            let is_first = self.places[0].is_none_or(|time| time == 0);
-            let told = || Sequence::read(&found, self.columns, lines.separator);
+            let first = counted.has_numbers.then_some(0);
+            let is_first = self.places[0].is_none() || self.places[0] == first;
+            let told = || Sequence::read(&found, counted, lines.separator);
             self.sequence = is_first.then(told).flatten();
-            found.truncate(self.columns);
+            found.truncate(counted.columns);
         }
         let is_number = |field: &str| number::<f64>(field.as_bytes(), lines.separator).is_some();
         let time = match self.places[0] {

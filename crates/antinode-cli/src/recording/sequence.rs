@@ -1,4 +1,5 @@
-//! Recordings whose lines are counted, and whose header tells the time of the first and the step: `X,CH1,CH2,Start,Increment`.
+//! Recordings whose header tells the time of the first sample and the step: `X,CH1,CH2,Start,Increment`, with or without the column `X` that
+//! counts the lines.
 
 use super::text::number;
 
@@ -9,33 +10,46 @@ pub(super) struct Sequence {
     pub start: f64,
     /// From one sample to the next, s.
     pub step: f64,
+    /// Whether the first column has the samples' numbers, and not only their places.
+    pub is_counted: bool,
 }
 
-/// How many columns the lines have, where names of the start and the increment stand behind theirs.
-pub(super) fn names_end(names: &[String]) -> Option<usize> {
+/// The columns of lines whose header tells a start and an increment behind their names.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Counted {
+    /// How many they are.
+    pub columns: usize,
+    /// Whether the first has the samples' numbers.
+    pub has_numbers: bool,
+}
+
+/// What these names tell, where the last are those of the start and the increment.
+pub(super) fn counted(names: &[String]) -> Option<Counted> {
     let names: Vec<String> = names.iter().map(|name| name.to_lowercase()).collect();
     match names.as_slice() {
-        [x, samples @ .., start, increment]
-            if x == "x" && start == "start" && increment == "increment" =>
-        {
-            Some(1 + samples.len())
+        [first, samples @ .., start, increment] if start == "start" && increment == "increment" => {
+            Some(Counted {
+                columns: 1 + samples.len(),
+                has_numbers: first == "x",
+            })
         }
         _ => None,
     }
 }
 
 impl Sequence {
-    /// What the line of units tells, whose names end at `end`; none where the first column holds times.
-    pub fn read(units: &[String], end: usize, separator: u8) -> Option<Self> {
+    /// What the line of units below these names tells; none where the first column holds times.
+    pub fn read(units: &[String], names: Counted, separator: u8) -> Option<Self> {
         let told = |place: usize| number::<f64>(units.get(place)?.as_bytes(), separator);
         let sequence = Self {
-            start: told(end)?,
-            step: told(end + 1)?,
+            start: told(names.columns)?,
+            step: told(names.columns + 1)?,
+            is_counted: names.has_numbers,
         };
-        let is_counted = units.first()?.eq_ignore_ascii_case("sequence");
+        let is_sequence = !names.has_numbers || units.first()?.eq_ignore_ascii_case("sequence");
         let is_good =
             sequence.start.is_finite() && sequence.step > 0.0 && sequence.step.is_finite();
-        (is_counted && is_good).then_some(sequence)
+        (is_sequence && is_good).then_some(sequence)
     }
 
     /// The time of the sample of this number, s.

@@ -83,8 +83,15 @@ impl Rows {
 
     /// The next line's; none at the end.
     pub fn next(&mut self) -> Result<Option<Row>, InputError> {
-        if !self.lines.advance()? {
-            return Ok(None);
+        loop {
+            if !self.lines.advance()? {
+                return Ok(None);
+            }
+            // Without a time and a sample a line is blank, as spreadsheets fill it with marks; without a time for any it is a pair.
+            let is_blank = || self.lines.fields().all(<[u8]>::is_empty);
+            if self.header.places[0].is_none() || !is_blank() {
+                break;
+            }
         }
         let texts = texts(&self.file, &self.lines, &self.header)?;
         let mut pair = [f32::NAN; 2];

@@ -187,6 +187,37 @@ fn one_channel_a_file_is_told_and_two_side_by_side_are_read() {
 }
 
 #[test]
+fn the_last_setting_may_have_more_than_one_field() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(
+        here,
+        &recording("c,d\n", |_, _, [c, d]| format!("{c},{d}")),
+        "--rate 1e5",
+    );
+    // Yokogawa's DL850, by a converter.
+    let above = "TraceName, CH1, CH2\nVUnit, V, V\nHResolution, 1e-5\nHOffset, -0.01\nHUnit, s\nBlockSize, 5000\nModel, DL850E\n\
+        Date, 2026-06-30\n";
+    let text = recording(above, |_, _, [c, d]| format!(",{c},{d}"));
+    same(here, &text, "--rate 1e5", &expected, 0.0);
+    let told = ["the sample rate is not known"];
+    fault(here, "-", text.into(), &told);
+}
+
+#[test]
+fn a_comment_behind_each_line_of_labview_is_no_sample() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    let above = labview("One", "X_Value\tc0\td0\tComment");
+    let text = recording(&above, |_, time, [c, d]| {
+        format!("{time:.5}\t{c}\t{d}\tLOST COMMUNICATION")
+    });
+    std::fs::write(here.join("a.lvm"), text).unwrap();
+    same_later(&common::rows(here, "a.lvm"), &expected, START);
+}
+
+#[test]
 fn lines_count_from_the_first_of_the_settings() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

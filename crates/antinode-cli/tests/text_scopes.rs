@@ -153,6 +153,88 @@ fn an_increment_tells_the_rate_without_a_column_for_it() {
 }
 
 #[test]
+fn a_time_is_known_by_its_unit() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    let one = |k: usize, [c, _]: [f64; 2]| format!("{:.5},{c}", k as f64 * 1e-5);
+    for (header, line) in [
+        ("in s,C1 in V\n", 1),
+        ("[s],CH2[V]\n", 1),
+        ("Zeit [ms],U [V]\n", 1),
+        ("Source,CH4\nSecond,Volt\n", 1),
+        ("x-axis,1\nsecond,Volt\n", 1),
+        (",CH1\nSecond,Volt,\n", 1),
+        (
+            "Record Length,Analog:5000\nSample Interval,CH1:0.00001\nVertical Units,CH1:V,,\nHorizontal Units,us,,\n\
+             Model Number,SDS1202X-E,,\n\nSource,CH1\nSecond,Volt\n",
+            7,
+        ),
+    ] {
+        let told = format!("input:{line}: found the time and one signal, but both are needed");
+        let rows = fault(
+            here,
+            "- --rate 1e5",
+            recording(header, one).into(),
+            &[&told],
+        );
+        assert!(rows.is_empty(), "{header}");
+    }
+    // It need not be the first.
+    let last = recording("CH1 [V],CH2 [V],Zeit [ms]\n", |k, [c, d]| {
+        format!("{c},{d},{:.5}", k as f64 * 1e-2)
+    });
+    same_later(&rows_of(here, &last, ""), &expected, 0.0);
+    // Two times are none.
+    let both = recording("up [s],down [s]\n", |_, [c, d]| format!("{c},{d}"));
+    same_later(&rows_of(here, &both, "--rate 1e5"), &expected, 0.0);
+}
+
+#[test]
+fn a_count_of_lines_is_no_signal_beside_a_time() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    let counted = |k: usize, [c, d]: [f64; 2]| format!("{k},{:.7},{c},{d}", k as f64 * 1e-2);
+    for header in ["#,Time(ms),CH1(mV),CH2(mV)\n", "index,t [ms],x,y\n"] {
+        let text = recording(header, counted);
+        same_later(&rows_of(here, &text, ""), &expected, 0.0);
+        same_later(&rows_of(here, &text, "--columns 2,3,4"), &expected, 0.0);
+    }
+    let one = recording("#,Time(ms),CH1(mV)\n", |k, [c, _]| {
+        format!("{k},{:.7},{c}", k as f64 * 1e-2)
+    });
+    let told = "input:1: found the time and one signal, but both are needed";
+    fault(here, "- --rate 1e5", one.into(), &[told]);
+    // A comment has other columns than the samples.
+    let commented = recording("#,Time,c,d\n", |k, [c, d]| {
+        format!("{:.5},{c},{d}", k as f64 * 1e-5)
+    });
+    same_later(&rows_of(here, &commented, ""), &expected, 0.0);
+    let commented = recording("#\n#,\n", |k, [c, d]| {
+        format!("{:.5},{c},{d}", k as f64 * 1e-5)
+    });
+    same_later(&rows_of(here, &commented, ""), &expected, 0.0);
+}
+
+#[test]
+fn pairs_of_the_same_time_are_told_for_what_they_are() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for odd in [0, 1] {
+        let text = recording("in s,C1 in V,C2 in V\n", |k, [c, d]| {
+            format!("{:.5E},{c},{d}", ((k + odd) / 2) as f64 * 2e-5)
+        });
+        let told = [
+            "each time stands in two lines",
+            "peak detect",
+            "--columns 2,3 --rate HZ",
+        ];
+        assert!(fault(here, "-", text.into(), &told).is_empty());
+    }
+}
+
+#[test]
 fn names_may_be_numbers() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

@@ -5,6 +5,8 @@ use std::str::FromStr;
 
 use super::error::{LineFault, Role};
 use super::preamble::Start;
+use super::signal_units;
+use super::units::{bare, time_exponent, told_by};
 
 /// The columns to read, chosen by the user: `c,d` or `time,c,d`, each a name from the header or a
 /// number from 1.
@@ -61,6 +63,8 @@ pub(super) type Places = [Option<usize>; 3];
 pub(super) struct FirstLine<'a> {
     /// The names, if the line is a header.
     pub names: Option<&'a [String]>,
+    /// What the line below it has, if that is one of units.
+    pub units: &'a [String],
     pub width: usize,
     /// What was seen of the lines about it.
     pub start: &'a Start,
@@ -134,6 +138,25 @@ impl FirstLine<'_> {
         places
     }
 
+    /// The only one of these columns whose unit is one of time, where the others have none or one of signals.
+    fn timed(&self, columns: &[usize]) -> Option<usize> {
+        let names = self.names?;
+        let unit = |place: usize| match told_by(&names[place]) {
+            "" => self.units.get(place).map_or("", |unit| bare(unit)),
+            unit => unit,
+        };
+        let (times, others): (Vec<usize>, Vec<usize>) =
+            columns.iter().partition(|&&place| is_of_time(unit(place)));
+        let is_signal = |&place: &usize| {
+            let unit = unit(place);
+            unit.is_empty() || signal_units::is_known(unit)
+        };
+        match times.as_slice() {
+            [time] if others.iter().all(is_signal) => Some(*time),
+            _ => None,
+        }
+    }
+
     /// The places that the names of these columns, or how many they are, suggest.
     fn among(&self, columns: &[usize]) -> Result<Places, LineFault> {
         let role = |place: usize| self.names.and_then(|names| role(&names[place]));
@@ -155,8 +178,14 @@ impl FirstLine<'_> {
                     && self.names.is_none()
                     && (is_instrument && self.start.is_clocked || self.start.is_surely_clocked)
         });
-        let time = time.or(clock);
-        let mut signals = places().filter(|&place| Some(place) != time);
+        let time = time.or(self.timed(columns)).or(clock);
+        // `#,Time(ms),CH1(mV),CH2(mV)`.
+        let is_count = |place: usize| self.names.is_some_and(|names| is_count(&names[place]));
+        let count = columns
+            .first()
+            .copied()
+            .filter(|&first| is_count(first) && time.is_some() && time == columns.get(1).copied());
+        let mut signals = places().filter(|&place| Some(place) != time && Some(place) != count);
         match (signals.next(), signals.next(), signals.next()) {
             (Some(c), Some(d), None) => Ok([time, Some(c), Some(d)]),
             (Some(_), None, None) if time.is_some() => Err(LineFault::OneSignal),
@@ -165,6 +194,11 @@ impl FirstLine<'_> {
             }),
         }
     }
+}
+
+/// The units that name the time and no signal.
+fn is_of_time(unit: &str) -> bool {
+    matches!(time_exponent(unit), Some(Some(_)))
 }
 
 /// What a name says its column holds.
@@ -195,6 +229,14 @@ fn is_index(name: &str) -> bool {
     names.contains(&name.to_lowercase().as_str())
 }
 
+/// Whether a name before that of the time is one of a count of lines.
+fn is_count(name: &str) -> bool {
+    let names = [
+        "", "#", "n", "nr", "no", "index", "sample", "samples", "point", "points",
+    ];
+    names.contains(&name.to_lowercase().as_str())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -206,6 +248,7 @@ mod tests {
             .collect();
         let line = FirstLine {
             names: Some(&names),
+            units: &[],
             width: names.len(),
             start: &Start::default(),
         };

@@ -6,7 +6,7 @@ use super::columns::Columns;
 use super::error::{COLUMNS_OPTION, InputError, RATE_OPTION, TimeFault};
 use super::gaps::{Gap, Gaps};
 use super::not_finite::Written;
-use super::time::{Meaning, TimeAxis, roundest, standstill};
+use super::time::{Meaning, TimeAxis, are_paired, roundest, standstill};
 use super::{OpenOptions, Opened, Source, Stream};
 use rows::Rows;
 
@@ -124,6 +124,10 @@ impl Delimited {
             self.timed = pair;
         }
         let uneven = match &self.axis {
+            _ if are_paired(&times) => {
+                let (pair, line) = places[0];
+                Some((pair, self.time_fault(line, TimeFault::Paired)))
+            }
             Some(_) => times
                 .iter()
                 .zip(&places)

@@ -63,8 +63,8 @@ pub enum InputError {
     NoPairs { file: String },
     /// Neither the content nor the extension is known.
     #[error(
-        "{file}: neither its content nor its extension is known; give a .wav, .csv, .tsv, .txt or \
-         .npy file, or the sample format of a raw one with {RAW_OPTION} i16, i32, f32 or f64, or the \
+        "{file}: neither its content nor its extension is known; give a .wav, .csv, .tsv, .txt, .lvm \
+         or .npy file, or the sample format of a raw one with {RAW_OPTION} i16, i32, f32 or f64, or the \
          columns of a text with {COLUMNS_OPTION}"
     )]
     Unknown { file: String },

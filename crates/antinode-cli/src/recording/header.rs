@@ -6,7 +6,7 @@ use super::heading::is_header;
 use super::lines::{Beginning, Lines};
 use super::sequence::{Counted, Sequence, counted};
 use super::signal_units::{Together, together};
-use super::text::{fields, number};
+use super::text::{fields, is_skipped, number};
 use super::units::{bare, is_bracketed, is_unit, of_name, time_exponent};
 
 /// The columns of a text recording.
@@ -44,9 +44,11 @@ impl Header {
         }
         let columns = counted.map_or(width, |counted| counted.columns);
         let names = is_header(first, next, separator).then_some(&names[..columns]);
+        let units = units_below(next, separator);
         lines.advance()?;
         let line = FirstLine {
             names,
+            units: &units,
             width: columns,
             start,
         };
@@ -211,6 +213,16 @@ impl Header {
         let samples = self.samples();
         LineFault::Time { fault, samples }
     }
+}
+
+/// The fields of the first of these lines, where it may be one of units; else nothing.
+fn units_below(next: &[u8], separator: u8) -> Vec<String> {
+    let mut lines = next.split(|&byte| byte == b'\n');
+    let line = lines.find(|line| !is_skipped(line)).unwrap_or_default();
+    let is_number = |field: &str| number::<f64>(field.as_bytes(), separator).is_some();
+    let found: Vec<String> = fields(line, separator).map(lossy).collect();
+    let are_units = found.iter().all(|unit| is_unit(unit) && !is_number(unit));
+    if are_units { found } else { Vec::new() }
 }
 
 /// A field as text, whatever its code.

@@ -127,7 +127,7 @@ impl Recording {
         options: &OpenOptions,
     ) -> Result<Opened, InputError> {
         let length = known.length;
-        let is_text = matches!(known.extension.as_str(), "csv" | "tsv" | "txt")
+        let is_text = matches!(known.extension.as_str(), "csv" | "tsv" | "txt" | "lvm")
             || options.columns.is_some() && options.raw.is_none();
         let look = |stream| {
             Content::look(stream, !is_text && options.raw.is_none())

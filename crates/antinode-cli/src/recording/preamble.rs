@@ -196,7 +196,9 @@ fn names(lines: &[Line], rows: usize, width: usize, separator: u8) -> usize {
     let line = &lines[above];
     let is_number = |field: &&[u8]| number::<f64>(field, separator).is_some();
     // Words that are too few are told of as a header, for they may be one over numbers that are cut in two.
-    let are_words = line.fields.len() > 1 && !line.fields.iter().any(is_number);
+    // Among labels it is one more of them.
+    let is_label = line.fields.len() < width && are_labels(&lines[..rows]);
+    let are_words = line.fields.len() > 1 && !line.fields.iter().any(is_number) && !is_label;
     let mut words = line
         .text
         .split(|byte| b",;\t ".contains(byte))

@@ -99,12 +99,14 @@ impl Read for Text {
     }
 }
 
-/// The first line that is neither blank nor a comment, its number, and the bytes before it.
+/// The first line that is neither blank nor a comment, its number, and the bytes before it; with the names above it, where these begin with
+/// `#` for a count of lines, which is `n` then.
 pub(super) fn first_line(
     file: &str,
     stream: &mut impl BufRead,
 ) -> Result<(Vec<u8>, u64, u64), InputError> {
     let (mut line, mut number, mut before) = (Vec::new(), 0, 0);
+    let mut counted = None;
     loop {
         before += line.len() as u64;
         number += 1;
@@ -130,10 +132,31 @@ pub(super) fn first_line(
             before += (line.len() - rest.len()) as u64;
             line = rest;
         }
-        if !is_skipped(&line) {
-            return Ok((line, number, before));
+        if is_skipped(&line) {
+            counted = has_count(&line).then(|| (line.clone(), number, before));
+            continue;
         }
+        return Ok(match counted {
+            Some((mut names, number, before)) if are_as_many(&names, &line) => {
+                names[0] = b'n';
+                names.extend_from_slice(&line);
+                (names, number, before)
+            }
+            _ => (line, number, before),
+        });
     }
+}
+
+/// Whether a comment may be names, of which the first, `#`, is that of a count of lines.
+fn has_count(line: &[u8]) -> bool {
+    matches!(line, [b'#', b',' | b';' | b'\t', ..])
+}
+
+/// Whether two lines have as many fields, more than two.
+fn are_as_many(one: &[u8], other: &[u8]) -> bool {
+    let separator = separator(other);
+    let count = |line| fields(line, separator).count();
+    count(one) == count(other) && count(one) > 2
 }
 
 /// So many of the next lines, comments and all; fewer at the end, or before one that is too long.

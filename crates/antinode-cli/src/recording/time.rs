@@ -10,6 +10,9 @@ const STEP_TOLERANCE: f64 = 0.01;
 /// Times rounded by more than this many samples hide a lost one.
 const COARSE: f64 = 0.25;
 
+/// So many times that stand in two lines each do so on purpose.
+const FEWEST_PAIRED: usize = 8;
+
 /// How many lines the rate is averaged over before it is compared.
 const RATE_LINES: u64 = 1 << 16;
 
@@ -198,6 +201,16 @@ impl TimeAxis {
             Err(TimeFault::Uneven { step, usual })
         }
     }
+}
+
+/// Whether each of `times` stands in two lines, as of a minimum and a maximum; the first or the last may stand alone.
+pub(super) fn are_paired(times: &[f64]) -> bool {
+    let steps = || times.windows(2).map(|pair| pair[1] - pair[0]);
+    let are_turns = |first: usize| {
+        let mut steps = steps().enumerate();
+        steps.all(|(index, step)| (index % 2 == first) == (step == 0.0) && step >= 0.0)
+    };
+    times.len() >= FEWEST_PAIRED && (are_turns(0) || are_turns(1))
 }
 
 /// Which of `times` is the first that does not go up, and how.

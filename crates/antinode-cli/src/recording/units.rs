@@ -29,6 +29,19 @@ pub(super) fn of_name(name: &str) -> &str {
     unit.unwrap_or_default().trim()
 }
 
+/// The unit that a column's name surely tells: `U [V]`, `in s`, `C1 in V`; nothing where it tells none.
+pub(super) fn told_by(name: &str) -> &str {
+    if is_bracketed(name) {
+        return of_name(name);
+    }
+    let (before, unit) = name.rsplit_once("in ").unwrap_or(("-", ""));
+    if before.is_empty() || before.ends_with(' ') {
+        unit
+    } else {
+        ""
+    }
+}
+
 /// Whether a column's name has something in brackets at its end.
 pub(super) fn is_bracketed(name: &str) -> bool {
     name.trim_end().ends_with([']', ')'])
@@ -71,6 +84,17 @@ mod tests {
             ("time", "time"),
         ] {
             assert_eq!(of_name(name), unit);
+        }
+        for (name, unit) in [
+            ("in s", "s"),
+            ("C1 in V", "V"),
+            ("[s]", "s"),
+            ("Zeit (ms)", "ms"),
+            ("sin s", ""),
+            ("time_ms", ""),
+            ("time", ""),
+        ] {
+            assert_eq!(told_by(name), unit, "{name}");
         }
     }
 

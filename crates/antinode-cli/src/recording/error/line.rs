@@ -41,7 +41,7 @@ pub enum LineFault {
             "give one sample pair a line: of two files `paste -d, c.csv d.csv`, of two variables in MATLAB or Octave \
              `dlmwrite('both.csv', [c(:) d(:)], 'precision', 9)`".to_owned()
         } else {
-            format!("drop the others, or name the right ones with {COLUMNS_OPTION}")
+            format!("drop the others, or name the right ones with {COLUMNS_OPTION} TIME,C,D, or C,D where there is no time")
         }
     )]
     ColumnCount { found: usize },
@@ -113,6 +113,12 @@ pub enum TimeFault {
          recording here, print the time with more digits"
     )]
     Backwards { from: f64, to: f64 },
+    /// Each time in two lines.
+    #[error(
+        "each time stands in two lines, which are a minimum and a maximum and no two samples (peak detect, envelope); record or \
+         export single samples"
+    )]
+    Paired,
     /// A gap of whole samples, the first of so many gaps with so many samples in all: told once all is read.
     #[error(
         "{lost} {} lost before this line (time goes from {from} s to {to} s){}; rows of windows with a gap are missing, the \

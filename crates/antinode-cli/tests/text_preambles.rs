@@ -202,6 +202,11 @@ fn the_last_setting_may_have_more_than_one_field() {
     same(here, &text, "--rate 1e5", &expected, 0.0);
     let told = ["the sample rate is not known"];
     fault(here, "-", text.into(), &told);
+    // And by the maker's viewer, where units of time stand over both signals.
+    let above = "\"Model\",\"Xviewer\"\n\"BlockNumber\",\"1\"\n\"TraceName\",\"CH1\",\"CH2\",\nBlockSize,5000,5000,\nVUnit,V,V,\n\
+        HResolution,1e-05,1e-05,\nHOffset,-1e-02,-1e-02,\nHUnit,s,s,\n";
+    let text = recording(above, |_, _, [c, d]| format!(",{c},{d}"));
+    same(here, &text, "--rate 1e5", &expected, 0.0);
 }
 
 #[test]

@@ -163,6 +163,9 @@ impl FirstLine<'_> {
         let places = || columns.iter().copied();
         let place = |wanted: Role| places().find(|&place| role(place) == Some(wanted));
         let [time, c, d] = Role::ALL.map(place);
+        // One name over all columns tells none from the others: `HUnit,s,s` of Yokogawa.
+        let name = |place: usize| self.names.map(|names| &names[place]);
+        let time = time.filter(|&time| places().any(|place| name(place) != name(time)));
         // Names in another order than usual must not swap the signals.
         if c.is_some() && d.is_some() {
             let unnamed = places().find(|&place| role(place).is_none());

@@ -114,3 +114,50 @@ fn a_unit_that_is_not_known_beside_one_that_is_is_warned_of() {
     let told = "warning: a.csv: S_C is in V and S_D in MV: they are read as if these were the same";
     assert!(run.err.starts_with(told), "{}", run.err);
 }
+
+#[test]
+fn units_are_known_in_russian_too() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::write(here.join("a.csv"), text(&WAVE.codes(5000))).unwrap();
+    let expected = rows(here, "a.csv");
+    for (header, time, c) in [
+        ("Время;Канал A;Канал B\n(мс);(мВ);(В)\n\n", 1e3, 1e3),
+        ("Время [мкс];Канал A [мВ];Канал B [В]\n", 1e6, 1e3),
+    ] {
+        let semicolons = scaled("", time, [c, 1.0]).replace(',', ";");
+        fs::write(here.join("a.csv"), format!("{header}{semicolons}")).unwrap();
+        let run = run(here, "identify a.csv --output csv");
+        let told = "warning: a.csv: S_C is in мВ and S_D in В: both are read in В\n";
+        assert_eq!((run.code, run.err.as_str()), (0, told), "{header}");
+        let found = Row::all(&run.out);
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().zip(&expected) {
+            for name in ["main_amplitude", "frequency_hz", "time_s"] {
+                let apart = found.number(name) / expected.number(name) - 1.0;
+                assert!(apart.abs() < 1e-4, "{header} {name}: {apart}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_time_in_brackets_of_no_known_unit_is_no_seconds() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for units in [
+        "(毫秒),(伏),(伏)",
+        "[Millisekunden],[V],[V]",
+        "(\u{3bc}s!),,",
+    ] {
+        let header = format!("Time,Channel A,Channel B\n{units}\n");
+        fs::write(here.join("a.csv"), scaled(&header, 1e3, [1.0, 1.0])).unwrap();
+        let fault = run(here, "identify a.csv --output csv");
+        assert_eq!((fault.code, fault.out.as_str()), (1, ""), "{units}");
+        let told = "error: a.csv:2: the time column `";
+        assert!(fault.err.starts_with(told), "{}", fault.err);
+        let told = "` is not in s, ms, us or ns; convert it to seconds, or ignore the time column with --columns 2,3 --rate HZ\n";
+        assert!(fault.err.ends_with(told), "{}", fault.err);
+        assert!(rows(here, "a.csv --columns 2,3 --rate 1e5").len() > 20);
+    }
+}

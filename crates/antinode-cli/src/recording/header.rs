@@ -7,7 +7,7 @@ use super::lines::{Beginning, Lines};
 use super::sequence::{Counted, Sequence, counted};
 use super::signal_units::{Together, together};
 use super::text::{fields, is_skipped, number};
-use super::units::{bare, is_bracketed, is_unit, of_name, time_exponent};
+use super::units::{are_bracketed, bare, is_bracketed, is_unit, of_name, time_exponent};
 
 /// The columns of a text recording.
 pub(super) struct Header {
@@ -103,6 +103,11 @@ impl Header {
                 None => lines.back(),
                 Some(unit) => {
                     match header.set_unit(&unit, &unit) {
+                        // Brackets hold a unit, which is not that of seconds where it is none known.
+                        Ok(false) if is_bracketed(&unit) => {
+                            let unknown = TimeFault::Unit { name: unit };
+                            return Err(fault(&header, lines.number(), unknown));
+                        }
                         Ok(is_told) => has_unit |= is_told,
                         Err(unit) => return Err(fault(&header, lines.number(), unit)),
                     }
@@ -191,14 +196,16 @@ impl Header {
             found.truncate(counted.columns);
         }
         let is_number = |field: &str| number::<f64>(field.as_bytes(), lines.separator).is_some();
+        let are_bracketed = are_bracketed(&found);
         let time = match self.places[0] {
-            Some(place) => found
-                .get(place)
-                .filter(|unit| self.sequence.is_some() || time_exponent(unit).is_some())?,
+            Some(place) => found.get(place).filter(|unit| {
+                self.sequence.is_some() || time_exponent(unit).is_some() || are_bracketed
+            })?,
             None => "",
         };
-        let are_units = found.iter().all(|unit| is_unit(unit) && !is_number(unit))
-            && found.iter().any(|unit| !unit.is_empty());
+        let are_units = are_bracketed
+            || found.iter().all(|unit| is_unit(unit) && !is_number(unit))
+                && found.iter().any(|unit| !unit.is_empty());
         are_units.then(|| time.to_owned())
     }
 

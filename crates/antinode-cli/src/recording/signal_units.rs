@@ -4,12 +4,14 @@
 const BASES: [(&str, &[&str]); 10] = [
     (
         "V",
-        &["V", "v", "volt", "volts", "Volt", "Volts", "VOLT", "VOLTS"],
+        &[
+            "V", "v", "volt", "volts", "Volt", "Volts", "VOLT", "VOLTS", "В",
+        ],
     ),
     (
         "A",
         &[
-            "A", "amp", "amps", "Amp", "Amps", "ampere", "amperes", "Ampere", "Amperes",
+            "A", "amp", "amps", "Amp", "Amps", "ampere", "amperes", "Ampere", "Amperes", "А",
         ],
     ),
     ("m", &["m", "metre", "metres", "meter", "meters"]),
@@ -26,7 +28,7 @@ const BASES: [(&str, &[&str]); 10] = [
 ];
 
 /// Prefixes and their powers of ten. None beyond kilo: an `MV` that is meant is an `mV`.
-const PREFIXES: [(&str, i32); 14] = [
+const PREFIXES: [(&str, i32); 18] = [
     ("", 0),
     ("k", 3),
     ("m", -3),
@@ -41,6 +43,10 @@ const PREFIXES: [(&str, i32); 14] = [
     ("Milli", -3),
     ("micro", -6),
     ("nano", -9),
+    ("к", 3),
+    ("м", -3),
+    ("мк", -6),
+    ("н", -9),
 ];
 
 /// What to do about the units of two signals.

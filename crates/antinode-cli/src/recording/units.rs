@@ -6,12 +6,14 @@ use super::signal_units::is_known;
 /// The power of ten that a unit of time makes of seconds: −3 for ms. `Some(None)` for times that are none, `None` for other units.
 pub(super) fn time_exponent(unit: &str) -> Option<Option<i32>> {
     match bare(unit).to_lowercase().as_str() {
-        "s" | "sec" | "secs" | "second" | "seconds" => Some(Some(0)),
-        "ms" | "timems" | "tms" | "msec" | "millisecond" | "milliseconds" => Some(Some(-3)),
+        "s" | "sec" | "secs" | "second" | "seconds" | "с" | "сек" => Some(Some(0)),
+        "ms" | "timems" | "tms" | "msec" | "millisecond" | "milliseconds" | "мс" => {
+            Some(Some(-3))
+        }
         // Both letters of Unicode, and what is left of a µ in an older code.
         "us" | "µs" | "μs" | "\u{fffd}s" | "timeus" | "tus" | "usec" | "microsecond"
-        | "microseconds" => Some(Some(-6)),
-        "ns" | "timens" | "tns" | "nsec" | "nanosecond" | "nanoseconds" => Some(Some(-9)),
+        | "microseconds" | "мкс" => Some(Some(-6)),
+        "ns" | "timens" | "tns" | "nsec" | "nanosecond" | "nanoseconds" | "нс" => Some(Some(-9)),
         "min" | "minute" | "minutes" | "h" | "hour" | "hours" | "day" | "days" => Some(None),
         _ => None,
     }
@@ -45,6 +47,13 @@ pub(super) fn told_by(name: &str) -> &str {
 /// Whether a column's name has something in brackets at its end.
 pub(super) fn is_bracketed(name: &str) -> bool {
     name.trim_end().ends_with([']', ')'])
+}
+
+/// Whether all of these fields are in brackets or empty, and one is not: no samples are.
+pub(super) fn are_bracketed(fields: &[String]) -> bool {
+    let is_in_brackets = |field: &String| field.starts_with(['(', '[']) && is_bracketed(field);
+    let mut named = fields.iter().filter(|field| !field.is_empty()).peekable();
+    named.peek().is_some() && named.all(is_in_brackets)
 }
 
 /// Whether a field may be a unit: a short word, or nothing.

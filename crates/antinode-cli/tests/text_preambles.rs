@@ -210,6 +210,29 @@ fn the_last_setting_may_have_more_than_one_field() {
 }
 
 #[test]
+fn both_channels_of_gw_instek_side_by_side_are_read() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    let above = "Memory Length,5000,\nTrigger Level,1.8e+01,\nSource,CH1,\nProbe,1.0X,\nVertical Units,V,\nHorizontal Units,S,\n\
+        Sampling Period,1.0e-05,\nFirmware,V1.14,\nTime, ,\nMode,Detail,\nWaveform Data,\n";
+    let [c, d] = [0, 1].map(|channel| {
+        recording(above, |_, time, pair| {
+            format!("{time:.6e},{},", pair[channel])
+        })
+    });
+    let both = c.lines().zip(d.lines()).map(|(c, d)| format!("{c}{d}\n"));
+    let both: String = both.collect();
+    same(here, &both, "--columns 1,2,4", &expected, START);
+    fault(
+        here,
+        "-",
+        both.into(),
+        &["input:12: found 4 columns", "--columns TIME,C,D"],
+    );
+}
+
+#[test]
 fn a_comment_behind_each_line_of_labview_is_no_sample() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

@@ -1,0 +1,68 @@
+//! Which columns are taken, by names, units and numbers.
+
+use super::*;
+
+fn places(header: &str, chosen: Option<&str>) -> Result<Places, String> {
+    let names: Vec<String> = header
+        .split(',')
+        .map(|name| name.trim().to_owned())
+        .collect();
+    let line = FirstLine {
+        names: Some(&names),
+        units: &[],
+        width: names.len(),
+        start: &Start::default(),
+    };
+    let chosen = chosen.map(|text| {
+        text.parse()
+            .map_err(|fault: ColumnsError| fault.to_string())
+    });
+    line.places(chosen.transpose()?.as_ref())
+        .map_err(|fault| fault.to_string())
+}
+
+#[test]
+fn names_decide_and_else_the_order() {
+    let usual = Ok([Some(0), Some(1), Some(2)]);
+    assert_eq!(places("time,c,d", None), usual);
+    assert_eq!(places("zeit,x,y", None), usual);
+    assert_eq!(places("zeit,c,d", None), usual);
+    assert_eq!(places("Time [s], S_C (V), S_D (V)", None), usual);
+    assert_eq!(places("x,y", None), Ok([None, Some(0), Some(1)]));
+    assert_eq!(places("d,c", None), Ok([None, Some(1), Some(0)]));
+    assert_eq!(
+        places("right,left,t", None),
+        Ok([Some(2), Some(1), Some(0)])
+    );
+    assert_eq!(places("x,time,y", None), Ok([Some(1), Some(0), Some(2)]));
+    assert_eq!(places("index,c,d", None), Ok([None, Some(1), Some(2)]));
+    assert_eq!(places("t,heat,c,d", None), Ok([Some(0), Some(2), Some(3)]));
+}
+
+#[test]
+fn a_choice_is_by_name_or_number() {
+    assert_eq!(places("a,b,c,d", Some("d,2")), Ok([None, Some(3), Some(1)]));
+    assert_eq!(
+        places("a,b,c,d", Some("1, b, d")),
+        Ok([Some(0), Some(1), Some(3)])
+    );
+    // Where names are numbers.
+    assert_eq!(places("t,1,2", Some("2,3")), Ok([None, Some(1), Some(2)]));
+    assert_eq!(
+        places("t,1,2", Some("t,1,2")),
+        Ok([Some(0), Some(1), Some(2)])
+    );
+    assert_eq!(places("0,1", Some("0,1")), Ok([None, Some(0), Some(1)]));
+}
+
+#[test]
+fn errors_name_the_columns() {
+    let fault = |header, chosen| places(header, chosen).unwrap_err();
+    assert!(fault("a", None).starts_with("found 1 column, but two"));
+    assert!(fault("time,x", None).starts_with("found the time and one signal, but both"));
+    assert!(fault("a,b,x,y", None).starts_with("found 4 columns, but two"));
+    assert!(fault("a,b", Some("a,e")).starts_with("there is no column `e`; choose among `a`, `b`"));
+    assert!(fault("a,b", Some("0,1")).starts_with("there is no column `0`"));
+    assert!(fault("a,b", Some("a")).starts_with("give two"));
+    assert!(fault("a,b", Some("a,,b")).starts_with("give two"));
+}

@@ -1,0 +1,73 @@
+//! Lines, their fields and numbers.
+
+use super::*;
+
+#[test]
+fn the_separator_is_told_from_the_line() {
+    assert_eq!(separator(b"1,5;2,5"), b';');
+    assert_eq!(separator(b"1,5\t2,5"), b'\t');
+    assert_eq!(separator(b"1.5, 2.5"), b',');
+    assert_eq!(separator(b"1.5  2.5"), b' ');
+}
+
+#[test]
+fn comments_are_told_from_fields() {
+    for line in ["# a", " %a", "//", "; Samplerate: 1 MHz", "; CSV by x"] {
+        assert!(is_comment(line.as_bytes()), "{line}");
+    }
+    for line in [";1;2", "; 1; 2", "; C; D", ";c;d", "c; D", "/"] {
+        assert!(!is_comment(line.as_bytes()), "{line}");
+    }
+}
+
+#[test]
+fn fields_lose_blanks_and_quotes() {
+    let split = |line, mark| {
+        fields(line, mark)
+            .map(|field| str::from_utf8(field).unwrap())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(split(b" 1.5, \"2.5\" ,\r\n", b','), ["1.5", "2.5"]);
+    assert_eq!(split(b"  1.5   2.5 \n", b' '), ["1.5", "2.5"]);
+    assert_eq!(split(b"1,,2", b','), ["1", "", "2"]);
+}
+
+#[test]
+fn numbers_may_have_a_decimal_comma() {
+    assert_eq!(number::<f32>(b"-1.5e-3", b','), Some(-1.5e-3));
+    assert_eq!(number::<f64>(b"1,5", b';'), Some(1.5));
+    for (text, mark) in [
+        ("1,5", b','),
+        ("1,234.5", b';'),
+        ("1,234,5", b';'),
+        ("nanny", b','),
+        ("1.#INF", b','),
+    ] {
+        assert_eq!(number::<f32>(text.as_bytes(), mark), None, "{text}");
+    }
+    assert_eq!(number::<f32>(b"1e39", b','), Some(f32::INFINITY));
+    assert_eq!(number::<f32>(b"-Inf", b','), Some(f32::NEG_INFINITY));
+    assert!(number::<f32>(b"NaN", b',').is_some_and(f32::is_nan));
+    assert_eq!(number::<f32>(b"", b';'), None);
+    assert_eq!(number::<f32>(b"\xff", b';'), None);
+}
+
+#[test]
+fn lines_end_the_same_way() {
+    for (text, expected) in [
+        ("1,2\r\n3,4", "1,2\n 3,4\n"),
+        ("1,2\r3,4\r", "1,2\n3,4\n"),
+        ("1,2\n3,4\n", "1,2\n3,4\n"),
+        ("1,2\r\r\n3,4", "1,2\n\n 3,4\n"),
+    ] {
+        for most in [1, 100] {
+            let bytes = text.as_bytes().to_vec();
+            let stream = super::super::tests::Dribble::new(bytes, most);
+            let mut found = String::new();
+            Text::new(Box::new(LineEnds::new(Box::new(stream))))
+                .read_to_string(&mut found)
+                .unwrap();
+            assert_eq!(found, expected);
+        }
+    }
+}

@@ -226,6 +226,11 @@ pub(super) fn is_known(name: &str) -> bool {
     role(name).is_some()
 }
 
+/// Whether a name says that its column holds the time.
+pub(super) fn is_time(name: &str) -> bool {
+    role(name) == Some(Role::Time)
+}
+
 /// Whether a name is that of a mere count of lines.
 fn is_index(name: &str) -> bool {
     let names = ["", "n", "i", "k", "no", "index", "sample", "samples"];

@@ -4,6 +4,7 @@ use std::io::{self, BufRead, Read};
 use std::str::FromStr;
 
 use super::Stream;
+use super::columns::is_time;
 use super::error::{InputError, LineFault};
 
 /// No line of a few numbers is as long; a file without ends of line must not fill the memory.
@@ -147,9 +148,13 @@ pub(super) fn first_line(
     }
 }
 
-/// Whether a comment may be names, of which the first, `#`, is that of a count of lines.
+/// Whether a comment may be names, of which the first, `#`, is that of a count of lines, and another that of a time.
 fn has_count(line: &[u8]) -> bool {
-    matches!(line, [b'#', b',' | b';' | b'\t', ..])
+    let is_count = matches!(line, [b'#', b',' | b';' | b'\t', ..]);
+    is_count
+        && fields(line, line[1])
+            .filter_map(|name| str::from_utf8(name).ok())
+            .any(is_time)
 }
 
 /// Whether two lines have as many fields, more than two.

@@ -115,8 +115,8 @@ pub enum TimeFault {
     Backwards { from: f64, to: f64 },
     /// Each time in two lines.
     #[error(
-        "each time stands in two lines, which are a minimum and a maximum and no two samples (peak detect, envelope); record or \
-         export single samples"
+        "each time stands in two lines: where these are a minimum and a maximum (peak detect, envelope), record or export single \
+         samples; where times are rounded, print them with more digits"
     )]
     Paired,
     /// A gap of whole samples, the first of so many gaps with so many samples in all: told once all is read.

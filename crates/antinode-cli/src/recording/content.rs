@@ -63,22 +63,18 @@ impl Content {
 }
 
 /// Whether the first line that is neither blank nor a comment is one of CSV, or a later one holds samples; what is read is appended to
-/// `head`.
+/// `head`. Bytes that no text has matter only up to there, however many have come by then.
 fn is_text(head: &mut Vec<u8>, stream: &mut Stream) -> io::Result<bool> {
     // The bytes of whole lines that are looked through, and whether the first line is among them.
     let (mut seen, mut has_begun) = (0, false);
     loop {
-        let is_control = |byte: &u8| byte.is_ascii_control() && !byte.is_ascii_whitespace();
-        if head.iter().any(is_control) {
-            return Ok(false);
-        }
         let end = head.iter().rposition(|byte| b"\r\n".contains(byte));
         let end = end.unwrap_or(0).max(seen);
-        if has_csv(&head[seen..end], &mut has_begun) {
-            return Ok(true);
+        if let Some(found) = tells_csv(&head[seen..end], &mut has_begun) {
+            return Ok(found);
         }
         seen = end;
-        if head.len() > MAX_LINE {
+        if head.len() > MAX_LINE || has_control(&head[seen..]) {
             return Ok(false);
         }
         let before = head.len();
@@ -87,16 +83,30 @@ fn is_text(head: &mut Vec<u8>, stream: &mut Stream) -> io::Result<bool> {
         let read = stream.read(&mut piece)?;
         head.extend_from_slice(&piece[..read]);
         if head.len() == before {
-            return Ok(has_csv(&head[seen..], &mut has_begun));
+            return Ok(tells_csv(&head[seen..], &mut has_begun) == Some(true));
         }
     }
 }
 
-/// Whether one of these lines holds samples, or the first is one of CSV where the text has not begun before it.
-fn has_csv(text: &[u8], has_begun: &mut bool) -> bool {
-    let lines = without_mark(text).split(|byte| b"\r\n".contains(byte));
-    let mut lines = lines.filter(|line| !is_skipped(line));
-    lines.any(|line| !std::mem::replace(has_begun, true) && is_csv(line) || is_pair(line))
+/// True at the first of these lines that holds samples, or is the text's first and one of CSV; false at one that is no text before it.
+fn tells_csv(text: &[u8], has_begun: &mut bool) -> Option<bool> {
+    let mut lines = without_mark(text).split(|byte| b"\r\n".contains(byte));
+    lines.find_map(|line| {
+        if has_control(line) {
+            Some(false)
+        } else if is_skipped(line) {
+            None
+        } else {
+            let is_first = !std::mem::replace(has_begun, true);
+            (is_first && is_csv(line) || is_pair(line)).then_some(true)
+        }
+    })
+}
+
+/// Whether there are bytes that no text has.
+fn has_control(bytes: &[u8]) -> bool {
+    let is_control = |byte: &u8| byte.is_ascii_control() && !byte.is_ascii_whitespace();
+    bytes.iter().any(is_control)
 }
 
 /// Whether a line holds two numbers or more, and no words.
@@ -142,6 +152,23 @@ mod tests {
         stream.read_to_end(&mut all).unwrap();
         assert_eq!(all, bytes);
         content
+    }
+
+    #[test]
+    fn what_follows_the_first_samples_is_no_matter_of_how_much_has_come() {
+        for (text, expected) in [
+            (&b"1,2\n3,4\n5\x01,6\n"[..], Content::Text),
+            (b"time,c,d\n0,1,2\n\0\0\n", Content::Text),
+            (b"Samples\n1 2\x07\n3 4\n", Content::Other),
+            (b"# \x07\n1,2\n", Content::Other),
+        ] {
+            for most in [1, 13, 100] {
+                let stream = super::super::tests::Dribble::new(text.to_vec(), most);
+                let (content, _) = Content::look(Box::new(stream), true).unwrap();
+                let text = text.escape_ascii();
+                assert_eq!(content, expected, "{text} in parts of {most}");
+            }
+        }
     }
 
     #[test]

@@ -134,7 +134,8 @@ impl Recording {
                 .map_err(|fault| InputError::io(name, fault))
         };
         let (mut content, mut stream) = look(stream)?;
-        if content == Content::Utf16 && options.raw.is_none() {
+        // Raw samples may begin as UTF-16 does.
+        if content == Content::Utf16 && (is_text || options.raw.is_none()) {
             let count = Rc::clone(&known.encoded);
             (content, stream) = look(Box::new(in_utf8(Counted { stream, count })))?;
         }

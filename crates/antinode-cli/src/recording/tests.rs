@@ -190,6 +190,13 @@ fn text_may_be_utf_16() {
     };
     let (pairs, fault) = read_with("a", b"\xff\xfe\0\x40", &options);
     assert_eq!((pairs, fault), (vec![[-257.0 / 32768.0, 0.5]], None));
+    // A text by its extension is none of these.
+    let text: Vec<u8> = "\u{feff}1,2\n"
+        .encode_utf16()
+        .flat_map(u16::to_le_bytes)
+        .collect();
+    let (pairs, fault) = read_with("a.csv", &text, &options);
+    assert_eq!((pairs, fault), (vec![[1.0, 2.0]], None));
 }
 
 #[test]

@@ -213,7 +213,6 @@ fn draw_piece<B: DrawingBackend>(
 where
     B::ErrorType: 'static,
 {
-    // What lies beyond the plane plotters holds at its edge.
     let edge = |which: usize| {
         let band = piece.band.iter();
         band.map(move |(time, edges)| (*time, edges[which]))

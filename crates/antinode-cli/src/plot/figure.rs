@@ -150,6 +150,7 @@ fn panel(
     // A quantity without a number has an empty panel.
     let range = extent.range(least, ABOVE).unwrap_or(0.0..1.0);
     let (scale, title) = scale(traces, quantity, &range, extent.size());
+    let axis = scale.axis(title, &range);
     let curves = traces
         .iter()
         .map(|trace| {
@@ -164,12 +165,11 @@ fn panel(
             });
             let mut pieces = reduce(samples, span, columns);
             for piece in &mut pieces {
-                on_axes(piece, time, scale);
+                on_axes(piece, time, scale, &axis.range);
             }
             pieces
         })
         .collect();
-    let axis = scale.axis(title, &range);
     Panel { axis, curves }
 }
 
@@ -216,14 +216,17 @@ fn median_frequency(traces: &[Trace]) -> f64 {
         .unwrap_or(0.0)
 }
 
-fn on_axes(piece: &mut Piece, time: Scale, scale: Scale) {
+/// Brings a piece to the axes' scales; what lies beyond the panel is held at its edge.
+fn on_axes(piece: &mut Piece, time: Scale, scale: Scale, range: &Range<f64>) {
+    // Far below the range plotters' whole numbers overflow, and it would be drawn at the upper edge.
+    let held = |value| scale.of(value).clamp(range.start, range.end);
     for (t, value) in &mut piece.line {
         *t = time.of(*t);
-        *value = scale.of(*value);
+        *value = held(*value);
     }
     for (t, edges) in &mut piece.band {
         *t = time.of(*t);
-        *edges = edges.map(|edge| scale.of(edge));
+        *edges = edges.map(held);
     }
 }
 
@@ -250,4 +253,46 @@ fn flagged<'a>(
         from = to;
     }
     spans
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::rows::read;
+    use super::*;
+    use crate::row_file::RowFile;
+
+    /// The figure of a recording's rows, of which this is the third.
+    fn with(row: &str) -> Figure {
+        let mut text = "time_s,main_amplitude,quadrature_amplitude,angle_rad,frequency_hz,residual_rms,flags\n".to_owned();
+        for time in 0..6 {
+            text += &match time {
+                2 => format!("2,{row}\n"),
+                _ => format!("{time},0.{time},NaN,0.{time},533{time},0.{time},\n"),
+            };
+        }
+        let traces = read(RowFile::new("it", text.as_bytes()).unwrap()).unwrap();
+        figure(&traces, 800).unwrap()
+    }
+
+    #[test]
+    fn what_lies_far_beyond_a_panel_is_at_its_edge() {
+        for wild in ["-1e12", "1e12", "-900", "1e289"] {
+            let figure = with(&format!("{wild},NaN,{wild},{wild},{wild},misfit"));
+            for quantity in [0, ANGLE, FREQUENCY, RESIDUAL] {
+                let Panel { axis, curves } = &figure.panels[quantity];
+                let Range { start, end } = axis.range;
+                let edge = if wild.starts_with('-') { start } else { end };
+                let line = &curves[0][0].line;
+                assert_eq!(line[2].1, edge, "{wild}: {}", axis.title);
+                assert!(line.iter().all(|(_, value)| (start..=end).contains(value)));
+            }
+        }
+    }
+
+    #[test]
+    fn a_quantity_without_a_number_has_an_empty_panel() {
+        let Panel { axis, curves } = &with("0.2,NaN,0.2,5332,0.2,").panels[1];
+        assert_eq!((axis.title.as_str(), &axis.range), (TITLES[1], &(0.0..1.0)));
+        assert!(curves[0].is_empty());
+    }
 }

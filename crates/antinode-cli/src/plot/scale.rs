@@ -67,14 +67,18 @@ impl Extent {
         Some(from - missing - margin..to + missing + margin)
     }
 
-    /// The greatest size of a value.
+    /// The greatest size of a value; 0 of no value.
     pub fn size(&self) -> f64 {
         let [from, to] = if self.clean[0] <= self.clean[1] {
             self.clean
         } else {
             self.all
         };
-        from.abs().max(to.abs())
+        if from <= to {
+            from.abs().max(to.abs())
+        } else {
+            0.0
+        }
     }
 }
 

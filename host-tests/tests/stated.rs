@@ -150,6 +150,29 @@ fn deviations_are_stated_where_there_is_no_noise_but_rounding() {
 }
 
 #[test]
+fn deviations_of_the_smallest_waves_are_numbers() {
+    for power in 12..20 {
+        let main_amplitude = 10f64.powi(-power);
+        let wave = Wave {
+            main_amplitude,
+            quadrature_amplitude: 0.2 * main_amplitude,
+            ..Wave::default()
+        };
+        let estimates = identify(wave, &Flaws::default(), windows(10), 1500, 1);
+        // Of 10⁻¹⁹ even the wave's own square is none.
+        assert!(estimates.len() >= 4 || power > 18, "1e-{power}");
+        for estimate in estimates.iter().filter(|one| one.flags.is_empty()) {
+            let stated = stated(estimate);
+            let are_told = stated
+                .iter()
+                .all(|stated| stated.is_finite() && *stated > 0.0);
+            assert!(are_told, "1e-{power}: {stated:?}");
+            assert!((estimate.main_amplitude as f64 / main_amplitude - 1.0).abs() < 1e-3);
+        }
+    }
+}
+
+#[test]
 fn deviations_hold_in_the_first_windows_of_more_noise() {
     let mut honesty = Honesty::default();
     for seed in 0..400 {

@@ -33,7 +33,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let size = fit.offsets[0].abs() + fit.offsets[1].abs() + square_root(fit.waves.power());
         let rounding = 1e-7 * size;
         let coding = Coding::new(&self.settings, noise, model, fit);
-        let errors = rounding * rounding * (1.0 + model.half) + coding.expected;
+        let averaged = rounding * rounding * (1.0 + model.half);
+        // Of a tiny wave the rounding's square is 0 in f32, and 0 over 0 is no share.
+        let errors = averaged + coding.expected + f32::MIN_POSITIVE;
         let samples = u32::from(self.count) * u32::from(model.layout.length);
         let middle = 2 * self.end - u64::from(samples) - 1;
         let share = (stated + errors) / (noise + errors);

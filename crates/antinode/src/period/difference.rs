@@ -19,8 +19,6 @@ const STRANGER: f32 = 0.4;
 #[derive(Debug, Clone)]
 struct Candidate<S: Sample> {
     is_open: bool,
-    /// True once all of its frame is copied.
-    is_whole: bool,
     halvings: u8,
     /// Power that the octaves below lost.
     lost: f32,
@@ -66,7 +64,6 @@ impl<S: Sample> DifferenceDetector<S> {
             waiting: 0,
             candidate: Candidate {
                 is_open: false,
-                is_whole: false,
                 halvings: 0,
                 lost: 0.0,
                 attempt: Attempt::new(),
@@ -136,35 +133,19 @@ impl<S: Sample> DifferenceDetector<S> {
     /// Puts the frame of an octave on trial: by itself, so that a look that finds nothing is short.
     #[inline(never)]
     fn propose(&mut self, halvings: usize, period: f32) {
-        if let Some(octave) = self.octaves.get(halvings) {
+        if let Some((below, [octave, ..])) = self.octaves.split_at_checked(halvings) {
             let candidate = &mut self.candidate;
             candidate.is_open = true;
-            candidate.is_whole = false;
             candidate.halvings = halvings as u8;
+            candidate.lost = below.iter().map(Octave::lost).sum();
             let length = usize::from(octave.count);
             candidate.attempt.begin(&octave.frame, length, period);
-        }
-    }
-
-    /// Copies the rest of the frame on trial, and looks at the octaves below.
-    #[inline(never)]
-    fn complete(&mut self) {
-        let candidate = &mut self.candidate;
-        candidate.is_whole = true;
-        let halvings = usize::from(candidate.halvings);
-        if let Some((below, [octave, ..])) = self.octaves.split_at_checked(halvings) {
-            candidate.lost = below.iter().map(Octave::lost).sum();
-            candidate.attempt.complete(&octave.frame);
         }
     }
 
     /// Goes on with the trial of the candidate.
     #[inline(never)]
     fn attempt(&mut self) -> Option<f32> {
-        if !self.candidate.is_whole {
-            self.complete();
-            return None;
-        }
         let candidate = &mut self.candidate;
         let period = match candidate.attempt.advance() {
             Verdict::Open => return None,

@@ -16,6 +16,7 @@ mod difference;
 #[cfg(feature = "mean-return")]
 mod mean_return;
 mod octave;
+mod rests;
 mod trial;
 
 pub use difference::DifferenceDetector;

@@ -84,7 +84,7 @@ impl Inverse {
 
 /// The design, from sample to sample.
 #[derive(Debug, Clone, Copy)]
-struct Row {
+pub(super) struct Row {
     /// cos φ − j sin φ.
     unit: Complex32,
     turn: Complex32,
@@ -94,18 +94,28 @@ struct Row {
 
 impl Row {
     fn new(step: PhaseStep, length: usize) -> Self {
-        let length = length as i32;
-        Self {
-            unit: step.after_half_samples(i64::from(length) - 1).unit(),
+        let row = Self {
+            unit: Complex32::ZERO,
             turn: step.after_half_samples(-2).unit(),
-            u: (1 - length) as f32 / length as f32,
+            u: 0.0,
             advance: 2.0 / length as f32,
+        };
+        row.first(step, length)
+    }
+
+    /// The first row of the same design.
+    fn first(self, step: PhaseStep, length: usize) -> Self {
+        let before_middle = length as i32 - 1;
+        Self {
+            unit: step.after_half_samples(i64::from(before_middle)).unit(),
+            u: -0.5 * before_middle as f32 * self.advance,
+            ..self
         }
     }
 
     /// The columns but for the last, which is one.
     #[inline]
-    fn next(&mut self) -> [f32; 4] {
+    pub(super) fn next(&mut self) -> [f32; 4] {
         let (Complex32 { re, im }, u) = (self.unit, self.u);
         self.unit *= self.turn;
         self.u += self.advance;
@@ -123,7 +133,8 @@ pub(crate) struct Fitted {
     /// What the wave leaves, as a share of the power, beyond what may be left without doubt: above 0 it must still be shown to be noise,
     /// not a second tone.
     pub doubt: f32,
-    parameters: [[f32; 5]; 2],
+    /// Of each pick-off: cos φ, −sin φ, u cos φ, −u sin φ, 1.
+    pub parameters: [[f32; 5]; 2],
 }
 
 impl Trial {
@@ -236,13 +247,9 @@ impl Trial {
         })
     }
 
-    /// Begins a second pass over the same samples.
-    pub(crate) fn again(&self) -> Rests {
-        Rests {
-            row: Row::new(self.step, self.length),
-            sums: [0.0; 3],
-            before: [[0.0; 2]; 2],
-        }
+    /// The first row of the design, for a second pass over the same samples.
+    pub(super) fn first_row(&self) -> Row {
+        self.sums.row.first(self.step, self.length)
     }
 }
 
@@ -258,34 +265,4 @@ fn by_chance(rest: f32, n: usize) -> f32 {
         left /= 2;
     }
     chance
-}
-
-/// What a fit leaves of its samples, and the correlation of that with the samples one and two before.
-#[derive(Debug, Clone)]
-pub(crate) struct Rests {
-    row: Row,
-    sums: [f32; 3],
-    before: [Pair; 2],
-}
-
-impl Rests {
-    /// Takes the next sample, less what was fitted.
-    pub(crate) fn push(&mut self, sample: Pair, fitted: &Fitted) {
-        let row = self.row.next();
-        let rest: Pair = core::array::from_fn(|channel| {
-            let [a, b, c, d, offset] = fitted.parameters[channel];
-            sample[channel] - (a * row[0] + b * row[1] + c * row[2] + d * row[3] + offset)
-        });
-        let others = [rest, self.before[0], self.before[1]];
-        for (sum, other) in self.sums.iter_mut().zip(others) {
-            *sum += rest[0] * other[0] + rest[1] * other[1];
-        }
-        self.before = [rest, self.before[0]];
-    }
-
-    /// True when they are noise: a second tone slower than twice the wave has one correlation or the other.
-    pub(crate) fn are_noise(&self) -> bool {
-        let [all, one, two] = self.sums;
-        one <= 0.5 * all && two >= -0.6 * all
-    }
 }

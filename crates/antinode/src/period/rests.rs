@@ -1,0 +1,132 @@
+//! Says whether what a trial's fit leaves is noise, or a second tone.
+
+use super::trial::{Fitted, Row, Trial};
+use crate::block::Pair;
+
+/// What a fit leaves of its samples, and the correlation of that with the samples one and two before.
+#[derive(Debug, Clone)]
+pub(super) struct Rests {
+    row: Row,
+    sums: [f32; 3],
+    /// The last one of the first samples and the one before it, and the same of the last samples, which come from the end.
+    before: [[Pair; 2]; 2],
+}
+
+#[inline(always)]
+fn product(x: Pair, y: Pair) -> f32 {
+    x[0] * y[0] + x[1] * y[1]
+}
+
+impl Rests {
+    /// Of no samples yet of a trial that is whole.
+    pub(super) fn new(trial: &Trial) -> Self {
+        Self {
+            row: trial.first_row(),
+            sums: [0.0; 3],
+            before: [[[0.0; 2]; 2]; 2],
+        }
+    }
+
+    /// Takes pairs of the first samples and, from the last one back, as many of the last ones, less what was fitted.
+    #[inline(always)]
+    pub(super) fn push_ends(&mut self, ends: impl Iterator<Item = [Pair; 2]>, fitted: &Fitted) {
+        let Self {
+            mut row,
+            sums: [mut all, mut one, mut two],
+            before: [[mut a_1, mut a_2], [mut b_1, mut b_2]],
+        } = *self;
+        for samples in ends {
+            let [cosine, sine, u_cosine, u_sine] = row.next();
+            let (mut a, mut b) = ([0.0; 2], [0.0; 2]);
+            for channel in 0..2 {
+                let [c, s, uc, us, offset] = fitted.parameters[channel];
+                // Both rows differ in nothing there, and in their sign here.
+                let even = c * cosine + us * u_sine + offset;
+                let odd = s * sine + uc * u_cosine;
+                a[channel] = samples[0][channel] - (even + odd);
+                b[channel] = samples[1][channel] - (even - odd);
+            }
+            all += product(a, a) + product(b, b);
+            one += product(a, a_1) + product(b, b_1);
+            two += product(a, a_2) + product(b, b_2);
+            (a_1, a_2, b_1, b_2) = (a, a_1, b, b_1);
+        }
+        *self = Self {
+            row,
+            sums: [all, one, two],
+            before: [[a_1, a_2], [b_1, b_2]],
+        };
+    }
+
+    /// The correlations, over all samples: the last of both ends are neighbours.
+    fn correlations(&self) -> [f32; 3] {
+        let [all, one, two] = self.sums;
+        let [[a_1, a_2], [b_1, b_2]] = self.before;
+        let across = product(a_1, b_2) + product(a_2, b_1);
+        [all, one + product(a_1, b_1), two + across]
+    }
+
+    /// True when they are noise: a second tone slower than twice the wave has one correlation or the other.
+    pub(super) fn are_noise(&self) -> bool {
+        let [all, one, two] = self.correlations();
+        one <= 0.5 * all && two >= -0.6 * all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::phase::PhaseStep;
+
+    #[test]
+    fn rests_are_correlated_as_neighbours_are() {
+        let mut seed = 1u32;
+        let mut random = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / 8_388_608.0 - 1.0
+        };
+        for length in (14..=32).step_by(2) {
+            let step = PhaseStep::from_period(6.3);
+            let samples: std::vec::Vec<Pair> = (0..length)
+                .map(|k| {
+                    let unit = step.after_half_samples(2 * k as i64).unit();
+                    [unit.re + 0.1 * random(), unit.im + 0.1 * random()]
+                })
+                .collect();
+            let mut trial = Trial::NONE;
+            trial.begin(6.3, length);
+            let (first, last) = samples.split_at(length / 2);
+            trial.push_ends(first.iter().zip(last.iter().rev()).map(|(&a, &b)| [a, b]));
+            let fitted = trial.fitted().expect("a wave");
+            let mut rests = Rests::new(&trial);
+            // In two parts, as a search takes them.
+            let ends: std::vec::Vec<[Pair; 2]> = (first.iter().zip(last.iter().rev()))
+                .map(|(&a, &b)| [a, b])
+                .collect();
+            let (inner, outer) = ends.split_at(length / 4);
+            rests.push_ends(inner.iter().copied(), &fitted);
+            rests.push_ends(outer.iter().copied(), &fitted);
+            // As they are defined, one sample after the other.
+            let mut row = trial.first_row();
+            let left: std::vec::Vec<Pair> = samples
+                .iter()
+                .map(|sample| {
+                    let [c, s, uc, us] = row.next();
+                    core::array::from_fn(|channel| {
+                        let x = fitted.parameters[channel];
+                        let wave = x[0] * c + x[1] * s + x[2] * uc + x[3] * us + x[4];
+                        sample[channel] - wave
+                    })
+                })
+                .collect();
+            for (lag, sum) in rests.correlations().iter().enumerate() {
+                let pairs = left[lag..].iter().zip(&left);
+                let expected: f32 = pairs.map(|(x, y)| x[0] * y[0] + x[1] * y[1]).sum();
+                assert!(
+                    (sum - expected).abs() < 1e-4 * rests.sums[0],
+                    "{length} samples, lag {lag}: {sum}, not {expected}"
+                );
+            }
+        }
+    }
+}

@@ -104,7 +104,7 @@ fn tells_csv(text: &[u8], has_begun: &mut bool) -> Option<bool> {
 }
 
 /// Whether there are bytes that no text has.
-fn has_control(bytes: &[u8]) -> bool {
+pub(super) fn has_control(bytes: &[u8]) -> bool {
     let is_control = |byte: &u8| byte.is_ascii_control() && !byte.is_ascii_whitespace();
     bytes.iter().any(is_control)
 }
@@ -186,6 +186,8 @@ mod tests {
             // As a Parquet file, a sound file and a waveform begin.
             "PAR1,PAR2,PAR3\n1,2,3\n",
             "ID3;ID4\n1;2\n",
+            "\u{feff}time,AIF,BIF\n0,1,2\n",
+            "t [µs],AIFµ,BIF\n0,1,2\n",
             "#9\n1,2\n",
             "#9 channels of which two are of use, and the others are not\n1,2\n",
         ] {

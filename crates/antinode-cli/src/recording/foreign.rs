@@ -1,5 +1,7 @@
 //! Files that are not read: what they are, by their first bytes, and how each becomes one that is.
 
+use super::content::has_control;
+
 /// What a file is that is not read.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Foreign {
@@ -143,9 +145,9 @@ impl Foreign {
             return Some(zipped(head));
         }
         let few = &head[..head.len().min(FEW_BYTES)];
-        let is_text = few
-            .iter()
-            .all(|byte| (b' '..=b'~').contains(byte) || byte.is_ascii_whitespace());
+        // Its last letter may be cut.
+        let is_text = !has_control(few)
+            && str::from_utf8(few).map_or_else(|fault| fault.error_len().is_none(), |_| true);
         KNOWN.iter().find(|known| {
             let begins = head
                 .get(known.at..)

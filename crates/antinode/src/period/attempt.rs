@@ -19,7 +19,9 @@ pub(super) struct Attempt<S: Sample> {
     /// Samples seen in this pass.
     seen: usize,
     trial: Trial,
-    doubt: Option<(Fitted, Rests)>,
+    /// The fit that is to be shown to leave noise.
+    doubt: Option<Fitted>,
+    rests: Rests,
 }
 
 /// Where an attempt stands.
@@ -39,6 +41,7 @@ impl<S: Sample> Attempt<S> {
             seen: 0,
             trial: Trial::NONE,
             doubt: None,
+            rests: Rests::NONE,
         }
     }
 
@@ -63,7 +66,7 @@ impl<S: Sample> Attempt<S> {
         let last = last.get(..(self.length - from) / 2).unwrap_or(&[]);
         let ends = first.iter().zip(last.iter().rev());
         let ends = ends.map(|(&a, &b)| [a.map(S::to_f32), b.map(S::to_f32)]);
-        let Some((fitted, rests)) = &mut self.doubt else {
+        let Some(fitted) = &self.doubt else {
             if from == 0 {
                 self.trial.begin(self.period, self.length);
             }
@@ -75,10 +78,10 @@ impl<S: Sample> Attempt<S> {
                 Verdict::Open
             };
         };
-        rests.push_ends(ends, fitted);
+        self.rests.push_ends(ends, fitted);
         if self.seen < self.length {
             Verdict::Open
-        } else if rests.are_noise() {
+        } else if self.rests.are_noise() {
             Verdict::Accepted(fitted.clone())
         } else {
             Verdict::Refused
@@ -91,8 +94,8 @@ impl<S: Sample> Attempt<S> {
             None => Verdict::Refused,
             Some(fitted) if fitted.doubt > 0.0 => {
                 self.seen = 0;
-                let rests = Rests::new(&self.trial);
-                self.doubt = Some((fitted, rests));
+                self.rests.begin(&self.trial);
+                self.doubt = Some(fitted);
                 Verdict::Open
             }
             Some(fitted) => Verdict::Accepted(fitted),

@@ -8,23 +8,23 @@ use crate::block::Pair;
 pub(super) struct Rests {
     row: Row,
     sums: [f32; 3],
-    /// The last one of the first samples and the one before it, and the same of the last samples, which come from the end.
-    before: [[Pair; 2]; 2],
-}
-
-#[inline(always)]
-fn product(x: Pair, y: Pair) -> f32 {
-    x[0] * y[0] + x[1] * y[1]
+    /// Of each pick-off the last one of the first samples, the one before it, and the same of the last samples, which come from the end.
+    before: [[f32; 4]; 2],
 }
 
 impl Rests {
-    /// Of no samples yet of a trial that is whole.
-    pub(super) fn new(trial: &Trial) -> Self {
-        Self {
-            row: trial.first_row(),
-            sums: [0.0; 3],
-            before: [[[0.0; 2]; 2]; 2],
-        }
+    /// Those of no samples.
+    pub(super) const NONE: Self = Self {
+        row: Row::NONE,
+        sums: [0.0; 3],
+        before: [[0.0; 4]; 2],
+    };
+
+    /// Makes these the ones of a trial that is whole, in place.
+    pub(super) fn begin(&mut self, trial: &Trial) {
+        trial.restart(&mut self.row);
+        self.sums = [0.0; 3];
+        self.before = [[0.0; 4]; 2];
     }
 
     /// Takes pairs of the first samples and, from the last one back, as many of the last ones, less what was fitted.
@@ -33,37 +33,39 @@ impl Rests {
         let Self {
             mut row,
             sums: [mut all, mut one, mut two],
-            before: [[mut a_1, mut a_2], [mut b_1, mut b_2]],
+            mut before,
         } = *self;
         for samples in ends {
             let [cosine, sine, u_cosine, u_sine] = row.next();
-            let (mut a, mut b) = ([0.0; 2], [0.0; 2]);
-            for channel in 0..2 {
+            for (channel, before) in before.iter_mut().enumerate() {
                 let [c, s, uc, us, offset] = fitted.parameters[channel];
                 // Both rows differ in nothing there, and in their sign here.
                 let even = c * cosine + us * u_sine + offset;
                 let odd = s * sine + uc * u_cosine;
-                a[channel] = samples[0][channel] - (even + odd);
-                b[channel] = samples[1][channel] - (even - odd);
+                let a = samples[0][channel] - (even + odd);
+                let b = samples[1][channel] - (even - odd);
+                let [a_1, a_2, b_1, b_2] = *before;
+                all += a * a + b * b;
+                one += a * a_1 + b * b_1;
+                two += a * a_2 + b * b_2;
+                *before = [a, a_1, b, b_1];
             }
-            all += product(a, a) + product(b, b);
-            one += product(a, a_1) + product(b, b_1);
-            two += product(a, a_2) + product(b, b_2);
-            (a_1, a_2, b_1, b_2) = (a, a_1, b, b_1);
         }
         *self = Self {
             row,
             sums: [all, one, two],
-            before: [[a_1, a_2], [b_1, b_2]],
+            before,
         };
     }
 
     /// The correlations, over all samples: the last of both ends are neighbours.
     fn correlations(&self) -> [f32; 3] {
-        let [all, one, two] = self.sums;
-        let [[a_1, a_2], [b_1, b_2]] = self.before;
-        let across = product(a_1, b_2) + product(a_2, b_1);
-        [all, one + product(a_1, b_1), two + across]
+        let [all, mut one, mut two] = self.sums;
+        for [a_1, a_2, b_1, b_2] in self.before {
+            one += a_1 * b_1;
+            two += a_1 * b_2 + a_2 * b_1;
+        }
+        [all, one, two]
     }
 
     /// True when they are noise: a second tone slower than twice the wave has one correlation or the other.
@@ -98,7 +100,8 @@ mod tests {
             let (first, last) = samples.split_at(length / 2);
             trial.push_ends(first.iter().zip(last.iter().rev()).map(|(&a, &b)| [a, b]));
             let fitted = trial.fitted().expect("a wave");
-            let mut rests = Rests::new(&trial);
+            let mut rests = Rests::NONE;
+            rests.begin(&trial);
             // In two parts, as a search takes them.
             let ends: std::vec::Vec<[Pair; 2]> = (first.iter().zip(last.iter().rev()))
                 .map(|(&a, &b)| [a, b])
@@ -107,7 +110,8 @@ mod tests {
             rests.push_ends(inner.iter().copied(), &fitted);
             rests.push_ends(outer.iter().copied(), &fitted);
             // As they are defined, one sample after the other.
-            let mut row = trial.first_row();
+            let mut row = Row::NONE;
+            trial.restart(&mut row);
             let left: std::vec::Vec<Pair> = samples
                 .iter()
                 .map(|sample| {

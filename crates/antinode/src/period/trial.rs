@@ -93,24 +93,25 @@ pub(super) struct Row {
 }
 
 impl Row {
-    fn new(step: PhaseStep, length: usize) -> Self {
-        let row = Self {
-            unit: Complex32::ZERO,
-            turn: step.after_half_samples(-2).unit(),
-            u: 0.0,
-            advance: 2.0 / length as f32,
-        };
-        row.first(step, length)
+    pub(super) const NONE: Self = Self {
+        unit: Complex32::ZERO,
+        turn: Complex32::ZERO,
+        u: 0.0,
+        advance: 0.0,
+    };
+
+    /// Makes this the first row of a design.
+    fn begin(&mut self, step: PhaseStep, length: usize) {
+        self.turn = step.after_half_samples(-2).unit();
+        self.advance = 2.0 / length as f32;
+        self.restart(step, length);
     }
 
-    /// The first row of the same design.
-    fn first(self, step: PhaseStep, length: usize) -> Self {
+    /// Goes back to the first row.
+    fn restart(&mut self, step: PhaseStep, length: usize) {
         let before_middle = length as i32 - 1;
-        Self {
-            unit: step.after_half_samples(i64::from(before_middle)).unit(),
-            u: -0.5 * before_middle as f32 * self.advance,
-            ..self
-        }
+        self.unit = step.after_half_samples(i64::from(before_middle)).unit();
+        self.u = -0.5 * before_middle as f32 * self.advance;
     }
 
     /// The columns but for the last, which is one.
@@ -144,12 +145,7 @@ impl Trial {
         length: 0,
         count: 0,
         sums: Sums {
-            row: Row {
-                unit: Complex32::ZERO,
-                turn: Complex32::ZERO,
-                u: 0.0,
-                advance: 0.0,
-            },
+            row: Row::NONE,
             even: [0.0; 5],
             gradient: [[0.0; 5]; 2],
             square: 0.0,
@@ -161,7 +157,7 @@ impl Trial {
         self.step = PhaseStep::from_period(period);
         self.length = length;
         self.count = 0;
-        self.sums.row = Row::new(self.step, length);
+        self.sums.row.begin(self.step, length);
         self.sums.even = [0.0; 5];
         self.sums.gradient = [[0.0; 5]; 2];
         self.sums.square = 0.0;
@@ -247,9 +243,10 @@ impl Trial {
         })
     }
 
-    /// The first row of the design, for a second pass over the same samples.
-    pub(super) fn first_row(&self) -> Row {
-        self.sums.row.first(self.step, self.length)
+    /// Makes `row` the first one of the design, for a second pass over the same samples.
+    pub(super) fn restart(&self, row: &mut Row) {
+        *row = self.sums.row;
+        row.restart(self.step, self.length);
     }
 }
 

@@ -1,7 +1,5 @@
 //! From window to window: the angle runs on over turns and overlap, and a wave is followed for long.
 
-use std::f64::consts::FRAC_PI_2;
-
 use antinode::Settings;
 use antinode_sim::{Flaws, Wave};
 use host_tests::score::{errors, stated};
@@ -131,8 +129,7 @@ fn windows_may_overlap_or_leave_gaps() {
 #[test]
 fn the_angle_does_not_slip_at_the_end_of_a_ring_down() {
     // Noise of 1.1 a_A: the angle is known to 0.06 rad a window, but its rate in one window only to 0.2 rad a window.
-    let (mut windows_seen, mut slips) = (0, 0);
-    for seed in 0..12 {
+    for seed in 0..10 {
         let wave = Wave {
             main_amplitude: 1.0,
             quadrature_amplitude: 0.05,
@@ -153,15 +150,9 @@ fn the_angle_does_not_slip_at_the_end_of_a_ring_down() {
             let clean = wave.pick_offs(k as f64 / RATE);
             [c + more * clean.0, d + more * clean.1]
         });
-        let turns: Vec<f64> = found
-            .iter()
-            .map(|e| ((e.angle - 0.3) / FRAC_PI_2).round())
-            .collect();
-        assert_eq!(turns[0], 0.0);
-        windows_seen += turns.len();
-        slips += turns.windows(2).filter(|two| two[0] != two[1]).count();
+        let slips = found.iter().filter(|e| (e.angle - 0.3).abs() > 0.8);
+        let (rows, slipped) = (found.len(), slips.count());
+        println!("seed {seed}: {rows} windows, {slipped} off by a quarter turn");
+        assert!(rows > 3_000 && slipped == 0);
     }
-    println!("{slips} slips by a quarter turn in {windows_seen} windows");
-    // Of 12 × 15 789: where the wave is taken for lost, noise as loud as this hides it from the search.
-    assert!(windows_seen > 100_000 && 30_000 * slips < windows_seen);
 }

@@ -231,13 +231,12 @@ pub(super) fn is_time(name: &str) -> bool {
     role(name) == Some(Role::Time)
 }
 
-/// Whether a name is that of a mere count of lines.
+/// Whether a name is that of a mere count of lines: among others also a letter that may be a current beside a time.
 fn is_index(name: &str) -> bool {
-    let names = ["", "n", "i", "k", "no", "index", "sample", "samples"];
-    names.contains(&name.to_lowercase().as_str())
+    is_count(name) || ["i", "k"].contains(&name.to_lowercase().as_str())
 }
 
-/// Whether a name before that of the time is one of a count of lines.
+/// Whether a name is that of a count of lines, whatever stands beside it.
 fn is_count(name: &str) -> bool {
     let names = [
         "", "#", "n", "nr", "no", "index", "sample", "samples", "point", "points",

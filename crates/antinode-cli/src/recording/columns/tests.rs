@@ -35,7 +35,10 @@ fn names_decide_and_else_the_order() {
         Ok([Some(2), Some(1), Some(0)])
     );
     assert_eq!(places("x,time,y", None), Ok([Some(1), Some(0), Some(2)]));
-    assert_eq!(places("index,c,d", None), Ok([None, Some(1), Some(2)]));
+    for count in ["index", "k", "Point", "#"] {
+        let header = format!("{count},c,d");
+        assert_eq!(places(&header, None), Ok([None, Some(1), Some(2)]));
+    }
     assert_eq!(places("t,heat,c,d", None), Ok([Some(0), Some(2), Some(3)]));
 }
 

@@ -146,7 +146,7 @@ fn a_time_in_brackets_of_no_known_unit_is_no_seconds() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for units in [
-        "(毫秒),(伏),(伏)",
+        "(ミリ秒),(V),(V)",
         "[Millisekunden],[V],[V]",
         "(\u{3bc}s!),,",
     ] {
@@ -159,5 +159,33 @@ fn a_time_in_brackets_of_no_known_unit_is_no_seconds() {
         let told = "` is not in s, ms, us or ns; convert it to seconds, or ignore the time column with --columns 2,3 --rate HZ\n";
         assert!(fault.err.ends_with(told), "{}", fault.err);
         assert!(rows(here, "a.csv --columns 2,3 --rate 1e5").len() > 20);
+    }
+}
+
+#[test]
+fn a_time_whose_name_tells_no_known_unit_is_told_to_be_read_as_seconds() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (name, units) in [
+        ("Time (weeks)", ""),
+        ("t [ticks]", ""),
+        ("time [relative]", ",mV,mV\n"),
+    ] {
+        let text = scaled(&format!("{name},c,d\n{units}"), 1.0, [1.0, 1.0]);
+        fs::write(here.join("a.csv"), text).unwrap();
+        let run = run(here, "identify a.csv --output csv");
+        assert_eq!((run.code, run.err.lines().count()), (0, 1), "{}", run.err);
+        let told = format!("warning: a.csv: the time column `{name}` is read as seconds, ");
+        assert!(run.err.starts_with(&told), "{}", run.err);
+        assert!(
+            run.err
+                .ends_with("ignore it with --columns 2,3 --rate HZ\n")
+        );
+        assert!(Row::all(&run.out).len() > 20);
+    }
+    // A line of units, or the settings above, tell it.
+    for header in ["Zeit [Sekunden],c,d\n", "time [relative],c,d\ns,V,V\n"] {
+        fs::write(here.join("a.csv"), scaled(header, 1.0, [1.0, 1.0])).unwrap();
+        assert!(rows(here, "a.csv").len() > 20, "{header}");
     }
 }

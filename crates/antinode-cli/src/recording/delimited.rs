@@ -38,9 +38,10 @@ pub(super) fn open(
         (Some(_), Some(own)) => Meaning::of_rate(own, options.rate),
         _ => axis.meaning(source.rows.printed, options.rate),
     });
-    let of_units = source.rows.header.units_warning();
+    let header = &source.rows.header;
+    let of_header = [header.units_warning(), header.time_warning()];
     let of_time = meaning.and_then(|meaning| source.warning(meaning));
-    let told = of_units.into_iter().chain(of_time);
+    let told = of_header.into_iter().flatten().chain(of_time);
     let warnings = told.map(|told| format!("{file}: {told}")).collect();
     Ok(Opened {
         format: "CSV".to_owned(),

@@ -1,13 +1,15 @@
 //! What the first lines of a text recording tell: its columns, and the unit of its time.
 
 use super::columns::{Columns, FirstLine, Places};
-use super::error::{InputError, LineFault, TimeFault};
+use super::error::{COLUMNS_OPTION, InputError, LineFault, RATE_OPTION, TimeFault};
 use super::heading::is_header;
 use super::lines::{Beginning, Lines};
 use super::sequence::{Counted, Sequence, counted};
 use super::signal_units::{Together, together};
 use super::text::{fields, is_skipped, number};
-use super::units::{are_bracketed, bare, is_bracketed, is_unit, of_name, time_exponent};
+use super::units::{
+    are_bracketed, bare, has_unknown_unit, is_bracketed, is_unit, of_name, time_exponent,
+};
 
 /// The columns of a text recording.
 pub(super) struct Header {
@@ -21,6 +23,8 @@ pub(super) struct Header {
     pub divisors: [f32; 2],
     /// Their units, and what became of them.
     units: ([String; 2], Together),
+    /// The name of a time column whose brackets hold no unit of time.
+    unknown: Option<String>,
     /// What the names tell of a start and an increment.
     counted: Option<Counted>,
 }
@@ -66,6 +70,7 @@ impl Header {
             sequence: None,
             divisors: [1.0; 2],
             units: (Default::default(), Together::Same),
+            unknown: None,
             counted,
         };
         let fault =
@@ -120,6 +125,8 @@ impl Header {
         }
         if !has_unit {
             untold(&header)?;
+            let name = places[0].map(|time| &names[time]);
+            header.unknown = name.filter(|name| has_unknown_unit(name)).cloned();
         }
         header
             .bring_together(are_told)
@@ -162,6 +169,16 @@ impl Header {
         Some(format!("S_C is in {c} and S_D in {d}: {told}"))
     }
 
+    /// What to tell of a time whose unit is none that is known.
+    pub fn time_warning(&self) -> Option<String> {
+        let name = self.unknown.as_ref()?;
+        let samples = self.samples();
+        Some(format!(
+            "the time column `{name}` is read as seconds, which its name does not tell; if it is something else, convert it to seconds, or \
+             ignore it with {COLUMNS_OPTION} {samples} {RATE_OPTION} HZ"
+        ))
+    }
+
     /// Takes the time's unit, which stands in a column of this name; false where it is none.
     fn set_unit(&mut self, unit: &str, name: &str) -> Result<bool, TimeFault> {
         match time_exponent(unit) {
@@ -199,7 +216,10 @@ impl Header {
         let are_bracketed = are_bracketed(&found);
         let time = match self.places[0] {
             Some(place) => found.get(place).filter(|unit| {
-                self.sequence.is_some() || time_exponent(unit).is_some() || are_bracketed
+                self.sequence.is_some()
+                    || unit.is_empty()
+                    || time_exponent(unit).is_some()
+                    || are_bracketed
             })?,
             None => "",
         };

@@ -6,15 +6,19 @@ use super::signal_units::is_known;
 /// The power of ten that a unit of time makes of seconds: −3 for ms. `Some(None)` for times that are none, `None` for other units.
 pub(super) fn time_exponent(unit: &str) -> Option<Option<i32>> {
     match bare(unit).to_lowercase().as_str() {
-        "s" | "sec" | "secs" | "second" | "seconds" | "с" | "сек" => Some(Some(0)),
-        "ms" | "timems" | "tms" | "msec" | "millisecond" | "milliseconds" | "мс" => {
+        "s" | "sec" | "secs" | "second" | "seconds" | "sekunde" | "sekunden" | "с" | "сек"
+        | "秒" => Some(Some(0)),
+        "ms" | "timems" | "tms" | "msec" | "millisecond" | "milliseconds" | "мс" | "毫秒" => {
             Some(Some(-3))
         }
         // Both letters of Unicode, and what is left of a µ in an older code.
         "us" | "µs" | "μs" | "\u{fffd}s" | "timeus" | "tus" | "usec" | "microsecond"
-        | "microseconds" | "мкс" => Some(Some(-6)),
-        "ns" | "timens" | "tns" | "nsec" | "nanosecond" | "nanoseconds" | "нс" => Some(Some(-9)),
-        "min" | "minute" | "minutes" | "h" | "hour" | "hours" | "day" | "days" => Some(None),
+        | "microseconds" | "мкс" | "微秒" => Some(Some(-6)),
+        "ns" | "timens" | "tns" | "nsec" | "nanosecond" | "nanoseconds" | "нс" | "纳秒" => {
+            Some(Some(-9))
+        }
+        "min" | "minute" | "minutes" | "minuten" | "мин" | "分" | "h" | "hour" | "hours"
+        | "day" | "days" => Some(None),
         _ => None,
     }
 }
@@ -49,6 +53,12 @@ pub(super) fn is_bracketed(name: &str) -> bool {
     name.trim_end().ends_with([']', ')'])
 }
 
+/// Whether the brackets at the end of a time column's name hold something that is no unit of time known.
+pub(super) fn has_unknown_unit(name: &str) -> bool {
+    let unit = of_name(name);
+    is_bracketed(name) && !unit.is_empty() && time_exponent(unit).is_none()
+}
+
 /// Whether all of these fields are in brackets or empty, and one is not: no samples are.
 pub(super) fn are_bracketed(fields: &[String]) -> bool {
     let is_in_brackets = |field: &String| field.starts_with(['(', '[']) && is_bracketed(field);
@@ -79,7 +89,9 @@ mod tests {
             ("µs", Some(Some(-6))),
             ("us", Some(Some(-6))),
             ("NS", Some(Some(-9))),
+            ("毫秒", Some(Some(-3))),
             ("min", Some(None)),
+            ("Minuten", Some(None)),
             ("V", None),
             ("", None),
         ] {

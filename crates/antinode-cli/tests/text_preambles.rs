@@ -151,7 +151,20 @@ fn the_columns_of_labview_are_told_by_their_numbers() {
     }
     let none = labview("No", "X_Value\tUntitled\tUntitled 1\tComment");
     let text = recording(&none, |_, _, [c, d]| format!("\t{c}\t{d}"));
-    same(here, &text, "--rate 1e5", &expected, 0.0);
+    same(here, &text, "", &expected, 0.0);
+    same(here, &text.replace('.', ","), "", &expected, 0.0);
+    // With a third channel none of them is a time.
+    let text = recording(
+        &none.replace("Untitled 1", "Untitled 1\tUntitled 2"),
+        |_, _, [c, d]| format!("\t{c}\t{d}\t{c}"),
+    );
+    same(here, &text, "--columns 2,3", &expected, 0.0);
+    fault(
+        here,
+        "-",
+        text.into(),
+        &["input:22: found 3 columns, but two"],
+    );
     let multi = labview("Multi", "X_Value\tc0\tX_Value\td0\tComment");
     let text = recording(&multi, |_, t, [c, d]| format!("{t:.5}\t{c}\t{t:.5}\t{d}"));
     same(here, &text, "--columns 1,2,4", &expected, START);
@@ -199,14 +212,26 @@ fn the_last_setting_may_have_more_than_one_field() {
     let above = "TraceName, CH1, CH2\nVUnit, V, V\nHResolution, 1e-5\nHOffset, -0.01\nHUnit, s\nBlockSize, 5000\nModel, DL850E\n\
         Date, 2026-06-30\n";
     let text = recording(above, |_, _, [c, d]| format!(",{c},{d}"));
-    same(here, &text, "--rate 1e5", &expected, 0.0);
+    same(here, &text, "", &expected, START);
     let told = ["the sample rate is not known"];
-    fault(here, "-", text.into(), &told);
+    fault(
+        here,
+        "-",
+        text.replace("HUnit, s", "HUnit, Hz").into(),
+        &told,
+    );
+    let told = "by its settings the sample rate is 100000 Hz, but --rate makes it 50000 Hz, and takes precedence";
+    let run = run_with(here, "identify - --rate 5e4", text.into_bytes());
+    assert!(run.code == 0 && run.err.contains(told), "{}", run.err);
     // And by the maker's viewer, where units of time stand over both signals.
     let above = "\"Model\",\"Xviewer\"\n\"BlockNumber\",\"1\"\n\"TraceName\",\"CH1\",\"CH2\",\nBlockSize,5000,5000,\nVUnit,V,V,\n\
         HResolution,1e-05,1e-05,\nHOffset,-1e-02,-1e-02,\nHUnit,s,s,\n";
     let text = recording(above, |_, _, [c, d]| format!(",{c},{d}"));
+    same(here, &text, "", &expected, START);
+    // Channels that tell different steps tell none.
+    let text = text.replace("1e-05,1e-05", "1e-05,2e-05");
     same(here, &text, "--rate 1e5", &expected, 0.0);
+    fault(here, "-", text.into(), &["the sample rate is not known"]);
 }
 
 #[test]

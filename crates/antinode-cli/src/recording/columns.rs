@@ -166,20 +166,23 @@ impl FirstLine<'_> {
         // One name over all columns tells none from the others: `HUnit,s,s` of Yokogawa.
         let name = |place: usize| self.names.map(|names| &names[place]);
         let time = time.filter(|&time| places().any(|place| name(place) != name(time)));
+        // Settings may say that there is no time.
+        let is_timed = self.start.sequence.is_none();
         // Names in another order than usual must not swap the signals.
         if c.is_some() && d.is_some() {
             let unnamed = places().find(|&place| role(place).is_none());
             let index = |place: &usize| self.names.is_some_and(|names| is_index(&names[*place]));
-            let other = unnamed.filter(|place| columns.len() == 3 && !index(place));
+            let other = unnamed.filter(|place| is_timed && columns.len() == 3 && !index(place));
             return Ok([time.or(other), c, d]);
         }
         // What settings stand above or beside may be a time without a name.
         let is_instrument = self.start.lines > 0 || columns.len() < self.width;
         let clock = columns.first().copied().filter(|_| {
-            columns.len() == 3
-                || columns.len() == 2
-                    && self.names.is_none()
-                    && (is_instrument && self.start.is_clocked || self.start.is_surely_clocked)
+            is_timed
+                && (columns.len() == 3
+                    || columns.len() == 2
+                        && self.names.is_none()
+                        && (is_instrument && self.start.is_clocked || self.start.is_surely_clocked))
         });
         let time = time.or(self.timed(columns)).or(clock);
         // `#,Time(ms),CH1(mV),CH2(mV)`.

@@ -34,10 +34,10 @@ pub(super) fn open(
     }
     let (sample_rate, start) = (source.rate(), source.start());
     let axis = source.axis.as_ref();
-    let meaning = axis.map(|axis| match (source.rows.header.sequence, sample_rate) {
-        (Some(_), Some(own)) => Meaning::of_rate(own, options.rate),
-        _ => axis.meaning(source.rows.printed, options.rate),
-    });
+    let meaning = match (source.rows.header.sequence, sample_rate) {
+        (Some(_), Some(own)) => Some(Meaning::of_rate(own, options.rate)),
+        _ => axis.map(|axis| axis.meaning(source.rows.printed, options.rate)),
+    };
     let header = &source.rows.header;
     let of_header = [header.units_warning(), header.time_warning()];
     let of_time = meaning.and_then(|meaning| source.warning(meaning));
@@ -214,6 +214,10 @@ impl Delimited {
             Meaning::Index => format!(
                 "the time column goes up by 1 a line, and is taken for an index because of {RATE_OPTION}: times of rows \
                  are from the first sample on; if it is seconds, leave {RATE_OPTION} out"
+            ),
+            Meaning::OtherRate { own, asked } if self.axis.is_none() => format!(
+                "by its settings the sample rate is {own} Hz, but {RATE_OPTION} makes it {asked} Hz, and takes precedence; \
+                 leave {RATE_OPTION} out if the settings are right"
             ),
             Meaning::OtherRate { own, asked } => format!(
                 "by the time column the sample rate is {own} Hz, but {RATE_OPTION} makes it {asked} Hz, and takes precedence; \

@@ -67,7 +67,7 @@ impl Header {
             width,
             places,
             exponent: 0,
-            sequence: None,
+            sequence: start.sequence.filter(|_| places[0].is_none()),
             divisors: [1.0; 2],
             units: (Default::default(), Together::Same),
             unknown: None,

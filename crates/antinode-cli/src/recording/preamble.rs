@@ -6,6 +6,7 @@
 use super::header::lossy;
 use super::heading::is_header;
 use super::no_number::stand_in;
+use super::sequence::Sequence;
 use super::text::{fields, is_skipped, number, separator};
 use super::units::{bare, is_unit, time_exponent};
 use super::{columns, signal_units};
@@ -39,6 +40,8 @@ pub(super) struct Start {
     pub is_surely_clocked: bool,
     /// The unit of time among the settings, and its line.
     pub unit: Option<(String, usize)>,
+    /// The times of samples that have none beside them, by the settings.
+    pub sequence: Option<Sequence>,
 }
 
 /// A line that is neither blank nor a comment.
@@ -165,12 +168,14 @@ fn start(lines: &[Line], numbers: Vec<usize>, separator: u8) -> Option<Start> {
     let is_safe = |line: &Line| lead(line).is_none_or(is_word) && (is_divided || !is_row(line));
     let are_safe =
         settings.iter().all(is_safe) && (settings.is_empty() || !header.is_empty() || are_surely);
+    let fields: Vec<&[&[u8]]> = lines[..rows].iter().map(|line| &line.fields[..]).collect();
     (are_safe && !is_header_lost).then(|| Start {
         lines: lines[first].before,
         bytes: lines[first].start,
         is_clocked: is_clock(&lines[rows..], numbers[0], separator, UNEVEN),
         is_surely_clocked: is_clock(&lines[rows..], numbers[0], separator, UNBENT),
         unit: settings.iter().find_map(unit),
+        sequence: Sequence::of_settings(&fields, separator),
         numbers,
     })
 }

@@ -1,7 +1,13 @@
 //! Recordings whose header tells the time of the first sample and the step: `X,CH1,CH2,Start,Increment`, with or without the column `X` that
-//! counts the lines.
+//! counts the lines; and those whose settings tell the same.
 
 use super::text::number;
+
+/// The settings of LabVIEW and of Yokogawa: the time of the first sample, the step, what they are of, and that in s.
+const SETTINGS: [[&str; 4]; 2] = [
+    ["X0", "Delta_X", "X_Dimension", "Time"],
+    ["HOffset", "HResolution", "HUnit", "s"],
+];
 
 /// The times of samples that are counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,6 +56,31 @@ impl Sequence {
         let is_good =
             sequence.start.is_finite() && sequence.step > 0.0 && sequence.step.is_finite();
         (is_sequence && is_good).then_some(sequence)
+    }
+
+    /// What settings tell of samples without times beside them; each of `settings` is a line's fields.
+    pub fn of_settings(settings: &[&[&[u8]]], separator: u8) -> Option<Self> {
+        // One value a channel, which must be the same of all.
+        let told = |label: &str| {
+            let mut lines = settings.iter();
+            let line = lines.find(|line| line.first() == Some(&label.as_bytes()))?;
+            let mut values = line[1..].iter().filter(|value| !value.is_empty());
+            let value = values.next()?;
+            values.all(|other| other == value).then_some(*value)
+        };
+        if told("X_Columns").is_some_and(|columns| columns != b"No") {
+            return None;
+        }
+        SETTINGS.iter().find_map(|[start, step, unit, seconds]| {
+            let number = |label| number::<f64>(told(label)?, separator).filter(|x| x.is_finite());
+            let is_time = told(unit)?.eq_ignore_ascii_case(seconds.as_bytes());
+            let step = number(step).filter(|&step| step > 0.0)?;
+            is_time.then_some(Self {
+                start: number(start)?,
+                step,
+                is_counted: false,
+            })
+        })
     }
 
     /// The time of the sample of this number, s.

@@ -277,3 +277,59 @@ fn the_rate_is_learnt_over_gaps() {
         }
     }
 }
+
+#[test]
+fn a_rate_that_changes_between_windows_far_apart_is_learnt_anew() {
+    let settings = Settings {
+        hop: Some(1000),
+        ..windows(10)
+    };
+    // The last differ by a quarter turn from window to window.
+    let alias = std::f64::consts::FRAC_PI_2 / 0.19;
+    let rates = [
+        [0.0, 6.0],
+        [0.0, -8.0],
+        [3.0, -4.0],
+        [-2.0, 5.0],
+        [1.0, 1.0 + alias],
+    ];
+    for (seed, [first, second]) in rates.into_iter().enumerate() {
+        let flaws = Flaws {
+            noise: 0.005,
+            ..Flaws::default()
+        };
+        // After 10 s the wave is at the phase it began with.
+        let wave = Wave {
+            main_amplitude: 0.5,
+            quadrature_amplitude: 0.05,
+            frequency: 5332.0,
+            angle_rate: first,
+            ..Wave::default()
+        };
+        let before = stream(wave, flaws.clone(), 1_000_000, seed as u64);
+        let then = Wave {
+            angle: wave.angle + 10.0 * first,
+            angle_rate: second,
+            ..wave
+        };
+        let after = stream(then, flaws, 2_000_000, 100 + seed as u64);
+        for lost in [0, 5_000_000] {
+            let mut core = Core::new(settings).unwrap();
+            let mut estimates = Vec::new();
+            core.extend(&before, |estimate| estimates.push(estimate));
+            let changed = estimates.len();
+            core.skip(lost);
+            core.extend(&after, |estimate| estimates.push(estimate));
+            for (index, pair) in estimates.windows(2).enumerate().skip(changed) {
+                let turned = pair[1].angle - pair[0].angle;
+                let expected = second * (pair[1].time - pair[0].time);
+                let flags = pair[1].flags;
+                let is_new = index < changed + 8 && !flags.is_empty();
+                assert!(
+                    is_new || flags.is_empty() && (turned - expected).abs() < 0.1,
+                    "from {first} to {second} rad/s, window {index} after {changed}: turned by {turned}, not {expected}: {flags}"
+                );
+            }
+        }
+    }
+}

@@ -13,6 +13,9 @@ const KEPT: usize = 5;
 /// Quarter windows ago beyond which an angle says nothing of the present rate: what its powers leave of nearer ones is lost in rounding.
 const OLDEST: f32 = 4e3;
 
+/// Deviations by which a window's own rate denies what the angles before promise.
+const DENIED: f32 = 5.0;
+
 /// A rate in rad/sample and its variance.
 #[derive(Debug, Clone, Copy)]
 struct Rate {
@@ -103,7 +106,8 @@ impl Trend {
         }
         let apart = record.turning - rate.value;
         let spread = record.turning_variance + rate.variance;
-        if rate.variance > 0.0 {
+        // Over gaps the pattern may have turned by a quarter more or less than it seems: then its windows' own rates say otherwise.
+        if rate.variance > 0.0 && apart * apart < DENIED * DENIED * spread {
             let share = record.turning_variance / spread;
             record.promised -= share * apart;
             record.promised_variance = share * rate.variance;

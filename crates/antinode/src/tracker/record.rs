@@ -13,6 +13,9 @@ const UNKNOWN_TURN: f32 = 0.13;
 /// Windows over whose gaps rates are averaged at most.
 const AVERAGED: f32 = 8.0;
 
+/// Deviations by which a window's own rate denies another.
+const DENIED: f32 = 5.0;
+
 /// What turns samples into seconds and Hz, made once: f64 is slow on a core without it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Units {
@@ -150,17 +153,25 @@ impl Record {
 
     /// Promises the rate that the windows before have too, each by itself: over gaps of unknown turns no angles tell it.
     pub(crate) fn average_rate(&mut self, before: &Self) {
-        let apart = self.turning - before.promised;
         let known = greater(
             before.promised_variance,
             self.turning_variance / (AVERAGED - 1.0),
         );
-        let spread = self.turning_variance + known;
-        if apart * apart < 16.0 * spread {
+        self.promise(before.promised, known);
+    }
+
+    /// Promises the mean of this window's own rate and another, unless its own denies that: over a gap the pattern may have turned by a
+    /// quarter more or less than angles say. Gives how far apart they are, and the variance of that.
+    #[inline(never)]
+    pub(crate) fn promise(&mut self, rate: f32, variance: f32) -> (f32, f32) {
+        let apart = self.turning - rate;
+        let spread = self.turning_variance + variance;
+        if apart * apart < DENIED * DENIED * spread {
             let share = self.turning_variance / spread;
-            self.promised -= share * apart;
-            self.promised_variance = share * known;
+            self.promised = self.turning - share * apart;
+            self.promised_variance = share * variance;
         }
+        (apart, spread)
     }
 
     /// True when pick-off `channel` shows no wave.

@@ -13,9 +13,6 @@ const KEPT: usize = 5;
 /// Quarter windows ago beyond which an angle says nothing of the present rate: what its powers leave of nearer ones is lost in rounding.
 const OLDEST: f32 = 4e3;
 
-/// Deviations by which a window's own rate denies what the angles before promise.
-const DENIED: f32 = 5.0;
-
 /// A rate in rad/sample and its variance.
 #[derive(Debug, Clone, Copy)]
 struct Rate {
@@ -100,18 +97,14 @@ impl Trend {
     pub(crate) fn take_turning_out(&self, wave: &mut Standing, model: &Model) {
         let record = &mut wave.record;
         let rate = self.rate(record, model.per_half);
-        if rate.variance == 0.0 && !self.is_empty() {
+        let (apart, spread) = if rate.variance > 0.0 {
+            record.promise(rate.value, rate.variance)
+        } else if self.is_empty() {
+            (record.turning, record.turning_variance)
+        } else {
             // All of them overlap this window: nothing is known of its rate, and least of all that it stands still.
             return;
-        }
-        let apart = record.turning - rate.value;
-        let spread = record.turning_variance + rate.variance;
-        // Over gaps the pattern may have turned by a quarter more or less than it seems: then its windows' own rates say otherwise.
-        if rate.variance > 0.0 && apart * apart < DENIED * DENIED * spread {
-            let share = record.turning_variance / spread;
-            record.promised -= share * apart;
-            record.promised_variance = share * rate.variance;
-        }
+        };
         if apart * apart < 16.0 * spread {
             let (squared, per_half) = (model.half * model.half, model.per_half);
             let per_spread = 1.0 / (squared * spread);

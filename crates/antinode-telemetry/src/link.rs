@@ -2,7 +2,7 @@
 
 use crate::decoder::{Damage, Decoder};
 use crate::frame::{BufferTooSmall, Frame, ReportFrame, frame_of};
-use crate::report::Report;
+use crate::report::{Report, State};
 
 /// Numbers the device's reports.
 #[derive(Debug, Clone, Default)]
@@ -68,9 +68,15 @@ impl Receiver {
         let result = self.decoder.push(byte)?;
         Some(match result {
             Ok(ReportFrame { number, report }) => {
-                // A Hello that is number 0 comes from a device that has just started.
-                let starts = number == 0 && matches!(report, Report::Hello(_));
-                if let Some(next) = self.next.filter(|_| !starts) {
+                let next = match report {
+                    // A device that has just started says Hello as number 0, then why it has started.
+                    Report::Hello(_) if number == 0 => Some(0),
+                    Report::State(State::Started(_)) if self.next != Some(number) => {
+                        self.next.map(|_| 0)
+                    }
+                    _ => self.next,
+                };
+                if let Some(next) = next {
                     self.lost += u64::from(number.wrapping_sub(next));
                 }
                 self.next = Some(number.wrapping_add(1));
@@ -111,7 +117,8 @@ impl Receiver {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{MAX_FRAME, State};
+    use crate::{Cause, Configuration, FrontEnd, Hello, MAX_FRAME};
+    use antinode::Settings;
 
     #[test]
     fn missing_numbers_are_counted_across_the_wrap() {
@@ -129,5 +136,38 @@ mod tests {
             }
         }
         assert_eq!((receiver.reports(), receiver.lost()), (17, 3));
+    }
+
+    #[test]
+    fn of_a_restart_only_what_is_missing_since_is_lost() {
+        let started = Report::State(State::Started(Cause::Watchdog));
+        let configuration = Configuration::new(Settings::new(1e5), FrontEnd::Synthetic);
+        let hello = Report::Hello(Hello::new("1", configuration));
+        for (has_hello, lost) in [(true, 0), (false, 1)] {
+            let mut receiver = Receiver::new();
+            let mut buffer = [0; MAX_FRAME];
+            let mut send = |reporter: &mut Reporter, report, arrives: bool| {
+                let bytes = reporter.frame(report, &mut buffer).expect("room");
+                bytes.iter().filter(|_| arrives).for_each(|&byte| {
+                    receiver.push(byte);
+                });
+            };
+            let tracking = Report::State(State::Tracking);
+            let mut reporter = Reporter { next: 50_000 };
+            send(&mut reporter, &tracking, true);
+            let mut reporter = Reporter::new();
+            send(&mut reporter, &hello, has_hello);
+            send(&mut reporter, &started, true);
+            send(&mut reporter, &tracking, true);
+            assert_eq!(receiver.lost(), lost);
+        }
+        // What was before the first report is not known.
+        let mut receiver = Receiver::new();
+        let mut buffer = [0; MAX_FRAME];
+        let mut reporter = Reporter { next: 1 };
+        for &byte in reporter.frame(&started, &mut buffer).expect("room") {
+            receiver.push(byte);
+        }
+        assert_eq!((receiver.reports(), receiver.lost()), (1, 0));
     }
 }

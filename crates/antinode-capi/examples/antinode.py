@@ -63,10 +63,15 @@ class _Settings(ctypes.Structure):
     ]
 
 
+class _Health(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_uint32) for name in ("searching", "has_wave", "waiting", "dropped")]
+
+
 _library = ctypes.CDLL(os.environ.get("ANTINODE_LIBRARY", "libantinode.so"))
 _library.antinode_settings_default.argtypes = [ctypes.c_double]
 _library.antinode_settings_default.restype = _Settings
 _library.antinode_status_string.restype = ctypes.c_char_p
+_library.antinode_float_health.argtypes = [ctypes.c_void_p, ctypes.POINTER(_Health)]
 _library.antinode_float_skip.argtypes = [ctypes.c_void_p, ctypes.c_uint32]
 _identify = _library.antinode_float_identify
 _identify.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.POINTER(ctypes.c_size_t), ctypes.c_void_p]
@@ -90,6 +95,9 @@ class Gyro:
             if not hasattr(wanted, name):
                 raise TypeError(f"no setting is called {name}")
             setattr(wanted, name, value)
+            # An integer too large would wrap around.
+            if isinstance(getattr(wanted, name), int) and getattr(wanted, name) != value:
+                raise ValueError(f"{name} cannot be {value}")
         self._state = numpy.zeros(STATE_WORDS, "u8")
         _check(_library.antinode_float_init(ctypes.c_void_p(self._state.ctypes.data), ctypes.byref(wanted)))
 
@@ -106,6 +114,13 @@ class Gyro:
                 windows.append(window.copy())
             at += taken.value
         return numpy.concatenate(windows) if windows else numpy.zeros(0, WINDOW)
+
+    @property
+    def has_wave(self):
+        """Whether the last window showed a wave; where none is found there are no windows, and this alone tells."""
+        health = _Health()
+        _check(_library.antinode_float_health(self._state.ctypes.data, ctypes.byref(health)))
+        return bool(health.has_wave)
 
     def skip(self, pairs):
         """Tells that so many sample pairs were lost before the next, fewer than 2**32."""

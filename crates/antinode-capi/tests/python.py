@@ -30,6 +30,8 @@ window = [(name, antinode.WINDOW[name].itemsize) for name in antinode.WINDOW.nam
 assert window == fields("antinode_estimate_t"), window
 settings = [(name, ctypes.sizeof(kind)) for name, kind in antinode._Settings._fields_]
 assert settings == fields("antinode_settings_t"), settings
+health = [(name, ctypes.sizeof(kind)) for name, kind in antinode._Health._fields_]
+assert health == fields("antinode_health_t"), health
 for name, value in [("ANTINODE_VERSION", antinode.VERSION), ("ANTINODE_FLOAT_WORDS", antinode.STATE_WORDS)]:
     assert re.search(rf"#define {name} {value}u?\n", header), name
 for bit, name in enumerate(antinode.FLAGS):
@@ -39,10 +41,13 @@ with wave.open(sys.argv[1]) as file:
     rate = file.getframerate()
     samples = numpy.frombuffer(file.readframes(file.getnframes()), "<i2").reshape(-1, 2) / 32768
 step = 1 / 32768
+silent = antinode.Gyro(rate)
+assert len(silent.push(numpy.zeros((100_000, 2)))) == 0 and not silent.has_wave
 gyro = antinode.Gyro(rate, resolution=step, rail_low=step - 1, rail_high=1 - step)
 windows = numpy.concatenate([gyro.push(part) for part in numpy.array_split(samples, 77)])
 rows = list(csv.DictReader(open(sys.argv[2], encoding="utf-8")))
 assert len(windows) == len(rows) > 100, (len(windows), len(rows))
+assert gyro.has_wave
 names = [name for name in antinode.WINDOW.names if name in rows[0] and name != "flags"]
 assert len(names) == 19, names
 for name in names:
@@ -57,6 +62,7 @@ for ours, row in zip(windows["flags"], rows):
 for wrong, told in [
     (lambda: antinode.Gyro(0), "sample_rate_hz"),
     (lambda: antinode.Gyro(rate, period=3), "period"),
+    (lambda: antinode.Gyro(rate, periods=2**32 + 10), "periods cannot be 4294967306"),
     (lambda: gyro.push(samples[:, 0]), "(N, 2)"),
     (lambda: gyro.skip(-1), "-1"),
 ]:

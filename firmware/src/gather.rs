@@ -61,13 +61,11 @@ impl<S: Sample> Outlet<'_, S> {
         block.watch.as_ref().is_none_or(watched)
     }
 
+    /// Counts pairs at a rail, which are of a block or of none.
     #[cold]
-    fn saturate(&mut self, pairs: usize) {
-        if pairs == 0 {
-            return;
-        }
+    fn saturate(&mut self, pairs: usize, are_of_block: bool) {
         self.counts.saturated_pairs.add(pairs as u32);
-        self.saturated = true;
+        self.saturated |= are_of_block && pairs > 0;
     }
 
     #[inline]
@@ -233,19 +231,25 @@ impl<'q, S: Sample> Gatherer<'q, S> {
         } = self;
         let rails = source.rails().map(|pair| pair.pair()[0]);
         let mut rest = source.pairs();
-        outlet.counts.pairs.add(rest.len() as u32);
         while !rest.is_empty() {
+            let is_searching = front.is_searching();
             let (taken, block) = front.push_slice(rest);
+            outlet.counts.pairs.add(taken as u32);
             let (done, after) = rest.split_at_checked(taken).unwrap_or((rest, &[]));
             rest = after;
             let extra = methods.add(done, block);
             // A watched block tells by its extremes whether it has pairs at a rail: they are looked for only there.
             if block.is_none_or(|block| Outlet::may_be_saturated(block, rails)) {
-                outlet.saturate(done.iter().filter(|&&pair| source.is_at_rail(pair)).count());
+                let pairs = done.iter().filter(|&&pair| source.is_at_rail(pair)).count();
+                outlet.saturate(pairs, !is_searching);
             }
             // Asked before the block is handed over: what was overwritten meanwhile must not be taken for a wave.
             if !source.is_intact() {
                 let left = rest.len() as u32;
+                if is_searching {
+                    // A period found in it would be kept.
+                    front.search();
+                }
                 let lapse = source.restart(Cause::Overrun);
                 self.skip(Lapse {
                     lost: lapse.lost.wrapping_add(left),

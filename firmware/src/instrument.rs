@@ -108,6 +108,9 @@ impl<'q, S: Sample> Instrument<'q, S> {
             let done = self.answer(frame);
             log(Event::Answered { id: frame.id, done });
         }
+        if self.awaits {
+            self.enter(State::Searching, &mut log);
+        }
         // No more than the queue holds: under overload it is never empty, and the line and the watchdog must have their turn.
         let _ = (1..QUEUE).all(|_| self.take(&mut log));
         if matches!(self.state, State::Started(_)) {

@@ -37,7 +37,7 @@ pub const RING: usize = 24;
 pub const QUEUE: usize = if cfg!(feature = "methods") { 32 } else { 16 };
 /// Requests that may wait for the interrupt, and one more.
 pub const REQUESTS: usize = 4;
-/// Bytes that may wait for the line: 15 estimates of 110 bytes, 18 ms, and what goes before them. Four frames and more.
+/// Bytes that may wait for the line: a dozen estimates of 110 bytes, 14 ms, and what goes before them. Six frames and more.
 pub const OUTBOX: usize = 2048;
 /// Bytes that may wait for the main loop, and one more: two frames, 2.8 ms. A frame and more.
 pub const INBOX: usize = 256;
@@ -135,8 +135,8 @@ const _: () = {
         "QUEUE and REQUESTS must be 2 or more"
     );
     assert!(
-        OUTBOX >= 4 * MAX_FRAME,
-        "OUTBOX must be 4 * MAX_FRAME or more: the hello, an answer, and an estimate beside them"
+        OUTBOX >= 6 * MAX_FRAME,
+        "OUTBOX must be 6 * MAX_FRAME or more: an estimate asks for three frames in one piece, before or behind those that wait"
     );
     assert!(
         INBOX > MAX_FRAME && INBOX < 1 << 16,

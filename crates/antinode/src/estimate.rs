@@ -24,7 +24,7 @@ impl Flags {
     /// search one of noise alone looks like a pattern on the other's axis, and is not told.
     pub const DEAD_CHANNEL: Self = Self(1 << 6);
     /// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
-    /// only. Also the first window after a new calibration, unless it is the first of all.
+    /// only. Also the first window after a change of calibration or settings, unless it is the first of all.
     pub const REACQUIRED: Self = Self(1 << 7);
     /// A sample that is not a number.
     pub const NOT_FINITE: Self = Self(1 << 8);

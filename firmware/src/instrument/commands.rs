@@ -42,10 +42,14 @@ impl<S: Sample> Instrument<'_, S> {
                 let configuration = self.configuration.after(command, RING)?;
                 self.check_methods(configuration.methods, &configuration.settings.calibration)?;
                 configuration.settings.check(RING)?;
-                if !self.request(|number| Request::Configure(number, configuration.settings)) {
+                // Blocks are as they were, but for their calibration.
+                let is_new = !matches!(command, Command::SetCalibration(_));
+                if is_new
+                    && !self.request(|number| Request::Configure(number, configuration.settings))
+                {
                     return Err(CommandError::Busy);
                 }
-                self.tracker.configure(configuration.settings)?;
+                self.tracker.change(configuration.settings)?;
                 self.configuration = configuration;
                 self.hello();
             }

@@ -1,6 +1,6 @@
 //! Commands over the emulated line.
 
-use antinode::{Calibration, SettingsError};
+use antinode::{Calibration, Flags, SettingsError};
 use antinode_telemetry::{Acknowledgement, Cause, Command, CommandError, Report, State};
 use firmware::settings::RING;
 
@@ -100,10 +100,12 @@ fn the_window_changes_while_it_runs() {
     assert!(after.iter().all(|e| e.samples == 380) && after.len() > 100);
     // The count of pairs goes on.
     assert!(after[0].start > before[before.len() - 1].start);
+    assert_eq!(after[0].flags, Flags::REACQUIRED);
+    assert!(after[1..].iter().all(|e| e.flags.is_empty()));
     assert!(
         after
             .iter()
-            .all(|e| e.flags.is_empty() && (e.angle - 0.4).abs() < 6.0 * f64::from(e.angle_std))
+            .all(|e| (e.angle - 0.4).abs() < 6.0 * f64::from(e.angle_std))
     );
 }
 

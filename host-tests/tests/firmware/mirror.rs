@@ -10,7 +10,14 @@ use firmware::settings::{DUAL_ADC_RAILS, HALF, configuration};
 pub struct Recorded<'a> {
     rest: &'a [Packed],
     half: &'a [Packed],
+    /// How many halves it has given.
+    given: usize,
+    /// The half that it begins to overwrite while it is read, from 1.
+    torn: usize,
 }
+
+/// Pairs that a torn half costs behind it.
+pub const MISSED: u32 = 77;
 
 impl<'a> Recorded<'a> {
     /// All of them are still to come.
@@ -18,6 +25,16 @@ impl<'a> Recorded<'a> {
         Self {
             rest: codes,
             half: &[],
+            given: 0,
+            torn: 0,
+        }
+    }
+
+    /// The same, but the half of this number, from 1, is overwritten while it is read.
+    pub fn torn(codes: &'a [Packed], half: usize) -> Self {
+        Self {
+            torn: half,
+            ..Self::new(codes)
         }
     }
 }
@@ -30,6 +47,7 @@ impl Source for Recorded<'_> {
         if self.half.is_empty() {
             Ready::Nothing
         } else {
+            self.given += 1;
             Ready::Pairs
         }
     }
@@ -39,11 +57,14 @@ impl Source for Recorded<'_> {
     }
 
     fn is_intact(&self) -> bool {
-        true
+        self.given != self.torn
     }
 
     fn restart(&mut self, cause: Cause) -> Lapse {
-        Lapse { cause, lost: 0 }
+        let lost = if self.is_intact() { 0 } else { MISSED };
+        self.rest = &self.rest[lost as usize..];
+        self.torn = 0;
+        Lapse { cause, lost }
     }
 
     fn rails(&self) -> [Packed; 2] {
@@ -60,6 +81,19 @@ pub fn reports<S: Sample>(recording: &[Packed], commands: &[u8], slow: usize) ->
 where
     Packed: SamplePair<S>,
 {
+    // The device answers its commands before the first pair.
+    reports_of(Recorded::new(recording), (0, commands), slow)
+}
+
+/// What it must report on a source after it was sent `commands` in this round.
+pub fn reports_of<S: Sample>(
+    mut source: Recorded,
+    (round, commands): (usize, &[u8]),
+    slow: usize,
+) -> Vec<Report>
+where
+    Packed: SamplePair<S>,
+{
     let (mut queues, mut places) = (Queues::<S>::new(), Places::new());
     let configuration = configuration(FrontEnd::Synthetic, DUAL_ADC_RAILS);
     let mut parts = queues
@@ -67,19 +101,15 @@ where
         .expect("the settings can be");
     let mut receiver = Receiver::new();
     let mut reports = Vec::new();
-    for &byte in commands {
-        parts.inbox.put(byte);
-    }
-    let mut source = Recorded::new(recording);
-    let mut first = true;
-    loop {
+    for at in 0.. {
         for _ in 0..slow {
-            // The device answers its commands before the first pair.
-            if !first {
+            if at > 0 {
                 parts.gatherer.serve(&mut source);
             }
         }
-        first = false;
+        if at == round {
+            commands.iter().for_each(|&byte| parts.inbox.put(byte));
+        }
         parts.instrument.poll(0, |_| {});
         let mut sent = Vec::new();
         while let Some(run) = parts.out.run() {
@@ -92,7 +122,8 @@ where
             }
         }
         if source.rest.is_empty() && source.half.is_empty() {
-            return reports;
+            break;
         }
     }
+    reports
 }

@@ -254,10 +254,22 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     ///
     /// Those of [`Settings::check`]; nothing is changed then.
     pub fn calibrate(&mut self, calibration: Calibration) -> Result<(), SettingsError> {
-        let settings = Settings {
+        self.change(Settings {
             calibration,
             ..self.settings
-        };
+        })
+    }
+
+    /// Changes the settings, all but the start angle: the next block starts a new first window, flagged [`Flags::REACQUIRED`], its angle
+    /// continued. [`configure`](Self::configure) begins with the start angle instead.
+    ///
+    /// The front needs the same settings, but for calibration, hum and colour; where it is configured anew, drop the blocks that were
+    /// gathered before.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Settings::check`]; nothing is changed then.
+    pub fn change(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check(BLOCKS)?;
         self.settings = settings;
         let found = self.found;

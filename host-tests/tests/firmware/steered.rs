@@ -1,0 +1,92 @@
+//! The pipeline on the host: commands and torn halves while a wave is followed.
+
+use antinode::{Calibration, Flags};
+use antinode_sim::Wave;
+use antinode_telemetry::{Command, Counters, Report, State};
+use firmware::settings::HALF;
+
+use crate::emulator::bytes;
+use crate::mirror::{MISSED, Recorded, reports_of};
+use crate::recordings;
+use crate::same::estimates;
+
+/// In which round the command comes.
+const ROUND: usize = 200;
+
+#[test]
+fn a_command_leaves_the_angle_continued_or_flagged() {
+    let wave = Wave {
+        angle_rate: 20.0,
+        ..recordings::WAVE
+    };
+    let recording = recordings::codes(wave, recordings::quiet(), 60_000);
+    let calibration = Calibration {
+        gain_ratio: 1.001,
+        ..Calibration::IDEAL
+    };
+    for command in [
+        Command::SetWindow { periods: 20 },
+        Command::SetHop { blocks: Some(5) },
+        Command::SetCalibration(calibration),
+    ] {
+        let sent = bytes(1, command);
+        let reports = reports_of::<i16>(Recorded::new(&recording), (ROUND, &sent), 1);
+        let is_answer = |report: &Report| matches!(report, Report::Acknowledgement(_));
+        let at = reports.iter().position(is_answer).expect("it answers");
+        let (before, after) = (estimates(&reports[..at]), estimates(&reports[at..]));
+        assert!(before.len() > 100 && after.len() > 50);
+        assert_eq!(after[0].flags, Flags::REACQUIRED, "{command:?}");
+        assert!(after[1..].iter().all(|estimate| estimate.flags.is_empty()));
+        for estimate in before.iter().chain(&after) {
+            let off = estimate.angle - wave.angle - wave.angle_rate * estimate.time;
+            assert!(off.abs() < 0.01, "{command:?}: {off}");
+        }
+        // What searches says so.
+        let is_state = |state| move |report: &&Report| **report == Report::State(state);
+        let searches = reports[at..].iter().filter(is_state(State::Searching));
+        let is_calibrated = matches!(command, Command::SetCalibration(_));
+        assert_eq!(searches.count(), usize::from(!is_calibrated));
+    }
+}
+
+/// The last counters among reports.
+fn counters(reports: &[Report]) -> Counters {
+    let counters = reports.iter().rev().find_map(|report| match report {
+        Report::Counters(counters) => Some(*counters),
+        _ => None,
+    });
+    counters.expect("there are some")
+}
+
+#[test]
+fn every_pair_of_a_torn_half_is_taken_or_lost() {
+    let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 40_000);
+    // While a period is searched, and later: in each half a block ends elsewhere.
+    for half in (1..4).chain(100..130) {
+        let source = Recorded::torn(&recording, half);
+        let reports = reports_of::<i16>(source, (0, &[]), 1);
+        let counters = counters(&reports);
+        assert_eq!(counters.overruns, 1);
+        assert!(counters.pairs_lost >= u64::from(MISSED));
+        let announced = (half * HALF) as u64 + u64::from(MISSED);
+        assert_eq!(counters.pairs + counters.pairs_lost, announced, "{half}");
+        let estimates = estimates(&reports);
+        let last = estimates.last().expect("there are some");
+        assert!(last.flags.is_empty() && last.time > 0.38);
+        let is_right = |angle: f64| (angle - recordings::WAVE.angle).abs() < 0.01;
+        assert!(estimates.iter().all(|estimate| is_right(estimate.angle)));
+    }
+}
+
+#[test]
+fn rails_before_a_block_begins_are_of_none() {
+    // 5 ms at the lower rail, then a wave.
+    let mut recording = recordings::codes(recordings::WAVE, recordings::quiet(), 40_000);
+    recording[..500].fill(antinode::Packed(0));
+    let reports = reports_of::<i16>(Recorded::torn(&recording, 300), (0, &[]), 1);
+    let counters = counters(&reports);
+    assert_eq!(
+        (counters.saturated_pairs, counters.saturated_blocks),
+        (500, 0)
+    );
+}

@@ -33,8 +33,9 @@ pub const HALF: usize = 128;
 pub const LONGEST_PERIOD: usize = 200;
 /// Blocks that the tracker holds: a window has up to two periods less.
 pub const RING: usize = 24;
-/// Blocks that may wait for the main loop, and one more; comparing the methods over a window takes as long as 15 blocks.
-pub const QUEUE: usize = if cfg!(feature = "methods") { 32 } else { 16 };
+/// Blocks that may wait for the main loop, and one more. The interrupt hands over those of `HALF` pairs at once: a block of 6 pairs, as
+/// windows of 2 periods may have, makes 21; shorter ones (a hop within such windows) are dropped in part, and counted.
+pub const QUEUE: usize = 32;
 /// Requests that may wait for the interrupt, and one more.
 pub const REQUESTS: usize = 4;
 /// Bytes that may wait for the line: a dozen estimates of 110 bytes, 14 ms, and what goes before them. Six frames and more.

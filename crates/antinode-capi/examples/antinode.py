@@ -7,8 +7,8 @@
     clean = windows[windows["flags"] == 0]
     clean["angle_rad"], clean["angle_std_rad"]     # fields as antinode_estimate_t has them
 
-Needs numpy, and the shared library: `crates/antinode-capi/install PREFIX`. ANTINODE_LIBRARY names it where the system does not find it:
-PREFIX/lib/libantinode.so, libantinode.dylib or antinode.dll.
+Needs numpy, and the shared library: `crates/antinode-capi/install PREFIX`, on Linux. ANTINODE_LIBRARY names it where the system does not
+find it: PREFIX/lib/libantinode.so. Elsewhere `cargo build --profile capi -p antinode-capi` makes it, in target/capi.
 """
 
 import ctypes

@@ -1,4 +1,4 @@
-//! The instrument on a recording, in the emulator or on a board with a debugger: see [`firmware::replay`].
+//! The instrument on a recording, in the emulator: see [`firmware::replay`].
 #![no_std]
 #![no_main]
 

@@ -1,6 +1,6 @@
 //! The serial line: USART1, TX on PA9, RX on PA10, 8N1. Bytes leave by DMA in runs, and arrive by DMA in a ring.
 //!
-//! Not by an interrupt each: a byte takes 11 µs, the USART holds one, and the samples' interrupt takes up to a quarter of a millisecond.
+//! Not by an interrupt each: a byte takes 11 µs, the USART holds one, and the samples' interrupt takes up to half a millisecond.
 
 #![allow(
     unsafe_code,

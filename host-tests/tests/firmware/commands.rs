@@ -111,6 +111,22 @@ fn the_window_changes_while_it_runs() {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
+fn windows_of_two_periods_lose_no_block() {
+    let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 100_000);
+    let mut device = Device::start("replay", &recording, "hold=1");
+    device.command(1, Command::SetWindow { periods: 2 });
+    let (reports, lost, _) = device.finish();
+    assert_eq!(lost, 0);
+    let dropped = reports.iter().filter_map(|report| match report {
+        Report::Counters(counters) => Some(counters.blocks_dropped),
+        _ => None,
+    });
+    assert_eq!(dropped.max(), Some(0));
+    assert!(estimates(&reports).len() > 2500);
+}
+
+#[test]
+#[ignore = "needs the ARM target and QEMU"]
 fn a_restart_is_acknowledged_and_explained() {
     let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 10_000);
     let mut device = Device::start("replay", &recording, "hold=1");

@@ -108,7 +108,8 @@ impl<'q, S: Sample> Instrument<'q, S> {
             let done = self.answer(frame);
             log(Event::Answered { id: frame.id, done });
         }
-        if self.awaits {
+        // A device that does not sample goes on saying so.
+        if self.awaits && self.state == State::Tracking {
             self.enter(State::Searching, &mut log);
         }
         // No more than the queue holds: under overload it is never empty, and the line and the watchdog must have their turn.

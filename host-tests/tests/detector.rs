@@ -182,6 +182,38 @@ fn a_wave_that_begins_late_is_found_as_soon() {
 }
 
 #[test]
+fn a_wave_that_begins_after_two_tones_is_found_soon() {
+    // The tones, both of the wave's size, look like a wave for ever: the search leaves looks out by then.
+    let (mut latest, mut sum) = (0f64, 0.0);
+    for seed in 0..4000 {
+        let (wave, period) = wave(seed);
+        let before = 2000 + seed as usize % 97;
+        let tones = |k: usize| {
+            let tone = |period: f64| (std::f64::consts::TAU * k as f64 / period).sin();
+            wave.main_amplitude * (tone(4.5) + tone(7.65))
+        };
+        let mut detector = DifferenceDetector::<f32>::new();
+        let gyro = Gyro::new(wave, Flaws::default(), RATE, seed).unwrap();
+        let pairs = (0..before)
+            .map(|k| [tones(k), 0.6 * tones(k)])
+            .chain(gyro.map(|pair| [pair.c, pair.d]))
+            .take(before + (40.0 * period) as usize);
+        let found = pairs.enumerate().find_map(|(k, pair)| {
+            let found = detector.push(pair.map(|x| x as f32))?;
+            Some((k, f64::from(found)))
+        });
+        let (k, _) = found.unwrap();
+        assert!(k >= before, "seed {seed}: found in two tones");
+        let time = (k - before) as f64 / period;
+        latest = latest.max(time);
+        sum += time;
+    }
+    let mean = sum / 4000.0;
+    println!("after two tones: mean {mean:.2} periods, latest {latest:.1}");
+    assert!(mean < 4.0 && latest < 12.0);
+}
+
+#[test]
 fn no_call_both_tries_many_samples_and_judges() {
     // Of frames of 10, 12, 14, 16 and 20 samples twelve are tried in a call. The call after the last ones says what they are, unless these
     // were but two.

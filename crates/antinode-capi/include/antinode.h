@@ -32,10 +32,10 @@
  *    _init and _reset an interrupt of the same core, whose samples are refused.
  *  - States are independent of each other.
  *
- * The interrupt's cost on a Cortex-M4: while a period is searched 230 to 600 instructions a sample pair, 1400 of a tone of fewer than 4
- * samples a period or of two tones, which are not found; then 10 to 70, by _push 70 to 150; up to 0.8 KiB of stack, 1.1 (fixed) or
- * 1.4 KiB (float) by _push_block. The search uses floating-point registers, in fixed point too, where the core has them: what saves
- * them for threads must save them for this interrupt (lazy stacking; Zephyr: CONFIG_FPU_SHARING).
+ * The interrupt's cost on a Cortex-M4: while a period is searched 230 to 600 instructions a sample pair, up to 850 over a half-buffer
+ * of a signal that looks like a wave and is none, such as two tones; then 10 to 70, by _push 70 to 150; up to 0.8 KiB of stack, 1.1
+ * (fixed) or 1.4 KiB (float) by _push_block. The search uses floating-point registers, in fixed point too, where the core has them:
+ * what saves them for threads must save them for this interrupt (lazy stacking; Zephyr: CONFIG_FPU_SHARING).
  *
  * Errors: a NULL or misaligned pointer, a state that was not initialised and a value out of range give a status below 0, and
  * nothing is done; but a state whose _init failed is no longer initialised. A pointer that is neither must point to what its type

@@ -7,13 +7,18 @@
 use super::PERIODS;
 use super::attempt::{Attempt, Verdict};
 use super::octave::Octave;
-use crate::phase::Phase;
 use crate::sample::{Sample, SamplePair};
 
 /// Octaves: periods of 4 to 8, 8 to 16, … 128 to 256 samples.
 const OCTAVES: usize = 6;
 /// Power lost by halving beyond the wave's own, as a share of the wave's: noise of 20 % loses 0.2.
 const STRANGER: f32 = 0.4;
+
+/// What a refused trial adds to the weariness of a search: looks that find nothing, or are left out, take 1 each.
+const REFUSED: u8 = 6;
+/// Weariness above which looks are left out: five trials refused in a row. Signals that look like a wave for ever, as two tones do, would
+/// otherwise be on trial for ever.
+const WEARY: u8 = 24;
 
 /// A frame under trial, and what it was found under.
 #[derive(Debug, Clone)]
@@ -31,13 +36,13 @@ impl<S: Sample> Candidate<S> {
     fn accept(&self, period: f32, power: f32) -> Option<f32> {
         let scale = (1u32 << self.halvings) as f32;
         let found = period * scale;
-        // cos ½t cos ¼t … is sin t over all halvings of t and the sine of what is left: a small angle.
+        // cos ½t cos ¼t … is sin t over all halvings of t and the sine of what is left: both are series, for t is below 0.86.
         let turn = core::f32::consts::PI / period;
-        let rest = turn / scale;
-        let least = turn * (1.0 - rest * rest * (1.0 / 6.0));
-        let whole = Phase::from_radians(turn).unit().im;
-        let kept = whole * whole / (least * least);
-        let is_whole = self.lost < power * (1.0 / kept - 1.0 + STRANGER);
+        let square = turn * turn;
+        let rest = square / (scale * scale);
+        let taken =
+            (1.0 - rest * (1.0 / 6.0)) / (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));
+        let is_whole = self.lost < power * (taken * taken - 1.0 + STRANGER);
         (is_whole && PERIODS.contains(&found)).then_some(found)
     }
 }
@@ -53,6 +58,7 @@ pub struct DifferenceDetector<S: Sample> {
     octaves: [Octave<S>; OCTAVES],
     /// The octaves that are still to take two samples into their D(T), as bits.
     waiting: u8,
+    weariness: u8,
     candidate: Candidate<S>,
 }
 
@@ -62,6 +68,7 @@ impl<S: Sample> DifferenceDetector<S> {
         Self {
             octaves: [Octave::new(); OCTAVES],
             waiting: 0,
+            weariness: 0,
             candidate: Candidate {
                 is_open: false,
                 halvings: 0,
@@ -75,6 +82,7 @@ impl<S: Sample> DifferenceDetector<S> {
     pub fn restart(&mut self) {
         self.candidate.is_open = false;
         self.waiting = 0;
+        self.weariness = 0;
         for octave in &mut self.octaves {
             octave.restart();
         }
@@ -121,13 +129,16 @@ impl<S: Sample> DifferenceDetector<S> {
         is_due.then_some(halvings)
     }
 
-    /// Looks at D(T) of an octave.
+    /// Looks at D(T) of an octave, unless the search is weary.
     #[inline(never)]
     fn look(&mut self, halvings: usize) {
-        let octave = self.octaves.get_mut(halvings);
-        if let Some(period) = octave.and_then(Octave::period) {
-            self.propose(halvings, period);
+        if self.weariness <= WEARY {
+            let octave = self.octaves.get_mut(halvings);
+            if let Some(period) = octave.and_then(Octave::period) {
+                return self.propose(halvings, period);
+            }
         }
+        self.weariness = self.weariness.saturating_sub(1);
     }
 
     /// Puts the frame of an octave on trial: by itself, so that a look that finds nothing is short.
@@ -153,6 +164,7 @@ impl<S: Sample> DifferenceDetector<S> {
             Verdict::Accepted(fitted) => candidate.accept(fitted.period, fitted.power),
         };
         candidate.is_open = false;
+        self.weariness += REFUSED;
         period
     }
 }

@@ -4,10 +4,12 @@ use std::io::{self, IsTerminal, Read};
 use std::path::Path;
 
 use antinode::Flags;
-use csv::{Position, Reader, StringRecord};
+use csv::{ErrorKind, Position, Reader, StringRecord};
 
 use crate::failure::Failure;
 use crate::recording::{in_utf8, open_file};
+
+const STANDARD_INPUT: &str = "standard input";
 
 /// A file of rows, read line by line.
 pub struct RowFile<R> {
@@ -24,7 +26,7 @@ impl RowFile<Box<dyn Read>> {
             if io::stdin().is_terminal() {
                 eprintln!("reading rows from standard input; Ctrl-D ends them");
             }
-            return Self::new("standard input", Box::new(in_utf8(io::stdin())));
+            return Self::new(STANDARD_INPUT, Box::new(in_utf8(io::stdin())));
         }
         let name = path.display().to_string();
         Self::new(&name, Box::new(in_utf8(open_file(path)?)))
@@ -57,9 +59,14 @@ impl<R: Read> RowFile<R> {
     /// Where a column stands that rows must have.
     pub fn needed(&self, column: &str) -> Result<usize, Failure> {
         self.place(column).ok_or_else(|| {
+            let remedy = if self.header.iter().any(|name| name.starts_with('{')) {
+                "these are JSON lines, give the rows with `--output csv`".to_owned()
+            } else {
+                remedy(&self.name)
+            };
+            let name = &self.name;
             Failure::Recording(format!(
-                "{}: no column {column} in its first line; give rows as `antinode identify --output csv` prints them",
-                self.name
+                "{name}: no column {column} in its first line; {remedy}"
             ))
         })
     }
@@ -98,9 +105,28 @@ pub fn has_flag(flags: &str, flag: Flags) -> bool {
         .any(|name| flag.names().any(|one| one == name))
 }
 
-/// What is told where there are no rows.
+/// What is told where there are no rows, or a line is none.
 fn unreadable(name: &str, error: &csv::Error) -> Failure {
-    Failure::Recording(format!(
-        "{name}: {error}; give rows as `antinode identify --output csv` prints them"
-    ))
+    let line = error.position().map_or(0, Position::line);
+    Failure::Recording(match error.kind() {
+        // Of the header there is no other line to leave out.
+        ErrorKind::Utf8 { .. } if line <= 1 => {
+            format!("{name}: this is no text; {}", remedy(name))
+        }
+        ErrorKind::Utf8 { .. } => {
+            format!("{name}, line {line}: this is no text; leave the line out")
+        }
+        ErrorKind::UnequalLengths {
+            expected_len, len, ..
+        } => format!(
+            "{name}, line {line}: found {len} fields where the first line has {expected_len}; leave the line out"
+        ),
+        _ => format!("{name}: {error}; {}", remedy(name)),
+    })
+}
+
+/// How to come by rows.
+fn remedy(name: &str) -> String {
+    let file = if name == STANDARD_INPUT { "-" } else { name };
+    format!("give rows, which of a recording `antinode identify --output csv {file}` prints")
 }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{RATE, WAVE, fault, raw, run_with};
+use common::{RATE, WAVE, fault, npy, raw, run, run_with, text, wav};
 
 #[test]
 fn one_pick_off_behind_the_other_is_told() {
@@ -70,5 +70,44 @@ fn amplitudes_that_are_not_identified_are_told() {
             .contains("amplitudes are identified from 1e-15 to 1e17");
         assert_eq!(is_told, is_beyond, "{scale}: {}", run.err);
         assert!(is_beyond || run.code == 0, "{scale}: {}", run.err);
+    }
+}
+
+#[test]
+fn rows_in_a_recordings_place_and_a_recording_in_theirs_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let codes = WAVE.codes(20_000);
+    let write = |name: &str, bytes: &[u8]| std::fs::write(here.join(name), bytes).unwrap();
+    write("it.wav", &wav(&codes));
+    write("it.npy", &npy(&codes));
+    write("it.csv", text(&codes).as_bytes());
+    let printed = |format: &str| {
+        let run = run(here, &format!("identify it.wav --output {format}"));
+        run.out
+    };
+    let (rows, lines) = (printed("csv"), printed("jsonl"));
+    write("rows.csv", rows.as_bytes());
+    write("rows.jsonl", lines.as_bytes());
+    let mut broken: Vec<&str> = rows.lines().take(20).collect();
+    broken[10] = "0.1,190";
+    write("broken.csv", broken.join("\n").as_bytes());
+    for (arguments, told) in [
+        ("identify rows.csv", "rows.csv:1: these are rows"),
+        ("identify rows.jsonl", "rows.jsonl:1: these are rows"),
+        ("resonator it.wav", "it.wav: this is no text; give rows, "),
+        ("calibrate it.npy", "it.npy: this is no text; give rows, "),
+        ("plot it.csv -o it.svg", "--output csv it.csv`"),
+        ("resonator -", "--output csv -`"),
+        ("resonator rows.jsonl", "these are JSON lines"),
+        (
+            "resonator broken.csv",
+            "broken.csv, line 11: found 2 fields where the first line has 21; leave",
+        ),
+    ] {
+        let run = run(here, arguments);
+        assert_eq!((run.code, run.out.as_str()), (1, ""), "{arguments}");
+        let is_told = run.err.starts_with("error: ") && run.err.contains(told);
+        assert!(is_told, "{arguments}: {}", run.err);
     }
 }

@@ -71,7 +71,7 @@ fn what_is_no_row_is_told() {
         "plot - -o it.svg",
         &short,
         1,
-        &["line: 2", "identify --output csv"],
+        &["line 2: found 2 fields", "leave the line out"],
     );
     refused(
         here,

@@ -45,6 +45,12 @@ pub enum LineFault {
         }
     )]
     ColumnCount { found: usize },
+    /// What was identified already.
+    #[error(
+        "these are rows as this program prints them, no samples; give the recording, or the rows to `antinode plot`, `resonator` \
+         or `calibrate`"
+    )]
+    Rows,
     /// One signal beside its time.
     #[error(
         "found the time and one signal, but both are needed, S_C and S_D: export both channels into one file, or put \

@@ -198,6 +198,29 @@ impl SamplePair<i32> for [fixed::types::I1F31; 2] {
     }
 }
 
+#[cfg(test)]
+mod forms {
+    use super::*;
+
+    #[test]
+    fn every_form_of_a_pair_gives_its_numbers() {
+        let f32_of = |pair: [f32; 2]| pair;
+        let i32_of = |pair: [i32; 2]| pair;
+        let word = 5u32 << 16 | u32::from(-3i16 as u16);
+        assert_eq!(f32_of([-3i16, 5].pair()), [-3.0, 5.0]);
+        assert_eq!(f32_of([-3i8, 5].pair()), [-3.0, 5.0]);
+        assert_eq!(f32_of([65_533u16, 5].pair()), [65_533.0, 5.0]);
+        assert_eq!(f32_of(word.pair()), [-3.0, 5.0]);
+        assert_eq!(f32_of(Packed(word).pair()), [-3.0, 5.0]);
+        assert_eq!(i32_of([-3i16, 5].pair()), [-3, 5]);
+        assert_eq!(i32_of([65_533u16, 5].pair()), [65_533, 5]);
+        assert_eq!(i32_of(word.pair()), [-3, 5]);
+        assert_eq!(i32_of(Packed(word).pair()), [-3, 5]);
+        assert_eq!(SamplePair::<i16>::pair(word), [-3, 5]);
+        assert_eq!(SamplePair::<i16>::pair([-3i16, 5]), [-3, 5]);
+    }
+}
+
 #[cfg(all(test, feature = "fixed"))]
 mod tests {
     use std::vec::Vec;

@@ -1,6 +1,6 @@
 //! What a fault leaves to the windows after it: a leap of the frequency, the end of a wave, a spike while it grows, a wire that breaks.
 
-use antinode::{Flags, Settings};
+use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::{Core, identify_changed, stream, windows};
 
@@ -133,5 +133,40 @@ fn a_pick_off_that_shows_only_what_the_other_leaks_is_dead() {
                 );
             }
         }
+    }
+}
+
+#[test]
+fn the_window_in_which_a_dead_pick_off_comes_back_is_flagged_however_loud_it_was() {
+    // Its windows raise the residual together, which is no new level of noise.
+    for seed in 0..60 {
+        let wave = Wave {
+            angle: 0.5,
+            ..random_wave(seed, 5332.0, 0.3)
+        };
+        let louder = Wave {
+            main_amplitude: 1e-12,
+            quadrature_amplitude: 0.0,
+            ..wave
+        };
+        let end = 14_000 + 37 * seed as usize;
+        let loud = noisy(&wave, 0.03);
+        let dead = stream(louder, loud, 20_000, seed + 100);
+        let found = identify_changed(
+            wave,
+            &noisy(&wave, 0.005),
+            windows(10),
+            20_000,
+            seed,
+            |k, [c, d]| match k {
+                10_000.. if k < end => [c, f64::from(dead[k][1])],
+                _ => [c, d],
+            },
+        );
+        // By two blocks at least.
+        let touched = |e: &&Estimate| e.start + 76 < end as u64 && e.end() > 10_076;
+        let clean = |e: &&Estimate| touched(e) && e.flags.is_empty();
+        assert!(found.iter().filter(touched).count() > 20);
+        assert_eq!(found.iter().find(clean), None, "seed {seed}");
     }
 }

@@ -130,8 +130,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let left = |before: &Record| record.main.value < LEFT * before.main.value;
         let is_left = self.before.as_ref().is_some_and(left);
         let is_little = is_no_wave || is_left;
-        if is_left || checks::is_hidden(wave) {
-            // No new level of noise takes the wave away.
+        if is_left || checks::is_hidden(wave) || flags.contains(Flags::DEAD_CHANNEL) {
+            // No new level of noise takes the wave away, or a pick-off.
             self.noise.refuse_none();
         }
         self.failures.take(flags, fit.settled, is_little);

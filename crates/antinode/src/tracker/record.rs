@@ -81,9 +81,9 @@ pub(crate) struct Record {
     pub phase_variance: f32,
     pub main: Amplitude,
     pub quadrature: Amplitude,
-    /// Power of each ideal pick-off's phasor, and the variance of a part of it.
+    /// Power of each raw pick-off's phasor, and the variance of a part of it.
     pub channel_power: [f32; 2],
-    pub channel_variance: [f32; 2],
+    pub channel_variance: f32,
     pub offsets: [f32; 2],
     /// Of each; infinite where it may wander.
     pub offset_variance: f32,
@@ -177,7 +177,7 @@ impl Record {
     /// True when pick-off `channel` shows no wave.
     pub(crate) fn is_silent(&self, channel: usize) -> bool {
         self.channel_power[channel]
-            < 36.0 * self.channel_variance[channel] + 1e-6 * self.main.value * self.main.value
+            < 36.0 * self.channel_variance + 1e-6 * self.main.value * self.main.value
     }
 
     /// By how much the phase has run beyond what the mean frequency of both windows explains, rad, not wrapped.

@@ -147,8 +147,6 @@ impl Standing {
             0.25 * (plus_turn - minus_turn) * per_half,
             0.0625 * turning * squared,
         );
-        let [d, c_on_d] = model.correction.noise_gains;
-        let variance = noise * greater(even[0][0], odd[0][0]);
         Self {
             record: Record {
                 middle,
@@ -182,8 +180,8 @@ impl Standing {
                     variance: 0.25 * quadrature,
                     rate_variance: 0.25 * quadrature_change * squared,
                 },
-                channel_power: fit.channel_power(),
-                channel_variance: [variance, variance * (d * d + c_on_d * c_on_d)],
+                channel_power: fit.power,
+                channel_variance: noise * greater(even[0][0], odd[0][0]),
                 offsets: fit.offsets,
                 // A short window knows its offset worse than the mean of its samples. One that blocks have to themselves may be anywhere.
                 offset_variance: if model.shared > 0.0 {

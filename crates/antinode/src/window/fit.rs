@@ -36,23 +36,14 @@ const STEPS: usize = 6;
 pub(crate) struct Fit {
     pub waves: Waves,
     pub offsets: [f32; 2],
+    /// |z|² of each raw pick-off: of one that is dead nothing is left, whatever a calibration adds of the other.
+    pub power: [f32; 2],
     /// The greatest amplitude of each raw pick-off's wave within the window, squared, or a little more.
     pub reach: [f32; 2],
     /// What the waves leave unexplained.
     pub remains: Remains,
     /// False when the steps did not settle.
     pub settled: bool,
-}
-
-impl Fit {
-    /// |z|² of each (ideal) pick-off.
-    pub(crate) fn channel_power(&self) -> [f32; 2] {
-        let [plus, minus] = self.waves.value;
-        [
-            0.25 * (plus + minus).norm_sqr(),
-            0.25 * (plus - minus).norm_sqr(),
-        ]
-    }
 }
 
 impl Model {
@@ -100,9 +91,10 @@ impl Model {
             }
         }
         let Parameters { z, slope, .. } = &parameters;
+        fit.power = z.map(|z| z.norm_sqr());
         for (i, reach) in fit.reach.iter_mut().enumerate() {
             // (|z| + |z′|)² is not more than that: half a per cent of |z| more where nothing changes.
-            *reach = 1.01 * z[i].norm_sqr() + 101.0 * slope[i].norm_sqr();
+            *reach = 1.01 * fit.power[i] + 101.0 * slope[i].norm_sqr();
         }
     }
 

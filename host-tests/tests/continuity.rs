@@ -1,9 +1,9 @@
 //! From window to window: the angle runs on over turns and overlap, and a wave is followed for long.
 
-use antinode::Settings;
+use antinode::{Flags, Settings, SettingsError};
 use antinode_sim::{Flaws, Wave};
 use host_tests::score::{errors, stated};
-use host_tests::{RATE, angle_error, identify, identify_changed, windows};
+use host_tests::{Core, RATE, angle_error, identify, identify_changed, stream, windows};
 
 #[test]
 fn the_angle_runs_on_over_many_turns() {
@@ -155,4 +155,46 @@ fn the_angle_does_not_slip_at_the_end_of_a_ring_down() {
         println!("seed {seed}: {rows} windows, {slipped} off by a quarter turn");
         assert!(rows > 3_000 && slipped == 0);
     }
+}
+
+#[test]
+fn a_search_or_a_change_of_settings_continues_the_angle() {
+    let wave = Wave {
+        angle_rate: 20.0,
+        ..Wave::default()
+    };
+    let flaws = Flaws {
+        noise: 0.01,
+        ..Flaws::default()
+    };
+    let pairs = stream(wave, flaws, 60_000, 2);
+    let mut core = Core::new(windows(10)).unwrap();
+    let refused = core.change(windows(1));
+    assert_eq!(refused, Err(SettingsError::PeriodsTooFew(1)));
+    let mut found = Vec::new();
+    for (part, half_buffer) in pairs.chunks(20_000).enumerate() {
+        match part {
+            1 => core.search(),
+            2 => core.change(windows(20)).unwrap(),
+            _ => {}
+        }
+        assert!(core.is_searching());
+        core.extend(half_buffer, |estimate| found.push((part, estimate)));
+        assert!(core.has_wave() && !core.is_searching());
+    }
+    // From where the first window took it to stand.
+    let start = found[0].1.angle - wave.at(found[0].1.time).angle;
+    for (part, estimate) in &found {
+        assert_eq!(estimate.samples, if *part < 2 { 190 } else { 380 });
+        let off = estimate.angle - wave.at(estimate.time).angle - start;
+        assert!(off.abs() < 0.02, "part {part}: {off} in {estimate:?}");
+    }
+    let first = found
+        .chunk_by(|(a, _), (b, _)| a == b)
+        .map(|part| part[0].1.flags);
+    assert!(first.eq([Flags::empty(), Flags::REACQUIRED, Flags::REACQUIRED]));
+    let told = found
+        .iter()
+        .filter(|(_, estimate)| !estimate.flags.is_empty());
+    assert_eq!(told.count(), 2);
 }

@@ -77,6 +77,20 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         Ok(())
     }
 
+    /// Changes the settings, all but the start angle, and searches anew: the first window from then on is flagged
+    /// [`Flags::REACQUIRED`](crate::Flags::REACQUIRED), its angle continued. [`configure`](Self::configure) begins with the start angle
+    /// instead.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Identifier::new`]; nothing is changed then.
+    pub fn change(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        Front::<S, N>::check(&settings)?;
+        self.tracker.change(settings)?;
+        self.front.set(&settings);
+        Ok(())
+    }
+
     /// Changes the calibration and keeps the period: see [`Tracker::calibrate`].
     ///
     /// # Errors
@@ -133,9 +147,15 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     #[inline]
     fn search_if_lost(&mut self) {
         if self.tracker.has_lost() {
-            self.front.search();
-            self.tracker.forget();
+            self.search();
         }
+    }
+
+    /// Drops the wave and searches anew, as is done by itself where a wave is lost: the first window from then on is flagged
+    /// [`Flags::REACQUIRED`](crate::Flags::REACQUIRED), its angle continued. A known frequency is not searched, but windows begin anew.
+    pub fn search(&mut self) {
+        self.front.search();
+        self.tracker.forget();
     }
 
     /// Tells that `count` sample pairs were lost before the next one; the window that they would have been part of is dropped.

@@ -219,6 +219,18 @@ mod forms {
         assert_eq!(SamplePair::<i16>::pair(word), [-3, 5]);
         assert_eq!(SamplePair::<i16>::pair([-3i16, 5]), [-3, 5]);
     }
+
+    #[test]
+    fn offsets_are_taken_off() {
+        let offsets = [2.0, -3.0];
+        assert_eq!(<i32 as Arithmetic>::centred([7, -5], offsets), [5.0, -2.0]);
+        assert_eq!(
+            <f32 as Arithmetic>::centred([7.0, -5.0], offsets),
+            [5.0, -2.0]
+        );
+        let word = <i16 as Arithmetic>::centred([7, -5], <i16 as Arithmetic>::offsets(offsets));
+        assert_eq!(SamplePair::<i16>::pair(word), [5, -2]);
+    }
 }
 
 #[cfg(all(test, feature = "fixed"))]

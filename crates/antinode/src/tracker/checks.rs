@@ -52,7 +52,7 @@ fn is_significant(wave: &Standing) -> bool {
 /// Tests of one window by itself and against the noise of those before.
 ///
 /// `variance` is the noise variance that it leaves, `stated` that for which it states its deviations, `coding` what the converter's steps
-/// may add, `colour` how many times that about the third harmonic it may be; the next window begins `advance` blocks later.
+/// may add, `colour` how many times that about the third harmonic it may be; `advance` of its blocks are not in the next one.
 #[inline(always)]
 pub(crate) fn within(
     model: &Model,

@@ -71,7 +71,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         record.phase = wrap(record.phase + (quarters & 1) as f32 * core::f32::consts::PI);
 
         let own = wave.record.residual;
-        let advance = self.settings.hop.unwrap_or(self.count);
+        let advance = self
+            .settings
+            .hop
+            .map_or(self.count, |hop| hop.min(self.count));
         let colour = if self.settings.coloured {
             f32::INFINITY
         } else {
@@ -134,7 +137,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             // No new level of noise takes the wave away, or a pick-off.
             self.noise.refuse_none();
         }
-        self.failures.take(flags, fit.settled, is_little);
+        self.failures.take(flags, fit.settled, is_little, advance);
         self.found = !flags.contains(Flags::LOST);
         if fit.settled && !flags.contains(Flags::LOST) {
             let is_clean = !flags.intersects(BROKEN);

@@ -224,13 +224,13 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.take(block)
     }
 
-    /// True when the wave has been lost for so long that a new period must be searched: two windows, or eight with little of the wave
-    /// beside all else, or the first one where that shows no wave. Ask after every block: a first window without a wave gives no estimate.
+    /// True when the wave has been lost for so long that a new period must be searched: for two windows, or eight with little of the wave
+    /// beside all else, one after the other however they overlap, or in the first one where that shows no wave. Ask after every block: a first window without a wave gives no estimate.
     ///
     /// Then call [`Front::search`](crate::Front::search), drop the blocks that were gathered before it, and [`forget`](Self::forget).
     #[must_use = "a lost wave is found again only by a search"]
     pub fn has_lost(&self) -> bool {
-        self.failures.are_enough()
+        self.failures.are_enough(self.count)
     }
 
     /// True from the first window that shows a wave to the first that shows none. Where a frequency is known and the wave is elsewhere, or

@@ -69,9 +69,9 @@ impl Noise {
         ]
     }
 
-    /// Takes a window of `blocks` that raised its residual, and in nothing else differs; the next one begins `advance` blocks later.
+    /// Takes a window of `blocks` that raised its residual, and in nothing else differs; `advance` of them are not in the next one.
     pub(super) fn refuse(&mut self, advance: u16, blocks: u16) {
-        self.refused += u32::from(advance.min(blocks));
+        self.refused += u32::from(advance);
         if self.refused >= Self::NEW_LEVEL * u32::from(blocks) {
             *self = Self::NONE;
         }

@@ -1,7 +1,8 @@
 /*
  * What the interrupt side takes of a Cortex-M4: instructions a sample pair while a period is searched, in noise and in signals that are
- * never found from half-buffers, and in a wave pair by pair, and the most stack of any call, the processor's own frame not counted. Counted as in push_block.c. In fixed
- * point the floating-point unit is off once the period is known: an instruction of it would end in the fault handler.
+ * never found from half-buffers, and in a wave pair by pair, and the most stack of any call, the processor's own frame not counted.
+ * Counted as in push_block.c. In fixed point the floating-point unit is off once the period is known: an instruction of it would end in
+ * the fault handler.
  */
 #include "counts.h"
 
@@ -73,17 +74,17 @@ static float sine(uint32_t phase)
  */
 static uint32_t tones(const antinode_settings_t *settings, uint32_t period, uint32_t other)
 {
-    uint32_t words[HALF_BUFFER], at, i, p = 0, q = 0, most = 0, here;
+    uint32_t pushed[HALF_BUFFER], at, i, p = 0, q = 0, most = 0, here;
 
     CALL(init)(&gyro, settings);
     for (at = 0; at < PAIRS; at += HALF_BUFFER) {
         for (i = 0; i < HALF_BUFFER; i++) {
             const float x = 1000.0f * (sine(p) + sine(q));
-            words[i] = (uint16_t)(int16_t)x | (uint32_t)(uint16_t)(int16_t)(0.6f * x) << 16;
+            pushed[i] = (uint16_t)(int16_t)x | (uint32_t)(uint16_t)(int16_t)(0.6f * x) << 16;
             p += (uint32_t)((100ull << 32) / period);
             q += (uint32_t)((100ull << 32) / other);
         }
-        take(words, HALF_BUFFER);
+        take(pushed, HALF_BUFFER);
         ticks = pairs = 0;
         push(PACKED, HALF_BUFFER);
         if (CALL(health)(&gyro, &health) != ANTINODE_OK || health.searching != 1)

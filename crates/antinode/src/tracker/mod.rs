@@ -225,7 +225,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// True when the wave has been lost for so long that a new period must be searched: for two windows, or eight with little of the wave
-    /// beside all else, one after the other however they overlap, or in the first one where that shows no wave. Ask after every block: a first window without a wave gives no estimate.
+    /// beside all else, as long as they would be without overlap, or in the first one where that shows no wave. Ask after every block: a
+    /// first window without a wave gives no estimate.
     ///
     /// Then call [`Front::search`](crate::Front::search), drop the blocks that were gathered before it, and [`forget`](Self::forget).
     #[must_use = "a lost wave is found again only by a search"]

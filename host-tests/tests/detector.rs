@@ -1,5 +1,6 @@
 //! The period from cold: never on noise, never a fraction or a multiple, soon.
 
+use antinode::Identifier;
 use antinode::period::{DifferenceDetector, MeanReturnDetector};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 use host_tests::{Core, RATE, identify, stream, windows};
@@ -100,6 +101,61 @@ fn noise_is_no_wave() {
             assert_eq!(mean_return.push(pair), None, "seed {seed}");
         }
     }
+}
+
+#[test]
+fn noise_of_less_than_a_code_is_reported_as_no_wave() {
+    // Samples of two or three values look like a wave now and then: the first window tells that they are none.
+    let wave = Wave {
+        main_amplitude: 1e-12,
+        quadrature_amplitude: 0.0,
+        ..Wave::default()
+    };
+    for noise in [0.3, 0.8] {
+        let flaws = Flaws {
+            noise,
+            ..Flaws::default()
+        };
+        let mut core = Identifier::<i16, 200, 16>::new(windows(10)).unwrap();
+        let mut found = 0;
+        let gyro = Gyro::new(wave, flaws, RATE, 7).unwrap();
+        for (k, pair) in gyro.take(1_000_000).enumerate() {
+            // Offsets that wander from code to code.
+            let offset = 2e-5 * k as f64;
+            let was_searching = core.is_searching();
+            let codes = [pair.c + offset, pair.d - offset].map(|x| x.round() as i16);
+            assert_eq!(core.push(codes), None, "noise of {noise} codes");
+            found += usize::from(was_searching && !core.is_searching());
+        }
+        println!("noise of {noise} codes: {found} waves found in a million pairs");
+        assert!(found < 100);
+    }
+}
+
+#[test]
+fn a_wave_of_a_dozen_codes_is_found_as_soon() {
+    let (mut latest, mut sum) = (0f64, 0.0);
+    for seed in 0..4000 {
+        let (wave, period) = wave(seed);
+        let scale = 12.0 / wave.main_amplitude;
+        let flaws = Flaws {
+            noise: 0.5 / scale,
+            offset_c: 31.0 / scale,
+            ..Flaws::default()
+        };
+        let mut detector = DifferenceDetector::<i16>::new();
+        let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
+        let codes = gyro.map(|pair| [pair.c, pair.d].map(|x| (scale * x).round() as i16));
+        let found = codes
+            .take((30.0 * period) as usize)
+            .position(|pair| detector.push(pair).is_some());
+        let time = found.unwrap() as f64 / period;
+        latest = latest.max(time);
+        sum += time;
+    }
+    let mean = sum / 4000.0;
+    println!("a dozen codes: mean {mean:.2} periods, latest {latest:.1}");
+    assert!(mean < 3.2 && latest < 8.0);
 }
 
 #[test]

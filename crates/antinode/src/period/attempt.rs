@@ -90,7 +90,7 @@ impl<S: Sample> Attempt<S> {
 
     /// What the fit says.
     fn judge(&mut self) -> Verdict {
-        match self.trial.fitted() {
+        match self.trial.fitted(S::ROUNDING) {
             None => Verdict::Refused,
             Some(fitted) if fitted.doubt > 0.0 => {
                 self.seen = 0;

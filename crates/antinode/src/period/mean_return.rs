@@ -228,7 +228,7 @@ impl MeanReturnDetector {
                     return self.wait();
                 }
                 self.restart();
-                let found = self.trial.fitted().map(|found| found.period);
+                let found = self.trial.fitted(0.0).map(|found| found.period);
                 return found.filter(|period| PERIODS.contains(period));
             }
         };

@@ -99,7 +99,7 @@ mod tests {
             trial.begin(6.3, length);
             let (first, last) = samples.split_at(length / 2);
             trial.push_ends(first.iter().zip(last.iter().rev()).map(|(&a, &b)| [a, b]));
-            let fitted = trial.fitted().expect("a wave");
+            let fitted = trial.fitted(0.0).expect("a wave");
             let mut rests = Rests::NONE;
             rests.begin(&trial);
             // In two parts, as a search takes them.

@@ -4,6 +4,7 @@ use num_complex::Complex32;
 
 use crate::block::Pair;
 use crate::phase::PhaseStep;
+use crate::scalar::greater;
 
 /// The share of the signal's power that a wave may leave unexplained; 20 % noise leaves 14 %.
 const UNEXPLAINED: f32 = 0.3;
@@ -209,8 +210,8 @@ impl Trial {
         }))
     }
 
-    /// The wave, once the stretch is whole and holds one.
-    pub(crate) fn fitted(&self) -> Option<Fitted> {
+    /// The wave, once the stretch is whole and holds one. It is taken to leave no less than `rounding` of each pair's power.
+    pub(crate) fn fitted(&self, rounding: f32) -> Option<Fitted> {
         let parameters = self.parameters()?;
         let n = self.length as f32;
         let mut explained = 0.0;
@@ -224,10 +225,12 @@ impl Trial {
         }
         let sums = self.sums.gradient.map(|gradient| gradient[4]);
         let power = self.sums.square - (sums[0] * sums[0] + sums[1] * sums[1]) / n;
-        if power.is_nan() || power <= 1e-6 * self.sums.square {
+        if power <= 1e-6 * self.sums.square {
             return None;
         }
-        let rest = (self.sums.square - explained) / power;
+        let left = self.sums.square - explained;
+        // Of numbers with but a few values a wave leaves nothing now and then, and that is by chance.
+        let rest = greater(rounding * n, left) / power;
         let drift = turned / size;
         if !(rest < UNEXPLAINED && by_chance(rest, self.length) < FALSE_ALARM && drift.abs() < 1.0)
         {

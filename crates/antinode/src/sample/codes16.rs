@@ -48,6 +48,7 @@ impl Arithmetic for i16 {
     const FORM: Form = Form::Codes;
     const EXTREMES: [Self; 2] = [i16::MIN, i16::MAX];
     const WATCHED_AT_ONCE: u16 = 32;
+    const ROUNDING: f32 = 0.7 * 2.0 / 12.0;
 
     #[inline(always)]
     fn to_f32(self) -> f32 {

@@ -23,6 +23,7 @@ impl Arithmetic for i32 {
     const FORM: Form = Form::Other;
     const EXTREMES: [Self; 2] = [i32::MIN, i32::MAX];
     const WATCHED_AT_ONCE: u16 = 14;
+    const ROUNDING: f32 = 0.7 * 2.0 / 12.0;
 
     #[inline(always)]
     fn to_f32(self) -> f32 {

@@ -19,6 +19,7 @@ impl Arithmetic for f32 {
     const EXTREMES: [Self; 2] = [f32::NEG_INFINITY, f32::INFINITY];
     // A signal that comes twice each costs twice the usual.
     const WATCHED_AT_ONCE: u16 = 8;
+    const ROUNDING: f32 = 0.0;
 
     #[inline(always)]
     fn to_f32(self) -> f32 {

@@ -1,5 +1,6 @@
 //! The `antinode` command.
 
+mod arguments;
 mod calibrate;
 mod canvas;
 mod demonstration;
@@ -32,7 +33,8 @@ use options::{Command, Options};
 
 fn main() -> ExitCode {
     // Windows leaves it to the program what `*.wav` is.
-    let result = match Options::parse_from(wild::args_os()).command {
+    let arguments = wild::args_os().map(arguments::written_out);
+    let result = match Options::parse_from(arguments).command {
         None => demonstration::run(),
         Some(Command::Identify(options)) => identify::run(&options),
         Some(Command::Calibrate(options)) => calibrate::run(&options),

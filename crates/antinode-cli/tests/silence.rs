@@ -74,6 +74,9 @@ fn a_wave_that_ends_early_or_begins_late_is_told_once() {
             assert!((seconds(&said, "the last ") - 0.4).abs() < 0.005, "{said}");
         }
     }
+    // Windows that begin with the first sample.
+    let (said, _) = told(here, ringing(100_000, |k| k < 60_000), "--frequency 5332");
+    assert!(said.contains(" go from 0.0000 s to "), "{said}");
     // By the recording's own times, of the span that was asked for.
     let (said, _) = told(
         here,

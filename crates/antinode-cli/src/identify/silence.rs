@@ -26,7 +26,9 @@ impl Silence {
             return;
         }
         let window = f64::from(estimate.samples) / rate;
-        let (begin, end) = (estimate.time - 0.5 * window, estimate.time + 0.5 * window);
+        // A window reaches half a sample beyond its first and its last.
+        let begin = (estimate.time - 0.5 * window).max(0.0);
+        let end = estimate.time + 0.5 * window;
         self.rows = Some([self.rows.map_or(begin, |rows| rows[0]), end]);
         let blocks = f64::from(hop.unwrap_or(0)).max(PERIODS);
         self.usual = self

@@ -101,6 +101,15 @@ pub fn gyro(seed: u64) -> (Wave, Flaws) {
     )
 }
 
+/// A resonator at rest: its amplitude, which must be above zero, is lost in any noise.
+pub fn no_wave() -> Wave {
+    Wave {
+        main_amplitude: 1e-12,
+        quadrature_amplitude: 0.0,
+        ..Wave::default()
+    }
+}
+
 /// The first `samples` pairs of a gyro, in f32.
 pub fn stream(wave: Wave, flaws: Flaws, samples: usize, seed: u64) -> Vec<[f32; 2]> {
     let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();

@@ -2,7 +2,7 @@
 
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::{Core, identify_changed, stream, windows};
+use host_tests::{Core, identify_changed, no_wave, stream, windows};
 
 fn noisy(wave: &Wave, noise: f64) -> Flaws {
     Flaws {
@@ -44,11 +44,7 @@ fn a_wave_that_ends_with_a_window_is_lost_and_nothing_else() {
     for seed in 0..40 {
         let wave = random_wave(seed, 5332.0, 0.3);
         let flaws = noisy(&wave, 0.002);
-        let silent = Wave {
-            main_amplitude: 1e-12,
-            quadrature_amplitude: 0.0,
-            ..wave
-        };
+        let silent = no_wave();
         let (one, two) = (
             stream(wave, flaws.clone(), 10_000, seed),
             stream(silent, flaws, 11_000, seed),
@@ -144,11 +140,7 @@ fn the_window_in_which_a_dead_pick_off_comes_back_is_flagged_however_loud_it_was
             angle: 0.5,
             ..random_wave(seed, 5332.0, 0.3)
         };
-        let louder = Wave {
-            main_amplitude: 1e-12,
-            quadrature_amplitude: 0.0,
-            ..wave
-        };
+        let louder = no_wave();
         let end = 14_000 + 37 * seed as usize;
         let loud = noisy(&wave, 0.03);
         let dead = stream(louder, loud, 20_000, seed + 100);

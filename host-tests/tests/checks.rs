@@ -2,7 +2,9 @@
 
 use antinode::{Estimate, Flags, Identifier, Settings};
 use antinode_sim::{Flaws, Loss, Wave, random_wave};
-use host_tests::{Core, RATE, changed, gyro, identify, identify_changed, stream, touched, windows};
+use host_tests::{
+    Core, RATE, changed, gyro, identify, identify_changed, no_wave, stream, touched, windows,
+};
 
 #[test]
 fn a_sample_lost_between_two_windows_is_flagged() {
@@ -261,11 +263,7 @@ fn a_lasting_rise_of_noise_becomes_the_new_level() {
             noise: 0.002 * factor * wave.main_amplitude,
             ..Flaws::default()
         };
-        let still = Wave {
-            main_amplitude: 1e-12,
-            quadrature_amplitude: 0.0,
-            ..Wave::default()
-        };
+        let still = no_wave();
         let more = antinode_sim::Gyro::new(still, noise, RATE, seed + 50).unwrap();
         let more: Vec<_> = more.take(60_000).map(|pair| [pair.c, pair.d]).collect();
         changed(seed, 0.002, 10, 60_000, |k, [c, d]| {
@@ -319,11 +317,7 @@ fn noise_that_rises_is_told_in_three_windows_however_far_they_are_apart() {
             noise,
             ..Flaws::default()
         });
-        let still = Wave {
-            main_amplitude: 1e-12,
-            quadrature_amplitude: 0.0,
-            ..Wave::default()
-        };
+        let still = no_wave();
         let [quiet, loud] = noise.map(|noise| stream(still, noise, 60_000, 4));
         let found = identify_changed(wave, &flaws, settings, 60_000, 3, |k, [c, d]| {
             let [more_c, more_d] = if k < 20_000 { quiet[k] } else { loud[k] };

@@ -3,7 +3,7 @@
 use antinode::period::{DifferenceDetector, MeanReturnDetector};
 use antinode::{Identifier, Sample, SamplePair};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
-use host_tests::{Core, RATE, identify, stream, windows};
+use host_tests::{Core, RATE, identify, no_wave, stream, windows};
 
 /// A wave whose period runs evenly over 4 to 200 samples in its logarithm.
 fn wave(seed: u64) -> (Wave, f64) {
@@ -83,11 +83,7 @@ fn mean_return_finds_no_multiple_either() {
 #[test]
 fn noise_is_no_wave() {
     for seed in 0..10_000 {
-        let wave = Wave {
-            main_amplitude: 1e-12,
-            quadrature_amplitude: 0.0,
-            ..Wave::default()
-        };
+        let wave = no_wave();
         let flaws = Flaws {
             noise: 1.0,
             offset_c: 0.5,
@@ -108,11 +104,7 @@ fn waves_in_noise<S: Sample>(noise: f64, code: fn(f64) -> S) -> usize
 where
     [S; 2]: SamplePair<S>,
 {
-    let wave = Wave {
-        main_amplitude: 1e-12,
-        quadrature_amplitude: 0.0,
-        ..Wave::default()
-    };
+    let wave = no_wave();
     let flaws = Flaws {
         noise,
         ..Flaws::default()

@@ -2,7 +2,9 @@
 
 use antinode::{Calibration, Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Gyro, Wave};
-use host_tests::{Core, RATE, calibrated, changed, gyro, identify_changed, touched, windows};
+use host_tests::{
+    Core, RATE, calibrated, changed, gyro, identify_changed, no_wave, touched, windows,
+};
 
 #[test]
 fn flattened_crests_are_flagged_in_noise_without_a_known_rail() {
@@ -156,11 +158,7 @@ fn a_pick_off_that_dies_is_told_whatever_its_calibration_and_a_wave_that_ends_is
             noise: flaws.noise,
             ..Flaws::default()
         };
-        let still = Wave {
-            main_amplitude: 1e-12,
-            quadrature_amplitude: 0.0,
-            ..wave
-        };
+        let still = no_wave();
         let gyro = Gyro::new(wave, flaws, RATE, 1).unwrap();
         let dead = Gyro::new(still, silence, RATE, 2).unwrap();
         let mut core = Core::new(settings).unwrap();

@@ -60,7 +60,7 @@ pub enum Command {
     /// the pattern turns by less than 22.5° within one. A pattern at rest gives the decay time at its own angle only. Ring-downs at
     /// pattern angles of 0°, 22.5° and 45°, or of a pattern that turns, give both splits too: how far the decay rates and the
     /// frequencies of the two modes are apart, and the pattern angle at which each is greatest; and how fast rotation turns each run's
-    /// pattern.
+    /// pattern. Give ring-downs that turn both ways: where all turn one way, what a calibration leaves looks like splits.
     ///
     /// A run ends where the wave is lost or jumps: one recording may hold several ring-downs, and missing samples do not falsify the
     /// rates.

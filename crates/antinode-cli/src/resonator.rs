@@ -18,7 +18,7 @@ use serde::Serialize;
 use crate::failure::Failure;
 use crate::fixed::{significant, with_std};
 use crate::options::Format;
-use crate::runs::{BEYOND_NOISE, Runs};
+use crate::runs::{BEYOND_NOISE, Run, Runs};
 use fit::fit;
 use found::{Found, Measured};
 use frequency::{Frequency, frequency};
@@ -31,6 +31,10 @@ const BREAKS: Flags = Flags::REACQUIRED.with(Flags::PHASE_JUMP).with(Flags::STEP
 const SPLIT_SEEN: f64 = 3.0;
 /// A decay of fewer deviations than this is none.
 const DECAY_SEEN: f64 = 3.0;
+/// A pattern that turns by more than this in a run, rad, shows flaws of the pick-offs as splits.
+const TURNS: f64 = PI / 8.0;
+/// Runs that stand still tell the splits without them, from two on.
+const ENOUGH_STILL: usize = 2;
 /// Residuals of neighbouring rows correlate by up to this where windows overlap by a tenth unseen, and by so many deviations more by chance.
 const ALIKE: f64 = 0.1;
 const ALIKE_SEEN: f64 = 5.0;
@@ -227,24 +231,53 @@ fn table(out: &mut impl Write, name: &str, rows: &Runs, quantities: &[Quantity])
     Ok(())
 }
 
+/// How fast the patterns turn, rad/s, where all that turn do so one way, and too few stand still.
+fn one_way(rows: &Runs) -> Option<f64> {
+    let turns = |run: &&Run| run.turned.abs() > TURNS;
+    let still = rows.runs.iter().filter(|run| !turns(run)).count();
+    let (turned, ways, seconds) =
+        rows.runs
+            .iter()
+            .filter(turns)
+            .fold((0.0, 0.0, 0.0), |(turned, ways, seconds), run| {
+                (
+                    turned + run.turned,
+                    ways + run.turned.abs(),
+                    seconds + run.seconds(),
+                )
+            });
+    let is_one_way = f64::abs(turned) == ways && ways > 0.0;
+    (is_one_way && still < ENOUGH_STILL).then(|| ways / seconds)
+}
+
 /// Tells what the numbers leave open.
 fn tell(out: &mut impl Write, rows: &Runs, found: &Found, frequency: &Frequency) -> io::Result<()> {
     rows.tell_overlaps(out)?;
     for run in 0..rows.runs.len() {
         let (decay, std) = found.decay_of_run(run);
-        if decay < DECAY_SEEN * std {
-            writeln!(
-                out,
-                "warning: the wave of run {} does not decay beyond its noise: its decay time and quality factor mean nothing; record longer",
-                run + 1
-            )?;
-        }
+        let what = if decay < -DECAY_SEEN * std {
+            "grows: something drives it; its decay time and quality factor mean nothing"
+        } else if decay < DECAY_SEEN * std {
+            "does not decay beyond its noise: its decay time and quality factor mean nothing; record longer"
+        } else {
+            continue;
+        };
+        writeln!(out, "warning: the wave of run {} {what}", run + 1)?;
     }
     if found.resonator().is_none() {
         writeln!(
             out,
             "the rows do not tell the splits of damping and frequency: give ring-downs at pattern angles of 0°, 22.5° and 45°, or of a \
              pattern that turns by 45° and more; the mean frequency is that along the patterns, which a split moves"
+        )?;
+    } else if let Some(rate) = one_way(rows) {
+        let (frequency, _) = frequency.mean;
+        writeln!(
+            out,
+            "warning: the pattern turns one way only, and what is left of the pick-offs' flaws looks like splits then: a gain ratio that is 0.1 % \
+             off like {:.1e} 1/s of damping, a skew 10 ns off like {:.1e} Hz; give rows of a pattern that turns the other way too",
+            4e-3 * rate,
+            4e-8 * rate * frequency
         )?;
     }
     if let Some(moves) = frequency.moves {
@@ -254,11 +287,12 @@ fn tell(out: &mut impl Write, rows: &Runs, found: &Found, frequency: &Frequency)
              the mean frequency is wider by that"
         )?;
     }
-    let why = "the rotation or the damping changes meanwhile, or the pick-offs are not calibrated";
+    let why = "the rotation or the damping changes meanwhile, or with the amplitude, or the pick-offs are not calibrated";
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,
-            "warning: rows differ from the resonator's motion by {:.1} times their noise: {why}; the deviations above are wider by that",
+            "warning: rows differ from the resonator's motion by {:.1} times their noise: {why}; the deviations above are wider by that, and the \
+             values may be further off than these",
             found.residual
         )?;
     } else if is_alike(found.alike, 3.0 * rows.used() as f64) {

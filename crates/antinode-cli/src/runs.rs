@@ -1,5 +1,6 @@
 //! Rows that `antinode identify` printed become runs: spans of time in which the pattern moves without a break.
 
+mod jump;
 mod row;
 
 use std::f64::consts::FRAC_PI_2;
@@ -10,6 +11,7 @@ use antinode::Flags;
 
 use crate::failure::Failure;
 use crate::row_file::{RowFile, has_flag};
+use jump::jumps;
 use row::Places;
 pub use row::Row;
 
@@ -46,7 +48,7 @@ pub struct Runs {
 
 impl Runs {
     /// Reads files of rows, `-` being standard input; gives their names too. A run ends where the pattern turns by more than `most_turn` rad
-    /// from row to row, and at a row that has one of the flags `breaks`.
+    /// from row to row, where the wave jumps across rows left out, and at a row that has one of the flags `breaks`.
     pub fn open(
         paths: &[PathBuf],
         most_turn: f64,
@@ -89,6 +91,12 @@ impl Runs {
                 return recording(format!(
                     "time does not go on from row to row, {} times in {} rows; give each recording's rows once and in the order of their time",
                     self.backward, self.rows
+                ));
+            }
+            if self.rows < LEAST_ROWS {
+                return recording(format!(
+                    "no run of {LEAST_ROWS} clean rows, for there are only {}: shorten the windows, or record longer",
+                    self.rows
                 ));
             }
             return recording(format!(
@@ -136,6 +144,8 @@ impl Runs {
 
         let mut present: Option<(String, f64)> = None;
         let mut run = Run::default();
+        // True where rows were left out that hold more than a circle.
+        let mut is_torn = false;
         while let Some(record) = rows.next()? {
             self.rows += 1;
             if !record[flags].is_empty() {
@@ -143,6 +153,7 @@ impl Runs {
                     self.end(&mut run);
                     present = None;
                 }
+                is_torn |= record[flags] != *"circular";
                 continue;
             }
             // Only here: a flagged row need not have numbers.
@@ -162,10 +173,15 @@ impl Runs {
                         self.overlapping += 1;
                         continue;
                     }
-                    turn(row.angle - angle)
+                    if is_torn && jumps(&run.rows, &row) {
+                        f64::INFINITY
+                    } else {
+                        turn(row.angle - angle)
+                    }
                 }
                 _ => f64::INFINITY,
             };
+            is_torn = false;
             if turn.abs() > self.most_turn {
                 self.end(&mut run);
             } else {

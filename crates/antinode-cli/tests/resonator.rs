@@ -58,13 +58,26 @@ fn numbers(run: &Run) -> HashMap<(String, String), (f64, Option<f64>)> {
         .collect()
 }
 
+/// Nothing is told but that the pattern turns one way; gives the splits that it names, in 1/s and Hz.
+fn is_one_way(err: &str) -> [f64; 2] {
+    assert!(
+        err.starts_with("warning: the pattern turns one way only") && err.lines().count() == 1,
+        "{err}"
+    );
+    [" 1/s of damping", " Hz; give"].map(|unit| {
+        let (before, _) = err.split_once(unit).expect(err);
+        let (_, number) = before.rsplit_once(' ').unwrap();
+        number.parse().unwrap()
+    })
+}
+
 #[test]
 fn a_pattern_that_turns_tells_everything() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let rows = rows(here, "--decay-rate 0.08 --angle-rate 0.4");
     let found = resonator(here, &rows, "--output csv");
-    assert_eq!(found.err, "");
+    is_one_way(&found.err);
     let numbers = numbers(&found);
     let of = |run: &str, quantity: &str| numbers[&(run.to_owned(), quantity.to_owned())];
     for run in ["1", ""] {
@@ -196,7 +209,11 @@ const OF_SPLIT: [(&str, f64); 5] = [
 /// Errors over their stated deviations, of all that is to be found in rows of a resonator with splits, and of the rotation of so many runs.
 fn errors(here: &Path, rows: &str, runs: u8, rotation: f64) -> Vec<f64> {
     let found = resonator(here, rows, "--output csv");
-    assert_eq!(found.err, "");
+    if rotation == 0.0 {
+        assert_eq!(found.err, "");
+    } else {
+        is_one_way(&found.err);
+    }
     let numbers = numbers(&found);
     let of_resonator = OF_SPLIT.map(|(quantity, truth)| (String::new(), quantity, truth));
     let of_runs = (1..=runs).map(|run| (run.to_string(), "rotation_rad_s", rotation));
@@ -261,6 +278,36 @@ fn windows_in_which_the_pattern_turns_far_tell_the_same() {
 }
 
 #[test]
+fn what_flaws_of_the_pick_offs_look_like_is_told_where_the_pattern_turns_one_way() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (flaw, quantity, which) in [
+        ("--gain-ratio 1.001", "damping_split_s", 0),
+        ("--skew-ns 10", "frequency_split_hz", 1),
+    ] {
+        let wave = |rate: &str| format!("--decay-rate 0.08 --angle-rate {rate} {flaw}");
+        let [one_way, other_way] = ["0.4", "-0.4"].map(|rate| rows(here, &wave(rate)));
+        let split = |rows: &str| {
+            let found = resonator(here, rows, "--output csv");
+            let (split, std) = numbers(&found)[&(String::new(), quantity.to_owned())];
+            (split, std.unwrap(), found.err)
+        };
+        let (split_one_way, std, err) = split(&one_way);
+        let told = is_one_way(&err)[which];
+        assert!(
+            (split_one_way - told).abs() < 0.05 * told + 4.0 * std,
+            "{flaw}: {split_one_way} ± {std}: {err}"
+        );
+        let (split_both_ways, std, err) = split(&(one_way + &other_way));
+        assert!(
+            split_both_ways < 4.0 * std,
+            "{flaw}: {split_both_ways} ± {std}"
+        );
+        assert!(!err.contains("one way"), "{err}");
+    }
+}
+
+#[test]
 fn what_is_wrong_is_told() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
@@ -272,6 +319,12 @@ fn what_is_wrong_is_told() {
         "{}",
         found.err
     );
+    let grown = resonator(here, &rows(here, "--decay-rate -0.05"), "");
+    assert!(
+        grown.code == 0 && grown.err.contains("run 1 grows: something drives it"),
+        "{}",
+        grown.err
+    );
     // An amplitude that jumps is no decay.
     let rows = rows(here, "--decay-rate 0.08");
     let mut lines: Vec<_> = rows.lines().map(str::to_owned).collect();
@@ -282,7 +335,11 @@ fn what_is_wrong_is_told() {
         *line = fields.join(",");
     }
     let found = resonator(here, &lines.join("\n"), "");
-    assert!(found.err.contains("times their noise"), "{}", found.err);
+    assert!(
+        found.err.contains("times their noise") && found.err.contains("further off"),
+        "{}",
+        found.err
+    );
     for (rows, told) in [
         (lines[0].clone(), "no run of 12 clean rows"),
         ("a,b\n1,2\n".to_owned(), "no column time_s"),

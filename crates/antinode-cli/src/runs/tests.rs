@@ -69,6 +69,42 @@ fn flagged_rows_are_left_out() {
 }
 
 #[test]
+fn a_wave_that_jumps_across_rows_left_out_begins_another_run() {
+    let torn = |k| if k == 20 { "misfit" } else { "" };
+    // The values behind the torn row, by these factors of the amplitudes and this much of an angle.
+    let jump = |main: f64, quadrature: f64, angle: f64, flags: fn(usize) -> &'static str| {
+        let text: String = (0..40)
+            .map(|k| {
+                let moved = f64::from(u8::from(k >= 20));
+                let time = 0.01 * f64::from(k);
+                let noise = 0.001 * (7.3 * f64::from(k)).sin();
+                format!(
+                    "a,{time},{},{},{},5332,0.001,0.001,0.001,{}\n",
+                    0.5 * (1.0 + moved * main) * (1.0 - 0.1 * time) + noise,
+                    0.02 + moved * quadrature - noise,
+                    0.002 * f64::from(k) + moved * angle + noise,
+                    flags(k as usize)
+                )
+            })
+            .collect();
+        lengths(&read(&text))
+    };
+    assert_eq!(jump(0.0, 0.0, 0.0, torn), [39]);
+    for (main, quadrature, angle) in [
+        (0.06, 0.0, 0.0),
+        (-0.06, 0.0, 0.0),
+        (0.0, 0.03, 0.0),
+        (0.0, 0.0, 0.06),
+    ] {
+        assert_eq!(jump(main, quadrature, angle, torn), [20, 19]);
+    }
+    // From clean row to clean row it is what it is, and between two sides of a circle amplitudes change places.
+    assert_eq!(jump(0.06, 0.0, 0.0, |_| ""), [40]);
+    let circle = |k| if k == 20 { "circular" } else { "" };
+    assert_eq!(jump(0.06, 0.0, 0.0, circle), [39]);
+}
+
+#[test]
 fn an_angle_is_known_modulo_a_quarter_turn() {
     let wrapped = |text: &str| text.replace(",1.6,", ",0.029203673205103,");
     let text = rows("a", 41, 0.08, |_| "");
@@ -121,7 +157,13 @@ fn headers_of_files_that_were_put_together_are_passed_over() {
 fn what_leaves_no_run_is_told() {
     let told = |text: &str| read(text).fault("it").map(|fault| fault.to_string());
     let few = rows("a", 11, 0.01, |_| "");
-    assert!(told(&few).unwrap().contains("no run of 12 clean rows"));
+    let fault = told(&few).unwrap();
+    assert!(
+        fault.contains("no run of 12 clean rows, for there are only 11: shorten"),
+        "{fault}"
+    );
+    let flagged = told(&rows("a", 40, 0.01, |_| "misfit")).unwrap();
+    assert!(flagged.contains("see their flags"), "{flagged}");
     let backwards: String = rows("a", 40, 0.01, |_| "")
         .lines()
         .rev()

@@ -31,7 +31,7 @@ pub const CALIBRATION: Calibration = Calibration::IDEAL;
 pub const HALF: usize = 128;
 /// Longest period, sample pairs: 8 or more, even.
 pub const LONGEST_PERIOD: usize = 200;
-/// Blocks that the tracker holds: a window has up to two periods less.
+/// Blocks that the tracker holds: two more than the periods of the longest window.
 pub const RING: usize = 24;
 /// Blocks that may wait for the main loop, and one more. The interrupt hands over those of `HALF` pairs at once: a block of 6 pairs, as
 /// windows of 2 periods may have, makes 21; shorter ones (a hop within such windows) are dropped in part, and counted.

@@ -16,7 +16,8 @@ proptest! {
         let mut single = Core::new(windows(5)).unwrap();
         let one_by_one: Vec<Estimate> = pairs.iter().filter_map(|&pair| single.push(pair)).collect();
         let mut sliced = Core::new(windows(5)).unwrap();
-        let mut by_slices = Vec::new();
+        let mut separate = Core::new(windows(5)).unwrap();
+        let (mut by_slices, mut by_two_slices) = (Vec::new(), Vec::new());
         let mut rest = pairs.as_slice();
         for cut in cuts.iter().cycle() {
             if rest.is_empty() {
@@ -24,10 +25,15 @@ proptest! {
             }
             let (slice, after) = rest.split_at((*cut).min(rest.len()));
             sliced.extend(slice, |estimate| by_slices.push(estimate));
+            let [c, mut d] = [0, 1].map(|i| slice.iter().map(|pair| pair[i]).collect::<Vec<_>>());
+            // What the longer slice has beyond the other is no pair.
+            d.push(f32::NAN);
+            separate.extend_separate(&c, &d, |estimate| by_two_slices.push(estimate));
             rest = after;
         }
         prop_assert!(one_by_one.len() > 40);
-        prop_assert_eq!(one_by_one, by_slices);
+        prop_assert_eq!(&one_by_one, &by_slices);
+        prop_assert_eq!(one_by_one, by_two_slices);
     }
 
     #[test]
@@ -38,6 +44,38 @@ proptest! {
             let _ = core.push([c, d]);
         }
     }
+}
+
+#[test]
+fn a_tracker_without_settings_finds_nothing_and_with_them_it_is_as_new() {
+    let wave = random_wave(3, 5332.0, 0.5);
+    let pairs = stream(wave, Flaws::default(), 6000, 3);
+    let mut front = Front::<f32, 200>::new(windows(5)).unwrap();
+    let mut blocks = Vec::new();
+    front.extend(&pairs, |block| blocks.push(*block));
+    let estimates = |tracker: &mut Tracker<16>| -> Vec<Estimate> {
+        let pushed = blocks.iter().filter_map(|block| tracker.push(block));
+        pushed.collect()
+    };
+    let mut tracker = Tracker::UNSET;
+    assert_eq!(estimates(&mut tracker), []);
+    assert!(!tracker.has_lost() && !tracker.has_wave());
+    tracker.configure(windows(5)).unwrap();
+    assert_eq!(*tracker.settings(), windows(5));
+    let found = estimates(&mut tracker);
+    assert!(found.len() > 40);
+    assert_eq!(found, estimates(&mut Tracker::new(windows(5)).unwrap()));
+}
+
+#[test]
+fn settings_are_changed_in_part() {
+    let mut core = Core::new(windows(5)).unwrap();
+    let changed = Settings {
+        periods: 7,
+        ..*core.settings()
+    };
+    core.change(changed).unwrap();
+    assert_eq!(*core.settings(), windows(7));
 }
 
 #[test]

@@ -5,8 +5,6 @@ use core::fmt;
 use antinode::{Calibration, SettingsError};
 use serde::{Deserialize, Serialize};
 
-use crate::remote;
-
 /// What the PC asks of the device.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Command {
@@ -23,7 +21,7 @@ pub enum Command {
         blocks: Option<u16>,
     },
     /// Change the correction of the pick-offs; its ranges are those of [`Calibration`].
-    SetCalibration(#[serde(with = "remote::CalibrationFields")] Calibration),
+    SetCalibration(Calibration),
     /// Compute and send the paper's methods beside every estimate, or no longer.
     SetMethods {
         /// True: send them.
@@ -38,7 +36,7 @@ pub enum Command {
 #[non_exhaustive]
 pub enum CommandError {
     /// A value that cannot be; the error names what could.
-    Settings(#[serde(with = "remote::SettingsErrorNames")] SettingsError),
+    Settings(SettingsError),
     /// This firmware was built without what is asked.
     Unsupported,
     /// Another change is under way: ask again in a moment.

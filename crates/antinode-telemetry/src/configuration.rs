@@ -4,7 +4,6 @@ use antinode::Settings;
 use serde::{Deserialize, Serialize};
 
 use crate::command::{Command, CommandError};
-use crate::remote;
 
 /// Where the device's samples come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -27,7 +26,6 @@ pub enum FrontEnd {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Configuration {
     /// The identification's settings; those that the device was built with and those that commands changed.
-    #[serde(with = "remote::SettingsFields")]
     pub settings: Settings,
     /// Where its samples come from.
     pub front_end: FrontEnd,

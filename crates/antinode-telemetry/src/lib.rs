@@ -78,7 +78,6 @@ mod configuration;
 mod decoder;
 mod frame;
 mod link;
-mod remote;
 mod report;
 
 pub use command::{Command, CommandError};

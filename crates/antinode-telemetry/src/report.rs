@@ -9,7 +9,6 @@ use serde::{Deserialize, Serialize};
 use crate::PROTOCOL_VERSION;
 use crate::command::CommandError;
 use crate::configuration::Configuration;
-use crate::remote;
 
 /// What the device tells the PC.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -17,7 +16,7 @@ pub enum Report {
     /// Who it is and what it is set to.
     Hello(Hello),
     /// The wave over one window, to the bit as the core gave it.
-    Estimate(#[serde(with = "remote::EstimateFields")] Estimate),
+    Estimate(Estimate),
     /// It does something else from now on.
     State(State),
     /// What happened since its start.

@@ -6,9 +6,10 @@ use crate::phase::Phase;
 
 /// How the D pick-off differs from an ideal one that stands 45° from C, has C's gain and is sampled with C.
 ///
-/// The raw signal is S_D(t) = g·[D cos 2ε − C sin 2ε](t + Δ), with D and C of formula (3).
+/// The raw signal is S_D(t) = g·[D cos 2ε − C sin 2ε](t + Δ), C and D being what ideal pick-offs would see, formulas (2) and (3).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Calibration {
     /// g, gain of channel D over that of channel C. 0.1 to 10; 1 is ideal.
     pub gain_ratio: f32,

@@ -7,7 +7,7 @@ use crate::scalar::lesser;
 const BLOCKS_A_WINDOW: f32 = 5.0;
 /// Periods of a block at most: a reference that is off by the detector's 5 % then costs 2 % of its sums.
 const LONGEST_BLOCK: f32 = 2.0;
-/// Blocks of a window at most, where it has fewer periods: none has more blocks than the larger of both.
+/// A window has no more blocks than this or than periods, whichever is more.
 pub(crate) const MOST_BLOCKS: u16 = 11;
 /// Sample pairs of a window at least.
 const LEAST_PAIRS: u16 = 6;

@@ -12,7 +12,7 @@ impl Flags {
     pub const CLIPPED: Self = Self(1);
     /// No significant wave: the other numbers mean nothing.
     pub const LOST: Self = Self(1 << 1);
-    /// The phase does not continue that of the last window without a misfit: samples are missing between or within them.
+    /// The phase does not continue that of the last window that was free of a misfit: samples are missing between or within them.
     pub const PHASE_JUMP: Self = Self(1 << 2);
     /// Amplitude, angle or offset stepped between the window before and this one.
     pub const STEP: Self = Self(1 << 3);
@@ -84,6 +84,12 @@ impl Flags {
         names.filter_map(move |(bit, name)| (self.0 >> bit & 1 == 1).then_some(name))
     }
 
+    /// The flag of this name, as [`names`](Self::names) gives it.
+    pub fn of_name(name: &str) -> Option<Self> {
+        let bit = Self::NAMES.iter().position(|one| *one == name)?;
+        Some(Self(1 << bit))
+    }
+
     /// Bit 0 is the first constant above, and so on.
     pub const fn bits(self) -> u16 {
         self.0
@@ -151,6 +157,7 @@ impl defmt::Format for Flags {
 /// Of a window without a wave, [`Flags::LOST`], no number means anything, and some may be NaN or infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Estimate {
     /// Index in the stream of the window's first sample pair.
     pub start: u64,

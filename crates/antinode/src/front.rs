@@ -6,7 +6,7 @@ use crate::period::DifferenceDetector;
 #[cfg(feature = "mean-return")]
 use crate::period::MeanReturnDetector;
 use crate::phase::PhaseStep;
-use crate::sample::{Sample, SamplePair};
+use crate::sample::{Sample, SamplePair, in_pairs};
 use crate::settings::{Detection, Settings, SettingsError};
 
 /// What searches for the period.
@@ -67,7 +67,7 @@ pub struct Front<S: Sample, const N: usize> {
     detection: Detection,
     /// The period, where it is not to be searched.
     known: Option<f32>,
-    // Side by side: to build one in the other's place would be the longest call of all.
+    // Two fields, no enum of both: to build one in the other's memory would be the longest call of all.
     detector: Detector<S>,
     demodulator: Demodulator<S, N>,
     stage: Stage,
@@ -226,6 +226,13 @@ impl<S: Sample, const N: usize> Front<S, N> {
                 report(block);
             }
         }
+    }
+
+    /// Takes the samples of both pick-offs from a slice each, pair by pair to the end of the shorter one, and hands every block to `report`.
+    ///
+    /// It costs a copy, and 32 pairs of stack: [`extend`](Self::extend) takes pairs where they are.
+    pub fn extend_separate(&mut self, c: &[S], d: &[S], mut report: impl FnMut(&Block<S>)) {
+        in_pairs(c, d, |pairs| self.extend(pairs, &mut report));
     }
 
     /// True when the next pair belongs to a block, perhaps the first.

@@ -3,7 +3,7 @@
 use crate::calibration::Calibration;
 use crate::estimate::Estimate;
 use crate::front::Front;
-use crate::sample::{Sample, SamplePair};
+use crate::sample::{Sample, SamplePair, in_pairs};
 use crate::settings::{Settings, SettingsError};
 use crate::tracker::Tracker;
 
@@ -77,6 +77,11 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         Ok(())
     }
 
+    /// The settings that it works by, to be changed in part: `change(Settings { periods: 20, ..*identifier.settings() })`.
+    pub fn settings(&self) -> &Settings {
+        self.tracker.settings()
+    }
+
     /// Changes the settings, all but the start angle, and searches anew: the first window from then on is flagged
     /// [`Flags::REACQUIRED`](crate::Flags::REACQUIRED), its angle continued. [`configure`](Self::configure) begins with the start angle
     /// instead.
@@ -141,6 +146,13 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
                 self.search_if_lost();
             }
         }
+    }
+
+    /// Takes the samples of both pick-offs from a slice each, pair by pair to the end of the shorter one, and hands every estimate to `report`.
+    ///
+    /// It costs a copy, and 32 pairs of stack: [`extend`](Self::extend) takes pairs where they are.
+    pub fn extend_separate(&mut self, c: &[S], d: &[S], mut report: impl FnMut(Estimate)) {
+        in_pairs(c, d, |pairs| self.extend(pairs, &mut report));
     }
 
     /// Searches a new period where the wave is lost.

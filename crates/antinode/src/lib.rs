@@ -105,10 +105,11 @@
 //! |---|---|---|
 //! | `mean-return` | yes | the period detector of formula (9): `Detection::MeanReturn`, `period::MeanReturnDetector` |
 //! | `fixed` | yes | pairs of `I1F15` and `I1F31` of the crate `fixed`: [`SamplePair`] |
-//! | `defmt` | no | `defmt::Format` of [`Estimate`], [`Flags`], [`Settings`], [`Calibration`], [`Detection`] and the errors |
+//! | `defmt` | no | `defmt::Format` of [`Estimate`], [`Flags`], [`Settings`], [`Calibration`], [`Detection`] and [`SettingsError`] |
+//! | `serde` | no | `Serialize` and `Deserialize` of the same; flags are their names in formats to be read, and else their bits |
 //!
-//! Firmware that needs none takes `default-features = false`. To send estimates and settings over a line, or to keep them, take
-//! the crate `antinode-telemetry`.
+//! Firmware that needs none takes `default-features = false`. To send estimates and settings over a line take the crate
+//! `antinode-telemetry`.
 //!
 //! # Accuracy
 //!
@@ -171,6 +172,8 @@ mod front;
 mod identifier;
 mod sample;
 mod scalar;
+#[cfg(feature = "serde")]
+mod serial;
 mod settings;
 mod sum;
 mod tracker;

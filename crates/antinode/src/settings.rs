@@ -9,6 +9,7 @@ use crate::double::to_single;
 /// How the period is found from cold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Detection {
     /// Formula (10): about three periods, offsets of up to 100 a_A, 20 % noise and more.
@@ -47,6 +48,7 @@ pub enum Detection {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Settings {
     /// Sample rate in Hz, 10⁻³ to 10¹².
     pub sample_rate: f64,
@@ -88,6 +90,7 @@ pub struct Settings {
 /// Settings that cannot work.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum SettingsError {
     /// The sample rate is not a number from 10⁻³ to 10¹² Hz.

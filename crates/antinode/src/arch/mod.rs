@@ -1,4 +1,5 @@
-//! The few instructions of the Cortex-M4 that Rust has no stable name for, each with a portable twin that agrees with it bit for bit.
+//! Instructions of the Cortex-M4 that Rust has no stable name for, and the kernels at sample rate in its assembly, each with a portable twin
+//! that agrees with it bit for bit.
 //!
 //! This is the only module with `unsafe` code. A word holds two 16-bit codes: the first in its low half.
 

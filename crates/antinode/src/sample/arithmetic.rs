@@ -47,7 +47,7 @@ pub trait Arithmetic: Zero {
     );
     /// Adds pairs, the first of which is sample `index` of its block, to sums and watch, which begin anew at 0.
     ///
-    /// Nothing is done where there are weights for fewer.
+    /// The table must have weights for all of them; where it has not, what is added means nothing.
     fn add_slice<P: SamplePair<Self>, const N: usize>(
         sums: &mut [ChannelSums<Self>; 2],
         watch: &mut Option<[ChannelWatch<Self>; 2]>,

@@ -86,6 +86,19 @@ impl Sample for i32 {}
 ///
 /// No other type can be one. `I1F15` and `I1F31` are those of the crate `fixed`, with the feature of that name; a unit of the estimates
 /// is then 2⁻¹⁵ or 2⁻³¹.
+///
+/// | there are | take |
+/// |---|---|
+/// | unsigned codes of up to 15 bits, as of a 12-bit converter | them as `i16`: the same numbers; in a DMA's buffer, as words `u32` |
+/// | unsigned codes of 16 bits | words `u32`, each `^ 0x8000_8000`, or `[u16; 2]` for `i32` and `f32` |
+/// | codes of 24 bits | `[i32; 2]`, with the sign carried to the upper bits, or left where they are in the upper ones of 32 |
+/// | a slice of S_C and one of S_D | [`Front::extend_separate`](crate::Front::extend_separate) |
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no pair of samples `{S}`",
+    label = "not a form of a pair of `{S}`",
+    note = "pairs are `[{S}; 2]`, `Packed` or `u32`; a slice of samples in turn becomes pairs by `as_chunks::<2>().0`; unsigned 16-bit codes \
+            are taken as words `u32`, each `^ 0x8000_8000`; two slices by `extend_separate`"
+)]
 pub trait SamplePair<S>: Copy + sealed::Pair {
     /// S_C and S_D.
     fn pair(self) -> [S; 2];
@@ -103,6 +116,22 @@ impl From<[i16; 2]> for Packed {
     /// S_C and S_D in one word.
     fn from([c, d]: [i16; 2]) -> Self {
         Self(u32::from(c as u16) | u32::from(d as u16) << 16)
+    }
+}
+
+/// Pairs that are made of two slices at once.
+const AT_ONCE: usize = 32;
+
+/// Hands the samples of two slices over in pairs, to the end of the shorter one.
+#[inline]
+pub(crate) fn in_pairs<S: Sample>(c: &[S], d: &[S], mut take: impl FnMut(&[[S; 2]])) {
+    let mut pairs = [[S::ZERO; 2]; AT_ONCE];
+    for (c, d) in c.chunks(AT_ONCE).zip(d.chunks(AT_ONCE)) {
+        for (pair, (&c, &d)) in pairs.iter_mut().zip(c.iter().zip(d)) {
+            *pair = [c, d];
+        }
+        let count = c.len().min(d.len());
+        take(pairs.get(..count).unwrap_or(&pairs));
     }
 }
 

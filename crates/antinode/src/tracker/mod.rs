@@ -61,8 +61,7 @@ pub struct Tracker<const BLOCKS: usize> {
 }
 
 impl<const BLOCKS: usize> Tracker<BLOCKS> {
-    /// A tracker without settings: nothing may be pushed before [`configure`](Self::configure) has given it some; an estimate would mean
-    /// nothing.
+    /// A tracker without settings: it finds nothing until [`configure`](Self::configure) gives it some.
     ///
     /// It is all zeros: as a static it takes no flash and is nowhere on the stack, as what [`new`](Self::new) gives is.
     pub const UNSET: Self = Self::unset();
@@ -114,6 +113,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         settings.check(BLOCKS)?;
         self.set(&settings);
         Ok(())
+    }
+
+    /// The settings that it works by.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
     }
 
     /// Waits for its first block anew with settings that are checked.
@@ -219,14 +223,18 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     fn gather_anew<S: Sample>(&mut self, block: &Block<S>, is_same: bool) -> bool {
         self.gathered.clear();
         if !is_same {
+            // Only without settings.
+            if self.settings.periods == 0 {
+                return false;
+            }
             self.begin(&block.layout);
         }
         self.take(block)
     }
 
-    /// True when the wave has been lost for so long that a new period must be searched: for two windows, or eight with little of the wave
-    /// beside all else, as long as they would be without overlap, or in the first one where that shows no wave. Ask after every block: a
-    /// first window without a wave gives no estimate.
+    /// True when a new period must be searched: the first window showed no wave, or two in a row were [`Flags::LOST`] or did not settle,
+    /// or eight in a row held little of the wave beside all else. Windows that overlap count by the blocks they move on. Ask after every
+    /// block: a first window without a wave gives no estimate.
     ///
     /// Then call [`Front::search`](crate::Front::search), drop the blocks that were gathered before it, and [`forget`](Self::forget).
     #[must_use = "a lost wave is found again only by a search"]

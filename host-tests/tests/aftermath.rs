@@ -67,6 +67,37 @@ fn a_wave_that_ends_with_a_window_is_lost_and_nothing_else() {
 }
 
 #[test]
+fn samples_that_are_missing_beside_one_that_is_no_number_are_told_once() {
+    for seed in 0..20 {
+        let wave = random_wave(seed, 5332.0, 0.5);
+        let mut pairs = stream(wave, noisy(&wave, 0.002), 8_000, seed);
+        let mut core = Core::new(windows(10)).unwrap();
+        let mut clean = Vec::new();
+        core.extend(&pairs, |e| clean.push(e));
+        let at = clean[20].start as usize + 40 + 5 * seed as usize;
+        pairs[at] = [f32::NAN; 2];
+        // A sixth of a period.
+        pairs.drain(at + 1..at + 4);
+        let mut core = Core::new(windows(10)).unwrap();
+        let mut found = Vec::new();
+        core.extend(&pairs, |e| found.push(e));
+        assert!(found.len() >= 40, "{}", found.len());
+        for (index, estimate) in found.iter().enumerate() {
+            let expected = if index == 20 {
+                Flags::NOT_FINITE.with(Flags::LOST)
+            } else {
+                Flags::empty()
+            };
+            assert!(
+                estimate.flags.contains(expected) && (index == 20 || estimate.flags.is_empty()),
+                "seed {seed}, window {index}: {}",
+                estimate.flags
+            );
+        }
+    }
+}
+
+#[test]
 fn a_wave_that_grew_before_a_fault_may_decay_after_it() {
     let settings = Settings {
         hop: Some(5),

@@ -48,6 +48,50 @@ fn a_gap_that_is_told_costs_nothing_but_its_window() {
 }
 
 #[test]
+fn angles_of_long_ago_say_nothing_of_the_present_rate() {
+    // So little noise that the angle is certain after minutes. Much quadrature: a rate that is wrong moves the frequency.
+    let (mut all, mut shares) = (Vec::new(), Vec::new());
+    for seed in 0..20 {
+        let wave = Wave {
+            main_amplitude: 1.0,
+            quadrature_amplitude: 0.6,
+            ..random_wave(seed, 5000.0, 0.5)
+        };
+        let flaws = Flaws {
+            noise: 3e-6,
+            ..Flaws::default()
+        };
+        let pairs = stream(wave, flaws, 6_000, seed);
+        let mut core = Core::new(windows(10)).unwrap();
+        let mut found = Vec::new();
+        core.extend(&pairs[..3_000], |e| found.push(e));
+        // Whole periods, which need not be simulated.
+        core.skip(20 * (200_000 + 100_000 * seed));
+        core.extend(&pairs[3_000..], |e| found.push(e));
+        let before = found
+            .iter()
+            .rfind(|e| e.start < 3_000)
+            .unwrap()
+            .frequency_std;
+        let after = found.iter().filter(|e| e.start >= 3_000);
+        for (index, estimate) in after.enumerate() {
+            assert!(estimate.flags.is_empty(), "{}", estimate.flags);
+            // The first two know no rate yet.
+            if (2..5).contains(&index) {
+                shares.push(estimate.frequency_std / before);
+            }
+            all.push((estimate.frequency - 5000.0) / f64::from(estimate.frequency_std));
+        }
+    }
+    assert!(all.len() > 250, "{}", all.len());
+    // As well known as before.
+    let share = shares.iter().sum::<f32>() / shares.len() as f32;
+    assert!(share < 1.2, "{share}");
+    let rms = (all.iter().map(|x| x * x).sum::<f64>() / all.len() as f64).sqrt();
+    assert!((0.8..1.2).contains(&rms), "{rms}");
+}
+
+#[test]
 fn the_angle_runs_on_over_gaps_in_which_it_turns_far() {
     // A window every 0.19 s: the pattern turns by 0.95 rad meanwhile, more than the ambiguity allows without its rate.
     let wave = Wave {

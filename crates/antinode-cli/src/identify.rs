@@ -84,6 +84,7 @@ fn identify(
 ) -> Result<(), Failure> {
     let open = OpenOptions {
         raw: options.raw,
+        channels: options.channels.map(usize::from),
         columns: options.columns.clone(),
         rate: options.rate,
     };

@@ -51,7 +51,7 @@ pub(super) fn open(
     };
     match (content, known.extension.as_str(), options.raw) {
         (Content::Nothing, ..) => Err(InputError::Empty { file }),
-        (Content::Wav, ..) => wav::open(name, stream, length, options.columns.as_ref()),
+        (Content::Wav, ..) => wav::open(name, stream, length, options),
         (Content::Npy, ..) => npy::open(name, stream, known, options.columns.as_ref()),
         (Content::Foreign(found), _, None) => Err(foreign(found)),
         (_, "wav" | "wave", _) => Err(InputError::NotOfKind {

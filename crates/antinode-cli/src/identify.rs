@@ -1,7 +1,9 @@
 //! `antinode identify`: recordings in, rows out, as a stream.
 
+mod copied;
 mod first;
 mod flagged;
+mod held;
 mod in_turn;
 mod mistaken;
 mod options;

@@ -1,7 +1,11 @@
-//! Numbers to the digits that mean something: for reading, in fixed notation, those that their deviation leaves.
+//! Numbers to the digits that mean something: for reading, those that their deviation leaves, in fixed notation unless they are small.
 
 /// Decimals beyond these are below any deviation that single precision leaves.
 const MOST_DECIMALS: f64 = 9.0;
+/// Deviations below this have fewer than two digits in as many decimals.
+const LEAST_STD: f64 = 1e-8;
+/// Values from this on show digits enough in as many decimals, whatever their deviation.
+const LEAST_VALUE: f64 = 1e-3;
 
 /// A number rounded to so many digits, 1 or more, whatever its size.
 pub fn significant(x: f64, digits: usize) -> f64 {
@@ -19,7 +23,28 @@ pub fn decimals(std: f64) -> usize {
 
 /// A value with its standard deviation, the value to the right and the deviation to the left of one place.
 pub fn with_std(value: f64, std: f64) -> String {
-    with_std_to(decimals(std), value, std)
+    if is_small(value, std) {
+        format!(
+            "{:>9} ±{:<7}",
+            exponential(value, std),
+            format!("{std:.1e}")
+        )
+    } else {
+        with_std_to(decimals(std), value, std)
+    }
+}
+
+/// Whether fixed notation would leave a value with this deviation as little but zeros.
+fn is_small(value: f64, std: f64) -> bool {
+    std > 0.0 && std < LEAST_STD && value.abs() < LEAST_VALUE
+}
+
+/// A value with an exponent, to two digits of its deviation.
+fn exponential(value: f64, std: f64) -> String {
+    let exponent = |x: f64| x.abs().log10().floor();
+    // One digit at the least, of zero too.
+    let decimals = (exponent(value) - exponent(std) + 1.0).max(0.0) as usize;
+    format!("{value:.decimals$e}")
 }
 
 /// [`with_std`] to so many decimals.
@@ -33,7 +58,11 @@ pub fn with_std_to(decimals: usize, value: f64, std: f64) -> String {
 
 /// A value to stand under [`with_std`], and by how many deviations it differs from the one there.
 pub fn with_sigmas(value: f64, std: f64, sigmas: f64) -> String {
-    let decimals = decimals(std);
+    let value = if is_small(value, std) {
+        exponential(value, std)
+    } else {
+        format!("{value:.*}", decimals(std))
+    };
     let digits = usize::from(sigmas.abs() < 99.95);
     // Beyond what the column holds only the size matters.
     let sigmas = if sigmas.abs() < 9999.5 {
@@ -41,7 +70,7 @@ pub fn with_sigmas(value: f64, std: f64, sigmas: f64) -> String {
     } else {
         format!("{sigmas:+.0e}σ")
     };
-    format!("{value:>9.decimals$} {sigmas:<8}")
+    format!("{value:>9} {sigmas:<8}")
 }
 
 /// A value alone, to stand under [`with_std_to`].
@@ -76,6 +105,19 @@ mod tests {
         assert_eq!(with_std(-5331.6715, 0.2695), " -5331.67 ±0.27   ");
         assert_eq!(with_std(1.0, 0.0101), "    1.000 ±0.010  ");
         assert_eq!(with_std(20_000.4, 321.0), "    20000 ±321    ");
+    }
+
+    #[test]
+    fn small_values_have_an_exponent_in_the_same_places() {
+        assert_eq!(with_std(5.0012e-10, 2.04e-12), "5.001e-10 ±2.0e-12");
+        assert_eq!(with_std(-5e-10, 2e-11), "-5.00e-10 ±2.0e-11");
+        assert_eq!(with_std(3e-13, 2e-12), "    3e-13 ±2.0e-12");
+        assert_eq!(with_std(3e-15, 2e-12), "    3e-15 ±2.0e-12");
+        assert_eq!(with_std(0.0, 2e-12), "      0e0 ±2.0e-12");
+        assert_eq!(with_sigmas(5e-10, 2e-12, 7.83), "5.000e-10 +7.8σ   ");
+        // Digits enough, of the value or the deviation.
+        assert_eq!(with_std(0.001, 2e-9), "0.001000000 ±0.000000002");
+        assert_eq!(with_std(2e-5, 1e-8), "0.000020000 ±0.000000010");
     }
 
     #[test]

@@ -1,7 +1,9 @@
 //! `antinode identify`: recordings in, rows out, as a stream.
 
+mod copied;
 mod first;
 mod flagged;
+mod held;
 mod in_turn;
 mod mistaken;
 mod options;
@@ -84,6 +86,7 @@ fn identify(
 ) -> Result<(), Failure> {
     let open = OpenOptions {
         raw: options.raw,
+        channels: options.channels.map(usize::from),
         columns: options.columns.clone(),
         rate: options.rate,
     };

@@ -4,7 +4,7 @@ mod common;
 
 use std::fs;
 
-use common::{WAVE, fault, npy, rows, run, wav};
+use common::{WAVE, fault, npy, raw, rows, run, wav};
 
 /// A WAV header of so many channels in place of two, and the samples of these frames.
 fn wav_of(channels: u8, bytes: &[u8]) -> Vec<u8> {
@@ -124,5 +124,80 @@ fn samples_behind_the_end_that_a_header_tells_are_not_lost_silently() {
     ] {
         fs::write(here.join(name), [&whole, tail].concat()).unwrap();
         assert!(rows(here, name).len() > 90);
+    }
+}
+
+#[test]
+fn two_of_many_raw_channels_are_chosen_by_their_numbers() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let codes = WAVE.codes(20_000);
+    let four = bytes(
+        codes
+            .iter()
+            .zip(0i16..)
+            .flat_map(|(&[c, d], k)| [k, c, 77, d]),
+    );
+    fs::write(here.join("four.raw"), &four).unwrap();
+    fs::write(here.join("two.raw"), raw(&codes)).unwrap();
+    fs::write(here.join("two.wav"), wav(&codes)).unwrap();
+    let numbers = |options: &str| {
+        let rows = rows(here, options);
+        let rows = rows.iter().map(|row| row.unnamed().to_vec());
+        rows.collect::<Vec<_>>()
+    };
+    let raw = "--raw i16 --rate 100000";
+    let expected = numbers("two.wav");
+    assert!(expected.len() > 90);
+    for options in [
+        "two.raw",
+        "two.raw --channels 2",
+        "two.raw --columns 1,2",
+        "four.raw --channels 4 --columns 2,4",
+    ] {
+        assert_eq!(numbers(&format!("{options} {raw}")), expected, "{options}");
+    }
+    let swapped = numbers("two.wav --columns 2,1");
+    for options in [
+        "two.raw --columns 2,1",
+        "four.raw --channels 4 --columns 4,2",
+    ] {
+        assert_eq!(numbers(&format!("{options} {raw}")), swapped, "{options}");
+    }
+    // What goes with a pipe, and a frame that is cut off: rows up to it, and where it was.
+    let cut = four[..8 * 15_000 + 5].to_vec();
+    let options = format!("- {raw} --channels 4 --columns 2,4");
+    let told =
+        "sample pair 15000 (from 0): the data end in the middle of it; check that all 4 channels";
+    let found = fault(here, &options, cut, &[told]);
+    assert!(found.len() > 70);
+    for (options, told) in [
+        (
+            "four.raw --channels 4",
+            "of 4 channels in turn (--channels) two are needed; give those of S_C and S_D, --columns 1,2",
+        ),
+        (
+            "four.raw --channels 4 --columns 2,5",
+            "--columns 2,5: give the numbers of the channels of S_C and S_D, two of 1 to 4",
+        ),
+        ("four.raw --channels 4 --columns 3,3", "two of 1 to 4"),
+        ("four.raw --channels 4 --columns c,d", "two of 1 to 4"),
+        ("two.raw --channels 2 --columns 1,3", "two of 1 to 2"),
+        (
+            "four.raw --columns 1,3",
+            "--columns 1,3: raw samples have two channels unless --channels says how many",
+        ),
+    ] {
+        let found = run(here, &format!("identify {options} {raw}"));
+        assert_eq!((found.code, found.out.as_str()), (1, ""), "{options}");
+        assert!(found.err.contains(told), "{options}: {}", found.err);
+    }
+    for options in [
+        "two.wav --channels 2",
+        "four.raw --raw i16 --channels 1",
+        "four.raw --raw i16 --channels 65",
+    ] {
+        let found = run(here, &format!("identify {options}"));
+        assert_eq!((found.code, found.out.as_str()), (2, ""), "{options}");
     }
 }

@@ -60,3 +60,19 @@ fn their_own_rail_is_a_rail() {
         assert!(expected.contains(&share), "{amplitude}: {share}");
     }
 }
+
+#[test]
+fn a_step_coarser_than_the_noise_is_told_where_rows_scatter() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let step = "(angle 1.45 times): the converter's step of 3.9e-3 is coarser than the noise";
+    for (noise, is_told) in [("0", true), ("0.004", false)] {
+        let simulate =
+            format!("simulate -o a.wav --seconds 4 --bits 9 --frequency 5321.7 --noise {noise}");
+        assert_eq!(run(here, &simulate).code, 0);
+        let found = run(here, "identify --output csv a.wav");
+        assert_eq!(found.code, 0, "{}", found.err);
+        assert_eq!(found.err.contains(step), is_told, "{noise}: {}", found.err);
+        assert_eq!(found.err.is_empty(), !is_told, "{noise}: {}", found.err);
+    }
+}

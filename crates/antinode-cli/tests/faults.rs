@@ -176,12 +176,12 @@ fn no_period_is_told() {
     };
     fs::write(here.join("noise.wav"), wav(&silence.codes(50_000))).unwrap();
     fs::write(here.join("flat.wav"), wav(&[[100, -100]; 50_000])).unwrap();
-    for name in ["noise.wav", "flat.wav"] {
-        let told = [
-            name,
-            "no period found in 50000 sample pairs (0.5000 s)",
-            "check the sample rate",
-        ];
+    for (name, remedy) in [
+        ("noise.wav", "check the sample rate"),
+        ("flat.wav", "one and the same value all the time"),
+    ] {
+        let none = "no period found in 50000 sample pairs (0.5000 s)";
+        let told = [name, none, remedy];
         assert!(fault(here, name, Vec::new(), &told).is_empty());
     }
     fs::write(here.join("short.wav"), wav(&WAVE.codes(500))).unwrap();

@@ -172,9 +172,20 @@ fn a_given_rate_goes_before_the_recordings_own() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("a.wav"), wav(&WAVE.codes(2000))).unwrap();
     let own = rows(directory.path(), "a.wav");
-    let given = rows(directory.path(), "a.wav --rate 50000");
+    let given = run(directory.path(), "identify --output csv a.wav --rate 50000");
+    assert_eq!(
+        (given.code, given.err.as_str()),
+        (
+            0,
+            "warning: a.wav: by its header the sample rate is 100000 Hz, but --rate makes it 50000 Hz, and takes precedence; leave \
+             --rate out if the header is right\n"
+        )
+    );
+    let given = Row::all(&given.out);
     let ratio = own[0].number("frequency_hz") / given[0].number("frequency_hz");
     assert!((ratio - 2.0).abs() < 1e-6, "{ratio}");
+    // The same but for what a clock is off by, which no header has digits for.
+    rows(directory.path(), "a.wav --rate 100000.5");
 }
 
 #[test]

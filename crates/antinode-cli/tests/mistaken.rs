@@ -24,6 +24,41 @@ fn one_pick_off_behind_the_other_is_told() {
 }
 
 #[test]
+fn one_signal_on_both_pick_offs_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let codes = WAVE.codes(20_000);
+    let mut next = codes.clone();
+    next[19_999][0] += 1;
+    let same: Vec<[i16; 2]> = codes.iter().map(|&[c, _]| [c, c]).collect();
+    let negative: Vec<[i16; 2]> = codes.iter().map(|&[c, _]| [c, -c]).collect();
+    let nearly: Vec<[i16; 2]> = codes.iter().zip(&next).map(|(a, b)| [a[0], b[0]]).collect();
+    for (codes, told) in [
+        (same, Some("S_C and S_D are the same samples: ")),
+        (negative, Some("are the same samples but for the sign: ")),
+        // But for one code in the last pair of all.
+        (nearly, None),
+        // A generator's signal into two inputs has noise, if only that of their codes.
+        (codes, None),
+    ] {
+        for (name, bytes) in [("a.wav", wav(&codes)), ("a.csv", text(&codes).into_bytes())] {
+            std::fs::write(here.join(name), bytes).unwrap();
+            let run = run(here, &format!("identify --output csv {name}"));
+            assert_eq!(run.code, 0, "{}", run.err);
+            let Some(told) = told else {
+                assert_eq!(run.err, "");
+                continue;
+            };
+            assert_eq!(run.err.lines().count(), 1, "{}", run.err);
+            let is_told = run
+                .err
+                .starts_with(&format!("warning: {name}: S_C and S_D"));
+            assert!(is_told && run.err.contains(told), "{}", run.err);
+        }
+    }
+}
+
+#[test]
 fn a_time_among_raw_samples_is_told() {
     let directory = tempfile::tempdir().unwrap();
     let pair = |(k, pair): (usize, &[i16; 2])| [k as f64 / RATE, f64::from(pair[0])];

@@ -4,7 +4,7 @@ mod common;
 
 use std::fs;
 
-use common::{WAVE, run, wav};
+use common::{WAVE, run, run_with, wav};
 
 /// The lines, none wider than a terminal has room for and none that ends in spaces.
 fn lines(text: &str, width: usize) -> Vec<&str> {
@@ -74,6 +74,12 @@ fn the_demonstration_ends_near_the_bound() {
     }
 }
 
+/// Where a line of a table has its deviations.
+fn places(line: &str) -> Vec<usize> {
+    let signs = line.chars().enumerate().filter(|&(_, c)| c == '±');
+    signs.map(|(i, _)| i).collect()
+}
+
 #[test]
 fn a_table_is_aligned() {
     let directory = tempfile::tempdir().unwrap();
@@ -84,13 +90,6 @@ fn a_table_is_aligned() {
     let one = run(directory.path(), "identify a.wav");
     let table = lines(&one.out, 120);
     assert!(table[0].trim_start().starts_with("time, s") && table[0].ends_with("flags"));
-    let places = |line: &str| -> Vec<usize> {
-        line.chars()
-            .enumerate()
-            .filter(|&(_, c)| c == '±')
-            .map(|(i, _)| i)
-            .collect()
-    };
     for line in &table[1..] {
         assert_eq!(places(line), places(table[1]));
         assert_eq!(places(line).len(), 4);
@@ -103,6 +102,38 @@ fn a_table_is_aligned() {
         two.out,
         format!("{}{body}\n{}{body}", title("a.wav"), title("b.wav"))
     );
+}
+
+#[test]
+fn a_table_shows_small_amplitudes() {
+    let directory = tempfile::tempdir().unwrap();
+    // Volts at the input of a charge amplifier, say.
+    let scale = 1e-9 / 32_768.0;
+    let codes = WAVE.codes(5000);
+    let samples = codes.as_flattened().iter();
+    let bytes = samples.flat_map(|&code| (scale * f32::from(code)).to_le_bytes());
+    let run = run_with(
+        directory.path(),
+        "identify - --raw f32 --rate 1e5",
+        bytes.collect(),
+    );
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    let table = lines(&run.out, 120);
+    assert!(table.len() > 20);
+    for line in &table[1..] {
+        assert_eq!(places(line), places(table[1]));
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let number = |i: usize| words[i].trim_start_matches('±').parse::<f64>().unwrap();
+        // Each pick-off's noise of 0.005 over 190 pairs.
+        for (i, value) in [(1, WAVE.main), (3, WAVE.quadrature)] {
+            let (value, std) = (value * 1e-9, number(i + 1));
+            assert!((3e-13..8e-13).contains(&std), "{line}");
+            assert!(
+                (number(i) - value).abs() < 0.05 * WAVE.main * 1e-9,
+                "{line}"
+            );
+        }
+    }
 }
 
 #[test]

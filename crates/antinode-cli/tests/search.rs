@@ -115,11 +115,11 @@ fn the_other_detector_is_something_to_try() {
     // The tone makes every row a misfit, and that is told.
     assert!(found.code == 0 && found.err.contains("misfit alone"));
     assert!(Row::all(&found.out).len() > 90);
-    fs::write(here.join("flat.wav"), wav(&[[9, 9]; 5000])).unwrap();
-    let flat = "flat.wav --detector mean-return";
+    let short = "short.wav --detector mean-return";
+    tones(&here.join("short.wav"), &[(RATE / 2.6, 0.9)]);
     fault(
         here,
-        flat,
+        short,
         &["no period found", "try --detector difference"],
     );
     let help = run(here, "identify --help").out;
@@ -204,4 +204,35 @@ fn a_frequency_that_cannot_be_is_refused() {
     );
     assert_eq!(both.code, 2);
     assert!(both.err.contains("--detector"), "{}", both.err);
+}
+
+#[test]
+fn samples_that_hold_one_value_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let both = "found in 5000 sample pairs (0.0500 s): S_C and S_D hold one and the same value all the time, ";
+    fs::write(here.join("flat.wav"), wav(&[[8192, -8192]; 5000])).unwrap();
+    fs::write(here.join("zero.wav"), wav(&[[0, 0]; 5000])).unwrap();
+    for (options, what, value) in [
+        ("flat.wav", "period", "0.25 and -0.25"),
+        ("zero.wav", "period", "0 and 0"),
+        ("zero.wav --frequency 5000", "wave", "0 and 0"),
+        ("zero.wav --hum --detector mean-return", "period", "0 and 0"),
+    ] {
+        let told = format!("no {what} {both}{value}: check the wiring");
+        fault(here, options, &[&told]);
+        let found = run(here, &format!("identify {options}"));
+        assert!(!found.err.contains("--detector"), "{}", found.err);
+    }
+    // One without a wave beside one that is dead.
+    let noise = common::Wave {
+        main: 0.0,
+        quadrature: 0.0,
+        noise: 0.1,
+        ..common::WAVE
+    };
+    let codes: Vec<[i16; 2]> = noise.codes(5000).iter().map(|&[c, _]| [c, 9]).collect();
+    fs::write(here.join("dead.wav"), wav(&codes)).unwrap();
+    let dead = "S_D holds one and the same value all the time, 0.00027";
+    fault(here, "dead.wav", &["no period found", dead]);
 }

@@ -43,10 +43,11 @@ fn a_recording_is_told_with_its_format_length_and_rate() {
     fs::write(here.join("a.bin"), common::raw(&WAVE.codes(5000))).unwrap();
     let sound = "a.wav: WAV of 16-bit integers, 5000 sample pairs at 100000 Hz\n";
     assert_eq!(shown(here, &["a.wav"]), sound);
-    assert_eq!(
-        shown(here, &["a.wav", "--rate", "5e4"]),
-        sound.replace("100000", "50000")
-    );
+    // A rate that is not the header's is warned of first.
+    let told = shown(here, &["a.wav", "--rate", "5e4"]);
+    let (warning, told) = told.split_once('\n').unwrap();
+    assert!(warning.starts_with("warning: a.wav: by its header "));
+    assert_eq!(told, sound.replace("100000", "50000"));
     // How long a text is shows at its end.
     let lines = "a.csv: CSV at 100000 Hz\na.csv: 5000 sample pairs\n";
     assert_eq!(shown(here, &["a.csv"]), lines);

@@ -12,6 +12,9 @@ use crate::recording::{Columns, RawFormat};
 /// The most periods a window may have; the ring of blocks holds two more.
 pub const MOST_PERIODS: u16 = 1022;
 
+/// More channels than any recorder takes in turn.
+const MOST_CHANNELS: u8 = 64;
+
 /// `antinode identify`.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
@@ -47,11 +50,15 @@ pub struct Identify {
     /// samples before it.
     #[arg(long, value_enum, default_value_t = Methods::Exact)]
     pub methods: Methods,
-    /// Format of raw samples, for what is neither WAV nor NPY, nor text by its extension: little-endian, S_C and S_D in turn.
+    /// Format of raw samples, for what is neither WAV nor NPY, nor text by its extension: little-endian, S_C and S_D in turn,
+    /// or among --channels.
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub raw: Option<RawFormat>,
-    /// Columns of a text recording by name or by number from 1, as C,D or TIME,C,D; channels of a WAV or NPY recording by number, as C,D
-    /// [default: told by their names, or how many there are].
+    /// Channels of raw samples that come in turn, 2 to 64, of which --columns picks those of S_C and S_D [default: 2].
+    #[arg(long, value_name = "N", requires = "raw", value_parser = value_parser!(u8).range(2..=i64::from(MOST_CHANNELS)))]
+    pub channels: Option<u8>,
+    /// Columns of a text recording by name or by number from 1, as C,D or TIME,C,D; channels of a WAV, NPY or raw recording by number, as
+    /// C,D [default: told by their names, or how many there are].
     ///
     /// With --columns, what is neither WAV nor NPY is read as text, unless --raw is given; without, text is known by its first line.
     /// Where only two columns are named, the recording's own time is ignored, and --rate gives the rate. Lines that begin with #, % or //

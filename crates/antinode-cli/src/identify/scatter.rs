@@ -21,6 +21,8 @@ const CHANCE: f64 = 3.5;
 const LEAST: f32 = 1e-5;
 /// The same of harmonics and the converter: what they leave may be less in rows than it looks.
 const LEAST_NOISE: f32 = 1e-4;
+/// Residual, in steps of the converter, below which there is less noise than rounding: that alone has 0.29.
+const COARSE: f32 = 0.5;
 /// Mean of |z| of a normal z, √(2/π).
 const MEAN: f64 = FRAC_2_SQRT_PI * FRAC_1_SQRT_2;
 
@@ -54,6 +56,8 @@ pub(super) struct Scatter {
     count: u32,
     /// Differences of rows whose residual is noise.
     noisy: u32,
+    /// Differences of rows whose residual is mostly rounding.
+    coarse: u32,
 }
 
 impl Scatter {
@@ -65,6 +69,7 @@ impl Scatter {
             sums: [0.0; NAMES.len()],
             count: 0,
             noisy: 0,
+            coarse: 0,
         }
     }
 
@@ -102,6 +107,8 @@ impl Scatter {
         let times: [f64; ROWS] = std::array::from_fn(|i| self.rows[i].time);
         let least = |row: &Estimate| (LEAST_NOISE * row.main_amplitude).max(self.resolution);
         let is_noisy = self.rows.iter().all(|row| row.residual_rms >= least(row));
+        let coarse = COARSE * self.resolution;
+        let is_coarse = self.rows.iter().all(|row| row.residual_rms < coarse);
         let mut differences = [[0.0; 2]; NAMES.len()];
         for (i, row) in self.rows.iter().enumerate() {
             // Of any curve of the third degree through the rows nothing is left.
@@ -119,6 +126,7 @@ impl Scatter {
         }
         self.count += 1;
         self.noisy += u32::from(is_noisy);
+        self.coarse += u32::from(is_coarse);
     }
 
     /// What to tell where noise was taken to be white, or, with its option, not to be.
@@ -149,6 +157,15 @@ impl Scatter {
             .filter(|&(_, ratio)| ratio > MORE + chance)
             .map(|(name, ratio)| format!("{name} {ratio:.2}"))
             .collect();
+        let step = if 2 * self.coarse > self.count {
+            format!(
+                "the converter's step of {:.1e} is coarser than the noise, and its rounding repeats with the wave: give the wave more gain, or \
+                 the converter more bits; or ",
+                self.resolution
+            )
+        } else {
+            String::new()
+        };
         let remedy = if has_option {
             ""
         } else {
@@ -156,7 +173,7 @@ impl Scatter {
         };
         (!more.is_empty()).then(|| {
             format!(
-                "rows scatter by more than their stated deviations ({} times): the wave moves, the sampling jitters, there is a second tone or a \
+                "rows scatter by more than their stated deviations ({} times): {step}the wave moves, the sampling jitters, there is a second tone or a \
                  harmonic, which does less in a larger --periods, both pick-offs have noise in common, or the noise is not white{remedy}",
                 more.join(", ")
             )
@@ -198,7 +215,16 @@ mod tests {
 
     /// What is told of 1000 rows that scatter by so many of their deviations, each first changed by its index.
     fn told(times: f64, change: impl Fn(u64, &mut Estimate)) -> Option<String> {
-        let (mut scatter, mut deviates) = (Scatter::new(None), Deviates(3));
+        told_of(None, times, change)
+    }
+
+    /// The same of samples of this resolution.
+    fn told_of(
+        resolution: Option<f32>,
+        times: f64,
+        change: impl Fn(u64, &mut Estimate),
+    ) -> Option<String> {
+        let (mut scatter, mut deviates) = (Scatter::new(resolution), Deviates(3));
         for index in 0..1000 {
             let mut row = row(index, times, &mut deviates);
             change(index, &mut row);
@@ -245,5 +271,20 @@ mod tests {
         assert!(told(1.6, quiet).is_some());
         // Rounding may be any.
         assert_eq!(told(1.6, |_, row| row.residual_rms = 3e-6), None);
+    }
+
+    #[test]
+    fn a_step_coarser_than_the_noise_is_named() {
+        // Residuals of 1e-3: 0.29 steps are those of rounding alone, one step is noise.
+        for (resolution, is_named) in [
+            (Some(1e-3 / 0.29), true),
+            (Some(1e-3), false),
+            (None, false),
+        ] {
+            let told = told_of(resolution, 1.6, |_, _| ()).unwrap();
+            let step = "times): the converter's step of 3.4e-3 is coarser than the noise";
+            assert_eq!(told.contains(step), is_named, "{resolution:?}: {told}");
+            assert_eq!(told.contains("the converter's step"), is_named, "{told}");
+        }
     }
 }

@@ -3,6 +3,7 @@
 use antinode::period::DifferenceDetector;
 
 use super::Core;
+use super::held::Held;
 use super::mistaken::amplitude_beyond;
 use super::options::{Detector, Identify};
 use crate::failure::Failure;
@@ -48,8 +49,26 @@ impl Search {
     }
 
     /// Why a recording that was read to its end gave no row.
-    pub fn no_rows(&self, name: &str, rate: f64, core: &Core, options: &Identify) -> Failure {
+    pub fn no_rows(
+        &self,
+        name: &str,
+        rate: f64,
+        core: &Core,
+        options: &Identify,
+        held: &Held,
+    ) -> Failure {
         let (pairs, seconds) = (core.index(), core.index() as f64 / rate);
+        let is_held = held.told();
+        if let Some(told) = is_held.as_ref().filter(|_| held.are_both()) {
+            let what = if core.is_searching() {
+                "period"
+            } else {
+                "wave"
+            };
+            return Failure::Recording(format!(
+                "{name}: no {what} found in {pairs} sample pairs ({seconds:.4} s): {told}"
+            ));
+        }
         let periods = options.periods;
         let offset = self.offset.map(|[mean, rms]| {
             format!(
@@ -57,7 +76,7 @@ impl Search {
                  take the offset off"
             )
         });
-        let amiss = self.scale().or(offset);
+        let amiss = self.scale().or(is_held).or(offset);
         let amiss = amiss.map_or(String::new(), |told| format!("; {told}"));
         // A window may be so much longer than asked.
         let longest = |frequency: f32| 1.1 * f64::from(periods) * rate / f64::from(frequency);

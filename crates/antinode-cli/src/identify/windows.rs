@@ -4,8 +4,10 @@ use std::io::Write;
 
 use antinode::{Estimate, SettingsError};
 
+use super::copied::Copied;
 use super::first::First;
 use super::flagged::Flagged;
+use super::held::Held;
 use super::in_turn::InTurn;
 use super::mistaken::straight;
 use super::options::{Identify, Methods};
@@ -38,6 +40,8 @@ pub(super) struct Windows<'a> {
     silence: Silence,
     scatter: Scatter,
     in_turn: InTurn,
+    held: Held,
+    copied: Copied,
     flagged: Flagged,
 }
 
@@ -74,6 +78,8 @@ impl<'a> Windows<'a> {
             silence: Silence::default(),
             scatter: Scatter::new(settings.resolution),
             in_turn: InTurn::default(),
+            held: Held::default(),
+            copied: Copied::default(),
             flagged: Flagged::default(),
         })
     }
@@ -119,6 +125,8 @@ impl<'a> Windows<'a> {
             let (new, rest) = pairs.split_at(taken);
             pairs = rest;
             recording.look(self.span.take(taken), new);
+            self.held.see(new);
+            self.copied.see(new);
             if let Some(history) = &mut self.history {
                 history.extend(new);
             }
@@ -185,6 +193,7 @@ impl<'a> Windows<'a> {
             self.silence.told(seconds, self.span.offset()),
             self.scatter.told(self.options.hum || self.options.coloured),
             self.in_turn.told(),
+            self.copied.told().filter(|_| !self.held.are_both()),
             self.search.scale().filter(|_| rows.count() > 0),
         ];
         for warning in warnings.into_iter().flatten() {
@@ -195,7 +204,7 @@ impl<'a> Windows<'a> {
             None if rows.count() > 0 || mistaken.is_some() => None,
             None => Some(self.span.missing(name).unwrap_or_else(|| {
                 self.search
-                    .no_rows(name, self.rate, &self.core, self.options)
+                    .no_rows(name, self.rate, &self.core, self.options, &self.held)
             })),
         };
         let told = [recording.lost(), recording.not_finite()];

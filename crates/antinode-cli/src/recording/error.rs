@@ -13,6 +13,9 @@ pub const RAW_OPTION: &str = "--raw";
 /// The command-line option that names the [`Columns`](super::Columns), as the remedies spell it.
 pub const COLUMNS_OPTION: &str = "--columns";
 
+/// The command-line option that says how many channels raw samples have, as the remedies spell it.
+pub const CHANNELS_OPTION: &str = "--channels";
+
 /// The command-line option that gives the sample rate, as the remedies spell it.
 pub const RATE_OPTION: &str = "--rate";
 
@@ -123,6 +126,17 @@ pub enum InputError {
         chosen: String,
         channels: usize,
     },
+    /// More raw channels than two, and none chosen.
+    #[error(
+        "{file}: of {channels} channels in turn ({CHANNELS_OPTION}) two are needed; give those of S_C and S_D, {COLUMNS_OPTION} 1,2"
+    )]
+    RawChannels { file: String, channels: usize },
+    /// Raw channels that do not exist as long as nobody says how many there are, or are not given by number.
+    #[error(
+        "{file}: {COLUMNS_OPTION} {chosen}: raw samples have two channels unless {CHANNELS_OPTION} says how many there are; give the \
+         numbers of those of S_C and S_D, 1,2 or 2,1, or {CHANNELS_OPTION} too"
+    )]
+    RawChoice { file: String, chosen: String },
     /// Bits below the valid ones are set.
     #[error(
         "{file}: sample pair {pair} (from 0), {channel}: bits are set below the {valid} valid ones of a \
@@ -147,10 +161,15 @@ pub enum InputError {
     },
     /// An S_C without its S_D.
     #[error(
-        "{file}: sample pair {found} (from 0): the data end in the middle of it; check that both channels \
-         are there in the format named, and that the recording was not cut off"
+        "{file}: sample pair {found} (from 0): the data end in the middle of it; check that {} channels \
+         are there in the format named, and that the recording was not cut off",
+        if *.channels == 2 { "both".to_owned() } else { format!("all {channels}") }
     )]
-    HalfPair { file: String, found: u64 },
+    HalfPair {
+        file: String,
+        found: u64,
+        channels: usize,
+    },
     /// NaN, an infinity, a number beyond single precision, or text: told once all is read.
     #[error(
         "{file}{}: sample pair {pair} (from 0), {told}, not a finite number{}; \

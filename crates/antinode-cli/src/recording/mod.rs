@@ -1,5 +1,6 @@
 //! Recordings of the two pick-off signals: read from WAV, text, NPY and raw samples, and written.
 
+mod by_content;
 mod columns;
 mod content;
 mod delimited;
@@ -32,30 +33,18 @@ use std::io::{self, IsTerminal};
 use std::path::Path;
 use std::rc::Rc;
 
+pub use by_content::OpenOptions;
 pub use columns::Columns;
-use content::Content;
 pub use error::{Channel, InputError};
-use foreign::{Foreign, MAT};
 pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use raw::RawFormat;
-use source::{Counted, Known, Opened, Source, Stream};
+use source::{Known, Opened, Source, Stream};
 pub use source::{in_utf8, open_file};
 pub use write::{OutputError, RecordingWriter, SampleFormat, WholeFile};
 
 /// The capacity given to a buffer that has none: small enough to stay in the cache.
 pub const BLOCK_PAIRS: usize = 1 << 14;
-
-/// What the content does not tell about itself.
-#[derive(Debug, Clone, Default)]
-pub struct OpenOptions {
-    /// The format of raw samples, on standard input or in a file of no known kind.
-    pub raw: Option<RawFormat>,
-    /// The columns of a text recording, or the channels of another; by default, they are told from the header or their number.
-    pub columns: Option<Columns>,
-    /// The sample rate that takes precedence over the recording's own, Hz.
-    pub rate: Option<f64>,
-}
 
 /// A recording of S_C and S_D, read once from its beginning to its end in constant memory.
 pub struct Recording {
@@ -101,7 +90,7 @@ impl Recording {
             length,
             again,
         };
-        let opened = Self::stream(&name, Box::new(file), known, options)?;
+        let opened = by_content::open(&name, Box::new(file), known, options)?;
         Ok(Self {
             encoded,
             ..Self::new(name, opened, length)
@@ -115,57 +104,8 @@ impl Recording {
         if !is_told && stdin.is_terminal() {
             return Err(InputError::RawFormatNeeded { file: name });
         }
-        let opened = Self::stream(&name, Box::new(stdin), Known::default(), options)?;
+        let opened = by_content::open(&name, Box::new(stdin), Known::default(), options)?;
         Ok(Self::new(name, opened, None))
-    }
-
-    /// A stream by its content, or else by what is known beside it.
-    fn stream(
-        name: &str,
-        stream: Stream,
-        known: Known,
-        options: &OpenOptions,
-    ) -> Result<Opened, InputError> {
-        let length = known.length;
-        let is_text = matches!(known.extension.as_str(), "csv" | "tsv" | "txt" | "lvm")
-            || options.columns.is_some() && options.raw.is_none();
-        let look = |stream| {
-            Content::look(stream, !is_text && options.raw.is_none())
-                .map_err(|fault| InputError::io(name, fault))
-        };
-        let (mut content, mut stream) = look(stream)?;
-        // Raw samples may begin as UTF-16 does.
-        if content == Content::Utf16 && (is_text || options.raw.is_none()) {
-            let count = Rc::clone(&known.encoded);
-            (content, stream) = look(Box::new(in_utf8(Counted { stream, count })))?;
-        }
-        let file = name.to_owned();
-        let foreign = |found: &Foreign| InputError::Foreign {
-            file: file.clone(),
-            kind: found.kind,
-            remedy: found.remedy(known.is_named.then_some(name)),
-        };
-        match (content, known.extension.as_str(), options.raw) {
-            (Content::Nothing, ..) => Err(InputError::Empty { file }),
-            (Content::Wav, ..) => wav::open(name, stream, length, options.columns.as_ref()),
-            (Content::Npy, ..) => npy::open(name, stream, known, options.columns.as_ref()),
-            (Content::Foreign(found), _, None) => Err(foreign(found)),
-            (_, "wav" | "wave", _) => Err(InputError::NotOfKind {
-                file,
-                kind: "a WAV file",
-            }),
-            (_, "npy", _) => Err(InputError::NotOfKind {
-                file,
-                kind: "an NPY file",
-            }),
-            _ if is_text || content == Content::Text => {
-                delimited::open(name, stream, options, length.is_none())
-            }
-            (_, _, Some(format)) => Ok(raw::open(name, stream, format, length)),
-            (_, "mat", None) => Err(foreign(&MAT)),
-            _ if known.is_named => Err(InputError::Unknown { file }),
-            _ => Err(InputError::RawFormatNeeded { file }),
-        }
     }
 
     fn new(name: String, opened: Opened, bytes_total: Option<u64>) -> Self {

@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use super::error::InputError;
 use super::frame::Frame;
 use super::sample::{BadSample, Kind, SampleCode};
-use super::{Opened, Source, Stream};
+use super::{OpenOptions, Opened, Source, Stream};
 
 /// Large enough that system calls cost nothing, small enough to stay in the cache.
 const CHUNK_BYTES: usize = 3 << 16;
@@ -52,24 +52,50 @@ pub(super) struct Interleaved {
     before_chunks: bool,
 }
 
-/// Opens samples without a header.
-pub(super) fn open(file: &str, stream: Stream, format: RawFormat, length: Option<u64>) -> Opened {
+/// Opens samples without a header, of as many channels as the options say.
+pub(super) fn open(
+    file: &str,
+    stream: Stream,
+    format: RawFormat,
+    options: &OpenOptions,
+    length: Option<u64>,
+) -> Result<Opened, InputError> {
     let code = SampleCode::new(match format {
         RawFormat::I16 => Kind::I16,
         RawFormat::I32 => Kind::I32,
         RawFormat::F32 => Kind::F32,
         RawFormat::F64 => Kind::F64,
     });
-    let source = Interleaved::new(file, stream, code, 0).live(length.is_none());
-    Opened {
+    let source = Interleaved::new(file, stream, code, 0)
+        .of(frame(file, options)?)
+        .live(length.is_none());
+    let frame_bytes = source.frame_bytes() as u64;
+    Ok(Opened {
         format: format!("raw {}", code.words()),
         source: Box::new(source),
         sample_rate: None,
         start: 0.0,
         warnings: Vec::new(),
-        pairs: length.map(|length| length / code.pair_bytes() as u64),
+        pairs: length.map(|length| length / frame_bytes),
         full_scale: code.full_scale(),
+    })
+}
+
+/// The channels of raw samples, which do not tell themselves how many there are.
+fn frame(file: &str, options: &OpenOptions) -> Result<Frame, InputError> {
+    let channels = options.channels.unwrap_or(2);
+    if channels != 2 && options.columns.is_none() {
+        return Err(InputError::RawChannels {
+            file: file.to_owned(),
+            channels,
+        });
     }
+    Frame::choose(file, channels, options.columns.as_ref()).map_err(|fault| match fault {
+        InputError::ChannelChoice { file, chosen, .. } if options.channels.is_none() => {
+            InputError::RawChoice { file, chosen }
+        }
+        fault => fault,
+    })
 }
 
 impl Interleaved {
@@ -165,7 +191,11 @@ impl Interleaved {
                 promised,
                 found,
             }),
-            _ if self.begun > 0 => Err(InputError::HalfPair { file, found }),
+            _ if self.begun > 0 => Err(InputError::HalfPair {
+                file,
+                found,
+                channels: self.frame.channels,
+            }),
             _ if found == 0 => Err(InputError::NoPairs { file }),
             _ => Ok(()),
         }

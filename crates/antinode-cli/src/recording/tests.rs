@@ -251,7 +251,7 @@ fn a_stream_needs_a_format_unless_it_is_a_file() {
             ..OpenOptions::default()
         };
         let stream = Box::new(Cursor::new(bytes.to_vec()));
-        Recording::stream("standard input", stream, Known::default(), &options)
+        by_content::open("standard input", stream, Known::default(), &options)
             .map(|opened| opened.full_scale)
     };
     assert!(open(b"abcd", Some(RawFormat::F32)).is_ok());

@@ -2,12 +2,12 @@
 
 use std::io::{self, Read};
 
-use super::columns::Columns;
-use super::error::InputError;
+use super::error::{InputError, RATE_OPTION};
 use super::frame::Frame;
 use super::raw::Interleaved;
 use super::sample::{Kind, SampleCode};
-use super::{Opened, Stream};
+use super::time::Meaning;
+use super::{OpenOptions, Opened, Stream};
 
 /// The end of every `KSDATAFORMAT_SUBTYPE`, whose beginning is a format tag.
 const SUBTYPE_TAIL: [u8; 14] = *b"\x00\x00\x00\x00\x10\x00\x80\x00\x00\xaa\x00\x38\x9b\x71";
@@ -21,12 +21,12 @@ const ARECORD_UNKNOWN: u64 = 0x8000_0000;
 /// The length of a chunk that is in the `ds64` chunk, or unknown.
 const UNKNOWN: u64 = 0xffff_ffff;
 
-/// Opens a WAV file; `length` is that of the file, if it has one, and `columns` are the channels asked for.
+/// Opens a WAV file; `length` is that of the file, if it has one.
 pub(super) fn open(
     file: &str,
     stream: Stream,
     length: Option<u64>,
-    columns: Option<&Columns>,
+    options: &OpenOptions,
 ) -> Result<Opened, InputError> {
     let mut header = Reader {
         file,
@@ -35,7 +35,7 @@ pub(super) fn open(
     };
     let (format, data) = header.read()?;
     let start = header.position;
-    let frame = Frame::choose(file, format.channels, columns)?;
+    let frame = Frame::choose(file, format.channels, options.columns.as_ref())?;
     let pair_bytes = (frame.channels * format.code.sample_bytes()) as u64;
     let available = length.map(|length| length.saturating_sub(start));
     let promised = data.promised(pair_bytes, length);
@@ -50,15 +50,31 @@ pub(super) fn open(
         Some(promised) => source.promise(promised).before_chunks(),
         None => source,
     };
+    let sample_rate = (format.rate > 0).then_some(f64::from(format.rate));
+    let warning = sample_rate.and_then(|own| rate_warning(own, options.rate));
     Ok(Opened {
         format: format!("WAV of {}", format.code.words()),
         source: Box::new(source),
-        sample_rate: (format.rate > 0).then_some(f64::from(format.rate)),
+        sample_rate,
         start: 0.0,
-        warnings: Vec::new(),
+        warnings: warning
+            .map(|told| format!("{file}: {told}"))
+            .into_iter()
+            .collect(),
         pairs: bytes.map(|bytes| bytes / pair_bytes),
         full_scale: format.code.full_scale(),
     })
+}
+
+/// Warns of a rate asked for that is not the header's own.
+fn rate_warning(own: f64, asked: Option<f64>) -> Option<String> {
+    match Meaning::of_rate(own, asked) {
+        Meaning::OtherRate { own, asked } => Some(format!(
+            "by its header the sample rate is {own} Hz, but {RATE_OPTION} makes it {asked} Hz, and takes precedence; \
+             leave {RATE_OPTION} out if the header is right"
+        )),
+        _ => None,
+    }
 }
 
 /// What the `fmt ` chunk tells.

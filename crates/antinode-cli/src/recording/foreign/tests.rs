@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use super::super::columns::Columns;
 use super::super::tests::{message, read, read_with};
-use super::super::{OpenOptions, RawFormat, Recording, source::Known};
+use super::super::{OpenOptions, RawFormat, by_content, source::Known};
 use super::*;
 
 /// A file that begins as one of these does.
@@ -89,7 +89,7 @@ fn a_remedy_names_the_file_as_a_shell_wants_it() {
     let (_, fault) = read("a b.mat", b"MATLAB 5.0 MAT-file");
     assert!(fault.is_some_and(|fault| fault.contains("`load('a b.mat'); ")));
     let stream = Box::new(Cursor::new(b"\x1f\x8b\x08\x00".to_vec()));
-    let opened = Recording::stream(
+    let opened = by_content::open(
         "standard input",
         stream,
         Known::default(),

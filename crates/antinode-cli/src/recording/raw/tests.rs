@@ -8,7 +8,14 @@ fn raw(bytes: Vec<u8>, format: RawFormat) -> Recording {
     let stream = Box::new(Dribble::new(bytes, 7));
     Recording::new(
         "standard input".to_owned(),
-        open("standard input", stream, format, None),
+        open(
+            "standard input",
+            stream,
+            format,
+            &OpenOptions::default(),
+            None,
+        )
+        .unwrap(),
         None,
     )
 }
@@ -97,7 +104,14 @@ fn a_fault_of_the_pipe_comes_after_the_good_data() {
     let stream = Box::new(io::Cursor::new(vec![0; 8]).chain(Broken));
     let mut recording = Recording::new(
         "pipe".to_owned(),
-        open("pipe", stream, RawFormat::I16, None),
+        open(
+            "pipe",
+            stream,
+            RawFormat::I16,
+            &OpenOptions::default(),
+            None,
+        )
+        .unwrap(),
         None,
     );
     let (pairs, fault) = drain(&mut recording);

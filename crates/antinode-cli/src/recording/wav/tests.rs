@@ -203,8 +203,13 @@ fn a_pipe_needs_no_length() {
     let mut piped = wav(format(1, 2, 16), &[PAIR_16; 500].concat());
     piped.size = 0xffff_ffff;
     let open = |wav: &Wav| {
-        let opened = super::open("pipe", Box::new(Dribble::new(wav.bytes(), 5)), None, None)
-            .expect("a good header");
+        let opened = super::open(
+            "pipe",
+            Box::new(Dribble::new(wav.bytes(), 5)),
+            None,
+            &OpenOptions::default(),
+        )
+        .expect("a good header");
         Recording::new("pipe".to_owned(), opened, None)
     };
     assert_eq!(open(&piped).pairs(), None);

@@ -1,0 +1,100 @@
+//! Pick-offs that hold one and the same value all the time: however it is searched, there is no wave.
+
+/// As many samples of a converter are hardly the same by chance.
+const ENOUGH: u64 = 64;
+
+/// What each pick-off has held since the first pair.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Held {
+    /// The first pair.
+    first: Option<[f32; 2]>,
+    /// Whether a pick-off gave another value since.
+    has_moved: [bool; 2],
+    pairs: u64,
+}
+
+impl Held {
+    /// Takes the next pairs.
+    pub fn see(&mut self, pairs: &[[f32; 2]]) {
+        self.pairs += pairs.len() as u64;
+        let Some(&next) = pairs.first() else {
+            return;
+        };
+        let first = *self.first.get_or_insert(next);
+        for (channel, has_moved) in self.has_moved.iter_mut().enumerate() {
+            // A pick-off that moved is not looked at again.
+            *has_moved = *has_moved || pairs.iter().any(|pair| pair[channel] != first[channel]);
+        }
+    }
+
+    /// Whether both pick-offs hold their values.
+    pub fn are_both(&self) -> bool {
+        self.has_moved == [false; 2]
+    }
+
+    /// What to tell of those that hold theirs.
+    pub fn told(&self) -> Option<String> {
+        let first = self.first.filter(|_| self.pairs >= ENOUGH)?;
+        let (who, value) = match self.has_moved {
+            [false, false] => ("S_C and S_D hold", format!("{} and {}", first[0], first[1])),
+            [false, true] => ("S_C holds", first[0].to_string()),
+            [true, false] => ("S_D holds", first[1].to_string()),
+            [true, true] => return None,
+        };
+        Some(format!(
+            "{who} one and the same value all the time, {value}: check the wiring, the converter and which channels were recorded"
+        ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is told of pairs that come in stretches.
+    fn told(pairs: &[[f32; 2]]) -> Option<String> {
+        let mut held = Held::default();
+        for stretch in pairs.chunks(8) {
+            held.see(stretch);
+        }
+        held.told()
+    }
+
+    #[test]
+    fn the_pick_off_that_holds_its_value_is_named() {
+        for (c, d, start) in [
+            (
+                false,
+                false,
+                "S_C and S_D hold one and the same value all the time, 0.5 and -0.25: ",
+            ),
+            (
+                false,
+                true,
+                "S_C holds one and the same value all the time, 0.5: ",
+            ),
+            (
+                true,
+                false,
+                "S_D holds one and the same value all the time, -0.25: ",
+            ),
+        ] {
+            let mut pairs = vec![[0.5, -0.25]; 100];
+            pairs[57][0] += f32::from(u8::from(c));
+            pairs[99][1] += f32::from(u8::from(d));
+            let told = told(&pairs).expect("one holds its value");
+            assert!(told.starts_with(start), "{told}");
+        }
+        assert!(told(&[[0.0; 2]; 64]).is_some());
+    }
+
+    #[test]
+    fn two_that_moved_and_a_few_samples_are_not() {
+        let mut pairs = [[0.5, -0.25]; 100];
+        pairs[1][0] = 0.0;
+        pairs[2][1] = 0.0;
+        assert_eq!(told(&pairs), None);
+        assert_eq!(told(&[[0.5; 2]; 63]), None);
+        assert_eq!(told(&[]), None);
+    }
+}

@@ -1,0 +1,73 @@
+//! Which format's reader a stream is for.
+
+use std::rc::Rc;
+
+use super::columns::Columns;
+use super::content::Content;
+use super::error::InputError;
+use super::foreign::{Foreign, MAT};
+use super::raw::{self, RawFormat};
+use super::source::{Counted, Known, Opened, Stream, in_utf8};
+use super::{delimited, npy, wav};
+
+/// What the content does not tell about itself.
+#[derive(Debug, Clone, Default)]
+pub struct OpenOptions {
+    /// The format of raw samples, on standard input or in a file of no known kind.
+    pub raw: Option<RawFormat>,
+    /// The number of interleaved channels of raw samples, 2 by default.
+    pub channels: Option<usize>,
+    /// The columns of a text recording, or the channels of another; by default, they are told from the header or their number.
+    pub columns: Option<Columns>,
+    /// The sample rate that takes precedence over the recording's own, Hz.
+    pub rate: Option<f64>,
+}
+
+/// Opens a stream by its content, or else by what is known beside it.
+pub(super) fn open(
+    name: &str,
+    stream: Stream,
+    known: Known,
+    options: &OpenOptions,
+) -> Result<Opened, InputError> {
+    let length = known.length;
+    let is_text = matches!(known.extension.as_str(), "csv" | "tsv" | "txt" | "lvm")
+        || options.columns.is_some() && options.raw.is_none();
+    let look = |stream| {
+        Content::look(stream, !is_text && options.raw.is_none())
+            .map_err(|fault| InputError::io(name, fault))
+    };
+    let (mut content, mut stream) = look(stream)?;
+    // Raw samples may begin as UTF-16 does.
+    if content == Content::Utf16 && (is_text || options.raw.is_none()) {
+        let count = Rc::clone(&known.encoded);
+        (content, stream) = look(Box::new(in_utf8(Counted { stream, count })))?;
+    }
+    let file = name.to_owned();
+    let foreign = |found: &Foreign| InputError::Foreign {
+        file: file.clone(),
+        kind: found.kind,
+        remedy: found.remedy(known.is_named.then_some(name)),
+    };
+    match (content, known.extension.as_str(), options.raw) {
+        (Content::Nothing, ..) => Err(InputError::Empty { file }),
+        (Content::Wav, ..) => wav::open(name, stream, length, options),
+        (Content::Npy, ..) => npy::open(name, stream, known, options.columns.as_ref()),
+        (Content::Foreign(found), _, None) => Err(foreign(found)),
+        (_, "wav" | "wave", _) => Err(InputError::NotOfKind {
+            file,
+            kind: "a WAV file",
+        }),
+        (_, "npy", _) => Err(InputError::NotOfKind {
+            file,
+            kind: "an NPY file",
+        }),
+        _ if is_text || content == Content::Text => {
+            delimited::open(name, stream, options, length.is_none())
+        }
+        (_, _, Some(format)) => raw::open(name, stream, format, options, length),
+        (_, "mat", None) => Err(foreign(&MAT)),
+        _ if known.is_named => Err(InputError::Unknown { file }),
+        _ => Err(InputError::RawFormatNeeded { file }),
+    }
+}

@@ -14,7 +14,7 @@ impl Flags {
     pub const LOST: Self = Self(1 << 1);
     /// The phase does not continue that of the last window that was free of a misfit: samples are missing between or within them.
     pub const PHASE_JUMP: Self = Self(1 << 2);
-    /// Amplitude, angle or offset stepped between the window before and this one.
+    /// Amplitude, angle or offset stepped between the window before and this one, by seven deviations beyond 0.2 % of a_A or 2 mrad.
     pub const STEP: Self = Self(1 << 3);
     /// |a_A| ≈ |a_B|: the pattern is circular and the angle has no meaning.
     pub const CIRCULAR: Self = Self(1 << 4);

@@ -150,6 +150,7 @@ fn help_names_every_option_and_its_unit() {
         "--periods <N>",
         "--hop <BLOCKS>",
         "--rate <HZ>",
+        "--channels <N>",
         "--gain-ratio <RATIO>",
         "--skew-ns <NS>",
         "--output <FORMAT>",

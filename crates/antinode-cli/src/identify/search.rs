@@ -58,8 +58,8 @@ impl Search {
         held: &Held,
     ) -> Failure {
         let (pairs, seconds) = (core.index(), core.index() as f64 / rate);
-        let is_held = held.told();
-        if let Some(told) = is_held.as_ref().filter(|_| held.are_both()) {
+        let standing = held.told();
+        if let Some(told) = standing.as_ref().filter(|_| held.are_both()) {
             let what = if core.is_searching() {
                 "period"
             } else {
@@ -76,7 +76,7 @@ impl Search {
                  take the offset off"
             )
         });
-        let amiss = self.scale().or(is_held).or(offset);
+        let amiss = self.scale().or(standing).or(offset);
         let amiss = amiss.map_or(String::new(), |told| format!("; {told}"));
         // A window may be so much longer than asked.
         let longest = |frequency: f32| 1.1 * f64::from(periods) * rate / f64::from(frequency);

@@ -159,7 +159,7 @@ pub enum InputError {
         promised: u64,
         found: u64,
     },
-    /// An S_C without its S_D.
+    /// An S_C without its S_D, or without the channels beside it.
     #[error(
         "{file}: sample pair {found} (from 0): the data end in the middle of it; check that {} channels \
          are there in the format named, and that the recording was not cut off",

@@ -16,7 +16,7 @@ const CHUNK_BYTES: usize = 3 << 16;
 /// The name of a chunk and its size.
 const CHUNK_HEADER: usize = 8;
 
-/// The format of samples that come without a header: little-endian, S_C and S_D in turn.
+/// The format of samples that come without a header: little-endian, the channels in turn.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum RawFormat {
     /// 16-bit integers, full scale reads as 1.

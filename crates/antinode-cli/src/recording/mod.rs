@@ -128,6 +128,9 @@ impl Recording {
         if self.bytes_total.is_some() {
             let head;
             (head, self.step, self.fault) = resolution::of_head(self.opened.source.as_mut());
+            let unit = self.opened.full_scale.map(|largest| 1.0 - largest);
+            let of_integers = || resolution::of_integers(&head, unit?);
+            self.step = self.step.or_else(of_integers);
             self.head = head.into_iter();
         } else {
             // A pipe must not wait, and what has come by now is chance, but for what its source needs.

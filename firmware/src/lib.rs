@@ -43,7 +43,8 @@
 //! | `bench`, `beside`, `load`, `codes` | what is measured, and of what |
 //! | `marks`, `gauge`, `line` | between which marks, how, and how it is told |
 //!
-//! All but the last four lines know no hardware, and are tested on the host too. Pins and ranges are in `firmware/docs/wiring.md`.
+//! All but the last four lines know no hardware, and are tested on the host too: `cargo test --release -p firmware --lib` and
+//! `cargo test --release -p host-tests --test firmware`. Pins and ranges are in `firmware/docs/wiring.md`.
 #![no_std]
 
 #[cfg(test)]

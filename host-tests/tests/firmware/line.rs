@@ -88,7 +88,7 @@ impl<'q> Wire<'q> {
 /// Bytes that the line takes while half of the ring fills.
 pub const BYTES: usize = (BAUD / 10) as usize * HALF / SAMPLE_RATE as usize;
 
-/// A window at every so many blocks: at 5, the default, the line is half busy; at 1 the reports are more than twice what it takes.
+/// A window at every so many blocks: at 5 the reports are a little more than the line takes, at 1 six times as much.
 pub fn hop_of(blocks: u16) -> Configuration {
     let mut configuration = configuration(FrontEnd::Synthetic, DUAL_ADC_RAILS);
     configuration.settings.hop = Some(blocks);

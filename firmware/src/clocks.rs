@@ -8,7 +8,7 @@ pub const APB2: u32 = CORE / 2;
 pub const APB1_TIMERS: u32 = CORE / 2;
 /// Clock of the timers on APB2, Hz: twice the bus.
 pub const APB2_TIMERS: u32 = CORE;
-/// Frequency of the chip's own oscillator, MHz, within a percent.
+/// Frequency of the chip's own oscillator, MHz: within a percent at 25 °C, several off elsewhere in its range (data sheet, HSI).
 pub const HSI_MHZ: u32 = 16;
 
 /// The PLL's factors that vary: what it divides an oscillator by, and what it multiplies that with.

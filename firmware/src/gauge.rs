@@ -15,8 +15,8 @@ use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m::peripheral::{DWT, SYST};
 use cortex_m::register::msp;
 
-use crate::line::Line;
 use crate::marks::leave;
+use crate::text::TextLine;
 
 /// What no frame is likely to leave in a word.
 const PAINT: u32 = 0x5aa5_c33c;
@@ -101,7 +101,7 @@ impl Gauge {
             .peripherals
             .as_mut()
             .is_none_or(|p| p.SYST.has_wrapped());
-        let mut line = Line::new();
+        let mut line = TextLine::new();
         line.text(self.name);
         if self.counts_cycles {
             line.field("cycles", ended.wrapping_sub(self.began));

@@ -13,7 +13,7 @@ use crate::gather::{Item, Request};
 use crate::link::Link;
 use crate::methods::{AVAILABLE, History, Tuning};
 use crate::sampling::Lapse;
-use crate::settings::{COUNTERS_MS, OUTBOX, QUEUE, REQUESTS, RESTART_MS, RING};
+use crate::settings::{COUNTERS_MS, OUTBOX, QUEUE, REQUESTS, RESTART_MS, RING, SOONEST_MS};
 use crate::supervision::Liveness;
 
 /// What is worth a line in the log.
@@ -53,6 +53,8 @@ pub struct Instrument<'q, S: Sample> {
     answered: u32,
     liveness: Liveness,
     counters: Counters,
+    /// True where something went wrong that the counters have not told yet.
+    fresh: bool,
     /// When the counters were last reported, ms.
     reported: u32,
     now: u32,
@@ -89,7 +91,9 @@ impl<'q, S: Sample> Instrument<'q, S> {
             answered: 0,
             liveness: Liveness::new(),
             counters: Counters::default(),
-            reported: 0,
+            fresh: false,
+            // Nor need what goes wrong at the start wait.
+            reported: 0_u32.wrapping_sub(SOONEST_MS),
             now: 0,
         });
         instrument.hello();
@@ -117,8 +121,9 @@ impl<'q, S: Sample> Instrument<'q, S> {
         if matches!(self.state, State::Started(_)) {
             self.enter(State::Searching, &mut log);
         }
-        let fresh = self.update();
-        if fresh || now.wrapping_sub(self.reported) >= COUNTERS_MS {
+        self.update();
+        let due = if self.fresh { SOONEST_MS } else { COUNTERS_MS };
+        if now.wrapping_sub(self.reported) >= due {
             self.report_counters();
         }
         let alive = self.liveness.sees(self.counts.pairs.get());
@@ -213,8 +218,8 @@ impl<'q, S: Sample> Instrument<'q, S> {
         self.link.send(&Report::Hello(hello));
     }
 
-    /// Brings the counters up to date; true where something went wrong that they must tell at once.
-    fn update(&mut self) -> bool {
+    /// Brings the counters up to date.
+    fn update(&mut self) {
         let (counts, c) = (self.counts, &mut self.counters);
         let before = *c;
         // The interrupt counts in 32 bits, which wrap: the difference does not.
@@ -231,14 +236,16 @@ impl<'q, S: Sample> Instrument<'q, S> {
         c.restarts = counts.restarts.get();
         c.commands_damaged = self.link.damaged();
         c.reports_dropped = self.link.dropped();
-        c.blocks_dropped != before.blocks_dropped || c.restarts != before.restarts
+        self.fresh |= c.blocks_dropped != before.blocks_dropped || c.restarts != before.restarts;
     }
 
-    /// Sends the counters as they are.
+    /// Sends the counters as they are; where there is no room they are still due.
     pub fn report_counters(&mut self) {
         self.update();
-        self.link.send(&Report::Counters(self.counters));
-        self.reported = self.now;
+        if self.link.send(&Report::Counters(self.counters)) {
+            self.fresh = false;
+            self.reported = self.now;
+        }
     }
 
     /// True once a command asked for a restart and its acknowledgement was sent, or [`RESTART_MS`] have passed.

@@ -41,9 +41,10 @@
 //! | `hardware` | clocks, converters, DMA, line, watchdog, log, main loop: registers by their names in RM0090 |
 //! | `replay` | the emulator's source |
 //! | `bench`, `beside`, `load`, `codes` | what is measured, and of what |
-//! | `marks`, `gauge`, `line` | between which marks, how, and how it is told |
+//! | `marks`, `gauge`, `text` | where a bench begins and ends; its counters and painted stack; the line that it prints |
 //!
-//! All but the last four lines know no hardware, and are tested on the host too. Pins and ranges are in `firmware/docs/wiring.md`.
+//! All but the last four lines know no hardware, and are tested on the host too: `cargo test --release -p firmware --lib` and
+//! `cargo test --release -p host-tests --test firmware`. Pins and ranges are in `firmware/docs/wiring.md`.
 #![no_std]
 
 #[cfg(test)]
@@ -74,10 +75,10 @@ pub mod gauge;
 #[cfg(target_os = "none")]
 pub mod hardware;
 #[cfg(target_os = "none")]
-pub mod line;
-#[cfg(target_os = "none")]
 pub mod load;
 #[cfg(target_os = "none")]
 pub mod marks;
 #[cfg(target_os = "none")]
 pub mod replay;
+#[cfg(target_os = "none")]
+pub mod text;

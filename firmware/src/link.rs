@@ -8,8 +8,9 @@ use crate::counts::Count;
 use crate::inbox::Inbox;
 use crate::settings::OUTBOX;
 
-/// Bytes that estimates and counters leave free: two frames, such as an acknowledgement and the hello before it.
-const RESERVE: usize = 2 * MAX_FRAME;
+/// Bytes that counters leave free: two frames, such as an acknowledgement and the hello before it, and one that may not fit before the
+/// ring's end. Estimates and methods leave one more, for counters: on a busy line these tell what is dropped.
+const RESERVE: usize = 3 * MAX_FRAME;
 
 /// Bytes on their way to the line; they lie in runs that a DMA can fetch.
 pub type Outbox = Churrasco<OUTBOX>;
@@ -77,27 +78,34 @@ impl<'q> Link<'q> {
         }
     }
 
-    /// Sends a report, or drops and counts it where there is no room for any frame, or none beside the reserve: a slow reader stalls nothing.
-    pub fn send(&mut self, report: &Report) {
+    /// Sends a report; false where there is no room for any frame, or none beside the reserve: a slow reader stalls nothing. The report is
+    /// dropped then and counted, but for counters, which come again.
+    pub fn send(&mut self, report: &Report) -> bool {
         if self.closed {
-            return;
+            return false;
         }
         let reserve = match report {
             Report::Hello(_) | Report::State(_) | Report::Acknowledgement(_) => 0,
-            _ => RESERVE,
+            Report::Counters(_) => RESERVE,
+            _ => RESERVE + MAX_FRAME,
         };
-        if let Ok(mut room) = self.out.grant_exact(MAX_FRAME + reserve) {
-            // It never fails with that much room.
-            let length = self
-                .reporter
-                .frame(report, &mut room)
-                .map_or(0, |frame| frame.len());
-            room.commit(length);
-            self.put = self.put.wrapping_add(length as u32);
-        } else {
-            self.reporter.skip();
-            self.dropped = self.dropped.wrapping_add(1);
-        }
+        let is_free = self.waiting() + reserve + MAX_FRAME <= OUTBOX;
+        let grant = || self.out.grant_exact(MAX_FRAME).ok();
+        let Some(mut room) = is_free.then(grant).flatten() else {
+            if !matches!(report, Report::Counters(_)) {
+                self.reporter.skip();
+                self.dropped = self.dropped.wrapping_add(1);
+            }
+            return false;
+        };
+        // It never fails with that much room.
+        let length = self
+            .reporter
+            .frame(report, &mut room)
+            .map_or(0, |frame| frame.len());
+        room.commit(length);
+        self.put = self.put.wrapping_add(length as u32);
+        true
     }
 
     /// Sends no more reports than those that wait already.

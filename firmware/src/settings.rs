@@ -58,6 +58,8 @@ pub const WATCHDOG_MS: u32 = 250;
 pub const RESTART_MS: u32 = 100;
 /// From one report of the counters to the next, ms.
 pub const COUNTERS_MS: u32 = 1000;
+/// The same, at least, where they tell that something went wrong, ms.
+pub const SOONEST_MS: u32 = 50;
 
 /// Least and greatest code of the STM32F405's 12-bit converters.
 pub const DUAL_ADC_RAILS: [i16; 2] = [0, 4095];
@@ -137,7 +139,7 @@ const _: () = {
     );
     assert!(
         OUTBOX >= 6 * MAX_FRAME,
-        "OUTBOX must be 6 * MAX_FRAME or more: an estimate asks for three frames in one piece, before or behind those that wait"
+        "OUTBOX must be 6 * MAX_FRAME or more: an estimate leaves room for four frames"
     );
     assert!(
         INBOX > MAX_FRAME && INBOX < 1 << 16,

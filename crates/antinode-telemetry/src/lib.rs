@@ -24,7 +24,7 @@
 //! * The device sends [`Report::Hello`] at its start as number 0, on [`Command::Get`], and after each change of its configuration.
 //! * The device answers every command by [`Report::Acknowledgement`] with the command's id: after the Hello where it sends one, before
 //!   it restarts where it is to restart.
-//! * All else is sent when it happens; [`Report::Counters`] about once a second.
+//! * All else is sent when it happens; [`Report::Counters`] about once a second, and soon where blocks or pairs were lost.
 //!
 //! # Example
 //!

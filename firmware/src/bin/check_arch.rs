@@ -22,8 +22,8 @@ use antinode::SamplePair;
 use arch::portable;
 use block::{ChannelSums, ChannelWatch};
 use cortex_m_rt::entry;
-use firmware::line::Line;
 use firmware::marks;
+use firmware::text::TextLine;
 
 #[cfg(not(all(has_dsp, has_vsqrt)))]
 compile_error!("without the instructions there is nothing to compare with the twins");
@@ -315,7 +315,7 @@ fn main() -> ! {
     ];
     let mut good = true;
     for (kernel, agrees) in checks {
-        let mut line = Line::new();
+        let mut line = TextLine::new();
         line.text("check_arch ");
         line.text(kernel);
         line.text(if agrees {

@@ -7,8 +7,8 @@
 use core::ptr::{read_volatile, write_volatile};
 
 use cortex_m_rt::entry;
-use firmware::line::Line;
 use firmware::marks;
+use firmware::text::TextLine;
 
 unsafe extern "C" {
     fn __aeabi_memcpy(to: *mut u8, from: *const u8, count: usize);
@@ -105,7 +105,7 @@ fn main() -> ! {
     ];
     let mut good = true;
     for (function, right) in checks {
-        let mut line = Line::new();
+        let mut line = TextLine::new();
         line.text("check_memory ");
         line.text(function);
         line.text(if right { ": right" } else { ": WRONG" });

@@ -2,11 +2,10 @@
 #![no_std]
 #![no_main]
 
-use core::panic::PanicInfo;
-
-use cortex_m_rt::{ExceptionFrame, exception};
 use defmt_semihosting as _;
-use firmware::hardware::reset;
+
+#[path = "../handlers.rs"]
+mod handlers;
 
 #[rtic::app(device = stm32f4xx_hal::pac)]
 mod app {
@@ -124,15 +123,4 @@ mod app {
     fn tick(_: tick::Context) {
         clock::tick();
     }
-}
-
-#[panic_handler]
-fn panic(info: &PanicInfo) -> ! {
-    reset::panicked(info)
-}
-
-#[allow(unsafe_code, reason = "cortex-m-rt declares this handler unsafe")]
-#[exception]
-unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
-    reset::faulted(frame)
 }

@@ -2,13 +2,9 @@
 #![no_std]
 #![no_main]
 
-use core::panic::PanicInfo;
-
-use antinode_telemetry::Cause;
-use cortex_m_rt::{ExceptionFrame, exception};
-use firmware::hardware::reset;
-
-// Not in the library: an image has one logger, and `replay` has another.
+// Not in the library: an image has one of each, the benches other handlers, and `replay` another logger.
+#[path = "../handlers.rs"]
+mod handlers;
 #[path = "../rtt.rs"]
 mod rtt;
 
@@ -136,22 +132,4 @@ mod app {
     fn tick(_: tick::Context) {
         clock::tick();
     }
-}
-
-#[panic_handler]
-fn panic(info: &PanicInfo) -> ! {
-    reset::panicked(info)
-}
-
-#[allow(unsafe_code, reason = "cortex-m-rt declares this handler unsafe")]
-#[exception]
-unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
-    reset::faulted(frame)
-}
-
-/// The clock security system: the crystal has stopped.
-#[allow(unsafe_code, reason = "cortex-m-rt declares this handler unsafe")]
-#[exception]
-unsafe fn NonMaskableInt() -> ! {
-    reset::restart(Cause::Clock, 0)
 }

@@ -5,13 +5,15 @@ use stm32f4xx_hal::pac::FLASH;
 
 use crate::instrument::Event;
 
-/// Says why the device started; `place` is a line of source after a panic, an address after a fault.
+/// Says why the device started; `place` is a line of source after a panic, an address after a fault, and nothing otherwise.
 pub fn started(cause: Cause, place: u32) {
-    defmt::info!(
-        "antinode started: {=str}, at {=u32:#x}",
-        cause.name(),
-        place
-    );
+    match cause {
+        Cause::Panic => defmt::info!("antinode started: panic, at line {=u32}", place),
+        Cause::HardFault => {
+            defmt::info!("antinode started: hard fault, at address {=u32:#x}", place);
+        }
+        _ => defmt::info!("antinode started: {=str}", cause.name()),
+    }
 }
 
 /// Warns where nothing resets the chip between 1.7 V and the 2.7 V that its clock needs.

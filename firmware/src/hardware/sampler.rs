@@ -95,6 +95,12 @@ impl<C: Converter> Source for Sampler<C> {
 
     #[cold]
     fn restart(&mut self, cause: Cause) -> Lapse {
+        // An overrun leaves the SPI deaf: no more pairs come, and no interrupt of the DMA that would have told of it.
+        let cause = if cause == Cause::Converter && self.converter.has_overrun() {
+            Cause::Overrun
+        } else {
+            cause
+        };
         self.ring.stop();
         self.converter.stop();
         self.ring.start();

@@ -74,6 +74,8 @@ pub struct Device {
     line: UnixStream,
     receiver: Receiver,
     began: Instant,
+    /// Where its log is.
+    pub log: PathBuf,
     /// What it has sent so far.
     pub reports: Vec<Report>,
 }
@@ -126,6 +128,7 @@ impl Device {
             line,
             receiver: Receiver::new(),
             began: Instant::now(),
+            log,
             reports: Vec::new(),
         };
         // Before that its USART is off, and drops bytes.

@@ -1,9 +1,12 @@
 //! What goes wrong is counted and told, and nothing wrong goes by without a flag.
 
+use std::fs;
+
 use antinode::{Estimate, Packed};
 use antinode_telemetry::{Cause, Command, Counters, Report, State};
 
 use crate::emulator::Device;
+use crate::image::output;
 use crate::same::estimates;
 use crate::{mirror, recordings};
 
@@ -157,7 +160,9 @@ fn pairs_that_are_lost() {
 #[ignore = "needs the ARM target and QEMU"]
 fn a_panic_restarts_the_instrument() {
     let recording = steady(50_000);
-    let (reports, _, _) = Device::start("replay", &recording, "panic=100").finish();
+    let device = Device::start("replay", &recording, "panic=100");
+    let log = device.log.clone();
+    let (reports, _, _) = device.finish();
     let started = |cause| Report::State(State::Started(cause));
     let panicked = reports
         .iter()
@@ -171,4 +176,20 @@ fn a_panic_restarts_the_instrument() {
         after,
         estimates(&mirror::reports::<i16>(&recording, &[], 1))
     );
+    // defmt's frame: the message's number, its argument, which of their bytes are zero, and an end.
+    let source = include_str!("../../../firmware/src/replay.rs");
+    let line = source.lines().position(|line| line.contains("panic!("));
+    let line = line.expect("it panics") as u8 + 1;
+    let frame = [message("antinode started: panic, at line {=u32}"), line];
+    let log = fs::read(log).expect("there is a log");
+    let is_told = |bytes: &[u8]| bytes[..2] == frame && bytes[3] == 0;
+    assert!(log.windows(4).any(is_told), "no {frame:x?} in {log:x?}");
+}
+
+/// The number of a message of the log.
+fn message(text: &str) -> u8 {
+    let symbols = output("nm", &[], "replay");
+    let symbol = symbols.lines().find(|symbol| symbol.contains(text));
+    let (number, _) = symbol.and_then(|s| s.split_once(' ')).expect("it is said");
+    u8::from_str_radix(number, 16).expect("there are few")
 }

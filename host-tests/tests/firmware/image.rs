@@ -8,7 +8,8 @@ use crate::emulator::images;
 const FLASH: [(&str, u64); 2] = [("stm32f405", 48 * 1024), ("stm32f405_ad7380", 51 * 1024)];
 const RAM: u64 = 16 * 1024;
 
-fn output(tool: &str, args: &[&str], image: &str) -> String {
+/// What a tool says of an image.
+pub fn output(tool: &str, args: &[&str], image: &str) -> String {
     let output = Command::new(tool)
         .args(args)
         .arg(images().join(image))

@@ -3,32 +3,36 @@
 use std::sync::atomic::Ordering;
 
 use antinode::Packed;
-use antinode_telemetry::{Cause, Command, Configuration, FrontEnd, Receiver, Report};
+use antinode_telemetry::{Cause, Command, Configuration, Counters, FrontEnd, Receiver, Report};
 use firmware::inbox::Inbox;
 use firmware::instrument::{Event, Instrument};
 use firmware::link::{Outgoing, Run};
 use firmware::pipeline::{Places, Queues};
 use firmware::sampling::{Lapse, Ready, Source, both};
 use firmware::settings::{
-    BAUD, DUAL_ADC_RAILS, HALF, INBOX, QUEUE, RESTART_MS, SAMPLE_RATE, configuration,
+    BAUD, COUNTERS_MS, DUAL_ADC_RAILS, HALF, INBOX, QUEUE, RESTART_MS, SAMPLE_RATE, SOONEST_MS,
+    configuration,
 };
 
 use crate::emulator::bytes;
 use crate::mirror::Recorded;
 use crate::recordings;
+use crate::same::estimates;
 
 /// A DMA that sends run after run at the line's rate.
-struct Wire<'q> {
+pub struct Wire<'q> {
     out: Outgoing<'q>,
     run: Option<Run<'q>>,
     /// Bytes that there was time for since the run began.
     time: usize,
     receiver: Receiver,
-    reports: Vec<Report>,
+    /// What came out at its end.
+    pub reports: Vec<Report>,
 }
 
 impl<'q> Wire<'q> {
-    fn new(out: Outgoing<'q>) -> Self {
+    /// A line on which nothing is.
+    pub fn new(out: Outgoing<'q>) -> Self {
         Self {
             out,
             run: None,
@@ -39,7 +43,7 @@ impl<'q> Wire<'q> {
     }
 
     /// Time for so many bytes passes.
-    fn pass(&mut self, bytes: usize) {
+    pub fn pass(&mut self, bytes: usize) {
         self.time += bytes;
         loop {
             if let Some(run) = self.run.take_if(|run| run.len() <= self.time) {
@@ -62,6 +66,15 @@ impl<'q> Wire<'q> {
         }
     }
 
+    /// The counters that came.
+    fn counters(&self) -> Vec<Counters> {
+        let counters = |report: &Report| match report {
+            Report::Counters(counters) => Some(*counters),
+            _ => None,
+        };
+        self.reports.iter().filter_map(counters).collect()
+    }
+
     /// The acknowledgements that came.
     fn acknowledged(&self) -> Vec<u16> {
         let id = |report: &Report| match report {
@@ -73,10 +86,10 @@ impl<'q> Wire<'q> {
 }
 
 /// Bytes that the line takes while half of the ring fills.
-const BYTES: usize = (BAUD / 10) as usize * HALF / SAMPLE_RATE as usize;
+pub const BYTES: usize = (BAUD / 10) as usize * HALF / SAMPLE_RATE as usize;
 
-/// A window at every so many blocks: at 5, the default, the line is half busy; at 1 the reports are more than twice what it takes.
-fn hop_of(blocks: u16) -> Configuration {
+/// A window at every so many blocks: at 5 the reports are a little more than the line takes, at 1 six times as much.
+pub fn hop_of(blocks: u16) -> Configuration {
     let mut configuration = configuration(FrontEnd::Synthetic, DUAL_ADC_RAILS);
     configuration.settings.hop = Some(blocks);
     configuration
@@ -100,9 +113,18 @@ impl Board<'_> {
     }
 }
 
-/// A board that samples a wave; after each half of the ring `go_on` does what it likes, and says whether to go on.
-fn board(configuration: Configuration, mut go_on: impl FnMut(&mut Board<'_>) -> bool) {
+/// A board that samples a wave for up to 2 s; after each half of the ring `go_on` does what it likes, and says whether to go on.
+fn board(configuration: Configuration, go_on: impl FnMut(&mut Board<'_>) -> bool) {
     let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 200_000);
+    board_on(&recording, configuration, go_on);
+}
+
+/// The same on a recording.
+fn board_on(
+    recording: &[Packed],
+    configuration: Configuration,
+    mut go_on: impl FnMut(&mut Board<'_>) -> bool,
+) {
     let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
     let parts = queues
         .split(&mut places, configuration, Cause::Unknown)
@@ -114,12 +136,12 @@ fn board(configuration: Configuration, mut go_on: impl FnMut(&mut Board<'_>) -> 
         half: 0,
         now: 0,
     };
-    let mut source = Recorded::new(&recording);
+    let mut source = Recorded::new(recording);
     while go_on(&mut board) {
         parts.gatherer.serve(&mut source);
         board.half += 1;
         board.now = (board.half * HALF * 1000 / SAMPLE_RATE as usize) as u32;
-        assert!(board.now < 1900, "it does not end");
+        assert!(board.half * HALF < recording.len(), "it does not end");
         board.instrument.poll(board.now, |_| {});
     }
 }
@@ -206,8 +228,8 @@ fn a_dma_fills_the_inbox_round_and_round() {
     assert!(asked.len() * bytes(0, Command::Get).len() > 2 * INBOX);
 }
 
-/// A source that loses pairs whenever it is asked.
-struct Losing;
+/// A source that loses so many pairs whenever it is asked.
+pub struct Losing(pub u32);
 
 impl Source for Losing {
     type Pair = Packed;
@@ -225,7 +247,10 @@ impl Source for Losing {
     }
 
     fn restart(&mut self, cause: Cause) -> Lapse {
-        Lapse { cause, lost: 1 }
+        Lapse {
+            cause,
+            lost: self.0,
+        }
     }
 
     fn rails(&self) -> [Packed; 2] {
@@ -243,7 +268,7 @@ fn a_queue_that_never_empties_does_not_hold_the_main_loop_up() {
     let parts = queues
         .split(&mut places, hop_of(1), Cause::Unknown)
         .expect("the settings can be");
-    parts.gatherer.serve(&mut Losing);
+    parts.gatherer.serve(&mut Losing(1));
     for now in 0..3 {
         let mut taken = 0;
         // The interrupt comes again whenever an item is taken.
@@ -251,9 +276,108 @@ fn a_queue_that_never_empties_does_not_hold_the_main_loop_up() {
             if matches!(event, Event::Lapse(_)) {
                 taken += 1;
                 assert!(taken < QUEUE, "it takes what has come meanwhile");
-                parts.gatherer.serve(&mut Losing);
+                parts.gatherer.serve(&mut Losing(1));
             }
         });
         assert_eq!(taken, QUEUE - 1);
     }
+}
+
+/// Windows of so many periods, at every so many blocks.
+fn windows_of(periods: u16, hop: Option<u16>) -> Configuration {
+    let mut configuration = configuration(FrontEnd::Synthetic, DUAL_ADC_RAILS);
+    (configuration.settings.periods, configuration.settings.hop) = (periods, hop);
+    configuration
+}
+
+#[test]
+fn counters_come_every_second_however_busy_the_line() {
+    let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 1_000_000);
+    for (periods, hop) in [(10, None), (10, Some(1)), (10, Some(2)), (2, None)] {
+        let (mut times, mut lost) = (vec![0], 0);
+        board_on(&recording, windows_of(periods, hop), |board| {
+            board.wire.pass(BYTES);
+            let counters = board.wire.counters();
+            times.truncate(1);
+            times.extend(counters.iter().map(|counters| counters.uptime_ms));
+            lost = board.wire.receiver.lost();
+            board.now < 9900
+        });
+        assert_eq!(lost > 1000, periods == 2 || hop.is_some(), "{lost} lost");
+        assert_eq!(times.len(), 10, "{periods}, {hop:?}: {times:?}");
+        let most = u64::from(COUNTERS_MS) + 10;
+        assert!(times.windows(2).all(|pair| pair[1] - pair[0] <= most));
+    }
+}
+
+#[test]
+fn counters_that_tell_of_drops_leave_the_line_to_estimates() {
+    // Blocks of so few pairs that a half of the ring has more of them than the queue holds.
+    let configuration = windows_of(2, Some(40));
+    let (mut counters, mut estimated, mut lost) = (Vec::new(), 0, 0);
+    let mut end = 0;
+    board(configuration, |board| {
+        board.wire.pass(BYTES);
+        (counters, lost) = (board.wire.counters(), board.wire.receiver.lost());
+        estimated = estimates(&board.wire.reports).len();
+        end = board.now;
+        board.now < 1800
+    });
+    let dropped = counters.last().expect("there are some").blocks_dropped;
+    assert!(dropped > 1000 && estimated > 1000, "{dropped}, {estimated}");
+    assert_eq!(lost, 0);
+    assert!(
+        counters.len() as u32 <= end / SOONEST_MS + 1,
+        "{}",
+        counters.len()
+    );
+}
+
+#[test]
+fn counters_that_find_no_room_come_as_soon_as_there_is_some() {
+    let [healthy, dead] = [false, true].map(|is_dead| {
+        let (mut times, mut sent) = (Vec::new(), 0);
+        board(windows_of(10, None), |board| {
+            let is_asked = (600..900).contains(&board.half);
+            if is_asked {
+                // Answers take the room that other reports leave to counters.
+                board.command(1, Command::Get);
+            }
+            if !(is_dead && is_asked) {
+                board.wire.pass(10 * BYTES);
+            }
+            let counters = board.wire.counters();
+            times = counters.iter().map(|counters| counters.uptime_ms).collect();
+            sent = board.wire.reports.len() as u64 + board.wire.receiver.lost();
+            board.now < 1250
+        });
+        (times, sent)
+    });
+    assert_eq!(healthy.0, [951]);
+    // With the first run of bytes that has left.
+    let first = (900 * HALF * 1000 / SAMPLE_RATE as usize) as u64;
+    assert!(dead.0.len() == 1 && dead.0[0] < first + 5, "{dead:?}");
+    // A report that was put off is none that was lost.
+    assert_eq!(healthy.1, dead.1);
+}
+
+#[test]
+fn methods_give_way_to_estimates() {
+    let (mut estimated, mut compared, mut lost) = (0, 0, 0);
+    board(windows_of(10, None), |board| {
+        board.wire.pass(BYTES);
+        if board.half == 1 {
+            board.command(1, Command::SetMethods { on: true });
+        }
+        let is_methods = |report: &&Report| matches!(report, Report::Methods(_));
+        compared = board.wire.reports.iter().filter(is_methods).count();
+        estimated = estimates(&board.wire.reports).len();
+        lost = board.wire.receiver.lost();
+        board.now < 1800
+    });
+    assert_eq!(lost, 0);
+    assert!(
+        compared > 100 && compared < estimated,
+        "{compared} of {estimated}"
+    );
 }

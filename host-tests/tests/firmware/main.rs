@@ -1,6 +1,6 @@
 //! The images: `replay` in QEMU against the same pipeline on the host, and what the others are made of.
 //!
-//! All but those of `line` and `steered` need the ARM target and QEMU, and so are run by name:
+//! All but those of `line`, `recovery` and `steered` need the ARM target and QEMU, and so are run by name:
 //! `cargo test --release -p host-tests --test firmware -- --ignored`.
 #![cfg(unix)] // the emulator's serial line is a Unix socket
 
@@ -12,6 +12,7 @@ mod line;
 mod methods;
 mod mirror;
 mod recordings;
+mod recovery;
 mod same;
 mod stack;
 mod steered;

@@ -50,7 +50,7 @@ fn a_command_leaves_the_angle_continued_or_flagged() {
 }
 
 /// The last counters among reports.
-fn counters(reports: &[Report]) -> Counters {
+pub fn counters(reports: &[Report]) -> Counters {
     let counters = reports.iter().rev().find_map(|report| match report {
         Report::Counters(counters) => Some(*counters),
         _ => None,

@@ -3,12 +3,12 @@
 use cortex_m_semihosting::hio;
 
 /// A line of up to 128 bytes; what goes beyond is left out.
-pub struct Line {
+pub struct TextLine {
     bytes: [u8; 128],
     length: usize,
 }
 
-impl Line {
+impl TextLine {
     /// Nothing yet.
     pub const fn new() -> Self {
         Self {
@@ -57,7 +57,7 @@ impl Line {
     }
 }
 
-impl Default for Line {
+impl Default for TextLine {
     fn default() -> Self {
         Self::new()
     }

@@ -1,0 +1,277 @@
+//! What is lost, stands still or comes too late on the host: the pipeline finds its way back, and counts on.
+
+use antinode::{Calibration, Flags, Packed};
+use antinode_sim::Wave;
+use antinode_telemetry::{Cause, Command, CommandError, Report, State};
+use firmware::instrument::Event;
+use firmware::pipeline::{Places, Queues};
+use firmware::sampling::{Lapse, Ready, Source, both};
+use firmware::settings::{DUAL_ADC_RAILS, HALF, QUEUE, SAMPLE_RATE, SOONEST_MS, STALL_MS};
+
+use crate::emulator::bytes;
+use crate::line::{BYTES, Losing, Wire, hop_of};
+use crate::mirror::{MISSED, Recorded, reports_of};
+use crate::recordings;
+use crate::same::estimates;
+use crate::steered::counters;
+
+/// A converter that can stand still until it has been started anew so often; its triggers go on.
+struct Halting<'a> {
+    codes: &'a [Packed],
+    half: &'a [Packed],
+    /// Pairs that were triggered, and that were handed out or lost.
+    triggered: usize,
+    taken: usize,
+    still: u32,
+}
+
+impl Source for Halting<'_> {
+    type Pair = Packed;
+
+    fn next(&mut self) -> Ready {
+        if self.still > 0 || self.triggered - self.taken < HALF {
+            return Ready::Nothing;
+        }
+        self.half = &self.codes[self.taken..self.taken + HALF];
+        self.taken += HALF;
+        Ready::Pairs
+    }
+
+    fn pairs(&self) -> &[Packed] {
+        self.half
+    }
+
+    fn is_intact(&self) -> bool {
+        true
+    }
+
+    fn restart(&mut self, cause: Cause) -> Lapse {
+        let lost = (self.triggered - self.taken) as u32;
+        self.taken = self.triggered;
+        self.still = self.still.saturating_sub(1);
+        Lapse { cause, lost }
+    }
+
+    fn rails(&self) -> [Packed; 2] {
+        both(DUAL_ADC_RAILS)
+    }
+
+    fn is_at_rail(&self, _: Packed) -> bool {
+        false
+    }
+}
+
+#[test]
+fn a_converter_that_stands_still_is_started_anew() {
+    let wave = Wave {
+        angle_rate: 20.0,
+        ..recordings::WAVE
+    };
+    let codes = recordings::codes(wave, recordings::quiet(), 60_000);
+    for still in [1, 3] {
+        let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
+        let parts = queues
+            .split(&mut places, hop_of(5), Cause::Unknown)
+            .expect("the settings can be");
+        let mut wire = Wire::new(parts.out);
+        let mut source = Halting {
+            codes: &codes,
+            half: &[],
+            triggered: 0,
+            taken: 0,
+            still: 0,
+        };
+        for half in 1..=400 {
+            source.triggered += HALF;
+            if half == 200 {
+                source.still = still;
+            }
+            // While it stands still no interrupt of its own comes.
+            if source.still == 0 || parts.instrument.asks_for_source() {
+                parts.gatherer.serve(&mut source);
+            }
+            let now = half * HALF * 1000 / SAMPLE_RATE as usize;
+            parts.instrument.poll(now as u32, |_| {});
+            wire.pass(4 * BYTES);
+        }
+        let told = counters(&wire.reports);
+        parts.instrument.report_counters();
+        wire.pass(100 * BYTES);
+        let counters = counters(&wire.reports);
+        assert_eq!((counters.restarts, counters.overruns), (still, 0));
+        assert_eq!(counters.pairs + counters.pairs_lost, source.taken as u64);
+        let least = u64::from(still * STALL_MS * SAMPLE_RATE / 1000);
+        let lost = counters.pairs_lost;
+        let halves = u64::from(still + 1) * HALF as u64;
+        assert!((least..least + halves).contains(&lost), "{lost}");
+        // It was told at once.
+        assert!(told.restarts > 0 && told.uptime_ms < 400, "{told:?}");
+        let is_told =
+            |r: &&Report| **r == Report::State(State::SamplingRestarted(Cause::Converter));
+        let restarts = wire.reports.iter().filter(is_told).count();
+        assert_eq!(restarts, still as usize);
+        // Time goes on over the hole.
+        let estimates = estimates(&wire.reports);
+        assert!(estimates.last().is_some_and(|last| last.time > 0.5));
+        for estimate in estimates {
+            let off = estimate.angle - wave.angle - wave.angle_rate * estimate.time;
+            assert!(off.abs() < 0.01, "{off} at {} s", estimate.time);
+        }
+    }
+}
+
+#[test]
+fn what_is_lost_while_the_queue_is_full_adds_up() {
+    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
+    let parts = queues
+        .split(&mut places, hop_of(5), Cause::Unknown)
+        .expect("the settings can be");
+    let (mut told, mut count) = (0, 0);
+    let mut tell = |event| {
+        if let Event::Lapse(lapse) = event {
+            (told, count) = (told + lapse.lost, count + 1);
+        }
+    };
+    for _ in 0..QUEUE + 10 {
+        parts.gatherer.serve(&mut Losing(7));
+    }
+    parts.instrument.poll(0, &mut tell);
+    parts.gatherer.serve(&mut Losing(7));
+    parts.instrument.poll(1, &mut tell);
+    assert_eq!((told, count), (7 * (QUEUE as u32 + 11), QUEUE));
+}
+
+#[test]
+fn counts_and_time_go_on_beyond_32_bits() {
+    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
+    let parts = queues
+        .split(&mut places, hop_of(5), Cause::Unknown)
+        .expect("the settings can be");
+    let mut wire = Wire::new(parts.out);
+    // 25 days each.
+    for now in [1 << 31, u32::MAX, 999] {
+        parts.gatherer.serve(&mut Losing(1_000_000_000));
+        parts.instrument.poll(now, |_| {});
+        wire.pass(10 * BYTES);
+    }
+    let counters = counters(&wire.reports);
+    assert_eq!(counters.uptime_ms, (1 << 32) + 999);
+    // The second and the third time sampling is started anew first.
+    assert_eq!(counters.pairs_lost, 5_000_000_000);
+}
+
+#[test]
+fn what_goes_wrong_right_after_a_report_is_told_soon() {
+    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
+    let parts = queues
+        .split(&mut places, hop_of(5), Cause::Unknown)
+        .expect("the settings can be");
+    let mut wire = Wire::new(parts.out);
+    let mut told = Vec::new();
+    for now in 0..200 {
+        if now == 10 || now == 20 {
+            parts.gatherer.serve(&mut Losing(7));
+        }
+        parts.instrument.poll(now, |_| {});
+        wire.pass(BYTES);
+        let is_counters = |report: &Report| matches!(report, Report::Counters(_));
+        told.extend(wire.reports.drain(..).filter(is_counters).map(|_| now));
+    }
+    let expected = [10, 10 + SOONEST_MS];
+    let late = told.iter().zip(expected).map(|(told, at)| told - at);
+    assert!(told.len() == 2 && late.max() < Some(5), "{told:?}");
+}
+
+#[test]
+fn blocks_before_the_last_answer_are_of_no_use() {
+    let codes = recordings::codes(recordings::WAVE, recordings::quiet(), 60_000);
+    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
+    let parts = queues
+        .split(&mut places, hop_of(5), Cause::Unknown)
+        .expect("the settings can be");
+    let mut wire = Wire::new(parts.out);
+    let mut source = Recorded::new(&codes);
+    let mut asked = 0;
+    for round in 0..40 {
+        // The second command finds the answer to the first still in the queue, and blocks of its settings behind it.
+        if round == 20 || round == 21 {
+            asked = round * 10 * HALF;
+            let hop = Command::SetHop {
+                blocks: Some(round as u16 - 17),
+            };
+            bytes(round as u16, hop)
+                .iter()
+                .for_each(|&byte| parts.inbox.put(byte));
+        }
+        parts.instrument.poll(0, |_| {});
+        wire.pass(40 * BYTES);
+        for _ in 0..10 {
+            parts.gatherer.serve(&mut source);
+        }
+    }
+    let is_last = |report: &Report| matches!(report, Report::Acknowledgement(a) if a.id == 21);
+    let at = wire.reports.iter().position(is_last).expect("it answers");
+    let (before, after) = (
+        estimates(&wire.reports[..at]),
+        estimates(&wire.reports[at..]),
+    );
+    assert!(before.len() > 50 && after.len() > 50);
+    assert!(
+        after[0].start >= asked as u64,
+        "{} is before {asked}",
+        after[0].start
+    );
+    assert_eq!(after[0].flags, Flags::REACQUIRED);
+}
+
+#[test]
+fn no_period_is_kept_that_was_found_in_a_torn_half() {
+    let false_wave = Wave {
+        frequency: 9000.0,
+        ..recordings::WAVE
+    };
+    let torn = recordings::codes(false_wave, recordings::quiet(), HALF);
+    let wave = recordings::codes(recordings::WAVE, recordings::quiet(), 10_000);
+    let codes = [torn, wave].concat();
+    let missed = HALF + MISSED as usize;
+    let all = estimates(&reports_of::<i16>(Recorded::torn(&codes, 1), (0, &[]), 1));
+    let rest = estimates(&reports_of::<i16>(
+        Recorded::new(&codes[missed..]),
+        (0, &[]),
+        1,
+    ));
+    // As though the device had been switched on behind it.
+    let starts: Vec<_> = all.iter().map(|estimate| estimate.start).collect();
+    let late = rest.iter().map(|estimate| estimate.start + missed as u64);
+    assert_eq!(starts, late.collect::<Vec<_>>());
+    assert!(starts.len() > 40);
+}
+
+#[test]
+fn methods_and_a_calibration_exclude_each_other() {
+    let codes = recordings::codes(recordings::WAVE, recordings::quiet(), 1000);
+    let calibration = Command::SetCalibration(Calibration {
+        gain_ratio: 1.05,
+        ..Calibration::IDEAL
+    });
+    let on = |on| Command::SetMethods { on };
+    let refused = Err(CommandError::Unsupported);
+    let script = [
+        (on(true), Ok(())),
+        (calibration, refused),
+        (on(false), Ok(())),
+        (calibration, Ok(())),
+        (on(true), refused),
+    ];
+    let commands: Vec<u8> = (0..)
+        .zip(script)
+        .flat_map(|(id, (command, _))| bytes(id, command))
+        .collect();
+    let reports = reports_of::<i16>(Recorded::new(&codes), (0, &commands), 1);
+    let result = |report: &Report| match report {
+        Report::Acknowledgement(acknowledgement) => Some(acknowledgement.result),
+        _ => None,
+    };
+    let results: Vec<_> = reports.iter().filter_map(result).collect();
+    assert_eq!(results, script.map(|(_, result)| result));
+}

@@ -90,9 +90,14 @@ impl Search {
                  changes fast wants shorter windows, --periods{amiss}"
             )
         } else if self.refused > 0 {
+            let hum = if options.hum {
+                ""
+            } else {
+                "; or hum is as large as the wave: give --hum"
+            };
             format!(
                 "{name}: a period was found, but no window of {periods} periods in {pairs} sample pairs ({seconds:.4} s) is mostly \
-                 one wave; the wave may have fewer than 4 samples a period: check the sample rate; or look for a second tone; \
+                 one wave; the wave may have fewer than 4 samples a period: check the sample rate; or look for a second tone{hum}; \
                  or the wave changes too fast: give a smaller --periods; and check the scale of the samples, --full-scale and \
                  --resolution{amiss}"
             )

@@ -22,7 +22,7 @@ pub const HOP: Option<u16> = None;
 pub const FREQUENCY: Option<f32> = None;
 /// Whether the signals carry mains hum, or an offset that wanders.
 pub const HUM: bool = false;
-/// Whether the noise is not white: a tuned front end, or a filter that ends below three times the wave's frequency.
+/// Whether the noise is not white: a tuned front end, or a filter that cuts off below three times the wave's frequency.
 pub const COLOURED: bool = false;
 /// How the pick-offs differ from ideal ones: gain ratio, skew in s, angle in rad.
 pub const CALIBRATION: Calibration = Calibration::IDEAL;

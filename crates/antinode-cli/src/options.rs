@@ -49,7 +49,7 @@ pub enum Command {
     /// Finds the calibration of the pick-offs from rows of a gyro whose pattern turned, and prints it as options.
     ///
     /// Let the gyro ring down on a table that turns until the pattern has turned by 90° or more, and once more the other way around;
-    /// identify both recordings in windows that do not overlap. Energy and quadrature then depend on the angle only by the flaws of
+    /// identify both recordings in windows that do not overlap. Energy and quadrature then depend on the angle only through the flaws of
     /// the pick-offs. The options alone go to standard output, their deviations to standard error.
     ///
     /// If the rows were identified with a calibration, give it here too; what is printed replaces it.
@@ -68,7 +68,7 @@ pub enum Command {
     /// Draws rows over time: both amplitudes, pattern angle, frequency and residual, with their deviations and flags.
     ///
     /// Bands are one standard deviation wide to either side; red marks at a panel's foot are flagged rows. A line ends where rows are missing or
-    /// flagged `lost`. Axes fit the rows without a flag: a flagged value far beyond them is held at the panel's edge.
+    /// flagged `lost`. Axes fit the rows without a flag: a flagged value far beyond them is drawn at the panel's edge.
     Plot(Plot),
     /// Writes a simulated recording, and the truth beside it as JSON.
     Simulate(Box<Simulate>),
@@ -76,7 +76,7 @@ pub enum Command {
     Study(Study),
     /// Shows what a device reports over its serial port, live: estimates as rows, all else on standard error.
     ///
-    /// Damaged and missing reports are counted, and the counts are told at the end. A device on a port is first asked for its configuration.
+    /// Damaged and missing reports are counted, and the counts are printed at the end. A device on a port is first asked for its configuration.
     /// Ctrl-C ends the command.
     Monitor(monitor::Monitor),
     /// Sends a command to a device over its serial port, and waits for its acknowledgement.

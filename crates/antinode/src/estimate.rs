@@ -26,7 +26,7 @@ impl Flags {
     /// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
     /// only. Also the first window after a change of calibration or settings, unless it is the first of all.
     pub const REACQUIRED: Self = Self(1 << 7);
-    /// A sample that is not a number.
+    /// A sample is NaN or infinite.
     pub const NOT_FINITE: Self = Self(1 << 8);
 
     const NAMES: [&'static str; 9] = [
@@ -151,7 +151,7 @@ impl defmt::Format for Flags {
 ///
 /// Each `_std` is one standard deviation, from what the window's samples tell of the value and from their noise. The noise is that of the
 /// window's own residual and of the clean windows before: together these count up to twice as much as the window itself (more where it
-/// has few samples), and less where they do not agree with it. Where noise halves at once the first two windows state a third too much;
+/// has few samples), and less where they do not agree with it. Where noise halves suddenly, the first two windows state a third too much;
 /// where it grows they state a tenth too little.
 ///
 /// Of a window without a wave, [`Flags::LOST`], no number means anything, and some may be NaN or infinite.
@@ -189,8 +189,8 @@ pub struct Estimate {
     pub angle_std: f32,
     /// Standard deviation of α, rad.
     pub phase_std: f32,
-    /// Standard deviation of f, Hz. In a wave's first window, which must take its pattern to stand still, it may be up to twice as much
-    /// where a wave with a quadrature of up to 0.7 a_A turns, and six times as much at 0.95 a_A.
+    /// Standard deviation of f, Hz. In a wave's first window, which must take its pattern to stand still, the error may be up to twice this
+    /// where a wave with a quadrature of up to 0.7 a_A turns, and six times at 0.95 a_A.
     pub frequency_std: f32,
     /// Standard deviation of θ̇, rad/s.
     pub angle_rate_std: f32,

@@ -78,7 +78,7 @@ pub struct Front<S: Sample, const N: usize> {
 impl<S: Sample, const N: usize> Front<S, N> {
     /// A front without settings: it counts its pairs, and finds nothing until [`configure`](Self::configure) gives it some.
     ///
-    /// It is all zeros: as a static it takes no flash and is nowhere on the stack, as what [`new`](Self::new) gives is.
+    /// It is all zeros: as a static it takes no flash and is never on the stack, as what [`new`](Self::new) gives would be.
     pub const UNSET: Self = Self::unset();
 
     /// In code, where the constant would be copied from flash.
@@ -98,8 +98,8 @@ impl<S: Sample, const N: usize> Front<S, N> {
     ///
     /// # Errors
     ///
-    /// Those of [`Settings::check`], but for the periods that a ring holds: that is the tracker's. And a known frequency of which
-    /// `N` pairs hold no period.
+    /// Those of [`Settings::check`], except too many periods for the ring, which is the tracker's; and a known frequency whose period
+    /// `N` pairs do not hold.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
         let mut front = Self::unset();
         front.configure(settings)?;

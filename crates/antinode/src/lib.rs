@@ -13,11 +13,11 @@
 //!
 //! | step | at | by |
 //! |---|---|---|
-//! | the period is searched, then samples are summed in blocks of about two periods | sample rate | [`Front`], of [`period`] and [`block`] |
+//! | the period is searched, then samples are summed in blocks of up to two periods | sample rate | [`Front`], of [`period`] and [`block`] |
 //! | a window of blocks is solved for its waves by exact least squares, and joined to those before | window rate | [`Tracker`] |
 //! | both, and a new search where the wave is lost | | [`Identifier`] |
 //!
-//! [`Settings`] shows how a known frequency, overlapping windows, hum and pick-offs that differ are told, [`Identifier`] what to do where
+//! [`Settings`] shows how a known frequency, overlapping windows, hum and pick-offs that differ are set, [`Identifier`] what to do where
 //! samples are lost.
 //!
 //! # On a microcontroller
@@ -57,7 +57,7 @@
 //!         if let Some(estimate) = tracker.push(&block) {
 //!             estimates.push(estimate);
 //!         }
-//!         // After every block: it may be so without an estimate.
+//!         // Ask after every block: a wave may be lost without an estimate.
 //!         if tracker.has_lost() {
 //!             SEARCH.store(true, Relaxed);
 //!             // What was gathered before the search is of no use.
@@ -84,7 +84,7 @@
 //! # Ok::<(), antinode::SettingsError>(())
 //! ```
 //!
-//! Calibration and settings are changed in place, [`Tracker::calibrate`] in the main loop alone, `configure` on both sides. Samples that
+//! Calibration and settings are changed in place: calibration by [`Tracker::calibrate`] in the main loop alone, settings by `configure` on both sides. Samples that
 //! the interrupt missed are told to [`Front::skip`].
 //!
 //! | bytes of RAM on a 32-bit core | `i16` | `f32` | `i32` |
@@ -96,8 +96,8 @@
 //! [`Front::UNSET`], [`Tracker::UNSET`] and [`Identifier::UNSET`] are all zeros: statics of them take neither flash nor stack, and
 //! `configure` makes them work.
 //!
-//! `opt-level = 2` is as fast as 3 and smaller. On a Cortex-M4 give rustc `-Ctarget-cpu=cortex-m4`: without it multiply-accumulates of
-//! three cycles are taken for ones of a single cycle.
+//! `opt-level = 2` is as fast as 3 and smaller. On a Cortex-M4 give rustc `-Ctarget-cpu=cortex-m4`: without it rustc takes three-cycle
+//! multiply-accumulates for single-cycle ones.
 //!
 //! # Features
 //!
@@ -106,7 +106,7 @@
 //! | `mean-return` | yes | the period detector of formula (9): `Detection::MeanReturn`, `period::MeanReturnDetector` |
 //! | `fixed` | yes | pairs of `I1F15` and `I1F31` of the crate `fixed`: [`SamplePair`] |
 //! | `defmt` | no | `defmt::Format` of [`Estimate`], [`Flags`], [`Settings`], [`Calibration`], [`Detection`] and [`SettingsError`] |
-//! | `serde` | no | `Serialize` and `Deserialize` of the same; flags are their names in formats to be read, and else their bits |
+//! | `serde` | no | `Serialize` and `Deserialize` of the same; flags as names in human-readable formats, as bits in others |
 //!
 //! Firmware that needs none takes `default-features = false`. To send estimates and settings over a line take the crate
 //! `antinode-telemetry`.
@@ -129,28 +129,28 @@
 //! - Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: 260 rad/s and 480 1/s in ten periods of
 //!   5332 Hz, 2.6 rad/s and 4.8 1/s in a thousand. Where it turns by more than about 0.6 rad amplitudes are some per cent off, which
 //!   windows of more than ten periods flag as a misfit and shorter ones may not.
-//! - A course that bends within a window, as where the frequency drifts or depends on the amplitude, or damping and frequency are split,
+//! - Phase or amplitude that bends within a window, as where the frequency drifts or depends on the amplitude, or damping and frequency are split,
 //!   is a misfit where it bends by much more than the noise (2 Hz/s in a window of 60 ms, say) or than 2·10⁻⁴ of a_A, whichever is more.
-//!   Where by less, values may be off: phase where the frequency bends, amplitudes and θ too where there are splits. In windows of 10
+//!   Where it bends less, values may be off: phase where the frequency bends, amplitudes and θ too where there are splits. In windows of 10
 //!   periods that is up to 6 of their deviations, in those of 100 and more up to 30; 6·10⁻⁵ rad of phase in noise of 10⁻⁴ of a_A, 4·10⁻⁴
 //!   rad in noise of 10⁻³. Shorter windows help.
-//! - A pattern that turns looks like a frequency off by 2 a_A a_B θ̇/π(a_A² + a_B²), which is taken out with θ̇ as the windows before have
-//!   it. Where that changes at once, as splits make it near a circle, f may be off: 20 deviations at |a_B| of 0.94 a_A in windows of 100
+//! - A pattern that turns looks like a frequency off by 2 a_A a_B θ̇/(π(a_A² + a_B²)), which is taken out with θ̇ as the windows before have
+//!   it. Where θ̇ jumps, as splits make it near a circle, f may be off: 20 deviations at |a_B| of 0.94 a_A in windows of 100
 //!   periods.
 //! - Mains hum is a misfit too, unless [`Settings::hum`] takes it out.
 //! - Deviations and flags take noise to be white; [`Settings::coloured`] is for noise that is not. With it errors are 0.8 to 1.1 of their
 //!   deviations behind a low-pass or a high-pass, or in noise of 1/f²; behind a band-pass about the wave they are 1.1 with a quality of 1,
 //!   1.5 with 3, and 2 to 3 with 10. Of noise that grows with the frequency some windows stay misfits.
-//! - They also take noise to be independent, and as large in both pick-offs. Where one has ten times as much a window in some ten thousand
-//!   is flagged. Where both have the share r of its variance in common deviations are up to √(1 + r) times too small: at an angle of
+//! - Deviations and flags also take noise to be independent, and equal in both pick-offs. Where one has ten times as much, one window in
+//!   some ten thousand is flagged. Where both have the share r of its variance in common, deviations are up to √(1 + r) times too small: at an angle of
 //!   22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.
-//! - Deviations are those of noise and of the converter's steps, taken to be equal. What the curves of pick-offs and converter do is in
-//!   none of them, and of less than 10⁻³ of a_A of third harmonic there is no flag: a cubic of that size may move a_A by 0.4 %, θ by
-//!   5·10⁻⁴ rad and, with |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. Of a second harmonic 2·10⁻³ get into a_A and phase
-//!   in windows of 10 periods that are no whole number of samples.
-//! - Amplitudes are 10⁻¹⁵ to 10¹⁷ input units, so that their squares are numbers of f32. Beyond, estimates may be none, without a flag.
+//! - Deviations are those of noise and of the converter's steps, taken to be equal. Nonlinearity of pick-offs and converter is in
+//!   none of them, and a third harmonic below 10⁻³ of a_A raises no flag: a cubic of that size may move a_A by 0.4 %, θ by
+//!   5·10⁻⁴ rad and, with |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. A second harmonic puts 2·10⁻³ of itself into a_A and phase
+//!   in windows of 10 periods that are not a whole number of samples.
+//! - Amplitudes are 10⁻¹⁵ to 10¹⁷ input units, so that their squares are numbers of f32. Beyond that there may be no estimate, and no flag.
 //! - Sums of f32 round: in noise below 2·10⁻⁴ of a_A an offset beyond twenty times a_A, at 140 samples a period or more, is a misfit.
-//!   Codes do not round, nor do samples of f32 less their offset.
+//!   Codes do not, nor do f32 samples whose offset is subtracted first.
 #![no_std]
 
 #[cfg(test)]

@@ -52,20 +52,20 @@ pub enum Detection {
 pub struct Settings {
     /// Sample rate in Hz, 10⁻³ to 10¹².
     pub sample_rate: f64,
-    /// Length of a window in periods, 2 to two less than the ring of blocks holds; 10 unless changed. A window is a whole number of blocks,
+    /// Length of a window in periods, from 2 to the ring's blocks less 2; 10 unless changed. A window is a whole number of blocks,
     /// up to a tenth off this length: a block has up to two periods, or a fifth of the window where that is less.
     pub periods: u16,
     /// Blocks from the start of one window to the start of the next, 1 or more. Blocks are then half as long, about one period, so that
     /// windows move in finer steps. A hop beyond the window leaves gaps. `None`: windows follow each other without gap or overlap.
     pub hop: Option<u16>,
-    /// The angle is known modulo π/2: in the first window the one nearest to this is taken, rad, within ±10⁴. With π/4, as it is unless
-    /// changed, that lies in 0…π/2.
+    /// Where the pattern stands at first, rad, within ±10⁴: the angle is known modulo π/2, and the first window takes the one nearest to
+    /// this. With π/4, the default, that lies in 0…π/2.
     pub start_angle: f32,
     /// The least and the greatest sample that the converter gives, input units: at or beyond them a window is flagged as clipped.
     /// `None` where they are not known. A signed converter of 12 bits, taken as codes, has −2048 and 2047.
     pub rails: Option<[f32; 2]>,
-    /// Step between neighbouring codes of the converter, input units, > 0, where it is known: 1 of codes. A signal with less noise
-    /// than a step has errors that repeat with it and do not average: with this they count in the standard deviations.
+    /// Step between neighbouring codes of the converter, input units, > 0, where it is known: 1 of codes. With less noise
+    /// than a step, errors repeat with the signal and do not average: where the step is given, deviations count them.
     pub resolution: Option<f32>,
     /// The wave's frequency in Hz, where it is known within 5 %: no period is searched, and the first window begins with the first
     /// sample, even in noise nearly as large as the wave. It may have 2.5 samples a period or more, and no more than a block holds, `N`.
@@ -79,9 +79,9 @@ pub struct Settings {
     /// True where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
     /// only moves an offset is neither noise nor a fault. Windows need 5 periods for it, with a hop 10; shorter ones do without.
     pub hum: bool,
-    /// True where the noise is not white: a tuned front end, or a filter that ends below three times the frequency, leaves less than a
+    /// True where the noise is not white: a tuned front end, or a filter that cuts off below three times the frequency, leaves less than a
     /// sixteenth of its power there. That is no fault then, and blocks have offsets of their own as with `hum`. In return what is in every
-    /// window is not told: a second tone counts as noise, and so does a fault in the first window.
+    /// window is not flagged: a second tone counts as noise, and so does a fault in the first window.
     pub coloured: bool,
     /// How the pick-offs differ from ideal ones.
     pub calibration: Calibration,

@@ -37,7 +37,7 @@ pub enum Ask {
     Get,
     /// Changes the length of a window.
     Window {
-        /// Periods a window, 2 or more; the device knows the most.
+        /// Periods a window, 2 or more; the device refuses too many.
         #[arg(value_name = "PERIODS", value_parser = value_parser!(u16).range(2..))]
         periods: u16,
     },

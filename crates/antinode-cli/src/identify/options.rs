@@ -46,8 +46,8 @@ pub struct Identify {
     /// Which methods a row shows.
     ///
     /// With `all`, columns method1_… to method4_… follow in CSV and JSON lines; those that end in off_sigma are differences from the
-    /// exact solution in its standard deviations. Windows without a wave have none, nor has one with less than a quarter of a period of
-    /// samples before it.
+    /// exact solution in its standard deviations. They are empty in windows without a wave, or with less than a quarter of a period of
+    /// samples before them.
     #[arg(long, value_enum, default_value_t = Methods::Exact)]
     pub methods: Methods,
     /// Format of raw samples, for what is neither WAV nor NPY, nor text by its extension: little-endian, S_C and S_D in turn,
@@ -81,10 +81,10 @@ pub struct Identify {
     /// Each block, of a period or two, gets an offset of its own. Windows must have 5 periods or more, or 10 where --hop is given.
     #[arg(long)]
     pub hum: bool,
-    /// The noise is not white, as behind a tuned front end, or a filter that ends below three times the frequency.
+    /// The noise is not white, as behind a tuned front end, or a filter that cuts off below three times the frequency.
     ///
-    /// Less of it at three times the frequency is then no fault, and what it has at low frequencies does not count, as with --hum, in windows
-    /// of 5 periods or more, or 10 where --hop is given. A second tone that is there all along counts as noise.
+    /// Less of it at three times the frequency is then no fault. In windows of 5 periods or more (10 with --hop) what it has
+    /// at low frequencies does not count, as with --hum. A second tone that is there all along counts as noise.
     #[arg(long)]
     pub coloured: bool,
     /// Where the pattern stands at first, to within π/4, as the angle is known modulo π/2 only; rad, within ±10000 [default: π/4, so that
@@ -101,7 +101,7 @@ pub struct Identify {
     ///
     /// It is found where the first samples are all multiples of one step; integers are looked through too, as they may come from a
     /// converter of fewer bits. A file may begin with up to 250 000 pairs of silence. In a pipe it is found only for text with a time
-    /// column; integers then have the step of all their bits.
+    /// column; integers in a pipe have the step of all their bits.
     #[arg(long, value_name = "STEP", value_parser = ranges::positive, help_heading = "Calibration")]
     pub resolution: Option<f32>,
 }

@@ -19,6 +19,8 @@ const HEAD_BLOCKS: usize = 16;
 
 /// Bits that all distances of integers have in common by chance less than once in 10¹⁸ times.
 const SHARED_BITS: usize = 60;
+/// Fewer integers than these may have been chosen by hand.
+const FEWEST_INTEGERS: usize = 12;
 
 /// The step of which the samples of both channels are whole multiples, the greater one where they differ.
 ///
@@ -42,7 +44,8 @@ pub(super) fn of_integers(pairs: &[[f32; 2]], unit: f32) -> Option<f32> {
     let distances = codes.windows(2).map(|pair| pair[1] - pair[0]);
     let factor = distances.fold(0, common_factor);
     let bits = factor.checked_ilog2()? as usize;
-    (bits * (codes.len() - 1) >= SHARED_BITS).then_some(factor as f32 * unit)
+    let is_told = codes.len() >= FEWEST_INTEGERS && bits * (codes.len() - 1) >= SHARED_BITS;
+    is_told.then_some(factor as f32 * unit)
 }
 
 /// The greatest factor of both; that of 0 and a number is the number.

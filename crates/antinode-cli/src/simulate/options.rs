@@ -40,7 +40,7 @@ pub struct Simulate {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Wave")]
 struct WaveOptions {
-    /// Main amplitude at the start; integer samples end at 1.
+    /// Main amplitude at the start; integer samples saturate at 1.
     #[arg(long, default_value_t = 0.5, value_name = "LEVEL")]
     main_amplitude: f64,
     /// Quadrature amplitude at the start, signed.

@@ -1,8 +1,8 @@
 //! Samples become block sums: the only work done at sample rate while a wave is tracked, formulas (7) and (24).
 //!
-//! A block is a fixed count of sample pairs, about one period or two. Its reference starts anew at every block, centred on the block's
-//! middle, so there is no oscillator to run: the phase of the block is applied to its sums later, at block rate. No block need
-//! fit the period, and no weight need be exact, because the window solution takes exact sums of the very weights for any length.
+//! A block is a fixed count of sample pairs, up to about two periods. Its reference starts anew at every block, centred on the block's
+//! middle, so there is no oscillator to run: the phase of the block is applied to its sums later, at block rate. Blocks need not
+//! fit the period, nor weights be exact: the window's solution takes exact sums of the weights as they are.
 
 mod layout;
 mod runs;
@@ -86,7 +86,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
 
     /// A demodulator for blocks of `length` pairs about the frequency `step`, which watches the samples or does not.
     ///
-    /// Its first block starts at sample pair `start` of the stream. A length beyond 1…`N` is brought into it.
+    /// Its first block starts at sample pair `start` of the stream. A length outside 1…`N` is clamped.
     pub fn new(step: PhaseStep, length: u16, start: u64, watch: bool) -> Self {
         let mut demodulator = Self::unset();
         demodulator.set_watch(watch);

@@ -63,7 +63,7 @@ pub struct Tracker<const BLOCKS: usize> {
 impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// A tracker without settings: it finds nothing until [`configure`](Self::configure) gives it some.
     ///
-    /// It is all zeros: as a static it takes no flash and is nowhere on the stack, as what [`new`](Self::new) gives is.
+    /// It is all zeros: as a static it takes no flash and is never on the stack, as what [`new`](Self::new) gives would be.
     pub const UNSET: Self = Self::unset();
 
     /// In code, where the constant would be copied from flash.
@@ -272,7 +272,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Changes the settings, all but the start angle: the next block starts a new first window, flagged [`Flags::REACQUIRED`], its angle
     /// continued. [`configure`](Self::configure) begins with the start angle instead.
     ///
-    /// The front needs the same settings, but for calibration, hum and colour; where it is configured anew, drop the blocks that were
+    /// The front needs the same settings, except `calibration`, `hum` and `coloured`; where it is configured anew, drop the blocks that were
     /// gathered before.
     ///
     /// # Errors

@@ -52,7 +52,8 @@ pub unsafe extern "C" fn antinode_fixed_push_block(
 }
 
 /// Interrupt side. Takes `count` sample pairs from one array of 2 × `count` samples, C and D in turn, converter codes. Answers as
-/// antinode_fixed_push().
+/// antinode_fixed_push(). Pairs are read as words: where the core traps unaligned ones (CCR.UNALIGN_TRP), `samples` must begin at a
+/// multiple of four bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_push_block_interleaved(
     state: *mut Fixed,

@@ -352,7 +352,7 @@ antinode_status_t antinode_fixed_health(const antinode_fixed_t *state, antinode_
 
 // Both sides in one call, where there is no interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a
 // window, and writes how many to `taken`. ANTINODE_ESTIMATE when a window ended and its estimate was written; ANTINODE_OK when all
-// `count` pairs were taken without one. Call it again with the rest.
+// `count` pairs were taken without one. Call it again with the rest. `samples` as for antinode_fixed_push_block_interleaved().
 antinode_status_t antinode_fixed_identify(antinode_fixed_t *state,
                                           const int16_t *samples,
                                           size_t count,

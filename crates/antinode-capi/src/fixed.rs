@@ -117,7 +117,7 @@ pub unsafe extern "C" fn antinode_fixed_health(state: *const Fixed, health: *mut
 
 /// Both sides in one call, where there is no interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a
 /// window, and writes how many to `taken`. ANTINODE_ESTIMATE when a window ended and its estimate was written; ANTINODE_OK when all
-/// `count` pairs were taken without one. Call it again with the rest.
+/// `count` pairs were taken without one. Call it again with the rest. `samples` as for antinode_fixed_push_block_interleaved().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_identify(
     state: *mut Fixed,

@@ -12,7 +12,9 @@ enum { FIRST = 2000 };
 enum form { SINGLE, SEPARATE, INTERLEAVED, PACKED, FORMS };
 
 static state_t gyro;
-static sample_t interleaved[2 * HALF_BUFFER], c[HALF_BUFFER], d[HALF_BUFFER];
+/* Arrays of codes need no alignment of a word, but for pairs in turn. */
+static sample_t interleaved[2 * HALF_BUFFER] __attribute__((aligned(4))), arrays[2 * HALF_BUFFER + 1] __attribute__((aligned(4)));
+static sample_t *const c = arrays + 1, *const d = arrays + 1 + HALF_BUFFER;
 static antinode_estimate_t estimate;
 /* The most that a call took, bytes. */
 static uint32_t stack_of_init, stack_of_solve, stack_of_push[FORMS];

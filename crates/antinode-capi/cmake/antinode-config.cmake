@@ -2,7 +2,8 @@
 #   antinode::antinode   the static library: of this PC, or of the core that a cross build is for
 #   antinode::shared     the shared library, on a PC
 # A cross build names the Rust target in ANTINODE_TARGET (README.md has which: thumbv7em-none-eabihf, ...); where it
-# does not, the target follows from -mcpu and -mfloat-abi in CMAKE_C_FLAGS, CMAKE_CXX_FLAGS or add_compile_options().
+# does not, the target follows from -mcpu and -mfloat-abi in CMAKE_C_FLAGS, CMAKE_CXX_FLAGS or add_compile_options(), of
+# which the last counts; the float ABI, where no -mfloat-abi says it, from clang's triple (--target=...eabihf).
 get_filename_component(_antinode_prefix "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 set(_antinode_lib "${_antinode_prefix}/lib")
 if(CMAKE_CROSSCOMPILING)
@@ -10,16 +11,30 @@ if(CMAKE_CROSSCOMPILING)
     if(NOT _antinode_target)
         get_directory_property(_antinode_options COMPILE_OPTIONS)
         set(_antinode_flags " ${CMAKE_C_FLAGS} ${CMAKE_CXX_FLAGS} ${_antinode_options} ")
+        # CMake gives a compiler its triple before all flags.
+        foreach(_antinode_language C CXX)
+            if(CMAKE_${_antinode_language}_COMPILER_TARGET)
+                set(_antinode_flags " --target=${CMAKE_${_antinode_language}_COMPILER_TARGET}${_antinode_flags}")
+            endif()
+        endforeach()
+        set(_antinode_abi "")
+        if(_antinode_flags MATCHES ".*[ ;]-m(float-abi=hard|float-abi=softfp|float-abi=soft|hard-float|soft-float)[ ;]")
+            set(_antinode_abi "${CMAKE_MATCH_1}")
+        elseif(_antinode_flags MATCHES ".*[ ;](--target=|-target[ ;])([^ ;]+)[ ;]")
+            if(CMAKE_MATCH_2 MATCHES "eabihf$")
+                set(_antinode_abi hard)
+            endif()
+        endif()
         set(_antinode_core "")
         set(_antinode_has_dsp "^(4|7|33|35p|52|55|85)$")
-        if(_antinode_flags MATCHES "[ ;]-mcpu=cortex-m([0-9a-z]+)([+.][^ ;]*)?[ ;]")
+        if(_antinode_flags MATCHES ".*[ ;]-mcpu=cortex-m([0-9a-z]+)([+.][^ ;]*)?[ ;]")
             set(_antinode_core "${CMAKE_MATCH_1}")
             if(CMAKE_MATCH_2 MATCHES "[+]nodsp")
                 set(_antinode_core nodsp)
             endif()
         endif()
         # Never across float ABIs: the linker may not see it, and arguments would go astray.
-        if(_antinode_flags MATCHES "[ ;]-mfloat-abi=hard[ ;]")
+        if(_antinode_abi MATCHES "hard")
             if(_antinode_core MATCHES "${_antinode_has_dsp}")
                 set(_antinode_target thumbv7em-none-eabihf)
             elseif(_antinode_core STREQUAL nodsp)

@@ -13,10 +13,13 @@
  *     while (antinode_fixed_solve(&gyro, &estimate) == ANTINODE_ESTIMATE)
  *         use(&estimate);
  *
- * Samples: S_C and S_D of pick-offs 45 degrees apart; the unit of amplitudes, offsets and residuals is that of the samples. Codes are
- * two's complement of 16 bits, and so are unsigned ones of up to 15 bits as they are (a 12-bit converter, aligned to the right): the
- * offset is found. Unsigned ones of 16 bits, oversampled or aligned to the left, would wrap around at half scale, and with `watch` of 0
- * no flag tells: turn the highest bits, word ^ 0x80008000, which takes 32768 from the offsets and from the rails.
+ * Samples: S_C and S_D of pick-offs 45 degrees apart; the unit of amplitudes, offsets and residuals is that of the samples. The model,
+ * whose signs are those of angle, quadrature, phase and pick-off angle, is that of ideal pick-offs without offset:
+ *     S_C = A cos 2theta - B sin 2theta,   A = a_A cos tau,   tau = omega t - alpha, omega = 2pi f,
+ *     S_D = A sin 2theta + B cos 2theta,   B = a_B sin tau,   t = 0 at the window's middle.
+ * Codes are two's complement of 16 bits, and so are unsigned ones of up to 15 bits as they are (a 12-bit converter, aligned to the
+ * right): the offset is found. Unsigned ones of 16 bits, oversampled or aligned to the left, would wrap around at half scale, and with
+ * `watch` of 0 no flag tells: turn the highest bits, word ^ 0x80008000, which takes 32768 from the offsets and from the rails.
  *
  * Memory: a state is the caller's, static or on a stack; there is no heap, no global and no callback. Zeroed memory is not an
  * initialised state. A state may be copied or moved while nobody uses it.
@@ -33,9 +36,10 @@
  *  - States are independent of each other.
  *
  * The interrupt's cost on a Cortex-M4: while a period is searched 230 to 600 instructions a sample pair, up to 850 over a half-buffer
- * of a signal that looks like a wave and is none, such as two tones; then 10 to 70, by _push 70 to 150; up to 0.8 KiB of stack, 1.1
- * (fixed) or 1.4 KiB (float) by _push_block. The search uses floating-point registers, in fixed point too, where the core has them:
- * what saves them for threads must save them for this interrupt (lazy stacking; Zephyr: CONFIG_FPU_SHARING).
+ * of a signal that looks like a wave and is none, such as two tones; then 10 to 70, by _push 70 to 150. Its stack there is up to
+ * 0.9 KiB, by _push_block 1.1 KiB (fixed) or 1.4 KiB (float); on a Cortex-M3 or M0 up to 1.2 KiB, by _push_block 1.5 or 1.8 KiB.
+ * The search uses floating-point registers, in fixed point too, where the core has them: what saves them for threads must save them
+ * for this interrupt (lazy stacking; Zephyr: CONFIG_FPU_SHARING).
  *
  * Errors: a NULL or misaligned pointer, a state that was not initialised and a value out of range give a status below 0, and
  * nothing is done; but a state whose _init failed is no longer initialised. A pointer that is neither must point to what its type
@@ -60,10 +64,10 @@
 // The most periods a window may have.
 #define ANTINODE_MOST_PERIODS 50
 
-// Finished blocks that the queue holds, the one being solved among them. A block is the least of two periods, a fifth of a window and
-// ANTINODE_LONGEST_PERIOD sample pairs, or half of that where there is a hop, or a little less, so that whole blocks fit a window. No more than 15 blocks should be finished between two calls
-// of a `_solve` function, nor by one call of a `_push_block` function: of 18.75 samples a period 540 pairs in windows of
-// ten periods and more, but 90 in windows of two.
+// Finished blocks that the queue holds, the one being solved among them. A block is two periods, or a fifth of a window where that is
+// less; where there is a hop, half of it; at most ANTINODE_LONGEST_PERIOD sample pairs; or a little less, so that whole blocks fit a
+// window. No more than 15 blocks should be finished between two calls of a `_solve` function, nor by one call of a `_push_block`
+// function: of 18.75 samples a period 540 pairs in windows of ten periods and more, but 90 in windows of two.
 #define ANTINODE_QUEUE_BLOCKS 16
 
 // 64-bit words of an `antinode_fixed_t`.
@@ -118,7 +122,7 @@ enum
  {
     // Done.
     ANTINODE_OK = 0,
-    // Done, and finished blocks wait for a `_solve` function.
+    // Done, and finished blocks wait for a `_solve` function. They do after ANTINODE_ERROR_QUEUE_FULL too: wake a thread at either.
     ANTINODE_READY = 1,
     // Done, and an estimate was written.
     ANTINODE_ESTIMATE = 2,
@@ -131,7 +135,8 @@ enum
     // An array would be larger than the address space.
     ANTINODE_ERROR_COUNT = -4,
     // The pairs were taken, but the queue was full and at least one finished block was dropped, a gap as by a `_skip` function: call
-    // `_solve` more often, or push fewer pairs at once, see ANTINODE_QUEUE_BLOCKS.
+    // `_solve` more often, or push fewer pairs at once, see ANTINODE_QUEUE_BLOCKS. Blocks wait as after ANTINODE_READY, which is not told
+    // then: wake a thread at either.
     ANTINODE_ERROR_QUEUE_FULL = -5,
     // `sample_rate_hz` is not within 1 to 1e10.
     ANTINODE_ERROR_SAMPLE_RATE = -10,
@@ -190,10 +195,12 @@ typedef struct {
 typedef struct {
     // Sample rate, Hz. 1 to 1e10.
     double sample_rate_hz;
-    // Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10.
+    // Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10. Of whole blocks, which are of whole samples: up to a tenth off,
+    // and more for a known frequency of few samples a period, such as 2.31 periods for 2 of 2.6 samples.
     uint32_t periods;
-    // Blocks from the start of one window to the start of the next; a block is a period then, or a tenth of a window of less than
-    // ten periods. 1 to 65535; 0, the default: windows follow each other without gap or overlap.
+    // Blocks from the start of one window to the start of the next; a block is then about a period, or a tenth of a window of less than
+    // ten periods, rounded to whole samples: of short periods 0.9 to 1.25. 1 to 65535; 0, the default, and not the number of periods,
+    // makes windows follow each other without gap or overlap.
     uint32_t hop_blocks;
     // The first window's angle is chosen within pi/4 of this one, rad. Within +-10000; default pi/4, which puts it in 0 to pi/2.
     float start_angle_rad;
@@ -251,7 +258,7 @@ typedef struct {
     float decay_rate_s;
     // Offset of S_C, input units.
     float offset_c;
-    // Offset of S_D, input units.
+    // Offset of S_D, input units, as it came: before `gain_ratio` is applied.
     float offset_d;
     // Standard deviation of a_A, input units.
     float main_amplitude_std;
@@ -267,7 +274,8 @@ typedef struct {
     float angle_rate_std_rad_s;
     // Standard deviation of the decay rate, 1/s.
     float decay_rate_std_s;
-    // Rms of what the wave does not explain, a sample and channel, input units: the noise when it is white.
+    // Rms of what the wave does not explain, a sample and channel, input units: the noise when it is white. Of S_D after its correction
+    // by the calibration.
     float residual_rms;
     // Always 0: the struct ends at a multiple of eight bytes on every machine.
     uint32_t reserved;
@@ -312,8 +320,11 @@ antinode_status_t antinode_fixed_push(antinode_fixed_t *state, int16_t c, int16_
 antinode_status_t antinode_fixed_push_block(antinode_fixed_t *state, const int16_t *c, const int16_t *d, size_t count);
 
 // Interrupt side. Takes `count` sample pairs from one array of 2 x `count` samples, C and D in turn, converter codes. Answers as
-// antinode_fixed_push().
-antinode_status_t antinode_fixed_push_block_interleaved(antinode_fixed_t *state, const int16_t *samples, size_t count);
+// antinode_fixed_push(). Pairs are read as words: where the core traps unaligned ones (CCR.UNALIGN_TRP), `samples` must begin at a
+// multiple of four bytes.
+antinode_status_t antinode_fixed_push_block_interleaved(antinode_fixed_t *state,
+                                                        const int16_t *samples,
+                                                        size_t count);
 
 // Interrupt side. Takes `count` sample pairs of 16-bit codes, C in the low half of a word and D in the high half, as a dual
 // converter's DMA leaves them; unsigned ones of 16 bits as `word ^ 0x80008000`, see the head of the header. Answers as
@@ -341,7 +352,7 @@ antinode_status_t antinode_fixed_health(const antinode_fixed_t *state, antinode_
 
 // Both sides in one call, where there is no interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a
 // window, and writes how many to `taken`. ANTINODE_ESTIMATE when a window ended and its estimate was written; ANTINODE_OK when all
-// `count` pairs were taken without one. Call it again with the rest.
+// `count` pairs were taken without one. Call it again with the rest. `samples` as for antinode_fixed_push_block_interleaved().
 antinode_status_t antinode_fixed_identify(antinode_fixed_t *state,
                                           const int16_t *samples,
                                           size_t count,

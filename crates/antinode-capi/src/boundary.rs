@@ -11,7 +11,7 @@ use antinode::{Packed, SamplePair};
 
 use crate::capacity::RING_BLOCKS;
 use crate::estimate::Estimate;
-use crate::interrupt::{AT_ONCE, Interrupt};
+use crate::interrupt::{AT_ONCE, Interrupt, Words};
 use crate::settings::{Calibration, Settings};
 use crate::state::{Arithmetic, Health, Shared, State, Thread, identify};
 use crate::status::Status;
@@ -203,13 +203,13 @@ pub(crate) unsafe fn push_separate<S: Arithmetic, O>(
         let (c, d) = unsafe { (slice(c, count)?, slice(d, count)?) };
         let mut all = Status::Ok;
         for (c, d) in c.chunks(AT_ONCE).zip(d.chunks(AT_ONCE)) {
-            let mut pairs = [const { MaybeUninit::uninit() }; AT_ONCE];
-            for (pair, (&c, &d)) in pairs.iter_mut().zip(c.iter().zip(d)) {
+            let mut pairs = Words([const { MaybeUninit::uninit() }; AT_ONCE]);
+            for (pair, (&c, &d)) in pairs.0.iter_mut().zip(c.iter().zip(d)) {
                 pair.write([c, d]);
             }
             // SAFETY: as many were just written (a chunk has at most AT_ONCE), and the caller's contract.
             let one = unsafe {
-                let first = pairs.as_ptr().cast::<[S; 2]>();
+                let first = pairs.0.as_ptr().cast::<[S; 2]>();
                 side.push(
                     shared,
                     core::slice::from_raw_parts(first, c.len().min(d.len())),

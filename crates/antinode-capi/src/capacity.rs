@@ -13,10 +13,10 @@ pub const ANTINODE_SHORTEST_PERIOD: usize = 4;
 pub const ANTINODE_LONGEST_PERIOD: usize = 200;
 /// The most periods a window may have.
 pub const ANTINODE_MOST_PERIODS: usize = 50;
-/// Finished blocks that the queue holds, the one being solved among them. A block is the least of two periods, a fifth of a window and
-/// ANTINODE_LONGEST_PERIOD sample pairs, or half of that where there is a hop, or a little less, so that whole blocks fit a window. No more than 15 blocks should be finished between two calls
-/// of a `_solve` function, nor by one call of a `_push_block` function: of 18.75 samples a period 540 pairs in windows of
-/// ten periods and more, but 90 in windows of two.
+/// Finished blocks that the queue holds, the one being solved among them. A block is two periods, or a fifth of a window where that is
+/// less; where there is a hop, half of it; at most ANTINODE_LONGEST_PERIOD sample pairs; or a little less, so that whole blocks fit a
+/// window. No more than 15 blocks should be finished between two calls of a `_solve` function, nor by one call of a `_push_block`
+/// function: of 18.75 samples a period 540 pairs in windows of ten periods and more, but 90 in windows of two.
 pub const ANTINODE_QUEUE_BLOCKS: usize = 16;
 
 /// Blocks of the ring that windows are cut from: a little more than the periods of a window.

@@ -75,7 +75,7 @@ pub struct Estimate {
     pub decay_rate_s: f32,
     /// Offset of S_C, input units.
     pub offset_c: f32,
-    /// Offset of S_D, input units.
+    /// Offset of S_D, input units, as it came: before `gain_ratio` is applied.
     pub offset_d: f32,
     /// Standard deviation of a_A, input units.
     pub main_amplitude_std: f32,
@@ -91,7 +91,8 @@ pub struct Estimate {
     pub angle_rate_std_rad_s: f32,
     /// Standard deviation of the decay rate, 1/s.
     pub decay_rate_std_s: f32,
-    /// Rms of what the wave does not explain, a sample and channel, input units: the noise when it is white.
+    /// Rms of what the wave does not explain, a sample and channel, input units: the noise when it is white. Of S_D after its correction
+    /// by the calibration.
     pub residual_rms: f32,
     /// Always 0: the struct ends at a multiple of eight bytes on every machine.
     pub reserved: u32,

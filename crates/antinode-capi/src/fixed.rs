@@ -52,7 +52,8 @@ pub unsafe extern "C" fn antinode_fixed_push_block(
 }
 
 /// Interrupt side. Takes `count` sample pairs from one array of 2 × `count` samples, C and D in turn, converter codes. Answers as
-/// antinode_fixed_push().
+/// antinode_fixed_push(). Pairs are read as words: where the core traps unaligned ones (CCR.UNALIGN_TRP), `samples` must begin at a
+/// multiple of four bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_push_block_interleaved(
     state: *mut Fixed,
@@ -116,7 +117,7 @@ pub unsafe extern "C" fn antinode_fixed_health(state: *const Fixed, health: *mut
 
 /// Both sides in one call, where there is no interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a
 /// window, and writes how many to `taken`. ANTINODE_ESTIMATE when a window ended and its estimate was written; ANTINODE_OK when all
-/// `count` pairs were taken without one. Call it again with the rest.
+/// `count` pairs were taken without one. Call it again with the rest. `samples` as for antinode_fixed_push_block_interleaved().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_identify(
     state: *mut Fixed,

@@ -17,6 +17,10 @@ pub(crate) const AT_ONCE: usize = 64;
 /// The same for the search, which calls deep: more would take stack and save nothing beside its hundreds of instructions a pair.
 const SEARCHED_AT_ONCE: usize = 16;
 
+/// Pairs at a multiple of four bytes: those of codes are read as words, and a core may trap words elsewhere.
+#[repr(align(4))]
+pub(crate) struct Words<T>(pub T);
+
 /// What belongs to the interrupt alone.
 pub(crate) struct Interrupt<S: Sample> {
     front: Front<S>,
@@ -110,13 +114,13 @@ impl<S: Slow> Interrupt<S> {
     /// Searches a period in the first pairs; gives how many it took. Apart, so that pairs of a known period do not pay for it.
     #[inline(never)]
     fn search_some<P: SamplePair<S>>(&mut self, shared: &Shared<S>, pairs: &[P]) -> usize {
-        let mut buffer = [[S::default(); 2]; SEARCHED_AT_ONCE];
+        let mut buffer = Words([[S::default(); 2]; SEARCHED_AT_ONCE]);
         let mut count = 0;
-        for (place, pair) in buffer.iter_mut().zip(pairs) {
+        for (place, pair) in buffer.0.iter_mut().zip(pairs) {
             *place = pair.pair();
             count += 1;
         }
-        self.search_in(shared, buffer.get(..count).unwrap_or(&[]))
+        self.search_in(shared, buffer.0.get(..count).unwrap_or(&[]))
     }
 
     /// As [`Self::search_some`], where pairs need no copy.

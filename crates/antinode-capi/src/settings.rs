@@ -29,10 +29,12 @@ pub struct Calibration {
 pub struct Settings {
     /// Sample rate, Hz. 1 to 1e10.
     pub sample_rate_hz: f64,
-    /// Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10.
+    /// Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10. Of whole blocks, which are of whole samples: up to a tenth off,
+    /// and more for a known frequency of few samples a period, such as 2.31 periods for 2 of 2.6 samples.
     pub periods: u32,
-    /// Blocks from the start of one window to the start of the next; a block is a period then, or a tenth of a window of less than
-    /// ten periods. 1 to 65535; 0, the default: windows follow each other without gap or overlap.
+    /// Blocks from the start of one window to the start of the next; a block is then about a period, or a tenth of a window of less than
+    /// ten periods, rounded to whole samples: of short periods 0.9 to 1.25. 1 to 65535; 0, the default, and not the number of periods,
+    /// makes windows follow each other without gap or overlap.
     pub hop_blocks: u32,
     /// The first window's angle is chosen within π/4 of this one, rad. Within ±10000; default π/4, which puts it in 0…π/2.
     pub start_angle_rad: f32,

@@ -192,8 +192,11 @@ impl Thread {
     }
 
     pub(crate) fn calibrate(&mut self, calibration: Calibration) -> Result<(), Status> {
-        antinode_capi_slow::calibrate(&mut self.tracker, calibration)?;
-        self.settings.calibration = calibration;
+        // Whole, and then one part: of all parts but one the compiler copies some at odd addresses.
+        let mut settings = self.settings;
+        settings.calibration = calibration;
+        antinode_capi_slow::change(&mut self.tracker, &settings)?;
+        self.settings = settings;
         Ok(())
     }
 }

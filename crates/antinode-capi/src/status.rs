@@ -10,7 +10,7 @@ use antinode::SettingsError;
 pub enum Status {
     /// Done.
     Ok = 0,
-    /// Done, and finished blocks wait for a `_solve` function.
+    /// Done, and finished blocks wait for a `_solve` function. They do after ANTINODE_ERROR_QUEUE_FULL too: wake a thread at either.
     Ready = 1,
     /// Done, and an estimate was written.
     Estimate = 2,
@@ -23,7 +23,8 @@ pub enum Status {
     /// An array would be larger than the address space.
     ErrorCount = -4,
     /// The pairs were taken, but the queue was full and at least one finished block was dropped, a gap as by a `_skip` function: call
-    /// `_solve` more often, or push fewer pairs at once, see ANTINODE_QUEUE_BLOCKS.
+    /// `_solve` more often, or push fewer pairs at once, see ANTINODE_QUEUE_BLOCKS. Blocks wait as after ANTINODE_READY, which is not told
+    /// then: wake a thread at either.
     ErrorQueueFull = -5,
     /// `sample_rate_hz` is not within 1 to 1e10.
     ErrorSampleRate = -10,

@@ -5,7 +5,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
-use antinode::{Block, Calibration, Estimate, Sample, SettingsError};
+use antinode::{Block, Estimate, Sample, Settings, SettingsError};
 
 /// The longest period, sample pairs.
 pub const LONGEST_PERIOD: usize = 200;
@@ -66,12 +66,12 @@ macro_rules! slow {
 slow!(i16);
 slow!(f32);
 
-/// Changes the calibration.
+/// Changes the settings, of which the calibration may differ.
 ///
 /// # Errors
 ///
 /// Those of [`antinode::Settings::check`]; nothing is changed then.
 #[inline(never)]
-pub fn calibrate(tracker: &mut Tracker, calibration: Calibration) -> Result<(), SettingsError> {
-    tracker.calibrate(calibration)
+pub fn change(tracker: &mut Tracker, settings: &Settings) -> Result<(), SettingsError> {
+    tracker.change(*settings)
 }

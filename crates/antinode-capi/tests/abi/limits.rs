@@ -77,6 +77,54 @@ fn periods_are_found_within_the_bounds_in_both() {
     periods_are_found_within_the_bounds::<f32>();
 }
 
+/// What the header says at `periods` and `hop_blocks`: a window in periods, and the step between two in periods a block.
+#[test]
+fn windows_and_blocks_are_as_long_as_the_header_says() {
+    let run = |period: f64, settings: Settings| {
+        let hop = settings.hop_blocks as f64;
+        let codes = codes(80 * (period as usize + 1) * 5 / 2, RATE / period);
+        let rows = Gyro::<i16>::new(&settings).run(Way::Interleaved, 5, &codes);
+        let [first, second, ..] = rows[..] else {
+            panic!("{period} pairs a period: {} windows", rows.len());
+        };
+        let step = (second.start - first.start) as f64;
+        let is_next = step == f64::from(first.samples);
+        (
+            f64::from(first.samples) / period,
+            step / hop / period,
+            is_next,
+        )
+    };
+    let default = antinode_settings_default(RATE);
+    for period in [4.1, 4.4, 5.3, 7.7, 18.75, 60.0, 101.0, 150.0, 190.0] {
+        for periods in [2, 3, 10, 17, 50] {
+            let settings = Settings { periods, ..default };
+            let (length, _, is_next) = run(period, settings);
+            let off = length / f64::from(periods) - 1.0;
+            assert!(off.abs() <= 0.1, "{period}, {periods}: {off} off");
+            assert!(is_next, "{period}, {periods}");
+            let settings = Settings {
+                hop_blocks: periods,
+                ..settings
+            };
+            let (_, block, _) = run(period, settings);
+            let is_short = periods < 10;
+            assert!(
+                is_short || (0.9..=1.25).contains(&block),
+                "{period}, {periods}: {block}"
+            );
+        }
+    }
+    // A known frequency of few samples a period.
+    let known = |period: f64| Settings {
+        periods: 2,
+        frequency_hz: (RATE / period) as f32,
+        ..default
+    };
+    let (length, ..) = run(2.6, known(2.6));
+    assert!((2.3..2.32).contains(&length), "{length}");
+}
+
 /// Of 18.75 samples a period, as at ANTINODE_QUEUE_BLOCKS: blocks of a tenth more or less than 37.5 pairs, and of six in windows of two.
 #[test]
 fn fifteen_blocks_at_once_fit_the_queue() {
@@ -98,5 +146,7 @@ fn fifteen_blocks_at_once_fit_the_queue() {
         assert_eq!(gyro.health().dropped, 0, "windows of {periods}");
         let status = gyro.push(Way::Packed, &codes[..too_many]);
         assert_eq!(status, Status::ErrorQueueFull, "windows of {periods}");
+        // And not Ready, though blocks wait.
+        assert!(gyro.health().waiting > 0, "windows of {periods}");
     }
 }

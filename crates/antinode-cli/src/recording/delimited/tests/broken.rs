@@ -147,6 +147,11 @@ fn text_that_is_mostly_broken_is_refused() {
             fault.starts_with(expected) && count == pairs,
             "{text}: {count}, {fault}"
         );
+        // It is told once.
+        let (_directory, path) = file("a.csv", text.as_bytes());
+        if let Ok(mut recording) = Recording::open(&path, &OpenOptions::default()) {
+            assert!(drain(&mut recording).1.is_some() && recording.lost().is_none());
+        }
     }
 }
 

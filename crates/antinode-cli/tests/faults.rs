@@ -24,7 +24,7 @@ fn what_is_not_a_recording_is_told() {
     write("other.bin", b"these are no samples at all");
     write("words.csv", b"time,C,D\n0,half,0.2\n0.00001,half,0.2\n");
     write("one.csv", b"C\n0.1\n0.2\n");
-    write("short.csv", b"C,D\n0.1,0.2\n0.3\n");
+    write("short.csv", b"C,D\n0.1,0.2\n0.3\n0.4\n");
     let cases: [(&str, &[&str]); 10] = [
         (
             "none.wav",

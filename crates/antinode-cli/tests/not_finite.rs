@@ -128,11 +128,12 @@ fn the_search_recovers_from_one_among_the_first() {
 fn a_fault_behind_it_is_told_too() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    fs::write(here.join("a.csv"), "1,2\n3,nan\n5\n").unwrap();
+    let endless = "5".repeat(70_000);
+    fs::write(here.join("a.csv"), format!("1,2\n3,nan\n{endless}\n")).unwrap();
     let run = run_with(here, "identify a.csv --rate 1e5", Vec::new());
     assert_eq!((run.code, run.out.as_str()), (1, ""), "{}", run.err);
     let lines: Vec<&str> = run.err.lines().collect();
     assert_eq!(lines.len(), 2, "{}", run.err);
     assert!(lines[0].starts_with("error: a.csv:2:2: sample pair 1 (from 0), S_D"));
-    assert!(lines[1].starts_with("error: a.csv:3:2: S_D is missing here"));
+    assert!(lines[1].starts_with("error: a.csv:3: more than 65536 bytes"));
 }

@@ -170,3 +170,27 @@ fn times_that_contradict_the_rate_are_warned_of() {
         expected.len()
     );
 }
+
+#[test]
+fn a_rate_that_changes_is_told_as_what_it_is() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // From the sample 3000 on, every other one.
+    let lines: Vec<String> = text(&WAVE.codes(6000))
+        .lines()
+        .enumerate()
+        .filter(|&(at, _)| at < 3001 || at % 2 == 0)
+        .map(|(_, line)| line.to_owned())
+        .collect();
+    fs::write(here.join("a.csv"), lines.join("\n")).unwrap();
+    let run = run(here, "identify a.csv --output csv");
+    assert_eq!((run.code, run.err.lines().count()), (1, 2), "{}", run.err);
+    let told = "error: a.csv:3002: 1 sample is lost before this line (time goes from 0.02999 s to 0.03001 s), the first of 1500 gaps with 1500";
+    assert!(run.err.contains(told), "{}", run.err);
+    assert!(
+        run.err
+            .starts_with("warning: a.csv: no wave was found in the last 0.0310 s")
+    );
+    let last = Row::all(&run.out).last().unwrap().number("time_s");
+    assert!((0.027..0.03).contains(&last), "{last}");
+}

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use super::error::{LineFault, Role};
 use super::preamble::Start;
 use super::signal_units;
-use super::units::{bare, time_exponent, told_by};
+use super::units::{bare, time_exponent, told_by, without_unit};
 
 /// The columns to read, chosen by the user: `c,d` or `time,c,d`, each a name from the header or a
 /// number from 1.
@@ -91,7 +91,14 @@ impl FirstLine<'_> {
                 *place = Some(self.find(wanted, are_numbers)?);
             }
         }
-        Ok(places)
+        let [time, c, d] = places;
+        let twice = c
+            .filter(|_| c == d || c == time)
+            .or(d.filter(|_| d == time));
+        match twice {
+            Some(place) => Err(LineFault::ColumnTwice { number: place + 1 }),
+            None => Ok(places),
+        }
     }
 
     /// The place of the column of this number from 1.
@@ -101,20 +108,24 @@ impl FirstLine<'_> {
     }
 
     fn find(&self, wanted: &str, is_number: bool) -> Result<usize, LineFault> {
-        let by_name = self
-            .names
-            .filter(|_| !is_number)
-            .and_then(|names| names.iter().position(|name| name == wanted));
-        by_name.or_else(|| self.number(wanted)).ok_or_else(|| {
-            let numbers = format!("the numbers 1 to {}", self.width);
-            let known = self
-                .names
-                .map_or(numbers, |names| format!("`{}`", names.join("`, `")));
-            LineFault::ColumnUnknown {
-                wanted: wanted.to_owned(),
-                known,
-            }
-        })
+        let names = self.names.filter(|_| !is_number).unwrap_or_default();
+        let by_name = names.iter().position(|name| name == wanted);
+        let mut bare = (0..names.len()).filter(|&place| without_unit(&names[place]) == wanted);
+        // Of several that differ in their units alone, none is meant for sure.
+        let by_bare = bare.next().filter(|_| bare.next().is_none());
+        by_name
+            .or(by_bare)
+            .or_else(|| self.number(wanted))
+            .ok_or_else(|| {
+                let numbers = format!("the numbers 1 to {}", self.width);
+                let known = self
+                    .names
+                    .map_or(numbers, |names| format!("`{}`", names.join("`, `")));
+                LineFault::ColumnUnknown {
+                    wanted: wanted.to_owned(),
+                    known,
+                }
+            })
     }
 
     fn suggested(&self) -> Result<Places, LineFault> {

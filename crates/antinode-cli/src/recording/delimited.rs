@@ -1,5 +1,6 @@
 //! Text recordings: one pair a line, with or without the time before it.
 
+mod fields;
 mod rows;
 
 use super::columns::Columns;
@@ -8,13 +9,13 @@ use super::gaps::{Gap, Gaps};
 use super::not_finite::Written;
 use super::time::{Meaning, TimeAxis, are_paired, roundest, standstill};
 use super::{OpenOptions, Opened, Source, Stream};
-use rows::Rows;
+use rows::{Row, Rows};
 
 /// The lines read ahead to tell the sample rate, whose times are rounded as they are printed.
-const HEAD_LINES: usize = 1 << 16;
+const HEAD_LINES: u64 = 1 << 16;
 
 /// The lines read ahead where there is no time: enough to tell whether they are lines of numbers.
-const FEW_LINES: usize = 16;
+const FEW_LINES: u64 = 16;
 
 /// Opens text; a `live` stream is handed over as it comes.
 pub(super) fn open(
@@ -68,8 +69,8 @@ struct Delimited {
     gaps: Gaps,
     /// The pairs read.
     pairs: u64,
-    /// The pairs before the last one whose time is known.
-    timed: u64,
+    /// The lines left out behind the last of them.
+    left_out: u64,
     live: bool,
     /// Pairs read to tell the sample rate, and not yet delivered.
     ahead: std::vec::IntoIter<[f32; 2]>,
@@ -86,7 +87,7 @@ impl Delimited {
             axis: None,
             gaps: Gaps::default(),
             pairs: 0,
-            timed: 0,
+            left_out: 0,
             live: false,
             ahead: Vec::new().into_iter(),
             fault: None,
@@ -95,19 +96,15 @@ impl Delimited {
 
     /// Reads as many lines as it takes to tell the sample rate, and checks their times.
     fn read_ahead(&mut self) {
-        let head = if self.rows.header.places[0].is_some() {
-            HEAD_LINES
-        } else {
-            FEW_LINES
-        };
+        let is_timed = self.rows.header.places[0].is_some();
+        let head = if is_timed { HEAD_LINES } else { FEW_LINES };
         let (mut pairs, mut times, mut places) = (Vec::new(), Vec::new(), Vec::new());
-        while pairs.len() < head && self.fault.is_none() {
+        while self.rows.read() < head && !self.rows.begin_garbled() && self.fault.is_none() {
             match self.rows.next() {
-                Ok(Some((time, pair))) => {
-                    if let Some(time) = time {
-                        times.push(time);
-                        places.push((pairs.len() as u64, self.rows.line()));
-                    }
+                Ok(Some(Row::LeftOut)) => self.left_out += 1,
+                Ok(Some(Row::Pair(time, pair))) => {
+                    times.extend(time);
+                    places.push((self.rows.line(), std::mem::take(&mut self.left_out)));
                     pairs.push(pair);
                 }
                 Ok(None) => break,
@@ -116,31 +113,16 @@ impl Delimited {
         }
         let mut broken = self.rows.mostly_garbled();
         self.axis = TimeAxis::of(&times, self.rows.printed);
-        if let Some(&(pair, _)) = places.first() {
-            let before = self
-                .axis
-                .as_ref()
-                .map_or(0.0, |axis| pair as f64 / axis.rate());
-            self.start = times[0] - before;
-            self.timed = pair;
-        }
+        self.start = times.first().copied().unwrap_or(0.0);
         let uneven = match &self.axis {
-            _ if are_paired(&times) => {
-                let (pair, line) = places[0];
-                Some((pair, self.time_fault(line, TimeFault::Paired)))
-            }
-            Some(_) => times
-                .iter()
-                .zip(&places)
-                .skip(1)
-                .find_map(|(&time, &(pair, line))| {
-                    let fault = self.check(pair, line, time).err()?;
-                    Some((pair, fault))
-                }),
-            None => standstill(&times, self.rows.printed).map(|(index, fault)| {
-                let (pair, line) = places[index];
-                (pair, self.time_fault(line, fault))
+            _ if are_paired(&times) => Some((0, self.time_fault(places[0].0, TimeFault::Paired))),
+            Some(_) => (1..times.len()).find_map(|pair| {
+                let (line, left_out) = places[pair];
+                let fault = self.check(pair as u64, line, times[pair], left_out).err()?;
+                Some((pair as u64, fault))
             }),
+            None => standstill(&times, self.rows.printed)
+                .map(|(pair, fault)| (pair as u64, self.time_fault(places[pair].0, fault))),
         };
         if let Some((pair, fault)) = uneven
             && broken.as_ref().is_none_or(|&(first, _)| pair < first)
@@ -174,32 +156,29 @@ impl Delimited {
         }
     }
 
-    /// Takes the time of this line, before which there were so many pairs.
-    fn check(&mut self, before: u64, line: u64, time: f64) -> Result<(), InputError> {
+    /// Takes the time of this line, before which there were so many pairs, and just before it so many lines left out.
+    fn check(
+        &mut self,
+        before: u64,
+        line: u64,
+        time: f64,
+        left_out: u64,
+    ) -> Result<(), InputError> {
         let Some(axis) = &mut self.axis else {
             return Ok(());
         };
         let last = axis.last();
-        let unknown = before - self.timed - 1;
-        self.timed = before;
-        let fault = match axis.check(time, self.rows.printed) {
-            Ok(steps) if steps == unknown => return Ok(()),
-            Ok(steps) if steps > unknown => {
-                let lost = steps - unknown;
-                let sequence = self.rows.header.sequence;
-                let times = [last, time]
-                    .map(|time| sequence.map_or(time, |sequence| sequence.seconds(time)));
-                self.gaps.add(Gap { before, lost }, line, times);
-                return Ok(());
-            }
-            // More lines than there was time for.
-            Ok(_) => TimeFault::Uneven {
-                step: (time - last) / (unknown + 1) as f64,
-                usual: 1.0 / axis.rate(),
-            },
-            Err(fault) => fault,
-        };
-        Err(self.time_fault(line, fault))
+        let lost = axis.check(time, self.rows.printed);
+        let lost = lost.map_err(|fault| self.time_fault(line, fault))?;
+        if lost > 0 {
+            let sequence = self.rows.header.sequence;
+            let times =
+                [last, time].map(|time| sequence.map_or(time, |sequence| sequence.seconds(time)));
+            let is_explained = lost <= left_out;
+            self.gaps
+                .add(Gap { before, lost }, line, times, is_explained);
+        }
+        Ok(())
     }
 
     /// Warns of a time column that is read as what it hardly is.
@@ -238,19 +217,25 @@ impl Source for Delimited {
             if let Some(fault) = self.fault.take() {
                 return Err(fault);
             }
-            let Some((time, pair)) = self.rows.next()? else {
+            let Some(row) = self.rows.next()? else {
                 break;
             };
-            if let Some(time) = time {
-                self.check(self.pairs, self.rows.line(), time)?;
+            if let Row::Pair(Some(time), _) = row {
+                let left_out = std::mem::take(&mut self.left_out);
+                self.check(self.pairs, self.rows.line(), time, left_out)?;
             }
             if let Some((_, fault)) = self.rows.mostly_garbled() {
                 return Err(fault);
             }
-            self.pairs += 1;
-            pairs.push(pair);
+            match row {
+                Row::LeftOut => self.left_out += 1,
+                Row::Pair(_, pair) => {
+                    self.pairs += 1;
+                    pairs.push(pair);
+                }
+            }
             // The next line may take its time.
-            if self.live && self.rows.is_drained() {
+            if self.live && self.rows.is_drained() && !pairs.is_empty() {
                 break;
             }
         }
@@ -273,7 +258,20 @@ impl Source for Delimited {
         self.gaps.pass(is_told);
     }
 
+    fn look(&mut self, start: u64, end: u64) {
+        self.rows.left_out.look(start, end);
+    }
+
     fn lost(&self) -> Option<InputError> {
+        if let Some((first, count)) = self.rows.left_out.told() {
+            return Some(InputError::LeftOut {
+                file: self.file.clone(),
+                place: first.place,
+                told: first.told.clone(),
+                count,
+                lost: self.gaps.told(),
+            });
+        }
         let (line, fault) = self.gaps.fault()?;
         Some(self.time_fault(line, fault))
     }

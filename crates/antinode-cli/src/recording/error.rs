@@ -170,9 +170,9 @@ pub enum InputError {
         found: u64,
         channels: usize,
     },
-    /// NaN, an infinity, a number beyond single precision, or text: told once all is read.
+    /// NaN, an infinity, a number beyond single precision, text, or a broken line: told once all is read.
     #[error(
-        "{file}{}: sample pair {pair} (from 0), {told}, not a finite number{}; \
+        "{file}{}: sample pair {pair} (from 0), {told}{}; \
          rows of windows with one are flagged or missing, the others are good: mend what wrote it",
         place.map_or(String::new(), |place| format!(":{place}")),
         if *.count == 1 { String::new() } else { format!(", the first of {count}") }
@@ -207,6 +207,23 @@ pub enum InputError {
     )]
     NpyPipe { file: String },
 
+    /// Lines of text whose time is not known; and the line that other samples are lost before, with how many: told once all is read.
+    #[error(
+        "{file}:{place}: {told}: the line is left out{}{}; \
+         rows of windows that lack a sample are missing, the others are good: mend what wrote it",
+        if *.count == 1 { String::new() } else { format!(", the first of {count}") },
+        lost.map_or(String::new(), |(line, lost)| {
+            let samples = if lost == 1 { "sample is" } else { "samples are" };
+            format!(", and before line {line} {lost} {samples} lost")
+        })
+    )]
+    LeftOut {
+        file: String,
+        place: Place,
+        told: String,
+        count: u64,
+        lost: Option<(u64, u64)>,
+    },
     /// A line of text is wrong.
     #[error("{file}:{place}: {fault}")]
     Line {

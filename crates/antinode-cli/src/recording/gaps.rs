@@ -32,16 +32,19 @@ struct Found {
     line: u64,
     from: f64,
     to: f64,
+    /// Whether lines that were left out had its samples.
+    is_explained: bool,
 }
 
 impl Gaps {
-    /// Takes one that was found before this line, between these times.
-    pub fn add(&mut self, gap: Gap, line: u64, [from, to]: [f64; 2]) {
+    /// Takes one that was found before this line, between these times; it may be told otherwise.
+    pub fn add(&mut self, gap: Gap, line: u64, [from, to]: [f64; 2], is_explained: bool) {
         let found = Found {
             gap,
             line,
             from,
             to,
+            is_explained,
         };
         self.ahead.push_back(found);
     }
@@ -53,11 +56,17 @@ impl Gaps {
 
     /// Passes the next one; it `is_told` at the end, or not.
     pub fn pass(&mut self, is_told: bool) {
-        if let Some(found) = self.ahead.pop_front().filter(|_| is_told) {
+        let passed = self.ahead.pop_front();
+        if let Some(found) = passed.filter(|found| is_told && !found.is_explained) {
             self.count += 1;
             self.lost += found.gap.lost;
             self.first.get_or_insert(found);
         }
+    }
+
+    /// The line of the first one, and how many samples are lost in all.
+    pub fn told(&self) -> Option<(u64, u64)> {
+        Some((self.first?.line, self.lost))
     }
 
     /// The line of the first one, and what is to be told of all.

@@ -10,6 +10,7 @@ mod frame;
 mod gaps;
 mod header;
 mod heading;
+mod left_out;
 mod lines;
 mod no_number;
 mod not_finite;
@@ -228,7 +229,7 @@ impl Recording {
         self.opened.source.pass_gap(is_told);
     }
 
-    /// What is wrong with the gaps passed so far that are to be told, if there are any.
+    /// What is wrong with the gaps passed so far that are to be told and with lines left out, if there are any.
     pub fn lost(&self) -> Option<InputError> {
         self.opened.source.lost()
     }
@@ -255,8 +256,9 @@ impl Recording {
         Ok(buffer.len())
     }
 
-    /// Looks for what is no finite number in `pairs`, before which the recording had so many: only these are told.
+    /// Looks for what is no finite number or left out in `pairs`, before which the recording had so many: only these are told.
     pub fn look(&mut self, before: u64, pairs: &[[f32; 2]]) {
+        self.opened.source.look(before, before + pairs.len() as u64);
         // Integers are all finite.
         if self.opened.full_scale.is_none() {
             self.not_finite.look(before, pairs);

@@ -14,11 +14,14 @@ pub(super) struct First {
 impl First {
     /// What it is, in words.
     pub fn told(self) -> String {
-        format!("{}: the value is {}", self.channel, self.value)
+        format!(
+            "{}: the value is {}, not a finite number",
+            self.channel, self.value
+        )
     }
 }
 
-/// The first of them as a line of text has it.
+/// What is wrong with a line of text that costs no more than itself.
 #[derive(Debug, Clone)]
 pub(super) struct Written {
     /// The pairs before it.

@@ -69,7 +69,10 @@ pub(super) trait Source {
     /// Passes the next gap; it is told at the end, or not.
     fn pass_gap(&mut self, _is_told: bool) {}
 
-    /// What to tell, at the end, of samples that are missing.
+    /// The pairs from `start` up to `end` are asked for: what is left out among them is told at the end.
+    fn look(&mut self, _start: u64, _end: u64) {}
+
+    /// What to tell, at the end, of samples that are missing and of lines that are left out.
     fn lost(&self) -> Option<InputError> {
         None
     }

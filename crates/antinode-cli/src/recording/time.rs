@@ -87,9 +87,11 @@ impl TimeAxis {
         let uncertainty = runs * rounding / count;
         let mean = sum / count;
         let rate = roundest(1.0 / mean, uncertainty / mean / mean);
-        let ragged = steps
-            .iter()
-            .filter(|&step| (step / mean - 1.0).abs() > STEP_TOLERANCE)
+        // A rate that changes makes many uneven steps too, but these are alike: of them the first counts.
+        let is_off = |step: f64, usual: f64| ((step - usual) / mean).abs() > STEP_TOLERANCE;
+        let ragged = (0..steps.len())
+            .filter(|&at| is_off(steps[at], mean))
+            .filter(|&at| at == 0 || is_off(steps[at], steps[at - 1]))
             .count();
         let rounding = printed.step(*start);
         Some(Self {

@@ -53,6 +53,12 @@ pub(super) fn is_bracketed(name: &str) -> bool {
     name.trim_end().ends_with([']', ')'])
 }
 
+/// A column's name without the brackets at its end: `U` of `U [V]`.
+pub(super) fn without_unit(name: &str) -> &str {
+    let start = name.rfind(['[', '(']).filter(|_| is_bracketed(name));
+    name[..start.unwrap_or(name.len())].trim_end()
+}
+
 /// Whether the brackets at the end of a time column's name hold something that is no unit of time known.
 pub(super) fn has_unknown_unit(name: &str) -> bool {
     let unit = of_name(name);

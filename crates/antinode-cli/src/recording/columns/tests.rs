@@ -59,6 +59,44 @@ fn a_choice_is_by_name_or_number() {
 }
 
 #[test]
+fn a_name_may_be_chosen_without_its_unit() {
+    let header = "time (ms),c (mV),d [V],U_1(V)";
+    let usual = Ok([Some(0), Some(1), Some(2)]);
+    assert_eq!(places(header, Some("time,c,d")), usual);
+    assert_eq!(places(header, Some("time (ms),c (mV),d")), usual);
+    assert_eq!(
+        places(header, Some("U_1,d [V]")),
+        Ok([None, Some(3), Some(2)])
+    );
+    // The whole name goes before, and a number after it.
+    assert_eq!(
+        places("c (V),c,d (V)", Some("c,d")),
+        Ok([None, Some(1), Some(2)])
+    );
+    assert_eq!(
+        places("t (s),x (V),1 (V)", Some("t,1,2")),
+        Ok([Some(0), Some(2), Some(1)])
+    );
+    let unsure = places("c (V),c (mV),d", Some("c,d")).unwrap_err();
+    assert!(unsure.starts_with("there is no column `c`; choose among `c (V)`"));
+}
+
+#[test]
+fn no_column_is_chosen_twice() {
+    for (chosen, number) in [
+        ("3,3", 3),
+        ("1,2,2", 2),
+        ("2,2,3", 2),
+        ("3,2,3", 3),
+        ("c,2", 2),
+    ] {
+        let told = format!("column {number} is chosen twice; choose one each of");
+        let fault = places("time,c,d", Some(chosen)).unwrap_err();
+        assert!(fault.starts_with(&told), "{chosen}: {fault}");
+    }
+}
+
+#[test]
 fn errors_name_the_columns() {
     let fault = |header, chosen| places(header, chosen).unwrap_err();
     assert!(fault("a", None).starts_with("found 1 column, but two"));

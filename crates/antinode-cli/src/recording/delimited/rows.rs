@@ -4,11 +4,13 @@ use super::super::Stream;
 use super::super::columns::Columns;
 use super::super::error::{InputError, LineFault, Place, Role, TimeFault};
 use super::super::header::{Header, lossy};
+use super::super::left_out::LeftOut;
 use super::super::lines::Lines;
 use super::super::no_number::stand_in;
 use super::super::not_finite::Written;
 use super::super::printed::Printed;
 use super::super::text::number;
+use super::fields::{cut, missing, place};
 
 /// How much of a bad field an error shows.
 const SHOWN_LETTERS: usize = 40;
@@ -16,8 +18,13 @@ const SHOWN_LETTERS: usize = 40;
 /// So many bad lines before the first good one are no glitch, but something other than samples.
 const NO_GLITCH: u64 = 2;
 
-/// A line's time, if it is known, and its pair.
-pub(super) type Row = (Option<f64>, [f32; 2]);
+/// What a line is read as.
+pub(super) enum Row {
+    /// Its time, where there is a column of times, and its pair.
+    Pair(Option<f64>, [f32; 2]),
+    /// Nothing, for its time is not known.
+    LeftOut,
+}
 
 /// Reads lines of numbers.
 pub(super) struct Rows {
@@ -27,11 +34,14 @@ pub(super) struct Rows {
     pub printed: Printed,
     /// The first sample that is not a finite number.
     not_finite: Option<Written>,
-    /// The lines read.
+    /// The lines that are left out.
+    pub left_out: LeftOut,
+    /// The lines read, and the pairs among them.
     read: u64,
-    /// Those of them with a field that is no number and stands for none.
+    pairs: u64,
+    /// Those lines with a field that is no number and stands for none, or with too many or too few.
     garbled: u64,
-    /// The first of those: the lines before it, and what is wrong with it.
+    /// The first of those: the pairs before it, and what is wrong with it.
     first_garbled: Option<(u64, InputError)>,
     /// Those before the first that was good.
     garbled_before: u64,
@@ -48,7 +58,9 @@ impl Rows {
             header,
             printed: Printed::default(),
             not_finite: None,
+            left_out: LeftOut::default(),
             read: 0,
+            pairs: 0,
             garbled: 0,
             first_garbled: None,
             garbled_before: 0,
@@ -75,10 +87,24 @@ impl Rows {
         self.not_finite.clone()
     }
 
-    /// The first line with a field that is no number, told once, where most lines have one: the lines before it, and its fault.
+    /// The lines read so far.
+    pub fn read(&self) -> u64 {
+        self.read
+    }
+
+    /// True where the first lines are garbled, and more of them than a glitch leaves.
+    pub fn begin_garbled(&self) -> bool {
+        self.garbled_before >= NO_GLITCH
+    }
+
+    /// The first garbled line, told once, where most lines are: the pairs before it, and its fault.
     pub fn mostly_garbled(&mut self) -> Option<(u64, InputError)> {
-        let are_most = 2 * self.garbled > self.read || self.garbled_before >= NO_GLITCH;
-        self.first_garbled.take_if(|_| are_most)
+        let are_most = 2 * self.garbled > self.read || self.begin_garbled();
+        let first = self.first_garbled.take_if(|_| are_most);
+        if first.is_some() {
+            self.left_out.clear();
+        }
+        first
     }
 
     /// The next line's; none at the end.
@@ -93,7 +119,15 @@ impl Rows {
                 break;
             }
         }
-        let texts = texts(&self.file, &self.lines, &self.header)?;
+        let line = cut(&self.file, &self.lines, &self.header);
+        let texts = line.texts;
+        let (broken, told_broken) = line.broken.unzip();
+        let of_line = Place {
+            line: self.lines.number(),
+            column: None,
+        };
+        let mut time =
+            number::<f64>(texts[0], self.lines.separator).filter(|time| time.is_finite());
         let mut pair = [f32::NAN; 2];
         // The role of the field that is no finite number, and of the one that is nothing at all.
         let (mut odd, mut garbled) = (None, None);
@@ -109,25 +143,37 @@ impl Rows {
                 odd = odd.or(Some((role, read)));
             }
         }
-        let mut time =
-            number::<f64>(texts[0], self.lines.separator).filter(|time| time.is_finite());
         if let Some(time) = &mut time {
             self.printed.see(texts[0], *time, self.header.exponent);
             *time /= 10f64.powi(-self.header.exponent);
-        } else if self.header.places[0].is_some() {
-            // Where in time the pair belongs is not certain: one of both is enough to say so.
-            pair[0] = f32::NAN;
+        }
+        let is_left_out = time.is_none() && self.header.places[0].is_some();
+        if is_left_out {
             (odd, garbled) = (Some((0, None)), Some(0));
         }
-        if let (None, Some((role, read))) = (&self.not_finite, odd) {
-            let told = told(Role::ALL[role], texts[role], read);
-            let place = self.place(role);
-            let pair = self.read;
-            self.not_finite = Some(Written { pair, place, told });
+        if let Some((role, read)) = odd
+            && (is_left_out || self.not_finite.is_none())
+        {
+            let (place, told) = match told_broken {
+                Some(told) if is_left_out => (of_line, told),
+                Some(told) => (of_line, format!("{told}, so no finite number")),
+                None => (self.place(role), told(Role::ALL[role], texts[role], read)),
+            };
+            let written = Written {
+                pair: self.pairs,
+                place,
+                told,
+            };
+            if is_left_out {
+                self.left_out.add(written);
+            } else {
+                self.not_finite = Some(written);
+            }
         }
-        if let Some(role) = garbled {
+        let garbled = garbled.map(|role| self.no_number(role, texts[role]));
+        if let Some(fault) = broken.or(garbled) {
             if self.garbled == 0 {
-                self.first_garbled = Some((self.read, self.no_number(role, texts[role])));
+                self.first_garbled = Some((self.pairs, fault));
             }
             self.garbled += 1;
         }
@@ -135,7 +181,11 @@ impl Rows {
         if self.garbled == self.read {
             self.garbled_before = self.garbled;
         }
-        Ok(Some((time, pair)))
+        if is_left_out {
+            return Ok(Some(Row::LeftOut));
+        }
+        self.pairs += 1;
+        Ok(Some(Row::Pair(time, pair)))
     }
 
     fn place(&self, role: usize) -> Place {
@@ -160,7 +210,7 @@ impl Rows {
     }
 }
 
-/// What a field that is no finite number is, in words; `read` is the number that it holds all the same.
+/// What a field is that is no finite number, in words; `read` is the number that it holds all the same.
 fn told(role: Role, text: &[u8], read: Option<f32>) -> String {
     let value = match read {
         _ if text.is_empty() => "missing".to_owned(),
@@ -168,8 +218,8 @@ fn told(role: Role, text: &[u8], read: Option<f32>) -> String {
         None => format!("`{}`", shown(text)),
     };
     match role {
-        Role::Time => format!("the time is {value}"),
-        Role::Signal(channel) => format!("{channel}: the value is {value}"),
+        Role::Time => format!("the time is {value}, not a finite number"),
+        Role::Signal(channel) => format!("{channel}: the value is {value}, not a finite number"),
     }
 }
 
@@ -180,55 +230,4 @@ fn shown(field: &[u8]) -> String {
         .flat_map(char::escape_debug)
         .take(SHOWN_LETTERS)
         .collect()
-}
-
-/// The time and the two samples of this line as they are written; nothing for a time that is not asked for.
-fn texts<'a>(file: &str, lines: &'a Lines, header: &Header) -> Result<[&'a [u8]; 3], InputError> {
-    let mut found = [None; 3];
-    let (mut count, mut last_is_blank) = (0, false);
-    for field in lines.fields() {
-        for (text, place) in found.iter_mut().zip(header.places) {
-            if place == Some(count) {
-                *text = Some(field);
-            }
-        }
-        (count, last_is_blank) = (count + 1, field.is_empty());
-    }
-    // One mark at the end of a line ends its last field; it does not begin another.
-    if count > header.width + usize::from(last_is_blank) {
-        let fault = LineFault::FieldCount {
-            found: count,
-            expected: header.width,
-        };
-        return Err(InputError::line(file, lines.number(), fault));
-    }
-    let mut texts = [&[][..]; 3];
-    for (role, text) in found.into_iter().enumerate() {
-        if header.places[role].is_some() {
-            texts[role] =
-                text.ok_or_else(|| missing(file, header, place(lines, header, role), role))?;
-        }
-    }
-    Ok(texts)
-}
-
-/// This line, and the column of this `role`.
-fn place(lines: &Lines, header: &Header, role: usize) -> Place {
-    Place {
-        line: lines.number(),
-        column: header.places[role].map(|place| place + 1),
-    }
-}
-
-/// The error for a line in which there is nothing of this `role`.
-fn missing(file: &str, header: &Header, place: Place, role: usize) -> InputError {
-    let fault = match Role::ALL[role] {
-        Role::Time => header.time_fault(TimeFault::Missing),
-        role => LineFault::FieldMissing { role },
-    };
-    InputError::Line {
-        file: file.to_owned(),
-        place,
-        fault,
-    }
 }

@@ -61,6 +61,11 @@ pub enum LineFault {
     /// A column asked for that is not there.
     #[error("there is no column `{wanted}`; choose among {known} with {COLUMNS_OPTION}")]
     ColumnUnknown { wanted: String, known: String },
+    /// One column for two of the time and the signals.
+    #[error(
+        "column {number} is chosen twice; choose one each of the time, S_C and S_D with {COLUMNS_OPTION}"
+    )]
+    ColumnTwice { number: usize },
     /// A field too few.
     #[error("{role} is missing here; complete or delete the line")]
     FieldMissing { role: Role },

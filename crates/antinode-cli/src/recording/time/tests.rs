@@ -1,5 +1,7 @@
 //! Times as programs print them, true and false.
 
+mod change;
+
 use super::*;
 
 /// The rate of times as they are printed, the first `head` of them read ahead; what is lost counts as a fault.

@@ -1,0 +1,78 @@
+//! The fields of a line, and which of them can be trusted.
+
+use super::super::error::{InputError, LineFault, Place, Role, TimeFault};
+use super::super::header::Header;
+use super::super::lines::Lines;
+
+/// What a line has of what is asked for.
+pub(super) struct Fields<'a> {
+    /// The time and the two samples as they are written; nothing for what is not asked for, or not there for sure.
+    pub texts: [&'a [u8]; 3],
+    /// The fault of a line of too many or too few fields, and what it is in words.
+    pub broken: Option<(InputError, String)>,
+}
+
+/// The fields of this line.
+pub(super) fn cut<'a>(file: &str, lines: &'a Lines, header: &Header) -> Fields<'a> {
+    let mut found = [None; 3];
+    let (mut count, mut last_is_blank) = (0, false);
+    for field in lines.fields() {
+        for (text, place) in found.iter_mut().zip(header.places) {
+            if place == Some(count) {
+                *text = Some(field);
+            }
+        }
+        (count, last_is_blank) = (count + 1, field.is_empty());
+    }
+    // One mark at the end of a line ends its last field; it does not begin another.
+    let is_long = count > header.width + usize::from(last_is_blank);
+    let mut roles = 0..Role::ALL.len();
+    let short = roles.find(|&role| header.places[role].is_some() && found[role].is_none());
+    let fault = if is_long {
+        let fault = LineFault::FieldCount {
+            found: count,
+            expected: header.width,
+        };
+        Some(InputError::line(file, lines.number(), fault))
+    } else {
+        short.map(|role| missing(file, header, place(lines, header, role), role))
+    };
+    for (text, place) in found.iter_mut().zip(header.places) {
+        // Of two lines run together nothing is sure; of one that is cut off, all but the field it is cut in.
+        if is_long || short.is_some() && place.is_some_and(|place| place + 1 == count) {
+            *text = None;
+        }
+    }
+    let fields = if count == 1 { "field" } else { "fields" };
+    let told = || {
+        format!(
+            "a line of {count} {fields} where the first has {}",
+            header.width
+        )
+    };
+    Fields {
+        texts: found.map(Option::unwrap_or_default),
+        broken: fault.map(|fault| (fault, told())),
+    }
+}
+
+/// This line, and the column of this `role`.
+pub(super) fn place(lines: &Lines, header: &Header, role: usize) -> Place {
+    Place {
+        line: lines.number(),
+        column: header.places[role].map(|place| place + 1),
+    }
+}
+
+/// The error for a line in which there is nothing of this `role`.
+pub(super) fn missing(file: &str, header: &Header, place: Place, role: usize) -> InputError {
+    let fault = match Role::ALL[role] {
+        Role::Time => header.time_fault(TimeFault::Missing),
+        role => LineFault::FieldMissing { role },
+    };
+    InputError::Line {
+        file: file.to_owned(),
+        place,
+        fault,
+    }
+}

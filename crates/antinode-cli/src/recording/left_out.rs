@@ -1,0 +1,69 @@
+//! Lines of a text recording that are left out, for when they were is not known: they are told at the end.
+
+use std::collections::VecDeque;
+
+use super::not_finite::Written;
+
+/// No more pairs than these are read before they are looked at or passed.
+const MOST_AHEAD: usize = 1 << 19;
+
+/// The lines left out so far.
+#[derive(Debug, Default)]
+pub(super) struct LeftOut {
+    /// Those behind pairs that are still to be looked at.
+    ahead: VecDeque<Run>,
+    /// The first of those to be told, and how many they are.
+    first: Option<Written>,
+    count: u64,
+    /// The pairs up to the last one looked at.
+    looked: u64,
+}
+
+/// Lines behind the same pair.
+#[derive(Debug)]
+struct Run {
+    first: Written,
+    count: u64,
+}
+
+impl LeftOut {
+    /// Takes one more.
+    pub fn add(&mut self, line: Written) {
+        match self.ahead.back_mut() {
+            Some(run) if run.first.pair == line.pair => run.count += 1,
+            _ => self.ahead.push_back(Run {
+                first: line,
+                count: 1,
+            }),
+        }
+        // Before the first pair that is asked for, none is looked at.
+        if self.ahead.len() > MOST_AHEAD {
+            self.ahead.pop_front();
+        }
+    }
+
+    /// The pairs from `start` up to `end` are looked at: lines before these are not asked for.
+    pub fn look(&mut self, start: u64, end: u64) {
+        let passed = self.ahead.partition_point(|run| run.first.pair < end);
+        for run in self.ahead.drain(..passed) {
+            if run.first.pair >= start {
+                self.count += run.count;
+                self.first.get_or_insert(run.first);
+            }
+        }
+        self.looked = end;
+    }
+
+    /// The first of those to be told, and how many they are; lines just behind the last pair looked at are among them.
+    pub fn told(&self) -> Option<(&Written, u64)> {
+        let behind = self.ahead.front();
+        let behind = behind.filter(|run| run.first.pair == self.looked);
+        let first = self.first.as_ref().or(behind.map(|run| &run.first))?;
+        Some((first, self.count + behind.map_or(0, |run| run.count)))
+    }
+
+    /// Forgets them all: a fault tells of them.
+    pub fn clear(&mut self) {
+        *self = Self::default();
+    }
+}

@@ -34,6 +34,31 @@ fn settings(periods: u16, hum: bool) -> Settings {
 }
 
 #[test]
+fn slow_waves_in_much_hum_are_not_clipped() {
+    for (period, periods) in [(100.0, 5), (60.0, 5), (60.0, 10), (18.75, 10)] {
+        for size in [0.1, 0.3, 1.0] {
+            let wave = random_wave(27, RATE / period, 0.5);
+            let size = size * wave.main_amplitude;
+            let flaws = Flaws {
+                noise: size / 50.0,
+                ..Flaws::default()
+            };
+            let samples = (period * f64::from(periods) * 200.0) as usize;
+            let settings = settings(periods, true);
+            let found = identify_changed(wave, &flaws, settings, samples, 27, |k, [c, d]| {
+                let tone = size * (std::f64::consts::TAU * 50.0 * k as f64 / RATE).cos();
+                [c + tone, d + 0.8 * tone]
+            });
+            assert!(found.len() > 190, "{}", found.len());
+            for estimate in &found {
+                let label = format!("{period} samples a period, {periods} periods, {size}");
+                assert!(estimate.flags.is_empty(), "{label}: {}", estimate.flags);
+            }
+        }
+    }
+}
+
+#[test]
 fn the_bound_is_reached_in_hum() {
     for size in [0.0, 1e-3, 0.01] {
         for periods in [5, 10, 50] {

@@ -74,6 +74,43 @@ fn windows_reach_the_bound_from_the_first_sample_on() {
 }
 
 #[test]
+fn noise_nearly_as_large_as_the_wave_hides_none_in_long_windows() {
+    for (period, noise) in [(3.3, 0.5), (5.0, 0.5), (8.0, 0.8), (12.0, 0.8), (60.0, 0.8)] {
+        for periods in [200, 1000] {
+            let mut honesty = Honesty::default();
+            for seed in 0..10 {
+                let wave = random_wave(seed, RATE / period, 0.3);
+                let flaws = Flaws {
+                    noise: noise * wave.main_amplitude,
+                    ..Flaws::default()
+                };
+                let samples = (period * f64::from(periods) * 5.6) as usize;
+                let settings = told(periods, wave.frequency, 0.0);
+                let mut core =
+                    Box::new(antinode::Identifier::<f32, 256, 1024>::new(settings).unwrap());
+                let mut found = Vec::new();
+                core.extend(&host_tests::stream(wave, flaws, samples, seed), |e| {
+                    found.push(e)
+                });
+                let label = format!("{period} samples a period, {periods} periods, seed {seed}");
+                assert_eq!(
+                    found.first().map(|estimate| estimate.start),
+                    Some(0),
+                    "{label}"
+                );
+                for estimate in &found {
+                    assert!(estimate.flags.is_empty(), "{label}: {}", estimate.flags);
+                    honesty.add(estimate, &wave);
+                }
+            }
+            for ratio in honesty.ratios() {
+                assert!((0.65..1.45).contains(&ratio), "{period} {periods}: {ratio}");
+            }
+        }
+    }
+}
+
+#[test]
 fn the_shortest_windows_know_their_noise() {
     for period in [2.52, 2.6, 2.7] {
         let (mut honesty, mut rows, mut flagged) = (Honesty::default(), 0, 0);

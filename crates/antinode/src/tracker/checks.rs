@@ -15,6 +15,9 @@ pub(super) const SIGMAS: f32 = 7.0;
 const REACH_ONCE: f32 = 4.75;
 /// Third harmonic, as a share of a_A, that common electronics may have.
 const HARMONIC_FLOOR: f32 = 1e-3;
+/// Third harmonic that the slopes of hum within blocks may leave, as a share of the hum's rms: 0.05 was seen, of a twentieth of the wave's
+/// frequency in windows of five periods.
+const HUM_IN_HARMONIC: f32 = 0.1;
 /// Residual, as a share of a_A, that rounding and converters may leave: (2·10⁻⁴)².
 const RESIDUAL_FLOOR: f32 = 4e-8;
 /// Residual of a first window's blocks, as a share of the wave's own power, beyond which it is no wave: 20 % noise leaves 0.1.
@@ -34,9 +37,14 @@ pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -
         remains.residual,
         remains.third_noise * remains.third_freedom,
     );
+    // White noise in a long window is more than any share of the wave.
+    let is_noise = remains.third_freedom >= 12.0
+        && !is_hidden(wave)
+        && wave.record.residual < RISE * remains.third_noise
+        && remains.third_noise < RISE * wave.record.residual;
     // Long blocks show a little of a wave at another frequency, and leave more, which is as white as noise: what a step leaves is not.
     let alias = is_hidden(wave) && COLOUR * remains.third_noise > wave.record.residual;
-    !is_significant(wave) || strange > STRANGER * explained || alias
+    !is_significant(wave) || strange > STRANGER * explained && !is_noise || alias
 }
 
 /// True when there is more noise than wave.
@@ -150,11 +158,13 @@ fn has_harmonic(
     [1.0, per_gain]
         .iter()
         .zip(&remains.third)
-        .any(|(gain, third)| {
+        .zip(&remains.wander)
+        .any(|((gain, third), wander)| {
             let square = gain * gain * third.norm_sqr();
             square > floor * floor && {
                 let chance = square_root(1.2 * share * noise) + square_root(share * coding);
-                let limit = SIGMAS * gain * chance + floor;
+                let hum = gain * HUM_IN_HARMONIC * square_root(*wander);
+                let limit = SIGMAS * gain * chance + hum + floor;
                 square > limit * limit
             }
         })

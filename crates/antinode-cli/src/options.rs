@@ -62,6 +62,8 @@ pub enum Command {
     /// frequencies of the two modes are apart, and the pattern angle at which each is greatest; and how fast rotation turns each run's
     /// pattern. Give ring-downs that turn both ways: where all turn one way, what a calibration leaves looks like splits.
     ///
+    /// A frequency that depends on the amplitude turns the pattern too, which is not in the fit.
+    ///
     /// A run ends where the wave is lost or jumps: one recording may hold several ring-downs, and missing samples do not falsify the
     /// rates.
     Resonator(Resonator),

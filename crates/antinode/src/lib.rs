@@ -148,6 +148,9 @@
 //!   none of them, and a third harmonic below 10⁻³ of a_A raises no flag: a cubic of that size may move a_A by 0.4 %, θ by
 //!   5·10⁻⁴ rad and, with |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. A second harmonic puts 2·10⁻³ of itself into a_A and phase
 //!   in windows of 10 periods that are not a whole number of samples.
+//! - Blocks of two periods hardly see a tone at half an odd multiple of f: 3·10⁻³ of a_A at f/2, in noise of 10⁻⁴, moved a_A and phase by 4
+//!   deviations, rms, without a flag.
+//! - Jitter of the sampling, common to both pick-offs, makes f and phase scatter by 1.8 of their deviations, θ and a_B by a fifth.
 //! - Amplitudes are 10⁻¹⁵ to 10¹⁷ input units, so that their squares are numbers of f32. Beyond that there may be no estimate, and no flag.
 //! - Sums of f32 round: in noise below 2·10⁻⁴ of a_A an offset beyond twenty times a_A, at 140 samples a period or more, is a misfit.
 //!   Codes do not, nor do f32 samples whose offset is subtracted first.

@@ -15,9 +15,9 @@ pub(super) const SIGMAS: f32 = 7.0;
 const REACH_ONCE: f32 = 4.75;
 /// Third harmonic, as a share of a_A, that common electronics may have.
 const HARMONIC_FLOOR: f32 = 1e-3;
-/// Third harmonic that the slopes of hum within blocks may leave, as a share of the hum's rms: 0.05 was seen, of a twentieth of the wave's
-/// frequency in windows of five periods.
-const HUM_IN_HARMONIC: f32 = 0.1;
+/// The square of what [`SIGMAS`] times is 0.1 of the hum's rms: its slopes within blocks leave up to 0.05 of that as third harmonic, seen of
+/// a twentieth of the wave's frequency in windows of five periods.
+const HUM_IN_HARMONIC: f32 = 2e-4;
 /// Residual, as a share of a_A, that rounding and converters may leave: (2·10⁻⁴)².
 const RESIDUAL_FLOOR: f32 = 4e-8;
 /// Residual of a first window's blocks, as a share of the wave's own power, beyond which it is no wave: 20 % noise leaves 0.1.
@@ -26,25 +26,21 @@ const STRANGER: f32 = 0.25;
 pub(super) const COLOUR: f32 = 16.0;
 
 /// True when the first window after a search holds no wave, or as much else beside it: two tones, say.
-pub(crate) fn is_no_wave(fit: &Fit, wave: &Standing, blocks: u16, length: u16) -> bool {
+pub(crate) fn is_no_wave(model: &Model, fit: &Fit, wave: &Standing) -> bool {
     let remains = &fit.remains;
-    let samples = f32::from(blocks) * f32::from(length);
-    let explained = 0.5
-        * samples
+    let explained = model.half
         * (wave.record.main.value * wave.record.main.value
             + wave.record.quadrature.value * wave.record.quadrature.value);
     let strange = greater(
         remains.residual,
         remains.third_noise * remains.third_freedom,
     );
-    // White noise in a long window is more than any share of the wave.
-    let is_noise = remains.third_freedom >= 12.0
-        && !is_hidden(wave)
-        && wave.record.residual < RISE * remains.third_noise
-        && remains.third_noise < RISE * wave.record.residual;
+    // White noise in a long window is more than any share of the wave; where none is watched, nothing is known to be white.
+    let (own, third) = (wave.record.residual, remains.third_noise);
+    let is_white = own < RISE * third && third < RISE * own;
     // Long blocks show a little of a wave at another frequency, and leave more, which is as white as noise: what a step leaves is not.
-    let alias = is_hidden(wave) && COLOUR * remains.third_noise > wave.record.residual;
-    !is_significant(wave) || strange > STRANGER * explained && !is_noise || alias
+    let alias = is_hidden(wave) && COLOUR * third > own;
+    !is_significant(wave) || strange > STRANGER * explained && !is_white || alias
 }
 
 /// True when there is more noise than wave.
@@ -153,18 +149,17 @@ fn has_harmonic(
     let Covariance { even, odd } = &model.covariance;
     let share = greater(even[0][0], odd[0][0]);
     let floor = HARMONIC_FLOOR * wave.record.main.value;
+    let steady = share * coding + HUM_IN_HARMONIC * greater(remains.wander[0], remains.wander[1]);
     let [per_gain, _] = model.correction.noise_gains;
     // As a pick-off of C's gain would see it.
     [1.0, per_gain]
         .iter()
         .zip(&remains.third)
-        .zip(&remains.wander)
-        .any(|((gain, third), wander)| {
+        .any(|(gain, third)| {
             let square = gain * gain * third.norm_sqr();
             square > floor * floor && {
-                let chance = square_root(1.2 * share * noise) + square_root(share * coding);
-                let hum = gain * HUM_IN_HARMONIC * square_root(*wander);
-                let limit = SIGMAS * gain * chance + hum + floor;
+                let chance = square_root(1.2 * share * noise) + square_root(steady);
+                let limit = SIGMAS * gain * chance + floor;
                 square > limit * limit
             }
         })

@@ -36,10 +36,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let averaged = rounding * rounding * (1.0 + model.half);
         // Of a tiny wave the rounding's square is 0 in f32, and 0 over 0 is no share.
         let errors = averaged + coding.expected + f32::MIN_POSITIVE;
-        let samples = u32::from(self.count) * u32::from(model.layout.length);
-        let middle = 2 * self.end - u64::from(samples) - 1;
         let share = (stated + errors) / (noise + errors);
-        let mut wave = Standing::new(model, fit, [noise + errors, share], own, middle);
+        let mut wave = Standing::new(model, fit, [noise + errors, share], own, self.end);
         let flags = self.judge(fit, [coding.most, stated], &mut wave)?;
         Some(make(&self.units, &wave.record, flags))
     }
@@ -54,7 +52,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         wave: &mut Standing,
     ) -> Option<Flags> {
         let model = self.model.as_ref()?;
-        let is_no_wave = checks::is_no_wave(fit, wave, self.count, model.layout.length);
+        let is_no_wave = checks::is_no_wave(model, fit, wave);
         if self.before.is_none() && is_no_wave {
             // The detector was deceived: nothing is reported, and the search goes on.
             self.failures = Failures::ENOUGH;

@@ -223,10 +223,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     fn gather_anew<S: Sample>(&mut self, block: &Block<S>, is_same: bool) -> bool {
         self.gathered.clear();
         if !is_same {
-            // Only without settings.
-            if self.settings.periods == 0 {
-                return false;
-            }
             self.begin(&block.layout);
         }
         self.take(block)
@@ -293,6 +289,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     #[inline(never)]
     fn begin(&mut self, &layout: &Layout) {
         let settings = &self.settings;
+        // Only without settings: no block is taken then.
+        if settings.periods == 0 {
+            return;
+        }
         self.units = Units::at(settings.sample_rate);
         self.count = settings.cut().blocks(layout).clamp(1, BLOCKS as u16);
         let rate = self.units.sample_rate;

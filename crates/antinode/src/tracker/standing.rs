@@ -96,15 +96,17 @@ impl Shares {
 
 impl Standing {
     /// The standing wave of a fit whose noise variance a sample is `noise`, and `share` of that where deviations are stated; `residual` is
-    /// what is left of it, and `middle` that of its window.
+    /// what is left of it, and `end` the index of the sample after its window.
     #[inline(never)]
     pub(crate) fn new(
         model: &Model,
         fit: &Fit,
         [noise, share]: [f32; 2],
         residual: f32,
-        middle: u64,
+        end: u64,
     ) -> Self {
+        let samples = u32::from(model.blocks) * u32::from(model.layout.length);
+        let middle = 2 * end - u64::from(samples) - 1;
         let [plus, minus] = fit.waves.value;
         let [plus_change, minus_change] = fit.waves.change;
         let absolute = |z: Complex32| square_root(z.norm_sqr());
@@ -151,7 +153,7 @@ impl Standing {
             record: Record {
                 middle,
                 angle_middle: middle,
-                samples: u32::from(model.blocks) * u32::from(model.layout.length),
+                samples,
                 residual,
                 share,
                 carrier: model.carrier,

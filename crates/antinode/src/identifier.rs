@@ -148,7 +148,8 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         }
     }
 
-    /// Takes the samples of both pick-offs from a slice each, pair by pair to the end of the shorter one, and hands every estimate to `report`.
+    /// Takes the samples of both pick-offs from a slice each, pair by pair to the end of the shorter one, and hands every estimate to
+    /// `report`.
     ///
     /// It costs a copy, and 32 pairs of stack: [`extend`](Self::extend) takes pairs where they are.
     pub fn extend_separate(&mut self, c: &[S], d: &[S], mut report: impl FnMut(Estimate)) {

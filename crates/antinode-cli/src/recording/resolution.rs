@@ -30,8 +30,8 @@ pub(super) fn resolution(pairs: &[[f32; 2]]) -> Option<f32> {
     steps.into_iter().flatten().reduce(f32::max)
 }
 
-/// The step of integers with `unit` between them where they use few of their bits: a wave without noise that repeats a few values tells it too,
-/// for theirs are exact.
+/// The step of integers with `unit` between them where they use few of their bits: a wave without noise that repeats a few values tells
+/// it too, for these are exact.
 pub(super) fn of_integers(pairs: &[[f32; 2]], unit: f32) -> Option<f32> {
     if unit <= 0.0 {
         return None;

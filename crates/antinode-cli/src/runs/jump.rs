@@ -9,8 +9,8 @@ const FASTER: f64 = 3.0;
 /// Deviations that a change may be beyond that.
 const SIGMAS: f64 = 8.0;
 
-/// True where the main amplitude, the quadrature amplitude or the angle jumps from the last of the `rows` of a run to `next`; not where the run is
-/// too short to tell.
+/// True where the main amplitude, the quadrature amplitude or the angle jumps from the last of the `rows` of a run to `next`; not where
+/// the run is too short to tell.
 pub fn jumps(rows: &[Row], next: &Row) -> bool {
     let Some((last, known)) = rows.last().zip(rows.last_chunk::<KNOWN>()) else {
         return false;

@@ -84,8 +84,8 @@
 //! # Ok::<(), antinode::SettingsError>(())
 //! ```
 //!
-//! Calibration and settings are changed in place: calibration by [`Tracker::calibrate`] in the main loop alone, settings by `configure` on both sides. Samples that
-//! the interrupt missed are told to [`Front::skip`].
+//! Calibration and settings are changed in place: calibration by [`Tracker::calibrate`] in the main loop alone, settings by `configure` on
+//! both sides. Samples that the interrupt missed are told to [`Front::skip`].
 //!
 //! | bytes of RAM on a 32-bit core | `i16` | `f32` | `i32` |
 //! |---|---|---|---|
@@ -129,11 +129,11 @@
 //! - Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: 260 rad/s and 480 1/s in ten periods of
 //!   5332 Hz, 2.6 rad/s and 4.8 1/s in a thousand. Where it turns by more than about 0.6 rad amplitudes are some per cent off, which
 //!   windows of more than ten periods flag as a misfit and shorter ones may not.
-//! - Phase or amplitude that bends within a window, as where the frequency drifts or depends on the amplitude, or damping and frequency are split,
-//!   is a misfit where it bends by much more than the noise (2 Hz/s in a window of 60 ms, say) or than 2·10⁻⁴ of a_A, whichever is more.
-//!   Where it bends less, values may be off: phase where the frequency bends, amplitudes and θ too where there are splits. In windows of 10
-//!   periods that is up to 6 of their deviations, in those of 100 and more up to 30; 6·10⁻⁵ rad of phase in noise of 10⁻⁴ of a_A, 4·10⁻⁴
-//!   rad in noise of 10⁻³. Shorter windows help.
+//! - Phase or amplitude that bends within a window, as where the frequency drifts or depends on the amplitude, or damping and frequency are
+//!   split, is a misfit where it bends by much more than the noise (2 Hz/s in a window of 60 ms, say) or than 2·10⁻⁴ of a_A, whichever is
+//!   more. Where it bends less, values may be off: phase where the frequency bends, amplitudes and θ too where there are splits. In windows
+//!   of 10 periods that is up to 6 of their deviations, in those of 100 and more up to 30; 6·10⁻⁵ rad of phase in noise of 10⁻⁴ of a_A,
+//!   4·10⁻⁴ rad in noise of 10⁻³. Shorter windows help.
 //! - A pattern that turns looks like a frequency off by 2 a_A a_B θ̇/(π(a_A² + a_B²)), which is taken out with θ̇ as the windows before have
 //!   it. Where θ̇ jumps, as splits make it near a circle, f may be off: 20 deviations at |a_B| of 0.94 a_A in windows of 100
 //!   periods.
@@ -142,12 +142,12 @@
 //!   deviations behind a low-pass or a high-pass, or in noise of 1/f²; behind a band-pass about the wave they are 1.1 with a quality of 1,
 //!   1.5 with 3, and 2 to 3 with 10. Of noise that grows with the frequency some windows stay misfits.
 //! - Deviations and flags also take noise to be independent, and equal in both pick-offs. Where one has ten times as much, one window in
-//!   some ten thousand is flagged. Where both have the share r of its variance in common, deviations are up to √(1 + r) times too small: at an angle of
-//!   22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.
-//! - Deviations are those of noise and of the converter's steps, taken to be equal. Nonlinearity of pick-offs and converter is in
-//!   none of them, and a third harmonic below 10⁻³ of a_A raises no flag: a cubic of that size may move a_A by 0.4 %, θ by
-//!   5·10⁻⁴ rad and, with |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. A second harmonic puts 2·10⁻³ of itself into a_A and phase
-//!   in windows of 10 periods that are not a whole number of samples.
+//!   some ten thousand is flagged. Where both have the share r of its variance in common, deviations are up to √(1 + r) times too small: at
+//!   an angle of 22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.
+//! - Deviations are those of noise and of the converter's steps, taken to be equal. Nonlinearity of pick-offs and converter is in none of
+//!   them, and a third harmonic below 10⁻³ of a_A raises no flag: a cubic of that size may move a_A by 0.4 %, θ by 5·10⁻⁴ rad and, with
+//!   |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. A second harmonic puts 2·10⁻³ of itself into a_A and phase in windows of
+//!   10 periods that are not a whole number of samples.
 //! - Blocks of two periods hardly see a tone at half an odd multiple of f: 3·10⁻³ of a_A at f/2, in noise of 10⁻⁴, moved a_A and phase by 4
 //!   deviations, rms, without a flag.
 //! - Jitter of the sampling, common to both pick-offs, makes f and phase scatter by 1.8 of their deviations, θ and a_B by a fifth.

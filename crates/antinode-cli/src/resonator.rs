@@ -233,21 +233,13 @@ fn table(out: &mut impl Write, name: &str, rows: &Runs, quantities: &[Quantity])
 
 /// How fast the patterns turn, rad/s, where all that turn do so one way, and too few stand still.
 fn one_way(rows: &Runs) -> Option<f64> {
-    let turns = |run: &&Run| run.turned.abs() > TURNS;
-    let still = rows.runs.iter().filter(|run| !turns(run)).count();
-    let (turned, ways, seconds) =
-        rows.runs
-            .iter()
-            .filter(turns)
-            .fold((0.0, 0.0, 0.0), |(turned, ways, seconds), run| {
-                (
-                    turned + run.turned,
-                    ways + run.turned.abs(),
-                    seconds + run.seconds(),
-                )
-            });
-    let is_one_way = f64::abs(turned) == ways && ways > 0.0;
-    (is_one_way && still < ENOUGH_STILL).then(|| ways / seconds)
+    let (turning, still): (Vec<&Run>, Vec<&Run>) =
+        rows.runs.iter().partition(|run| run.turned.abs() > TURNS);
+    let way = turning.first()?.turned.signum();
+    let is_one_way = turning.iter().all(|run| run.turned.signum() == way);
+    let turned: f64 = turning.iter().map(|run| run.turned.abs()).sum();
+    let seconds: f64 = turning.iter().map(|run| run.seconds()).sum();
+    (is_one_way && still.len() < ENOUGH_STILL).then(|| turned / seconds)
 }
 
 /// Tells what the numbers leave open.

@@ -98,11 +98,10 @@ pub fn number(row: &StringRecord, place: usize) -> Option<f64> {
     row.get(place)?.trim().parse().ok()
 }
 
-/// Whether a row's column `flags` has a flag.
-pub fn has_flag(flags: &str, flag: Flags) -> bool {
-    flags
-        .split('+')
-        .any(|name| flag.names().any(|one| one == name))
+/// The flags in a row's column of that name; those of no known name are none.
+pub fn flags(column: &str) -> Flags {
+    let flags = column.split('+').filter_map(Flags::of_name);
+    flags.fold(Flags::empty(), Flags::with)
 }
 
 /// What is told where there are no rows, or a line is none.

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use antinode::Flags;
 
 use crate::failure::Failure;
-use crate::row_file::{RowFile, has_flag};
+use crate::row_file::{self, RowFile};
 use jump::jumps;
 use row::Places;
 pub use row::Row;
@@ -149,11 +149,12 @@ impl Runs {
         while let Some(record) = rows.next()? {
             self.rows += 1;
             if !record[flags].is_empty() {
-                if has_flag(&record[flags], self.breaks) {
+                let flags = row_file::flags(&record[flags]);
+                if flags.intersects(self.breaks) {
                     self.end(&mut run);
                     present = None;
                 }
-                is_torn |= record[flags] != *"circular";
+                is_torn |= flags != Flags::CIRCULAR;
                 continue;
             }
             // Only here: a flagged row need not have numbers.

@@ -9,7 +9,7 @@ use csv::StringRecord;
 
 use super::scale::drawable;
 use crate::failure::Failure;
-use crate::row_file::{RowFile, has_flag, number};
+use crate::row_file::{self, RowFile, number};
 
 /// Quantities that are drawn: their columns, and those of their deviations.
 pub const COLUMNS: [(&str, Option<&str>); 5] = [
@@ -141,19 +141,20 @@ fn parse(
         }
     }
     let samples = samples.map_or(Some(1.0), number)?;
-    let flags = record.get(flags)?;
+    let told = record.get(flags)?;
+    let flags = row_file::flags(told);
     Some(Row {
         time: number(time)?,
         values,
         deviations,
         samples: samples as u32,
-        trust: match flags {
+        trust: match told {
             "" => Trust::Clean,
-            _ if has_flag(flags, Flags::LOST) => Trust::Lost,
+            _ if flags.contains(Flags::LOST) => Trust::Lost,
             _ => Trust::Flagged,
         },
         // The pattern may have turned unseen.
-        begins: has_flag(flags, Flags::REACQUIRED),
+        begins: flags.contains(Flags::REACQUIRED),
     })
 }
 

@@ -12,9 +12,10 @@ const SIGMAS: f64 = 8.0;
 /// True where the main amplitude, the quadrature amplitude or the angle jumps from the last of the `rows` of a run to `next`; not where
 /// the run is too short to tell.
 pub fn jumps(rows: &[Row], next: &Row) -> bool {
-    let Some((last, known)) = rows.last().zip(rows.last_chunk::<KNOWN>()) else {
+    let Some(known) = rows.last_chunk::<KNOWN>() else {
         return false;
     };
+    let last = &known[KNOWN - 1];
     (0..3).any(|i| {
         let rates = known
             .windows(2)

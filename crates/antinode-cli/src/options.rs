@@ -62,7 +62,8 @@ pub enum Command {
     /// frequencies of the two modes are apart, and the pattern angle at which each is greatest; and how fast rotation turns each run's
     /// pattern. Give ring-downs that turn both ways: where all turn one way, what a calibration leaves looks like splits.
     ///
-    /// A frequency that depends on the amplitude turns the pattern too, which is not in the fit.
+    /// A shell whose stiffness depends on the amplitude turns a pattern by a_A·a_B, and its frequency moves with a_A² + a_B²: both are
+    /// printed where they are seen, for one input unit squared.
     ///
     /// A run ends where the wave is lost or jumps: one recording may hold several ring-downs, and missing samples do not falsify the
     /// rates.

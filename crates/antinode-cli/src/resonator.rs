@@ -71,6 +71,13 @@ const DECAY_TIME: Kind = kind("decay_time_s", "decay time, s", 1.0);
 const QUALITY_FACTOR: Kind = kind("quality_factor", "quality factor", 1.0);
 const ROTATION: Kind = kind("rotation_rad_s", "turned by rotation, °/s", DEGREES);
 const FREQUENCY: Kind = kind("frequency_hz", "mean frequency, Hz", 1.0);
+/// Both at one input unit squared.
+const BY_ENERGY: Kind = kind("frequency_by_energy_hz", "by a_A² + a_B², Hz", 1.0);
+const BY_AMPLITUDES: Kind = kind(
+    "turning_by_amplitudes_rad_s",
+    "turned by a_A·a_B, °/s",
+    DEGREES,
+);
 /// Of the rows over their own deviations: 1 where there is nothing but noise.
 const RESIDUAL: Kind = kind("residual_over_noise", "residual over noise", 1.0);
 const DAMPING_SPLIT: Kind = kind("damping_split_s", "damping split, 1/s", 1.0);
@@ -120,7 +127,7 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
         ))
     })?;
     let frequency = frequency(&rows, &found);
-    let quantities = quantities(&rows, &found, frequency.mean);
+    let quantities = quantities(&rows, &found, &frequency);
     let mut out = io::stdout().lock();
     match options.output {
         Format::Table => table(&mut out, &name, &rows, &quantities)?,
@@ -146,7 +153,7 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
 }
 
 /// All that was found, run by run and then of the resonator.
-fn quantities(rows: &Runs, found: &Found, mean_frequency: Measured) -> Vec<Quantity> {
+fn quantities(rows: &Runs, found: &Found, frequency: &Frequency) -> Vec<Quantity> {
     let mut list = Vec::new();
     let mut add = |run, kind, (value, std): Measured| {
         list.push(Quantity {
@@ -156,18 +163,21 @@ fn quantities(rows: &Runs, found: &Found, mean_frequency: Measured) -> Vec<Quant
             std,
         });
     };
-    let (frequency, _) = mean_frequency;
+    let (mean_frequency, _) = frequency.mean;
     let resonator = found.resonator();
     for index in 0..rows.runs.len() {
         let run = Some(index);
         let decay_time = time(found.decay_of_run(index));
         add(run, DECAY_TIME, decay_time);
-        add(run, QUALITY_FACTOR, scaled(decay_time, PI * frequency));
+        add(run, QUALITY_FACTOR, scaled(decay_time, PI * mean_frequency));
         if let Some(resonator) = &resonator {
             add(run, ROTATION, resonator.rotations[index]);
         }
     }
-    add(None, FREQUENCY, mean_frequency);
+    add(None, FREQUENCY, frequency.mean);
+    if let Some(by_energy) = frequency.by_energy {
+        add(None, BY_ENERGY, by_energy);
+    }
     let of_residual = found.residual / (6.0 * rows.used() as f64).sqrt();
     add(None, RESIDUAL, (found.residual, of_residual));
     let Some(resonator) = resonator else {
@@ -175,7 +185,11 @@ fn quantities(rows: &Runs, found: &Found, mean_frequency: Measured) -> Vec<Quant
     };
     let decay_time = time(resonator.decay);
     add(None, DECAY_TIME, decay_time);
-    add(None, QUALITY_FACTOR, scaled(decay_time, PI * frequency));
+    add(
+        None,
+        QUALITY_FACTOR,
+        scaled(decay_time, PI * mean_frequency),
+    );
     for ([split, angle], size, at, unit) in [
         (resonator.damping_split, DAMPING_SPLIT, MOST_DAMPED, 1.0),
         (
@@ -189,6 +203,9 @@ fn quantities(rows: &Runs, found: &Found, mean_frequency: Measured) -> Vec<Quant
         if split.0 > SPLIT_SEEN * split.1 {
             add(None, at, angle);
         }
+    }
+    if let Some(turning) = resonator.turning_by_amplitudes {
+        add(None, BY_AMPLITUDES, turning);
     }
     list
 }

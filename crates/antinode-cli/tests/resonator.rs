@@ -3,6 +3,7 @@
 mod common;
 
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
@@ -351,5 +352,52 @@ fn what_is_wrong_is_told() {
             "{}",
             found.err
         );
+    }
+}
+
+#[test]
+fn what_amplitudes_turn_a_pattern_by_is_told_and_moves_no_split() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let gamma = 0.3;
+    let mut all = String::new();
+    for angle in [0.1, 0.5, 0.9] {
+        let wave = format!(
+            "--angle {angle} --decay-rate 0.08 --main-amplitude 0.5 --quadrature-amplitude 0.1"
+        );
+        for (index, line) in rows(here, &wave).lines().enumerate() {
+            if index > 0 {
+                // Without splits θ turns by −γ a_A a_B, and the frequency rises by 3γ (a_A² + a_B²) rad/s.
+                let mut fields: Vec<_> = line.split(',').map(str::to_owned).collect();
+                let fallen = (-0.16 * fields[0].parse::<f64>().unwrap()).exp();
+                let turned = -gamma * 0.05 * (1.0 - fallen) / 0.16;
+                let risen = 3.0 * gamma * 0.26 * fallen / TAU;
+                for (field, more) in [(4, turned), (6, risen)] {
+                    let value = fields[field].parse::<f64>().unwrap() + more;
+                    fields[field] = format!("{value:.12}");
+                }
+                all += &(fields.join(",") + "\n");
+            } else if all.is_empty() {
+                all = line.to_owned() + "\n";
+            }
+        }
+    }
+    let found = resonator(here, &all, "--output csv");
+    let numbers = numbers(&found);
+    for (quantity, truth) in [
+        ("turning_by_amplitudes_rad_s", -gamma),
+        ("frequency_by_energy_hz", 3.0 * gamma / TAU),
+        ("decay_time_s", 12.5),
+    ] {
+        let (value, std) = numbers[&(String::new(), quantity.to_owned())];
+        let std = std.unwrap();
+        assert!(
+            (value - truth).abs() < 4.0 * std && std < 0.1 * truth.abs(),
+            "{quantity}: {value} {std}"
+        );
+    }
+    for split in ["damping_split_s", "frequency_split_hz"] {
+        let (value, std) = numbers[&(String::new(), split.to_owned())];
+        assert!(value < 4.0 * std.unwrap(), "{}", found.out);
     }
 }

@@ -48,10 +48,13 @@ pub fn fit(runs: &[Run]) -> Result<Found, Unsettled> {
     if each.as_ref().is_ok_and(is_enough) {
         return each;
     }
-    match found(Model::Shared) {
-        Ok(shared) if is_told(&shared.covariance, &shared, each.as_ref().ok()) => Ok(shared),
-        _ => each,
-    }
+    let told = |model| {
+        let shared = found(model).ok()?;
+        is_told(&shared.covariance, &shared, each.as_ref().ok()).then_some(shared)
+    };
+    // As an unknown that is nothing it would leave less known of all others: of rotation above all, which quadrature that stays is like.
+    let nonlinear = told(Model::Nonlinear).filter(Found::is_nonlinear);
+    nonlinear.or_else(|| told(Model::Shared)).map_or(each, Ok)
 }
 
 /// True where rows of such runs tell the splits, if these are small: where nothing tells them a fit may find great ones, which seem told.

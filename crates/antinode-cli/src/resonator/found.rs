@@ -6,6 +6,9 @@ use super::model::{Model, parameters};
 use super::motion::Motion;
 use crate::runs::Run;
 
+/// Of fewer deviations than this, what amplitudes turn patterns by is taken to be nothing: more would be missed than it spares.
+const NONLINEAR_SEEN: f64 = 2.0;
+
 /// What was found.
 #[derive(Debug)]
 pub struct Found {
@@ -44,6 +47,8 @@ pub struct Resonator {
     pub frequency_split: [Measured; 2],
     /// What rotation turns the pattern of each run by, rad/s.
     pub rotations: Vec<Measured>,
+    /// What a_A a_B of one input unit squared turns a pattern by, rad/s, where that is seen.
+    pub turning_by_amplitudes: Option<Measured>,
 }
 
 impl Found {
@@ -67,7 +72,7 @@ impl Found {
     /// 1/τ along the pattern of a run, 1/s.
     pub fn decay_of_run(&self, run: usize) -> Measured {
         let mut terms = vec![(self.model.decay_at(run), 1.0)];
-        if self.model == Model::Shared {
+        if self.model.is_shared() {
             let shares = self.shares[run].iter().enumerate();
             terms.extend(shares.map(|(i, share)| (Model::DAMPING + i, 0.5 * share)));
         }
@@ -76,14 +81,26 @@ impl Found {
 
     /// What the runs share, where they tell it.
     pub fn resonator(&self) -> Option<Resonator> {
-        (self.model == Model::Shared).then(|| Resonator {
+        self.model.is_shared().then(|| Resonator {
             decay: self.sum(&[(self.model.decay_at(0), 1.0)]),
             damping_split: self.split(Model::DAMPING),
             frequency_split: self.split(Model::FREQUENCY),
             rotations: (0..self.shares.len())
                 .map(|run| self.sum(&[(self.model.own_at(run), -0.5)]))
                 .collect(),
+            turning_by_amplitudes: self.turning_by_amplitudes(),
         })
+    }
+
+    /// What a_A a_B of one input unit squared turns a pattern by, rad/s, where it is an unknown.
+    fn turning_by_amplitudes(&self) -> Option<Measured> {
+        (self.model == Model::Nonlinear).then(|| self.sum(&[(Model::GAMMA, -1.0)]))
+    }
+
+    /// True where amplitudes are seen to turn patterns.
+    pub(super) fn is_nonlinear(&self) -> bool {
+        self.turning_by_amplitudes()
+            .is_some_and(|(turning, std)| turning.abs() > NONLINEAR_SEEN * std)
     }
 
     /// What moves the frequency of each row.
@@ -97,9 +114,10 @@ impl Found {
                 motion.advance(row.time - time);
                 time = row.time;
                 let by_turning = motion.frequency_by_turning();
-                let by_splits = match self.model {
-                    Model::Each => [0.0; 4],
-                    Model::Shared => motion.frequency_by_splits(),
+                let by_splits = if self.model.is_shared() {
+                    motion.frequency_by_splits()
+                } else {
+                    [0.0; 4]
                 };
                 list.push(Moved {
                     by_splits,

@@ -12,6 +12,8 @@ pub struct Frequency {
     pub mean: Measured,
     /// By how much it moves beyond noise, rms, Hz: with the energy, or from row to row; none where it does by chance.
     pub moves: Option<f64>,
+    /// What it is above that at rest, Hz, at an energy a_A² + a_B² of one input unit squared; none where it moves so by chance.
+    pub by_energy: Option<Measured>,
 }
 
 /// The mean frequency, of which each row tells as much as its deviation says; wider where rows differ by more than that, and by all that it
@@ -68,8 +70,10 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
     // What is not known of the splits is not known of what they make either.
     let (_, of_splits) = found.splits(&mean_by.map(|sum| sum / weights / TAU));
     let std = (widened / weights).sqrt().hypot(of_splits);
+    let by_energy = (product / of_energy, (widened / of_energy).sqrt());
     Frequency {
         mean: (from + mean, std.hypot(moves.unwrap_or(0.0))),
         moves,
+        by_energy: is_along.then_some(by_energy),
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::motion::{PARAMETERS, RATES};
+use super::motion::{GAMMA, PARAMETERS, RATES};
 use crate::runs::Run;
 
 /// An unknown of a run's motion: its place among all, and what one of it is in the parameters of the motion.
@@ -11,7 +11,7 @@ pub type Term = (usize, [f64; PARAMETERS]);
 /// Places in the parameters of the motion: of 1/τ, of the first of Δω, and of κ.
 const DECAY: usize = 0;
 const FREQUENCY: usize = 3;
-const KAPPA: usize = 5;
+const KAPPA: usize = 6;
 
 /// The parameters of a run's motion whose unknowns are these, at some values of all.
 pub fn parameters(terms: &[Term], values: &DVector<f64>) -> [f64; PARAMETERS] {
@@ -31,18 +31,28 @@ pub enum Model {
     Each,
     /// The resonator: 1/τ, and both splits.
     Shared,
+    /// The same, and γ.
+    Nonlinear,
 }
 
 impl Model {
     /// The places of the first part of the splits of damping and frequency, where they are shared, behind 1/τ.
     pub const DAMPING: usize = 1;
     pub const FREQUENCY: usize = 3;
+    /// The place of γ, where it is an unknown.
+    pub const GAMMA: usize = GAMMA;
+
+    /// True where the runs share a resonator.
+    pub fn is_shared(self) -> bool {
+        self != Self::Each
+    }
 
     /// How many unknowns are shared.
     fn shared(self) -> usize {
         match self {
             Self::Each => 0,
-            Self::Shared => RATES - 1,
+            Self::Shared => GAMMA,
+            Self::Nonlinear => GAMMA + 1,
         }
     }
 
@@ -50,7 +60,7 @@ impl Model {
     fn own(self) -> usize {
         match self {
             Self::Each => 6,
-            Self::Shared => 4,
+            Self::Shared | Self::Nonlinear => 4,
         }
     }
 
@@ -68,7 +78,7 @@ impl Model {
     pub fn decay_at(self, run: usize) -> usize {
         match self {
             Self::Each => self.own_at(run) + 4,
-            Self::Shared => 0,
+            Self::Shared | Self::Nonlinear => 0,
         }
     }
 
@@ -86,7 +96,9 @@ impl Model {
                 (across[FREQUENCY], across[FREQUENCY + 1]) = (-sine, cosine);
                 terms.extend([(own + 4, unit(DECAY)), (own + 5, across)]);
             }
-            Self::Shared => terms.extend((0..self.shared()).map(|i| (i, unit(i)))),
+            Self::Shared | Self::Nonlinear => {
+                terms.extend((0..self.shared()).map(|i| (i, unit(i))));
+            }
         }
         terms
     }

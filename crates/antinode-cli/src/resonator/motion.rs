@@ -8,13 +8,18 @@
 //!
 //! where 1/τ is the mean of the damping of both modes and δ its split, Δω the split of the frequencies in rad/s, c and s the cosine and sine
 //! of four times the angle at which the damping, or the frequency, is greatest, and −κ/2 what rotation turns the pattern by.
+//!
+//! A shell whose stiffness depends on how far it bends turns a pattern that has quadrature: then κ has a part γQ. Of stiffness ω²(1 + βr²),
+//! r being how far both pick-offs' modes are from rest, γ is βω/8, and the frequency rises by 3γE rad/s beside that.
 
 use nalgebra::{Complex, Matrix3x4, Matrix4, Matrix4x3, RowVector4, SMatrix, Vector3, Vector4};
 
 use crate::runs::Row;
 
-/// What moves a wave: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, κ.
-pub const RATES: usize = 6;
+/// What moves a wave: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, γ, κ.
+pub const RATES: usize = 7;
+/// The place of γ among them.
+pub const GAMMA: usize = 5;
 /// Those, and what a wave starts with: a_A, a_B, θ.
 pub const PARAMETERS: usize = RATES + 3;
 /// The state and its derivatives by all of these.
@@ -26,13 +31,59 @@ const MOST_STEPS: f64 = 500.0;
 /// The square of what a wave changes by in half a window, over its own, up to which the core takes it to grow and turn evenly.
 const MOST_CHANGE: f64 = 1.3;
 
+/// What some rates do to the state E, R, S, Q.
+#[derive(Debug, Clone)]
+pub struct Rates {
+    /// All but γ.
+    matrix: Matrix4<f64>,
+    /// What γ does at Q of one.
+    nonlinear: Matrix4<f64>,
+}
+
+impl Rates {
+    /// Of these values.
+    pub fn new(values: &[f64]) -> Self {
+        let mut rates = Self {
+            matrix: Matrix4::zeros(),
+            nonlinear: Matrix4::zeros(),
+        };
+        for (index, (part, value)) in parts().iter().zip(values).enumerate() {
+            let sum = if index == GAMMA {
+                &mut rates.nonlinear
+            } else {
+                &mut rates.matrix
+            };
+            *sum += part * *value;
+        }
+        rates
+    }
+
+    /// How fast the state changes.
+    pub fn slope(&self, state: &Vector4<f64>) -> Vector4<f64> {
+        self.at(state) * state
+    }
+
+    /// The matrix by which this state moves.
+    fn at(&self, state: &Vector4<f64>) -> Matrix4<f64> {
+        self.matrix + self.nonlinear * state[3]
+    }
+
+    /// How fast what differs from this state comes to differ.
+    fn derivative(&self, state: &Vector4<f64>) -> Matrix4<f64> {
+        let mut derivative = self.at(state);
+        let mut by_q = derivative.column_mut(3);
+        by_q += self.nonlinear * state;
+        derivative
+    }
+}
+
 /// The state E, R, S, Q, and its derivatives by the rates and by what it started with.
 #[derive(Debug, Clone)]
 pub struct Motion {
     columns: SMatrix<f64, 4, COLUMNS>,
-    /// What each rate does to the state, and what all of them do.
-    parts: [Matrix4<f64>; RATES],
-    matrix: Matrix4<f64>,
+    /// One of each rate, and all of them.
+    each: [Rates; RATES],
+    rates: Rates,
 }
 
 impl Motion {
@@ -65,40 +116,40 @@ impl Motion {
         columns
             .fixed_columns_mut::<3>(1 + RATES)
             .copy_from(&by_start);
-        let parts = parts();
-        let matrix = parts
-            .iter()
-            .zip(rates)
-            .fold(Matrix4::zeros(), |sum, (part, rate)| sum + part * rate);
+        let one = |rate| -> [f64; RATES] {
+            std::array::from_fn(|other| f64::from(u8::from(other == rate)))
+        };
         Self {
             columns,
-            parts,
-            matrix,
+            each: std::array::from_fn(|rate| Rates::new(&one(rate))),
+            rates: Rates::new(&rates),
         }
     }
 
     /// Moves on by so many seconds, by Runge and Kutta's fourth order.
     pub fn advance(&mut self, seconds: f64) {
         let slope = |columns: &SMatrix<f64, 4, COLUMNS>| {
-            let mut slope = self.matrix * columns;
             let state = columns.column(0).into_owned();
-            for (index, part) in self.parts.iter().enumerate() {
+            let mut slope = self.rates.derivative(&state) * columns;
+            slope.set_column(0, &self.rates.slope(&state));
+            for (index, rate) in self.each.iter().enumerate() {
                 let mut column = slope.column_mut(1 + index);
-                column += part * state;
+                column += rate.slope(&state);
             }
             slope
         };
         self.columns = self.moved(self.columns, seconds, slope);
     }
 
-    /// Columns so many seconds later, or earlier, whose slope is this.
+    /// Columns so many seconds later, or earlier, the state the first of them, whose slope is this.
     fn moved<const N: usize>(
         &self,
         mut columns: SMatrix<f64, 4, N>,
         seconds: f64,
         slope: impl Fn(&SMatrix<f64, 4, N>) -> SMatrix<f64, 4, N>,
     ) -> SMatrix<f64, 4, N> {
-        let steps = (self.matrix.norm() * seconds.abs() / STEP).ceil().max(1.0);
+        let fastest = self.rates.at(&columns.column(0).into_owned()).norm();
+        let steps = (fastest * seconds.abs() / STEP).ceil().max(1.0);
         if steps > MOST_STEPS {
             return columns * f64::NAN;
         }
@@ -128,7 +179,7 @@ impl Motion {
     fn averaged(&self, seconds: f64, sign: f64) -> (f64, Complex<f64>) {
         let now = self.columns.column(0).into_owned();
         let at = |by: f64| {
-            let state = self.moved(now, by, |state| self.matrix * state);
+            let state = self.moved(now, by, |state| self.rates.slope(state));
             Self::travelling(&state, sign)
         };
         let (greater, lesser) = Self::travelling(&now, sign);
@@ -163,7 +214,7 @@ impl Motion {
     pub fn frequency_by_turning(&self) -> f64 {
         let state = self.columns.column(0).into_owned();
         let [e, r, s, q] = state.into();
-        let slope = self.matrix * state;
+        let slope = self.rates.slope(&state);
         let turning = 0.25 * (r * slope[2] - s * slope[1]) / (r * r + s * s).max(f64::MIN_POSITIVE);
         2.0 * turning * q / e
     }
@@ -207,8 +258,8 @@ impl Motion {
     }
 }
 
-/// What each rate does to E, R, S and Q.
-pub fn parts() -> [Matrix4<f64>; RATES] {
+/// What each rate does to E, R, S and Q, γ at Q of one.
+fn parts() -> [Matrix4<f64>; RATES] {
     let part = |entries: &[(usize, usize, f64)]| {
         let mut part = Matrix4::zeros();
         for &(row, column, entry) in entries {
@@ -217,13 +268,15 @@ pub fn parts() -> [Matrix4<f64>; RATES] {
         part
     };
     let [e, r, s, q] = [0, 1, 2, 3];
+    let turning = part(&[(r, s, 2.0), (s, r, -2.0)]);
     [
         Matrix4::from_diagonal_element(-2.0),
         part(&[(e, r, -1.0), (r, e, -1.0)]),
         part(&[(e, s, -1.0), (s, e, -1.0)]),
         part(&[(q, s, 1.0), (s, q, -1.0)]),
         part(&[(q, r, -1.0), (r, q, 1.0)]),
-        part(&[(r, s, 2.0), (s, r, -2.0)]),
+        turning,
+        turning,
     ]
 }
 

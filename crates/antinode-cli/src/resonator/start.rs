@@ -1,12 +1,12 @@
 //! Where the search begins.
 //!
-//! The motion is linear in E, R, S and Q, so that each of them is what it began with plus integrals over time of all four, times the rates: by
-//! linear least squares the rates follow, wherever the pattern stands and however it moves, but for noise in the integrals.
+//! The motion is linear in the rates, so that E, R, S and Q are what they began with plus integrals over time of what each rate does to them:
+//! by linear least squares the rates follow, wherever the pattern stands and however it moves, but for noise in the integrals.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix4, Vector4};
 
 use super::model::{Model, Term};
-use super::motion::{RATES, parts};
+use super::motion::{RATES, Rates};
 use crate::runs::{Row, Run};
 
 /// The share of each unknown's own weight that is added to it: what the rows do not tell then stays next to nothing.
@@ -61,8 +61,7 @@ impl Normal {
             let rates = &direction[..RATES];
             if rates.iter().any(|&rate| rate != 0.0) {
                 places.push(*place);
-                let parts = parts().into_iter().zip(rates);
-                moves.push(parts.fold(Matrix4::zeros(), |sum, (part, &rate)| sum + part * rate));
+                moves.push(Rates::new(rates));
             }
         }
         let rate = run.turned / run.seconds();
@@ -71,7 +70,10 @@ impl Normal {
         for row in &run.rows {
             let back = turned(-rate * (row.time - run.rows[0].time));
             let state = state(row);
-            let slopes: Vec<_> = moves.iter().map(|part| back * (part * state)).collect();
+            let slopes: Vec<_> = moves
+                .iter()
+                .map(|rates| back * rates.slope(&state))
+                .collect();
             if let Some((time, last)) = before {
                 let half = 0.5 * (row.time - time);
                 for ((integral, last), slope) in integrals.iter_mut().zip(last).zip(&slopes) {

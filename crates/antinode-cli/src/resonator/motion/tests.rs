@@ -4,8 +4,16 @@ use nalgebra::Complex;
 
 use super::*;
 
-/// A resonator with splits: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, κ.
-const RATES_OF_ALL: [f64; RATES] = [0.11, 0.05, -0.03, 0.2, 0.13, 0.3];
+/// A resonator with splits: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, γ, κ.
+const RATES_OF_ALL: [f64; RATES] = [0.11, 0.05, -0.03, 0.2, 0.13, 0.1, 0.3];
+
+/// The parameters of the motion of all these, of a wave that starts as this.
+fn parameters(main: f64, quadrature: f64, angle: f64) -> [f64; PARAMETERS] {
+    let mut parameters = [0.0; PARAMETERS];
+    parameters[..RATES].copy_from_slice(&RATES_OF_ALL);
+    parameters[RATES..].copy_from_slice(&[main, quadrature, angle]);
+    parameters
+}
 
 impl Motion {
     /// a_A, a_B and θ (−π/4 to π/4) now.
@@ -34,7 +42,7 @@ fn row([main, quadrature, angle]: [f64; 3], seconds: f64) -> Row {
 fn as_the_two_modes_move() {
     // Modes 1 and 2 stand along an angle ϑ and across it; what pick-off C sees is x, what D sees y.
     let omega = std::f64::consts::TAU * 200.0;
-    let [decay, dc, ds, wc, ws, kappa] = RATES_OF_ALL;
+    let [decay, dc, ds, wc, ws, gamma, kappa] = RATES_OF_ALL;
     let (delta, split) = (dc.hypot(ds), wc.hypot(ws));
     let (damped, fast) = (0.5 * ds.atan2(dc), 0.5 * ws.atan2(wc));
     // A symmetric matrix of these values along an angle and across it.
@@ -49,16 +57,20 @@ fn as_the_two_modes_move() {
     let (fastest, slowest) = (omega + 0.5 * split, omega - 0.5 * split);
     let stiffness = matrix(fastest * fastest, slowest * slowest, fast);
     let acceleration = |[x, y, vx, vy]: [f64; 4]| {
+        // Stiffness ω²(1 + βr²), γ being βω/8.
+        let stiffer = 8.0 * gamma * omega * (x * x + y * y);
         [
             vx,
             vy,
             -damping[0][0] * vx - damping[0][1] * vy - stiffness[0][0] * x - stiffness[0][1] * y
-                + 2.0 * kappa * vy,
+                + 2.0 * kappa * vy
+                - stiffer * x,
             -damping[1][0] * vx
                 - damping[1][1] * vy
                 - stiffness[1][0] * x
                 - stiffness[1][1] * y
-                - 2.0 * kappa * vx,
+                - 2.0 * kappa * vx
+                - stiffer * y,
         ]
     };
     let (main, quadrature, angle) = (1.0f64, 0.2f64, 0.35f64);
@@ -70,8 +82,7 @@ fn as_the_two_modes_move() {
         -omega * quadrature * sine,
         omega * quadrature * cosine,
     ];
-    let [a, b, c, d, e, f] = RATES_OF_ALL;
-    let mut motion = Motion::new(&[a, b, c, d, e, f, main, quadrature, angle]);
+    let mut motion = Motion::new(&parameters(main, quadrature, angle));
     let step = 1.0 / (200.0 * 200.0);
     for second in 0..4 {
         let mut means = [0.0; 4];
@@ -126,8 +137,7 @@ fn after(parameters: &[f64; PARAMETERS]) -> Motion {
 
 #[test]
 fn a_pattern_stays_one() {
-    let [a, b, c, d, e, f] = RATES_OF_ALL;
-    let parameters = [a, b, c, d, e, f, 0.8, -0.1, 0.6];
+    let parameters = parameters(0.8, -0.1, 0.6);
     // E² = R² + S² + Q², in whatever steps.
     let mut motion = Motion::new(&parameters);
     motion.advance(3.5);
@@ -138,9 +148,8 @@ fn a_pattern_stays_one() {
 
 #[test]
 fn derivatives_are_those_of_differences() {
-    let [a, b, c, d, e, f] = RATES_OF_ALL;
     for quadrature in QUADRATURES {
-        let parameters = [a, b, c, d, e, f, 0.8, quadrature, 0.6];
+        let parameters = parameters(0.8, quadrature, 0.6);
         let wave = after(&parameters).wave();
         let row = row([wave[0] + 0.003, wave[1] - 0.002, wave[2] + 0.1], 0.0);
         let (_, derivatives) = after(&parameters).rest(&row);
@@ -159,9 +168,8 @@ fn derivatives_are_those_of_differences() {
 
 #[test]
 fn what_a_row_has_more_is_what_was_added() {
-    let [a, b, c, d, e, f] = RATES_OF_ALL;
     for quadrature in QUADRATURES {
-        let motion = Motion::new(&[a, b, c, d, e, f, 0.8, quadrature, 0.6]);
+        let motion = Motion::new(&parameters(0.8, quadrature, 0.6));
         let wave = motion.wave();
         let added = Vector3::new(1e-9, 2e-9, 3e-9);
         let (rest, _) = motion.rest(&row((wave + added).into(), 0.0));
@@ -182,10 +190,9 @@ fn what_a_row_has_more_is_what_was_added() {
 
 #[test]
 fn a_window_averages_what_is_not_even() {
-    let [a, b, c, d, e, f] = RATES_OF_ALL;
     // The last one changes by more than it is.
     for (quadrature, seconds) in [(-0.1, 0.0), (-0.1, 0.1), (-0.1, 0.4), (-0.799, 0.1)] {
-        let motion = Motion::new(&[a, b, c, d, e, f, 0.8, quadrature, 0.6]);
+        let motion = Motion::new(&parameters(0.8, quadrature, 0.6));
         let now = motion.columns.column(0).into_owned();
         let (greater, lesser) = Motion::travelling(&now, -1.0);
         // The means of both, or of their logarithms, over 200 parts of the window.
@@ -194,7 +201,7 @@ fn a_window_averages_what_is_not_even() {
             (0.0, Complex::new(0.0, 0.0), Complex::new(0.0, 0.0));
         for part in 0..parts {
             let by = seconds * ((f64::from(part) + 0.5) / f64::from(parts) - 0.5);
-            let state = motion.moved(now, by, |state| motion.matrix * state);
+            let state = motion.moved(now, by, |state| motion.rates.slope(state));
             let (plus, minus) = Motion::travelling(&state, -1.0);
             of_greater += plus.ln() / f64::from(parts);
             of_lesser += minus / f64::from(parts);
@@ -214,7 +221,7 @@ fn a_window_averages_what_is_not_even() {
         );
     }
     // A wave that only decays and turns does both evenly.
-    let mut even = Motion::new(&[a, 0.0, 0.0, 0.0, 0.0, f, 0.8, -0.1, 0.6]);
+    let mut even = Motion::new(&[0.11, 0.0, 0.0, 0.0, 0.0, 0.0, 0.3, 0.8, -0.1, 0.6]);
     even.advance(1.3);
     let (greater, lesser) = even.averaged(1.0, -1.0);
     let now = Motion::travelling(&even.columns.column(0).into_owned(), -1.0);
@@ -224,9 +231,9 @@ fn a_window_averages_what_is_not_even() {
 #[test]
 fn the_splits_move_the_frequency_as_they_turn_the_phase() {
     // The phasors (1 to 3) in a frame that turns at the mean frequency: C + jS of each pick-off.
-    let [decay, dc, ds, wc, ws, _] = RATES_OF_ALL;
+    let [decay, dc, ds, wc, ws, ..] = RATES_OF_ALL;
     let (main, quadrature, angle) = (0.8f64, -0.3f64, 0.6f64);
-    let motion = Motion::new(&[decay, dc, ds, wc, ws, 0.0, main, quadrature, angle]);
+    let motion = Motion::new(&[decay, dc, ds, wc, ws, 0.0, 0.0, main, quadrature, angle]);
     let (sine, cosine) = (2.0 * angle).sin_cos();
     let wave = [
         Complex::new(main * cosine, quadrature * sine),

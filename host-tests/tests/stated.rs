@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::codes::{self, converted};
 use host_tests::score::{Honesty, errors, stated};
 use host_tests::{Core, angle_error, calibrated, identify, identify_changed, stream, windows};
 
@@ -147,6 +148,49 @@ fn deviations_are_stated_where_there_is_no_noise_but_rounding() {
     }
     println!("errors over stated {worst:.2?}, stated at most {most:e} of a_A");
     assert!(worst.iter().all(|&worst| worst < 3.0) && most < 1e-6);
+}
+
+#[test]
+fn an_offset_of_ten_waves_widens_no_deviation_of_codes() {
+    // What f32 rounds of it in the solution, in short windows without noise, and how little in long ones with some.
+    let offset = 10.0;
+    for (periods, noise, trials, within) in [
+        (2, 0.0, 100, 0.05..1.2),
+        (10, 0.0, 60, 0.05..1.2),
+        (250, 3e-5, 30, 0.9..1.1),
+    ] {
+        let [mut square, mut rows] = [0.0; 2];
+        for seed in 0..trials {
+            let (wave, flaws) = converted(
+                &random_wave(seed, 5332.0, 0.3),
+                &Flaws::default(),
+                32,
+                0.9 / (offset + 1.5),
+            );
+            let flaws = Flaws {
+                noise: noise * wave.main_amplitude,
+                offset_c: offset * wave.main_amplitude,
+                offset_d: -offset * wave.main_amplitude,
+                ..flaws
+            };
+            let samples = 19 * usize::from(periods) * 8 + 300;
+            let codes = codes::codes(wave, &flaws, samples, seed);
+            let settings = codes::settings(32, periods);
+            for estimate in codes::identify(&codes, settings, |code| code) {
+                assert_eq!(estimate.flags, Flags::empty());
+                for (error, stated) in errors(&estimate, &wave).iter().zip(stated(&estimate)) {
+                    square += (error / stated).powi(2);
+                    rows += 1.0;
+                }
+            }
+        }
+        let ratio = f64::sqrt(square / rows);
+        println!("{periods} periods, noise {noise}: error over stated {ratio:.3}");
+        assert!(
+            within.contains(&ratio) && rows > 100.0,
+            "{periods}: {ratio}"
+        );
+    }
 }
 
 #[test]

@@ -14,14 +14,16 @@ impl Flags {
     pub const LOST: Self = Self(1 << 1);
     /// The phase does not continue that of the last window that was free of a misfit: samples are missing between or within them.
     pub const PHASE_JUMP: Self = Self(1 << 2);
-    /// Amplitude, angle or offset stepped between the window before and this one, by seven deviations beyond 0.2 % of a_A or 2 mrad.
+    /// Amplitude, angle or offset stepped between the window before and this one. What a step must be lies beyond 0.2 % of a_A or 2 mrad, in
+    /// deviations that the window states: half of 20 are seen, and all of 30. In the middle of a window, where it is a misfit too, of an
+    /// amplitude 25 and 35, and of the angle, which may be a turn, 60 and 85.
     pub const STEP: Self = Self(1 << 3);
     /// |a_A| ≈ |a_B|: the pattern is circular and the angle has no meaning.
     pub const CIRCULAR: Self = Self(1 << 4);
     /// The samples are not one wave with steady rates plus noise: a step, a dropout, a second tone within the window.
     pub const MISFIT: Self = Self(1 << 5);
-    /// One pick-off gave one and the same value for the whole window, or lost its wave while the other kept it. After a new
-    /// search one of noise alone looks like a pattern on the other's axis, and is not told.
+    /// One pick-off gave one and the same value for the whole window, or lost its wave while the other kept it, if that moved the angle by
+    /// as much as a step. After a new search a dead one cannot be told from a pattern on the other's axis, and is not flagged.
     pub const DEAD_CHANNEL: Self = Self(1 << 6);
     /// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
     /// only. Also the first window after a change of calibration or settings, unless it is the first of all.

@@ -176,11 +176,13 @@ impl<S: Sample, const N: usize> Front<S, N> {
     }
 
     /// Tells that `count` sample pairs were lost before the next one: the block that they would have been part of is dropped.
+    /// The index wraps at 2⁶².
     pub fn skip(&mut self, count: u64) {
         if count == 0 {
             return;
         }
-        self.index = self.index.wrapping_add(count);
+        // What no stream lasts is a count that was wrong: indices have room to be doubled, and to go on.
+        self.index = self.index.wrapping_add(count) & (u64::MAX >> 2);
         match self.stage {
             Stage::Searching => self.search(),
             Stage::Unset | Stage::Found(_) => {}

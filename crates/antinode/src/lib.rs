@@ -119,8 +119,9 @@
 //! | white noise of 0.1 to 20 % of a_A, 2 to 50 periods a window, from cold | rms 0.97 to 1.05 of the Cramér–Rao bound |
 //! | turning at 6 rad/s, decaying with τ = 0.3 s, drifting 2 Hz/s, 0.2 % noise, 10 periods | rms 1.00 to 1.07 of the bound |
 //!
-//! Standard deviations are stated within 5 % of the scatter. The bound is that of seven constant parameters, offsets and frequency
-//! among them. All of this is asserted, with a margin, by the tests of `host-tests`.
+//! Standard deviations are stated within 5 % of the scatter. They hold what f32 rounds, up to 10⁻⁷ of a_A, and of f32 samples up to 10⁻⁷
+//! of the offsets: in long windows of so little noise they are larger than the scatter. The bound is that of seven constant parameters,
+//! offsets and frequency among them. All of this is asserted, with a margin, by the tests of `host-tests`.
 //!
 //! # Limits
 //!
@@ -129,11 +130,10 @@
 //! - Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: 260 rad/s and 480 1/s in ten periods of
 //!   5332 Hz, 2.6 rad/s and 4.8 1/s in a thousand. Where it turns by more than about 0.6 rad amplitudes are some per cent off, which
 //!   windows of more than ten periods flag as a misfit and shorter ones may not.
-//! - Phase or amplitude that bends within a window, as where the frequency drifts or depends on the amplitude, or damping and frequency are
-//!   split, is a misfit where it bends by much more than the noise (2 Hz/s in a window of 60 ms, say) or than 2·10⁻⁴ of a_A, whichever is
-//!   more. Where it bends less, values may be off: phase where the frequency bends, amplitudes and θ too where there are splits. In windows
-//!   of 10 periods that is up to 6 of their deviations, in those of 100 and more up to 30; 6·10⁻⁵ rad of phase in noise of 10⁻⁴ of a_A,
-//!   4·10⁻⁴ rad in noise of 10⁻³. Shorter windows help.
+//! - A frequency that drifts or depends on the amplitude bends the phase within a window; splits of damping and frequency bend amplitudes
+//!   and θ too. Well above the noise (2 Hz/s in a window of 60 ms, say), or above 2·10⁻⁴ of a_A if that is more, it is flagged as a misfit.
+//!   Below, nothing is flagged, and values are off by up to 6 of their deviations in windows of 10 periods, and 30 in those of 100 and more:
+//!   6·10⁻⁵ rad of phase in noise of 10⁻⁴ of a_A, 4·10⁻⁴ rad in noise of 10⁻³. Use shorter windows.
 //! - A pattern that turns looks like a frequency off by 2 a_A a_B θ̇/(π(a_A² + a_B²)), which is taken out with θ̇ as the windows before have
 //!   it. Where θ̇ jumps, as splits make it near a circle, f may be off: 20 deviations at |a_B| of 0.94 a_A in windows of 100
 //!   periods.

@@ -55,8 +55,8 @@ pub struct Settings {
     /// Length of a window in periods, from 2 to the ring's blocks less 2; 10 unless changed. A window is a whole number of blocks,
     /// up to a tenth off this length: a block has up to two periods, or a fifth of the window where that is less.
     pub periods: u16,
-    /// Blocks from the start of one window to the start of the next, 1 or more. Blocks are then half as long, about one period, so that
-    /// windows move in finer steps. A hop beyond the window leaves gaps. `None`: windows follow each other without gap or overlap.
+    /// Blocks from the start of one window to the start of the next, 1 or more. Blocks are then half as long, so that windows move
+    /// in finer steps: about a period, or a tenth of a window of fewer than ten periods. A hop beyond the window leaves gaps. `None`: windows follow each other without gap or overlap.
     pub hop: Option<u16>,
     /// Where the pattern stands at first, rad, within ±10⁴: the angle is known modulo π/2, and the first window takes the one nearest to
     /// this. With π/4, the default, that lies in 0…π/2.

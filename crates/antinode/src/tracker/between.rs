@@ -1,6 +1,7 @@
 //! What a window must be like after the clean one before it: neither phase nor amplitudes, angle and offsets step.
 //!
-//! Thresholds are as those of a window by itself.
+//! Thresholds are as those of a window by itself. A change has the deviations of both levels and of both rates: √8 of a level in windows that
+//! follow each other.
 
 use super::angle::wrap;
 use super::checks::SIGMAS;

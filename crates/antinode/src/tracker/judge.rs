@@ -7,7 +7,6 @@ use super::failures::{Failures, LEFT};
 use super::record::{Record, Units};
 use super::standing::Standing;
 use super::{Tracker, between};
-use crate::arch::square_root;
 use crate::estimate::Flags;
 use crate::scalar::greater;
 use crate::window::Fit;
@@ -29,13 +28,14 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let model = self.model.as_ref()?;
         let own = fit.remains.variance();
         let [noise, stated] = self.noise.beside(own, fit.remains.freedom);
-        // Rounding of f32 sums is an error too, where there is no other, and part of it does not average.
-        let size = fit.offsets[0].abs() + fit.offsets[1].abs() + square_root(fit.waves.power());
-        let rounding = 1e-7 * size;
+        // Rounding of f32 is an error too, where there is no other, and does not average; but what an offset rounds in exact sums does.
+        let whole = 1.0 + model.half;
+        let of_offsets = if model.layout.scale == 0 { whole } else { 1.0 };
+        let [c, d] = fit.offsets;
+        let rounding = 1e-14 * (whole * fit.waves.power() + of_offsets * (c * c + d * d));
         let coding = Coding::new(&self.settings, noise, model, fit);
-        let averaged = rounding * rounding * (1.0 + model.half);
         // Of a tiny wave the rounding's square is 0 in f32, and 0 over 0 is no share.
-        let errors = averaged + coding.expected + f32::MIN_POSITIVE;
+        let errors = rounding + coding.expected + f32::MIN_POSITIVE;
         let share = (stated + errors) / (noise + errors);
         let mut wave = Standing::new(model, fit, [noise + errors, share], own, self.end);
         let flags = self.judge(fit, [coding.most, stated], &mut wave)?;

@@ -183,7 +183,8 @@ pub(crate) fn solve(
 fn reach(model: &Model, count: u16, carrier: PhaseStep, uncertainty: f32) -> u16 {
     let length = f32::from(model.layout.length);
     let whole = uncertainty * length;
-    let shortest = (2.5 * carrier.period() / length) as u16 + 1;
+    // A carrier that noise has led to nothing has a period of any length.
+    let shortest = (2.5 * carrier.period() / length + 1.0) as u16;
     ((1.0 / whole) as u16).max(shortest.max(3)).min(count)
 }
 
@@ -194,6 +195,16 @@ mod tests {
     use super::*;
     use crate::block::Layout;
     use crate::calibration::Calibration;
+
+    #[test]
+    fn a_carrier_of_nothing_is_good_for_any_number_of_blocks() {
+        let carrier = PhaseStep::from_period(2.79);
+        let layout = Layout::unrounded(carrier, 1);
+        let model = Model::new(layout, carrier, 11, Calibration::IDEAL, 1e5, false);
+        for (step, blocks) in [(0, 11), (1, 11), (1 << 18, 11), (carrier.0, 7)] {
+            assert_eq!(reach(&model, 11, PhaseStep(step), 0.3), blocks, "{step}");
+        }
+    }
 
     #[test]
     fn a_futile_step_is_lost_in_the_noise() {

@@ -104,7 +104,7 @@
 //! | feature | on by default | what it adds |
 //! |---|---|---|
 //! | `mean-return` | yes | the period detector of formula (9): `Detection::MeanReturn`, `period::MeanReturnDetector` |
-//! | `fixed` | yes | pairs of `I1F15` and `I1F31` of the crate `fixed`: [`SamplePair`] |
+//! | `fixed` | no | pairs of `I1F15` and `I1F31` of the crate `fixed`: [`SamplePair`] |
 //! | `defmt` | no | `defmt::Format` of [`Estimate`], [`Flags`], [`Settings`], [`Calibration`], [`Detection`] and [`SettingsError`] |
 //! | `serde` | no | `Serialize` and `Deserialize` of the same; flags as names in human-readable formats, as bits in others |
 //!

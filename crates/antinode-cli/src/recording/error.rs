@@ -196,7 +196,7 @@ pub enum InputError {
     NpyShape { file: String, shape: String },
     /// A type of number that has no scale here.
     #[error(
-        "{file}: NPY header: the dtype is {dtype}, but i2, i4, f4 or f8 is needed; save \
+        "{file}: NPY header: the dtype is {dtype}, but u1, i1, u2, i2, i4, f4 or f8 is needed; save \
          `numpy.stack([c, d], axis=1).astype('f4')`"
     )]
     NpyType { file: String, dtype: String },

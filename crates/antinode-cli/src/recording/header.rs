@@ -27,6 +27,8 @@ pub(super) struct Header {
     unknown: Option<String>,
     /// What the names tell of a start and an increment.
     counted: Option<Counted>,
+    /// The line above that is left out, for it is cut.
+    cut: Option<usize>,
 }
 
 impl Header {
@@ -72,6 +74,7 @@ impl Header {
             units: (Default::default(), Together::Same),
             unknown: None,
             counted,
+            cut: start.cut,
         };
         let fault =
             |header: &Self, line, fault| InputError::line(file, line, header.time_fault(fault));
@@ -155,8 +158,13 @@ impl Header {
         Ok(())
     }
 
+    /// What to tell of the first lines.
+    pub fn warnings(&self) -> [Option<String>; 3] {
+        [self.cut(), self.signal_units(), self.time_unit()]
+    }
+
     /// What to tell of the signals' units.
-    pub fn units_warning(&self) -> Option<String> {
+    fn signal_units(&self) -> Option<String> {
         let ([c, d], together) = &self.units;
         let told = match together {
             Together::Same | Together::Never => return None,
@@ -170,12 +178,20 @@ impl Header {
     }
 
     /// What to tell of a time whose unit is none that is known.
-    pub fn time_warning(&self) -> Option<String> {
+    fn time_unit(&self) -> Option<String> {
         let name = self.unknown.as_ref()?;
         let samples = self.samples();
         Some(format!(
             "the time column `{name}` is read as seconds, which its name does not tell; if it is something else, convert it to seconds, or \
              ignore it with {COLUMNS_OPTION} {samples} {RATE_OPTION} HZ"
+        ))
+    }
+
+    /// What to tell of a first line that is left out.
+    fn cut(&self) -> Option<String> {
+        let line = self.cut?;
+        Some(format!(
+            "line {line} seems to lack its beginning, as where a logger is attached in the middle of a line: it is left out"
         ))
     }
 

@@ -1,6 +1,7 @@
 //! `antinode identify`: recordings in, rows out, as a stream.
 
 mod copied;
+mod early;
 mod first;
 mod flagged;
 mod held;

@@ -83,7 +83,7 @@ fn options_that_make_no_sense_are_refused() {
         ("--format xml", "table, csv, jsonl"),
         ("--output xml", "table, csv, jsonl"),
         ("--columns a", "two (S_C, S_D) or three"),
-        ("--raw i8", "i16, i32, f32, f64"),
+        ("--raw u32", "u8, i8, u16, i16, i24, i32, f32, f64"),
         ("--nonsense", "--nonsense"),
     ];
     for (arguments, told) in cases {

@@ -2,9 +2,10 @@
 
 mod common;
 
+use std::fs;
 use std::path::Path;
 
-use common::{Row, rows, run};
+use common::{RATE, Row, WAVE, Wave, npy, rows, run};
 
 /// The rows of a simulated recording.
 fn identified(here: &Path, name: &str, simulate: &str, identify: &str) -> Vec<Row> {
@@ -75,4 +76,63 @@ fn a_step_coarser_than_the_noise_is_told_where_rows_scatter() {
         assert_eq!(found.err.contains(step), is_told, "{noise}: {}", found.err);
         assert_eq!(found.err.is_empty(), !is_told, "{noise}: {}", found.err);
     }
+}
+
+/// An NPY file of unsigned integers, whose header is as long as that of signed ones.
+fn unsigned(codes: &[[i16; 2]]) -> Vec<u8> {
+    let mut bytes = npy(codes);
+    let place = bytes.windows(3).position(|bytes| bytes == b"<i2").unwrap();
+    bytes[place + 1] = b'u';
+    bytes
+}
+
+/// A wave of so many codes about the middle of a 12-bit converter that counts from 0, which saturates.
+fn counted(codes: f64) -> Vec<[i16; 2]> {
+    let wave = Wave {
+        main: codes / 32_768.0,
+        quadrature: -0.07 * codes / 32_768.0,
+        noise: 1.0 / 32_768.0,
+        ..WAVE
+    };
+    let pairs = wave.codes(20_000).into_iter();
+    pairs
+        .map(|pair| pair.map(|code| (code + 2048).clamp(0, 4095)))
+        .collect()
+}
+
+#[test]
+fn codes_from_0_are_one_wave_in_signed_and_in_unsigned_integers() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let numbers = |name: &str, codes: &[[i16; 2]], bytes: Vec<u8>| {
+        fs::write(here.join(name), bytes).unwrap();
+        let found = rows(here, &format!("{name} --rate {RATE}"));
+        assert!(found.len() * 200 > codes.len(), "{name}: {}", found.len());
+        found
+    };
+    for amplitude in [1500.0, 150.0] {
+        let codes = counted(amplitude);
+        let signed = numbers("signed.npy", &codes, npy(&codes));
+        let found = numbers("unsigned.npy", &codes, unsigned(&codes));
+        assert_eq!(found.len(), signed.len());
+        for (found, signed) in found.iter().zip(&signed) {
+            assert_eq!(found.text("flags"), "");
+            for name in ["main_amplitude", "quadrature_amplitude", "angle_rad"] {
+                let off = found.number(name) - signed.number(name);
+                assert!(
+                    off.abs() < 0.1 * signed.number("angle_std_rad"),
+                    "{name}: {off}"
+                );
+            }
+            // Mid-scale of all 16 bits is 0.
+            assert!((found.number("offset_c") - (2048.0 / 32_768.0 - 1.0)).abs() < 1e-4);
+        }
+    }
+    let codes = counted(3000.0);
+    let found = numbers("unsigned.npy", &codes, unsigned(&codes));
+    assert!(
+        found
+            .iter()
+            .all(|row| row.text("flags").contains("clipped"))
+    );
 }

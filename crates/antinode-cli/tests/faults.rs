@@ -48,7 +48,13 @@ fn what_is_not_a_recording_is_told() {
             "text.wav",
             &["text.wav: ", "not a WAV file", "export it again"],
         ),
-        ("other.bin", &["other.bin: ", "--raw i16, i32, f32 or f64"]),
+        (
+            "other.bin",
+            &[
+                "other.bin: ",
+                "--raw u8, i8, u16, i16, i24, i32, f32 or f64",
+            ],
+        ),
         (
             "words.csv",
             &["words.csv:2:2: ", "`half`", "correct or delete the line"],

@@ -138,7 +138,16 @@ fn every_format_gives_the_same_rows() {
         .as_flattened()
         .iter()
         .flat_map(|&code| (f32::from(code) / 32_768.0).to_le_bytes());
+    let unsigned = codes
+        .as_flattened()
+        .iter()
+        .flat_map(|&code| (i32::from(code) + 32_768).to_le_bytes()[..2].to_vec());
     let wide: Vec<u8> = wide.collect();
+    let medium: Vec<u8> = wide
+        .chunks(4)
+        .flat_map(|code| &code[1..])
+        .copied()
+        .collect();
     let float: Vec<u8> = float.collect();
     let runs = [
         ("a.npy --rate 100000".to_owned(), Vec::new()),
@@ -148,6 +157,8 @@ fn every_format_gives_the_same_rows() {
             Vec::new(),
         ),
         ("- --rate 100000 --raw i16".to_owned(), raw(&codes)),
+        ("- --rate 100000 --raw u16".to_owned(), unsigned.collect()),
+        (format!("- --rate 100000 --raw i24 {converter}"), medium),
         (format!("- --rate 100000 --raw i32 {converter}"), wide),
         (format!("- --rate 100000 --raw f32 {converter}"), float),
         ("-".to_owned(), wav(&codes)),

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread;
 
-use common::{Row, WAVE, fault, rows, text};
+use common::{Row, WAVE, fault, rows, rows_of, run_with, same_later, text};
 
 /// The lines of a recording, whose rows go to `good.csv`.
 fn lines(directory: &Path) -> (Vec<String>, Vec<Row>) {
@@ -119,6 +119,37 @@ fn a_line_between_others_costs_no_row() {
         part.len(),
         rows(here, "good.csv --from 0.13 --to 0.14").len()
     );
+}
+
+#[test]
+fn a_first_line_that_lacks_its_beginning_costs_itself_alone() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let (lines, _) = lines(here);
+    let untimed = |line: &String| line.split_once(',').unwrap().1.to_owned();
+    // From 0.1 s on, with times and without.
+    let timed = lines[10_001..].to_vec();
+    let untimed: Vec<String> = timed.iter().map(untimed).collect();
+    for (lines, begin) in [
+        (timed, 2),
+        (untimed.clone(), untimed[0].find(',').unwrap() + 1),
+    ] {
+        let expected = rows_of(here, &lines[1..].join("\n"), "--rate 1e5");
+        let text = lines.join("\n");
+        for at in begin..lines[0].len() {
+            let told = "input: line 1 seems to lack its beginning, as where a logger is attached in the middle of a line: it is left out";
+            let text = text.as_bytes()[at..].to_vec();
+            let run = run_with(here, "identify - --rate 1e5 --output csv", text);
+            assert_eq!(
+                (run.code, run.err.lines().count()),
+                (0, 1),
+                "{at}: {}",
+                run.err
+            );
+            assert!(run.err.contains(told), "{at}: {}", run.err);
+            same_later(&Row::all(&run.out), &expected, 0.0);
+        }
+    }
 }
 
 #[test]

@@ -20,6 +20,9 @@ const MOST_CHANNELS: u8 = 64;
 #[command(allow_negative_numbers = true)]
 pub struct Identify {
     /// Recordings: WAV (left S_C, right S_D), CSV, NPY, told apart by their content; `-` is standard input.
+    ///
+    /// Integers are scaled so that full scale is 1, and unsigned ones so that mid-scale is 0: 12-bit codes from 0 to 4095 in 16 bits are a
+    /// wave about an offset, which does no harm, but that a wave of less than 60 codes is found in signed integers only.
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Periods a window, 2 to 1022.

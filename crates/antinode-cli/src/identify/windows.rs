@@ -5,6 +5,7 @@ use std::io::Write;
 use antinode::{Estimate, SettingsError};
 
 use super::copied::Copied;
+use super::early::Early;
 use super::first::First;
 use super::flagged::Flagged;
 use super::held::Held;
@@ -42,6 +43,7 @@ pub(super) struct Windows<'a> {
     in_turn: InTurn,
     held: Held,
     copied: Copied,
+    early: Early,
     flagged: Flagged,
 }
 
@@ -80,6 +82,7 @@ impl<'a> Windows<'a> {
             in_turn: InTurn::default(),
             held: Held::default(),
             copied: Copied::default(),
+            early: Early::new(recording.bytes_total().is_none(), rate),
             flagged: Flagged::default(),
         })
     }
@@ -134,7 +137,21 @@ impl<'a> Windows<'a> {
                 self.print(&estimate, rows)?;
             }
         }
+        if self.early.is_due(self.core.index()) {
+            self.tell_early(rows)?;
+        }
         Ok(true)
+    }
+
+    /// Tells of a pipe what will not be otherwise any more.
+    fn tell_early(&self, rows: &mut Rows<impl Write>) -> Result<(), Failure> {
+        // Rows have flags where one of them holds its value.
+        let held = self.held.told().filter(|_| rows.count() == 0);
+        if let Some(told) = held.or_else(|| self.copied.told()) {
+            rows.flush()?;
+            eprintln!("warning: {}: so far {told}", self.name);
+        }
+        Ok(())
     }
 
     /// Looks at the first pairs that are identified.
@@ -193,7 +210,9 @@ impl<'a> Windows<'a> {
             self.silence.told(seconds, self.span.offset()),
             self.scatter.told(self.options.hum || self.options.coloured),
             self.in_turn.told(),
-            self.copied.told().filter(|_| !self.held.are_both()),
+            self.copied
+                .told()
+                .filter(|_| !self.held.are_both() && self.early != Early::Passed),
             self.search.scale().filter(|_| rows.count() > 0),
         ];
         for warning in warnings.into_iter().flatten() {

@@ -40,9 +40,8 @@ pub(super) fn open(
         _ => axis.map(|axis| axis.meaning(source.rows.printed, options.rate)),
     };
     let header = &source.rows.header;
-    let of_header = [header.units_warning(), header.time_warning()];
     let of_time = meaning.and_then(|meaning| source.warning(meaning));
-    let told = of_header.into_iter().flatten().chain(of_time);
+    let told = header.warnings().into_iter().flatten().chain(of_time);
     let warnings = told.map(|told| format!("{file}: {told}")).collect();
     Ok(Opened {
         format: "CSV".to_owned(),

@@ -67,8 +67,8 @@ pub enum InputError {
     /// Neither the content nor the extension is known.
     #[error(
         "{file}: neither its content nor its extension is known; give a .wav, .csv, .tsv, .txt, .lvm \
-         or .npy file, or the sample format of a raw one with {RAW_OPTION} i16, i32, f32 or f64, or the \
-         columns of a text with {COLUMNS_OPTION}"
+         or .npy file, or the sample format of a raw one with {RAW_OPTION} u8, i8, u16, i16, i24, i32, \
+         f32 or f64, or the columns of a text with {COLUMNS_OPTION}"
     )]
     Unknown { file: String },
     /// What the content is, which is not read.
@@ -86,7 +86,7 @@ pub enum InputError {
     /// Standard input without a sample format.
     #[error(
         "{file}: this is neither WAV, NPY nor CSV, and raw samples do not tell their format; give it \
-         with {RAW_OPTION} i16, i32, f32 or f64 (little-endian, S_C and S_D in turn)"
+         with {RAW_OPTION} u8, i8, u16, i16, i24, i32, f32 or f64 (little-endian, S_C and S_D in turn)"
     )]
     RawFormatNeeded { file: String },
 
@@ -196,7 +196,7 @@ pub enum InputError {
     NpyShape { file: String, shape: String },
     /// A type of number that has no scale here.
     #[error(
-        "{file}: NPY header: the dtype is {dtype}, but i2, i4, f4 or f8 is needed; save \
+        "{file}: NPY header: the dtype is {dtype}, but u1, i1, u2, i2, i4, f4 or f8 is needed; save \
          `numpy.stack([c, d], axis=1).astype('f4')`"
     )]
     NpyType { file: String, dtype: String },

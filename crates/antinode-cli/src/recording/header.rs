@@ -1,6 +1,6 @@
 //! What the first lines of a text recording tell: its columns, and the unit of its time.
 
-use super::columns::{Columns, FirstLine, Places};
+use super::columns::{Columns, FirstLine, Places, is_time};
 use super::error::{COLUMNS_OPTION, InputError, LineFault, RATE_OPTION, TimeFault};
 use super::heading::is_header;
 use super::lines::{Beginning, Lines};
@@ -27,6 +27,8 @@ pub(super) struct Header {
     unknown: Option<String>,
     /// What the names tell of a start and an increment.
     counted: Option<Counted>,
+    /// The line above that is left out, for it is cut.
+    cut: Option<usize>,
 }
 
 impl Header {
@@ -43,6 +45,7 @@ impl Header {
         let width = names.len();
         let counted = counted(&names);
         let has_numbers = counted.is_some_and(|counted| counted.has_numbers);
+        let is_timed = has_numbers || names.first().is_some_and(|name| is_time(name));
         if has_numbers && chosen.is_none() {
             names[0] = "time".to_owned();
         }
@@ -56,22 +59,25 @@ impl Header {
             width: columns,
             start,
         };
-        let places = if counted.is_some() && !has_numbers && chosen.is_none() && columns != 2 {
+        let places = if counted.is_some() && !is_timed && chosen.is_none() && columns != 2 {
             // None of these is a time.
             Err(LineFault::ColumnCount { found: columns })
         } else {
             line.places(chosen)
         };
         let places = places.map_err(|fault| InputError::line(file, lines.number(), fault))?;
+        let of_names = counted.and_then(|counted| counted.sequence);
+        let sequence = start.sequence.or(of_names);
         let mut header = Self {
             width,
             places,
             exponent: 0,
-            sequence: start.sequence.filter(|_| places[0].is_none()),
+            sequence: sequence.filter(|_| places[0].is_none()),
             divisors: [1.0; 2],
             units: (Default::default(), Together::Same),
             unknown: None,
             counted,
+            cut: start.cut,
         };
         let fault =
             |header: &Self, line, fault| InputError::line(file, line, header.time_fault(fault));
@@ -155,8 +161,13 @@ impl Header {
         Ok(())
     }
 
+    /// What to tell of the first lines.
+    pub fn warnings(&self) -> [Option<String>; 3] {
+        [self.cut(), self.signal_units(), self.time_unit()]
+    }
+
     /// What to tell of the signals' units.
-    pub fn units_warning(&self) -> Option<String> {
+    fn signal_units(&self) -> Option<String> {
         let ([c, d], together) = &self.units;
         let told = match together {
             Together::Same | Together::Never => return None,
@@ -170,12 +181,20 @@ impl Header {
     }
 
     /// What to tell of a time whose unit is none that is known.
-    pub fn time_warning(&self) -> Option<String> {
+    fn time_unit(&self) -> Option<String> {
         let name = self.unknown.as_ref()?;
         let samples = self.samples();
         Some(format!(
             "the time column `{name}` is read as seconds, which its name does not tell; if it is something else, convert it to seconds, or \
              ignore it with {COLUMNS_OPTION} {samples} {RATE_OPTION} HZ"
+        ))
+    }
+
+    /// What to tell of a first line that is left out.
+    fn cut(&self) -> Option<String> {
+        let line = self.cut?;
+        Some(format!(
+            "line {line} seems to lack its beginning, as where a logger is attached in the middle of a line: it is left out"
         ))
     }
 
@@ -208,8 +227,9 @@ impl Header {
             // Another column than the first holds times of its own.
             let first = counted.has_numbers.then_some(0);
             let is_first = self.places[0].is_none() || self.places[0] == first;
-            let told = || Sequence::read(&found, counted, lines.separator);
-            self.sequence = is_first.then(told).flatten();
+            if is_first && counted.sequence.is_none() {
+                self.sequence = Sequence::read(&found, counted, lines.separator);
+            }
             found.truncate(counted.columns);
         }
         let is_number = |field: &str| number::<f64>(field.as_bytes(), lines.separator).is_some();

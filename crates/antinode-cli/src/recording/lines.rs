@@ -51,6 +51,9 @@ impl Lines {
         if let Some((_, unit)) = &mut start.unit {
             *unit += line as usize;
         }
+        if let Some(cut) = &mut start.cut {
+            *cut += line as usize;
+        }
         let end = begun.iter().position(|&byte| byte == b'\n');
         let (first, next) = begun.split_at(end.map_or(begun.len(), |end| end + 1));
         let beginning = Beginning {

@@ -171,6 +171,10 @@ fn code(file: &str, dtype: &DType) -> Result<SampleCode, InputError> {
         return Err(refused());
     };
     let kind = match (plain.type_char(), plain.size_field()) {
+        // Unsigned ones of 32 bits are none: codes that use 24 of these or fewer would lie too close to −1 for single precision.
+        (TypeChar::Uint, 1) => Kind::U8,
+        (TypeChar::Uint, 2) => Kind::U16,
+        (TypeChar::Int, 1) => Kind::I8,
         (TypeChar::Int, 2) => Kind::I16,
         (TypeChar::Int, 4) => Kind::I32,
         (TypeChar::Float, 4) => Kind::F32,
@@ -222,6 +226,7 @@ impl Planes {
         let [c, d, both] = &mut self.chunks;
         both.clear();
         match size {
+            1 => interleave::<1>(c, d, both),
             2 => interleave::<2>(c, d, both),
             4 => interleave::<4>(c, d, both),
             _ => interleave::<8>(c, d, both),

@@ -1,7 +1,9 @@
 //! Where the samples of a text begin: behind the settings that oscilloscopes and recorders write above them.
 //!
 //! Settings are skipped only where no number can be lost: lines of numbers in the same columns follow, and no line that is skipped has
-//! numbers in all of these, or begins with one.
+//! numbers in all of these, or begins with one. A first line that lacks its beginning is skipped too, and told.
+
+mod cut;
 
 use super::header::lossy;
 use super::heading::is_header;
@@ -29,9 +31,11 @@ const UNBENT: f64 = 1.0001;
 /// Where to read from, and what was seen on the way.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Start {
-    /// The lines of settings, and their bytes.
+    /// The lines of settings, or the one that is cut, and their bytes.
     pub lines: usize,
     pub bytes: usize,
+    /// The line that is cut at its beginning.
+    pub cut: Option<usize>,
     /// The columns that hold numbers, from 0; none where that is not known.
     pub numbers: Vec<usize>,
     /// Whether the first of these goes up as time does.
@@ -62,7 +66,9 @@ pub(super) fn find(text: &[u8], is_all: bool) -> Option<Start> {
         let lead = lead(line);
         !lead.is_some_and(|field| is_sample(field, separator))
     });
-    let found = steady(&lines, separator).map(|numbers| start(&lines, numbers, separator));
+    let found = steady(&lines, separator).map(|numbers| {
+        cut::start(&lines, &numbers, separator).or_else(|| start(&lines, numbers, separator))
+    });
     match found {
         None if begins_with_word && !is_all && lines.len() < MOST_LINES => None,
         found => Some(found.flatten().unwrap_or_default()),
@@ -176,6 +182,7 @@ fn start(lines: &[Line], numbers: Vec<usize>, separator: u8) -> Option<Start> {
         is_surely_clocked: is_clock(&lines[rows..], numbers[0], separator, UNBENT),
         unit: settings.iter().find_map(unit),
         sequence: Sequence::of_settings(&fields, separator),
+        cut: None,
         numbers,
     })
 }

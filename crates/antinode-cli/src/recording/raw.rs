@@ -19,8 +19,16 @@ const CHUNK_HEADER: usize = 8;
 /// The format of samples that come without a header: little-endian, the channels in turn.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum RawFormat {
+    /// 8-bit unsigned integers, mid-scale reads as 0 and full scale as 1.
+    U8,
+    /// 8-bit integers, full scale reads as 1.
+    I8,
+    /// 16-bit unsigned integers, mid-scale reads as 0 and full scale as 1; codes below 32768 may be read as i16 too.
+    U16,
     /// 16-bit integers, full scale reads as 1.
     I16,
+    /// 24-bit integers of three bytes, full scale reads as 1.
+    I24,
     /// 32-bit integers, full scale reads as 1.
     I32,
     /// 32-bit floating point.
@@ -61,7 +69,11 @@ pub(super) fn open(
     length: Option<u64>,
 ) -> Result<Opened, InputError> {
     let code = SampleCode::new(match format {
+        RawFormat::U8 => Kind::U8,
+        RawFormat::I8 => Kind::I8,
+        RawFormat::U16 => Kind::U16,
         RawFormat::I16 => Kind::I16,
+        RawFormat::I24 => Kind::I24,
         RawFormat::I32 => Kind::I32,
         RawFormat::F32 => Kind::F32,
         RawFormat::F64 => Kind::F64,

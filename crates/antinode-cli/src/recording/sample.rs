@@ -7,6 +7,9 @@ use super::error::Channel;
 pub(super) enum Kind {
     /// Unsigned, 128 is zero, as 8-bit WAV files have it.
     U8,
+    I8,
+    /// Unsigned, 32768 is zero.
+    U16,
     I16,
     I24,
     I32,
@@ -77,10 +80,10 @@ impl SampleCode {
 
     /// What the samples are, in words.
     pub fn words(self) -> String {
-        let kind = if self.is_integer() {
-            "integers"
-        } else {
-            "floats"
+        let kind = match self.kind {
+            Kind::U8 | Kind::U16 => "unsigned integers",
+            Kind::I8 | Kind::I16 | Kind::I24 | Kind::I32 => "integers",
+            Kind::F32 | Kind::F64 => "floats",
         };
         format!("{}-bit {kind}", self.valid_bits)
     }
@@ -94,6 +97,9 @@ impl SampleCode {
         let start = pairs.len();
         match (self.kind, self.big_endian) {
             (Kind::U8, _) => push(bytes, pairs, |[b]| (f32::from(b) - 128.0) / 128.0),
+            (Kind::I8, _) => push(bytes, pairs, |b| f32::from(i8::from_le_bytes(b)) / 128.0),
+            (Kind::U16, false) => push(bytes, pairs, |b| scale_u16(u16::from_le_bytes(b))),
+            (Kind::U16, true) => push(bytes, pairs, |b| scale_u16(u16::from_be_bytes(b))),
             (Kind::I16, false) => push(bytes, pairs, |b| scale_16(i16::from_le_bytes(b))),
             (Kind::I16, true) => push(bytes, pairs, |b| scale_16(i16::from_be_bytes(b))),
             (Kind::I24, false) => push(bytes, pairs, |[a, b, c]| {
@@ -145,8 +151,8 @@ impl SampleCode {
 
 fn bytes(kind: Kind) -> usize {
     match kind {
-        Kind::U8 => 1,
-        Kind::I16 => 2,
+        Kind::U8 | Kind::I8 => 1,
+        Kind::U16 | Kind::I16 => 2,
         Kind::I24 => 3,
         Kind::I32 | Kind::F32 => 4,
         Kind::F64 => 8,
@@ -164,6 +170,11 @@ pub(super) fn channel_at(index: usize) -> Channel {
 
 fn scale_16(code: i16) -> f32 {
     f32::from(code) * (1.0 / 32_768.0)
+}
+
+fn scale_u16(code: u16) -> f32 {
+    // The upper bit turned over takes mid-scale off.
+    scale_16((code ^ 0x8000).cast_signed())
 }
 
 fn scale_32(code: i32) -> f32 {

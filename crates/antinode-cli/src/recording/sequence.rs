@@ -1,5 +1,5 @@
 //! Recordings whose header tells the time of the first sample and the step: `X,CH1,CH2,Start,Increment`, with or without the column `X` that
-//! counts the lines; and those whose settings tell the same.
+//! counts the lines, or `CH1V,CH2V,t0 = -1e-3, tInc = 1e-5`; and those whose settings tell the same.
 
 use super::text::number;
 
@@ -27,9 +27,11 @@ pub(super) struct Counted {
     pub columns: usize,
     /// Whether the first has the samples' numbers.
     pub has_numbers: bool,
+    /// The times, where the names themselves tell them, and not the line below.
+    pub sequence: Option<Sequence>,
 }
 
-/// What these names tell, where the last are those of the start and the increment.
+/// What these names tell, where the last are those of the start and the increment, or tell these.
 pub(super) fn counted(names: &[String]) -> Option<Counted> {
     let names: Vec<String> = names.iter().map(|name| name.to_lowercase()).collect();
     match names.as_slice() {
@@ -37,10 +39,30 @@ pub(super) fn counted(names: &[String]) -> Option<Counted> {
             Some(Counted {
                 columns: 1 + samples.len(),
                 has_numbers: first == "x",
+                sequence: None,
+            })
+        }
+        [samples @ .., start, increment] => {
+            let sequence = Sequence {
+                start: named(start, "t0")?,
+                step: named(increment, "tinc")?,
+                is_counted: false,
+            };
+            sequence.is_good().then_some(Counted {
+                columns: samples.len(),
+                has_numbers: false,
+                sequence: Some(sequence),
             })
         }
         _ => None,
     }
+}
+
+/// The number of seconds behind this label: `t0 =-1.0e-03` or `t0 = -0.001s`.
+fn named(name: &str, label: &str) -> Option<f64> {
+    let value = name.strip_prefix(label)?.trim_start().strip_prefix('=')?;
+    let seconds = value.trim().trim_end_matches('s').trim_end();
+    number(seconds.as_bytes(), b',')
 }
 
 impl Sequence {
@@ -53,9 +75,11 @@ impl Sequence {
             is_counted: names.has_numbers,
         };
         let is_sequence = !names.has_numbers || units.first()?.eq_ignore_ascii_case("sequence");
-        let is_good =
-            sequence.start.is_finite() && sequence.step > 0.0 && sequence.step.is_finite();
-        (is_sequence && is_good).then_some(sequence)
+        (is_sequence && sequence.is_good()).then_some(sequence)
+    }
+
+    fn is_good(self) -> bool {
+        self.start.is_finite() && self.step > 0.0 && self.step.is_finite()
     }
 
     /// What settings tell of samples without times beside them; each of `settings` is a line's fields.

@@ -33,6 +33,14 @@ fn every_format_is_read_across_ragged_chunks() {
         .iter()
         .flat_map(|code| code.to_le_bytes())
         .collect();
+    let u16s = codes[..998]
+        .iter()
+        .flat_map(|&code| (code.cast_unsigned() ^ 0x8000).to_le_bytes())
+        .collect();
+    let i24s = codes[..998]
+        .iter()
+        .flat_map(|code| [vec![0], code.to_le_bytes().to_vec()].concat())
+        .collect();
     let i32s = codes[..998]
         .iter()
         .flat_map(|&code| (i32::from(code) << 16).to_le_bytes())
@@ -47,6 +55,8 @@ fn every_format_is_read_across_ragged_chunks() {
         .collect();
     for (bytes, format) in [
         (f64s, RawFormat::F64),
+        (u16s, RawFormat::U16),
+        (i24s, RawFormat::I24),
         (i16s, RawFormat::I16),
         (i32s, RawFormat::I32),
         (f32s, RawFormat::F32),
@@ -54,6 +64,36 @@ fn every_format_is_read_across_ragged_chunks() {
         let (read, fault) = drain(&mut raw(whole(bytes), format));
         assert_eq!(read, pairs);
         assert!(fault.is_none());
+    }
+}
+
+#[test]
+fn bytes_are_integers_with_or_without_sign() {
+    for (format, expected) in [
+        (RawFormat::U8, [[-1.0, 0.0], [-0.5, 127.0 / 128.0]]),
+        (RawFormat::I8, [[0.0, -1.0], [0.5, -1.0 / 128.0]]),
+    ] {
+        let mut recording = raw(vec![0, 0x80, 0x40, 0xff], format);
+        assert_eq!(recording.full_scale(), Some(127.0 / 128.0));
+        let (read, fault) = drain(&mut recording);
+        assert_eq!(read, expected);
+        assert!(fault.is_none());
+    }
+}
+
+#[test]
+fn messages_and_the_readme_name_every_format() {
+    let names = RawFormat::value_variants().iter();
+    let names = names.filter_map(|format| Some(format.to_possible_value()?.get_name().to_owned()));
+    let names: Vec<String> = names.collect();
+    let (last, others) = names.split_last().expect("there are formats");
+    let expected = format!("--raw {} or {last}", others.join(", "));
+    let file = "a".to_owned();
+    let needed = InputError::RawFormatNeeded { file: file.clone() }.to_string();
+    let unknown = InputError::Unknown { file }.to_string();
+    let readme = include_str!("../../../../../README.md").replace('`', "");
+    for text in [needed, unknown, readme] {
+        assert!(text.contains(&expected), "{expected} is not in {text}");
     }
 }
 

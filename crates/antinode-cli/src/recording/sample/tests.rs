@@ -13,6 +13,18 @@ fn integers_scale_to_one() {
     let code = SampleCode::new;
     assert_eq!(decode(code(Kind::U8), &[0, 255]).0, [[-1.0, 127.0 / 128.0]]);
     assert_eq!(
+        decode(code(Kind::I8), &[0x80, 127]).0,
+        [[-1.0, 127.0 / 128.0]]
+    );
+    assert_eq!(
+        decode(code(Kind::U16), &[0, 0, 0xff, 0xff, 0, 0x80, 0, 0x40]).0,
+        [[-1.0, 32_767.0 / 32_768.0], [0.0, -0.5]]
+    );
+    assert_eq!(
+        decode(code(Kind::U16).big_endian(true), &[0x80, 0, 0xc0, 0]).0,
+        [[0.0, 0.5]]
+    );
+    assert_eq!(
         decode(code(Kind::I16), &[0, 0x80, 0xff, 0x7f]).0,
         [[-1.0, 32_767.0 / 32_768.0]]
     );
@@ -46,6 +58,8 @@ fn integers_scale_to_one() {
 fn full_scale_is_the_largest_code() {
     for (kind, top) in [
         (Kind::U8, &[255][..]),
+        (Kind::I8, &[127]),
+        (Kind::U16, &[0xff, 0xff]),
         (Kind::I16, &[0xff, 0x7f]),
         (Kind::I24, &[0xff, 0xff, 0x7f]),
         (Kind::I32, &[0xff, 0xff, 0xff, 0x7f]),

@@ -123,6 +123,21 @@ fn a_broken_line_whose_place_is_known_is_a_pair_without_its_samples() {
 }
 
 #[test]
+fn behind_a_line_that_is_cut_a_rising_signal_is_no_time() {
+    let rows = (0..20).map(|k| format!("0.{},0.5\n", 100 + 10 * k + k * k / 10));
+    let text = format!("5\n{}", rows.collect::<String>());
+    let (_directory, path) = file("a.csv", text.as_bytes());
+    let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+    let (pairs, fault) = drain(&mut recording);
+    assert_eq!((pairs.len(), fault.is_none()), (20, true));
+    assert_eq!(pairs[0], [0.1, 0.5]);
+    let [warning] = recording.warnings() else {
+        panic!("{:?}", recording.warnings());
+    };
+    assert!(warning.contains("a.csv: line 1 seems to lack its beginning"));
+}
+
+#[test]
 fn text_that_is_mostly_broken_is_refused() {
     for (text, pairs, expected) in [
         (

@@ -50,8 +50,10 @@ pub struct Identify {
     /// samples before them.
     #[arg(long, value_enum, default_value_t = Methods::Exact)]
     pub methods: Methods,
-    /// Format of raw samples, for what is neither WAV nor NPY, nor text by its extension: little-endian, S_C and S_D in turn,
+    /// Format of raw samples, for what is neither WAV nor NPY nor text, whatever its extension: little-endian, S_C and S_D in turn,
     /// or among --channels.
+    ///
+    /// Beside it, text is what has .csv, .tsv, .txt or .lvm behind its name and lines of numbers in it.
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub raw: Option<RawFormat>,
     /// Channels of raw samples that come in turn, 2 to 64, of which --columns picks those of S_C and S_D [default: 2].

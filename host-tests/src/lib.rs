@@ -63,7 +63,7 @@ pub fn calibrated(flaws: &Flaws, periods: u16) -> Settings {
         calibration: Calibration {
             gain_ratio: flaws.gain_ratio as f32,
             skew: flaws.skew as f32,
-            pick_off_angle: flaws.pick_off_error as f32,
+            pick_off_angle: flaws.pick_off_angle as f32,
         },
         ..windows(periods)
     }

@@ -80,14 +80,14 @@ fn settings_are_changed_in_part() {
 
 #[test]
 fn stated_deviations_hold_for_pick_offs_that_are_corrected() {
-    for (gain_ratio, pick_off_error) in [(1.0, 0.3), (1.5, -0.2), (0.5, 0.0)] {
+    for (gain_ratio, pick_off_angle) in [(1.0, 0.3), (1.5, -0.2), (0.5, 0.0)] {
         let wave = Wave {
             angle: 0.4,
             ..random_wave(1, 5332.0, 0.3)
         };
         let flaws = Flaws {
             gain_ratio,
-            pick_off_error,
+            pick_off_angle,
             noise: 0.004 * wave.main_amplitude,
             ..Flaws::default()
         };
@@ -97,7 +97,7 @@ fn stated_deviations_hold_for_pick_offs_that_are_corrected() {
             honesty.add(&estimate, &wave);
         }
         let ratios = honesty.ratios();
-        println!("gain {gain_ratio}, {pick_off_error} rad: error over stated {ratios:.3?}");
+        println!("gain {gain_ratio}, {pick_off_angle} rad: error over stated {ratios:.3?}");
         assert!(ratios.iter().all(|ratio| (0.94..1.06).contains(ratio)));
     }
 }
@@ -110,11 +110,11 @@ fn calibration_undoes_the_pick_offs() {
             ..random_wave(seed, 5332.0, 0.3)
         };
         let a = wave.main_amplitude;
-        let (gain_ratio, skew, pick_off_error) = (1.07, 0.8e-6, -0.03);
+        let (gain_ratio, skew, pick_off_angle) = (1.07, 0.8e-6, -0.03);
         let flaws = Flaws {
             gain_ratio,
             skew,
-            pick_off_error,
+            pick_off_angle,
             ..Flaws::default()
         };
         let calibration = calibrated(&flaws, 10).calibration;

@@ -143,16 +143,16 @@ fn a_pick_off_that_dies_is_told_whatever_its_calibration_and_a_wave_that_ends_is
         (2.0, -0.3),
     ];
     let cases = cases.map(|case| [(case, false), (case, true)]);
-    for ((gain_ratio, pick_off_error), is_end) in cases.into_iter().flatten() {
+    for ((gain_ratio, pick_off_angle), is_end) in cases.into_iter().flatten() {
         let (wave, _) = gyro(3);
         let wave = Wave { angle: 0.3, ..wave };
         let flaws = Flaws {
             gain_ratio,
-            pick_off_error,
+            pick_off_angle,
             noise: 0.005 * wave.main_amplitude,
             ..Flaws::default()
         };
-        let case = format!("gain {gain_ratio}, error {pick_off_error}");
+        let case = format!("gain {gain_ratio}, angle {pick_off_angle}");
         let settings = calibrated(&flaws, 10);
         let silence = Flaws {
             noise: flaws.noise,

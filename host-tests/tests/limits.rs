@@ -55,7 +55,7 @@ fn a_ring_takes_windows_of_two_blocks_less() {
 
 #[test]
 fn calibrations_at_the_ends_of_their_ranges_correct() {
-    for (gain_ratio, skew, pick_off_error) in [
+    for (gain_ratio, skew, pick_off_angle) in [
         (0.1, 0.0, 0.3),
         (10.0, 0.0, -0.3),
         (1.0, 1e-4, 0.3),
@@ -72,7 +72,7 @@ fn calibrations_at_the_ends_of_their_ranges_correct() {
         let flaws = Flaws {
             gain_ratio,
             skew,
-            pick_off_error,
+            pick_off_angle,
             ..Flaws::default()
         };
         let settings = calibrated(&flaws, 50);
@@ -86,7 +86,7 @@ fn calibrations_at_the_ends_of_their_ranges_correct() {
             assert!(estimate.flags.is_empty(), "{estimate:?}");
             assert!(
                 main.abs().max(quadrature.abs()) < limit * size && angle.abs() < limit,
-                "{gain_ratio}, {skew} s, {pick_off_error} rad: {main:e} {quadrature:e} {angle:e}"
+                "{gain_ratio}, {skew} s, {pick_off_angle} rad: {main:e} {quadrature:e} {angle:e}"
             );
             assert!(frequency.abs() < 1e-8 * RATE, "{frequency:e}");
         }

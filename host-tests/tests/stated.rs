@@ -88,7 +88,7 @@ fn offsets_scatter_as_the_residual_over_the_root_of_the_samples() {
 
 #[test]
 fn phases_scatter_as_stated_with_pick_offs_that_are_corrected() {
-    for (gain_ratio, pick_off_error) in [(1.0, 0.3), (1.0, -0.3), (2.0, 0.0), (0.5, 0.2)] {
+    for (gain_ratio, pick_off_angle) in [(1.0, 0.3), (1.0, -0.3), (2.0, 0.0), (0.5, 0.2)] {
         for angle in [0.0, 0.4, 0.8] {
             let (mut square, mut rows) = (0.0, 0.0);
             for seed in 0..100 {
@@ -102,7 +102,7 @@ fn phases_scatter_as_stated_with_pick_offs_that_are_corrected() {
                 let flaws = Flaws {
                     noise: 0.01,
                     gain_ratio,
-                    pick_off_error,
+                    pick_off_angle,
                     ..Flaws::default()
                 };
                 let settings = calibrated(&flaws, 10);
@@ -115,7 +115,7 @@ fn phases_scatter_as_stated_with_pick_offs_that_are_corrected() {
             let ratio = f64::sqrt(square / rows);
             assert!(
                 rows > 900.0 && (0.9..1.1).contains(&ratio),
-                "gain {gain_ratio}, {pick_off_error} rad, angle {angle}: {ratio}"
+                "gain {gain_ratio}, {pick_off_angle} rad, angle {angle}: {ratio}"
             );
         }
     }

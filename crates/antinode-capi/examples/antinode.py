@@ -8,7 +8,8 @@
     clean["angle_rad"], clean["angle_std_rad"]     # fields as antinode_estimate_t has them
 
 Needs numpy, and the shared library: `crates/antinode-capi/install PREFIX`, on Linux. ANTINODE_LIBRARY names it where the system does not
-find it: PREFIX/lib/libantinode.so. Elsewhere `cargo build --profile capi -p antinode-capi` makes it, in target/capi.
+find it: PREFIX/lib/libantinode.so. Elsewhere `cargo rustc --profile capi -p antinode-capi --lib --crate-type cdylib` makes it, in
+target/capi; made together with the static library, as `cargo build` does, it would not load on Linux.
 """
 
 import ctypes
@@ -18,7 +19,7 @@ import numpy
 
 #: The header that this file was written for.
 VERSION = 256
-STATE_WORDS = 1560
+STATE_WORDS = 1368
 WINDOW_ENDED = 2
 
 #: antinode_estimate_t: one window.

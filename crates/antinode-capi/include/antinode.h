@@ -2,7 +2,7 @@
  * antinode: the standing wave of a hemispherical resonator gyro, window by window, from its two pick-offs sampled together.
  * Apache-2.0 or MIT. Made by cbindgen from crates/antinode-capi; do not edit.
  *
- *     static antinode_fixed_t gyro;                                     // 9 KiB; or antinode_float_t, 12.2 KiB
+ *     static antinode_fixed_t gyro;                                     // 8.8 KiB; or antinode_float_t, 10.7 KiB
  *
  *     antinode_settings_t settings = antinode_settings_default(100e3);  // before the interrupt is enabled
  *     antinode_status_t status = antinode_fixed_init(&gyro, &settings); // below 0: antinode_status_string(status)
@@ -71,10 +71,10 @@
 #define ANTINODE_QUEUE_BLOCKS 16
 
 // 64-bit words of an `antinode_fixed_t`.
-#define ANTINODE_FIXED_WORDS 1152
+#define ANTINODE_FIXED_WORDS 1120
 
 // 64-bit words of an `antinode_float_t`.
-#define ANTINODE_FLOAT_WORDS 1560
+#define ANTINODE_FLOAT_WORDS 1368
 
 // Samples at the converter's rail, or the third harmonic that a limiter leaves: amplitudes are wrong.
 #define ANTINODE_FLAG_CLIPPED 1u

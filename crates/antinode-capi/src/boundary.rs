@@ -110,7 +110,7 @@ pub(crate) unsafe fn reset<S: Arithmetic, O>(opaque: *mut O) -> Status {
     status(unsafe {
         open::<S, O>(opaque).and_then(|state| {
             close(state);
-            start(state, (*state).thread.settings)
+            start(state, *(*state).thread.settings())
         })
     })
 }

@@ -53,7 +53,6 @@ pub(crate) struct Shared<S: Sample> {
 /// What belongs to the thread alone.
 pub(crate) struct Thread {
     tracker: Tracker,
-    pub settings: Settings,
 }
 
 /// How an identification fares, from counters that either side may read.
@@ -142,11 +141,15 @@ impl Thread {
         // SAFETY: the caller's contract.
         let thread = unsafe {
             (&raw mut (*place).tracker).write(Tracker::UNSET);
-            (&raw mut (*place).settings).write(settings);
             &mut *place
         };
         thread.tracker.configure(settings)?;
         Ok(())
+    }
+
+    /// The settings that it works by.
+    pub(crate) fn settings(&self) -> &Settings {
+        self.tracker.settings()
     }
 
     /// Solves queued blocks up to the next estimate.
@@ -193,10 +196,9 @@ impl Thread {
 
     pub(crate) fn calibrate(&mut self, calibration: Calibration) -> Result<(), Status> {
         // Whole, and then one part: of all parts but one the compiler copies some at odd addresses.
-        let mut settings = self.settings;
+        let mut settings = *self.settings();
         settings.calibration = calibration;
         antinode_capi_slow::change(&mut self.tracker, &settings)?;
-        self.settings = settings;
         Ok(())
     }
 }

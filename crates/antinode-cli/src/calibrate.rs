@@ -9,8 +9,8 @@ use std::path::PathBuf;
 use antinode::Flags;
 use clap::Args;
 
+use crate::digits::{decimals, with_std};
 use crate::failure::Failure;
-use crate::fixed::{decimals, with_std};
 use crate::options::Corrected;
 use crate::runs::{BEYOND_NOISE, Runs};
 use moments::Run;

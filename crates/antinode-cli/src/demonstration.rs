@@ -7,8 +7,8 @@ use std::io::{self, Write};
 use antinode::{Estimate, Identifier, Settings};
 use antinode_sim::{Flaws, Gyro, Truth, Wave};
 
+use crate::digits::{heading, with_std_to, without_std};
 use crate::failure::Failure;
-use crate::fixed::{heading, with_std_to, without_std};
 use score::Score;
 
 /// Sample rate, Hz.

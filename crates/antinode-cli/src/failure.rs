@@ -91,7 +91,6 @@ fn simulate_option(field: &str) -> String {
     match field {
         "sample_rate" => "--rate".to_owned(),
         "skew" | "jitter" => format!("--{field}-ns"),
-        "pick_off_error" => "--pick-off-angle".to_owned(),
         "clip_spans" => "--clip-span".to_owned(),
         "level of clip_spans" => "--clip-span, the level".to_owned(),
         "dropouts" => "--dropout".to_owned(),

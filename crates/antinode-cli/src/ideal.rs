@@ -133,7 +133,7 @@ mod tests {
             let flaws = Flaws {
                 gain_ratio: f64::from(1.3f32),
                 skew: skew.into(),
-                pick_off_error: f64::from(0.1f32),
+                pick_off_angle: f64::from(0.1f32),
                 offset_d: 0.25,
                 ..Flaws::default()
             };

@@ -7,8 +7,8 @@ mod demonstration;
 #[cfg(test)]
 mod deviates;
 mod device;
+mod digits;
 mod failure;
-mod fixed;
 mod ideal;
 mod identify;
 mod interrupt;

@@ -3,7 +3,7 @@
 use antinode::methods::comparison::{Comparison, Method};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-use crate::fixed::significant;
+use crate::digits::significant;
 use crate::methods::Methods;
 
 /// A value of a column.

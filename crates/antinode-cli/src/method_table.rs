@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use antinode::Estimate;
 use antinode::methods::comparison::DISAGREEMENT;
 
-use crate::fixed::with_sigmas;
+use crate::digits::with_sigmas;
 use crate::method_rows::worst;
 use crate::methods::Methods;
 

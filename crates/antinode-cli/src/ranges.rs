@@ -53,3 +53,19 @@ pub fn positive(text: &str) -> Result<f32, String> {
         _ => Err("it must be a number above 0".to_owned()),
     }
 }
+
+/// The converter's rails, in the input's unit: ±LEVEL, or LOW,HIGH.
+pub fn rails(text: &str) -> Result<[f32; 2], String> {
+    let Some((low, high)) = text.split_once(',') else {
+        let level = positive(text).map_err(|told| told + ", or two numbers as LOW,HIGH")?;
+        return Ok([-level, level]);
+    };
+    match [low, high].map(|level| level.trim().parse::<f32>()) {
+        [Ok(low), Ok(high)] if !(low.is_finite() && high.is_finite()) => {
+            Err("LOW and HIGH must be finite".to_owned())
+        }
+        [Ok(low), Ok(high)] if low < high => Ok([low, high]),
+        [Ok(_), Ok(_)] => Err("LOW must lie below HIGH".to_owned()),
+        _ => Err("LOW and HIGH must be numbers, with one comma between them".to_owned()),
+    }
+}

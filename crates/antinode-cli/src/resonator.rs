@@ -15,8 +15,8 @@ use antinode::Flags;
 use clap::Args;
 use serde::Serialize;
 
+use crate::digits::{significant, with_std};
 use crate::failure::Failure;
-use crate::fixed::{significant, with_std};
 use crate::options::Format;
 use crate::runs::{BEYOND_NOISE, Run, Runs};
 use fit::fit;

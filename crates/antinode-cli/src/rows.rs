@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use antinode::Estimate;
 use serde::Serialize;
 
-use crate::fixed::{heading, significant, with_std};
+use crate::digits::{heading, significant, with_std};
 use crate::method_rows::{self, Columns};
 use crate::method_table;
 use crate::methods::Methods;

@@ -72,9 +72,16 @@ fn options_that_make_no_sense_are_refused() {
         ("--pick-off-angle 1", "it must be -0.3 to 0.3 rad"),
         (
             "--full-scale -1",
-            "'--full-scale <LEVEL>': it must be a number above 0",
+            "'--full-scale <LEVEL|LOW,HIGH>': it must be a number above 0, or two numbers as LOW,HIGH",
         ),
         ("--full-scale 0", "it must be a number above 0"),
+        ("--full-scale nan", "it must be a number above 0"),
+        ("--full-scale 3,3", "LOW must lie below HIGH"),
+        ("--full-scale 1,-1", "LOW must lie below HIGH"),
+        ("--full-scale nan,1", "LOW and HIGH must be finite"),
+        ("--full-scale 0,inf", "LOW and HIGH must be finite"),
+        ("--full-scale 0,", "LOW and HIGH must be numbers"),
+        ("--full-scale 0,1,2", "LOW and HIGH must be numbers"),
         (
             "--resolution 0",
             "'--resolution <STEP>': it must be a number above 0",
@@ -97,7 +104,8 @@ fn options_that_make_no_sense_are_refused() {
         assert!(run.err.contains(told), "{arguments}: {}", run.err);
     }
     // The ends of a range belong to it.
-    let ends = "--skew-ns 1000000 --gain-ratio 10 --pick-off-angle -0.3 --rate 1e5";
+    let ends =
+        "--skew-ns 1000000 --gain-ratio 10 --pick-off-angle -0.3 --rate 1e5 --full-scale -1,1";
     let ends = run(here, &format!("identify a.wav --format csv {ends}"));
     assert_eq!((ends.code, ends.err.as_str()), (0, ""));
     assert!(ends.out.starts_with("time_s,"));

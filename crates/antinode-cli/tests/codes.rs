@@ -2,6 +2,7 @@
 
 mod common;
 
+use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
@@ -59,6 +60,45 @@ fn their_own_rail_is_a_rail() {
         // Not every window has a sample next to a crest.
         let expected = if is_clipped { 0.9..=1.0 } else { 0.0..=0.0 };
         assert!(expected.contains(&share), "{amplitude}: {share}");
+    }
+}
+
+#[test]
+fn both_rails_of_a_converter_without_sign_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let mut codes = "c,d\n".to_owned();
+    for k in 0..20_000 {
+        // Codes of 12 bits, whose lowest in a crest is 0; nothing is cut off.
+        let s = (TAU * 0.0532 * f64::from(k)).cos();
+        codes += &format!("{:.0},{:.0}\n", 1200.0 + 1200.0 * s, 1200.0 - 300.0 * s);
+    }
+    fs::write(here.join("codes.csv"), codes).unwrap();
+    for (option, is_clipped) in [
+        ("", false),
+        ("--full-scale 4095", false),
+        ("--full-scale -1,4095", false),
+        ("--full-scale 0,4095", true),
+        ("--full-scale -4095,2400", true),
+    ] {
+        let rows = rows(here, &format!("codes.csv --rate 1e5 {option}"));
+        assert!(rows.len() > 90);
+        let clipped = rows.iter().filter(|row| row.text("flags") == "clipped");
+        let share = clipped.count() as f64 / rows.len() as f64;
+        // Not every window has a sample next to a crest.
+        let expected = if is_clipped { 0.9..=1.0 } else { 0.0..=0.0 };
+        assert!(expected.contains(&share), "{option}: {share}");
+    }
+}
+
+#[test]
+fn the_rails_given_win_over_those_of_integers() {
+    let directory = tempfile::tempdir().unwrap();
+    let simulate = "--seconds 0.1 --bits 12 --noise 1e-4 --angle 0 --quadrature-amplitude 0.01 --main-amplitude 0.9999";
+    for (option, is_clipped) in [("", true), ("--full-scale -1.1,1.1", false)] {
+        let rows = identified(directory.path(), "a.wav", simulate, option);
+        let is_flagged = rows.iter().any(|row| row.text("flags").contains("clipped"));
+        assert_eq!(is_flagged, is_clipped, "{option}");
     }
 }
 

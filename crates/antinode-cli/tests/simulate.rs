@@ -63,7 +63,7 @@ fn a_small_negative_number_is_one_however_it_is_written() {
         "-o a.wav --seconds 0.01 --pick-off-angle -9e-05 --quadrature-amplitude -.125",
     );
     let truth = truth(here, "a.wav.json");
-    assert_eq!(truth["flaws"]["pick_off_error"], -9e-5, "{truth}");
+    assert_eq!(truth["flaws"]["pick_off_angle"], -9e-5, "{truth}");
     assert_eq!(truth["wave"]["quadrature_amplitude"], -0.125);
 }
 

@@ -216,6 +216,22 @@ fn a_count_of_lines_is_no_signal_beside_a_time() {
 }
 
 #[test]
+fn a_count_of_lines_is_no_clock() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    for name in ["Sample", "Index", "No.", "#"] {
+        for from in [0, 1] {
+            let header = format!("{name},ADC1,ADC2\n");
+            let counted = recording(&header, |k, [c, d]| format!("{},{c},{d}", k + from));
+            same_later(&rows_of(here, &counted, "--rate 1e5"), &expected, 0.0);
+            let told = ["the sample rate is not known", "give --rate HZ"];
+            fault(here, "a.csv", Vec::new(), &told);
+        }
+    }
+}
+
+#[test]
 fn pairs_of_the_same_time_are_told_for_what_they_are() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// The flaws act in this order, each on what the one before it gives:
 ///
 /// 1. the sampling instants move (`jitter`, both channels alike);
-/// 2. the pick-offs see the wave there (`skew`, `pick_off_error`);
+/// 2. the pick-offs see the wave there (`skew`, `pick_off_angle`);
 /// 3. they bend it (`cubic`);
 /// 4. gain, offset and hum (`gain_ratio`, `offset_c`, `offset_d`, `hum`);
 /// 5. noise is added (`noise`);
@@ -46,7 +46,7 @@ pub struct Flaws {
     /// An angle on the rim counts twice in the pattern, so with eps for this angle channel D gets
     /// D cos 2 eps - C sin 2 eps in place of D of (3), which is A sin(2 theta - 2 eps) + B cos(2 theta - 2 eps).
     /// To first order: a_A - eps a_A sin 4 theta, theta - (eps / 2) (1 + (E/D) cos 4 theta).
-    pub pick_off_error: f64,
+    pub pick_off_angle: f64,
     /// Cubic distortion c of both pick-offs: S becomes S + c S^3 / a^2, a being the wave's main amplitude at t = 0. No unit.
     pub cubic: f64,
     /// Both channels are limited to plus or minus this, input units, above 0; `None` = unlimited.
@@ -80,7 +80,7 @@ impl Default for Flaws {
             hum_frequency: 50.0,
             gain_ratio: 1.0,
             skew: 0.0,
-            pick_off_error: 0.0,
+            pick_off_angle: 0.0,
             cubic: 0.0,
             clip: None,
             clip_spans: Vec::new(),
@@ -108,7 +108,7 @@ impl Flaws {
             ("hum", self.hum),
             ("hum_frequency", self.hum_frequency),
             ("skew", self.skew),
-            ("pick_off_error", self.pick_off_error),
+            ("pick_off_angle", self.pick_off_angle),
             ("cubic", self.cubic),
         ] {
             finite(what, value)?;
@@ -196,10 +196,10 @@ mod tests {
             ),
             (
                 Flaws {
-                    pick_off_error: f64::NAN,
+                    pick_off_angle: f64::NAN,
                     ..none()
                 },
-                "pick_off_error",
+                "pick_off_angle",
             ),
             (
                 Flaws {

@@ -64,7 +64,7 @@ impl Front {
             sample_rate,
             source,
             skew: flaws.skew,
-            turn: (flaws.pick_off_error != 0.0).then(|| sincos(2.0 * flaws.pick_off_error)),
+            turn: (flaws.pick_off_angle != 0.0).then(|| sincos(2.0 * flaws.pick_off_angle)),
             bend: flaws.cubic / (wave.main_amplitude * wave.main_amplitude),
             gain: flaws.gain_ratio,
             offset: Pair {
@@ -247,7 +247,7 @@ mod tests {
     fn drift_and_no_drift_agree_where_they_meet() {
         let flaws = Flaws {
             skew: 1e-6,
-            pick_off_error: 0.01,
+            pick_off_angle: 0.01,
             ..Flaws::default()
         };
         let steady = first(Wave::default(), flaws.clone(), 500);

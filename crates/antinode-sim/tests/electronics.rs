@@ -181,7 +181,7 @@ fn skew() {
 fn pick_off() {
     excess(
         &Flaws {
-            pick_off_error: SMALL,
+            pick_off_angle: SMALL,
             ..Flaws::default()
         },
         |wave, [a, _, theta]| {
@@ -205,7 +205,7 @@ fn a_turned_pick_off_sees_the_wave_turned() {
         ..wave
     };
     let flaws = Flaws {
-        pick_off_error: eps,
+        pick_off_angle: eps,
         ..Flaws::default()
     };
     for (k, pair) in Gyro::new(wave, flaws, RATE, 0)

@@ -21,7 +21,7 @@ fn everything() -> Flaws {
         offset_d: -0.02,
         gain_ratio: 1.01,
         skew: 1e-6,
-        pick_off_error: 0.002,
+        pick_off_angle: 0.002,
         cubic: 0.003,
         clip: Some(1.9),
         clip_spans: vec![ClipSpan {

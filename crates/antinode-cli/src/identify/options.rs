@@ -53,8 +53,10 @@ pub struct Identify {
     /// samples before them.
     #[arg(long, value_enum, default_value_t = Methods::Exact)]
     pub methods: Methods,
-    /// Format of raw samples, for what is neither WAV nor NPY, nor text by its extension: little-endian, S_C and S_D in turn,
+    /// Format of raw samples, for what is neither WAV nor NPY nor text, whatever its extension: little-endian, S_C and S_D in turn,
     /// or among --channels.
+    ///
+    /// Beside it, text is what has .csv, .tsv, .txt or .lvm behind its name and lines of numbers in it.
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub raw: Option<RawFormat>,
     /// Channels of raw samples that come in turn, 2 to 64, of which --columns picks those of S_C and S_D [default: 2].
@@ -97,9 +99,11 @@ pub struct Identify {
 
     #[command(flatten)]
     pub corrected: Corrected,
-    /// |sample| at which the converter is at its rail, above 0 [default: known for integers, none for others].
-    #[arg(long, value_name = "LEVEL", value_parser = ranges::positive, help_heading = "Calibration")]
-    pub full_scale: Option<f32>,
+    /// Samples at which the converter is at its rails: ±LEVEL, or LOW and HIGH, as 0,4095 [default: known for integers, none for others].
+    ///
+    /// They are in the unit of the samples; integers of WAV, NPY and raw samples are scaled so that full scale is 1.
+    #[arg(long, value_name = "LEVEL|LOW,HIGH", value_parser = ranges::rails, allow_hyphen_values = true, help_heading = "Calibration")]
+    pub full_scale: Option<[f32; 2]>,
     /// Step between two codes of the converter, above 0, in the unit of the samples [default: found in the first samples].
     ///
     /// It is found where the first samples are all multiples of one step; integers are looked through too, as they may come from a
@@ -140,7 +144,7 @@ impl Identify {
             periods: self.periods,
             hop: self.hop,
             start_angle: self.start_angle.unwrap_or(plain.start_angle),
-            rails: self.full_scale.or(full_scale).map(|full| [-full, full]),
+            rails: self.full_scale.or(full_scale.map(|full| [-full, full])),
             resolution: self.resolution.or(resolution),
             frequency: self.frequency,
             detection: match self.detector {

@@ -13,7 +13,7 @@ use super::{delimited, npy, wav};
 /// What the content does not tell about itself.
 #[derive(Debug, Clone, Default)]
 pub struct OpenOptions {
-    /// The format of raw samples, on standard input or in a file of no known kind.
+    /// The format of raw samples: of what is neither WAV nor NPY by its first bytes, nor text by both its name and its content.
     pub raw: Option<RawFormat>,
     /// The number of interleaved channels of raw samples, 2 by default.
     pub channels: Option<usize>,
@@ -31,17 +31,18 @@ pub(super) fn open(
     options: &OpenOptions,
 ) -> Result<Opened, InputError> {
     let length = known.length;
-    let is_text = matches!(known.extension.as_str(), "csv" | "tsv" | "txt" | "lvm")
-        || options.columns.is_some() && options.raw.is_none();
-    let look = |stream| {
-        Content::look(stream, !is_text && options.raw.is_none())
-            .map_err(|fault| InputError::io(name, fault))
-    };
+    let is_named_text = matches!(known.extension.as_str(), "csv" | "tsv" | "txt" | "lvm");
+    let mut is_text = options.raw.is_none() && (is_named_text || options.columns.is_some());
+    // Raw samples may have any name: beside their format one of text is believed where the content is text too.
+    let or_text = !is_text && (options.raw.is_none() || is_named_text);
+    let look = |stream| Content::look(stream, or_text).map_err(|fault| InputError::io(name, fault));
     let (mut content, mut stream) = look(stream)?;
     // Raw samples may begin as UTF-16 does.
-    if content == Content::Utf16 && (is_text || options.raw.is_none()) {
+    if content == Content::Utf16 && (is_named_text || options.raw.is_none()) {
         let count = Rc::clone(&known.encoded);
         (content, stream) = look(Box::new(in_utf8(Counted { stream, count })))?;
+        // Decoded, they are no samples any more.
+        is_text |= is_named_text;
     }
     let file = name.to_owned();
     let foreign = |found: &Foreign| InputError::Foreign {
@@ -54,11 +55,11 @@ pub(super) fn open(
         (Content::Wav, ..) => wav::open(name, stream, length, options),
         (Content::Npy, ..) => npy::open(name, stream, known, options.columns.as_ref()),
         (Content::Foreign(found), _, None) => Err(foreign(found)),
-        (_, "wav" | "wave", _) => Err(InputError::NotOfKind {
+        (_, "wav" | "wave", None) => Err(InputError::NotOfKind {
             file,
             kind: "a WAV file",
         }),
-        (_, "npy", _) => Err(InputError::NotOfKind {
+        (_, "npy", None) => Err(InputError::NotOfKind {
             file,
             kind: "an NPY file",
         }),

@@ -194,20 +194,22 @@ impl FirstLine<'_> {
         }
         // What settings stand above or beside may be a time without a name.
         let is_instrument = self.start.lines > 0 || columns.len() < self.width;
-        let clock = columns.first().copied().filter(|_| {
+        let is_count = |place: usize| self.names.is_some_and(|names| is_count(&names[place]));
+        let first = columns.first().copied();
+        let clock = first.filter(|&first| {
             is_timed
+                && !is_count(first)
                 && (columns.len() == 3
                     || columns.len() == 2
                         && self.names.is_none()
                         && (is_instrument && self.start.is_clocked || self.start.is_surely_clocked))
         });
         let time = time.or(self.timed(columns)).or(clock);
-        // `#,Time(ms),CH1(mV),CH2(mV)`.
-        let is_count = |place: usize| self.names.is_some_and(|names| is_count(&names[place]));
-        let count = columns
-            .first()
-            .copied()
-            .filter(|&first| is_count(first) && time.is_some() && time == columns.get(1).copied());
+        // `#,Time(ms),CH1(mV),CH2(mV)`, or `Sample,ADC1,ADC2`.
+        let count = first.filter(|&first| {
+            let is_beside_time = time.is_some() && time == columns.get(1).copied();
+            is_count(first) && (is_beside_time || time.is_none() && columns.len() == 3)
+        });
         let mut signals = places().filter(|&place| Some(place) != time && Some(place) != count);
         match (signals.next(), signals.next(), signals.next()) {
             (Some(c), Some(d), None) => Ok([time, Some(c), Some(d)]),
@@ -262,7 +264,7 @@ fn is_count(name: &str) -> bool {
     let names = [
         "", "#", "n", "nr", "no", "index", "sample", "samples", "point", "points",
     ];
-    names.contains(&name.to_lowercase().as_str())
+    names.contains(&name.to_lowercase().trim_end_matches('.'))
 }
 
 #[cfg(test)]

@@ -80,7 +80,8 @@ pub enum InputError {
     },
     /// The content is not what the extension promises.
     #[error(
-        "{file}: this is not {kind}, whatever its extension says; export it again, or rename it to what it is"
+        "{file}: this is not {kind}, whatever its extension says; export it again, rename it to what it is, or give the sample format of a \
+         raw one with {RAW_OPTION}"
     )]
     NotOfKind { file: String, kind: &'static str },
     /// Standard input without a sample format.

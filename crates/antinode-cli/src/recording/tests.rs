@@ -240,7 +240,33 @@ fn a_raw_file_is_read_in_the_format_given() {
     assert_eq!(recording.name(), path.display().to_string());
     assert_eq!(drain(&mut recording).0, [[0.5, -0.5]]);
     assert_eq!(recording.bytes_read(), 4);
-    assert_eq!(read_with("a.csv", b"1,2\n", &options).0, [[1.0, 2.0]]);
+}
+
+#[test]
+fn the_format_given_wins_over_a_name_and_not_over_the_content() {
+    let options = OpenOptions {
+        raw: Some(RawFormat::I16),
+        ..OpenOptions::default()
+    };
+    for name in [
+        "a.wav", "a.wave", "a.npy", "a.csv", "a.txt", "a.mat", "a.bin",
+    ] {
+        let found = read_with(name, &[0, 0x40, 0, 0xc0], &options);
+        assert_eq!(found, (vec![[0.5, -0.5]], None), "{name}");
+        let told = |bytes| read_with(name, bytes, &options).1.unwrap();
+        for (bytes, kind) in [
+            (&b"RIFF1234WAVE"[..], "WAV header: "),
+            (b"\x93NUMPY\x01\0\x46\0", "NPY header: "),
+        ] {
+            assert!(told(bytes).starts_with(&format!("{name}: {kind}")));
+        }
+    }
+    // Text is what is text by both, whatever its letters.
+    for text in [&b"1,2\n"[..], b"x,y\n1,2\n", b"\xe9t\xe9,c,d\n0,1,2\n"] {
+        assert_eq!(read_with("a.csv", text, &options).0, [[1.0, 2.0]]);
+    }
+    assert_eq!(read_with("a.csv", b"~\x80~\x80", &options).0.len(), 1);
+    assert_eq!(read_with("a.bin", b"1,2\n", &options).0.len(), 1);
 }
 
 #[test]

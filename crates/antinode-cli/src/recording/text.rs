@@ -100,8 +100,8 @@ impl Read for Text {
     }
 }
 
-/// The first line that is neither blank nor a comment, its number, and the bytes before it; with the names above it, where these begin with
-/// `#` for a count of lines, which is `n` then.
+/// The first line that is neither blank nor a comment, and perhaps the next, its number, and the bytes before it; with the names above it,
+/// where these begin with `#` for a count of lines, which is `n` then.
 pub(super) fn first_line(
     file: &str,
     stream: &mut impl BufRead,
@@ -137,24 +137,44 @@ pub(super) fn first_line(
             counted = has_count(&line).then(|| (line.clone(), number, before));
             continue;
         }
-        return Ok(match counted {
-            Some((mut names, number, before)) if are_as_many(&names, &line) => {
-                names[0] = b'n';
-                names.extend_from_slice(&line);
-                (names, number, before)
-            }
-            _ => (line, number, before),
-        });
+        let above = counted.filter(|(names, ..)| are_as_many(names, &line));
+        let Some((mut names, of_names, before_names)) = above else {
+            return Ok((line, number, before));
+        };
+        let has_time = has_time(&names);
+        if !has_time {
+            let next = next_lines(stream, 1).map_err(|fault| InputError::io(file, fault))?;
+            line.extend_from_slice(&next);
+        }
+        if !has_time && !are_counted(&line) {
+            return Ok((line, number, before));
+        }
+        names[0] = b'n';
+        names.extend_from_slice(&line);
+        return Ok((names, of_names, before_names));
     }
 }
 
-/// Whether a comment may be names, of which the first, `#`, is that of a count of lines, and another that of a time.
+/// Whether a comment may be names, of which the first, `#`, is that of a count of lines.
 fn has_count(line: &[u8]) -> bool {
-    let is_count = matches!(line, [b'#', b',' | b';' | b'\t', ..]);
-    is_count
-        && fields(line, line[1])
-            .filter_map(|name| str::from_utf8(name).ok())
-            .any(is_time)
+    matches!(line, [b'#', b',' | b';' | b'\t', ..])
+}
+
+/// Whether one of these names behind a count of lines is that of a time.
+fn has_time(names: &[u8]) -> bool {
+    fields(names, names[1])
+        .filter_map(|name| str::from_utf8(name).ok())
+        .any(is_time)
+}
+
+/// Whether the first column of two lines counts them.
+fn are_counted(lines: &[u8]) -> bool {
+    let counts = lines.split(|&byte| byte == b'\n').map(|line| {
+        let first = fields(line, separator(line)).next()?;
+        str::from_utf8(first).ok()?.parse::<u64>().ok()
+    });
+    let counts: Vec<_> = counts.take(2).collect();
+    matches!(counts[..], [Some(one), Some(other)] if one.checked_add(1) == Some(other))
 }
 
 /// Whether two lines have as many fields, more than two.

@@ -2,7 +2,7 @@
 
 use super::error::TimeFault;
 use super::printed::Printed;
-use crate::fixed::significant;
+use crate::digits::significant;
 
 /// How far a step may be off, in samples.
 const STEP_TOLERANCE: f64 = 0.01;

@@ -215,7 +215,7 @@ impl Simulate {
             hum_frequency: self.flaws.hum_frequency,
             gain_ratio: self.flaws.gain_ratio,
             skew: self.flaws.skew_ns * 1e-9,
-            pick_off_error: self.flaws.pick_off_angle,
+            pick_off_angle: self.flaws.pick_off_angle,
             cubic: self.flaws.cubic,
             clip: self.flaws.clip,
             clip_spans: self.flaws.clip_span.iter().map(|span| span.0).collect(),

@@ -43,6 +43,21 @@ fn names_decide_and_else_the_order() {
 }
 
 #[test]
+fn a_count_of_lines_is_no_clock() {
+    for count in ["Sample", "Index", "n", "#", "Point", "No.", ""] {
+        let header = format!("{count},ADC1,ADC2");
+        assert_eq!(places(&header, None), Ok([None, Some(1), Some(2)]));
+        let header = format!("{count},Time (ms),ADC1,ADC2");
+        assert_eq!(places(&header, None), Ok([Some(1), Some(2), Some(3)]));
+    }
+    // A unit of time says that it is one.
+    let usual = Ok([Some(0), Some(1), Some(2)]);
+    assert_eq!(places("Sample (s),ADC1,ADC2", None), usual);
+    // Of two columns none may be left out.
+    assert_eq!(places("n,x", None), Ok([None, Some(0), Some(1)]));
+}
+
+#[test]
 fn a_choice_is_by_name_or_number() {
     assert_eq!(places("a,b,c,d", Some("d,2")), Ok([None, Some(3), Some(1)]));
     assert_eq!(

@@ -305,7 +305,8 @@ extern "C" {
 
 // Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised.
 // Before anything else; neither side may run, but an interrupt of the same core may break in: ANTINODE_ERROR_NOT_INITIALISED tells
-// it that its pairs were not taken.
+// it that its pairs were not taken. To go on with other settings make it ready anew, with `start_angle_rad` the last angle and
+// `frequency_hz` the last frequency: no search is needed then; times begin at 0 again.
 antinode_status_t antinode_fixed_init(antinode_fixed_t *state,
                                       const antinode_settings_t *settings);
 
@@ -361,7 +362,8 @@ antinode_status_t antinode_fixed_identify(antinode_fixed_t *state,
 
 // Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised.
 // Before anything else; neither side may run, but an interrupt of the same core may break in: ANTINODE_ERROR_NOT_INITIALISED tells
-// it that its pairs were not taken.
+// it that its pairs were not taken. To go on with other settings make it ready anew, with `start_angle_rad` the last angle and
+// `frequency_hz` the last frequency: no search is needed then; times begin at 0 again.
 antinode_status_t antinode_float_init(antinode_float_t *state,
                                       const antinode_settings_t *settings);
 

@@ -18,7 +18,8 @@ use crate::status::Status;
 
 /// Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised.
 /// Before anything else; neither side may run, but an interrupt of the same core may break in: ANTINODE_ERROR_NOT_INITIALISED tells
-/// it that its pairs were not taken.
+/// it that its pairs were not taken. To go on with other settings make it ready anew, with `start_angle_rad` the last angle and
+/// `frequency_hz` the last frequency: no search is needed then; times begin at 0 again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_init(
     state: *mut Fixed,

@@ -16,8 +16,9 @@ pub const ANTINODE_FLAG_STEP: u32 = 0x008_u32;
 pub const ANTINODE_FLAG_CIRCULAR: u32 = 0x010_u32;
 /// The samples are not one wave with steady rates plus noise: a step, a dropout, a second tone within the window.
 pub const ANTINODE_FLAG_MISFIT: u32 = 0x020_u32;
-/// A pick-off gave one and the same value, or lost its wave while the other kept it, if that moved the angle by as much as a step.
-/// After a new search a dead one cannot be told from a pattern on the other's axis, and is not flagged.
+/// A pick-off gave one and the same value, or lost its wave while the other kept it: half of those that showed 25 deviations of an
+/// amplitude are seen, and all of 35. After a new search a dead one cannot be told from a pattern on the other's axis, and is not
+/// flagged.
 pub const ANTINODE_FLAG_DEAD_CHANNEL: u32 = 0x040_u32;
 /// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
 /// only. Also the first window after a new calibration, unless it is the first of all.

@@ -22,8 +22,9 @@ impl Flags {
     pub const CIRCULAR: Self = Self(1 << 4);
     /// The samples are not one wave with steady rates plus noise: a step, a dropout, a second tone within the window.
     pub const MISFIT: Self = Self(1 << 5);
-    /// One pick-off gave one and the same value for the whole window, or lost its wave while the other kept it, if that moved the angle by
-    /// as much as a step. After a new search a dead one cannot be told from a pattern on the other's axis, and is not flagged.
+    /// One pick-off gave one and the same value for the whole window, or lost its wave while the other kept it: half of those that showed
+    /// 25 deviations of an amplitude are seen, and all of 35. After a new search a dead one cannot be told from a pattern on the other's axis,
+    /// and is not flagged.
     pub const DEAD_CHANNEL: Self = Self(1 << 6);
     /// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
     /// only. Also the first window after a change of calibration or settings, unless it is the first of all.

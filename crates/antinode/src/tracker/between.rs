@@ -54,6 +54,12 @@ pub(super) fn flags(before: &Record, now: &Record, knows_angle: bool) -> Flags {
         .with(quadrature)
 }
 
+/// True where the pattern turns at another rate than in the window before: a step in the middle of a window looks like a turn.
+pub(super) fn turns_otherwise(before: &Record, now: &Record) -> bool {
+    let by = now.turning - before.turning;
+    by * by > SIGMAS * SIGMAS * (now.turning_variance + before.turning_variance)
+}
+
 /// What lies between the middles of two windows.
 struct Passed {
     samples: f32,

@@ -105,7 +105,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
         let fault = self.broken || flags.intersects(Flags::MISFIT.with(Flags::STEP));
         flags = flags.with_if(
-            fault && self.has_fallen_silent(&wave.record),
+            self.has_fallen_silent(&wave.record, fault),
             Flags::DEAD_CHANNEL,
         );
         let is_circular = flags.contains(Flags::CIRCULAR);
@@ -154,15 +154,16 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         Some(flags)
     }
 
-    /// True when one pick-off that showed the wave in the last clean window shows none now, and the other does.
-    fn has_fallen_silent(&self, now: &Record) -> bool {
+    /// True when one pick-off that showed the wave in the last clean window shows none now, and the other does: by a fault, or the pattern
+    /// has stopped to turn just where it would show none.
+    fn has_fallen_silent(&self, now: &Record, fault: bool) -> bool {
         self.before.as_ref().is_some_and(|before| {
-            (0..2).any(|i| {
-                now.is_silent(i)
-                    && !now.is_silent(1 - i)
-                    && before.channel_power[i] > 4.0 * now.channel_power[i]
-                    && !before.is_silent(i)
-            })
+            let [c, d] = [now.is_silent(0), now.is_silent(1)];
+            let silent = usize::from(d);
+            (fault || between::turns_otherwise(before, now))
+                && c != d
+                && before.channel_power[silent] > 4.0 * now.channel_power[silent]
+                && !before.is_silent(silent)
         })
     }
 

@@ -1,0 +1,177 @@
+//! The quantities of a resonator and of its runs, and how they are printed.
+
+use std::f64::consts::{PI, TAU};
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use super::found::{Found, Measured};
+use super::frequency::Frequency;
+use crate::digits::{significant, with_std};
+use crate::runs::Runs;
+
+/// A split of fewer deviations than this has no angle.
+const SPLIT_SEEN: f64 = 3.0;
+
+/// A kind of quantity: its name where angles are in radians, and where it is to be read, in units of which this many are one.
+struct Kind {
+    name: &'static str,
+    label: &'static str,
+    units: f64,
+}
+
+const fn kind(name: &'static str, label: &'static str, units: f64) -> Kind {
+    Kind { name, label, units }
+}
+
+const DEGREES: f64 = 180.0 / PI;
+const DECAY_TIME: Kind = kind("decay_time_s", "decay time, s", 1.0);
+const QUALITY_FACTOR: Kind = kind("quality_factor", "quality factor", 1.0);
+const ROTATION: Kind = kind("rotation_rad_s", "turned by rotation, °/s", DEGREES);
+const FREQUENCY: Kind = kind("frequency_hz", "mean frequency, Hz", 1.0);
+/// Both at one input unit squared.
+const BY_ENERGY: Kind = kind("frequency_by_energy_hz", "by a_A² + a_B², Hz", 1.0);
+const BY_AMPLITUDES: Kind = kind(
+    "turning_by_amplitudes_rad_s",
+    "turned by a_A·a_B, °/s",
+    DEGREES,
+);
+/// Of the rows over their own deviations: 1 where there is nothing but noise.
+const RESIDUAL: Kind = kind("residual_over_noise", "residual over noise", 1.0);
+const DAMPING_SPLIT: Kind = kind("damping_split_s", "damping split, 1/s", 1.0);
+const MOST_DAMPED: Kind = kind("most_damped_at_rad", "most damped at, °", DEGREES);
+const FREQUENCY_SPLIT: Kind = kind("frequency_split_hz", "frequency split, Hz", 1.0);
+const HIGHEST: Kind = kind("highest_at_rad", "highest at, °", DEGREES);
+
+/// A quantity of the resonator, or of one run.
+pub struct Quantity {
+    /// The run, from 0; none where it is the resonator's.
+    run: Option<usize>,
+    kind: Kind,
+    value: f64,
+    /// One standard deviation; 0 where there is none.
+    std: f64,
+}
+
+/// A quantity as CSV and JSON lines have it; the names are the columns.
+#[derive(Serialize)]
+pub struct Row {
+    /// From 1.
+    run: Option<usize>,
+    quantity: &'static str,
+    value: f64,
+    std: Option<f64>,
+}
+
+impl From<&Quantity> for Row {
+    fn from(quantity: &Quantity) -> Self {
+        Self {
+            run: quantity.run.map(|run| run + 1),
+            quantity: quantity.kind.name,
+            // More would be digits of nothing.
+            value: significant(quantity.value, 12),
+            std: (quantity.std > 0.0).then(|| significant(quantity.std, 6)),
+        }
+    }
+}
+
+/// All that was found, run by run and then of the resonator.
+pub fn quantities(rows: &Runs, found: &Found, frequency: &Frequency) -> Vec<Quantity> {
+    let mut list = Vec::new();
+    let mut add = |run, kind, (value, std): Measured| {
+        list.push(Quantity {
+            run,
+            kind,
+            value,
+            std,
+        });
+    };
+    let (mean_frequency, _) = frequency.mean;
+    let resonator = found.resonator();
+    for index in 0..rows.runs.len() {
+        let run = Some(index);
+        let decay_time = time(found.decay_of_run(index));
+        add(run, DECAY_TIME, decay_time);
+        add(run, QUALITY_FACTOR, scaled(decay_time, PI * mean_frequency));
+        if let Some(resonator) = &resonator {
+            add(run, ROTATION, resonator.rotations[index]);
+        }
+    }
+    add(None, FREQUENCY, frequency.mean);
+    if let Some(by_energy) = frequency.by_energy {
+        add(None, BY_ENERGY, by_energy);
+    }
+    let of_residual = found.residual / (6.0 * rows.used() as f64).sqrt();
+    add(None, RESIDUAL, (found.residual, of_residual));
+    let Some(resonator) = resonator else {
+        return list;
+    };
+    let decay_time = time(resonator.decay);
+    add(None, DECAY_TIME, decay_time);
+    add(
+        None,
+        QUALITY_FACTOR,
+        scaled(decay_time, PI * mean_frequency),
+    );
+    for ([split, angle], size, at, unit) in [
+        (resonator.damping_split, DAMPING_SPLIT, MOST_DAMPED, 1.0),
+        (
+            resonator.frequency_split,
+            FREQUENCY_SPLIT,
+            HIGHEST,
+            1.0 / TAU,
+        ),
+    ] {
+        add(None, size, scaled(split, unit));
+        if split.0 > SPLIT_SEEN * split.1 {
+            add(None, at, angle);
+        }
+    }
+    if let Some(turning) = resonator.turning_by_amplitudes {
+        add(None, BY_AMPLITUDES, turning);
+    }
+    list
+}
+
+/// The inverse of a rate.
+fn time((rate, std): Measured) -> Measured {
+    (1.0 / rate, std / (rate * rate))
+}
+
+fn scaled((value, std): Measured, by: f64) -> Measured {
+    (value * by, std * by)
+}
+
+/// Prints quantities to be read, with angles in degrees.
+pub fn table(
+    out: &mut impl Write,
+    name: &str,
+    rows: &Runs,
+    quantities: &[Quantity],
+) -> io::Result<()> {
+    writeln!(out, "{name}: {} of {} rows", rows.used(), rows.rows)?;
+    for of in quantities.chunk_by(|one, next| one.run == next.run) {
+        match of[0].run {
+            Some(index) => {
+                let run = &rows.runs[index];
+                writeln!(
+                    out,
+                    "run {}: {:.1} s, the pattern at {:.1}° turns by {:+.1}°",
+                    index + 1,
+                    run.seconds(),
+                    run.rows[0].angle.to_degrees(),
+                    run.turned.to_degrees()
+                )?;
+            }
+            None => writeln!(out, "resonator")?,
+        }
+        for Quantity {
+            kind, value, std, ..
+        } in of
+        {
+            let text = with_std(value * kind.units, std * kind.units);
+            writeln!(out, "  {:<24} {}", kind.label, text.trim_end())?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,102 @@
+//! What rounding leaves of accuracy where there is next to no noise, and that it is stated.
+
+use antinode::Flags;
+use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::codes::{self, converted};
+use host_tests::score::{errors, stated};
+use host_tests::{identify, windows};
+
+#[test]
+fn deviations_are_stated_where_there_is_no_noise_but_rounding() {
+    let (mut worst, mut most) = ([0f64; 4], 0f64);
+    for seed in 0..60 {
+        for periods in [2, 10, 100] {
+            let wave = random_wave(seed, 5332.0, 0.3);
+            let flaws = Flaws {
+                offset_c: wave.main_amplitude,
+                ..Flaws::default()
+            };
+            for estimate in identify(
+                wave,
+                &flaws,
+                windows(periods),
+                19 * usize::from(periods) * 4 + 300,
+                seed,
+            ) {
+                let (errors, stated) = (errors(&estimate, &wave), stated(&estimate));
+                for i in 0..4 {
+                    worst[i] = worst[i].max(errors[i].abs() / stated[i]);
+                }
+                most = most.max(stated[0] / wave.main_amplitude);
+            }
+        }
+    }
+    println!("errors over stated {worst:.2?}, stated at most {most:e} of a_A");
+    assert!(worst.iter().all(|&worst| worst < 3.0) && most < 1e-6);
+}
+
+#[test]
+fn an_offset_of_ten_waves_widens_no_deviation_of_codes() {
+    // What f32 rounds of it in the solution, in short windows without noise, and how little in long ones with some.
+    let offset = 10.0;
+    for (periods, noise, trials, within) in [
+        (2, 0.0, 100, 0.05..1.2),
+        (10, 0.0, 60, 0.05..1.2),
+        (250, 3e-5, 30, 0.9..1.1),
+    ] {
+        let [mut square, mut rows] = [0.0; 2];
+        for seed in 0..trials {
+            let (wave, flaws) = converted(
+                &random_wave(seed, 5332.0, 0.3),
+                &Flaws::default(),
+                32,
+                0.9 / (offset + 1.5),
+            );
+            let flaws = Flaws {
+                noise: noise * wave.main_amplitude,
+                offset_c: offset * wave.main_amplitude,
+                offset_d: -offset * wave.main_amplitude,
+                ..flaws
+            };
+            let samples = 19 * usize::from(periods) * 8 + 300;
+            let codes = codes::codes(wave, &flaws, samples, seed);
+            let settings = codes::settings(32, periods);
+            for estimate in codes::identify(&codes, settings, |code| code) {
+                assert_eq!(estimate.flags, Flags::empty());
+                for (error, stated) in errors(&estimate, &wave).iter().zip(stated(&estimate)) {
+                    square += (error / stated).powi(2);
+                    rows += 1.0;
+                }
+            }
+        }
+        let ratio = f64::sqrt(square / rows);
+        println!("{periods} periods, noise {noise}: error over stated {ratio:.3}");
+        assert!(
+            within.contains(&ratio) && rows > 100.0,
+            "{periods}: {ratio}"
+        );
+    }
+}
+
+#[test]
+fn deviations_of_the_smallest_waves_are_numbers() {
+    for power in 12..20 {
+        let main_amplitude = 10f64.powi(-power);
+        let wave = Wave {
+            main_amplitude,
+            quadrature_amplitude: 0.2 * main_amplitude,
+            ..Wave::default()
+        };
+        let estimates = identify(wave, &Flaws::default(), windows(10), 1500, 1);
+        // Of 10⁻¹⁹ even the wave's own square is none.
+        assert!(estimates.len() >= 4 || power > 18, "1e-{power}");
+        for estimate in estimates.iter().filter(|one| one.flags.is_empty()) {
+            let stated = stated(estimate);
+            let are_told = stated
+                .iter()
+                .all(|stated| stated.is_finite() && *stated > 0.0);
+            assert!(are_told, "1e-{power}: {stated:?}");
+            assert!((estimate.main_amplitude as f64 / main_amplitude - 1.0).abs() < 1e-3);
+        }
+    }
+}

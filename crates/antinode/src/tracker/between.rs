@@ -56,6 +56,7 @@ pub(super) fn flags(before: &Record, now: &Record, knows_angle: bool) -> Flags {
 
 /// True where the pattern turns at another rate than in the window before: a step in the middle of a window looks like a turn.
 pub(super) fn turns_otherwise(before: &Record, now: &Record) -> bool {
+    // Not by `beyond`, to which what is no number is a step: that a rate is none is told by other tests, and this is 28 bytes less.
     let by = now.turning - before.turning;
     by * by > SIGMAS * SIGMAS * (now.turning_variance + before.turning_variance)
 }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Row, WAVE, fault, rows_of, run_with, same_later, text};
+use common::{Row, WAVE, fault, printed, rows_of, run_with, same_later, text};
 
 /// From memory, by an MHO98, as `csv_export.py` of <https://github.com/uberjay/rigol-fastrec> reads it.
 const MHO: &str = "CH1V,CH2V,t0 =-5.000000e-02, tInc = 1.000000e-05,\n";
@@ -19,15 +19,11 @@ const START: f64 = -0.05;
 /// A recording under this header, with a column of times or without.
 fn recording(header: &str) -> String {
     let is_timed = header.starts_with("Time");
-    let mut text = header.to_owned();
-    for (k, pair) in WAVE.codes(5000).iter().enumerate() {
-        let [c, d] = pair.map(|code| f64::from(code) / 32_768.0);
-        if is_timed {
-            text += &format!("{:.6E},", START + k as f64 * 1e-5);
-        }
-        text += &format!("{c:+e},{d:+e},,\n");
-    }
-    text
+    printed(header, &WAVE.codes(5000), |k, [c, d]| {
+        let time = format!("{:.6E},", START + k as f64 * 1e-5);
+        let time = if is_timed { &time } else { "" };
+        format!("{time}{c:+e},{d:+e},,")
+    })
 }
 
 #[test]

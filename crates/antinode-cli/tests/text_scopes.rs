@@ -5,16 +5,11 @@ mod common;
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
 
-use common::{Row, WAVE, fault, rows_of, run, same_later, text};
+use common::{Row, WAVE, fault, printed, rows_of, run, same_later, text};
 
 /// A recording under another header, each line as `print` has its number and its samples.
 fn recording(header: &str, print: impl Fn(usize, [f64; 2]) -> String) -> String {
-    let mut text = header.to_owned();
-    for (k, pair) in WAVE.codes(5000).iter().enumerate() {
-        text += &print(k, pair.map(|code| f64::from(code) / 32_768.0));
-        text += "\n";
-    }
-    text
+    printed(header, &WAVE.codes(5000), print)
 }
 
 #[test]

@@ -258,11 +258,22 @@ pub fn npy(codes: &[[i16; 2]]) -> Vec<u8> {
 
 /// Text with a header, the time in seconds and the two signals, full scale 1.
 pub fn text(codes: &[[i16; 2]]) -> String {
-    let mut text = "time,C,D\n".to_owned();
+    printed("time,C,D\n", codes, |k, [c, d]| {
+        format!("{:.5},{c},{d}", k as f64 / RATE)
+    })
+}
+
+/// Text with a header, each line as `print` has its number and its samples, full scale 1.
+pub fn printed(
+    header: &str,
+    codes: &[[i16; 2]],
+    print: impl Fn(usize, [f64; 2]) -> String,
+) -> String {
+    let mut text = header.to_owned();
     for (k, pair) in codes.iter().enumerate() {
         // A power of two: every digit is exact.
-        let [c, d] = pair.map(|code| f64::from(code) / 32_768.0);
-        text += &format!("{:.5},{c},{d}\n", k as f64 / RATE);
+        text += &print(k, pair.map(|code| f64::from(code) / 32_768.0));
+        text += "\n";
     }
     text
 }

@@ -1,4 +1,4 @@
-//! What the interrupt counts and the main loop reports.
+//! What the interrupt counts and the main loop reports, and which search the main loop wants.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
@@ -26,9 +26,11 @@ impl Count {
     }
 }
 
-/// What the interrupt half counts.
+/// What the interrupt half counts, and which search it is to have.
 #[derive(Debug, Default)]
 pub struct Counts {
+    /// [`antinode::Tracker::wanted_search`], which the main loop writes.
+    pub wanted_search: AtomicU32,
     /// Sample pairs taken.
     pub pairs: Count,
     /// Sample pairs lost.
@@ -49,6 +51,7 @@ impl Counts {
     /// Nothing counted.
     pub const fn new() -> Self {
         Self {
+            wanted_search: AtomicU32::new(0),
             pairs: Count::new(),
             pairs_lost: Count::new(),
             saturated_pairs: Count::new(),

@@ -1,6 +1,7 @@
 //! The interrupt half of the pipeline: a source's pairs become blocks in a queue.
 
 use core::mem::MaybeUninit;
+use core::sync::atomic::Ordering;
 
 use antinode::block::ChannelWatch;
 use antinode::{Block, Front, Sample, SamplePair, Settings};
@@ -23,30 +24,25 @@ pub enum Item<S: Sample> {
     Block(Block<S>, Extra<S>),
     /// Sample pairs are missing before the next block.
     Lapse(Lapse),
-    /// From here on blocks are those of a new search: the answer to the request of this number.
-    Searching(u8),
 }
 
-/// What the main loop asks of the interrupt, with a number that the answer repeats.
+/// What the main loop asks of the interrupt.
 #[derive(Debug, Clone, Copy)]
 pub enum Request {
-    /// Search for a period anew.
-    Search(u8),
     /// Go on with other settings.
-    Configure(u8, Settings),
+    Configure(Settings),
     /// Gather the methods' sums too, or no longer.
     Tune(Option<Tuning>),
     /// Start sampling anew: no pair came for too long.
     Resample,
 }
 
-/// The queue to the main loop, and what is owed to it.
+/// The queue to the main loop.
 struct Outlet<'q, S: Sample> {
     items: Producer<'q, Item<S>, QUEUE>,
     counts: &'q Counts,
     /// What found no room in the queue yet: it goes before any block.
     lapse: Option<Lapse>,
-    answer: Option<u8>,
     /// True where the block begun has a pair at a rail.
     saturated: bool,
 }
@@ -88,12 +84,14 @@ impl<S: Sample> Outlet<'_, S> {
         // Part by part: of few words each, they go through registers, not through memcpy.
         let &Block {
             start,
+            search,
             layout,
             sums,
             watch,
         } = block;
         let block = Block {
             start,
+            search,
             layout,
             sums,
             watch,
@@ -102,27 +100,19 @@ impl<S: Sample> Outlet<'_, S> {
         unsafe { self.items.enqueue_unchecked(Item::Block(block, extra)) };
     }
 
-    /// Pays what is owed; false while there is no room for it.
+    /// Tells of what is missing; false while there is no room for it.
     #[inline]
     fn pay(&mut self) -> bool {
-        (self.lapse.is_none() && self.answer.is_none()) || self.pay_out()
+        self.lapse.is_none_or(|lapse| self.pay_out(lapse))
     }
 
     #[cold]
-    fn pay_out(&mut self) -> bool {
-        if let Some(lapse) = self.lapse {
-            if self.items.enqueue(Item::Lapse(lapse)).is_err() {
-                return false;
-            }
+    fn pay_out(&mut self, lapse: Lapse) -> bool {
+        let paid = self.items.enqueue(Item::Lapse(lapse)).is_ok();
+        if paid {
             self.lapse = None;
         }
-        if let Some(number) = self.answer {
-            if self.items.enqueue(Item::Searching(number)).is_err() {
-                return false;
-            }
-            self.answer = None;
-        }
-        true
+        paid
     }
 
     fn owe(&mut self, lapse: Lapse) {
@@ -169,13 +159,12 @@ impl<'q, S: Sample> Gatherer<'q, S> {
                 items,
                 counts,
                 lapse: None,
-                answer: None,
                 saturated: false,
             },
         })
     }
 
-    /// Serves the source's interrupt: obeys requests, then takes what the source has.
+    /// Serves the source's interrupt: obeys requests, searches where the main loop wants it, then takes what the source has.
     #[inline]
     pub fn serve<R: Source>(&mut self, source: &mut R)
     where
@@ -183,6 +172,10 @@ impl<'q, S: Sample> Gatherer<'q, S> {
     {
         if self.requests.ready() {
             self.obey(source);
+        }
+        let wanted = self.outlet.counts.wanted_search.load(Ordering::Relaxed);
+        if self.front.search_if_wanted(wanted) {
+            self.begin_anew();
         }
         match source.next() {
             Ready::Nothing => {}
@@ -196,16 +189,10 @@ impl<'q, S: Sample> Gatherer<'q, S> {
     fn obey<R: Source>(&mut self, source: &mut R) {
         while let Some(request) = self.requests.dequeue() {
             match request {
-                Request::Search(number) => {
-                    self.front.search();
-                    self.methods.restart();
-                    self.outlet.answer = Some(number);
-                }
-                Request::Configure(number, settings) => {
+                Request::Configure(settings) => {
                     // The main loop has checked them: an error, which never is, leaves the old ones.
                     let _ = self.front.configure(settings);
-                    self.methods.restart();
-                    self.outlet.answer = Some(number);
+                    self.begin_anew();
                 }
                 Request::Tune(tuning) => self.methods.tune(tuning),
                 Request::Resample => {
@@ -213,8 +200,14 @@ impl<'q, S: Sample> Gatherer<'q, S> {
                     self.skip(lapse);
                 }
             }
-            self.outlet.saturated = false;
         }
+    }
+
+    /// The block begun is no more.
+    #[cold]
+    fn begin_anew(&mut self) {
+        self.methods.restart();
+        self.outlet.saturated = false;
     }
 
     // Not inlined, and nor is what follows: its stack need not hold that of the requests too.

@@ -3,6 +3,7 @@
 mod commands;
 
 use core::mem::MaybeUninit;
+use core::sync::atomic::Ordering;
 
 use antinode::{Estimate, Sample, Tracker};
 use antinode_telemetry::{Cause, Configuration, Counters, Hello, Methods, Report, State};
@@ -42,9 +43,6 @@ pub struct Instrument<'q, S: Sample> {
     configuration: Configuration,
     history: History<S>,
     tuning: Option<Tuning>,
-    /// Number of the last request, and whether its answer is still to come: blocks before it are of no use.
-    number: u8,
-    awaits: bool,
     state: State,
     /// When a command asked for a restart, ms.
     restart: Option<u32>,
@@ -83,8 +81,6 @@ impl<'q, S: Sample> Instrument<'q, S> {
             configuration,
             history: History::new(),
             tuning: None,
-            number: 0,
-            awaits: false,
             state: State::Started(cause),
             restart: None,
             asks: false,
@@ -113,7 +109,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
             log(Event::Answered { id: frame.id, done });
         }
         // A device that does not sample goes on saying so.
-        if self.awaits && self.state == State::Tracking {
+        if self.wants_search() && self.state == State::Tracking {
             self.enter(State::Searching, &mut log);
         }
         // No more than the queue holds: under overload it is never empty, and the line and the watchdog must have their turn.
@@ -136,7 +132,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
         let mut estimate = None;
         match self.items.peek() {
             None => return false,
-            Some(Item::Block(block, extra)) if !self.awaits => {
+            Some(Item::Block(block, extra)) if block.search == self.tracker.wanted_search() => {
                 self.history.keep(extra);
                 estimate = self.tracker.push(block);
             }
@@ -146,7 +142,6 @@ impl<'q, S: Sample> Instrument<'q, S> {
                 let restarted = State::SamplingRestarted(lapse.cause);
                 self.link.send(&Report::State(restarted));
             }
-            Some(Item::Searching(number)) => self.awaits &= *number != self.number,
         }
         // Only now: a block is read where it lies.
         self.items.dequeue();
@@ -158,12 +153,18 @@ impl<'q, S: Sample> Instrument<'q, S> {
                 self.link.send(&Report::Methods(methods));
             }
         }
-        if self.tracker.has_lost() {
-            self.tracker.forget();
-            self.request(Request::Search);
+        if self.wants_search() {
             self.enter(State::Searching, log);
         }
         true
+    }
+
+    /// Tells the interrupt which search is wanted; true where it is another one.
+    fn wants_search(&mut self) -> bool {
+        let (wanted, told) = (self.tracker.wanted_search(), &self.counts.wanted_search);
+        let is_new = wanted != told.load(Ordering::Relaxed);
+        told.store(wanted, Ordering::Relaxed);
+        is_new
     }
 
     /// The methods over an estimate's window, where they are wanted and neither the line nor the blocks that wait are in a hurry.
@@ -187,17 +188,6 @@ impl<'q, S: Sample> Instrument<'q, S> {
         } else {
             self.history.compare(estimate, rate)
         }
-    }
-
-    /// Asks the interrupt; false where it has not worked off earlier requests.
-    fn request(&mut self, request: impl FnOnce(u8) -> Request) -> bool {
-        let number = self.number.wrapping_add(1);
-        let taken = self.requests.enqueue(request(number)).is_ok();
-        if taken {
-            self.number = number;
-            self.awaits = true;
-        }
-        taken
     }
 
     fn enter(&mut self, state: State, log: &mut impl FnMut(Event)) {

@@ -59,7 +59,7 @@ fn a_tracker_without_settings_finds_nothing_and_with_them_it_is_as_new() {
     };
     let mut tracker = Tracker::UNSET;
     assert_eq!(estimates(&mut tracker), []);
-    assert!(!tracker.has_lost() && !tracker.has_wave());
+    assert!(tracker.wanted_search() == 0 && !tracker.has_wave());
     tracker.configure(windows(5)).unwrap();
     assert_eq!(*tracker.settings(), windows(5));
     let found = estimates(&mut tracker);
@@ -240,6 +240,7 @@ fn other_settings_in_place_do_what_a_new_start_does() {
     let pairs = stream(wave, flaws, 8000, 7);
     let run = |front: &mut Front<f32, 200>, tracker: &mut Tracker<40>| {
         let mut found = Vec::new();
+        front.search_if_wanted(tracker.wanted_search());
         front.extend(&pairs, |block| {
             let estimate = tracker.push(block);
             found.extend(estimate.map(|e| (e.main_amplitude, e.angle, e.frequency, e.flags)));

@@ -98,7 +98,7 @@ fn a_calibration_that_is_changed_holds_from_the_next_window_on() {
 }
 
 #[test]
-fn a_tracker_that_has_lost_its_wave_says_so_until_it_is_told_to_forget_it() {
+fn a_tracker_that_has_lost_its_wave_wants_a_search_and_takes_no_block_of_the_one_before() {
     let (wave, flaws) = gyro(2);
     let mut pairs = stream(wave, flaws, 10_000, 2);
     let (mut front, mut tracker) = (
@@ -106,20 +106,20 @@ fn a_tracker_that_has_lost_its_wave_says_so_until_it_is_told_to_forget_it() {
         Tracker::new(windows(10)).unwrap(),
     );
     assert!(follow(&mut front, &mut tracker, &pairs).len() > 40);
-    assert!(!tracker.has_lost());
+    assert_eq!(tracker.wanted_search(), 0);
     // One window without a wave is no loss, nor are two that do not follow each other.
     let silence = vec![[0.0; 2]; 285];
     for _ in 0..8 {
         follow(&mut front, &mut tracker, &silence);
-        assert!(!tracker.has_lost());
         follow(&mut front, &mut tracker, &pairs[..1900]);
-        assert!(!tracker.has_lost());
+        assert_eq!(tracker.wanted_search(), 0);
     }
     follow(&mut front, &mut tracker, &vec![[0.0; 2]; 800]);
-    assert!(tracker.has_lost());
-    tracker.forget();
-    assert!(!tracker.has_lost());
-    front.search();
+    assert_eq!(tracker.wanted_search(), 1);
+    assert!(follow(&mut front, &mut tracker, &pairs).is_empty());
+    assert_eq!(tracker.wanted_search(), 1);
+    assert!(front.search_if_wanted(1) && front.is_searching());
+    assert!(!front.search_if_wanted(1));
     pairs.truncate(5000);
     let again = follow(&mut front, &mut tracker, &pairs);
     assert_eq!(again[0].flags, Flags::REACQUIRED);

@@ -71,10 +71,10 @@
 #define ANTINODE_QUEUE_BLOCKS 16
 
 // 64-bit words of an `antinode_fixed_t`.
-#define ANTINODE_FIXED_WORDS 1120
+#define ANTINODE_FIXED_WORDS 1104
 
 // 64-bit words of an `antinode_float_t`.
-#define ANTINODE_FLOAT_WORDS 1368
+#define ANTINODE_FLOAT_WORDS 1352
 
 // Samples at the converter's rail, or the third harmonic that a limiter leaves: amplitudes are wrong.
 #define ANTINODE_FLAG_CLIPPED 1u

@@ -29,9 +29,9 @@ const _: () = assert!(
 );
 
 /// 64-bit words of an `antinode_fixed_t`.
-pub const ANTINODE_FIXED_WORDS: usize = 1120;
+pub const ANTINODE_FIXED_WORDS: usize = 1104;
 /// 64-bit words of an `antinode_float_t`.
-pub const ANTINODE_FLOAT_WORDS: usize = 1368;
+pub const ANTINODE_FLOAT_WORDS: usize = 1352;
 
 /// State of an identification in fixed point, on `int16_t` codes. Opaque: only the functions `antinode_fixed_…` look inside.
 #[repr(C)]

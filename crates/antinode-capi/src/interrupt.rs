@@ -24,7 +24,6 @@ pub(crate) struct Words<T>(pub T);
 /// What belongs to the interrupt alone.
 pub(crate) struct Interrupt<S: Sample> {
     front: Front<S>,
-    search: u32,
 }
 
 impl<S: Slow> Interrupt<S> {
@@ -38,7 +37,6 @@ impl<S: Slow> Interrupt<S> {
         // SAFETY: the caller's contract.
         let interrupt = unsafe {
             (&raw mut (*place).front).write(Front::UNSET);
-            (&raw mut (*place).search).write(0);
             &mut *place
         };
         interrupt.front.configure(settings)?;
@@ -50,7 +48,7 @@ impl<S: Slow> Interrupt<S> {
     fn obey(&mut self, shared: &Shared<S>) {
         // The number is all that is told: nothing else of the thread's is looked at.
         let wanted = shared.wanted.load(Ordering::Relaxed);
-        if wanted != self.search {
+        if wanted != self.front.search_number() {
             self.search_anew(shared, wanted);
         }
     }
@@ -59,8 +57,7 @@ impl<S: Slow> Interrupt<S> {
     #[cold]
     #[inline(never)]
     fn search_anew(&mut self, shared: &Shared<S>, wanted: u32) {
-        self.search = wanted;
-        S::search_anew(&mut self.front);
+        S::search_wanted(&mut self.front, wanted);
         self.tell(shared);
     }
 
@@ -80,7 +77,7 @@ impl<S: Slow> Interrupt<S> {
         };
         let before = shared.counts();
         // SAFETY: the caller is the only producer.
-        unsafe { shared.queue_block(self.search, block) };
+        unsafe { shared.queue_block(block) };
         shared.status_since(before)
     }
 
@@ -104,7 +101,7 @@ impl<S: Slow> Interrupt<S> {
             };
             if let Some(block) = block {
                 // SAFETY: the caller is the only producer.
-                unsafe { shared.queue_block(self.search, block) };
+                unsafe { shared.queue_block(block) };
             }
             pairs = pairs.get(taken..).unwrap_or(&[]);
         }

@@ -14,20 +14,13 @@ use antinode::{Block, Sample};
 
 use crate::capacity::ANTINODE_QUEUE_BLOCKS;
 
-/// A block, and the search that its wave was found by.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Entry<S: Sample> {
-    pub search: u32,
-    pub block: Block<S>,
-}
-
 /// Counters run freely; a slot is their value modulo the length.
 pub(crate) struct Queue<S: Sample> {
-    /// Entries ever put in; written by the producer only.
+    /// Blocks ever put in; written by the producer only.
     put: AtomicU32,
-    /// Entries ever taken out; written by the consumer only.
+    /// Blocks ever taken out; written by the consumer only.
     taken: AtomicU32,
-    slots: [UnsafeCell<MaybeUninit<Entry<S>>>; ANTINODE_QUEUE_BLOCKS],
+    slots: [UnsafeCell<MaybeUninit<Block<S>>>; ANTINODE_QUEUE_BLOCKS],
 }
 
 const _: () = assert!(ANTINODE_QUEUE_BLOCKS.is_power_of_two());
@@ -57,11 +50,11 @@ impl<S: Sample> Queue<S> {
 
     /// The slot of a counter's value.
     #[inline]
-    fn slot(&self, counter: u32) -> *mut MaybeUninit<Entry<S>> {
+    fn slot(&self, counter: u32) -> *mut MaybeUninit<Block<S>> {
         self.slots[counter as usize % ANTINODE_QUEUE_BLOCKS].get()
     }
 
-    /// How many entries wait. From any context, also one that both sides break into.
+    /// How many blocks wait. From any context, also one that both sides break into.
     pub(crate) fn len(&self) -> u32 {
         waiting(
             || self.put.load(Ordering::Acquire),
@@ -69,7 +62,7 @@ impl<S: Sample> Queue<S> {
         )
     }
 
-    /// Entries ever put in; it wraps. For the producer.
+    /// Blocks ever put in; it wraps. For the producer.
     #[inline]
     pub(crate) fn count(&self) -> u32 {
         self.put.load(Ordering::Relaxed)
@@ -80,18 +73,17 @@ impl<S: Sample> Queue<S> {
     /// # Safety
     /// One caller at a time.
     #[inline]
-    pub(crate) unsafe fn put(&self, search: u32, block: &Block<S>) -> bool {
+    pub(crate) unsafe fn put(&self, block: &Block<S>) -> bool {
         let put = self.put.load(Ordering::Relaxed);
         if put.wrapping_sub(self.taken.load(Ordering::Acquire)) >= ANTINODE_QUEUE_BLOCKS as u32 {
             return false;
         }
         // SAFETY: the slot is free: the consumer has done with what was in it and reads it no more before `put` moves on.
         unsafe {
-            let slot = self.slot(put).cast::<Entry<S>>();
-            (&raw mut (*slot).search).write(search);
+            let place = self.slot(put).cast::<Block<S>>();
             // Field by field: each is moved in registers, while a whole block would be a call of memcpy.
-            let place = &raw mut (*slot).block;
             (&raw mut (*place).start).write(block.start);
+            (&raw mut (*place).search).write(block.search);
             (&raw mut (*place).layout).write(block.layout);
             (&raw mut (*place).sums).write(block.sums);
             // Where nothing is watched there is nothing to move.
@@ -105,12 +97,12 @@ impl<S: Sample> Queue<S> {
         true
     }
 
-    /// Looks at the oldest entry where it lies, by `look`, and frees its slot; `None` when there is none.
+    /// Looks at the oldest block where it lies, by `look`, and frees its slot; `None` when there is none.
     ///
     /// # Safety
     /// One caller at a time, beside one caller of [`Queue::put`].
     #[inline]
-    pub(crate) unsafe fn take<T>(&self, look: impl FnOnce(&Entry<S>) -> T) -> Option<T> {
+    pub(crate) unsafe fn take<T>(&self, look: impl FnOnce(&Block<S>) -> T) -> Option<T> {
         let taken = self.taken.load(Ordering::Relaxed);
         if taken == self.put.load(Ordering::Acquire) {
             return None;
@@ -122,7 +114,7 @@ impl<S: Sample> Queue<S> {
     }
 }
 
-/// Entries between two counters that may move on between the looks: of those seen put in, what is not taken yet.
+/// Blocks between two counters that may move on between the looks: of those seen put in, what is not taken yet.
 fn waiting(put: impl FnOnce() -> u32, taken: impl FnOnce() -> u32) -> u32 {
     // This order, or entries that came since would count, and more than there is room for.
     let count = put().wrapping_sub(taken());
@@ -147,11 +139,15 @@ mod tests {
     // SAFETY: as the state of a C program that an interrupt and a thread share.
     unsafe impl Sync for Shared {}
 
-    /// A block that begins at `start`.
+    /// A block that begins at `start`, of a search of the same number.
     fn block(start: u32) -> Block<f32> {
         let step = PhaseStep::from_period(4.0);
         let mut demodulator = Demodulator::<f32, 2>::new(step, 1, u64::from(start), false);
-        *demodulator.push([0.0; 2]).unwrap()
+        let block = *demodulator.push([0.0; 2]).unwrap();
+        Block {
+            search: start,
+            ..block
+        }
     }
 
     #[test]
@@ -160,13 +156,13 @@ mod tests {
         for i in 0..ANTINODE_QUEUE_BLOCKS as u32 {
             assert_eq!(queue.len(), i);
             // SAFETY: one thread.
-            assert!(unsafe { queue.put(i, &block(i)) });
+            assert!(unsafe { queue.put(&block(i)) });
         }
         // SAFETY: one thread.
         unsafe {
-            assert!(!queue.put(99, &block(99)));
-            assert_eq!(queue.take(|entry| entry.search), Some(0));
-            assert!(queue.put(99, &block(99)));
+            assert!(!queue.put(&block(99)));
+            assert_eq!(queue.take(|block| block.start), Some(0));
+            assert!(queue.put(&block(99)));
         }
     }
 
@@ -175,11 +171,11 @@ mod tests {
         let queue = Queue::new();
         for i in 0..ANTINODE_QUEUE_BLOCKS as u32 {
             // SAFETY: one thread.
-            assert!(unsafe { queue.put(i, &block(i)) });
+            assert!(unsafe { queue.put(&block(i)) });
         }
         // An interrupt that comes meanwhile.
         // SAFETY: one caller of each.
-        let seen = unsafe { queue.take(|entry| (queue.put(99, &block(99)), entry.search)) };
+        let seen = unsafe { queue.take(|taken| (queue.put(&block(99)), taken.start)) };
         assert_eq!(seen, Some((false, 0)));
     }
 
@@ -218,7 +214,7 @@ mod tests {
                 for i in 0..COUNT {
                     let block = block(i);
                     // SAFETY: the only producer.
-                    while !unsafe { shared.0.put(i, &block) } {
+                    while !unsafe { shared.0.put(&block) } {
                         std::thread::yield_now();
                     }
                 }
@@ -226,14 +222,14 @@ mod tests {
             // Counted, not asserted: a consumer that stopped would leave the producer waiting for ever.
             let mut wrong = 0;
             for i in 0..COUNT {
-                let entry = loop {
+                let block = loop {
                     // SAFETY: the only consumer.
-                    match unsafe { shared.0.take(|entry| *entry) } {
-                        Some(entry) => break entry,
+                    match unsafe { shared.0.take(|block| *block) } {
+                        Some(block) => break block,
                         None => std::thread::yield_now(),
                     }
                 };
-                wrong += u32::from((entry.search, entry.block.start) != (i, u64::from(i)));
+                wrong += u32::from((block.search, block.start) != (i, u64::from(i)));
             }
             assert_eq!(wrong, 0);
         });

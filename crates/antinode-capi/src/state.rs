@@ -11,7 +11,7 @@ use antinode_capi_slow::{Slow, Tracker};
 
 use crate::estimate::Estimate;
 use crate::interrupt::Interrupt;
-use crate::queue::{Entry, Queue};
+use crate::queue::Queue;
 use crate::status::Status;
 
 /// An arithmetic that states can have.
@@ -40,7 +40,7 @@ pub(crate) struct State<S: Sample> {
 /// What the two sides tell each other.
 pub(crate) struct Shared<S: Sample> {
     queue: Queue<S>,
-    /// The search whose blocks the thread wants; it counts up when a wave is lost. Written by the thread.
+    /// The search whose blocks the thread wants. Written by the thread.
     pub wanted: AtomicU32,
     /// 1 while a period is searched. Written by the interrupt.
     pub searching: AtomicU32,
@@ -92,9 +92,9 @@ impl<S: Sample> Shared<S> {
     /// # Safety
     /// One caller at a time, the interrupt.
     #[inline]
-    pub(crate) unsafe fn queue_block(&self, search: u32, block: &Block<S>) {
+    pub(crate) unsafe fn queue_block(&self, block: &Block<S>) {
         // SAFETY: the caller is the only producer.
-        if !unsafe { self.queue.put(search, block) } {
+        if !unsafe { self.queue.put(block) } {
             let dropped = self.dropped.load(Ordering::Relaxed);
             self.dropped
                 .store(dropped.wrapping_add(1), Ordering::Relaxed);
@@ -159,7 +159,7 @@ impl Thread {
     #[inline(never)]
     pub(crate) unsafe fn solve<S: Slow>(&mut self, shared: &Shared<S>) -> Option<Estimate> {
         // SAFETY: the caller is the only consumer.
-        while let Some(estimate) = unsafe { shared.queue.take(|entry| self.push(shared, entry)) } {
+        while let Some(estimate) = unsafe { shared.queue.take(|block| self.push(shared, block)) } {
             if estimate.is_some() {
                 return estimate;
             }
@@ -167,29 +167,21 @@ impl Thread {
         None
     }
 
-    fn push<S: Slow>(&mut self, shared: &Shared<S>, entry: &Entry<S>) -> Option<Estimate> {
-        if entry.search != shared.wanted.load(Ordering::Relaxed) {
-            // Gathered before the interrupt heard of the loss.
-            return None;
-        }
-        let estimate = S::solve(&mut self.tracker, &entry.block);
-        if self.tracker.has_lost() {
-            self.search(shared);
-        } else {
-            self.tell(shared);
-        }
+    fn push<S: Slow>(&mut self, shared: &Shared<S>, block: &Block<S>) -> Option<Estimate> {
+        let estimate = S::solve(&mut self.tracker, block);
+        self.tell(shared);
         estimate.map(Estimate::from)
     }
 
     /// Drops the wave and has the interrupt search anew.
     pub(crate) fn search<S: Sample>(&mut self, shared: &Shared<S>) {
-        self.tracker.forget();
-        let wanted = shared.wanted.load(Ordering::Relaxed).wrapping_add(1);
-        shared.wanted.store(wanted, Ordering::Relaxed);
+        self.tracker.search();
         self.tell(shared);
     }
 
     fn tell<S: Sample>(&self, shared: &Shared<S>) {
+        let wanted = self.tracker.wanted_search();
+        shared.wanted.store(wanted, Ordering::Relaxed);
         let has_wave = u32::from(self.tracker.has_wave());
         shared.has_wave.store(has_wave, Ordering::Relaxed);
     }

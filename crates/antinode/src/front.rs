@@ -151,7 +151,33 @@ impl<S: Sample, const N: usize> Front<S, N> {
         self.detector = Detector::new(detection);
     }
 
-    /// Drops the period and searches anew; a known one is not searched, but blocks begin anew.
+    /// Searches anew where another search is wanted than the last: `wanted` is [`Tracker::wanted_search`](crate::Tracker::wanted_search),
+    /// and becomes the number of the blocks found. Gives true where it begins.
+    ///
+    /// Call it before every slice of pairs: where nothing is wanted it costs a comparison.
+    #[inline]
+    pub fn search_if_wanted(&mut self, wanted: u32) -> bool {
+        let is_wanted = wanted != self.search_number();
+        if is_wanted {
+            self.search_wanted(wanted);
+        }
+        is_wanted
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn search_wanted(&mut self, number: u32) {
+        self.demodulator.set_search(number);
+        self.search();
+    }
+
+    /// Number of the last search that was wanted, which blocks bear: 0 at first.
+    #[inline]
+    pub fn search_number(&self) -> u32 {
+        self.demodulator.search()
+    }
+
+    /// Drops the period and searches anew, whatever is wanted; a known one is not searched, but blocks begin anew.
     pub fn search(&mut self) {
         if !matches!(self.stage, Stage::Unset) {
             self.start();

@@ -72,8 +72,9 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check(BLOCKS)?;
         Front::<S, N>::check(&settings)?;
-        self.front.set(&settings);
         self.tracker.set(&settings);
+        self.front.set(&settings);
+        self.search_if_wanted();
         Ok(())
     }
 
@@ -112,7 +113,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<Estimate> {
         let estimate = self.tracker.push(self.front.push(pair)?);
-        self.search_if_lost();
+        self.search_if_wanted();
         estimate
     }
 
@@ -127,7 +128,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
             rest = rest.get(taken..).unwrap_or(&[]);
             if let Some(block) = block {
                 let estimate = self.tracker.push(block);
-                self.search_if_lost();
+                self.search_if_wanted();
                 if estimate.is_some() {
                     return (pairs.len() - rest.len(), estimate);
                 }
@@ -143,7 +144,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
             pairs = pairs.get(taken..).unwrap_or(&[]);
             if let Some(block) = block {
                 self.tracker.push_to(block, &mut report);
-                self.search_if_lost();
+                self.search_if_wanted();
             }
         }
     }
@@ -158,17 +159,15 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
 
     /// Searches a new period where the wave is lost.
     #[inline]
-    fn search_if_lost(&mut self) {
-        if self.tracker.has_lost() {
-            self.search();
-        }
+    fn search_if_wanted(&mut self) {
+        self.front.search_if_wanted(self.tracker.wanted_search());
     }
 
     /// Drops the wave and searches anew, as is done by itself where a wave is lost: the first window from then on is flagged
     /// [`Flags::REACQUIRED`](crate::Flags::REACQUIRED), its angle continued. A known frequency is not searched, but windows begin anew.
     pub fn search(&mut self) {
-        self.front.search();
-        self.tracker.forget();
+        self.tracker.search();
+        self.search_if_wanted();
     }
 
     /// Tells that `count` sample pairs were lost before the next one; the window that they would have been part of is dropped.

@@ -23,15 +23,16 @@
 //! # On a microcontroller
 //!
 //! A [`Front`] in the interrupt, a [`Tracker`] in the main loop, both with the same [`Settings`], and between them a queue of
-//! [`Block`]s. Here it is the one of `heapless`, and one flag goes the other way:
+//! [`Block`]s. Here it is the one of `heapless`. The other way goes the number of the search whose blocks the tracker takes, which
+//! counts up when the wave is lost:
 //!
 //! ```
-//! use core::sync::atomic::{AtomicBool, Ordering::Relaxed};
+//! use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 //!
 //! use antinode::{Block, Front, Settings, Tracker};
 //! use heapless::spsc::Queue;
 //!
-//! static SEARCH: AtomicBool = AtomicBool::new(false);
+//! static WANTED: AtomicU32 = AtomicU32::new(0);
 //!
 //! let settings = Settings { rails: Some([-32768.0, 32767.0]), resolution: Some(1.0), ..Settings::new(100_000.0) };
 //! let mut front = Front::<i16, 200>::new(settings)?;
@@ -41,11 +42,7 @@
 //!
 //! // Whenever the DMA has filled half of its buffer. A timer's interrupt would `Front::push` each pair.
 //! let mut interrupt = |pairs: &[[i16; 2]]| {
-//!     // Not by `swap`, which a Cortex-M0 does not have.
-//!     if SEARCH.load(Relaxed) {
-//!         SEARCH.store(false, Relaxed);
-//!         front.search();
-//!     }
+//!     front.search_if_wanted(WANTED.load(Relaxed));
 //!     front.extend(pairs, |block| {
 //!         // A block that finds the queue full costs its window, no more: the tracker sees that it is missing.
 //!         let _ = blocks.enqueue(*block);
@@ -57,13 +54,7 @@
 //!         if let Some(estimate) = tracker.push(&block) {
 //!             estimates.push(estimate);
 //!         }
-//!         // Ask after every block: a wave may be lost without an estimate.
-//!         if tracker.has_lost() {
-//!             SEARCH.store(true, Relaxed);
-//!             // What was gathered before the search is of no use.
-//!             while gathered.dequeue().is_some() {}
-//!             tracker.forget();
-//!         }
+//!         WANTED.store(tracker.wanted_search(), Relaxed);
 //!     }
 //! };
 //!
@@ -85,7 +76,7 @@
 //! ```
 //!
 //! Calibration and settings are changed in place: calibration by [`Tracker::calibrate`] in the main loop alone, settings by `configure` on
-//! both sides. Samples that the interrupt missed are told to [`Front::skip`].
+//! both sides, after which blocks from before are left out. Samples that the interrupt missed are told to [`Front::skip`].
 //!
 //! | bytes of RAM on a 32-bit core | `i16` | `f32` | `i32` |
 //! |---|---|---|---|

@@ -43,12 +43,17 @@ impl<S: Sample> Instrument<'_, S> {
                 self.check_methods(configuration.methods, &configuration.settings.calibration)?;
                 // Blocks are as they were, but for their calibration.
                 let is_new = !matches!(command, Command::SetCalibration(_));
-                if is_new
-                    && !self.request(|number| Request::Configure(number, configuration.settings))
-                {
-                    return Err(CommandError::Busy);
+                if is_new {
+                    let request = Request::Configure(configuration.settings);
+                    self.requests
+                        .enqueue(request)
+                        .map_err(|_| CommandError::Busy)?;
                 }
                 self.tracker.change(configuration.settings)?;
+                if is_new {
+                    // What waits was gathered with the settings before.
+                    self.tracker.search();
+                }
                 self.configuration = configuration;
                 self.hello();
             }

@@ -19,8 +19,8 @@ pub type Tracker = antinode::Tracker<RING_BLOCKS>;
 
 /// Samples of the C ABI.
 pub trait Slow: Sample {
-    /// Drops the period and searches anew.
-    fn search_anew(front: &mut Front<Self>);
+    /// Drops the period and searches anew, with this number.
+    fn search_wanted(front: &mut Front<Self>, number: u32);
 
     /// Searches a period in pairs; gives how many it took.
     fn search(front: &mut Front<Self>, pairs: &[[Self; 2]]) -> usize;
@@ -37,8 +37,8 @@ macro_rules! slow {
         impl Slow for $sample {
             #[cold]
             #[inline(never)]
-            fn search_anew(front: &mut Front<Self>) {
-                front.search();
+            fn search_wanted(front: &mut Front<Self>, number: u32) {
+                front.search_if_wanted(number);
             }
 
             #[inline(never)]

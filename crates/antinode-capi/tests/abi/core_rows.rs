@@ -84,8 +84,9 @@ impl<S: Arithmetic> Halves<S> {
         }
     }
 
-    /// The blocks that the pairs finish.
+    /// The blocks that the pairs finish, of the search that is wanted.
     pub fn blocks(&mut self, codes: &[[i16; 2]]) -> Vec<Block<S>> {
+        self.front.search_if_wanted(self.tracker.wanted_search());
         let pairs = samples::<S>(codes);
         pairs
             .into_iter()

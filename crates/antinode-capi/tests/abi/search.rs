@@ -63,8 +63,7 @@ fn a_wave_is_dropped_and_found_again<S: Arithmetic>(frequency: f32) {
     let mut core = Halves::<S>::new(&settings);
     let mut expected = core.run(&codes[..5_000]);
     core.blocks(&codes[5_000..5_500]);
-    core.front.search();
-    core.tracker.forget();
+    core.tracker.search();
     expected.extend(core.run(&codes[5_500..]));
     same(&format!("{frequency} Hz"), &ours, &expected);
 }
@@ -90,12 +89,10 @@ fn a_lost_wave_is_searched_by_itself<S: Arithmetic>() {
         let found = expected.len();
         let blocks = core.blocks(piece);
         for (i, block) in blocks.iter().enumerate() {
+            let before = core.tracker.wanted_search();
             expected.extend(core.tracker.push(block));
-            if core.tracker.has_lost() {
+            if core.tracker.wanted_search() != before {
                 dropped.push(blocks.len() - 1 - i);
-                core.front.search();
-                core.tracker.forget();
-                break;
             }
         }
         ours.extend(gyro.run(Way::Packed, piece.len(), piece));

@@ -24,6 +24,8 @@ pub type Pair = [f32; 2];
 pub struct Block<S: Sample> {
     /// Index in the stream of the block's first sample pair.
     pub start: u64,
+    /// Number of the search that found its wave, as [`Front::search_if_wanted`](crate::Front::search_if_wanted) was given it; 0 before.
+    pub search: u32,
     /// Reference frequency, length and scale.
     pub layout: Layout,
     /// Sums of S_C and of S_D.
@@ -75,6 +77,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
                 known: 0,
                 block: Block {
                     start: 0,
+                    search: 0,
                     layout: Layout::unrounded(PhaseStep(0), 0),
                     sums: [ChannelSums::empty(); 2],
                     watch: None,
@@ -143,6 +146,17 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         let (_, is_full) = self.summing.sum(held.unwrap_or(&[]));
         self.room = self.summing.room();
         is_full.then_some(&self.summing.block)
+    }
+
+    /// Number of the search that its blocks are of.
+    #[inline(always)]
+    pub(crate) fn search(&self) -> u32 {
+        self.summing.block.search
+    }
+
+    /// Blocks are of another search from the next beginning on.
+    pub(crate) fn set_search(&mut self, number: u32) {
+        self.summing.block.search = number;
     }
 
     /// Begins anew, with blocks of another frequency and length from sample pair `start` of the stream on.

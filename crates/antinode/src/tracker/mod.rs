@@ -53,6 +53,8 @@ pub struct Tracker<const BLOCKS: usize> {
     /// True from the loss of a wave to the first window after it.
     lost: bool,
     ever: bool,
+    /// Number of the search whose blocks are taken.
+    wanted: u32,
     failures: Failures,
     /// True while a fault lies between the last clean window and the next.
     broken: bool,
@@ -87,6 +89,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             angle: Angle::ZERO,
             lost: false,
             ever: false,
+            wanted: 0,
             failures: Failures::NONE,
             broken: false,
             found: false,
@@ -104,7 +107,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         Ok(tracker)
     }
 
-    /// Waits for its first block anew with other settings, in place: a new tracker in this one's place would take its size in stack.
+    /// Waits for its first block anew with other settings, in place: a new tracker in this one's place would take its size in stack. Where
+    /// it had settings before, it [wants](Self::wanted_search) a new search, and blocks from before are left out.
     ///
     /// # Errors
     ///
@@ -122,16 +126,19 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
 
     /// Waits for its first block anew with settings that are checked.
     pub(crate) fn set(&mut self, settings: &Settings) {
+        // What had no settings took no block.
+        if self.settings.periods > 0 {
+            self.search();
+        }
         self.settings = *settings;
-        // All else begins anew with the next block.
-        self.forget();
         self.angle = Angle::new(settings.start_angle);
         self.ever = false;
     }
 
     /// Takes a block; gives the estimate of the window that it completes.
     ///
-    /// A block of another layout, or one that does not follow the last, starts a new window.
+    /// A block of another layout, or one that does not follow the last, starts a new window. Blocks of another search than the
+    /// [wanted one](Self::wanted_search) are left out.
     #[must_use = "the estimate is given once"]
     #[inline]
     pub fn push<S: Sample>(&mut self, block: &Block<S>) -> Option<Estimate> {
@@ -158,10 +165,13 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.judged(fit, |units, record, flags| record.estimate(units, flags))
     }
 
-    /// Begins the next window.
+    /// Begins the next window, or has the wave searched anew where it is lost.
     fn advance(&mut self) {
         self.gathered
             .advance(self.settings.hop.unwrap_or(self.count));
+        if self.failures.are_enough(self.count) {
+            self.search();
+        }
     }
 
     /// Takes a block and hands the estimate of the window that it completes to `report`: without room for it in the stack while the
@@ -221,6 +231,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     #[cold]
     #[inline(never)]
     fn gather_anew<S: Sample>(&mut self, block: &Block<S>, is_same: bool) -> bool {
+        // Only here: what is gathered is of the search wanted, or is dropped when another one is.
+        if block.search != self.wanted {
+            return false;
+        }
         self.gathered.clear();
         if !is_same {
             self.begin(&block.layout);
@@ -228,14 +242,21 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.take(block)
     }
 
-    /// True when a new period must be searched: the first window showed no wave, or two in a row were [`Flags::LOST`] or did not settle,
-    /// or eight in a row held little of the wave beside all else. Windows that overlap count by the blocks they move on. Ask after every
-    /// block: a first window without a wave gives no estimate.
+    /// Number of the search whose blocks it takes, for [`Front::search_if_wanted`](crate::Front::search_if_wanted): 0 at first. It counts
+    /// up, and wraps, where a new period must be searched: the first window showed no wave, or two in a row were [`Flags::LOST`] or did
+    /// not settle, or eight in a row held little of the wave beside all else. Windows that overlap count by the blocks they move on.
     ///
-    /// Then call [`Front::search`](crate::Front::search), drop the blocks that were gathered before it, and [`forget`](Self::forget).
+    /// Hand it on after every block: a first window without a wave gives no estimate.
     #[must_use = "a lost wave is found again only by a search"]
-    pub fn has_lost(&self) -> bool {
-        self.failures.are_enough(self.count)
+    pub fn wanted_search(&self) -> u32 {
+        self.wanted
+    }
+
+    /// Drops the wave and the blocks gathered, but not the angle, and wants a new search, as is done by itself where the wave is lost: the
+    /// angle found there is the one nearest to the last.
+    pub fn search(&mut self) {
+        self.forget();
+        self.wanted = self.wanted.wrapping_add(1);
     }
 
     /// True from the first window that shows a wave to the first that shows none. Where a frequency is known and the wave is elsewhere, or
@@ -244,9 +265,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.found
     }
 
-    /// Drops the wave and the blocks gathered, but not the angle: with the next block a first window begins, and the angle found there is
-    /// the one nearest to the last.
-    pub fn forget(&mut self) {
+    /// With the next block a first window begins.
+    fn forget(&mut self) {
         self.model = None;
         self.failures = Failures::NONE;
         self.found = false;
@@ -268,8 +288,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Changes the settings, all but the start angle: the next block starts a new first window, flagged [`Flags::REACQUIRED`], its angle
     /// continued. [`configure`](Self::configure) begins with the start angle instead.
     ///
-    /// The front needs the same settings, except `calibration`, `hum` and `coloured`; where it is configured anew, drop the blocks that were
-    /// gathered before.
+    /// The front needs the same settings, except `calibration`, `hum` and `coloured`; where it is configured anew, [`search`](Self::search)
+    /// too, so that blocks from before are left out.
     ///
     /// # Errors
     ///

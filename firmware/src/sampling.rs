@@ -3,6 +3,8 @@
 use antinode::Packed;
 use antinode_telemetry::Cause;
 
+use crate::settings::HALF;
+
 /// Samples are missing: they were not fetched in time, or the converter stopped. Sampling goes on already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Lapse {
@@ -50,6 +52,18 @@ pub trait Source {
     fn is_at_rail(&self, pair: Self::Pair) -> bool;
 }
 
+/// Pairs in a ring of two halves beyond the end of one of them, the first or the second, when `left` pairs of the round are to come.
+pub const fn beyond(second: bool, left: u32) -> u32 {
+    let half = HALF as u32;
+    let from_end = if second { 2 * half } else { 3 * half };
+    from_end.wrapping_sub(left) % (2 * half)
+}
+
+/// True where pairs do not fit the triggers that they came by: each comes once after its trigger, and before the next one.
+pub const fn has_slipped(triggers: u32, pairs: u32) -> bool {
+    triggers.wrapping_sub(pairs) > 1
+}
+
 /// The pairs with one code on both channels, of each code.
 pub fn both([low, high]: [i16; 2]) -> [Packed; 2] {
     [low, high].map(|code| Packed(u32::from(code as u16) * 0x0001_0001))
@@ -74,6 +88,32 @@ pub fn is_at_rail_16(pair: Packed) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn pairs_beyond_a_half_are_counted_around_the_ring() {
+        let half = HALF as u32;
+        for pairs in 0..2 * half {
+            // Of a round that begins with the first half: as the DMA counts, which is never at 0 for long.
+            let left = |end: u32| match (end + pairs) % (2 * half) {
+                0 => [2 * half, 0],
+                written => [2 * half - written; 2],
+            };
+            for (second, end) in [(false, half), (true, 2 * half)] {
+                assert_eq!(left(end).map(|left| beyond(second, left)), [pairs; 2]);
+            }
+        }
+    }
+
+    #[test]
+    fn one_pair_too_few_or_too_many_is_a_slip() {
+        for pairs in [0, 5, 2 * HALF as u32 - 1] {
+            let slips = |ahead: i32| has_slipped(pairs.wrapping_add_signed(ahead), pairs);
+            assert_eq!(
+                [-1, 0, 1, 2, 1000].map(slips),
+                [true, false, false, true, true]
+            );
+        }
+    }
 
     #[test]
     fn rails_are_the_first_and_the_last_code() {

@@ -11,8 +11,8 @@ use crate::timing::{POWER_UP_MS, RESET_US};
 
 /// The SPI mode: the clock idles high, and its falling edge takes the data, highest bit first.
 ///
-/// As in Analog Devices' AD738x-FMC user guide. Their no-OS example for it, which runs on an STM32F4 too, has mode 1, where the falling
-/// edge takes the data as well; the example of Linux's binding has mode 3. With a mode that does not work [`Ad7380::new`] says
+/// As in Analog Devices' AD738x-FMC user guide and in their no-OS example for it, which runs on an STM32F4 too and until 2026 had mode 1,
+/// where the falling edge takes the data as well; the example of Linux's binding has mode 3. With a mode that does not work [`Ad7380::new`] says
 /// [`Error::ReadBack`].
 pub const SPI_MODE: Mode = MODE_2;
 

@@ -91,11 +91,13 @@ impl DualAdc {
     fn configure(&self) {
         // SAFETY: each value is one that RM0090 lists for its field.
         unsafe {
-            // CCR.ADCPRE 1: APB2 over 4.
+            // CCR.ADCPRE 1: APB2 over 4. Between two triggers: the clock of what they start must not change under them (RM0090, 18.3.15).
+            self.wait();
             self.common.ccr().modify(|_, w| w.adcpre().bits(0b01));
-            // CR2.ADON: on, and three microseconds to settle.
-            self.first.cr2().write(|w| w.adon().set_bit());
-            self.second.cr2().write(|w| w.adon().set_bit());
+            // CR2.ADON: on, and three microseconds to settle. EOCS: without it, or CR2.DMA, an overrun raises no flag.
+            for control in [self.first.cr2(), self.second.cr2()] {
+                control.write(|w| w.adon().set_bit().eocs().set_bit());
+            }
             cortex_m::asm::delay(3 * 168);
             // SMPR2.SMP 4: 84 cycles, the same for both as the mode demands. SQR3.SQ1: the one channel; SQR1.L 0: no other.
             self.first.smpr2().modify(|_, w| w.smp1().bits(0b100));
@@ -106,6 +108,12 @@ impl DualAdc {
             self.first.cr1().write(|w| w.ovrie().set_bit());
             self.second.cr1().write(|w| w.ovrie().set_bit());
         }
+    }
+
+    /// Waits until nothing is under way: at most two periods, and for ever neither, as a dead timer must not hang the interrupt.
+    fn wait(&self) {
+        let _ =
+            (0..4 * TICKS).any(|_| (QUIET[0]..QUIET[1]).contains(&self.timer.cnt().read().bits()));
     }
 }
 
@@ -132,6 +140,7 @@ impl Converter for DualAdc {
         let reset = unsafe { RCC::steal() };
         // APB2RSTR.ADCRST: whatever became of them, both converters and what is between them begin anew as they did at the start. An
         // overrun leaves requests blocked and triggers unheard until DMA and converters are set up again (RM0090, 13.8.1 and 13.9).
+        self.wait();
         reset.apb2rstr().modify(|_, w| w.adcrst().set_bit());
         reset.apb2rstr().modify(|_, w| w.adcrst().clear_bit());
         clock::settle();
@@ -140,9 +149,7 @@ impl Converter for DualAdc {
     #[allow(unsafe_code, reason = "the fields take any bits")]
     fn arm(&mut self) {
         self.configure();
-        // At most two periods, and for ever neither: a dead timer must not hang the interrupt.
-        let _ =
-            (0..4 * TICKS).any(|_| (QUIET[0]..QUIET[1]).contains(&self.timer.cnt().read().bits()));
+        self.wait();
         // SAFETY: each value is one that RM0090 lists for its field.
         unsafe {
             // CCR.MULTI 6: regular simultaneous mode. DMA 2: one word a pair, ADC2 in its upper half. DDS: requests go on after the

@@ -101,6 +101,16 @@ impl Ring {
         stream.cr().modify(|_, w| w.en().set_bit());
     }
 
+    /// Pairs that are still to come in this round: NDTR. A pair of which one word has come is one.
+    pub fn left(&self) -> u32 {
+        let transfers = self.dma.st(0).ndtr().read().bits();
+        if self.origin.by_halves {
+            transfers.div_ceil(2)
+        } else {
+            transfers
+        }
+    }
+
     /// Reads and clears what the stream has done: LISR, LIFCR.
     pub fn done(&self) -> Done {
         let status = self.dma.lisr().read();

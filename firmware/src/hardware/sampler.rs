@@ -1,11 +1,13 @@
 //! A converter that is triggered by a timer and fetched by the DMA, as a source of pairs.
 
+use core::sync::atomic::{Ordering, compiler_fence};
+
 use antinode::Packed;
 use antinode_telemetry::Cause;
 
 use crate::hardware::pair_clock::PairClock;
 use crate::hardware::ring::Ring;
-use crate::sampling::{Lapse, Ready, Source, both};
+use crate::sampling::{Lapse, Ready, Source, beyond, both, has_slipped};
 use crate::settings::HALF;
 
 /// A converter that follows a timer.
@@ -58,6 +60,21 @@ impl<C: Converter> Sampler<C> {
     }
 }
 
+impl<C: Converter> Sampler<C> {
+    /// True where pairs were lost and no flag told: those beyond the end of a half do not fit the triggers beyond `taken`, the count there.
+    #[inline]
+    fn has_slipped(&self, taken: u32, second: bool) -> bool {
+        let look = || [self.clock.now(), self.ring.left()];
+        let mut seen = look();
+        // A trigger between the two would count in one of them alone; the next is far away.
+        if self.clock.now() != seen[0] {
+            seen = look();
+        }
+        let [now, left] = seen;
+        has_slipped(now.wrapping_sub(taken), beyond(second, left))
+    }
+}
+
 impl<C: Converter> Source for Sampler<C> {
     type Pair = Packed;
 
@@ -74,8 +91,11 @@ impl<C: Converter> Source for Sampler<C> {
         match (done.first, done.second) {
             (false, false) => Ready::Nothing,
             (first, second) if first != second && second != self.second => {
-                self.second = second;
-                self.taken = self.taken.wrapping_add(HALF as u32);
+                let taken = self.taken.wrapping_add(HALF as u32);
+                if self.has_slipped(taken, second) {
+                    return Ready::Lapse(self.restart(Cause::Overrun));
+                }
+                (self.second, self.taken) = (second, taken);
                 Ready::Pairs
             }
             _ => Ready::Lapse(self.restart(Cause::Overrun)),
@@ -89,6 +109,8 @@ impl<C: Converter> Source for Sampler<C> {
 
     #[inline]
     fn is_intact(&self) -> bool {
+        // The pairs are read before the clock is.
+        compiler_fence(Ordering::SeqCst);
         // The other half holds the pairs after those handed out: one trigger more, and the DMA may come round.
         self.clock.now().wrapping_sub(self.taken) <= HALF as u32
     }

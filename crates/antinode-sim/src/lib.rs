@@ -30,7 +30,7 @@
 //! let flaws = Flaws { noise: 0.02, bits: Some(16), full_scale: 2.5, ..Flaws::default() };
 //! let gyro = Gyro::new(Wave::default(), flaws, 100_000.0, 1)?;
 //! let mean_square: f64 = gyro.take(150).map(|s| s.c * s.c + s.d * s.d).sum::<f64>() / 150.0;
-//! // Algorithm 1 of the paper: a_A^2 + a_B^2 = 2 <S_C^2 + S_D^2>
+//! // The sum of (22) in the paper: a_A^2 + a_B^2 = 2 <S_C^2 + S_D^2>
 //! assert!((2.0 * mean_square - (2.0 * 2.0 + 0.1 * 0.1)).abs() < 0.05);
 //! # Ok(())
 //! # }

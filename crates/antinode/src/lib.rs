@@ -137,8 +137,10 @@
 //!   an angle of 22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.
 //! - Deviations are those of noise and of the converter's steps, taken to be equal. Nonlinearity of pick-offs and converter is in none of
 //!   them, and a third harmonic below 10⁻³ of a_A raises no flag: a cubic of that size may move a_A by 0.4 %, θ by 5·10⁻⁴ rad and, with
-//!   |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. A second harmonic puts 2·10⁻³ of itself into a_A and phase in windows of
-//!   10 periods that are not a whole number of samples.
+//!   |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. A second harmonic puts up to 3·10⁻² of itself into a_A and phase in
+//!   windows of 10 periods that are not a whole number of samples, and up to 6·10⁻³ in those of 50.
+//! - A fault that repeats with the wave, such as a stuck bit of the converter, is flagged where it begins, and after three windows taken
+//!   for a new level of noise: amplitudes may then be off by per cents, many of their deviations, without a flag.
 //! - Blocks of two periods hardly see a tone at half an odd multiple of f: 3·10⁻³ of a_A at f/2, in noise of 10⁻⁴, moved a_A and phase by 4
 //!   deviations, rms, without a flag.
 //! - Jitter of the sampling, common to both pick-offs, makes f and phase scatter by 1.8 of their deviations, θ and a_B by a fifth.

@@ -1,7 +1,7 @@
 //! Re-gridding: a stream is low-passed and resampled to a grid that fits the wave's period, as the paper advises after (10).
 //!
 //! On the new grid a window of whole periods is a whole number of samples, so condition (8) holds, and where their number a period
-//! divides by 4 so does the quarter-period delay of algorithm 2. It stands in front of any method; the
+//! divides by 4 the quarter-period delay of algorithm 2 is one too. It stands in front of any method; the
 //! [`Tracker`](crate::Tracker), whose sums are exact on any grid, needs it only for the filter.
 //!
 //! Each output is one product with a row of filter taps, a windowed sinc whose response at the wave's own frequency is made exactly 1;

@@ -8,7 +8,7 @@ use super::moments::Moments;
 use super::wave::Shape;
 use crate::block::Pair;
 
-/// a_A, a_B and θ by (16), with q from [`Delayed::q`] (as printed) or [`Delayed::quarter`] (fractional delay).
+/// a_A, a_B and θ by (16) with a_B = (F − E)/2, an erratum, and q from [`Delayed::q`] (the lag as printed) or [`Delayed::quarter`] (fractional delay).
 pub fn shape(moments: &Moments, q: f64) -> Shape {
     let (cc, dd, cd) = moments.means();
     let power = 2.0 * (cc + dd);

@@ -19,7 +19,7 @@ import numpy
 
 #: The header that this file was written for.
 VERSION = 256
-STATE_WORDS = 1368
+STATE_WORDS = 1352
 WINDOW_ENDED = 2
 
 #: antinode_estimate_t: one window.

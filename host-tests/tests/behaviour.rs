@@ -343,7 +343,9 @@ fn a_nearly_circular_pattern_has_an_honest_frequency() {
             ..Flaws::default()
         };
         let (mut squares, mut rows) = (0.0, 0.0);
-        for estimate in identify(wave, &flaws, windows(10), 600_000, 1) {
+        let found = identify(wave, &flaws, windows(10), 600_000, 1);
+        assert!(found.len() > 3000, "{share}: {} windows", found.len());
+        for estimate in found {
             assert!(estimate.frequency_std > 0.0, "{share}: {estimate:?}");
             // A circle does not show whether it turns: its frequency is that of a pattern that stands still.
             if Flags::REACQUIRED.contains(estimate.flags) || turning == 0.0 {

@@ -343,7 +343,9 @@ fn ranks_follow_conditions_and_j() {
         ..Flaws::default()
     };
     // (8) holds to within the noise.
-    for comparison in comparisons(Wave::default(), &noisy, 10, 9000, 3, |_, pair| pair) {
+    let found = comparisons(Wave::default(), &noisy, 10, 9000, 3, |_, pair| pair);
+    assert!(found.len() > 40, "{}", found.len());
+    for comparison in found {
         let mut ranks = comparison.methods.map(|method| method.rank);
         let methods = comparison.methods;
         for a in &methods {
@@ -367,7 +369,9 @@ fn ranks_follow_conditions_and_j() {
         quadrature_amplitude: 0.8,
         ..Wave::default()
     };
-    for comparison in comparisons(wave, &noisy, 10, 9000, 3, |_, pair| pair) {
+    let found = comparisons(wave, &noisy, 10, 9000, 3, |_, pair| pair);
+    assert!(found.len() > 40, "{}", found.len());
+    for comparison in found {
         assert!(!comparison.methods[0].conditions.no_quadrature);
         assert_eq!(comparison.methods[0].rank, 4);
     }

@@ -19,7 +19,9 @@ fn flattened_crests_are_flagged_in_noise_without_a_known_rail() {
                 pair
             }
         });
-        for estimate in touched(&estimates, 40_200, 59_800) {
+        let touched = touched(&estimates, 40_200, 59_800);
+        assert!(touched.len() > 100, "{}", touched.len());
+        for estimate in touched {
             assert!(
                 estimate.flags.contains(Flags::CLIPPED),
                 "seed {seed}: {estimate:?}"
@@ -82,6 +84,8 @@ fn a_limiter_before_the_noise_is_flagged_by_its_harmonic() {
             let [c, d] = [pair.c, pair.d].map(|s| (s.clamp(-limit, limit) + noise()) as f32);
             estimates.extend(core.push([c, d]));
         }
+        let limited = estimates.iter().filter(|e| e.start >= 30_000).count();
+        assert!(limited > 150 && estimates.len() > 300, "{limited}");
         for estimate in &estimates {
             if estimate.start >= 30_000 {
                 assert!(
@@ -215,6 +219,7 @@ fn a_gain_that_is_corrected_neither_makes_a_harmonic_nor_hides_one() {
                 .count();
         }
         println!("gain {gain}, cubic {cubic}: {clipped} of {rows} clipped");
+        assert!(rows > 2000, "{rows}");
         let expected = if cubic == 0.0 { 0 } else { rows };
         assert_eq!(clipped, expected, "gain {gain}, cubic {cubic}");
     }

@@ -96,7 +96,9 @@ fn phase_and_time_rebuild_the_samples() {
         angle: 0.9,
         ..Wave::default()
     };
-    for estimate in identify(wave, &Flaws::default(), windows(7), 4000, 0) {
+    let found = identify(wave, &Flaws::default(), windows(7), 4000, 0);
+    assert!(found.len() > 25, "{}", found.len());
+    for estimate in found {
         let t = estimate.time + 1.234e-4;
         let tau = std::f64::consts::TAU * estimate.frequency * (t - estimate.time)
             - f64::from(estimate.phase);
@@ -124,10 +126,13 @@ fn a_wave_that_dies_and_turns_fast_is_exact_too() {
             skew: [0.0, 2e-5, -2e-5][seed as usize % 3],
             ..Flaws::default()
         };
-        for estimate in identify(wave, &flaws, calibrated(&flaws, 4), 900, 0) {
+        let found = identify(wave, &flaws, calibrated(&flaws, 4), 900, 0);
+        assert!(found.len() > 8, "{}", found.len());
+        for estimate in found {
             let a = wave.at(estimate.time).main_amplitude;
             let [main, quadrature, angle, frequency] = errors(&estimate, &wave);
             for error in [main / a, quadrature / a, angle, frequency / wave.frequency] {
+                assert!(error.abs() < 2e-6, "{error:e}");
                 worst = worst.max(error.abs());
             }
         }

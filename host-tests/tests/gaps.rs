@@ -364,6 +364,11 @@ fn a_rate_that_changes_between_windows_far_apart_is_learnt_anew() {
             let changed = estimates.len();
             core.skip(lost);
             core.extend(&after, |estimate| estimates.push(estimate));
+            assert!(
+                estimates.len() > changed + 90,
+                "{changed}, {}",
+                estimates.len()
+            );
             for (index, pair) in estimates.windows(2).enumerate().skip(changed) {
                 let turned = pair[1].angle - pair[0].angle;
                 let expected = second * (pair[1].time - pair[0].time);

@@ -16,15 +16,18 @@ fn deviations_are_stated_where_there_is_no_noise_but_rounding() {
                 offset_c: wave.main_amplitude,
                 ..Flaws::default()
             };
-            for estimate in identify(
+            let found = identify(
                 wave,
                 &flaws,
                 windows(periods),
                 19 * usize::from(periods) * 4 + 300,
                 seed,
-            ) {
+            );
+            assert!(found.len() >= 3, "{}", found.len());
+            for estimate in found {
                 let (errors, stated) = (errors(&estimate, &wave), stated(&estimate));
                 for i in 0..4 {
+                    assert!(errors[i].abs() < 3.0 * stated[i], "{estimate:?}");
                     worst[i] = worst[i].max(errors[i].abs() / stated[i]);
                 }
                 most = most.max(stated[0] / wave.main_amplitude);

@@ -198,6 +198,7 @@ fn a_step_within_the_first_window_is_flagged() {
             (0.02, 0.5),
             (0.002, 0.0),
         ] {
+            let mut rows = 0;
             for seed in 0..100u64 {
                 let wave = random_wave(seed, 5332.0, 0.3);
                 let flaws = Flaws {
@@ -221,6 +222,7 @@ fn a_step_within_the_first_window_is_flagged() {
                         }
                     });
                 // Where too little of the wave is left there is no window.
+                rows += found.len();
                 for estimate in found {
                     assert!(
                         estimate.flags.contains(Flags::MISFIT),
@@ -229,6 +231,11 @@ fn a_step_within_the_first_window_is_flagged() {
                     );
                 }
             }
+            let least = if factor > 0.0 { 100 } else { 40 };
+            assert!(
+                rows >= least,
+                "{periods} periods, {factor} times the wave: {rows}"
+            );
         }
     }
 }
@@ -309,6 +316,7 @@ fn a_small_turn_within_a_long_window_is_flagged() {
             let mut found = Vec::new();
             core.extend(&one[..at], |e| found.push(e));
             core.extend(&two[at..], |e| found.push(e));
+            assert!(found.len() > 16, "{}", found.len());
             for (i, estimate) in found.iter().enumerate() {
                 let is_told = estimate.flags.contains(Flags::MISFIT);
                 assert_eq!(is_told, i == 15, "{turn} rad, seed {seed}: {estimate:?}");

@@ -324,3 +324,34 @@ fn a_pattern_that_is_a_circle_meanwhile_tells_the_resonator() {
     let rms = rms(&all);
     assert!((0.7..1.4).contains(&rms), "{rms}: {all:.1?}");
 }
+
+#[test]
+fn runs_of_a_few_rows_in_noise_are_told_in_one_line() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (seed, turning) in [(1, "0"), (2, "0.4"), (3, "0")] {
+        // 30 s: the amplitude falls to where one row in a few is lost.
+        let simulated = format!(
+            "--seconds 30 --decay-rate 0.3 --angle-rate {turning} --noise 0.001 --main-amplitude 0.8 --sample i24 --seed {seed}"
+        );
+        rows(here, &simulated, "");
+        let found = run(here, "resonator rows.csv");
+        let line = found.err.lines().find_map(|line| {
+            let (_, rest) = line
+                .strip_prefix("not listed: ")?
+                .split_once(" by themselves, ")?;
+            let (runs, rest) = rest.split_once(" with ")?;
+            let (rows, _) = rest.split_once(" rows;")?;
+            Some([runs, rows].map(|count| count.parse::<usize>().unwrap()))
+        });
+        let [runs, of_them] = line.expect(&found.err);
+        assert!(runs >= 2 && of_them >= 12 * runs, "{}", found.err);
+        assert!(
+            found.out.contains("\nrun 1: ") && !found.out.contains("\nrun 2: "),
+            "{}",
+            found.out
+        );
+        assert!(!found.err.contains("of run "), "{}", found.err);
+        assert_eq!(found.err.contains("one way only"), turning != "0");
+    }
+}

@@ -45,7 +45,7 @@ const HIGHEST: Kind = kind("highest_at_rad", "highest at, °", DEGREES);
 
 /// A quantity of the resonator, or of one run.
 pub struct Quantity {
-    /// The run, from 0; none where it is the resonator's.
+    /// The run's place among those listed; none where it is the resonator's.
     run: Option<usize>,
     kind: Kind,
     value: f64,
@@ -75,8 +75,13 @@ impl From<&Quantity> for Row {
     }
 }
 
-/// All that was found, run by run and then of the resonator.
-pub fn quantities(rows: &Runs, found: &Found, frequency: &Frequency) -> Vec<Quantity> {
+/// All that was found, of each run listed and then of the resonator.
+pub fn quantities(
+    rows: &Runs,
+    listed: &[usize],
+    found: &Found,
+    frequency: &Frequency,
+) -> Vec<Quantity> {
     let mut list = Vec::new();
     let mut add = |run, kind, (value, std): Measured| {
         list.push(Quantity {
@@ -88,13 +93,13 @@ pub fn quantities(rows: &Runs, found: &Found, frequency: &Frequency) -> Vec<Quan
     };
     let (mean_frequency, _) = frequency.mean;
     let resonator = found.resonator();
-    for index in 0..rows.runs.len() {
+    for (index, &place) in listed.iter().enumerate() {
         let run = Some(index);
-        let decay_time = time(found.decay_of_run(index));
+        let decay_time = time(found.decay_of_run(place));
         add(run, DECAY_TIME, decay_time);
         add(run, QUALITY_FACTOR, scaled(decay_time, PI * mean_frequency));
         if let Some(resonator) = &resonator {
-            add(run, ROTATION, resonator.rotations[index]);
+            add(run, ROTATION, resonator.rotations[place]);
         }
     }
     add(None, FREQUENCY, frequency.mean);
@@ -147,13 +152,14 @@ pub fn table(
     out: &mut impl Write,
     name: &str,
     rows: &Runs,
+    listed: &[usize],
     quantities: &[Quantity],
 ) -> io::Result<()> {
     writeln!(out, "{name}: {} of {} rows", rows.used(), rows.rows)?;
     for of in quantities.chunk_by(|one, next| one.run == next.run) {
         match of[0].run {
             Some(index) => {
-                let run = &rows.runs[index];
+                let run = &rows.runs[listed[index]];
                 writeln!(
                     out,
                     "run {}: {:.1} s, the pattern at {:.1}° turns by {:+.1}°",

@@ -23,7 +23,7 @@ use fit::fit;
 use found::Found;
 use frequency::{Frequency, frequency};
 use informing::informing;
-use quantities::{Row, quantities, table};
+use quantities::{HELP, Row, quantities, table};
 
 /// The pattern turns by no more than this from row to row, rad: half of what leaves it known.
 const MOST_TURN: f64 = PI / 8.0;
@@ -46,6 +46,7 @@ fn is_alike(correlation: f64, count: f64) -> bool {
 
 /// `antinode resonator`.
 #[derive(Debug, Args)]
+#[command(after_long_help = HELP)]
 pub struct Resonator {
     /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
     #[arg(required = true, value_name = "ROWS")]

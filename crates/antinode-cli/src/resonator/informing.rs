@@ -7,13 +7,16 @@ use crate::runs::Run;
 /// A run that tells less of its decay than this share of what the best one tells of its own adds nothing to that.
 const LITTLE: f64 = 0.01;
 
+/// The decay of the best run must be so many deviations of another's, or by chance that one seems not to decay.
+const SHOWN: f64 = 2.0 * DECAY_SEEN;
+
 /// The runs, from 0, but for those whose rows would not show the decay of the best one, and tell little beside it.
 pub fn informing(runs: &[Run], found: &Found) -> Vec<usize> {
     let told: Vec<_> = runs.iter().map(of_decay).collect();
     let best = (0..runs.len()).max_by(|&one, &other| told[one].total_cmp(&told[other]));
     let least = best.map_or(0.0, |best| {
         let (decay, _) = found.decay_of_run(best);
-        (LITTLE * told[best]).min((DECAY_SEEN / decay).powi(2))
+        (LITTLE * told[best]).min((SHOWN / decay).powi(2))
     });
     (0..runs.len()).filter(|&run| told[run] >= least).collect()
 }

@@ -35,8 +35,8 @@ const DECAY_SEEN: f64 = 3.0;
 const TURNS: f64 = PI / 8.0;
 /// Runs that stand still tell the splits without them, from two on.
 const ENOUGH_STILL: usize = 2;
-/// Residuals of neighbouring rows correlate by up to this where windows overlap by a tenth unseen, and by so many deviations more by chance.
-const ALIKE: f64 = 0.1;
+/// Residuals of neighbouring rows correlate by up to this where windows overlap unseen, and by so many deviations more by chance.
+const ALIKE: f64 = 0.03;
 const ALIKE_SEEN: f64 = 5.0;
 
 /// True where so many residuals that follow each other correlate by this, and not by chance.

@@ -355,3 +355,34 @@ fn runs_of_a_few_rows_in_noise_are_told_in_one_line() {
         assert_eq!(found.err.contains("one way only"), turning != "0");
     }
 }
+
+#[test]
+fn a_recording_in_windows_of_two_lengths_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let wave = "--seconds 4 --noise 0.002 --decay-rate 0.1 --angle-rate 0.4";
+    let rows = |simulated: &str, identified: &str| {
+        rows(here, &format!("{wave} {simulated}"), identified);
+        fs::read_to_string(here.join("rows.csv")).unwrap()
+    };
+    let is_told = |text: String| {
+        let found = run_with(here, "resonator -", text.clone().into());
+        assert_eq!(found.code, 0, "{}", found.err);
+        let told = found.err.contains("rows of it.wav come again");
+        let calibrated = run_with(here, "calibrate -", text.into());
+        assert_eq!(calibrated.err.contains("come again"), told);
+        told
+    };
+    let long = rows("", "--periods 100");
+    assert!(!is_told(long.clone()));
+    for seed in 1..=4 {
+        let wave = format!("--seed {seed}");
+        let [long, short] = ["--periods 100", "--periods 50"].map(|windows| rows(&wave, windows));
+        assert!(is_told(long.clone() + &short) && is_told(short + &long));
+        // Other ring-downs of the same name, from the same place or not.
+        let other = format!("--seed {seed} --phase {}", 1 + seed);
+        assert!(!is_told(long.clone() + &rows(&other, "--periods 50")));
+        let other = format!("--seed {seed} --angle {}", 0.1 * f64::from(seed));
+        assert!(!is_told(long + &rows(&other, "--periods 50")));
+    }
+}

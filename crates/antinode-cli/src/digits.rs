@@ -2,6 +2,8 @@
 
 /// Decimals beyond these are below any deviation that single precision leaves.
 const MOST_DECIMALS: f64 = 9.0;
+/// The same of double precision.
+const MOST_OF_DOUBLE: f64 = 17.0;
 /// Deviations below this have fewer than two digits in as many decimals.
 const LEAST_STD: f64 = 1e-8;
 /// Values from this on show digits enough in as many decimals, whatever their deviation.
@@ -14,10 +16,23 @@ pub fn significant(x: f64, digits: usize) -> f64 {
 
 /// The decimals that show two digits of a standard deviation.
 pub fn decimals(std: f64) -> usize {
+    decimals_up_to(MOST_DECIMALS, std)
+}
+
+fn decimals_up_to(most: f64, std: f64) -> usize {
     if std > 0.0 && std.is_finite() {
-        (1.0 - std.log10()).ceil().clamp(0.0, MOST_DECIMALS) as usize
+        (1.0 - std.log10()).ceil().clamp(0.0, most) as usize
     } else {
         6
+    }
+}
+
+/// A number to so many decimals, without a sign where that leaves nothing but zeros.
+pub fn fixed(decimals: usize, x: f64) -> String {
+    let text = format!("{x:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(zeros) if zeros.bytes().all(|byte| b"0.".contains(&byte)) => zeros.to_owned(),
+        _ => text,
     }
 }
 
@@ -31,6 +46,15 @@ pub fn with_std(value: f64, std: f64) -> String {
         )
     } else {
         with_std_to(decimals(std), value, std)
+    }
+}
+
+/// The same of a value that is known beyond single precision.
+pub fn with_small_std(value: f64, std: f64) -> String {
+    if is_small(value, std) {
+        with_std(value, std)
+    } else {
+        with_std_to(decimals_up_to(MOST_OF_DOUBLE, std), value, std)
     }
 }
 
@@ -50,7 +74,11 @@ fn exponential(value: f64, std: f64) -> String {
 /// [`with_std`] to so many decimals.
 pub fn with_std_to(decimals: usize, value: f64, std: f64) -> String {
     if std > 0.0 && std.is_finite() {
-        format!("{value:>9.decimals$} ±{:<7}", format!("{std:.decimals$}"))
+        format!(
+            "{:>9} ±{:<7}",
+            fixed(decimals, value),
+            format!("{std:.decimals$}")
+        )
     } else {
         without_std(decimals, value)
     }
@@ -61,7 +89,7 @@ pub fn with_sigmas(value: f64, std: f64, sigmas: f64) -> String {
     let value = if is_small(value, std) {
         exponential(value, std)
     } else {
-        format!("{value:.*}", decimals(std))
+        fixed(decimals(std), value)
     };
     let digits = usize::from(sigmas.abs() < 99.95);
     // Beyond what the column holds only the size matters.
@@ -75,7 +103,7 @@ pub fn with_sigmas(value: f64, std: f64, sigmas: f64) -> String {
 
 /// A value alone, to stand under [`with_std_to`].
 pub fn without_std(decimals: usize, value: f64) -> String {
-    format!("{value:>9.decimals$}{:9}", "")
+    format!("{:>9}{:9}", fixed(decimals, value), "")
 }
 
 /// The heading of a column of [`with_std`].
@@ -118,6 +146,28 @@ mod tests {
         // Digits enough, of the value or the deviation.
         assert_eq!(with_std(0.001, 2e-9), "0.001000000 ±0.000000002");
         assert_eq!(with_std(2e-5, 1e-8), "0.000020000 ±0.000000010");
+    }
+
+    #[test]
+    fn as_many_decimals_as_a_small_deviation_needs_are_shown() {
+        assert_eq!(
+            with_small_std(2.000_000_012e-3, 3.04e-10),
+            "0.00200000001 ±0.00000000030"
+        );
+        assert_eq!(
+            with_small_std(5332.0, 2.5e-12),
+            "5332.0000000000000 ±0.0000000000025"
+        );
+        assert_eq!(with_small_std(-5e-10, 2e-11), "-5.00e-10 ±2.0e-11");
+        assert_eq!(with_small_std(0.5, 0.0), " 0.500000         ");
+    }
+
+    #[test]
+    fn what_rounds_to_zero_has_no_sign() {
+        assert_eq!(with_std(-4e-5, 0.0101), "    0.000 ±0.010  ");
+        assert_eq!(with_std(-0.0006, 0.0101), "   -0.001 ±0.010  ");
+        assert_eq!(without_std(1, -0.04), "      0.0         ");
+        assert_eq!(fixed(0, -0.3), "0");
     }
 
     #[test]

@@ -3,6 +3,7 @@
 mod fit;
 mod found;
 mod frequency;
+mod informing;
 mod model;
 mod motion;
 mod quantities;
@@ -21,7 +22,8 @@ use crate::runs::{BEYOND_NOISE, Run, Runs};
 use fit::fit;
 use found::Found;
 use frequency::{Frequency, frequency};
-use quantities::{Row, quantities, table};
+use informing::informing;
+use quantities::{HELP, Row, quantities, table};
 
 /// The pattern turns by no more than this from row to row, rad: half of what leaves it known.
 const MOST_TURN: f64 = PI / 8.0;
@@ -33,8 +35,8 @@ const DECAY_SEEN: f64 = 3.0;
 const TURNS: f64 = PI / 8.0;
 /// Runs that stand still tell the splits without them, from two on.
 const ENOUGH_STILL: usize = 2;
-/// Residuals of neighbouring rows correlate by up to this where windows overlap by a tenth unseen, and by so many deviations more by chance.
-const ALIKE: f64 = 0.1;
+/// Residuals of neighbouring rows correlate by up to this where windows overlap unseen, and by so many deviations more by chance.
+const ALIKE: f64 = 0.03;
 const ALIKE_SEEN: f64 = 5.0;
 
 /// True where so many residuals that follow each other correlate by this, and not by chance.
@@ -44,6 +46,7 @@ fn is_alike(correlation: f64, count: f64) -> bool {
 
 /// `antinode resonator`.
 #[derive(Debug, Args)]
+#[command(after_long_help = HELP)]
 pub struct Resonator {
     /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
     #[arg(required = true, value_name = "ROWS")]
@@ -63,10 +66,11 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
         ))
     })?;
     let frequency = frequency(&rows, &found);
-    let quantities = quantities(&rows, &found, &frequency);
+    let listed = informing(&rows.runs, &found);
+    let quantities = quantities(&rows, &listed, &found, &frequency);
     let mut out = io::stdout().lock();
     match options.output {
-        Format::Table => table(&mut out, &name, &rows, &quantities)?,
+        Format::Table => table(&mut out, &name, &rows, &listed, &quantities)?,
         Format::Csv => {
             let mut writer = csv::Writer::from_writer(&mut out);
             for quantity in &quantities {
@@ -84,14 +88,14 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
         }
     }
     // The result is printed: standard error may be closed.
-    let _ = tell(&mut io::stderr().lock(), &rows, &found, &frequency);
+    let _ = tell(&mut io::stderr().lock(), &rows, &listed, &found, &frequency);
     Ok(())
 }
 
 /// How fast the patterns turn, rad/s, where all that turn do so one way, and too few stand still.
-fn one_way(rows: &Runs) -> Option<f64> {
-    let (turning, still): (Vec<&Run>, Vec<&Run>) =
-        rows.runs.iter().partition(|run| run.turned.abs() > TURNS);
+fn one_way(rows: &Runs, listed: &[usize]) -> Option<f64> {
+    let runs = listed.iter().map(|&run| &rows.runs[run]);
+    let (turning, still): (Vec<&Run>, Vec<&Run>) = runs.partition(|run| run.turned.abs() > TURNS);
     let way = turning.first()?.turned.signum();
     let is_one_way = turning.iter().all(|run| run.turned.signum() == way);
     let turned: f64 = turning.iter().map(|run| run.turned.abs()).sum();
@@ -100,9 +104,25 @@ fn one_way(rows: &Runs) -> Option<f64> {
 }
 
 /// Tells what the numbers leave open.
-fn tell(out: &mut impl Write, rows: &Runs, found: &Found, frequency: &Frequency) -> io::Result<()> {
+fn tell(
+    out: &mut impl Write,
+    rows: &Runs,
+    listed: &[usize],
+    found: &Found,
+    frequency: &Frequency,
+) -> io::Result<()> {
     rows.tell_overlaps(out)?;
-    for run in 0..rows.runs.len() {
+    let others = rows.runs.len() - listed.len();
+    if others > 0 {
+        let of_listed: usize = listed.iter().map(|&run| rows.runs[run].rows.len()).sum();
+        writeln!(
+            out,
+            "not listed: runs too short, or too near noise, to tell a decay by themselves, {others} with {} rows; what all rows tell \
+             together holds them",
+            rows.used() - of_listed
+        )?;
+    }
+    for (index, &run) in listed.iter().enumerate() {
         let (decay, std) = found.decay_of_run(run);
         let what = if decay < -DECAY_SEEN * std {
             "grows: something drives it; its decay time and quality factor mean nothing"
@@ -111,7 +131,7 @@ fn tell(out: &mut impl Write, rows: &Runs, found: &Found, frequency: &Frequency)
         } else {
             continue;
         };
-        writeln!(out, "warning: the wave of run {} {what}", run + 1)?;
+        writeln!(out, "warning: the wave of run {} {what}", index + 1)?;
     }
     if found.resonator().is_none() {
         writeln!(
@@ -119,7 +139,7 @@ fn tell(out: &mut impl Write, rows: &Runs, found: &Found, frequency: &Frequency)
             "the rows do not tell the splits of damping and frequency: give ring-downs at pattern angles of 0°, 22.5° and 45°, or of a \
              pattern that turns by 45° and more; the mean frequency is that along the patterns, which a split moves"
         )?;
-    } else if let Some(rate) = one_way(rows) {
+    } else if let Some(rate) = one_way(rows, listed) {
         let (frequency, _) = frequency.mean;
         writeln!(
             out,

@@ -1,5 +1,6 @@
 //! Rows that `antinode identify` printed become runs: spans of time in which the pattern moves without a break.
 
+mod again;
 mod jump;
 mod row;
 
@@ -19,8 +20,8 @@ pub use row::Row;
 pub const BEYOND_NOISE: f64 = 2.0;
 /// The least rows of a run: four unknowns are its own.
 const LEAST_ROWS: usize = 12;
-/// Windows overlap where one follows another by less than this share of its length, which is known to some per cent.
-const APART: f64 = 0.9;
+/// Windows overlap where one follows another by less than this share of its length, which is known to a few per cent.
+const APART: f64 = 0.97;
 
 /// A span of rows without a break.
 #[derive(Debug, Clone, Default)]
@@ -28,6 +29,8 @@ pub struct Run {
     pub rows: Vec<Row>,
     /// By how much the pattern turns, rad.
     pub turned: f64,
+    /// The recording, as its rows name it.
+    pub file: String,
 }
 
 /// All that the rows tell.
@@ -124,13 +127,25 @@ impl Runs {
         self.runs.iter().map(|run| run.rows.len()).sum()
     }
 
-    /// Tells what was left out.
+    /// Tells what was left out, and what comes twice.
     pub fn tell_overlaps(&self, out: &mut impl Write) -> io::Result<()> {
         if self.overlapping > 0 {
             writeln!(
                 out,
                 "{} rows are left out whose windows overlap the one before: they tell the same noise again",
                 self.overlapping
+            )?;
+        }
+        let again = self.runs.iter().enumerate().find(|(index, run)| {
+            let mut before = self.runs[..*index].iter();
+            before.any(|other| run.is_again(other) || other.is_again(run))
+        });
+        if let Some((_, run)) = again {
+            writeln!(
+                out,
+                "warning: rows of {} come again for the same time, as of other windows: their noise is counted twice, and every deviation is \
+                 smaller than it should be, by up to √2; give each recording's rows once",
+                run.file
             )?;
         }
         Ok(())
@@ -187,6 +202,9 @@ impl Runs {
                 self.end(&mut run);
             } else {
                 run.turned += turn;
+            }
+            if run.rows.is_empty() {
+                from.clone_into(&mut run.file);
             }
             run.rows.push(row);
             present = Some((from.to_owned(), row.angle));

@@ -134,6 +134,30 @@ fn a_pattern_that_turns_tells_everything() {
 }
 
 #[test]
+fn the_unit_of_every_quantity_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let help = run(here, "resonator --help").out;
+    let units: HashMap<_, _> = help
+        .lines()
+        .filter_map(|line| line.trim().split_once(' '))
+        .map(|(name, unit)| (name, unit.trim()))
+        .collect();
+    let rows = rows(
+        here,
+        "--decay-rate 0.08 --angle-rate 0.4 --damping-split 0.012 --frequency-split 0.004",
+    );
+    let found = numbers(&resonator(here, &rows, "--output csv"));
+    assert_eq!(found.len(), 3 + 8, "{found:?}");
+    for (_, quantity) in found.keys() {
+        let unit = units.get(quantity.as_str()).expect(quantity);
+        let is_time = quantity == "decay_time_s";
+        assert_eq!(unit.starts_with("s "), is_time, "{quantity}: {unit}");
+    }
+    assert!(units["damping_split_s"].starts_with("1/s,"), "{help}");
+}
+
+#[test]
 fn a_pattern_at_rest_tells_its_decay_and_that_no_more_is_told() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

@@ -324,3 +324,65 @@ fn a_pattern_that_is_a_circle_meanwhile_tells_the_resonator() {
     let rms = rms(&all);
     assert!((0.7..1.4).contains(&rms), "{rms}: {all:.1?}");
 }
+
+#[test]
+fn runs_of_a_few_rows_in_noise_are_told_in_one_line() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (seed, turning) in [(1, "0"), (2, "0.4"), (3, "0")] {
+        // 30 s: the amplitude falls to where one row in a few is lost.
+        let simulated = format!(
+            "--seconds 30 --decay-rate 0.3 --angle-rate {turning} --noise 0.001 --main-amplitude 0.8 --sample i24 --seed {seed}"
+        );
+        rows(here, &simulated, "");
+        let found = run(here, "resonator rows.csv");
+        let line = found.err.lines().find_map(|line| {
+            let (_, rest) = line
+                .strip_prefix("not listed: ")?
+                .split_once(" by themselves, ")?;
+            let (runs, rest) = rest.split_once(" with ")?;
+            let (rows, _) = rest.split_once(" rows;")?;
+            Some([runs, rows].map(|count| count.parse::<usize>().unwrap()))
+        });
+        let [runs, of_them] = line.expect(&found.err);
+        assert!(runs >= 2 && of_them >= 12 * runs, "{}", found.err);
+        assert!(
+            found.out.contains("\nrun 1: ") && !found.out.contains("\nrun 2: "),
+            "{}",
+            found.out
+        );
+        assert!(!found.err.contains("of run "), "{}", found.err);
+        assert_eq!(found.err.contains("one way only"), turning != "0");
+    }
+}
+
+#[test]
+fn a_recording_in_windows_of_two_lengths_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let wave = "--seconds 4 --noise 0.002 --decay-rate 0.1 --angle-rate 0.4";
+    let rows = |simulated: &str, identified: &str| {
+        rows(here, &format!("{wave} {simulated}"), identified);
+        fs::read_to_string(here.join("rows.csv")).unwrap()
+    };
+    let is_told = |text: String| {
+        let found = run_with(here, "resonator -", text.clone().into());
+        assert_eq!(found.code, 0, "{}", found.err);
+        let told = found.err.contains("rows of it.wav come again");
+        let calibrated = run_with(here, "calibrate -", text.into());
+        assert_eq!(calibrated.err.contains("come again"), told);
+        told
+    };
+    let long = rows("", "--periods 100");
+    assert!(!is_told(long.clone()));
+    for seed in 1..=4 {
+        let wave = format!("--seed {seed}");
+        let [long, short] = ["--periods 100", "--periods 50"].map(|windows| rows(&wave, windows));
+        assert!(is_told(long.clone() + &short) && is_told(short + &long));
+        // Other ring-downs of the same name, from the same place or not.
+        let other = format!("--seed {seed} --phase {}", 1 + seed);
+        assert!(!is_told(long.clone() + &rows(&other, "--periods 50")));
+        let other = format!("--seed {seed} --angle {}", 0.1 * f64::from(seed));
+        assert!(!is_told(long + &rows(&other, "--periods 50")));
+    }
+}

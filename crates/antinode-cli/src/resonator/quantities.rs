@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::found::{Found, Measured};
 use super::frequency::Frequency;
-use crate::digits::{significant, with_std};
+use crate::digits::{fixed, significant, with_small_std};
 use crate::runs::Runs;
 
 /// A split of fewer deviations than this has no angle.
@@ -30,10 +30,14 @@ const QUALITY_FACTOR: Kind = kind("quality_factor", "quality factor", 1.0);
 const ROTATION: Kind = kind("rotation_rad_s", "turned by rotation, °/s", DEGREES);
 const FREQUENCY: Kind = kind("frequency_hz", "mean frequency, Hz", 1.0);
 /// Both at one input unit squared.
-const BY_ENERGY: Kind = kind("frequency_by_energy_hz", "by a_A² + a_B², Hz", 1.0);
+const BY_ENERGY: Kind = kind(
+    "frequency_by_energy_hz",
+    "by a_A² + a_B², Hz per unit²",
+    1.0,
+);
 const BY_AMPLITUDES: Kind = kind(
     "turning_by_amplitudes_rad_s",
-    "turned by a_A·a_B, °/s",
+    "turned by a_A·a_B, °/s per unit²",
     DEGREES,
 );
 /// Of the rows over their own deviations: 1 where there is nothing but noise.
@@ -43,9 +47,24 @@ const MOST_DAMPED: Kind = kind("most_damped_at_rad", "most damped at, °", DEGRE
 const FREQUENCY_SPLIT: Kind = kind("frequency_split_hz", "frequency split, Hz", 1.0);
 const HIGHEST: Kind = kind("highest_at_rad", "highest at, °", DEGREES);
 
+/// What `--help` says of them.
+pub const HELP: &str = "\
+Quantities of CSV and JSON lines, their units, and those of their deviations:
+  decay_time_s                 s      of amplitudes, to 1/e
+  quality_factor               none
+  rotation_rad_s               rad/s
+  frequency_hz                 Hz
+  frequency_by_energy_hz       Hz, at a_A² + a_B² of one unit of the samples squared
+  residual_over_noise          none
+  damping_split_s              1/s, as decay_rate_s of the rows is; no time
+  most_damped_at_rad           rad
+  frequency_split_hz           Hz
+  highest_at_rad               rad
+  turning_by_amplitudes_rad_s  rad/s, at a_A·a_B of one unit of the samples squared";
+
 /// A quantity of the resonator, or of one run.
 pub struct Quantity {
-    /// The run, from 0; none where it is the resonator's.
+    /// The run's place among those listed; none where it is the resonator's.
     run: Option<usize>,
     kind: Kind,
     value: f64,
@@ -75,8 +94,13 @@ impl From<&Quantity> for Row {
     }
 }
 
-/// All that was found, run by run and then of the resonator.
-pub fn quantities(rows: &Runs, found: &Found, frequency: &Frequency) -> Vec<Quantity> {
+/// All that was found, of each run listed and then of the resonator.
+pub fn quantities(
+    rows: &Runs,
+    listed: &[usize],
+    found: &Found,
+    frequency: &Frequency,
+) -> Vec<Quantity> {
     let mut list = Vec::new();
     let mut add = |run, kind, (value, std): Measured| {
         list.push(Quantity {
@@ -88,13 +112,13 @@ pub fn quantities(rows: &Runs, found: &Found, frequency: &Frequency) -> Vec<Quan
     };
     let (mean_frequency, _) = frequency.mean;
     let resonator = found.resonator();
-    for index in 0..rows.runs.len() {
+    for (index, &place) in listed.iter().enumerate() {
         let run = Some(index);
-        let decay_time = time(found.decay_of_run(index));
+        let decay_time = time(found.decay_of_run(place));
         add(run, DECAY_TIME, decay_time);
         add(run, QUALITY_FACTOR, scaled(decay_time, PI * mean_frequency));
         if let Some(resonator) = &resonator {
-            add(run, ROTATION, resonator.rotations[index]);
+            add(run, ROTATION, resonator.rotations[place]);
         }
     }
     add(None, FREQUENCY, frequency.mean);
@@ -147,20 +171,22 @@ pub fn table(
     out: &mut impl Write,
     name: &str,
     rows: &Runs,
+    listed: &[usize],
     quantities: &[Quantity],
 ) -> io::Result<()> {
     writeln!(out, "{name}: {} of {} rows", rows.used(), rows.rows)?;
     for of in quantities.chunk_by(|one, next| one.run == next.run) {
         match of[0].run {
             Some(index) => {
-                let run = &rows.runs[index];
+                let run = &rows.runs[listed[index]];
+                let turned = fixed(1, run.turned.to_degrees());
                 writeln!(
                     out,
-                    "run {}: {:.1} s, the pattern at {:.1}° turns by {:+.1}°",
+                    "run {}: {:.1} s, the pattern at {}° turns by {}{turned}°",
                     index + 1,
                     run.seconds(),
-                    run.rows[0].angle.to_degrees(),
-                    run.turned.to_degrees()
+                    fixed(1, run.rows[0].angle.to_degrees()),
+                    if turned.starts_with('-') { "" } else { "+" },
                 )?;
             }
             None => writeln!(out, "resonator")?,
@@ -169,8 +195,8 @@ pub fn table(
             kind, value, std, ..
         } in of
         {
-            let text = with_std(value * kind.units, std * kind.units);
-            writeln!(out, "  {:<24} {}", kind.label, text.trim_end())?;
+            let text = with_small_std(value * kind.units, std * kind.units);
+            writeln!(out, "  {:<32} {}", kind.label, text.trim_end())?;
         }
     }
     Ok(())

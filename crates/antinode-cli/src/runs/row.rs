@@ -21,6 +21,8 @@ const COLUMNS: [&str; 8] = [
 
 /// Those of the frequency, Hz, and of the decay rate, 1/s; rows may lack them.
 const OTHER_DEVIATIONS: [&str; 2] = ["frequency_std_hz", "decay_rate_std_s"];
+/// Rows may lack it too.
+const PHASE: &str = "phase_rad";
 
 /// What is used of a row.
 #[derive(Debug, Clone, Copy)]
@@ -32,6 +34,8 @@ pub struct Row {
     pub quadrature: f64,
     /// θ_A, rad.
     pub angle: f64,
+    /// Of the main wave, rad, where the rows tell it.
+    pub phase: Option<f64>,
     /// Hz, and one standard deviation of it: infinite where the rows do not tell it.
     pub frequency: f64,
     pub frequency_deviation: f64,
@@ -45,6 +49,7 @@ pub struct Row {
 pub struct Places {
     needed: [usize; COLUMNS.len()],
     others: [Option<usize>; OTHER_DEVIATIONS.len()],
+    phase: Option<usize>,
 }
 
 impl Places {
@@ -55,7 +60,11 @@ impl Places {
             *to = rows.needed(column)?;
         }
         let others = OTHER_DEVIATIONS.map(|column| rows.place(column));
-        Ok(Self { needed, others })
+        Ok(Self {
+            needed,
+            others,
+            phase: rows.place(PHASE),
+        })
     }
 }
 
@@ -87,6 +96,7 @@ impl Row {
             main,
             quadrature,
             angle,
+            phase: places.phase.and_then(finite),
             frequency,
             frequency_deviation: of_frequency,
             deviations,

@@ -179,3 +179,26 @@ fn what_leaves_no_run_is_told() {
     assert!(told(&copies).unwrap().contains("given twice"));
     assert_eq!(told(&rows("a", 40, 0.01, |_| "")), None);
 }
+
+#[test]
+fn rows_that_are_kept_do_not_overlap() {
+    let header = HEADER.replace("flags", "decay_rate_std_s,flags");
+    // Of 1 s as their deviations have it.
+    let of_rate = 12f64.sqrt() * 0.001 / 0.5;
+    for (step, kept_every) in [(0.101, 10), (0.1, 10), (0.31, 4), (0.95, 2), (0.99, 1)] {
+        let text: String = (0..400)
+            .map(|k| {
+                let time = step * f64::from(k);
+                format!("a,{time},0.5,0.02,0.1,5332,0.001,0.001,0.001,{of_rate},\n")
+            })
+            .collect();
+        let mut all = Runs::new(0.1, Flags::REACQUIRED);
+        add(&mut all, &(header.clone() + &text)).unwrap();
+        let kept = 400usize.div_ceil(kept_every);
+        assert_eq!(
+            (lengths(&all), all.overlapping),
+            (vec![kept], 400 - kept),
+            "{step}"
+        );
+    }
+}

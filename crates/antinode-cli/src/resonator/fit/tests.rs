@@ -51,6 +51,7 @@ fn run(
                 main,
                 quadrature,
                 angle: 0.25 * (plus * minus.conj()).arg(),
+                phase: None,
                 frequency: 5332.0,
                 frequency_deviation: 1e-3,
                 deviations: [noise, noise, of_angle].map(|std| std.max(1e-9)),
@@ -58,7 +59,11 @@ fn run(
             }
         })
         .collect();
-    Run { rows, turned }
+    Run {
+        rows,
+        turned,
+        file: String::new(),
+    }
 }
 
 /// Ring-downs at rest at three angles 22.5° apart; a pattern at rest is turned by the Earth.

@@ -31,6 +31,7 @@ fn row([main, quadrature, angle]: [f64; 3], seconds: f64) -> Row {
         main,
         quadrature,
         angle,
+        phase: None,
         frequency: 5332.0,
         frequency_deviation: 1e-3,
         deviations: [1e-6; 3],

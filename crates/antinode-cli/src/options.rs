@@ -63,7 +63,8 @@ pub enum Command {
     /// pattern. Give ring-downs that turn both ways: where all turn one way, what a calibration leaves looks like splits.
     ///
     /// A shell whose stiffness depends on the amplitude turns a pattern by a_A·a_B, and its frequency moves with a_A² + a_B²: both are
-    /// printed where they are seen, for one input unit squared.
+    /// printed where they are seen, for one input unit squared. The latter allows for a drift with time, as of temperature, unless none is
+    /// seen and the turning says the same; where it may be a drift, a line says so in its place.
     ///
     /// A run ends where the wave is lost or jumps: one recording may hold several ring-downs, and missing samples do not falsify the
     /// rates.

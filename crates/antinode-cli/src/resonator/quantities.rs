@@ -122,7 +122,7 @@ pub fn quantities(
         }
     }
     add(None, FREQUENCY, frequency.mean);
-    if let Some(by_energy) = frequency.by_energy {
+    if let Some(by_energy) = frequency.by_energy.told() {
         add(None, BY_ENERGY, by_energy);
     }
     let of_residual = found.residual / (6.0 * rows.used() as f64).sqrt();

@@ -170,7 +170,8 @@ fn tell(
              the mean frequency is wider by that{with}"
         )?;
     }
-    let why = "the rotation or the damping changes meanwhile, or with the amplitude, or the pick-offs are not calibrated";
+    let why = "the rotation or the damping changes meanwhile, or with the amplitude, the pick-offs are not calibrated, or a pick-off or the \
+               converter is nonlinear";
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,

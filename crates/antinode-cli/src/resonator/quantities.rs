@@ -199,5 +199,8 @@ pub fn table(
             writeln!(out, "  {:<32} {}", kind.label, text.trim_end())?;
         }
     }
-    Ok(())
+    writeln!(
+        out,
+        "deviations are those of noise: what a nonlinear pick-off or converter does is in none of them"
+    )
 }

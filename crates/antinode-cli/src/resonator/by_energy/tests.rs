@@ -7,6 +7,9 @@ use crate::deviates::Deviates;
 const NOISE: f64 = 1e-3;
 const TRIALS: u64 = 72;
 
+/// By what a run's frequency has moved after a time, Hz.
+type Drift = dyn Fn(usize, f64) -> f64;
+
 /// Two runs of 30 s and 1600 rows, that decay by `decay` 1/s; by so much the frequency goes with the energy, and moves with time, Hz.
 fn runs(decay: f64, by: f64, drift: impl Fn(usize, f64) -> f64, seed: u64) -> Vec<Vec<Seen>> {
     let mut random = Deviates(seed);
@@ -47,7 +50,7 @@ fn stated_deviations_are_the_rms_errors_whatever_the_drift() {
     // As after a step of the temperature, and as it comes and goes.
     let curved = |_, time: f64| 6e-3 * (1.0 - (-time / 60.0).exp());
     let wave = |run, time: f64| 0.01 * (time / 40.0 + run as f64).sin();
-    let all: [(&str, &dyn Fn(usize, f64) -> f64); 6] = [
+    let all: [(&str, &Drift); 6] = [
         ("none", &none),
         ("weak", &weak),
         ("linear", &linear),

@@ -105,8 +105,8 @@ fn tell(
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,
-            "warning: rows differ from the calibrated wave by {:.1} times their noise: something else moves with the angle; the deviations \
-             above are wider by that",
+            "warning: rows differ from the calibrated wave by {:.1} times their noise: something else moves with the angle, or a pick-off or the \
+             converter is nonlinear; the deviations above are wider by that, and the values may be further off than these",
             found.residual
         )?;
     }

@@ -63,7 +63,12 @@ pub enum Command {
     /// pattern. Give ring-downs that turn both ways: where all turn one way, what a calibration leaves looks like splits.
     ///
     /// A shell whose stiffness depends on the amplitude turns a pattern by a_A·a_B, and its frequency moves with a_A² + a_B²: both are
-    /// printed where they are seen, for one input unit squared.
+    /// printed where they are seen, for one input unit squared. The latter allows for a drift with time, as of temperature, unless none is
+    /// seen and the turning says the same; where it may be a drift, a line says so in its place.
+    ///
+    /// Deviations are those of noise. What is not linear in pick-offs or converter is in none of them, and rows do not tell it from damping
+    /// that depends on the amplitude: a cubic part of 1e-4 S³ makes the decay time of a wave of a_A = 0.8 shorter by 2e-5 of
+    /// itself in a recording of four decay times, and by 5e-5 in one of a third.
     ///
     /// A run ends where the wave is lost or jumps: one recording may hold several ring-downs, and missing samples do not falsify the
     /// rates.

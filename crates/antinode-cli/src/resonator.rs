@@ -1,5 +1,6 @@
 //! `antinode resonator`: rows of ring-downs in, quality factor and splits out.
 
+mod by_energy;
 mod fit;
 mod found;
 mod frequency;
@@ -19,6 +20,7 @@ use clap::Args;
 use crate::failure::Failure;
 use crate::options::Format;
 use crate::runs::{BEYOND_NOISE, Run, Runs};
+use by_energy::ByEnergy;
 use fit::fit;
 use found::Found;
 use frequency::{Frequency, frequency};
@@ -150,13 +152,26 @@ fn tell(
         )?;
     }
     if let Some(moves) = frequency.moves {
+        let with = match frequency.by_energy {
+            ByEnergy::Chance => String::new(),
+            ByEnergy::Alone(_, drift) => format!(
+                "; what goes with a_A² + a_B² is taken not to be a drift, of which {drift:.0e} Hz/s, unseen, would be as much as its deviation"
+            ),
+            ByEnergy::Beside(_) => {
+                "; the deviation of what goes with a_A² + a_B² allows for a drift with time".to_owned()
+            }
+            ByEnergy::Untold => {
+                "; the rows do not tell what goes with a_A² + a_B² from a drift with time: let the wave ring down further".to_owned()
+            }
+        };
         writeln!(
             out,
             "warning: the frequency moves by {moves:.2e} Hz, rms, beyond noise: with the amplitude, or the temperature; the deviation of \
-             the mean frequency is wider by that"
+             the mean frequency is wider by that{with}"
         )?;
     }
-    let why = "the rotation or the damping changes meanwhile, or with the amplitude, or the pick-offs are not calibrated";
+    let why = "the rotation or the damping changes meanwhile, or with the amplitude, the pick-offs are not calibrated, or a pick-off or the \
+               converter is nonlinear";
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,

@@ -128,6 +128,7 @@ fn a_pattern_that_turns_tells_everything() {
         "turned by rotation, °/s",
         "resonator\n",
         "±",
+        "nonlinear pick-off or converter",
     ] {
         assert!(table.contains(part), "{table}");
     }
@@ -361,7 +362,9 @@ fn what_is_wrong_is_told() {
     }
     let found = resonator(here, &lines.join("\n"), "");
     assert!(
-        found.err.contains("times their noise") && found.err.contains("further off"),
+        ["times their noise", "converter is nonlinear", "further off"]
+            .iter()
+            .all(|part| found.err.contains(part)),
         "{}",
         found.err
     );

@@ -386,3 +386,28 @@ fn a_recording_in_windows_of_two_lengths_is_told() {
         assert!(!is_told(long + &rows(&other, "--periods 50")));
     }
 }
+
+#[test]
+fn a_drift_with_time_is_not_taken_to_go_with_the_energy() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for seed in 1..=4 {
+        let mut both = String::new();
+        for rate in ["0.2", "-0.2"] {
+            let simulated = format!(
+                "--seconds 20 --rate 25000 --noise 0.0005 --decay-rate 0.03 --angle-rate {rate} --frequency-rate 0.0002 --seed {seed}"
+            );
+            rows(here, &simulated, "--periods 100");
+            both += &fs::read_to_string(here.join("rows.csv")).unwrap();
+        }
+        let found = run_with(here, "resonator - --output csv", both.into());
+        assert!(
+            found.err.contains("a drift with time") && !found.out.contains("by_energy"),
+            "{}{}",
+            found.out,
+            found.err
+        );
+        let (frequency, std) = of_resonator(&found.out, "frequency_hz");
+        assert!((frequency - 5332.002).abs() < 2.0 * std, "{}", found.out);
+    }
+}

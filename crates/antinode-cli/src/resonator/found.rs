@@ -93,7 +93,7 @@ impl Found {
     }
 
     /// What a_A a_B of one input unit squared turns a pattern by, rad/s, where it is an unknown.
-    fn turning_by_amplitudes(&self) -> Option<Measured> {
+    pub(super) fn turning_by_amplitudes(&self) -> Option<Measured> {
         (self.model == Model::Nonlinear).then(|| self.sum(&[(Model::GAMMA, -1.0)]))
     }
 

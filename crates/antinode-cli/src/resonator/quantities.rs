@@ -122,7 +122,7 @@ pub fn quantities(
         }
     }
     add(None, FREQUENCY, frequency.mean);
-    if let Some(by_energy) = frequency.by_energy {
+    if let Some(by_energy) = frequency.by_energy.told() {
         add(None, BY_ENERGY, by_energy);
     }
     let of_residual = found.residual / (6.0 * rows.used() as f64).sqrt();
@@ -199,5 +199,8 @@ pub fn table(
             writeln!(out, "  {:<32} {}", kind.label, text.trim_end())?;
         }
     }
-    Ok(())
+    writeln!(
+        out,
+        "deviations are those of noise: what a nonlinear pick-off or converter does is in none of them"
+    )
 }

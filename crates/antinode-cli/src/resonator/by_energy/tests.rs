@@ -1,0 +1,105 @@
+//! Frequencies made of an energy that decays, a drift and noise.
+
+use super::*;
+use crate::deviates::Deviates;
+
+/// A row's standard deviation of the frequency, Hz.
+const NOISE: f64 = 1e-3;
+const TRIALS: u64 = 72;
+
+/// By what a run's frequency has moved after a time, Hz.
+type Drift = dyn Fn(usize, f64) -> f64;
+
+/// Two runs of 30 s and 1600 rows, that decay by `decay` 1/s; by so much the frequency goes with the energy, and moves with time, Hz.
+fn runs(decay: f64, by: f64, drift: impl Fn(usize, f64) -> f64, seed: u64) -> Vec<Vec<Seen>> {
+    let mut random = Deviates(seed);
+    let mut run = |index: usize| {
+        let rows = (0..1600).map(|k| {
+            let time = 30.0 / 1600.0 * f64::from(k);
+            let energy = 0.25 * (-2.0 * decay * time).exp();
+            Seen {
+                time: 5.0 + time,
+                weight: NOISE.powi(-2),
+                energy,
+                beyond: 0.1 + by * energy + drift(index, time) + NOISE * random.draw(),
+            }
+        });
+        rows.collect()
+    };
+    vec![run(0), run(1)]
+}
+
+/// The rms error over the stated deviations of trials in which it is told, and how many these are.
+fn rms(decay: f64, by: f64, drift: impl Fn(usize, f64) -> f64) -> (f64, u64) {
+    let (mut squares, mut told) = (0.0, 0);
+    for seed in 0..TRIALS {
+        if let Some((value, std)) = by_energy(&runs(decay, by, &drift, seed), true, None).told() {
+            squares += ((value - by) / std).powi(2);
+            told += 1;
+        }
+    }
+    ((squares / told as f64).sqrt(), told)
+}
+
+#[test]
+fn stated_deviations_are_the_rms_errors_whatever_the_drift() {
+    let none = |_, _| 0.0;
+    let weak = |_, time: f64| 2e-5 * time;
+    let linear = |_, time: f64| 1e-4 * time;
+    let cooling = |run, time: f64| 1e-3 * run as f64 - 2e-4 * time;
+    // As after a step of the temperature, and as it comes and goes.
+    let curved = |_, time: f64| 6e-3 * (1.0 - (-time / 60.0).exp());
+    let wave = |run, time: f64| 0.01 * (time / 40.0 + run as f64).sin();
+    let all: [(&str, &Drift); 6] = [
+        ("none", &none),
+        ("weak", &weak),
+        ("linear", &linear),
+        ("cooling", &cooling),
+        ("curved", &curved),
+        ("wave", &wave),
+    ];
+    for (name, drift) in all {
+        for (decay, by) in [(0.03, 0.3), (0.1, 0.03)] {
+            let (rms, told) = rms(decay, by, drift);
+            assert!((0.8..1.25).contains(&rms), "{name}, {by}: {rms}");
+            assert!(10 * told >= 9 * TRIALS, "{name}, {by}: {told}");
+        }
+        let (_, told) = rms(0.03, 0.0, drift);
+        assert_eq!(told, 0, "{name}");
+    }
+}
+
+#[test]
+fn what_the_turning_of_patterns_says_leaves_no_drift_but_one_that_is_seen() {
+    let of = |drift: f64, said: f64| {
+        let runs = runs(0.03, 0.3, |_, time| drift * time, 2);
+        by_energy(&runs, true, Some((said, 0.01)))
+    };
+    let ByEnergy::Alone((value, std), hidden) = of(0.0, 0.31) else {
+        panic!("{:?}", of(0.0, 0.31));
+    };
+    assert!((value - 0.3).abs() < 4.0 * std && std < 4e-4);
+    let ByEnergy::Alone((moved, _), _) = of(hidden, 0.31) else {
+        panic!("{:?}", of(hidden, 0.31));
+    };
+    assert!(((moved - value).abs() / std - 1.0).abs() < 1e-6);
+    assert!((1e-7..1e-5).contains(&hidden), "{hidden}");
+    for (drift, said) in [(0.0, 0.34), (1e-4, 0.3)] {
+        assert!(matches!(of(drift, said), ByEnergy::Beside(_)), "{drift}");
+    }
+}
+
+#[test]
+fn rows_whose_frequency_has_no_deviation_tell_the_same() {
+    let known = runs(0.03, 0.3, |_, time| 1e-4 * time, 1);
+    let mut unknown = known.clone();
+    for seen in unknown.iter_mut().flatten() {
+        seen.weight = 1.0;
+    }
+    let [Some(known), Some(unknown)] = [(known, true), (unknown, false)]
+        .map(|(runs, is_told)| by_energy(&runs, is_told, None).told())
+    else {
+        panic!();
+    };
+    assert!((known.0 - unknown.0).abs() < 1e-9 && (unknown.1 / known.1 - 1.0).abs() < 0.1);
+}

@@ -1,4 +1,5 @@
-//! The paper's formulas once more, written straight from the text, with the errata of `antinode::methods`, in f64 over plain samples: what the core's are held against.
+//! The paper's formulas once more, written straight from the text, with the errata of `antinode::methods`, in f64 over plain samples: what
+//! the core's are held against.
 
 use std::f64::consts::PI;
 

@@ -262,6 +262,10 @@ fn other_settings_in_place_do_what_a_new_start_does() {
     assert!(front.configure(windows(1)).is_err() && tracker.configure(windows(1)).is_err());
     front.configure(second).unwrap();
     tracker.configure(second).unwrap();
+    // What a front gathers that has not heard of it is left out.
+    front.clone().extend(&pairs, |block| {
+        assert_eq!(tracker.push(block), None);
+    });
     let changed = run(&mut front, &mut tracker);
     assert_eq!(front.index(), 16_000);
     let (mut front, mut tracker) = (Front::new(second).unwrap(), Tracker::new(second).unwrap());

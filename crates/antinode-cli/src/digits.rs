@@ -38,6 +38,15 @@ pub fn fixed(decimals: usize, x: f64) -> String {
 
 /// A value with its standard deviation, the value to the right and the deviation to the left of one place.
 pub fn with_std(value: f64, std: f64) -> String {
+    with_std_up_to(MOST_DECIMALS, value, std)
+}
+
+/// The same of a value that is known beyond single precision.
+pub fn with_small_std(value: f64, std: f64) -> String {
+    with_std_up_to(MOST_OF_DOUBLE, value, std)
+}
+
+fn with_std_up_to(most: f64, value: f64, std: f64) -> String {
     if is_small(value, std) {
         format!(
             "{:>9} ±{:<7}",
@@ -45,16 +54,7 @@ pub fn with_std(value: f64, std: f64) -> String {
             format!("{std:.1e}")
         )
     } else {
-        with_std_to(decimals(std), value, std)
-    }
-}
-
-/// The same of a value that is known beyond single precision.
-pub fn with_small_std(value: f64, std: f64) -> String {
-    if is_small(value, std) {
-        with_std(value, std)
-    } else {
-        with_std_to(decimals_up_to(MOST_OF_DOUBLE, std), value, std)
+        with_std_to(decimals_up_to(most, std), value, std)
     }
 }
 

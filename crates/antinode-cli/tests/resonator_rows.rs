@@ -1,4 +1,4 @@
-//! `antinode resonator`: what it makes of rows that overlap, that end in noise, that come twice, of which one is wild, or of
+//! `antinode resonator`: what it makes of rows that overlap, that come twice, of which one is wild, or of
 //! recordings that are not one ring-down.
 
 mod common;
@@ -6,46 +6,8 @@ mod common;
 use std::fs;
 use std::path::Path;
 
+use common::ring_downs::{joined, of_resonator, rows};
 use common::{rms, run, run_with};
-
-/// Rows of a simulated ring-down, in a file.
-fn rows(here: &Path, simulated: &str, identified: &str) {
-    let made = run(here, &format!("simulate -o it.wav {simulated}"));
-    assert_eq!(made.code, 0, "{}", made.err);
-    let rows = run(here, &format!("identify --output csv {identified} it.wav"));
-    assert_eq!(rows.code, 0, "{}", rows.err);
-    fs::write(here.join("rows.csv"), rows.out).unwrap();
-}
-
-/// A quantity of the resonator as CSV tells it, and its deviation.
-fn of_resonator(out: &str, quantity: &str) -> (f64, f64) {
-    let line = out
-        .lines()
-        .find_map(|line| line.strip_prefix(&format!(",{quantity},")));
-    let (value, std) = line.and_then(|line| line.split_once(',')).expect(out);
-    (value.parse().unwrap(), std.parse().unwrap())
-}
-
-#[test]
-fn the_mean_frequency_of_a_ring_down_that_ends_in_noise_is_found_to_its_deviation() {
-    let directory = tempfile::tempdir().unwrap();
-    let here = directory.path();
-    let mut all = Vec::new();
-    for seed in 1..=12 {
-        // 18 s: the amplitude falls to a ten-thousandth.
-        let simulated =
-            format!("--seconds 18 --decay-rate 0.5 --noise 0.002 --sample i24 --seed {seed}");
-        rows(here, &simulated, "--periods 100");
-        let found = run(here, "resonator rows.csv --output csv");
-        let (frequency, std) = of_resonator(&found.out, "frequency_hz");
-        assert!(std < 1e-3, "{}", found.out);
-        all.push((frequency - 5332.0) / std);
-        let (residual, of_residual) = of_resonator(&found.out, "residual_over_noise");
-        assert!((residual - 1.0).abs() < 5.0 * of_residual, "{}", found.out);
-    }
-    let rms = rms(&all);
-    assert!((0.6..1.5).contains(&rms), "{rms}: {all:.1?}");
-}
 
 #[test]
 fn rows_that_overlap_do_not_make_it_seem_better_known() {
@@ -201,42 +163,17 @@ fn samples_that_are_missing_leave_the_rates_right() {
 }
 
 #[test]
-fn the_mean_frequency_is_that_of_both_modes_wherever_the_patterns_stand() {
-    let directory = tempfile::tempdir().unwrap();
-    let here = directory.path();
-    let mut all = String::new();
-    for (index, angle) in [-0.3, 0.0, 0.1].into_iter().enumerate() {
-        let simulated = format!(
-            "--seconds 4 --noise 0.002 --decay-rate 0.1 --frequency-split 0.02 --frequency-angle -0.3 --angle {angle} --seed {index}"
-        );
-        rows(here, &simulated, "--periods 50");
-        all += &fs::read_to_string(here.join("rows.csv")).unwrap();
-    }
-    let found = run_with(here, "resonator - --output csv", all.into());
-    assert_eq!(found.err, "");
-    // Along their patterns it is 10 mHz, 4 mHz and 0.3 mHz higher.
-    let (frequency, std) = of_resonator(&found.out, "frequency_hz");
-    assert!(
-        (frequency - 5332.0).abs() < 4.0 * std && std < 1e-3,
-        "{}",
-        found.out
-    );
-}
-
-#[test]
 fn pick_offs_that_are_not_calibrated_are_told_long_before_rows_are_far_off() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for (gain, is_told) in [("1", false), ("1.001", true)] {
-        let mut both = String::new();
-        for rate in ["0.4", "-0.4"] {
-            let simulated = format!(
+        let both = ["0.4", "-0.4"].map(|rate| {
+            format!(
                 "--seconds 6 --noise 0.002 --decay-rate 0.1 --angle-rate {rate} --gain-ratio {gain}"
-            );
-            rows(here, &simulated, "--periods 50");
-            both += &fs::read_to_string(here.join("rows.csv")).unwrap();
-        }
-        let found = run_with(here, "resonator - --output csv", both.into());
+            )
+        });
+        let both = joined(here, both, "--periods 50");
+        let found = run_with(here, "resonator - --output csv", both);
         let (residual, _) = of_resonator(&found.out, "residual_over_noise");
         assert!(residual < 2.0, "{}", found.out);
         assert_eq!(
@@ -261,33 +198,6 @@ fn rows_that_overlap_by_a_block_are_not_taken_for_a_change() {
     let found = run(here, "resonator rows.csv");
     assert_eq!(found.code, 0);
     assert!(!found.err.contains("warning"), "{}", found.err);
-}
-
-#[test]
-fn a_frequency_that_moves_is_told() {
-    let directory = tempfile::tempdir().unwrap();
-    let here = directory.path();
-    for (rate, is_told) in [("0", false), ("0.05", true), ("-0.3", true)] {
-        rows(
-            here,
-            &format!(
-                "--seconds 4 --noise 0.002 --decay-rate 0.1 --angle-rate 0.4 --frequency-rate {rate}"
-            ),
-            "--periods 50",
-        );
-        let found = run(here, "resonator rows.csv --output csv");
-        assert_eq!(found.code, 0);
-        assert_eq!(
-            found.err.contains("the frequency moves by"),
-            is_told,
-            "{rate}: {}",
-            found.err
-        );
-        // At the first sample it is 5332 Hz; in the middle of the recording it has moved by two seconds of its rate.
-        let (frequency, std) = of_resonator(&found.out, "frequency_hz");
-        let mean = 5332.0 + 2.0 * rate.parse::<f64>().unwrap();
-        assert!((frequency - mean).abs() < 4.0 * std, "{}", found.out);
-    }
 }
 
 #[test]
@@ -384,30 +294,5 @@ fn a_recording_in_windows_of_two_lengths_is_told() {
         assert!(!is_told(long.clone() + &rows(&other, "--periods 50")));
         let other = format!("--seed {seed} --angle {}", 0.1 * f64::from(seed));
         assert!(!is_told(long + &rows(&other, "--periods 50")));
-    }
-}
-
-#[test]
-fn a_drift_with_time_is_not_taken_to_go_with_the_energy() {
-    let directory = tempfile::tempdir().unwrap();
-    let here = directory.path();
-    for seed in 1..=4 {
-        let mut both = String::new();
-        for rate in ["0.2", "-0.2"] {
-            let simulated = format!(
-                "--seconds 20 --rate 25000 --noise 0.0005 --decay-rate 0.03 --angle-rate {rate} --frequency-rate 0.0002 --seed {seed}"
-            );
-            rows(here, &simulated, "--periods 100");
-            both += &fs::read_to_string(here.join("rows.csv")).unwrap();
-        }
-        let found = run_with(here, "resonator - --output csv", both.into());
-        assert!(
-            found.err.contains("a drift with time") && !found.out.contains("by_energy"),
-            "{}{}",
-            found.out,
-            found.err
-        );
-        let (frequency, std) = of_resonator(&found.out, "frequency_hz");
-        assert!((frequency - 5332.002).abs() < 2.0 * std, "{}", found.out);
     }
 }

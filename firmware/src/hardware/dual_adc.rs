@@ -18,7 +18,7 @@ use crate::clocks::{APB1_TIMERS, APB2};
 use crate::hardware::clock;
 use crate::hardware::pair_clock::{PairClock, Trigger};
 use crate::hardware::ring::{Memory, Origin, Ring};
-use crate::hardware::sampler::{Converter, Sampler};
+use crate::hardware::sampler::{Converter, Sampler, wait_for};
 use crate::sampling::is_at_rail_12;
 use crate::settings::{DUAL_ADC_RAILS, SAMPLE_RATE};
 
@@ -110,10 +110,9 @@ impl DualAdc {
         }
     }
 
-    /// Waits until nothing is under way: at most two periods, and for ever neither, as a dead timer must not hang the interrupt.
+    /// Waits until nothing is under way.
     fn wait(&self) {
-        let _ =
-            (0..4 * TICKS).any(|_| (QUIET[0]..QUIET[1]).contains(&self.timer.cnt().read().bits()));
+        wait_for(QUIET, TICKS, || self.timer.cnt().read().bits());
     }
 }
 
@@ -136,11 +135,12 @@ impl Converter for DualAdc {
 
     #[allow(unsafe_code, reason = "the reset belongs to all converters")]
     fn stop(&mut self) {
+        // Between two triggers, as in `configure`.
+        self.wait();
         // SAFETY: after the start nothing else touches this register.
         let reset = unsafe { RCC::steal() };
         // APB2RSTR.ADCRST: whatever became of them, both converters and what is between them begin anew as they did at the start. An
         // overrun leaves requests blocked and triggers unheard until DMA and converters are set up again (RM0090, 13.8.1 and 13.9).
-        self.wait();
         reset.apb2rstr().modify(|_, w| w.adcrst().set_bit());
         reset.apb2rstr().modify(|_, w| w.adcrst().clear_bit());
         clock::settle();

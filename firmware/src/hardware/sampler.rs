@@ -32,6 +32,12 @@ pub trait Converter {
     fn is_at_rail(pair: Packed) -> bool;
 }
 
+/// Waits until a timer of `ticks` a period, which `count` reads, stands within `quiet`: at most two periods, and for ever neither, as a dead
+/// timer must not hang the interrupt.
+pub fn wait_for(quiet: [u32; 2], ticks: u32, count: impl Fn() -> u32) {
+    let _ = (0..4 * ticks).any(|_| (quiet[0]..quiet[1]).contains(&count()));
+}
+
 /// The source: a converter, the ring that it fills, and the count of its triggers.
 pub struct Sampler<C: Converter> {
     converter: C,
@@ -58,9 +64,7 @@ impl<C: Converter> Sampler<C> {
             second: true,
         }
     }
-}
 
-impl<C: Converter> Sampler<C> {
     /// True where pairs were lost and no flag told: those beyond the end of a half do not fit the triggers beyond `taken`, the count there.
     #[inline]
     fn has_slipped(&self, taken: u32, second: bool) -> bool {

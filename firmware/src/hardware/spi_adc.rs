@@ -28,7 +28,7 @@ use crate::clocks::{APB2, APB2_TIMERS, CORE};
 use crate::hardware::clock;
 use crate::hardware::pair_clock::{PairClock, Trigger};
 use crate::hardware::ring::{Memory, Origin, Ring};
-use crate::hardware::sampler::{Converter, Sampler};
+use crate::hardware::sampler::{Converter, Sampler, wait_for};
 use crate::sampling::is_at_rail_16;
 use crate::settings::{AD7380_RAILS, SAMPLE_RATE};
 
@@ -156,10 +156,9 @@ impl SpiAdc {
         }
     }
 
-    /// Waits for the time between two frames; not for ever.
+    /// Waits for the time between two frames.
     fn wait(&self) {
-        let _ =
-            (0..4 * TICKS).any(|_| (QUIET[0]..QUIET[1]).contains(&self.timer.cnt().read().bits()));
+        wait_for(QUIET, TICKS, || self.timer.cnt().read().bits());
     }
 }
 

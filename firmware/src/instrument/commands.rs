@@ -48,12 +48,10 @@ impl<S: Sample> Instrument<'_, S> {
                     self.requests
                         .enqueue(request)
                         .map_err(|_| CommandError::Busy)?;
-                }
-                self.tracker.change(configuration.settings)?;
-                if is_new {
                     // What waits was gathered with the settings before.
                     self.tracker.search();
                 }
+                self.tracker.change(configuration.settings)?;
                 self.configuration = configuration;
                 self.hello();
             }

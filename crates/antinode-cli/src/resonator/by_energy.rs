@@ -53,8 +53,14 @@ impl ByEnergy {
     }
 }
 
-/// Finds it from the rows of each run, where it is seen; `is_told` where their weights are known, `by_turning` what the turning says.
-pub fn by_energy(runs: &[Vec<Seen>], is_told: bool, by_turning: Option<Measured>) -> ByEnergy {
+/// Finds it from the rows of each run, where it is seen in what [`beside_one_mean`] of them has; `is_told` where their weights are known,
+/// `by_turning` what the turning says.
+pub fn by_energy(
+    runs: &[Vec<Seen>],
+    (alone, of_drift): (Sums, f64),
+    is_told: bool,
+    by_turning: Option<Measured>,
+) -> ByEnergy {
     let beside = beside_powers(runs);
     let (rows, count): (usize, usize) = (runs.iter().map(Vec::len).sum(), runs.len());
     let scatter = |sums: &Sums, unknowns: usize| {
@@ -66,7 +72,6 @@ pub fn by_energy(runs: &[Vec<Seen>], is_told: bool, by_turning: Option<Measured>
         let chance = terms as f64 + SEEN * (2.0 * terms as f64).sqrt();
         before.left() - beside[after].left() > chance * noise
     };
-    let (alone, of_drift) = beside_one_mean(runs);
     let is_drift = is_more(&alone, LEAST_POWER, (LEAST_POWER + 1) * count - 1);
     let (value, std) = alone.measured(scatter(&alone, 2));
     let agrees = |(said, of_said): Measured| (value - said).abs() < AGREES * std.hypot(of_said);

@@ -63,7 +63,8 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
     let count = rows.used() as f64;
     let scatter = squares / (count - 1.0);
     let widened = if is_told { scatter.max(1.0) } else { scatter };
-    let (alone, _) = beside_one_mean(&runs);
+    let beside = beside_one_mean(&runs);
+    let alone = beside.0;
     let is_along = alone.is_seen(widened);
     let is_alike = is_told && is_alike(neighbours / squares, count);
     let moved_alike = if is_alike {
@@ -83,7 +84,7 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
             let by_turning = found.turning_by_amplitudes();
             let by_turning =
                 by_turning.map(|(turning, std)| (-3.0 * turning / TAU, 3.0 * std / TAU));
-            by_energy(&runs, is_told, by_turning)
+            by_energy(&runs, beside, is_told, by_turning)
         } else {
             ByEnergy::Chance
         },

@@ -5,6 +5,7 @@
     reason = "every test file is a crate, and none uses all of this"
 )]
 
+pub mod ring_downs;
 pub mod svg;
 
 use std::f64::consts::TAU;

@@ -29,11 +29,16 @@ fn runs(decay: f64, by: f64, drift: impl Fn(usize, f64) -> f64, seed: u64) -> Ve
     vec![run(0), run(1)]
 }
 
+fn found(runs: &[Vec<Seen>], is_told: bool, by_turning: Option<Measured>) -> ByEnergy {
+    by_energy(runs, beside_one_mean(runs), is_told, by_turning)
+}
+
 /// The rms error over the stated deviations of trials in which it is told, and how many these are.
 fn rms(decay: f64, by: f64, drift: impl Fn(usize, f64) -> f64) -> (f64, u64) {
     let (mut squares, mut told) = (0.0, 0);
     for seed in 0..TRIALS {
-        if let Some((value, std)) = by_energy(&runs(decay, by, &drift, seed), true, None).told() {
+        let runs = runs(decay, by, &drift, seed);
+        if let Some((value, std)) = found(&runs, true, None).told() {
             squares += ((value - by) / std).powi(2);
             told += 1;
         }
@@ -73,7 +78,7 @@ fn stated_deviations_are_the_rms_errors_whatever_the_drift() {
 fn what_the_turning_of_patterns_says_leaves_no_drift_but_one_that_is_seen() {
     let of = |drift: f64, said: f64| {
         let runs = runs(0.03, 0.3, |_, time| drift * time, 2);
-        by_energy(&runs, true, Some((said, 0.01)))
+        found(&runs, true, Some((said, 0.01)))
     };
     let ByEnergy::Alone((value, std), hidden) = of(0.0, 0.31) else {
         panic!("{:?}", of(0.0, 0.31));
@@ -96,8 +101,8 @@ fn rows_whose_frequency_has_no_deviation_tell_the_same() {
     for seen in unknown.iter_mut().flatten() {
         seen.weight = 1.0;
     }
-    let [Some(known), Some(unknown)] = [(known, true), (unknown, false)]
-        .map(|(runs, is_told)| by_energy(&runs, is_told, None).told())
+    let [Some(known), Some(unknown)] =
+        [(known, true), (unknown, false)].map(|(runs, is_told)| found(&runs, is_told, None).told())
     else {
         panic!();
     };

@@ -1,8 +1,10 @@
 //! What a fault leaves to the windows after it: a leap of the frequency, the end of a wave, a spike while it grows, a wire that breaks.
 
+use std::f64::consts::TAU;
+
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::{Core, identify_changed, no_wave, stream, windows};
+use host_tests::{Core, RATE, identify_changed, no_wave, stream, windows};
 
 fn noisy(wave: &Wave, noise: f64) -> Flaws {
     Flaws {
@@ -191,5 +193,41 @@ fn the_window_in_which_a_dead_pick_off_comes_back_is_flagged_however_loud_it_was
         let clean = |e: &&Estimate| touched(e) && e.flags.is_empty();
         assert!(found.iter().filter(touched).count() > 20);
         assert_eq!(found.iter().find(clean), None, "seed {seed}");
+    }
+}
+
+#[test]
+fn a_shock_that_rings_at_another_frequency_leaves_the_wave_to_be_found_again() {
+    // Ten times the wave, and gone within a twentieth of a second: blocks cut for it see of the wave a seventh, at yet another frequency.
+    for (ratio, hum) in [
+        (0.7, false),
+        (1.8, false),
+        (1.35, false),
+        (1.73, true),
+        (2.33, true),
+    ] {
+        for seed in 0..60 {
+            let wave = random_wave(seed, 5332.0, 0.3);
+            let mut pairs = stream(wave, noisy(&wave, 0.002), 40_000, seed);
+            let (sine, cosine) = (0.7 * seed as f64).sin_cos();
+            let turn = TAU * 5332.0 * ratio / RATE;
+            for (k, pair) in (0..).zip(&mut pairs[5000 + 13 * seed as usize..]) {
+                let size = 10.0 * wave.main_amplitude * (-f64::from(k) / 500.0).exp();
+                let shock = size * (turn * f64::from(k) + 0.3 * seed as f64).sin();
+                pair[0] += (shock * cosine) as f32;
+                pair[1] += (shock * sine) as f32;
+            }
+            let settings = Settings { hum, ..windows(10) };
+            let mut core = Core::new(settings).unwrap();
+            let mut found: Vec<Estimate> = Vec::new();
+            core.extend(&pairs, |e| found.push(e));
+            let last = &found[found.len() - 50..];
+            for estimate in last {
+                assert!(
+                    estimate.flags.is_empty() && (estimate.frequency - 5332.0).abs() < 5.0,
+                    "{ratio} times the frequency, hum {hum}, seed {seed}: {estimate:?}"
+                );
+            }
+        }
     }
 }

@@ -30,6 +30,24 @@ fn steps_are_errors_that_are_stated() {
     }
 }
 
+#[test]
+fn the_same_few_codes_in_every_period_are_no_misfit() {
+    // Four or six samples a period, to the digit: a window's errors are all alike, and another's may be none.
+    for noise in [0.15, 0.2, 0.25, 0.3, 0.35, 0.4] {
+        for (bits, scale, period) in [
+            (10, 0.9, 4.0),
+            (10, 0.3, 4.0),
+            (12, 0.9, 4.0),
+            (12, 0.3, 4.0),
+            (10, 0.9, 6.0),
+        ] {
+            for periods in [3, 10] {
+                check(bits, scale, period, noise, periods);
+            }
+        }
+    }
+}
+
 /// Runs one combination and gives errors over stated deviations: `scale` is the amplitude over full scale, `noise` is in steps.
 fn check(bits: u32, scale: f64, period: f64, noise: f64, periods: u16) -> [f64; 4] {
     let label = format!(
@@ -94,6 +112,46 @@ fn the_residual_is_that_of_the_samples_whatever_the_window() {
         let mean = estimates.iter().map(square).sum::<f64>() / estimates.len() as f64;
         let ratio = mean.sqrt() / step / f64::sqrt(0.05f64.powi(2) + 1.0 / 12.0);
         assert!((0.9..1.1).contains(&ratio), "{periods} periods: {ratio}");
+    }
+}
+
+#[test]
+fn crests_in_noise_of_some_steps_are_not_clipped_and_limited_ones_are() {
+    // Of a hundred steps and more; three samples of a crest are one code by chance.
+    for (steps, noise) in [(110.0, 3.0), (110.0, 4.5), (250.0, 9.0)] {
+        let wave = Wave {
+            main_amplitude: 1.0,
+            quadrature_amplitude: 0.1,
+            angle: 0.4,
+            ..Wave::default()
+        };
+        let step = 1.0 / steps;
+        let flaws = Flaws {
+            noise: noise * step,
+            ..Flaws::default()
+        };
+        let settings = Settings {
+            resolution: Some(step as f32),
+            ..windows(10)
+        };
+        let clipped = |most: f64, samples| {
+            let found = identify_changed(wave, &flaws, settings, samples, 5, |_, pair| {
+                pair.map(|s| (s.min(most) / step).round() * step)
+            });
+            let clipped = found.iter().filter(|e| e.flags.contains(Flags::CLIPPED));
+            (clipped.count(), found.len())
+        };
+        let (count, rows) = clipped(f64::INFINITY, 4_000_000);
+        println!("{steps} steps, noise of {noise}: {count} of {rows} clipped");
+        assert!(
+            count == 0 && rows > 20_000,
+            "{steps} steps, noise of {noise}: {count} of {rows}"
+        );
+        let (count, rows) = clipped(0.6, 40_000);
+        assert!(
+            count == rows && rows > 200,
+            "{steps} steps, noise of {noise}: {count} of {rows}"
+        );
     }
 }
 

@@ -101,6 +101,42 @@ fn a_step_of_either_offset_is_a_step() {
 }
 
 #[test]
+fn an_offset_that_wanders_on_steps_once_at_most_and_one_that_steps_on_its_way_is_flagged() {
+    // It moves by more than a step must be from window to window, and each time by as much.
+    let wave = Wave {
+        main_amplitude: 0.1,
+        quadrature_amplitude: 0.01,
+        ..Wave::default()
+    };
+    let wandering = Flaws {
+        noise: 1e-3,
+        hum: 1.0,
+        hum_frequency: 0.02,
+        ..Flaws::default()
+    };
+    for seed in 0..10 {
+        let one = stream(wave, wandering.clone(), 100_000, seed);
+        let mut core = Core::new(windows(50)).unwrap();
+        let mut found: Vec<Estimate> = Vec::new();
+        core.extend(&one, |e| found.push(e));
+        let rows = found.len();
+        let steps = found.iter().filter(|e| !e.flags.is_empty()).count();
+        let moved = (found[rows - 1].offsets[0] - found[0].offsets[0]).abs() / rows as f32;
+        println!("seed {seed}: {steps} of {rows} flagged, {moved} a window");
+        assert!(rows > 100 && moved > 1.1e-3, "{rows}, {moved}");
+        assert!(steps <= 1, "seed {seed}: {steps} of {rows}");
+
+        let at = found[60].start as usize;
+        let mut core = Core::new(windows(50)).unwrap();
+        let mut found: Vec<Estimate> = Vec::new();
+        core.extend(&one[..at], |e| found.push(e));
+        let beyond: Vec<_> = one[at..].iter().map(|[c, d]| [*c, d + 0.01]).collect();
+        core.extend(&beyond, |e| found.push(e));
+        assert_eq!(found[60].flags, Flags::STEP, "seed {seed}");
+    }
+}
+
+#[test]
 fn a_step_of_the_phase_is_a_jump() {
     for seed in 0..10 {
         for step in [0.1, -0.1, 1.0, -3.0] {

@@ -8,7 +8,7 @@ use super::checks::SIGMAS;
 use super::record::{Amplitude, Record};
 use crate::estimate::Flags;
 use crate::exponential::exponential;
-use crate::scalar::{greater, long};
+use crate::scalar::{greater, lesser, long};
 
 /// Below this share of a_A a step of an amplitude or an offset between windows is no fault.
 const AMPLITUDE_FLOOR: f32 = 2e-3;
@@ -19,7 +19,14 @@ const PHASE_FLOOR: f32 = 0.02;
 
 /// Tests of a window against the clean one before; of an angle that is known modulo π/2 only, and the phase that goes with it, nothing
 /// is asked.
-pub(super) fn flags(before: &Record, now: &Record, knows_angle: bool) -> Flags {
+///
+/// `offset_rates` are by how much the offsets had moved to the window before, a sample, and become those to this one.
+pub(super) fn flags(
+    before: &Record,
+    now: &Record,
+    offset_rates: &mut [f32; 2],
+    knows_angle: bool,
+) -> Flags {
     let passed = Passed::new(before, now);
     let phase = wrap(now.phase_advance(before));
     let phase_variance = passed.variance(
@@ -40,13 +47,16 @@ pub(super) fn flags(before: &Record, now: &Record, knows_angle: bool) -> Flags {
         ),
         ANGLE_FLOOR,
     );
-    let offsets = (0..2).any(|i| {
-        beyond(
-            now.offsets[i] - before.offsets[i],
-            now.offset_variance + before.offset_variance,
-            amplitude_floor,
-        )
-    });
+    let offset_variance = now.offset_variance + before.offset_variance;
+    let mut step = 0.0;
+    for (i, rate) in offset_rates.iter_mut().enumerate() {
+        let moved = now.offsets[i] - before.offsets[i];
+        // One that goes on as it went before wanders, and does not step.
+        let beside = moved - *rate * passed.samples;
+        *rate = moved / passed.samples;
+        step = greater(lesser(moved.abs(), beside.abs()), step);
+    }
+    let offsets = beyond(step, offset_variance, amplitude_floor);
     Flags::empty()
         .with_if(knows_angle && jump, Flags::PHASE_JUMP)
         .with_if(knows_angle && angle || offsets, Flags::STEP)
@@ -84,7 +94,7 @@ impl Passed {
         ];
         Self {
             samples,
-            half: 0.5 * now.samples as f32,
+            half: 0.5 * now.samples.get() as f32,
             growth,
             factor: exponential(0.5 * (growth[0] + growth[1]) * samples),
         }

@@ -19,9 +19,9 @@ pub(super) struct Coding {
 
 impl Coding {
     /// Errors that repeat with the wave do not average: one that visits Q distinct phases has Q errors of step²/12, not one a sample.
-    /// Noise breaks them up as exp(−4π²σ²/step²).
+    /// Noise breaks them up as exp(−4π²σ²/step²): `noise` is its variance, and the least that it may be where these errors are in that.
     #[inline]
-    pub(super) fn new(settings: &Settings, noise: f32, model: &Model, fit: &Fit) -> Self {
+    pub(super) fn new(settings: &Settings, noise: [f32; 2], model: &Model, fit: &Fit) -> Self {
         match settings.resolution {
             Some(step) => Self::of_step(step, noise, model, fit),
             None => Self::default(),
@@ -29,14 +29,14 @@ impl Coding {
     }
 
     #[inline(never)]
-    fn of_step(step: f32, noise: f32, model: &Model, fit: &Fit) -> Self {
+    fn of_step(step: f32, [noise, least]: [f32; 2], model: &Model, fit: &Fit) -> Self {
         let square = step * step;
         let own = square / 12.0;
         // The steps' own noise does not break up anything.
-        let apart = greater(noise - own, 0.0);
-        let repeated = exponential(-39.5 * apart / square);
+        let share = |noise: f32| exponential(-39.5 * greater(noise - own, 0.0) / square);
+        let repeated = share(noise);
         let white = greater(own - noise, 0.0);
-        let most = white + 0.09 * square * repeated * model.half;
+        let most = white + 0.09 * square * share(least) * model.half;
         let mut expected = white;
         if repeated > 1e-3 {
             let samples = 2.0 * model.half;
@@ -76,9 +76,11 @@ fn phases(frequency: PhaseStep, samples: f32, width: f32) -> f32 {
 
 /// Deviations of the noise that a sample may lie beyond the wave: less than one in 10¹⁴ lies further.
 const SIGMAS: f32 = 8.0;
-/// Deviations of the noise that samples of every block may lie beyond a first window's wave, and a quarter of that wave besides: those of a
-/// wave at another frequency lie further, though its sums look like so much noise.
-const SIGMAS_OF_ALL: f32 = 4.0;
+/// Deviations of the noise that samples of every block may lie beyond a wave that is the first or hardly louder than its noise, and a
+/// share of it besides: those of a wave at another frequency lie further, though its sums look like so much noise.
+const SIGMAS_OF_ALL: f32 = 3.5;
+/// That share, and of how much noise.
+const LOUD: f32 = 0.25;
 /// How far samples may lie beyond the wave and its noise, as a share of a_A: common electronics have harmonics.
 const BEYOND: f32 = 0.01;
 
@@ -110,11 +112,19 @@ pub(super) fn sample_flags(
             // The samples of a run span one less than there are, and noise of a step makes a crest wider by chance.
             let crest = greater(step.period() / 16.0, 1.0) + 1.5;
             let crest = crest as u16;
-            range.longest > crest && range.is_flat(blocks, wave.record.main.value, crest)
+            let arc = f32::from(crest) * step.radians();
+            range.longest > crest
+                && range.is_flat(
+                    blocks,
+                    wave.record.main.value,
+                    crest,
+                    [arc, square_root(noise)],
+                )
         };
     let (main, deviation) = (wave.record.main.value, square_root(noise));
     let misfit = range.is_beyond(fit, SIGMAS * deviation + BEYOND * main)
-        || is_first && are_all_beyond(blocks, fit, SIGMAS_OF_ALL * deviation + 0.25 * main);
+        || (is_first || deviation > LOUD * main)
+            && are_all_beyond(blocks, fit, SIGMAS_OF_ALL * deviation + LOUD * main);
     flags
         .with_if(clipped, Flags::CLIPPED)
         .with_if(misfit, Flags::MISFIT)
@@ -152,42 +162,49 @@ impl Range {
         range
     }
 
-    /// True when more samples of a pick-off in a row than a crest has were equal to an end of a range wider than `main`.
+    /// True when more samples of a pick-off in a row than a crest has were equal to an end of a range wider than `main`: twice, or so many
+    /// that noise does not make them so. `arc` is the angle of the wave from their first to their last.
     #[cold]
     #[inline(never)]
-    fn is_flat(&self, blocks: &[Seen], main: f32, crest: u16) -> bool {
-        let watched = blocks.iter().filter_map(|block| block.watched.as_ref());
-        watched.map(|watched| &watched.extremes).any(|extremes| {
-            (0..2).any(|i| {
-                let (low, high, seen) = (self.low[i], self.high[i], &extremes[i]);
-                let above = seen.high == high && (seen.runs >> 16) as u16 > crest;
-                let below = seen.low == low && seen.runs as u16 > crest;
-                high - low > main && (above || below)
-            })
-        })
+    fn is_flat(&self, blocks: &[Seen], main: f32, crest: u16, [arc, deviation]: [f32; 2]) -> bool {
+        let mut ends = 0;
+        for watched in blocks.iter().filter_map(|block| block.watched.as_ref()) {
+            for (i, seen) in watched.extremes.iter().enumerate() {
+                let (low, high) = (self.low[i], self.high[i]);
+                if high - low > main {
+                    let above = seen.high == high && (seen.runs >> 16) as u16 > crest;
+                    let below = seen.low == low && seen.runs as u16 > crest;
+                    ends += u32::from(above) + u32::from(below);
+                }
+            }
+        }
+        // A crest is that much lower at its ends; three samples are equal by chance where seven deviations of theirs make it up.
+        let drop = 0.125 * arc * arc * main;
+        ends > u32::from(drop < SIGMAS * deviation)
     }
 
     /// True when samples lie `apart` beyond the wave: what does is not of it, but a tone, say, that the sums of whole blocks do not see.
     #[inline(always)]
     fn is_beyond(&self, fit: &Fit, apart: f32) -> bool {
-        (0..2).any(|i| is_beyond(fit, i, self.low[i], self.high[i], apart))
+        (0..2).any(|i| is_beyond(fit, i, [self.low[i], self.high[i]], apart, 4.0))
     }
 }
 
 /// True when samples of every block lie `apart` beyond the wave.
 #[cold]
 #[inline(never)]
-fn are_all_beyond(blocks: &[Seen], fit: &Fit, apart: f32) -> bool {
-    let mut watched = blocks.iter().filter_map(|block| block.watched.as_ref());
-    watched.all(|watched| {
-        let mut extremes = (0..2).zip(&watched.extremes);
-        extremes.any(|(i, seen)| is_beyond(fit, i, seen.low, seen.high, apart))
+pub(super) fn are_all_beyond(blocks: &[Seen], fit: &Fit, apart: f32) -> bool {
+    blocks.iter().all(|block| {
+        block.watched.as_ref().is_some_and(|watched| {
+            let mut extremes = (0..2).zip(&watched.extremes);
+            extremes.any(|(i, seen)| is_beyond(fit, i, [seen.low, seen.high], apart, 1.5))
+        })
     })
 }
 
-/// True when samples of pick-off `i` from `low` to `high` lie `apart` beyond the wave.
+/// True when samples of pick-off `i` from `low` to `high` lie `apart` beyond the wave, and so many times the rms of its hum.
 #[inline(never)]
-fn is_beyond(fit: &Fit, i: usize, low: f32, high: f32, apart: f32) -> bool {
+fn is_beyond(fit: &Fit, i: usize, [low, high]: [f32; 2], apart: f32, hum: f32) -> bool {
     let offset = fit.offsets[i & 1];
     let (rest, reach) = (
         greater(high - offset, offset - low) - apart,
@@ -196,8 +213,7 @@ fn is_beyond(fit: &Fit, i: usize, low: f32, high: f32, apart: f32) -> bool {
     if rest <= 0.0 || rest * rest <= reach {
         return false;
     }
-    // Hum lies as far beyond again.
-    let rest = rest - 4.0 * square_root(fit.remains.wander[i & 1]);
+    let rest = rest - hum * square_root(fit.remains.wander[i & 1]);
     rest > 0.0 && rest * rest > reach
 }
 

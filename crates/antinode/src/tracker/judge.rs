@@ -33,7 +33,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let of_offsets = if model.layout.scale == 0 { whole } else { 1.0 };
         let [c, d] = fit.offsets;
         let rounding = 1e-14 * (whole * fit.waves.power() + of_offsets * (c * c + d * d));
-        let coding = Coding::new(&self.settings, noise, model, fit);
+        let least = self.noise.least(noise);
+        let coding = Coding::new(&self.settings, [noise, least], model, fit);
         // Of a tiny wave the rounding's square is 0 in f32, and 0 over 0 is no share.
         let errors = rounding + coding.expected + f32::MIN_POSITIVE;
         let share = (stated + errors) / (noise + errors);
@@ -60,7 +61,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
 
         let (expected, is_certain) = match &self.before {
-            Some(before) => before.angle_at(wave.record.middle, wave.record.samples),
+            Some(before) => before.angle_at(wave.record.middle, wave.record.samples.get()),
             None => (self.angle, true),
         };
         let record = &mut wave.record;
@@ -95,9 +96,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             greater(own, wave.noise),
             self.before.is_none(),
         ));
-        let mut between = Flags::empty();
+        let (mut between, mut offset_rates) = (Flags::empty(), self.offset_rates);
         if let Some(before) = &self.before {
-            between = between::flags(before, &wave.record, is_certain);
+            between = between::flags(before, &wave.record, &mut offset_rates, is_certain);
             // A circular pattern has neither an angle nor a phase of its own.
             if !flags.intersects(Flags::CIRCULAR.with(Flags::LOST)) {
                 flags = flags.with(between);
@@ -130,7 +131,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
 
         let left = |before: &Record| record.main.value < LEFT * before.main.value;
         let is_left = self.before.as_ref().is_some_and(left);
-        let is_little = is_no_wave || is_left;
+        // A wave elsewhere, too: its sums are like so little of one here, but its samples are not.
+        let is_elsewhere = flags.contains(Flags::MISFIT)
+            && converter::are_all_beyond(self.gathered.blocks(), fit, record.main.value);
+        let is_little = is_no_wave || is_left || is_elsewhere;
         if is_left || checks::is_hidden(wave) || flags.contains(Flags::DEAD_CHANNEL) {
             // No new level of noise takes the wave away, or a pick-off.
             self.noise.refuse_none();
@@ -151,6 +155,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             record.drift
         };
         self.remember(record, flags, between, drift);
+        if !self.broken {
+            self.offset_rates = offset_rates;
+        }
         Some(flags)
     }
 
@@ -192,7 +199,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         if !flags.contains(Flags::CIRCULAR) {
             self.trend.keep(
                 record.middle,
-                record.samples,
+                record.samples.get(),
                 record.angle,
                 record.angle_variance,
             );

@@ -48,6 +48,8 @@ pub struct Tracker<const BLOCKS: usize> {
     trend: Trend,
     /// The last clean window.
     before: Option<Record>,
+    /// By how much the offsets had moved to that from the one before it, a sample; 0 where none was.
+    offset_rates: [f32; 2],
     /// The angle of the last window that had one: continuity is kept over faults.
     angle: Angle,
     /// True from the loss of a wave to the first window after it.
@@ -86,6 +88,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             noise: Noise::NONE,
             trend: Trend::new(),
             before: None,
+            offset_rates: [0.0; 2],
             angle: Angle::ZERO,
             lost: false,
             ever: false,
@@ -322,6 +325,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.noise = Noise::NONE;
         self.trend.clear();
         self.before = None;
+        self.offset_rates = [0.0; 2];
         self.lost = self.ever;
         self.failures = Failures::NONE;
     }

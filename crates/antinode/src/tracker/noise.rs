@@ -69,6 +69,16 @@ impl Noise {
         ]
     }
 
+    /// The lesser of `variance` and that of the windows before.
+    #[inline(always)]
+    pub(super) fn least(&self, variance: f32) -> f32 {
+        if self.freedom > 0.0 {
+            lesser(variance, self.variance)
+        } else {
+            variance
+        }
+    }
+
     /// Takes a window of `blocks` that raised its residual, and in nothing else differs; `advance` of them are not in the next one.
     pub(super) fn refuse(&mut self, advance: u16, blocks: u16) {
         self.refused += u32::from(advance);

@@ -1,5 +1,7 @@
 //! One window as the tracker remembers it: values at its middle, rates a sample, variances.
 
+use core::num::NonZeroU32;
+
 use super::angle::Angle;
 use crate::arch::square_root;
 use crate::double::{self, reciprocal, scaled, to_single};
@@ -58,7 +60,7 @@ pub(crate) struct Record {
     /// Middle of the window, half samples from the start of the stream.
     pub middle: u64,
     /// Sample pairs of the window.
-    pub samples: u32,
+    pub samples: NonZeroU32,
     /// What this window alone leaves, as a noise variance a sample.
     pub residual: f32,
     /// Variances that are stated over those here, which tests take.
@@ -111,8 +113,8 @@ impl Record {
         let [main, quadrature, of_angle, phase, drift, turning, decay] = stated;
         let per_amplitude = rate / self.main.value;
         Estimate {
-            start: (self.middle + 1 - u64::from(self.samples)) / 2,
-            samples: self.samples,
+            start: (self.middle + 1 - u64::from(self.samples.get())) / 2,
+            samples: self.samples.get(),
             time,
             main_amplitude: self.main.value,
             quadrature_amplitude: self.quadrature.value,

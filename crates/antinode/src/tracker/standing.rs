@@ -3,6 +3,8 @@
 //! z₊ = (a_A + a_B)·e^{j(2θ−α)} and z₋ = (a_A − a_B)·e^{−j(2θ+α)}. Hence a_A = (|z₊|+|z₋|)/2, a_B = (|z₊|−|z₋|)/2,
 //! 4θ = arg z₊ − arg z₋, 2α = −arg z₊ − arg z₋, with no cancellation and the right quadrant.
 
+use core::num::NonZeroU32;
+
 use num_complex::Complex32;
 
 use super::angle::Angle;
@@ -153,7 +155,7 @@ impl Standing {
             record: Record {
                 middle,
                 angle_middle: middle,
-                samples,
+                samples: NonZeroU32::new(samples).unwrap_or(NonZeroU32::MIN),
                 residual,
                 share,
                 carrier: model.carrier,

@@ -118,6 +118,18 @@ fn the_filter_takes_noise_and_harmonics() {
 }
 
 #[test]
+fn a_grid_follows_a_period_that_can_be_and_no_other() {
+    let mut regrid = Regrid::<32>::new(18.75, 20, 2.0).unwrap();
+    for period in [2.4, 1000.5, 0.0, f32::NAN] {
+        let refused = regrid.retune(period);
+        assert!(matches!(refused, Err(RegridError::Period(_))), "{period}");
+        assert_eq!(regrid.step(), 0.9375);
+    }
+    regrid.retune(18.8).unwrap();
+    assert!((regrid.step() - 0.94).abs() < 1e-7);
+}
+
+#[test]
 fn grids_that_cannot_be_are_refused() {
     assert_eq!(
         Regrid::<32>::new(1.0, 20, 2.0).err(),

@@ -100,7 +100,7 @@ pub fn number(row: &StringRecord, place: usize) -> Option<f64> {
 
 /// The flags in a row's column of that name; those of no known name are none.
 pub fn flags(column: &str) -> Flags {
-    let flags = column.split('+').filter_map(Flags::of_name);
+    let flags = column.split('+').filter_map(Flags::from_name);
     flags.fold(Flags::empty(), Flags::with)
 }
 

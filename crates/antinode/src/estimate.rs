@@ -14,22 +14,23 @@ impl Flags {
     pub const LOST: Self = Self(1 << 1);
     /// The phase does not continue that of the last window that was free of a misfit: samples are missing between or within them.
     pub const PHASE_JUMP: Self = Self(1 << 2);
-    /// Amplitude, angle or offset stepped between the window before and this one. What a step must be lies beyond 0.2 % of a_A or 2 mrad, in
-    /// deviations that the window states: half of 20 are seen, and all of 30. In the middle of a window, where it is a misfit too, of an
-    /// amplitude 25 and 35, and of the angle, which may be a turn, 60 and 85.
+    /// Amplitude, angle or offset stepped between the window before and this one. Beyond 0.2 % of a_A or 2 mrad, half of the steps of 20
+    /// deviations that the window states are flagged, and all of 30; in the middle of a window, where [`MISFIT`](Self::MISFIT) may stand
+    /// instead, those of an amplitude from 25 and 35 deviations on, and of the angle, which may be a turn, from 60 and 85. An offset that
+    /// moves on as it did from window to window before wanders, and does not step.
     pub const STEP: Self = Self(1 << 3);
-    /// |a_A| ≈ |a_B|: the pattern is circular and the angle has no meaning.
+    /// |a_B| ≈ a_A: the pattern is circular, and the angle has no meaning.
     pub const CIRCULAR: Self = Self(1 << 4);
     /// The samples are not one wave with steady rates plus noise: a step, a dropout, a second tone within the window.
     pub const MISFIT: Self = Self(1 << 5);
-    /// One pick-off gave one and the same value for the whole window, or lost its wave while the other kept it: half of those that showed
-    /// 25 deviations of an amplitude are seen, and all of 35. After a new search a dead one cannot be told from a pattern on the other's axis,
-    /// and is not flagged.
+    /// One pick-off gave one and the same value for the whole window, or lost its wave while the other kept it: of pick-offs that had shown
+    /// 25 deviations of an amplitude half are flagged, and of 35 all. After a new search a dead one cannot be told from a pattern on the
+    /// other's axis, and is not flagged.
     pub const DEAD_CHANNEL: Self = Self(1 << 6);
     /// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
     /// only. Also the first window after a change of calibration or settings, unless it is the first of all.
     pub const REACQUIRED: Self = Self(1 << 7);
-    /// A sample is NaN or infinite.
+    /// A sample is NaN or infinite, or so large that its square is.
     pub const NOT_FINITE: Self = Self(1 << 8);
 
     const NAMES: [&'static str; 9] = [
@@ -88,7 +89,7 @@ impl Flags {
     }
 
     /// The flag of this name, as [`names`](Self::names) gives it.
-    pub fn of_name(name: &str) -> Option<Self> {
+    pub fn from_name(name: &str) -> Option<Self> {
         let bit = Self::NAMES.iter().position(|one| *one == name)?;
         Some(Self(1 << bit))
     }

@@ -113,7 +113,6 @@ impl<S: Sample, const N: usize> Front<S, N> {
     ///
     /// Those of [`Front::new`]; nothing is changed then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
-        settings.check(usize::from(u16::MAX))?;
         Self::check(&settings)?;
         self.set(&settings);
         Ok(())
@@ -130,8 +129,27 @@ impl<S: Sample, const N: usize> Front<S, N> {
         self.start();
     }
 
+    /// Checks settings as [`new`](Self::new) does, in a constant too:
+    ///
+    /// ```
+    /// use antinode::{Front, Settings};
+    ///
+    /// const SETTINGS: Settings = Settings { frequency: Some(5_332.0), ..Settings::new(100_000.0) };
+    /// const _: () = assert!(Front::<i16, 40>::check(&SETTINGS).is_ok());
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of [`new`](Self::new).
+    pub const fn check(settings: &Settings) -> Result<(), SettingsError> {
+        match settings.check(u16::MAX as usize) {
+            Ok(()) => Self::check_period(settings),
+            Err(error) => Err(error),
+        }
+    }
+
     /// Refuses a known frequency of which no block holds a period.
-    pub(crate) fn check(settings: &Settings) -> Result<(), SettingsError> {
+    pub(crate) const fn check_period(settings: &Settings) -> Result<(), SettingsError> {
         match (settings.frequency, settings.period()) {
             (Some(frequency), Some(period)) if !Self::holds(period) => {
                 Err(SettingsError::Frequency(frequency))
@@ -141,7 +159,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     }
 
     /// True where a block has room for a period: the ring of blocks is made for that.
-    fn holds(period: f32) -> bool {
+    const fn holds(period: f32) -> bool {
         period < N as f32 + 0.5
     }
 

@@ -100,12 +100,7 @@ impl<const TAPS: usize> Regrid<TAPS> {
     ///
     /// The first value, or `TAPS`, that cannot be.
     pub fn new(period: f32, per_period: u16, cut_off: f32) -> Result<Self, RegridError> {
-        if !(2.5..=1000.0).contains(&period) {
-            return Err(RegridError::Period(period));
-        }
-        if !(3..=1000).contains(&per_period) {
-            return Err(RegridError::PerPeriod(per_period));
-        }
+        let step = Self::step_of(period, per_period)?;
         // Above half of either rate there is nothing to pass.
         if !(cut_off > 1.0 && cut_off <= 0.5 * period.min(f32::from(per_period))) {
             return Err(RegridError::CutOff(cut_off));
@@ -117,7 +112,7 @@ impl<const TAPS: usize> Regrid<TAPS> {
             rows: [[0.0; TAPS]; PLACES + 1],
             line: [[0.0; 2]; TAPS],
             oldest: 0,
-            step: 0,
+            step,
             // The line is filled first: the first output stands at input sample TAPS/2 − 1.
             ahead: (TAPS as u64) << 32,
             per_period,
@@ -125,14 +120,29 @@ impl<const TAPS: usize> Regrid<TAPS> {
         for (place, row) in regrid.rows.iter_mut().enumerate() {
             fill(row, place as f32 / PLACES as f32, period, cut_off);
         }
-        regrid.retune(period);
         Ok(regrid)
     }
 
     /// Follows a wave whose period moved to `period` input samples. The filter stays: valid within 1 % of the first period.
-    pub fn retune(&mut self, period: f32) {
-        let step = f64::from(period) / f64::from(self.per_period);
-        self.step = (step * 4_294_967_296.0) as u64;
+    ///
+    /// # Errors
+    ///
+    /// A period outside 2.5 to 1000 samples; nothing is changed then.
+    pub fn retune(&mut self, period: f32) -> Result<(), RegridError> {
+        self.step = Self::step_of(period, self.per_period)?;
+        Ok(())
+    }
+
+    /// Input samples from one output to the next, in units of 2⁻³².
+    fn step_of(period: f32, per_period: u16) -> Result<u64, RegridError> {
+        if !(2.5..=1000.0).contains(&period) {
+            return Err(RegridError::Period(period));
+        }
+        if !(3..=1000).contains(&per_period) {
+            return Err(RegridError::PerPeriod(per_period));
+        }
+        let step = f64::from(period) / f64::from(per_period);
+        Ok((step * 4_294_967_296.0) as u64)
     }
 
     /// Input samples from one output to the next.
@@ -151,8 +161,7 @@ impl<const TAPS: usize> Regrid<TAPS> {
             self.oldest = 0;
         }
         self.ahead = self.ahead.saturating_sub(1 << 32);
-        // A period too short to be one would never end.
-        while self.ahead >> 32 == 0 && self.step > 0 {
+        while self.ahead >> 32 == 0 {
             report(self.output());
             self.ahead += self.step;
         }

@@ -40,7 +40,7 @@ impl Visitor<'_> for Names {
     fn visit_str<E: Error>(self, text: &str) -> Result<Flags, E> {
         let mut names = text.split('+').filter(|name| !name.is_empty());
         names.try_fold(Flags::empty(), |flags, name| {
-            let flag = Flags::of_name(name);
+            let flag = Flags::from_name(name);
             flag.map(|flag| flags.with(flag))
                 .ok_or_else(|| E::invalid_value(Unexpected::Str(name), &self))
         })

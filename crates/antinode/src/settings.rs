@@ -52,7 +52,7 @@ pub enum Detection {
 pub struct Settings {
     /// Sample rate in Hz, 10⁻³ to 10¹².
     pub sample_rate: f64,
-    /// Length of a window in periods, from 2 to the ring's blocks less 2; 10 unless changed. A window is a whole number of blocks,
+    /// Length of a window in periods, from 2 to the ring's blocks less 2, 60 000 at most; 10 unless changed. A window is a whole number of blocks,
     /// up to a tenth off this length: a block has up to two periods, or a fifth of the window where that is less.
     pub periods: u16,
     /// Blocks from the start of one window to the start of the next, 1 or more. Blocks are then half as long, so that windows move
@@ -101,7 +101,7 @@ pub enum SettingsError {
     PeriodsTooMany {
         /// The periods asked for.
         periods: u16,
-        /// The most that the ring holds.
+        /// The most that the ring holds: its blocks less 2, or 60 000.
         most: u16,
     },
     /// A hop of no blocks.
@@ -157,7 +157,7 @@ impl fmt::Display for SettingsError {
             Self::Frequency(frequency) => {
                 write!(
                     f,
-                    "frequency {frequency} Hz: it must have 2.5 samples a period or more, and no more than a block holds"
+                    "frequency {frequency} Hz: it must lie below 0.4 of the sample rate, and a period must fit in a block"
                 )
             }
             Self::GainRatio(ratio) => write!(f, "gain ratio {ratio}: it must lie within 0.1 to 10"),
@@ -216,7 +216,8 @@ impl Settings {
         }
     }
 
-    /// Checks every value for a ring of `blocks`, the `BLOCKS` of a [`Tracker`](crate::Tracker).
+    /// Checks every value for a ring of `blocks`, the `BLOCKS` of a [`Tracker`](crate::Tracker). Whether a block holds a period of a known
+    /// frequency is what [`Front::check`](crate::Front::check) asks.
     ///
     /// ```
     /// use antinode::Settings;

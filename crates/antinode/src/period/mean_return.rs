@@ -102,7 +102,7 @@ impl MeanReturnDetector {
 
     /// Forgets all samples.
     #[inline(never)]
-    pub(crate) fn restart(&mut self) {
+    pub fn restart(&mut self) {
         self.stage = Self::START;
         self.time = 0;
     }

@@ -39,6 +39,8 @@ pub enum CommandError {
     Settings(SettingsError),
     /// This firmware was built without what is asked.
     Unsupported,
+    /// The paper's methods, beside a calibration: they know of none. Turn them off, or set the ideal one.
+    Calibrated,
     /// Another change is under way: ask again in a moment.
     Busy,
 }
@@ -54,6 +56,9 @@ impl fmt::Display for CommandError {
         match self {
             Self::Settings(error) => error.fmt(f),
             Self::Unsupported => f.write_str("this firmware was built without it"),
+            Self::Calibrated => f.write_str(
+                "the paper's methods know of no calibration: turn them off, or the calibration",
+            ),
             Self::Busy => f.write_str("another change is under way: ask again in a moment"),
         }
     }

@@ -169,6 +169,7 @@ fn reports() -> Vec<Report> {
     let mut results = vec![
         Ok(()),
         Err(CommandError::Unsupported),
+        Err(CommandError::Calibrated),
         Err(CommandError::Busy),
     ];
     results.extend(errors.map(|error| Err(CommandError::Settings(error))));
@@ -203,7 +204,7 @@ fn the_bytes_of_every_message_are_those_of_the_version() {
     let sum = crc::Crc::<u64>::new(&crc::CRC_64_XZ).checksum(&wire);
     assert_eq!(
         (PROTOCOL_VERSION, wire.len(), sum),
-        (4, 2197, 13371525645850048273),
+        (5, 2210, 1627856327088612132),
         "where the bytes differ and the version does not, count PROTOCOL_VERSION up; then put in what is on the left"
     );
 }

@@ -61,9 +61,14 @@ impl<S: Sample> Instrument<'_, S> {
 
     /// The methods are to be built in, and know of no calibration.
     fn check_methods(&self, on: bool, calibration: &Calibration) -> Result<(), CommandError> {
-        if on && !(AVAILABLE && *calibration == Calibration::IDEAL) {
-            return Err(CommandError::Unsupported);
+        if !on {
+            Ok(())
+        } else if !AVAILABLE {
+            Err(CommandError::Unsupported)
+        } else if *calibration != Calibration::IDEAL {
+            Err(CommandError::Calibrated)
+        } else {
+            Ok(())
         }
-        Ok(())
     }
 }

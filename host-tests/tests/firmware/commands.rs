@@ -41,7 +41,7 @@ fn settings_are_changed_or_refused() {
         ),
         (
             Command::SetMethods { on: true },
-            Err(CommandError::Unsupported),
+            Err(CommandError::Calibrated),
         ),
         (Command::Get, Ok(())),
     ];

@@ -255,7 +255,7 @@ fn methods_and_a_calibration_exclude_each_other() {
         ..Calibration::IDEAL
     });
     let on = |on| Command::SetMethods { on };
-    let refused = Err(CommandError::Unsupported);
+    let refused = Err(CommandError::Calibrated);
     let script = [
         (on(true), Ok(())),
         (calibration, refused),

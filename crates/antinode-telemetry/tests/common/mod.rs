@@ -157,6 +157,7 @@ fn counters() -> impl Strategy<Value = Counters> {
 fn command_error() -> impl Strategy<Value = CommandError> {
     prop_oneof![
         Just(CommandError::Unsupported),
+        Just(CommandError::Calibrated),
         Just(CommandError::Busy),
         (0..11, single(), double(), any::<(u16, u16)>()).prop_map(|(kind, s, d, (n, most))| {
             CommandError::Settings(match kind {

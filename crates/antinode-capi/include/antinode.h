@@ -115,7 +115,7 @@
 // The version of this header: major x 65536 + minor x 256 + patch.
 #define ANTINODE_VERSION 256u
 
-// What a function answers: below zero nothing was done, except where it says so.
+// What a function answers: from zero on it was done, below zero nothing was.
 enum
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
     antinode_status_t : int32_t
@@ -123,10 +123,13 @@ enum
  {
     // Done.
     ANTINODE_OK = 0,
-    // Done, and finished blocks wait for a `_solve` function. They do after ANTINODE_ERROR_QUEUE_FULL too: wake a thread at either.
+    // Done, and finished blocks wait for a `_solve` function.
     ANTINODE_READY = 1,
     // Done, and an estimate was written.
     ANTINODE_ESTIMATE = 2,
+    // Done, and blocks wait as after ANTINODE_READY; but the queue was full and at least one finished block was dropped, a gap as by a
+    // `_skip` function: call `_solve` more often, or push fewer pairs at once, see ANTINODE_QUEUE_BLOCKS.
+    ANTINODE_DROPPED = 3,
     // A pointer is NULL.
     ANTINODE_ERROR_NULL = -1,
     // A pointer is not aligned as its type demands.
@@ -135,10 +138,6 @@ enum
     ANTINODE_ERROR_NOT_INITIALISED = -3,
     // An array would be larger than the address space.
     ANTINODE_ERROR_COUNT = -4,
-    // The pairs were taken, but the queue was full and at least one finished block was dropped, a gap as by a `_skip` function: call
-    // `_solve` more often, or push fewer pairs at once, see ANTINODE_QUEUE_BLOCKS. Blocks wait as after ANTINODE_READY, which is not told
-    // then: wake a thread at either.
-    ANTINODE_ERROR_QUEUE_FULL = -5,
     // `sample_rate_hz` is not within 1 to 1e10.
     ANTINODE_ERROR_SAMPLE_RATE = -10,
     // `periods` is not within 2 to ANTINODE_MOST_PERIODS.
@@ -275,8 +274,8 @@ typedef struct {
     float angle_rate_std_rad_s;
     // Standard deviation of the decay rate, 1/s.
     float decay_rate_std_s;
-    // Rms of what the wave does not explain, a sample and channel, input units: the noise when it is white. Of S_D after its correction
-    // by the calibration.
+    // Rms of what the wave does not explain, a sample and channel, input units: the noise when it is white. Of S_D as it came: before
+    // `gain_ratio` is applied.
     float residual_rms;
     // Always 0: the struct ends at a multiple of eight bytes on every machine.
     uint32_t reserved;
@@ -315,7 +314,7 @@ antinode_status_t antinode_fixed_init(antinode_fixed_t *state,
 antinode_status_t antinode_fixed_reset(antinode_fixed_t *state);
 
 // Interrupt side. Takes one sample pair, converter codes. ANTINODE_OK; ANTINODE_READY when it finished a block;
-// ANTINODE_ERROR_QUEUE_FULL when that block had to be dropped.
+// ANTINODE_DROPPED when that block had to be dropped.
 antinode_status_t antinode_fixed_push(antinode_fixed_t *state, int16_t c, int16_t d);
 
 // Interrupt side. Takes `count` sample pairs from two arrays, converter codes. Answers as antinode_fixed_push().
@@ -372,7 +371,7 @@ antinode_status_t antinode_float_init(antinode_float_t *state,
 antinode_status_t antinode_float_reset(antinode_float_t *state);
 
 // Interrupt side. Takes one sample pair, in any unit. ANTINODE_OK; ANTINODE_READY when it finished a block;
-// ANTINODE_ERROR_QUEUE_FULL when that block had to be dropped.
+// ANTINODE_DROPPED when that block had to be dropped.
 antinode_status_t antinode_float_push(antinode_float_t *state, float c, float d);
 
 // Interrupt side. Takes `count` sample pairs from two arrays, in any unit. Answers as antinode_float_push().

@@ -215,9 +215,7 @@ pub(crate) unsafe fn push_separate<S: Arithmetic, O>(
                     core::slice::from_raw_parts(first, c.len().min(d.len())),
                 )
             };
-            if one == Status::ErrorQueueFull || all == Status::Ok {
-                all = one;
-            }
+            all = all.max(one);
         }
         Ok(all)
     })())

@@ -92,8 +92,8 @@ pub struct Estimate {
     pub angle_rate_std_rad_s: f32,
     /// Standard deviation of the decay rate, 1/s.
     pub decay_rate_std_s: f32,
-    /// Rms of what the wave does not explain, a sample and channel, input units: the noise when it is white. Of S_D after its correction
-    /// by the calibration.
+    /// Rms of what the wave does not explain, a sample and channel, input units: the noise when it is white. Of S_D as it came: before
+    /// `gain_ratio` is applied.
     pub residual_rms: f32,
     /// Always 0: the struct ends at a multiple of eight bytes on every machine.
     pub reserved: u32,

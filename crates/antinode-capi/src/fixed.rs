@@ -35,7 +35,7 @@ pub unsafe extern "C" fn antinode_fixed_reset(state: *mut Fixed) -> Status {
 }
 
 /// Interrupt side. Takes one sample pair, converter codes. ANTINODE_OK; ANTINODE_READY when it finished a block;
-/// ANTINODE_ERROR_QUEUE_FULL when that block had to be dropped.
+/// ANTINODE_DROPPED when that block had to be dropped.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_push(state: *mut Fixed, c: i16, d: i16) -> Status {
     boundary::push(state, [c, d])

@@ -35,7 +35,7 @@ pub unsafe extern "C" fn antinode_float_reset(state: *mut Float) -> Status {
 }
 
 /// Interrupt side. Takes one sample pair, in any unit. ANTINODE_OK; ANTINODE_READY when it finished a block;
-/// ANTINODE_ERROR_QUEUE_FULL when that block had to be dropped.
+/// ANTINODE_DROPPED when that block had to be dropped.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_float_push(state: *mut Float, c: f32, d: f32) -> Status {
     boundary::push(state, [c, d])

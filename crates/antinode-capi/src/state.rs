@@ -112,7 +112,7 @@ impl<S: Sample> Shared<S> {
     pub(crate) fn status_since(&self, before: [u32; 2]) -> Status {
         let [queued, dropped] = self.counts();
         if dropped != before[1] {
-            Status::ErrorQueueFull
+            Status::Dropped
         } else if queued != before[0] {
             Status::Ready
         } else {

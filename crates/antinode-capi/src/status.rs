@@ -4,16 +4,19 @@ use core::ffi::{CStr, c_char};
 
 use antinode::SettingsError;
 
-/// What a function answers: below zero nothing was done, except where it says so.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What a function answers: from zero on it was done, below zero nothing was.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(i32)]
 pub enum Status {
     /// Done.
     Ok = 0,
-    /// Done, and finished blocks wait for a `_solve` function. They do after ANTINODE_ERROR_QUEUE_FULL too: wake a thread at either.
+    /// Done, and finished blocks wait for a `_solve` function.
     Ready = 1,
     /// Done, and an estimate was written.
     Estimate = 2,
+    /// Done, and blocks wait as after ANTINODE_READY; but the queue was full and at least one finished block was dropped, a gap as by a
+    /// `_skip` function: call `_solve` more often, or push fewer pairs at once, see ANTINODE_QUEUE_BLOCKS.
+    Dropped = 3,
     /// A pointer is NULL.
     ErrorNull = -1,
     /// A pointer is not aligned as its type demands.
@@ -22,10 +25,6 @@ pub enum Status {
     ErrorNotInitialised = -3,
     /// An array would be larger than the address space.
     ErrorCount = -4,
-    /// The pairs were taken, but the queue was full and at least one finished block was dropped, a gap as by a `_skip` function: call
-    /// `_solve` more often, or push fewer pairs at once, see ANTINODE_QUEUE_BLOCKS. Blocks wait as after ANTINODE_READY, which is not told
-    /// then: wake a thread at either.
-    ErrorQueueFull = -5,
     /// `sample_rate_hz` is not within 1 to 1e10.
     ErrorSampleRate = -10,
     /// `periods` is not within 2 to ANTINODE_MOST_PERIODS.
@@ -61,6 +60,10 @@ impl Status {
         (Self::Ok, c"done"),
         (Self::Ready, c"done: finished blocks wait to be solved"),
         (Self::Estimate, c"done: an estimate was written"),
+        (
+            Self::Dropped,
+            c"done, but the queue was full and a finished block was dropped: solve more often, or push less at once",
+        ),
         (Self::ErrorNull, c"a pointer is NULL"),
         (
             Self::ErrorAlignment,
@@ -73,10 +76,6 @@ impl Status {
         (
             Self::ErrorCount,
             c"the array would be larger than the address space",
-        ),
-        (
-            Self::ErrorQueueFull,
-            c"the queue was full and a finished block was dropped: solve more often, or push less at once",
         ),
         (
             Self::ErrorSampleRate,

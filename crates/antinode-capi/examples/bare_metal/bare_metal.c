@@ -70,7 +70,7 @@ int main(void)
         /* In the interrupt of the converter's DMA: */
         status = CALL(push_block_packed)(&gyro, _binary_codes_bin_start + from, count);
         at += count;
-        if (status < 0)
+        if (status < 0 || status == ANTINODE_DROPPED)
             printf("push: %s\n", antinode_status_string(status));
 
         /* In the thread: */

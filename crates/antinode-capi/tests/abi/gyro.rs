@@ -156,7 +156,7 @@ impl<S: Arithmetic> Gyro<S> {
                 Way::Single => samples
                     .iter()
                     .map(|&[c, d]| (S::ABI.push)(state, c, d))
-                    .max_by_key(|&status| (status == Status::ErrorQueueFull, status as i32))
+                    .max()
                     .unwrap_or(Status::Ok),
                 Way::Separate => {
                     (S::ABI.separate)(state, part(0).as_ptr(), part(1).as_ptr(), count)

@@ -111,7 +111,7 @@ fn a_reset_is_as_from_cold<S: Arithmetic>() {
         gyro.run(Way::Interleaved, 100, &codes);
         gyro.skip(1_000_000);
         let status = gyro.push(Way::Interleaved, &codes);
-        assert_eq!(status, Status::ErrorQueueFull);
+        assert_eq!(status, Status::Dropped);
         assert_eq!(gyro.health().has_wave, 1);
         if is_asked {
             gyro.search();

@@ -42,7 +42,7 @@ void SysTick_Handler(void)
     status = CALL(push_block_packed)(&gyro, codes, HALF_BUFFER);
     if (status == ANTINODE_ERROR_NOT_INITIALISED)
         refused++;
-    else if (status == ANTINODE_ERROR_QUEUE_FULL)
+    else if (status == ANTINODE_DROPPED)
         dropping++;
     CALL(push_block_packed)(&other, codes, HALF_BUFFER);
 }

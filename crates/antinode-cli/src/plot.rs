@@ -65,6 +65,7 @@ pub fn run(options: &Plot) -> Result<(), Failure> {
     for trace in &mut traces {
         trace.rows.retain(|row| (from..to).contains(&row.time));
     }
+    traces.retain(|trace| !trace.rows.is_empty());
     let rows = || traces.iter().flat_map(|trace| &trace.rows);
     let count = rows().count();
     let Some(figure) = figure(&traces, draw::COLUMNS, options.log) else {

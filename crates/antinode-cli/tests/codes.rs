@@ -219,22 +219,22 @@ fn a_few_codes_tell_a_step_where_sampling_is_locked_to_the_wave() {
 fn a_step_that_shows_only_at_the_end_is_told() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // Without the first bit of a 12-bit converter in use, a wave that stands on both pick-offs alike has two codes and their negatives.
-    let simulate = "simulate -o a.wav --seconds 1 --bits 12 --rate 21328 --quadrature-amplitude 0 --angle 0.39269908";
+    // Six codes, by two bits: too few to tell a step by.
+    let simulate = "simulate -o a.wav --seconds 1 --bits 14 --rate 21328";
     assert_eq!(run(here, simulate).code, 0);
     let raw = fs::read(here.join("a.wav")).unwrap()[44..].to_vec();
     let silent = run(here, "identify --frequency 5332 a.wav");
     assert_eq!(silent.code, 0, "{}", silent.err);
     for option in [
-        "give --resolution 0.00048828125\n",
-        "warning: a.wav: all samples are multiples of 0.00048828125, ",
+        "give --resolution 0.00012207031\n",
+        "warning: a.wav: all samples are multiples of 0.00012207031, ",
     ] {
         assert!(silent.err.contains(option), "{}", silent.err);
     }
     assert_eq!(
         run(
             here,
-            "identify --frequency 5332 --resolution 0.00048828125 a.wav"
+            "identify --frequency 5332 --resolution 0.00012207031 a.wav"
         )
         .err,
         ""
@@ -251,7 +251,7 @@ fn a_step_that_shows_only_at_the_end_is_told() {
         "{}",
         piped.err
     );
-    let start = "warning: standard input: so far all samples are multiples of 0.00048828125, ";
+    let start = "warning: standard input: so far all samples are multiples of 0.00012207031, ";
     assert!(piped.err.starts_with(start), "{}", piped.err);
     // Noise of a step breaks its rounding up.
     let noisy = format!("{simulate} --noise 0.0005");

@@ -4,8 +4,8 @@ use antinode::{Estimate, Flags};
 
 /// Residual, in steps, from which on noise breaks up all rounding, and a step adds nothing to deviations.
 const NOISY: f32 = 0.6;
-/// Steps that are the same are no further apart, as a ratio.
-const SAME: f32 = 1.01;
+/// A step that shows late is told from so many times the assumed one on: a few codes may all be even by chance.
+const COARSER: f32 = 4.0;
 
 /// What the deviations of rows take for the step.
 #[derive(Debug)]
@@ -38,8 +38,12 @@ impl Coarse {
     pub fn told(&mut self, step: Option<f32>) -> Option<String> {
         let (assumed, step) = (self.assumed?, step?);
         let (fine, coarse) = (assumed.min(step), assumed.max(step));
-        // Of a step that is no power of two, samples have only a part in common.
-        let is_other = coarse > SAME * fine && is_power_of_two(coarse / fine);
+        let is_other = if step > assumed {
+            step >= COARSER * assumed
+        } else {
+            // Of a step that is no power of two, samples have only a part in common.
+            step < assumed && is_power_of_two(coarse / fine)
+        };
         if self.is_told || !is_other || self.residual >= NOISY * coarse {
             return None;
         }
@@ -84,6 +88,8 @@ mod tests {
         // Noise, steps that agree, and a step that samples have only a part of.
         assert_eq!(told(Some(fine), Some(coarse), 0.7 * coarse), None);
         assert_eq!(told(Some(fine), Some(fine), 0.0), None);
+        assert_eq!(told(Some(fine), Some(2.0 * fine), 0.0), None);
+        assert!(told(Some(2.0 * fine), Some(fine), 0.0).is_some());
         assert_eq!(told(Some(10.0 * fine), Some(2.0 * fine), 0.0), None);
         assert_eq!(told(None, Some(coarse), 0.0), None);
         assert_eq!(told(Some(fine), None, 0.0), None);

@@ -84,7 +84,7 @@ impl Svg {
         lines.retain(|line| panel.down.contains(&line[0].1) && line[0].0 >= panel.across.start);
         for (x, y) in lines.iter().flatten() {
             assert!(
-                panel.across.contains(x) && panel.down.contains(y),
+                panel.across.contains(x) && (panel.down.start..=panel.down.end).contains(y),
                 "{x} {y}"
             );
         }

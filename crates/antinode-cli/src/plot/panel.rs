@@ -30,6 +30,8 @@ const LEAST_OF_FREQUENCY: f64 = 1e-11;
 const ABOVE: f64 = 0.08;
 /// Rows whose deviation is so many times the median have no say in the range of an axis, as those at the end of a ring-down.
 const UNCERTAIN: f64 = 3.0;
+/// They have one as long as their deviation is less than this share of what the others span.
+const SEEN: f64 = 0.05;
 /// Arrows to values beyond a panel are no closer than so many columns.
 const APART: usize = 8;
 
@@ -125,21 +127,27 @@ pub fn panel(
 
 /// What a quantity's axis is to hold: rows that are far less certain than the others are taken for flagged ones.
 fn extent(traces: &[Trace], quantity: usize, is_log: bool) -> Extent {
-    let rows = || traces.iter().flat_map(|trace| &trace.rows);
-    let clean = rows().filter(|row| row.trust == Trust::Clean);
-    let mut deviations: Vec<f64> = clean
-        .filter_map(|row| Some(sample(row, quantity, is_log)?.1))
-        .filter(|&deviation| deviation > 0.0)
+    let drawn: Vec<(f64, f64, bool)> = traces
+        .iter()
+        .flat_map(|trace| &trace.rows)
+        .filter_map(|row| {
+            let (value, deviation) = sample(row, quantity, is_log)?;
+            // 0 has no logarithm.
+            let is_drawn = !is_log || value > 0.0;
+            is_drawn.then_some((value, deviation, row.trust == Trust::Clean))
+        })
         .collect();
-    let most = median(&mut deviations).map_or(f64::INFINITY, |median| UNCERTAIN * median);
+    let clean = || drawn.iter().filter(|(_, _, is_clean)| *is_clean);
+    let mut deviations: Vec<f64> = clean().map(|row| row.1).filter(|&std| std > 0.0).collect();
+    let usual = median(&mut deviations).map_or(f64::INFINITY, |median| UNCERTAIN * median);
+    let certain = clean().filter(|row| row.1 <= usual).map(|row| row.0);
+    let [least, greatest] = certain.fold([f64::INFINITY, f64::NEG_INFINITY], |ends, value| {
+        [ends[0].min(value), ends[1].max(value)]
+    });
+    let most = usual.max(SEEN * (greatest - least));
     let mut extent = Extent::new();
-    for row in rows() {
-        // 0 has no logarithm.
-        let drawn = sample(row, quantity, is_log).filter(|&(value, _)| !is_log || value > 0.0);
-        if let Some((value, deviation)) = drawn {
-            let is_clean = row.trust == Trust::Clean && deviation <= most;
-            extent.add(value, deviation, is_clean);
-        }
+    for &(value, deviation, is_clean) in &drawn {
+        extent.add(value, deviation, is_clean && deviation <= most);
     }
     extent
 }

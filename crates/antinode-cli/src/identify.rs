@@ -3,6 +3,7 @@
 mod coarse;
 mod copied;
 mod early;
+mod few;
 mod first;
 mod flagged;
 mod held;

@@ -264,3 +264,32 @@ fn a_step_that_shows_only_at_the_end_is_told() {
     );
     assert_eq!((piped.code, piped.err.as_str()), (0, ""));
 }
+
+#[test]
+fn a_few_values_of_text_are_told_where_no_step_is() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let simulate = "simulate -o a.csv --seconds 0.2 --bits 12 --rate 26660";
+    assert_eq!(run(here, simulate).code, 0);
+    let told = run(here, "identify --frequency 5332 a.csv");
+    let start = "warning: a.csv: the first samples show 10 values over and over: ";
+    assert!(
+        told.code == 0 && told.err.starts_with(start),
+        "{}",
+        told.err
+    );
+    let given = "identify --frequency 5332 --resolution 0.00048828125 a.csv";
+    assert_eq!(run(here, given).err, "");
+    // As whole numbers they tell their step.
+    let text = fs::read_to_string(here.join("a.csv")).unwrap();
+    let whole = text.lines().skip(1).map(|line| {
+        let mut fields = line.split(',').map(|field| field.parse::<f64>().unwrap());
+        let mut code = || 2048.0 * fields.next_back().unwrap();
+        let (d, c) = (code(), code());
+        format!("{c},{d}\n")
+    });
+    fs::write(here.join("whole.csv"), whole.collect::<String>()).unwrap();
+    let rows = rows(here, "whole.csv --rate 26660 --frequency 5332");
+    let std = rows[0].number("main_amplitude_std");
+    assert!((0.1..0.4).contains(&std), "{std}");
+}

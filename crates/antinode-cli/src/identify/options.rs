@@ -25,15 +25,6 @@ pub struct Identify {
     /// offset, which does no harm, unless the wave has less than 60 codes: store such codes as signed integers.
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// Periods a window, 2 to 1022.
-    #[arg(long, default_value_t = 10, value_name = "N", value_parser = value_parser!(u16).range(2..=i64::from(MOST_PERIODS)), help_heading = "Windows")]
-    pub periods: u16,
-    /// Begin a window every so many blocks [default: where the one before ends].
-    ///
-    /// With --hop a block is a period, or a tenth of the window if that has fewer than ten periods. Fewer blocks than a window has make
-    /// windows overlap, more leave gaps.
-    #[arg(long, value_name = "BLOCKS", value_parser = value_parser!(u16).range(1..), help_heading = "Windows")]
-    pub hop: Option<u16>,
     /// Sample rate, Hz, 1 to 1e10 [default: the recording's own].
     #[arg(long, value_name = "HZ", value_parser = ranges::rate, help_heading = "Recording")]
     pub rate: Option<f64>,
@@ -43,16 +34,6 @@ pub struct Identify {
     /// Only samples before this time, s.
     #[arg(long, value_name = "S", value_parser = ranges::time, help_heading = "Recording")]
     pub to: Option<f64>,
-    /// How rows are printed.
-    #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Table, value_name = "FORMAT", help_heading = "Output")]
-    pub output: Format,
-    /// Which methods rows show.
-    ///
-    /// With `all`, columns method1_… to method4_… follow in CSV and JSON lines; those that end in off_sigma are differences from the
-    /// exact solution in its standard deviations. They are empty in windows without a wave, or with less than a quarter of a period of
-    /// samples before them.
-    #[arg(long, value_enum, default_value_t = Methods::Exact, help_heading = "Output")]
-    pub methods: Methods,
     /// Sample format of recordings without a header: little-endian, S_C and S_D in turn, or among --channels.
     ///
     /// WAV and NPY are read as such all the same, and so are lines of numbers in a file named .csv, .tsv, .txt or .lvm.
@@ -69,34 +50,6 @@ pub struct Identify {
     /// line of units may follow the header, and a time in ms, us or ns is understood.
     #[arg(long, value_name = "COLUMNS", help_heading = "Recording")]
     pub columns: Option<Columns>,
-    /// The wave's frequency, Hz, if it is known within 5 %: it is then not searched for, and the first window begins with the first
-    /// sample.
-    ///
-    /// For noise or tones in which the search finds no period, for recordings of a few periods, and for 2.5 to 1024 samples a period, where
-    /// the search needs 4 to 200.
-    #[arg(long, value_name = "HZ", value_parser = ranges::positive, conflicts_with = "detector", help_heading = "Windows")]
-    pub frequency: Option<f32>,
-    /// How the period is searched for: if one way finds none, as where a second tone hides it, try the other.
-    #[arg(long, value_enum, default_value_t = Detector::Difference, help_heading = "Windows")]
-    pub detector: Detector,
-    /// Leave out mains hum, or an offset that wanders, which else counts as noise or is flagged `misfit`.
-    ///
-    /// Each block, of a period or two, gets an offset of its own. Windows must have 5 periods or more, or 10 where --hop is given.
-    #[arg(long, help_heading = "Noise")]
-    pub hum: bool,
-    /// Allow for noise that is not white, as behind a tuned front end, or a filter that cuts off below three times the frequency.
-    ///
-    /// Less of it at three times the frequency is then no fault. In windows of 5 periods or more (10 with --hop) what it has
-    /// at low frequencies does not count, as with --hum. A second tone that is there all along counts as noise.
-    #[arg(long, help_heading = "Noise")]
-    pub coloured: bool,
-    /// The pattern angle at the start, rad, to within π/4: samples tell it modulo π/2 only; within ±10000 [default: π/4, so that the first
-    /// window's angle lies in 0…π/2].
-    #[arg(long, value_name = "RAD", value_parser = ranges::start_angle, help_heading = "Windows")]
-    pub start_angle: Option<f32>,
-
-    #[command(flatten)]
-    pub corrected: Corrected,
     /// The converter's rails, where samples are flagged `clipped`: ±LEVEL, or LOW,HIGH, as 0,4095 [default: known for integers, none for
     /// others].
     ///
@@ -111,6 +64,52 @@ pub struct Identify {
     /// recording turn out to be multiples of a coarser step.
     #[arg(long, value_name = "STEP", value_parser = ranges::positive, help_heading = "Recording")]
     pub resolution: Option<f32>,
+    /// Periods a window, 2 to 1022.
+    #[arg(long, default_value_t = 10, value_name = "N", value_parser = value_parser!(u16).range(2..=i64::from(MOST_PERIODS)), help_heading = "Windows")]
+    pub periods: u16,
+    /// Begin a window every so many blocks [default: where the one before ends].
+    ///
+    /// With --hop a block is a period, or a tenth of the window if that has fewer than ten periods. Fewer blocks than a window has make
+    /// windows overlap, more leave gaps.
+    #[arg(long, value_name = "BLOCKS", value_parser = value_parser!(u16).range(1..), help_heading = "Windows")]
+    pub hop: Option<u16>,
+    /// The wave's frequency, Hz, if it is known within 5 %: it is then not searched for, and the first window begins with the first
+    /// sample.
+    ///
+    /// For noise or tones in which the search finds no period, for recordings of a few periods, and for 2.5 to 1024 samples a period, where
+    /// the search needs 4 to 200.
+    #[arg(long, value_name = "HZ", value_parser = ranges::positive, conflicts_with = "detector", help_heading = "Windows")]
+    pub frequency: Option<f32>,
+    /// How the period is searched for: if one way finds none, as a second tone may hide it, try the other.
+    #[arg(long, value_enum, default_value_t = Detector::Difference, help_heading = "Windows")]
+    pub detector: Detector,
+    /// The pattern angle at the start, rad, to within π/4: samples tell it modulo π/2 only; within ±10000 [default: π/4, so that the first
+    /// window's angle lies in 0…π/2].
+    #[arg(long, value_name = "RAD", value_parser = ranges::start_angle, help_heading = "Windows")]
+    pub start_angle: Option<f32>,
+    /// Leave out mains hum, or an offset that wanders, which else counts as noise or is flagged `misfit`.
+    ///
+    /// Each block, of a period or two, gets an offset of its own. Windows must have 5 periods or more, or 10 where --hop is given.
+    #[arg(long, help_heading = "Noise")]
+    pub hum: bool,
+    /// Allow for noise that is not white, as behind a tuned front end, or a filter that cuts off below three times the frequency.
+    ///
+    /// Less of it at three times the frequency is then no fault. In windows of 5 periods or more (10 with --hop) what it has
+    /// at low frequencies does not count, as with --hum. A second tone that is there all along counts as noise.
+    #[arg(long, help_heading = "Noise")]
+    pub coloured: bool,
+    #[command(flatten)]
+    pub corrected: Corrected,
+    /// How rows are printed.
+    #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Table, value_name = "FORMAT", help_heading = "Output")]
+    pub output: Format,
+    /// Which methods rows show.
+    ///
+    /// With `all`, columns method1_… to method4_… follow in CSV and JSON lines; those that end in off_sigma are differences from the
+    /// exact solution in its standard deviations. They are empty in windows without a wave, or with less than a quarter of a period of
+    /// samples before them.
+    #[arg(long, value_enum, default_value_t = Methods::Exact, help_heading = "Output")]
+    pub methods: Methods,
 }
 
 /// Which methods a row shows.

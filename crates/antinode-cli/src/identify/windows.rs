@@ -7,6 +7,7 @@ use antinode::{Estimate, SettingsError};
 use super::coarse::Coarse;
 use super::copied::Copied;
 use super::early::Early;
+use super::few::Few;
 use super::first::First;
 use super::held::Held;
 use super::in_turn::InTurn;
@@ -46,6 +47,7 @@ pub(super) struct Windows<'a> {
     copied: Copied,
     early: Early,
     coarse: Coarse,
+    few: Few,
     stop: &'a Stop,
 }
 
@@ -91,6 +93,7 @@ impl<'a> Windows<'a> {
                     .resolution()
                     .filter(|_| options.resolution.is_none()),
             ),
+            few: Few::new(settings.resolution),
             stop,
         })
     }
@@ -137,6 +140,7 @@ impl<'a> Windows<'a> {
             pairs = rest;
             recording.look(self.span.take(taken), new);
             self.held.see(new);
+            self.few.see(new);
             self.copied.see(new);
             if let Some(history) = &mut self.history {
                 history.extend(new);
@@ -225,6 +229,7 @@ impl<'a> Windows<'a> {
             self.span.warning().filter(|_| fault.is_none()),
             self.silence.told(seconds, self.span.offset()),
             self.coarse.told(recording.resolution_so_far()),
+            self.few.told().filter(|_| rows.count() > 0),
             self.scatter.told(self.options.hum || self.options.coloured),
             self.in_turn.told(),
             self.copied

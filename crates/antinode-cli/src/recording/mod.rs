@@ -117,7 +117,7 @@ impl Recording {
     }
 
     fn new(name: String, opened: Opened, bytes_total: Option<u64>) -> Self {
-        let unit = opened.full_scale.map(|largest| unit(largest));
+        let lowest = opened.full_scale.map(|largest| Lowest::new(unit(largest)));
         Self {
             name,
             bytes_total,
@@ -125,7 +125,7 @@ impl Recording {
             opened,
             head: Vec::new().into_iter(),
             step: None,
-            lowest: unit.map(Lowest::new),
+            lowest,
             not_finite: NotFinite::default(),
             fault: None,
             ended: false,

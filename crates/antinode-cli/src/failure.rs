@@ -24,6 +24,9 @@ pub enum Failure {
     /// Ctrl-C, or the system, came before this file was whole.
     #[error("{file}: interrupted, and not written; run it again")]
     Interrupted { file: String },
+    /// Ctrl-C, or the system, came before a recording was read to its end.
+    #[error("interrupted: the rows up to there are good")]
+    Stopped,
     /// The reader of our output has gone: nothing is wrong.
     #[error("")]
     Closed,
@@ -39,7 +42,7 @@ impl Failure {
             Self::Closed => 0,
             Self::Usage(_) => 2,
             // What a shell says of Ctrl-C; which signal it was is not known.
-            Self::Interrupted { .. } => 130,
+            Self::Interrupted { .. } | Self::Stopped => 130,
             Self::Output(error) if error.is_usage() => 2,
             _ => 1,
         }

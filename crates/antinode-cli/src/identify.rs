@@ -1,7 +1,9 @@
 //! `antinode identify`: recordings in, rows out, as a stream.
 
+mod coarse;
 mod copied;
 mod early;
+mod few;
 mod first;
 mod flagged;
 mod held;
@@ -12,6 +14,7 @@ mod scatter;
 mod search;
 mod silence;
 mod span;
+mod stop;
 mod windows;
 
 use std::io::{self, BufWriter, IsTerminal, Write};
@@ -22,11 +25,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::Failure;
 use crate::options::Format;
+use crate::ranges::in_order;
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
+use flagged::Flagged;
 pub use options::Identify;
 use options::{MOST_PERIODS, Methods};
-use span::Span;
+use stop::Stop;
 use windows::Windows;
 
 /// Samples of the longest period.
@@ -46,7 +51,7 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
         ..options.settings(1.0, None, None)
     }
     .check(usize::from(MOST_PERIODS) + 2)?;
-    Span::check(options)?;
+    in_order(options.from, options.to)?;
     // The core would do without it there, and nothing would tell.
     let least = if options.hop.is_some() { 10 } else { 5 };
     if options.hum && options.periods < least {
@@ -60,20 +65,26 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
         options.output,
         options.methods == Methods::All,
     );
+    let stop = Stop::new()?;
     let several = options.files.len() > 1;
     let mut failure = None;
     for path in &options.files {
-        let result = identify(path, options, several, &mut rows);
+        let result = identify(path, options, several, &stop, &mut rows);
         // Rows found before a fault are printed before the fault is told.
         rows.flush()?;
-        match result {
+        let is_last = match result {
             Err(Failure::Closed) => return Err(Failure::Closed),
             Err(error) => {
+                let is_last = matches!(error, Failure::Stopped);
                 if let Some(before) = failure.replace(error) {
                     eprintln!("error: {before}");
                 }
+                is_last
             }
-            Ok(()) => {}
+            Ok(()) => false,
+        };
+        if is_last {
+            break;
         }
     }
     failure.map_or(Ok(()), Err)
@@ -83,6 +94,7 @@ fn identify(
     path: &Path,
     options: &Identify,
     several: bool,
+    stop: &Stop,
     rows: &mut Rows<impl Write>,
 ) -> Result<(), Failure> {
     let open = OpenOptions {
@@ -106,7 +118,8 @@ fn identify(
     for warning in recording.warnings() {
         eprintln!("warning: {warning}");
     }
-    let mut windows = Windows::new(&name, options, &recording, rate)?;
+    let mut windows = Windows::new(&name, options, &recording, rate, stop)?;
+    stop.begin(&name, Flagged::new(options.hum, options.coloured));
     let bar = progress(&recording);
     let length = recording
         .pairs()
@@ -122,17 +135,28 @@ fn identify(
 
     let live = io::stdout().is_terminal();
     let fault = loop {
+        if stop.is_asked() {
+            break Some(Failure::Stopped);
+        }
         match recording.read(&mut buffer) {
             Ok(0) => break None,
             Ok(_) => {}
-            Err(error) => break Some(error),
+            Err(error) => break Some(error.into()),
         }
-        if !windows.take(&mut recording, &buffer, rows)? {
-            break None;
-        }
-        if live || is_pipe {
-            // Somebody watches, or the samples arrive as they are taken.
-            rows.flush()?;
+        let goes_on = windows
+            .take(&mut recording, &buffer, rows)
+            .and_then(|goes_on| {
+                // Somebody watches, or the samples arrive as they are taken.
+                if live || is_pipe {
+                    rows.flush()?;
+                }
+                Ok(goes_on)
+            });
+        match goes_on {
+            Ok(true) => {}
+            Ok(false) => break None,
+            Err(error @ Failure::Rows(_)) => break Some(error),
+            Err(error) => return Err(error),
         }
         bar.set_position(recording.bytes_read());
     };

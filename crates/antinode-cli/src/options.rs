@@ -43,8 +43,12 @@ pub struct Options {
 pub enum Command {
     /// Identifies the wave in recordings, one row a window.
     ///
-    /// A row's time is the middle of its window, counted from the first sample. The first value of the recording's time column is
-    /// added, unless that column is an index: it goes up by 1 a line, and --rate is given.
+    /// A row's time is the middle of its window, s from the first sample, plus the first value of the recording's time column. A column that
+    /// goes up by 1 a line is no time but an index where --rate is given.
+    ///
+    /// Rows go to standard output; what is to be known of them, as how many are flagged and why, to standard error. The exit code is 0 if all
+    /// was read, with flags or without, 1 if something is wrong with a recording, 2 if something is wrong with the command line, and 130 after
+    /// Ctrl-C.
     Identify(Box<Identify>),
     /// Finds the calibration of the pick-offs from rows of a gyro whose pattern turned, and prints it as options.
     ///
@@ -60,15 +64,15 @@ pub enum Command {
     /// the pattern turns by less than 22.5° within one. A pattern at rest gives the decay time at its own angle only. Ring-downs at
     /// pattern angles of 0°, 22.5° and 45°, or of a pattern that turns, give both splits too: how far the decay rates and the
     /// frequencies of the two modes are apart, and the pattern angle at which each is greatest; and how fast rotation turns each run's
-    /// pattern. Give ring-downs that turn both ways: where all turn one way, what a calibration leaves looks like splits.
+    /// pattern. Give ring-downs that turn both ways: where all turn one way, what a calibration leaves of flaws looks like splits.
     ///
     /// A shell whose stiffness depends on the amplitude turns a pattern by a_A·a_B, and its frequency moves with a_A² + a_B²: both are
     /// printed where they are seen, for one input unit squared. The latter allows for a drift with time, as of temperature, unless none is
     /// seen and the turning says the same; where it may be a drift, a line says so in its place.
     ///
-    /// Deviations are those of noise. What is not linear in pick-offs or converter is in none of them, and rows do not tell it from damping
-    /// that depends on the amplitude: a cubic part of 1e-4 S³ makes the decay time of a wave of a_A = 0.8 shorter by 2e-5 of
-    /// itself in a recording of four decay times, and by 5e-5 in one of a third.
+    /// Deviations are those of noise. They do not hold what a nonlinear pick-off or converter does, which looks like damping that depends on
+    /// the amplitude: a cubic part of 1e-4 S³ makes the decay time of a wave of a_A = 0.8 shorter by 2e-5 of itself in a recording of four
+    /// decay times, and by 5e-5 in one of a third.
     ///
     /// A run ends where the wave is lost or jumps: one recording may hold several ring-downs, and missing samples do not falsify the
     /// rates.
@@ -76,7 +80,8 @@ pub enum Command {
     /// Draws rows over time: both amplitudes, pattern angle, frequency and residual, with their deviations and flags.
     ///
     /// Bands are one standard deviation wide to either side; red marks at a panel's foot are flagged rows. A line ends where rows are missing or
-    /// flagged `lost`. Axes fit the rows without a flag: a flagged value far beyond them is drawn at the panel's edge.
+    /// flagged `lost`. Axes fit the rows that have no flag and no more than three times the median deviation: an arrow at a panel's edge marks
+    /// what lies far beyond, as the last rows of a ring-down.
     Plot(Plot),
     /// Writes a simulated recording, and the truth beside it as JSON.
     Simulate(Box<Simulate>),
@@ -94,7 +99,7 @@ pub enum Command {
 
 /// How the pick-offs differ from ideal ones.
 #[derive(Debug, Clone, Copy, Args)]
-#[command(allow_negative_numbers = true, next_help_heading = "Calibration")]
+#[command(allow_negative_numbers = true, next_help_heading = "Pick-offs")]
 pub struct Corrected {
     /// Gain of pick-off D over that of C, 0.1 to 10.
     #[arg(

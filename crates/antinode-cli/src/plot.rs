@@ -1,11 +1,14 @@
 //! `antinode plot`: rows in, a figure of the ring-down out.
 
+mod axis;
 mod draw;
 mod figure;
 mod legend;
+mod panel;
 mod reduce;
 mod rows;
 mod scale;
+mod values;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -13,6 +16,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::failure::Failure;
+use crate::ranges::{self, in_order};
 use crate::recording::{OutputError, WholeFile};
 use draw::Format;
 use figure::figure;
@@ -20,31 +24,64 @@ use rows::Trust;
 
 /// `antinode plot`.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Plot {
     /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
     #[arg(required = true, value_name = "ROWS")]
     pub rows: Vec<PathBuf>,
     /// The figure to write: .svg or .png.
-    #[arg(short = 'o', long = "to", value_name = "FILE")]
-    pub to: PathBuf,
+    #[arg(short = 'o', long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// Only rows from this time on, s, as in their `time_s`.
+    #[arg(long, value_name = "S", value_parser = ranges::time)]
+    pub from: Option<f64>,
+    /// Only rows before this time, s.
+    #[arg(long, value_name = "S", value_parser = ranges::time)]
+    pub to: Option<f64>,
+    /// Logarithmic axes for main amplitude, quadrature amplitude without its sign, and residual, as for a long ring-down.
+    #[arg(long)]
+    pub log: bool,
 }
 
 /// Draws the rows.
 pub fn run(options: &Plot) -> Result<(), Failure> {
-    let format = Format::of(&options.to)?;
+    in_order(options.from, options.to)?;
+    let format = Format::of(&options.out)?;
     // What cannot be written is found before the rows are read, which may come through a pipe for long.
-    drop(WholeFile::create(&options.to)?);
-    let (traces, inputs) = rows::open(&options.rows)?;
+    drop(WholeFile::create(&options.out)?);
+    let (mut traces, inputs) = rows::open(&options.rows)?;
+    let times = traces
+        .iter()
+        .flat_map(|trace| &trace.rows)
+        .map(|row| row.time);
+    let span = times.fold(None, |span: Option<[f64; 2]>, time| {
+        let [first, last] = span.unwrap_or([time; 2]);
+        Some([first.min(time), last.max(time)])
+    });
+    let (from, to) = (
+        options.from.unwrap_or(f64::NEG_INFINITY),
+        options.to.unwrap_or(f64::INFINITY),
+    );
+    for trace in &mut traces {
+        trace.rows.retain(|row| (from..to).contains(&row.time));
+    }
+    traces.retain(|trace| !trace.rows.is_empty());
     let rows = || traces.iter().flat_map(|trace| &trace.rows);
     let count = rows().count();
-    let Some(figure) = figure(&traces, draw::COLUMNS) else {
-        return Err(Failure::Recording(if count == 0 {
-            format!("{inputs}: there is no row; identify a recording of more windows")
-        } else {
-            format!("{inputs}: not one of {count} rows has a wave; see their flags")
-        }));
+    let Some(figure) = figure(&traces, draw::COLUMNS, options.log) else {
+        return Err(Failure::Recording(
+            if let (0, Some([first, last])) = (count, span) {
+                format!(
+                    "{inputs}: no row lies within --from and --to: their times go from {first} s to {last} s"
+                )
+            } else if count == 0 {
+                format!("{inputs}: there is no row; identify a recording of more windows")
+            } else {
+                format!("{inputs}: not one of {count} rows has a wave; see their flags")
+            },
+        ));
     };
-    let (whole, mut file) = WholeFile::create(&options.to)?;
+    let (whole, mut file) = WholeFile::create(&options.out)?;
     let names: Vec<_> = traces.iter().map(|trace| trace.name.as_str()).collect();
     let written = match format {
         Format::Svg => draw::svg(&figure, &names).map(|text| file.write_all(text.as_bytes())),
@@ -58,7 +95,7 @@ pub fn run(options: &Plot) -> Result<(), Failure> {
     writeln!(
         io::stdout(),
         "{}: {count} {} of {}; {flagged} flagged",
-        options.to.display(),
+        options.out.display(),
         if count == 1 { "row" } else { "rows" },
         match names.as_slice() {
             [name] => (*name).to_owned(),

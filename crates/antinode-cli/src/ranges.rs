@@ -1,5 +1,7 @@
 //! Options whose numbers have a range: checked where they are typed, in the unit they are typed in.
 
+use crate::failure::Failure;
+
 /// The number in `text`, if it lies within these; `unit` begins with a blank where there is one.
 fn within(text: &str, least: f64, most: f64, unit: &str) -> Result<f64, String> {
     match text.parse() {
@@ -23,6 +25,16 @@ pub fn time(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
         _ => Err("it must be a number of seconds".to_owned()),
+    }
+}
+
+/// Refuses a time to end at that is not later than the one to begin at.
+pub fn in_order(from: Option<f64>, to: Option<f64>) -> Result<(), Failure> {
+    match (from, to) {
+        (Some(from), Some(to)) if to <= from => Err(Failure::Usage(format!(
+            "--to: {to} s must be later than --from, {from} s"
+        ))),
+        _ => Ok(()),
     }
 }
 

@@ -127,5 +127,5 @@ fn unreadable(name: &str, error: &csv::Error) -> Failure {
 /// How to come by rows.
 fn remedy(name: &str) -> String {
     let file = if name == STANDARD_INPUT { "-" } else { name };
-    format!("give rows, which of a recording `antinode identify --output csv {file}` prints")
+    format!("give the rows that `antinode identify --output csv {file}` prints of a recording")
 }

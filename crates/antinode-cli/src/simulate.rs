@@ -46,7 +46,7 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     options.check_frequency()?;
     // Files that have no name yet go as they are dropped, but not with a process that is killed.
     let interrupted = interrupted()?;
-    let mut writer = RecordingWriter::create(&options.to, options.rate, options.sample)?;
+    let mut writer = RecordingWriter::create(&options.out, options.rate, options.sample)?;
     let truth = Truth {
         sample_rate_hz: options.rate,
         sample_pairs: pairs,
@@ -56,7 +56,7 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     };
     let text = serde_json::to_string_pretty(&truth).map_err(io::Error::from)?;
     // The whole name: recordings that differ in their extension alone have each their own.
-    let mut beside = options.to.clone().into_os_string();
+    let mut beside = options.out.clone().into_os_string();
     beside.push(".json");
     let beside = PathBuf::from(beside);
     // Written before the samples: what cannot be is found at once, and not after a long recording.
@@ -64,7 +64,7 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     let mut beyond = 0u64;
     for pair in gyro.take(pairs as usize) {
         if interrupted.load(Ordering::Relaxed) {
-            let file = options.to.display().to_string();
+            let file = options.out.display().to_string();
             return Err(Failure::Interrupted { file });
         }
         beyond += u64::from(pair.c.abs() > 1.0 || pair.d.abs() > 1.0);
@@ -81,7 +81,7 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     writeln!(
         io::stdout(),
         "{}: {pairs} sample pairs at {} Hz; the truth is in {}",
-        options.to.display(),
+        options.out.display(),
         options.rate,
         beside.display()
     )?;

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
-use common::{RATE, Row, WAVE, Wave, npy, rows, run};
+use common::{RATE, Row, WAVE, Wave, npy, rms, rows, run, run_with};
 
 /// The rows of a simulated recording.
 fn identified(here: &Path, name: &str, simulate: &str, identify: &str) -> Vec<Row> {
@@ -175,4 +175,121 @@ fn codes_from_0_are_one_wave_in_signed_and_in_unsigned_integers() {
             .iter()
             .all(|row| row.text("flags").contains("clipped"))
     );
+}
+
+#[test]
+fn a_few_codes_tell_a_step_where_sampling_is_locked_to_the_wave() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (samples, sample) in [(4, "i16"), (5, "i16"), (4, "i24"), (5, "i24"), (8, "i16")] {
+        let mut errors = [Vec::new(), Vec::new(), Vec::new()];
+        for k in 0..24 {
+            let (main, angle) = (0.4 + 0.0137 * f64::from(k), 0.05 + 0.06 * f64::from(k));
+            let phase = 0.11 * f64::from(k);
+            let simulate = format!(
+                "--seconds 0.2 --bits 12 --sample {sample} --rate {} --main-amplitude {main} --quadrature-amplitude 0.03 \
+                 --angle {angle} --phase {phase}",
+                5332 * samples
+            );
+            let rows = identified(here, "a.wav", &simulate, "--frequency 5332");
+            assert!(rows.len() > 90);
+            for row in &rows {
+                let turn = TAU / 4.0;
+                let off = row.number("angle_rad") - angle;
+                for (errors, (error, std)) in errors.iter_mut().zip([
+                    (row.number("main_amplitude") - main, "main_amplitude_std"),
+                    (
+                        row.number("quadrature_amplitude") - 0.03,
+                        "quadrature_amplitude_std",
+                    ),
+                    (off - turn * (off / turn).round(), "angle_std_rad"),
+                ]) {
+                    errors.push(error / row.number(std));
+                }
+            }
+        }
+        for errors in errors {
+            let rms = rms(&errors);
+            assert!((0.7..1.5).contains(&rms), "{samples} {sample}: {rms}");
+        }
+    }
+}
+
+#[test]
+fn a_step_that_shows_only_at_the_end_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // Six codes, by two bits: too few to tell a step by.
+    let simulate = "simulate -o a.wav --seconds 1 --bits 14 --rate 21328";
+    assert_eq!(run(here, simulate).code, 0);
+    let raw = fs::read(here.join("a.wav")).unwrap()[44..].to_vec();
+    let silent = run(here, "identify --frequency 5332 a.wav");
+    assert_eq!(silent.code, 0, "{}", silent.err);
+    for option in [
+        "give --resolution 0.00012207031\n",
+        "warning: a.wav: all samples are multiples of 0.00012207031, ",
+    ] {
+        assert!(silent.err.contains(option), "{}", silent.err);
+    }
+    assert_eq!(
+        run(
+            here,
+            "identify --frequency 5332 --resolution 0.00012207031 a.wav"
+        )
+        .err,
+        ""
+    );
+    // A pipe is told of after a second, and once.
+    let piped = run_with(
+        here,
+        "identify --frequency 5332 --raw i16 --rate 21328 -",
+        [&raw[..], &raw[..]].concat(),
+    );
+    assert_eq!(
+        (piped.code, piped.err.lines().count()),
+        (0, 1),
+        "{}",
+        piped.err
+    );
+    let start = "warning: standard input: so far all samples are multiples of 0.00012207031, ";
+    assert!(piped.err.starts_with(start), "{}", piped.err);
+    // Noise of a step breaks its rounding up.
+    let noisy = format!("{simulate} --noise 0.0005");
+    assert_eq!(run(here, &noisy).code, 0);
+    let raw = fs::read(here.join("a.wav")).unwrap()[44..].to_vec();
+    let piped = run_with(
+        here,
+        "identify --frequency 5332 --raw i16 --rate 21328 -",
+        raw,
+    );
+    assert_eq!((piped.code, piped.err.as_str()), (0, ""));
+}
+
+#[test]
+fn a_few_values_of_text_are_told_where_no_step_is() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let simulate = "simulate -o a.csv --seconds 0.2 --bits 12 --rate 26660";
+    assert_eq!(run(here, simulate).code, 0);
+    let told = run(here, "identify --frequency 5332 a.csv");
+    let start = "warning: a.csv: the first samples show 10 values over and over: ";
+    assert!(
+        told.code == 0 && told.err.starts_with(start),
+        "{}",
+        told.err
+    );
+    let given = "identify --frequency 5332 --resolution 0.00048828125 a.csv";
+    assert_eq!(run(here, given).err, "");
+    // As whole numbers they tell their step.
+    let text = fs::read_to_string(here.join("a.csv")).unwrap();
+    let whole = text.lines().skip(1).map(|line| {
+        let mut fields = line.split(',').map(|field| field.parse::<f64>().unwrap());
+        let mut code = || 2048.0 * fields.next_back().unwrap();
+        let (d, c) = (code(), code());
+        format!("{c},{d}\n")
+    });
+    fs::write(here.join("whole.csv"), whole.collect::<String>()).unwrap();
+    let rows = rows(here, "whole.csv --rate 26660 --frequency 5332");
+    let std = rows[0].number("main_amplitude_std");
+    assert!((0.1..0.4).contains(&std), "{std}");
 }

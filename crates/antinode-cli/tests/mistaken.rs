@@ -130,8 +130,14 @@ fn rows_in_a_recordings_place_and_a_recording_in_theirs_are_told() {
     for (arguments, told) in [
         ("identify rows.csv", "rows.csv:1: these are rows"),
         ("identify rows.jsonl", "rows.jsonl:1: these are rows"),
-        ("resonator it.wav", "it.wav: this is no text; give rows, "),
-        ("calibrate it.npy", "it.npy: this is no text; give rows, "),
+        (
+            "resonator it.wav",
+            "it.wav: this is no text; give the rows that ",
+        ),
+        (
+            "calibrate it.npy",
+            "it.npy: this is no text; give the rows that ",
+        ),
         ("plot it.csv -o it.svg", "--output csv it.csv`"),
         ("resonator -", "--output csv -`"),
         ("resonator rows.jsonl", "these are JSON lines"),

@@ -92,7 +92,21 @@ fn what_cannot_be_written_is_told_and_harms_nothing() {
         let told = format!("{name}: the extension names no format; end the name in .svg or .png");
         refused(here, &format!("plot - -o {name}"), &rows, 2, &[&told]);
     }
-    refused(here, "plot -", &rows, 2, &["--to <FILE>"]);
+    refused(here, "plot -", &rows, 2, &["--out <FILE>"]);
+    refused(
+        here,
+        "plot - -o it.svg --from 2 --to 1",
+        &rows,
+        2,
+        &["--to: 1 s must be later than --from, 2 s"],
+    );
+    refused(
+        here,
+        "plot - -o it.svg --from 2",
+        &rows,
+        1,
+        &["standard input: no row lies within --from and --to: their times go from 0 s to 0 s"],
+    );
     refused(here, "plot -o it.svg", &rows, 2, &["<ROWS>"]);
     refused(
         here,

@@ -159,7 +159,7 @@ fn help_names_every_option_and_its_unit() {
     }
     let simulate = help("simulate --help");
     for option in [
-        "-o, --to <FILE>",
+        "-o, --out <FILE>",
         "--seconds <S>",
         "--frequency-rate <HZ/S>",
         "--jitter-ns <NS>",

@@ -5,7 +5,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::{Row, WAVE, run, wav};
+use common::{Row, WAVE, beside_flagged, run, wav};
 
 /// A recording that is silent but for a little noise outside of these pairs.
 fn ringing(pairs: usize, rings: impl Fn(usize) -> bool) -> Vec<u8> {
@@ -24,7 +24,7 @@ fn ringing(pairs: usize, rings: impl Fn(usize) -> bool) -> Vec<u8> {
     wav(&codes)
 }
 
-/// What is said, and where the rows with a wave end.
+/// What is said beside the flags, and where the rows with a wave end.
 fn told(here: &Path, recording: Vec<u8>, arguments: &str) -> (String, f64) {
     fs::write(here.join("a.wav"), recording).unwrap();
     let run = run(here, &format!("identify --output csv a.wav {arguments}"));
@@ -35,7 +35,7 @@ fn told(here: &Path, recording: Vec<u8>, arguments: &str) -> (String, f64) {
         .rfind(|row| !row.text("flags").contains("lost"))
         .unwrap();
     (
-        run.err,
+        beside_flagged(&rows, &run.err).join("\n"),
         last.number("time_s") + last.number("samples") / 2e5,
     )
 }

@@ -11,7 +11,7 @@ fn what_makes_no_sense_is_refused() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let cases = [
-        ("", "--to <FILE>"),
+        ("", "--out <FILE>"),
         (
             "-o a.ogg",
             "a.ogg: the extension names no format; end the name in .wav, .csv or .npy",

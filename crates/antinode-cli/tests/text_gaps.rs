@@ -5,7 +5,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::{Row, WAVE, fault, rows, text};
+use common::{Row, WAVE, beside_flagged, fault, rows, text};
 
 /// The lines of a recording of so many pairs, and the rows of the whole.
 fn whole(directory: &Path, pairs: usize) -> (Vec<String>, Vec<Row>) {
@@ -100,7 +100,8 @@ fn a_missing_line_and_a_bad_sample_are_both_told() {
     lines.remove(9_001);
     fs::write(here.join("a.csv"), lines.join("\n")).unwrap();
     let run = common::run(here, "identify a.csv --output csv");
-    assert_eq!((run.code, run.err.lines().count()), (1, 2), "{}", run.err);
+    let told = beside_flagged(&Row::all(&run.out), &run.err);
+    assert_eq!((run.code, told.len()), (1, 2), "{}", run.err);
     assert!(run.err.contains("error: a.csv:9002: 1 sample is lost"));
     assert!(run.err.contains("error: a.csv:15001:2: sample pair 14999"));
     assert!(Row::all(&run.out).len() > 98);

@@ -1,8 +1,8 @@
-//! What may be done where many rows have one flag and no other.
+//! How many rows are flagged and by what, and what may be done where many of them have one flag and no other.
+
+use std::cmp::Reverse;
 
 use antinode::Flags;
-
-use super::options::Identify;
 
 /// Rows from which on a remedy is named, where they are a tenth of all.
 const MANY: u64 = 20;
@@ -13,49 +13,153 @@ const SOME: u64 = 4;
 const OF_CLIPPED: &str = "give the wave less gain where an amplifier or the converter limits it, or a larger --periods where a tone near \
                           three times the frequency is taken for its third harmonic";
 
-/// Rows with one flag and no other.
-#[derive(Debug, Default)]
+/// Rows with flags.
+#[derive(Debug)]
 pub(super) struct Flagged {
-    misfits: u64,
-    clipped: u64,
+    /// What is taken for no fault.
+    hum: bool,
+    coloured: bool,
+    rows: u64,
+    flagged: u64,
+    /// Of each flag.
+    counts: Vec<(&'static str, u64)>,
+    misfits_alone: u64,
+    clipped_alone: u64,
 }
 
 impl Flagged {
-    /// Takes a row's flags.
-    pub fn see(&mut self, flags: Flags) {
-        self.misfits += u64::from(flags == Flags::MISFIT);
-        self.clipped += u64::from(flags == Flags::CLIPPED);
+    /// Of rows with these self.
+    pub fn new(hum: bool, coloured: bool) -> Self {
+        Self {
+            hum,
+            coloured,
+            rows: 0,
+            flagged: 0,
+            counts: Vec::new(),
+            misfits_alone: 0,
+            clipped_alone: 0,
+        }
     }
 
-    /// What to tell, of so many rows.
-    pub fn told(&self, rows: u64, options: &Identify) -> [Option<String>; 2] {
-        let told = |count: u64, flag: &str, remedies: &str| {
-            let is_many = count >= MANY && 10 * count > rows || count >= SOME && 2 * count > rows;
-            is_many.then(|| format!("{count} of {rows} rows are flagged {flag} alone; {remedies}"))
-        };
-        [
-            told(self.misfits, "misfit", &of_misfits(options)),
-            told(self.clipped, "clipped", OF_CLIPPED),
-        ]
+    /// Takes a row's flags.
+    pub fn see(&mut self, flags: Flags) {
+        self.rows += 1;
+        self.flagged += u64::from(!flags.is_empty());
+        self.misfits_alone += u64::from(flags == Flags::MISFIT);
+        self.clipped_alone += u64::from(flags == Flags::CLIPPED);
+        for name in flags.names() {
+            match self.counts.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, count)) => *count += 1,
+                None => self.counts.push((name, 1)),
+            }
+        }
+    }
+
+    /// What to tell in one line where there are any.
+    pub fn told(&self) -> Option<String> {
+        if self.flagged == 0 {
+            return None;
+        }
+        let (flagged, rows) = (self.flagged, self.rows);
+        let mut counts = self.counts.clone();
+        counts.sort_by_key(|&(_, count)| Reverse(count));
+        let counts: Vec<String> = counts
+            .iter()
+            .map(|(name, count)| format!("{name} {count}"))
+            .collect();
+        let mut told = format!(
+            "{flagged} of {rows} rows {} flagged: {}",
+            if flagged == 1 { "is" } else { "are" },
+            counts.join(", ")
+        );
+        for (alone, flag, remedies) in [
+            (self.misfits_alone, "misfit", self.of_misfits()),
+            (self.clipped_alone, "clipped", OF_CLIPPED.to_owned()),
+        ] {
+            if alone >= MANY && 10 * alone > rows || alone >= SOME && 2 * alone > rows {
+                told += "; ";
+                if alone < flagged {
+                    told += &format!("{alone} have {flag} alone: ");
+                }
+                told += &remedies;
+            }
+        }
+        Some(told)
+    }
+
+    /// What may be done about misfits.
+    fn of_misfits(&self) -> String {
+        let mut told = String::new();
+        if !self.hum && !self.coloured {
+            told += "if that is mains hum or an offset that wanders, --hum takes it out; ";
+        }
+        if !self.coloured {
+            told += "if a filter leaves less noise at three times the frequency, give --coloured; ";
+        }
+        let coloured = if self.coloured { "" } else { "--coloured and " };
+        told += &format!(
+            "if there is a second tone, give {coloured}a --periods that holds several of its beats with the wave; "
+        );
+        told + "if the frequency drifts or the pattern turns far within a window, give a smaller --periods"
     }
 }
 
-/// What may be done about misfits.
-fn of_misfits(options: &Identify) -> String {
-    let mut told = String::new();
-    if !options.hum && !options.coloured {
-        told += "if that is mains hum or an offset that wanders, --hum takes it out; ";
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is told of rows with these flags, so many times each.
+    fn told(rows: &[(u64, Flags)]) -> Option<String> {
+        let mut flagged = Flagged::new(true, true);
+        for &(count, flags) in rows {
+            (0..count).for_each(|_| flagged.see(flags));
+        }
+        flagged.told()
     }
-    if !options.coloured {
-        told += "if a filter leaves less noise at three times the frequency, give --coloured; ";
+
+    #[test]
+    fn every_flag_is_counted() {
+        assert_eq!(told(&[]), None);
+        assert_eq!(told(&[(9, Flags::empty())]), None);
+        let one = told(&[(9, Flags::empty()), (1, Flags::REACQUIRED)]);
+        assert_eq!(one.unwrap(), "1 of 10 rows is flagged: reacquired 1");
+        let both = Flags::STEP.with(Flags::MISFIT);
+        let several = told(&[
+            (90, Flags::empty()),
+            (1, Flags::STEP),
+            (3, both),
+            (1, Flags::MISFIT),
+        ]);
+        // The first of equals comes first.
+        assert_eq!(
+            several.unwrap(),
+            "5 of 95 rows are flagged: step 4, misfit 4"
+        );
     }
-    let coloured = if options.coloured {
-        ""
-    } else {
-        "--coloured and "
-    };
-    told += &format!(
-        "if there is a second tone, give {coloured}a --periods that holds several of its beats with the wave; "
-    );
-    told + "if the frequency drifts or the pattern turns far within a window, give a smaller --periods"
+
+    #[test]
+    fn a_remedy_is_named_for_many() {
+        let clean = (30, Flags::empty());
+        for (rows, ends) in [
+            (
+                vec![clean, (3, Flags::CLIPPED)],
+                "flagged: clipped 3".to_owned(),
+            ),
+            (
+                vec![(2, Flags::empty()), (4, Flags::CLIPPED)],
+                format!("clipped 4; {OF_CLIPPED}"),
+            ),
+            (
+                vec![clean, (1, Flags::STEP), (20, Flags::CLIPPED)],
+                format!("clipped 20, step 1; 20 have clipped alone: {OF_CLIPPED}"),
+            ),
+            (
+                vec![(300, Flags::empty()), (20, Flags::CLIPPED)],
+                "flagged: clipped 20".to_owned(),
+            ),
+        ] {
+            let told = told(&rows).unwrap();
+            assert!(told.ends_with(&ends), "{told}");
+        }
+    }
 }

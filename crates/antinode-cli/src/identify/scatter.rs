@@ -166,15 +166,11 @@ impl Scatter {
         } else {
             String::new()
         };
-        let remedy = if has_option {
-            ""
-        } else {
-            ", for which there is --coloured"
-        };
+        let remedy = if has_option { "" } else { " (try --coloured)" };
         (!more.is_empty()).then(|| {
             format!(
-                "rows scatter by more than their stated deviations ({} times): {step}the wave moves, the sampling jitters, there is a second tone or a \
-                 harmonic, which does less in a larger --periods, both pick-offs have noise in common, or the noise is not white{remedy}",
+                "rows scatter by more than their stated deviations ({} times): {step}the wave moves, the sampling jitters, the pick-offs share noise, \
+                 there is a second tone or a harmonic (try a larger --periods), or the noise is not white{remedy}",
                 more.join(", ")
             )
         })

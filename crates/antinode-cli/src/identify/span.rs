@@ -52,16 +52,6 @@ impl Span {
         }
     }
 
-    /// What is wrong with the options, whatever the recording.
-    pub fn check(options: &Identify) -> Result<(), Failure> {
-        match (options.from, options.to) {
-            (Some(from), Some(to)) if to <= from => Err(Failure::Usage(format!(
-                "--to: {to} s must be later than --from, {from} s"
-            ))),
-            _ => Ok(()),
-        }
-    }
-
     /// What to do with the next `pairs` of a recording.
     pub fn step(&mut self, recording: &mut Recording, pairs: &[[f32; 2]]) -> Step {
         let mut most = pairs.len();

@@ -4,10 +4,11 @@ use std::io::Write;
 
 use antinode::{Estimate, SettingsError};
 
+use super::coarse::Coarse;
 use super::copied::Copied;
 use super::early::Early;
+use super::few::Few;
 use super::first::First;
-use super::flagged::Flagged;
 use super::held::Held;
 use super::in_turn::InTurn;
 use super::mistaken::straight;
@@ -16,10 +17,11 @@ use super::scatter::Scatter;
 use super::search::{Search, elsewhere};
 use super::silence::Silence;
 use super::span::{Span, Step};
+use super::stop::Stop;
 use super::{Core, LONGEST};
 use crate::failure::Failure;
 use crate::methods::History;
-use crate::recording::{InputError, Recording};
+use crate::recording::Recording;
 use crate::rows::Rows;
 
 /// Samples of the longest period that is searched.
@@ -44,7 +46,9 @@ pub(super) struct Windows<'a> {
     held: Held,
     copied: Copied,
     early: Early,
-    flagged: Flagged,
+    coarse: Coarse,
+    few: Few,
+    stop: &'a Stop,
 }
 
 impl<'a> Windows<'a> {
@@ -54,6 +58,7 @@ impl<'a> Windows<'a> {
         options: &'a Identify,
         recording: &Recording,
         rate: f64,
+        stop: &'a Stop,
     ) -> Result<Self, Failure> {
         let settings = options.settings(rate, recording.full_scale(), recording.resolution());
         let core = Core::new(settings).map_err(|error| match error {
@@ -83,7 +88,13 @@ impl<'a> Windows<'a> {
             held: Held::default(),
             copied: Copied::default(),
             early: Early::new(recording.bytes_total().is_none(), rate),
-            flagged: Flagged::default(),
+            coarse: Coarse::new(
+                recording
+                    .resolution()
+                    .filter(|_| options.resolution.is_none()),
+            ),
+            few: Few::new(settings.resolution),
+            stop,
         })
     }
 
@@ -129,6 +140,7 @@ impl<'a> Windows<'a> {
             pairs = rest;
             recording.look(self.span.take(taken), new);
             self.held.see(new);
+            self.few.see(new);
             self.copied.see(new);
             if let Some(history) = &mut self.history {
                 history.extend(new);
@@ -138,16 +150,22 @@ impl<'a> Windows<'a> {
             }
         }
         if self.early.is_due(self.core.index()) {
-            self.tell_early(rows)?;
+            self.tell_early(recording, rows)?;
         }
         Ok(true)
     }
 
     /// Tells of a pipe what will not be otherwise any more.
-    fn tell_early(&self, rows: &mut Rows<impl Write>) -> Result<(), Failure> {
+    fn tell_early(
+        &mut self,
+        recording: &Recording,
+        rows: &mut Rows<impl Write>,
+    ) -> Result<(), Failure> {
         // Rows have flags where one of them holds its value.
         let held = self.held.told().filter(|_| rows.count() == 0);
-        if let Some(told) = held.or_else(|| self.copied.told()) {
+        let early = held.or_else(|| self.copied.told());
+        let coarse = self.coarse.told(recording.resolution_so_far());
+        for told in early.into_iter().chain(coarse) {
             rows.flush()?;
             eprintln!("warning: {}: so far {told}", self.name);
         }
@@ -177,7 +195,8 @@ impl<'a> Windows<'a> {
         self.silence.see(estimate, self.rate, self.options.hop);
         self.scatter.see(estimate);
         self.in_turn.see(estimate, self.rate);
-        self.flagged.see(estimate.flags);
+        self.coarse.see(estimate);
+        self.stop.see(estimate.flags);
         let estimate = Estimate {
             time: estimate.time + self.span.offset(),
             ..*estimate
@@ -190,24 +209,27 @@ impl<'a> Windows<'a> {
     pub fn conclude(
         mut self,
         recording: &Recording,
-        fault: Option<InputError>,
+        fault: Option<Failure>,
         rows: &mut Rows<impl Write>,
     ) -> Result<(), Failure> {
         // Rows before what is told of them.
-        rows.flush()?;
+        let flushed = rows.flush().map_err(Failure::from);
+        if matches!(flushed, Err(Failure::Closed)) {
+            return flushed;
+        }
+        self.stop.tell();
         let first = self.first.rest();
         let mistaken = first.and_then(|first| self.begin(&first).err());
         let name = self.name;
         if let Some(warning) = recording.late_warning() {
             eprintln!("warning: {warning}");
         }
-        let [misfits, clipped] = self.flagged.told(rows.count(), self.options);
         let seconds = self.core.index() as f64 / self.rate;
         let warnings = [
-            misfits,
-            clipped,
             self.span.warning().filter(|_| fault.is_none()),
             self.silence.told(seconds, self.span.offset()),
+            self.coarse.told(recording.resolution_so_far()),
+            self.few.told().filter(|_| rows.count() > 0),
             self.scatter.told(self.options.hum || self.options.coloured),
             self.in_turn.told(),
             self.copied
@@ -219,7 +241,8 @@ impl<'a> Windows<'a> {
             eprintln!("warning: {name}: {warning}");
         }
         let failure = match fault {
-            Some(error) => Some(error.into()),
+            Some(error) => Some(error),
+            None if flushed.is_err() => flushed.err(),
             None if rows.count() > 0 || mistaken.is_some() => None,
             None => Some(self.span.missing(name).unwrap_or_else(|| {
                 self.search

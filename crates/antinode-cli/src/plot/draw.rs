@@ -4,13 +4,14 @@ use std::error::Error;
 use std::path::Path;
 
 use plotters::coord::Shift;
-use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-use super::figure::{Axis, Figure, Panel};
+use super::axis::Axis;
+use super::figure::Figure;
 use super::legend::Legend;
+use super::panel::Panel;
 use super::reduce::Piece;
-use super::scale::decimals;
+use super::values::{self, Values};
 use crate::canvas::{self, FONT};
 use crate::recording::OutputError;
 
@@ -31,10 +32,12 @@ pub(super) const TEXT: u32 = 16;
 const LABEL: u32 = 14;
 /// Height of the marks of flagged rows.
 const MARK: i32 = 7;
+/// Width and height of the arrows to values beyond a panel.
+pub(super) const ARROW: u32 = 6;
+pub(super) const BEYOND: RGBColor = RGBColor(60, 60, 60);
 pub(super) const FLAGGED: RGBColor = RGBColor(220, 0, 0);
-/// Numbers along an axis, at the most.
+/// Numbers along the time axis, at the most.
 const TIMES: usize = 11;
-const VALUES: usize = 6;
 
 /// How a format is drawn.
 #[derive(Debug, Clone, Copy)]
@@ -148,7 +151,7 @@ where
     B::ErrorType: 'static,
 {
     let units = medium.units;
-    let Axis { title, range } = &panel.axis;
+    let Axis { title, range, .. } = &panel.axis;
     let place = ((LEFT * units) as i32, ((TITLE - TEXT - 4) * units) as i32);
     area.draw(&Text::new(title.as_str(), place, (FONT, units * TEXT)))?;
     let mut chart = ChartBuilder::on(area)
@@ -156,9 +159,7 @@ where
         .margin_right(units * RIGHT)
         .x_label_area_size(units * foot)
         .y_label_area_size(units * LEFT)
-        .build_cartesian_2d(figure.time.range.clone(), range.clone())?;
-    let of_times = places(&figure.time.range, TIMES);
-    let of_values = places(range, VALUES);
+        .build_cartesian_2d(figure.time.values(TIMES), panel.axis.values(values::MOST))?;
     chart
         .configure_mesh()
         .x_desc(if foot > 0 {
@@ -173,9 +174,7 @@ where
         .set_all_tick_mark_size(4 * units)
         .max_light_lines(0)
         .x_labels(TIMES)
-        .y_labels(VALUES)
-        .x_label_formatter(&|x| number(*x, of_times))
-        .y_label_formatter(&|y| number(*y, of_values))
+        .y_labels(values::MOST)
         .draw()?;
     let plane = chart.plotting_area();
     // From the last recording to the first, which is drawn on top.
@@ -200,12 +199,26 @@ where
         );
         plane.draw(&mark)?;
     }
+    let time = &figure.time.range;
+    let (width, height) = plane.dim_in_pixel();
+    let unit = |length: f64, pixels: u32| length * f64::from(units) / f64::from(pixels);
+    let half = unit(time.end - time.start, width) * f64::from(ARROW) / 2.0;
+    for &(at, is_above) in &panel.beyond {
+        let (tip, inwards) = if is_above {
+            (range.end, -1.0)
+        } else {
+            (foot, 1.0)
+        };
+        let base = tip + inwards * unit(range.end - range.start, height) * f64::from(ARROW);
+        let arrow = [(at - half, base), (at + half, base), (at, tip)];
+        plane.draw(&Polygon::new(arrow, BEYOND.filled()))?;
+    }
     Ok(())
 }
 
 /// Draws a band, and its line over it; both end at the panel's edges.
 fn draw_piece<B: DrawingBackend>(
-    plane: &DrawingArea<B, Cartesian2d<RangedCoordf64, RangedCoordf64>>,
+    plane: &DrawingArea<B, Cartesian2d<Values, Values>>,
     piece: &Piece,
     colour: RGBColor,
     Medium { units, joins }: Medium,
@@ -236,23 +249,4 @@ where
         plane.draw(&PathElement::new(steps, stroke))?;
     }
     Ok(())
-}
-
-/// Decimals of the numbers along an axis.
-fn places(range: &std::ops::Range<f64>, most: usize) -> usize {
-    let numbers = RangedCoordf64::from(range.clone()).key_points(most);
-    match numbers.as_slice() {
-        [one, other, ..] => decimals(other - one),
-        _ => decimals(range.end - range.start),
-    }
-}
-
-fn number(x: f64, decimals: usize) -> String {
-    let text = format!("{x:.decimals$}");
-    // Rounding leaves the sign of a small number.
-    match text.strip_prefix('-') {
-        Some(zero) if zero.trim_matches(['0', '.']).is_empty() => zero.to_owned(),
-        Some(positive) => format!("−{positive}"),
-        None => text,
-    }
 }

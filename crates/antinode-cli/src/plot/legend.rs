@@ -5,7 +5,7 @@ use std::error::Error;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::draw::{FLAGGED, TEXT, WIDTH};
+use super::draw::{ARROW, BEYOND, FLAGGED, TEXT, WIDTH};
 use super::figure::Figure;
 use crate::canvas::{self, FONT};
 
@@ -32,6 +32,7 @@ enum Key {
     Colour(RGBColor),
     Band,
     Flagged,
+    Beyond,
 }
 
 /// An entry and its place, pixels.
@@ -68,6 +69,9 @@ impl Legend {
         }
         if !figure.flagged.is_empty() {
             texts.push((Key::Flagged, "flagged rows".to_owned()));
+        }
+        if figure.panels.iter().any(|panel| !panel.beyond.is_empty()) {
+            texts.push((Key::Beyond, "values beyond the axis".to_owned()));
         }
         let (mut x, mut y) = (MARGIN, MARGIN);
         let mut entries = Vec::new();
@@ -117,6 +121,11 @@ impl Legend {
                 Key::Flagged => {
                     let mark = [at(KEY - 10, 3), at(KEY - 8, 11)];
                     area.draw(&Rectangle::new(mark, FLAGGED.filled()))?;
+                }
+                Key::Beyond => {
+                    let (left, middle, right) = (KEY - 8 - ARROW, KEY - 8 - ARROW / 2, KEY - 8);
+                    let arrow = [at(left, 4 + ARROW), at(right, 4 + ARROW), at(middle, 4)];
+                    area.draw(&Polygon::new(arrow, BEYOND.filled()))?;
                 }
             }
             area.draw(&Text::new(text.as_str(), at(KEY, 0), (FONT, units * TEXT)))?;

@@ -2,10 +2,16 @@
 
 use std::ops::Range;
 
+use super::values::to_marks;
+
 /// A range holds what clean rows measured; flagged values and deviations widen it on either side by no more than so many spans of that.
 const BEYOND: f64 = 0.5;
 /// A range's least span in deviations.
 const DEVIATIONS: f64 = 4.0;
+/// The least of an axis of logarithms, as a share of the least deviation, and of the largest value where none is known: what is less is
+/// a passage through zero.
+const SHARE_OF_DEVIATION: f64 = 0.3;
+const LEAST_OF_LOG: f64 = 1e-9;
 /// Numbers from this size on cannot be drawn, and up to this one they are 0.
 const GREATEST: f64 = 1e290;
 const LEAST: f64 = 1e-280;
@@ -67,6 +73,31 @@ impl Extent {
         Some(from - missing - margin..to + missing + margin)
     }
 
+    /// The range of logarithms to draw, from number to number of the axis; none of no value above 0.
+    pub fn log_range(&self) -> Option<Range<f64>> {
+        let is_clean = self.clean[0] <= self.clean[1];
+        let [from, to] = if is_clean { self.clean } else { self.all };
+        if to <= 0.0 {
+            return None;
+        }
+        let least = if self.least_deviation > 0.0 && self.least_deviation < to {
+            SHARE_OF_DEVIATION * self.least_deviation
+        } else {
+            LEAST_OF_LOG * to
+        };
+        let mut from = from.max(least);
+        let mut to = to;
+        if is_clean {
+            let most = (to / from).powf(BEYOND);
+            (from, to) = (
+                self.all[0].max(least).max(from / most).min(from),
+                self.all[1].min(to * most),
+            );
+        }
+        let Range { start, end } = to_marks(&(from.log10()..to.log10()));
+        Some(10f64.powf(start)..10f64.powf(end))
+    }
+
     /// The greatest size of a value; 0 of no value.
     pub fn size(&self) -> f64 {
         let [from, to] = if self.clean[0] <= self.clean[1] {
@@ -86,6 +117,17 @@ impl Extent {
 pub fn decimals(step: f64) -> usize {
     // A step of 0.2 has one, and what is a little less by rounding too.
     (-(step * 1.000_001).log10().floor()).clamp(0.0, 15.0) as usize
+}
+
+/// A number with so many decimals.
+pub fn printed(number: f64, decimals: usize) -> String {
+    let text = format!("{number:.decimals$}");
+    // Rounding leaves the sign of a small number.
+    match text.strip_prefix('-') {
+        Some(zero) if zero.trim_matches(['0', '.']).is_empty() => zero.to_owned(),
+        Some(positive) => format!("−{positive}"),
+        None => text,
+    }
 }
 
 /// What numbers of this size are multiplied by so that few digits tell them, and how a title says so.
@@ -145,6 +187,39 @@ mod tests {
             Some(2.0..9.0)
         );
         assert_eq!(range(&[], 1.0), None);
+    }
+
+    #[test]
+    fn logarithms_have_a_range_without_passages_through_zero() {
+        let range = |values: &[(f64, f64, bool)]| {
+            let mut extent = Extent::new();
+            for &(value, deviation, is_clean) in values {
+                extent.add(value, deviation, is_clean);
+            }
+            let range = extent.log_range()?;
+            Some([range.start, range.end].map(|end| format!("{end:.1e}")))
+        };
+        let told = |from: &str, to: &str| Some([from.to_owned(), to.to_owned()]);
+        assert_eq!(
+            range(&[(0.3, 0.0, true), (0.003, 0.0, true)]),
+            told("2.0e-3", "5.0e-1")
+        );
+        assert_eq!(
+            range(&[(0.3, 0.01, true), (1e-7, 0.01, true)]),
+            told("2.0e-3", "5.0e-1")
+        );
+        assert_eq!(
+            range(&[(0.3, 0.0, true), (0.0, 0.0, true)]),
+            told("2.0e-10", "5.0e-1")
+        );
+        // A flagged value takes half of a span at the most.
+        assert_eq!(
+            range(&[(1.0, 0.0, true), (0.01, 0.0, true), (1e9, 0.0, false)]),
+            told("1.0e-2", "1.0e1")
+        );
+        assert_eq!(range(&[(0.5, 0.0, true)]), told("2.0e-1", "1.0e0"));
+        assert_eq!(range(&[(0.0, 0.0, true)]), None);
+        assert_eq!(range(&[]), None);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Recordings of the two pick-off signals: read from WAV, text, NPY and raw samples, and written.
 
 mod by_content;
+mod codes;
 mod columns;
 mod content;
 mod delimited;
@@ -35,6 +36,7 @@ use std::path::Path;
 use std::rc::Rc;
 
 pub use by_content::OpenOptions;
+use codes::Lowest;
 pub use columns::Columns;
 pub use error::{Channel, InputError};
 pub use gaps::Gap;
@@ -47,6 +49,9 @@ pub use write::{OutputError, RecordingWriter, SampleFormat, WholeFile};
 /// The capacity given to a buffer that has none: small enough to stay in the cache.
 pub const BLOCK_PAIRS: usize = 1 << 14;
 
+/// What is between two integers of 32 bits.
+const LEAST_UNIT: f32 = 1.0 / 2_147_483_648.0;
+
 /// A recording of S_C and S_D, read once from its beginning to its end in constant memory.
 pub struct Recording {
     name: String,
@@ -58,6 +63,8 @@ pub struct Recording {
     head: std::vec::IntoIter<[f32; 2]>,
     /// The step that the first samples tell.
     step: Option<f32>,
+    /// Of integers.
+    lowest: Option<Lowest>,
     not_finite: NotFinite,
     /// Met while there were still good pairs to deliver.
     fault: Option<InputError>,
@@ -110,6 +117,7 @@ impl Recording {
     }
 
     fn new(name: String, opened: Opened, bytes_total: Option<u64>) -> Self {
+        let lowest = opened.full_scale.map(|largest| Lowest::new(unit(largest)));
         Self {
             name,
             bytes_total,
@@ -117,6 +125,7 @@ impl Recording {
             opened,
             head: Vec::new().into_iter(),
             step: None,
+            lowest,
             not_finite: NotFinite::default(),
             fault: None,
             ended: false,
@@ -129,8 +138,8 @@ impl Recording {
         if self.bytes_total.is_some() {
             let head;
             (head, self.step, self.fault) = resolution::of_head(self.opened.source.as_mut());
-            let unit = self.opened.full_scale.map(|largest| 1.0 - largest);
-            let of_integers = || resolution::of_integers(&head, unit?);
+            let largest = self.opened.full_scale;
+            let of_integers = || codes::of_integers(&head, unit(largest?));
             self.step = self.step.or_else(of_integers);
             self.head = head.into_iter();
         } else {
@@ -204,6 +213,12 @@ impl Recording {
         of_integers.filter(|&step| step > 0.0).or(self.step)
     }
 
+    /// The step of all integers looked at so far, a power of two: one coarser than [`resolution`](Self::resolution) shows too late, as that
+    /// of a wave that repeats its first few codes, or of a pipe.
+    pub fn resolution_so_far(&self) -> Option<f32> {
+        self.lowest.as_ref()?.step()
+    }
+
     /// What is wrong with the samples looked at so far that are not finite numbers, if there are any.
     pub fn not_finite(&self) -> Option<InputError> {
         let first = self.not_finite.first?;
@@ -259,11 +274,17 @@ impl Recording {
     /// Looks for what is no finite number or left out in `pairs`, before which the recording had so many: only these are told.
     pub fn look(&mut self, before: u64, pairs: &[[f32; 2]]) {
         self.opened.source.look(before, before + pairs.len() as u64);
-        // Integers are all finite.
-        if self.opened.full_scale.is_none() {
-            self.not_finite.look(before, pairs);
+        match &mut self.lowest {
+            // Integers are all finite.
+            Some(lowest) => lowest.look(pairs),
+            None => self.not_finite.look(before, pairs),
         }
     }
+}
+
+/// What is between two integers of which this is the largest as it is decoded, which single precision does not tell from 1 of many bits.
+fn unit(largest: f32) -> f32 {
+    (1.0 - largest).max(LEAST_UNIT)
 }
 
 #[cfg(test)]

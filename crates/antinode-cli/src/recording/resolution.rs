@@ -1,7 +1,7 @@
 //! The step between a converter's codes, found in the samples.
 
 use super::error::InputError;
-use super::{BLOCK_PAIRS, Source};
+use super::{BLOCK_PAIRS, Source, codes};
 
 /// Samples of a channel for each of its values, where these are few: a wave without noise repeats a few values too.
 const SAMPLES_A_VALUE: usize = 8;
@@ -17,40 +17,13 @@ const LEAST_UNITS: f32 = 4.0;
 /// Blocks that are looked at where a file begins in silence.
 const HEAD_BLOCKS: usize = 16;
 
-/// Bits that all distances of integers have in common by chance less than once in 10¹⁸ times.
-const SHARED_BITS: usize = 60;
-/// Fewer integers than these may have been chosen by hand.
-const FEWEST_INTEGERS: usize = 12;
-
 /// The step of which the samples of both channels are whole multiples, the greater one where they differ.
 ///
 /// None for a continuous signal, however it was rounded: single precision's own steps are none of a converter.
 pub(super) fn resolution(pairs: &[[f32; 2]]) -> Option<f32> {
     let steps = [0, 1].map(|channel| step(pairs.iter().map(|pair| pair[channel])));
-    steps.into_iter().flatten().reduce(f32::max)
-}
-
-/// The step of integers with `unit` between them where they use few of their bits: a wave without noise that repeats a few values tells
-/// it too, for these are exact.
-pub(super) fn of_integers(pairs: &[[f32; 2]], unit: f32) -> Option<f32> {
-    if unit <= 0.0 {
-        return None;
-    }
-    let mut codes: Vec<u64> = Vec::with_capacity(2 * pairs.len());
-    let code = |&sample: &f32| ((f64::from(sample) + 1.0) / f64::from(unit)) as u64;
-    codes.extend(pairs.iter().flatten().map(code));
-    codes.sort_unstable();
-    codes.dedup();
-    let distances = codes.windows(2).map(|pair| pair[1] - pair[0]);
-    let factor = distances.fold(0, common_factor);
-    let bits = factor.checked_ilog2()? as usize;
-    let is_told = codes.len() >= FEWEST_INTEGERS && bits * (codes.len() - 1) >= SHARED_BITS;
-    is_told.then_some(factor as f32 * unit)
-}
-
-/// The greatest factor of both; that of 0 and a number is the number.
-fn common_factor(a: u64, b: u64) -> u64 {
-    if b == 0 { a } else { common_factor(b, a % b) }
+    let step = steps.into_iter().flatten().reduce(f32::max);
+    step.or_else(|| codes::of_whole(pairs))
 }
 
 /// The first pairs of a file, the step that they tell, and the fault behind them.
@@ -204,35 +177,6 @@ mod tests {
                 assert_eq!(resolution(&pairs), None, "{period} {phase}");
             }
         }
-    }
-
-    #[test]
-    fn the_bits_that_integers_leave_out_are_found_without_noise_too() {
-        for (container, bits) in [(16, 8), (16, 12), (24, 12), (24, 16)] {
-            let unit = 1.0 / f32::exp2(f32::from(container - 1i16));
-            let step = 1.0 / f64::exp2(f64::from(bits - 1i16));
-            // Twenty values, over and over.
-            let sample = |k: usize| {
-                let value = 0.7 * (TAU * (k % 20) as f64 / 20.0 + 0.3).cos();
-                (step * (value / step).round()) as f32
-            };
-            let pairs: Vec<[f32; 2]> = (0..2000).map(|k| [sample(k), sample(k + 3)]).collect();
-            assert_eq!(
-                of_integers(&pairs, unit),
-                Some(step as f32),
-                "{container} {bits}"
-            );
-            // With all their bits in use, or next to nothing there, none is told.
-            let [fine, coarse] = [unit, step as f32].map(|by| {
-                let shifted = pairs.iter().enumerate();
-                let shifted = shifted.map(|(k, pair)| [pair[0] + by * (k % 2) as f32, pair[1]]);
-                of_integers(&shifted.collect::<Vec<_>>(), unit)
-            });
-            assert_eq!((fine, coarse), (None, Some(step as f32)));
-            assert_eq!(of_integers(&[[0.0, step as f32]; 100], unit), None);
-        }
-        assert_eq!(of_integers(&[], 0.5), None);
-        assert_eq!(of_integers(&[[0.5, 0.25]; 100], 0.0), None);
     }
 
     #[test]

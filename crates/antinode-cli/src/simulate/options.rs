@@ -15,8 +15,8 @@ use crate::recording::SampleFormat;
 #[command(allow_negative_numbers = true)]
 pub struct Simulate {
     /// The recording to write: .wav, .csv or .npy. The truth goes beside it, under its name and .json.
-    #[arg(short = 'o', long = "to", value_name = "FILE")]
-    pub to: PathBuf,
+    #[arg(short = 'o', long, value_name = "FILE")]
+    pub out: PathBuf,
     /// Length, s.
     #[arg(long, default_value_t = 1.0, value_name = "S")]
     pub seconds: f64,

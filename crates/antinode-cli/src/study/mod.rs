@@ -34,7 +34,7 @@ pub struct Study {
     /// The folder that figures and tables go to; it is made where it is missing. Files of an earlier study are written over.
     #[arg(long, default_value = "study", value_name = "DIR")]
     out: PathBuf,
-    /// Runs a point of figure 3, at least 1.
+    /// Runs for each point of figure 3, at least 1.
     #[arg(long, default_value_t = 10_000, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     runs: u32,
     /// Seed of all noise.

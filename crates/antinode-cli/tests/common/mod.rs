@@ -50,20 +50,54 @@ pub fn run_with(directory: &Path, arguments: &str, input: Vec<u8>) -> Run {
     }
 }
 
-/// Runs `identify --output csv`, which must succeed and say that most rows are clipped where they are, and nothing else.
+/// Runs `identify --output csv`, which must succeed and say how many rows are flagged by what, and nothing else.
 pub fn rows(directory: &Path, arguments: &str) -> Vec<Row> {
     let run = run(directory, &format!("identify --output csv {arguments}"));
     let rows = Row::all(&run.out);
-    let clipped = rows.iter().filter(|row| row.text("flags") == "clipped");
-    let clipped = clipped.count();
-    let is_clipped = clipped >= 4 && 2 * clipped > rows.len();
-    let (of_clipped, other): (Vec<&str>, Vec<&str>) = run
-        .err
-        .lines()
-        .partition(|line| line.contains("rows are flagged clipped alone; "));
-    assert_eq!((run.code, other), (0, Vec::new()), "{arguments}");
-    assert_eq!(of_clipped.len(), usize::from(is_clipped), "{arguments}");
+    assert_eq!(
+        (run.code, beside_flagged(&rows, &run.err)),
+        (0, Vec::new()),
+        "{arguments}"
+    );
     rows
+}
+
+/// What is told beside the flags of these rows, which must be told in one line a recording.
+pub fn beside_flagged<'a>(rows: &[Row], err: &'a str) -> Vec<&'a str> {
+    let mut lines: Vec<&str> = err.lines().collect();
+    let mut files: Vec<&str> = rows.iter().map(|row| row.text("file")).collect();
+    files.dedup();
+    for file in files {
+        let flags = rows.iter().filter(|row| row.text("file") == file);
+        let flags: Vec<&str> = flags.map(|row| row.text("flags")).collect();
+        let flagged = flags.iter().filter(|flags| !flags.is_empty()).count();
+        let start = format!("warning: {file}: {flagged} of {} rows ", flags.len());
+        let (told, others): (Vec<&str>, Vec<&str>) =
+            lines.iter().partition(|line| line.starts_with(&start));
+        assert_eq!(told.len(), usize::from(flagged > 0), "{start}: {err}");
+        for line in told {
+            let (_, counts) = line.split_once(" flagged: ").unwrap();
+            let counts = counts.split(';').next().unwrap();
+            let mut sum = 0;
+            for one in counts.split(", ") {
+                let (flag, count) = one.split_once(' ').unwrap();
+                let has = |flags: &&&str| flags.split('+').any(|one| one == flag);
+                assert_eq!(
+                    flags.iter().filter(has).count().to_string(),
+                    count,
+                    "{line}"
+                );
+                sum += count.parse::<usize>().unwrap();
+            }
+            let all = flags.iter().filter(|flags| !flags.is_empty());
+            assert_eq!(
+                all.map(|flags| flags.split('+').count()).sum::<usize>(),
+                sum
+            );
+        }
+        lines = others;
+    }
+    lines
 }
 
 /// The rows of a text, which must be read without a word.
@@ -82,7 +116,7 @@ pub fn same_later(found: &[Row], expected: &[Row], later: f64) {
     }
 }
 
-/// Runs `identify`, which must exit 1 with one message that holds all of these; gives its rows.
+/// Runs `identify`, which must exit 1 with one message that holds all of these, beside that of flags; gives its rows.
 pub fn fault(directory: &Path, arguments: &str, input: Vec<u8>, told: &[&str]) -> Vec<Row> {
     let run = run_with(
         directory,
@@ -90,16 +124,18 @@ pub fn fault(directory: &Path, arguments: &str, input: Vec<u8>, told: &[&str]) -
         input,
     );
     assert_eq!(run.code, 1, "{arguments}: {}", run.err);
-    assert_eq!(run.err.lines().count(), 1, "{}", run.err);
-    assert!(run.err.starts_with("error: "), "{}", run.err);
+    let rows = Row::all(&run.out);
+    let others = beside_flagged(&rows, &run.err);
+    assert_eq!(others.len(), 1, "{}", run.err);
+    assert!(others[0].starts_with("error: "), "{}", run.err);
     for part in told {
         assert!(
-            run.err.contains(part),
+            others[0].contains(part),
             "{arguments}: `{part}` is not in {}",
             run.err
         );
     }
-    Row::all(&run.out)
+    rows
 }
 
 /// One row of CSV.

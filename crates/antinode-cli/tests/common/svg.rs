@@ -16,9 +16,10 @@ pub const TITLES: [&str; 5] = [
 ];
 /// The columns that `plot` needs, and one deviation.
 pub const HEADER: &str = "time_s,main_amplitude,main_amplitude_std,quadrature_amplitude,angle_rad,frequency_hz,residual_rms,flags,file\n";
-/// Colours of the first recordings, of flags, and of axes.
+/// Colours of the first recordings, of arrows, of flags, and of axes.
 pub const FIRST: &str = "#0072B2";
 pub const SECOND: &str = "#D55E00";
+pub const DARK: &str = "#3C3C3C";
 const RED: &str = "#DC0000";
 const GREY: &str = "#969696";
 
@@ -83,7 +84,7 @@ impl Svg {
         lines.retain(|line| panel.down.contains(&line[0].1) && line[0].0 >= panel.across.start);
         for (x, y) in lines.iter().flatten() {
             assert!(
-                panel.across.contains(x) && panel.down.contains(y),
+                panel.across.contains(x) && (panel.down.start..=panel.down.end).contains(y),
                 "{x} {y}"
             );
         }

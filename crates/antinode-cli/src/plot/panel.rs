@@ -1,0 +1,260 @@
+//! The panel of a quantity: its axis, and the lines in it.
+
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use super::axis::{Axis, Scale};
+use super::reduce::{Piece, Sample, column, reduce};
+use super::rows::{COLUMNS, Row, Trace, Trust, median};
+use super::scale::{Extent, decimals, drawable, factor, frequency_unit};
+
+/// Titles of the panels, in the order of [`COLUMNS`].
+const TITLES: [&str; COLUMNS.len()] = [
+    "main amplitude",
+    "quadrature amplitude",
+    "pattern angle, °",
+    "frequency",
+    "residual rms",
+];
+const QUADRATURE: usize = 1;
+const ANGLE: usize = 2;
+const FREQUENCY: usize = 3;
+const RESIDUAL: usize = 4;
+/// An axis spans no less than this share of its numbers' size: less is rounding, and would need too many digits.
+const LEAST_SHARE: f64 = 2e-6;
+/// What is left over scatters far more than that.
+const LEAST_OF_RESIDUAL: f64 = 0.02;
+/// Frequencies have thirteen digits.
+const LEAST_OF_FREQUENCY: f64 = 1e-11;
+/// Margins above and below all values, as a share of their span.
+const ABOVE: f64 = 0.08;
+/// Rows whose deviation is so many times the median have no say in the range of an axis, as those at the end of a ring-down.
+const UNCERTAIN: f64 = 3.0;
+/// They have one as long as their deviation is less than this share of what the others span.
+const SEEN: f64 = 0.05;
+/// Arrows to values beyond a panel are no closer than so many columns.
+const APART: usize = 8;
+
+/// A quantity.
+#[derive(Debug)]
+pub struct Panel {
+    pub axis: Axis,
+    /// Those of each trace, in the axes' numbers.
+    pub curves: Vec<Vec<Piece>>,
+    /// Times of values that lie beyond the panel, and whether above it.
+    pub beyond: Vec<(f64, bool)>,
+}
+
+/// What is drawn of a row's quantity, with its deviation; none where it has no number. Logarithms are those of its size.
+fn sample(row: &Row, quantity: usize, is_log: bool) -> Option<(f64, f64)> {
+    let value = drawable(row.values[quantity])?;
+    let deviation = f64::from(row.deviations[quantity]);
+    let known = deviation.is_finite() && deviation > 0.0;
+    let value = if is_log { value.abs() } else { value };
+    (row.trust != Trust::Lost).then_some((value, if known { deviation } else { 0.0 }))
+}
+
+/// The panel of a quantity over the span, the scale and the columns of time; amplitudes and residual with logarithms if so.
+pub fn panel(
+    traces: &[Trace],
+    quantity: usize,
+    is_log: bool,
+    (span, time, columns): (&Range<f64>, Scale, usize),
+) -> Panel {
+    let is_log = is_log && !matches!(quantity, ANGLE | FREQUENCY);
+    let extent = extent(traces, quantity, is_log);
+    let (range, (scale, title)) = if is_log {
+        let range = extent.log_range().unwrap_or(0.1..1.0);
+        let title = match quantity {
+            QUADRATURE => format!("|{}|", TITLES[quantity]),
+            _ => TITLES[quantity].to_owned(),
+        };
+        (range, (Scale::LOG, title))
+    } else {
+        let least = match (quantity, extent.size()) {
+            (_, 0.0) => 1.0,
+            (FREQUENCY, size) => LEAST_OF_FREQUENCY * size,
+            (RESIDUAL, size) => LEAST_OF_RESIDUAL * size,
+            (_, size) => LEAST_SHARE * size,
+        };
+        // A quantity without a number has an empty panel.
+        let range = extent.range(least, ABOVE).unwrap_or(0.0..1.0);
+        let scale = scale(traces, quantity, &range, extent.size());
+        (range, scale)
+    };
+    let axis = scale.axis(title, &range);
+    let mut beyond = vec![[false; 2]; columns.div_ceil(APART)];
+    let curves = traces
+        .iter()
+        .map(|trace| {
+            let samples = trace.rows.iter().map(|row| {
+                let (value, deviation) = sample(row, quantity, is_log).unzip();
+                Sample {
+                    time: row.time,
+                    value,
+                    deviation: deviation.unwrap_or(0.0),
+                    begins: row.begins,
+                }
+            });
+            let mut pieces = reduce(samples, span, columns);
+            for piece in &mut pieces {
+                for &(at, value) in &piece.line {
+                    let sides = &mut beyond[column(at, span, columns) / APART];
+                    sides[0] |= value < range.start;
+                    sides[1] |= value > range.end;
+                }
+                on_axes(piece, time, scale, &axis.range);
+            }
+            pieces
+        })
+        .collect();
+    let middle = |place: usize| {
+        let share = (place as f64 + 0.5) * APART as f64 / columns as f64;
+        time.of(span.start + (span.end - span.start) * share)
+    };
+    let places = beyond.iter().enumerate();
+    let beyond = places
+        .flat_map(|(place, sides)| [(place, sides[0], false), (place, sides[1], true)])
+        .filter(|&(_, is_beyond, _)| is_beyond)
+        .map(|(place, _, is_above)| (middle(place), is_above))
+        .collect();
+    Panel {
+        axis,
+        curves,
+        beyond,
+    }
+}
+
+/// What a quantity's axis is to hold: rows that are far less certain than the others are taken for flagged ones.
+fn extent(traces: &[Trace], quantity: usize, is_log: bool) -> Extent {
+    let drawn: Vec<(f64, f64, bool)> = traces
+        .iter()
+        .flat_map(|trace| &trace.rows)
+        .filter_map(|row| {
+            let (value, deviation) = sample(row, quantity, is_log)?;
+            // 0 has no logarithm.
+            let is_drawn = !is_log || value > 0.0;
+            is_drawn.then_some((value, deviation, row.trust == Trust::Clean))
+        })
+        .collect();
+    let clean = || drawn.iter().filter(|(_, _, is_clean)| *is_clean);
+    let mut deviations: Vec<f64> = clean().map(|row| row.1).filter(|&std| std > 0.0).collect();
+    let usual = median(&mut deviations).map_or(f64::INFINITY, |median| UNCERTAIN * median);
+    let certain = clean().filter(|row| row.1 <= usual).map(|row| row.0);
+    let [least, greatest] = certain.fold([f64::INFINITY, f64::NEG_INFINITY], |ends, value| {
+        [ends[0].min(value), ends[1].max(value)]
+    });
+    let most = usual.max(SEEN * (greatest - least));
+    let mut extent = Extent::new();
+    for &(value, deviation, is_clean) in &drawn {
+        extent.add(value, deviation, is_clean && deviation <= most);
+    }
+    extent
+}
+
+/// How a quantity is told, and the title that says so.
+fn scale(traces: &[Trace], quantity: usize, range: &Range<f64>, size: f64) -> (Scale, String) {
+    let title = TITLES[quantity];
+    match quantity {
+        ANGLE => (Scale::linear(0.0, 180.0 / PI), title.to_owned()),
+        FREQUENCY => {
+            let wide = range.end - range.start;
+            let (unit, times) = frequency_unit(wide / 2.0);
+            let decimals = decimals(wide / 100.0);
+            let middle = median_frequency(traces);
+            // What is told is what is taken off.
+            let told = format!("{middle:.decimals$}");
+            let less = told.parse().unwrap_or(middle);
+            (
+                Scale::linear(less, times),
+                format!("{title} less its median of {told} Hz, {unit}"),
+            )
+        }
+        _ => {
+            let (times, told) = factor(size);
+            (Scale::linear(0.0, times), format!("{title}{told}"))
+        }
+    }
+}
+
+/// That of the clean rows, or else of all.
+fn median_frequency(traces: &[Trace]) -> f64 {
+    let of = |is_used: fn(Trust) -> bool| {
+        let rows = traces.iter().flat_map(|trace| &trace.rows);
+        let mut numbers: Vec<_> = rows
+            .filter(|row| is_used(row.trust))
+            .filter_map(|row| Some(sample(row, FREQUENCY, false)?.0))
+            .collect();
+        median(&mut numbers)
+    };
+    of(|trust| trust == Trust::Clean)
+        .or_else(|| of(|_| true))
+        .unwrap_or(0.0)
+}
+
+/// Brings a piece to the axes' scales; what lies beyond the panel is held at its edge.
+fn on_axes(piece: &mut Piece, time: Scale, scale: Scale, range: &Range<f64>) {
+    // Far below the range plotters' whole numbers overflow, and it would be drawn at the upper edge.
+    let held = |value| scale.of(value).clamp(range.start, range.end);
+    for (t, value) in &mut piece.line {
+        *t = time.of(*t);
+        *value = held(*value);
+    }
+    for (t, edges) in &mut piece.band {
+        *t = time.of(*t);
+        *edges = edges.map(held);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::figure::{Figure, figure};
+    use super::super::rows::read;
+    use super::*;
+    use crate::row_file::RowFile;
+
+    /// The figure of a recording's rows, of which this is the third.
+    fn with(row: &str) -> Figure {
+        let mut text = "time_s,main_amplitude,quadrature_amplitude,angle_rad,frequency_hz,residual_rms,flags\n".to_owned();
+        for time in 0..6 {
+            text += &match time {
+                2 => format!("2,{row}\n"),
+                _ => format!("{time},0.{time},NaN,0.{time},533{time},0.{time},\n"),
+            };
+        }
+        let traces = read(RowFile::new("it", text.as_bytes()).unwrap()).unwrap();
+        figure(&traces, 800, false).unwrap()
+    }
+
+    #[test]
+    fn what_lies_far_beyond_a_panel_is_at_its_edge() {
+        for wild in ["-1e12", "1e12", "-900", "1e289"] {
+            let figure = with(&format!("{wild},NaN,{wild},{wild},{wild},misfit"));
+            for quantity in [0, ANGLE, FREQUENCY, RESIDUAL] {
+                let Panel {
+                    axis,
+                    curves,
+                    beyond,
+                } = &figure.panels[quantity];
+                let Range { start, end } = axis.range;
+                let edge = if wild.starts_with('-') { start } else { end };
+                let line = &curves[0][0].line;
+                assert_eq!(line[2].1, edge, "{wild}: {}", axis.title);
+                assert_eq!(beyond.len(), 1, "{beyond:?}");
+                assert!((beyond[0].0 - 2.0).abs() < 0.1 && beyond[0].1 != wild.starts_with('-'));
+                assert!(line.iter().all(|(_, value)| (start..=end).contains(value)));
+            }
+        }
+    }
+
+    #[test]
+    fn a_quantity_without_a_number_has_an_empty_panel() {
+        let Panel {
+            axis,
+            curves,
+            beyond,
+        } = &with("0.2,NaN,0.2,5332,0.2,").panels[1];
+        assert_eq!((axis.title.as_str(), &axis.range), (TITLES[1], &(0.0..1.0)));
+        assert!(curves[0].is_empty() && beyond.is_empty());
+    }
+}

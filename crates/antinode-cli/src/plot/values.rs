@@ -1,0 +1,162 @@
+//! An axis to be drawn: which of its numbers it shows, or of those whose logarithms they are.
+
+use std::ops::Range;
+
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use plotters::coord::types::RangedCoordf64;
+
+use super::scale::{decimals, printed};
+
+/// Numbers along a vertical axis, at the most.
+pub const MOST: usize = 6;
+/// Numbers of a decade that an axis of less than so many shows.
+const OF_DECADE: [f64; 3] = [1.0, 2.0, 5.0];
+const FEW_DECADES: f64 = 1.6;
+/// Powers of ten that are printed in full.
+const PLAIN: Range<i32> = -4..6;
+
+/// Logarithms of numbers that are marks are so but for rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The axis.
+pub struct Values {
+    inner: RangedCoordf64,
+    marks: Vec<(f64, String)>,
+}
+
+impl Values {
+    /// Numbers of this range, of which no more than `most` are shown.
+    pub fn linear(range: &Range<f64>, most: usize) -> Self {
+        let inner = RangedCoordf64::from(range.clone());
+        let places = inner.key_points(most);
+        let decimals = match places.as_slice() {
+            [one, other, ..] => decimals(other - one),
+            _ => decimals(range.end - range.start),
+        };
+        let marks = places.into_iter();
+        let marks = marks.map(|at| (at, printed(at, decimals))).collect();
+        Self { inner, marks }
+    }
+
+    /// Numbers whose decimal logarithms are of this range.
+    pub fn logarithmic(range: &Range<f64>) -> Self {
+        let inner = RangedCoordf64::from(range.clone());
+        let marks = marks(range)
+            .map(|(power, times)| (logarithm(power, times), number(power, times)))
+            .collect();
+        Self { inner, marks }
+    }
+}
+
+/// The range that ends at marks about this one.
+pub fn to_marks(range: &Range<f64>) -> Range<f64> {
+    let powers = range.start.floor() as i32 - 1..=range.end.ceil() as i32 + 1;
+    let marks: Vec<f64> = powers
+        .flat_map(|power| OF_DECADE.map(|times| logarithm(power, times)))
+        .collect();
+    // One value alone, if a mark, is between its neighbours.
+    let rounding = if range.end - range.start > ROUNDING {
+        ROUNDING
+    } else {
+        -ROUNDING
+    };
+    let mut below = marks.iter().rev().copied();
+    let mut above = marks.iter().copied();
+    let from = below.find(|&mark| mark <= range.start + rounding);
+    let to = above.find(|&mark| mark >= range.end - rounding);
+    from.unwrap_or(range.start)..to.unwrap_or(range.end)
+}
+
+/// That of so many times a power of ten.
+fn logarithm(power: i32, times: f64) -> f64 {
+    f64::from(power) + times.log10()
+}
+
+/// Powers of ten, and what each is multiplied by, of no more marks than there is room for.
+fn marks(range: &Range<f64>) -> impl Iterator<Item = (i32, f64)> {
+    let powers = range.start.floor() as i32..=range.end.ceil() as i32;
+    let decades = range.end - range.start;
+    let (step, of_decade): (_, &[f64]) = if decades < FEW_DECADES {
+        (1, &OF_DECADE)
+    } else {
+        ((decades / MOST as f64).ceil() as i32, &OF_DECADE[..1])
+    };
+    let range = range.clone();
+    powers
+        .filter(move |power| power.rem_euclid(step) == 0)
+        .flat_map(move |power| of_decade.iter().map(move |&times| (power, times)))
+        .filter(move |&(power, times)| {
+            let mark = logarithm(power, times);
+            (range.start - ROUNDING..range.end + ROUNDING).contains(&mark)
+        })
+}
+
+/// So many times a power of ten, as text.
+fn number(power: i32, times: f64) -> String {
+    if PLAIN.contains(&power) {
+        let decimals = usize::try_from(-power).unwrap_or(0);
+        format!("{:.decimals$}", times * 10f64.powi(power))
+    } else {
+        format!("{times}e{power}").replace('-', "−")
+    }
+}
+
+impl Ranged for Values {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        self.inner.map(value, limit)
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        // Between them there are no others.
+        let is_bold = !hint.weight().allow_light_points();
+        let marks = self.marks.iter().filter(|_| is_bold);
+        marks.map(|&(at, _)| at).collect()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.inner.range()
+    }
+}
+
+impl ValueFormatter<f64> for Values {
+    fn format_ext(&self, value: &f64) -> String {
+        let mark = self.marks.iter().find(|(at, _)| at == value);
+        mark.map_or_else(String::new, |(_, text)| text.clone())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(values: Values) -> Vec<String> {
+        values.marks.into_iter().map(|(_, text)| text).collect()
+    }
+
+    #[test]
+    fn logarithms_have_round_numbers() {
+        let log = |from: f64, to: f64| texts(Values::logarithmic(&(from.log10()..to.log10())));
+        assert_eq!(log(0.0015, 0.9), ["0.01", "0.1"]);
+        assert_eq!(log(0.09, 0.6), ["0.1", "0.2", "0.5"]);
+        assert_eq!(log(9e-8, 1.1e-6), ["1e−7", "2e−7", "5e−7", "1e−6"]);
+        assert_eq!(log(9e5, 2e7), ["1e6", "2e6", "5e6", "1e7", "2e7"]);
+        // No more of many decades than there is room for.
+        assert_eq!(log(0.5e-12, 2.0).len(), 5);
+        assert_eq!(
+            texts(Values::linear(&(-0.2..0.45), MOST)),
+            ["−0.2", "0.0", "0.2", "0.4"]
+        );
+    }
+
+    #[test]
+    fn a_range_may_end_at_marks() {
+        let near = |one: f64, other: f64| (one - other).abs() < 1e-9;
+        let range = to_marks(&(0.0034f64.log10()..0.0036f64.log10()));
+        assert!(near(range.start, 0.002f64.log10()) && near(range.end, 0.005f64.log10()));
+        let range = to_marks(&(-3.0..0.0));
+        assert!(near(range.start, -3.0) && near(range.end, 0.0));
+    }
+}

@@ -86,14 +86,10 @@ pub fn run(options: &Study) -> Result<(), Failure> {
         options.seed,
     )?;
     for conclusion in conclusions::check(&wave, &first, &second, &third, options) {
-        let mark = if conclusion.confirmed {
-            "confirmed"
-        } else {
-            "NOT CONFIRMED"
-        };
+        let verdict = conclusion.verdict.text();
         writeln!(
             out,
-            "{mark:>13}  {}\n{:15}{}",
+            "{verdict:>13}  {}\n{:15}{}",
             conclusion.claim, "", conclusion.found
         )?;
     }

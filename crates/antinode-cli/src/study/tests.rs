@@ -74,7 +74,11 @@ fn conclusions_and_files_are_those_of_the_documentation() {
         (6, "3.1 (1.7 to 4.8) at 0.1"),
         (6, "0.123 to 0.132°"),
         (8, "1.989 on four periods and 1.943 on ten"),
-        (9, "the minimum of (15) is off by 66, 12, 5 Hz"),
+        (
+            9,
+            "1.08, 1.02, 1.01 times, by the root of (14) 1.23, 1.21, 1.21",
+        ),
+        (9, "(15) is off by 66, 12, 5 Hz"),
         (13, "algorithm 4 22, 9.2, 3.4, 1.7, 0.33, 0.16; 3 12,"),
     ] {
         let Conclusion { found, .. } = &found[place];

@@ -87,11 +87,10 @@ pub fn run(options: &Study) -> Result<(), Failure> {
     )?;
     for conclusion in conclusions::check(&wave, &first, &second, &third, options) {
         let verdict = conclusion.verdict.text();
-        writeln!(
-            out,
-            "{verdict:>13}  {}\n{:15}{}",
-            conclusion.claim, "", conclusion.found
-        )?;
+        writeln!(out, "{verdict:>13}  {}", conclusion.claim)?;
+        for line in conclusion.found.lines() {
+            writeln!(out, "{:15}{line}", "")?;
+        }
     }
     Ok(())
 }

@@ -131,8 +131,8 @@ pub fn whole_periods(wave: &Wave) -> Conclusion {
         claim: "Short windows must be whole periods; the longer they are, the less it matters.",
         verdict: Verdict::confirmed_if(falls),
         found: format!(
-            "a_A off by at most, %, over all phases, in windows of 1, 2, 5, 10, 50, 100 periods, give or take up to half a one: algorithm 4 \
-             {}; 3 {}. Whole to the nearest sample: 4 {}; 3 {}.",
+            "The most that a_A is off, %, over all phases, in windows of 1, 2, 5, 10, 50, 100 periods, give or take up to half a one:\n\
+             algorithm 4 {}; 3 {}.\nWhole to the nearest sample: algorithm 4 {}; 3 {}.",
             list(any, 1),
             list(any, 0),
             list(fitting, 1),

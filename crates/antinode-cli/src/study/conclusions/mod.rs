@@ -16,7 +16,7 @@ use super::samples::Samples;
 pub struct Conclusion {
     pub claim: &'static str,
     pub verdict: Verdict,
-    /// The numbers that say so.
+    /// The numbers that say so, in one line or several.
     pub found: String,
 }
 

@@ -69,7 +69,7 @@ pub fn divides_by_four(second: &Figure) -> Conclusion {
         claim: "Figure 2: the quadrature of algorithm 2 is best where the count of samples divides by 4.",
         verdict: Verdict::confirmed_if(those.iter().all(|point| point.1 < best_elsewhere)),
         found: format!(
-            "a_B error {} samples, which divide by 4, and {}, which does not: at the figure's points the delay is no quarter of the period, \
+            "a_B error {} samples, which divide by 4, and {}, which does not.\nAt the figure's points the delay is no quarter of the period, \
              nor the window a whole one.",
             list(&those),
             list(&others[..others.len().min(1)]),

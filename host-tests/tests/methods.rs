@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use antinode::methods::{
     Delayed, Moments, Products, Ratio, Wave as Found, algorithm1, algorithm2, algorithm3,
-    algorithm4, exact, phase,
+    algorithm4, exact, frequency, functional, phase,
 };
 use antinode_sim::{Wave, random_wave};
 use host_tests::methods::{LEAD, list, numbers, omega, samples};
@@ -207,17 +207,85 @@ fn the_monitor_tells_the_phase_difference() {
 }
 
 #[test]
-fn the_rough_angle_is_an_order_rougher_and_small_samples_spoil_it() {
+fn without_a_gate_the_rough_angle_is_an_order_rougher() {
+    let [mut rougher, mut count] = [0; 2];
+    for i in 0..100 {
+        for periods in 1..=10 {
+            let wave = Wave {
+                phase: PI / 6.0 + PI * f64::from(i) / 100.0,
+                ..Wave::default()
+            };
+            let pairs = samples(&wave, periods);
+            let window = &pairs[LEAD..];
+            let error = |angle: f64| (angle - wave.angle).abs();
+            let fine = error(algorithm1::shape(&Moments::of(window)).angle);
+            let rough = error(algorithm1::rough_angle(&Ratio::of(window, 0.0)));
+            let ratio = rough / fine;
+            // The paper's own phase.
+            assert!(i != 0 || ratio > 10.0, "{periods} periods: {ratio}");
+            rougher += u32::from(ratio > 10.0);
+            count += 1;
+        }
+    }
+    println!("(13) is ten times rougher than (12) in {rougher} of {count} windows");
+    assert!(f64::from(rougher) > 0.8 * f64::from(count));
+}
+
+#[test]
+fn with_any_gate_the_rough_angle_has_a_bias_of_its_own() {
+    for angle in [0.2, PI / 6.0, 0.6] {
+        // Of a quadrature of a twentieth.
+        let biases = [-(2.0 * angle).tan(), 1.0 / (4.0 * angle).tan()].map(|x| 0.5 * 0.0025 * x);
+        for gate in [0.1f32, 0.2, 0.3] {
+            let (mut sums, mut count) = ([0.0; 2], 0.0);
+            for i in 0..200 {
+                for periods in 1..=10 {
+                    let wave = Wave {
+                        angle,
+                        phase: PI * f64::from(i) / 200.0,
+                        ..Wave::default()
+                    };
+                    let pairs = samples(&wave, periods);
+                    let window = &pairs[LEAD..];
+                    let by_ratio = algorithm1::rough_angle(&Ratio::of(window, 2.0 * gate));
+                    let by_roots = algorithm1::shape(&Moments::of(window)).angle;
+                    sums[0] += by_ratio - angle;
+                    sums[1] += by_roots - angle;
+                    count += 1.0;
+                }
+            }
+            let means = sums.map(|sum| sum / count);
+            println!(
+                "angle {angle:.2}, gate {gate}: (13) and (12) off by {} rad in the mean, for {}",
+                list(&means),
+                list(&biases)
+            );
+            for (mean, bias) in means.into_iter().zip(biases) {
+                assert!((mean / bias - 1.0).abs() < 0.05, "{mean:e} {bias:e}");
+            }
+        }
+    }
+    assert!(algorithm1::rough_angle(&Ratio::of(&[[1.0, 1.0]], 9.0)).is_nan());
+}
+
+#[test]
+fn the_frequency_of_formula_10_costs_algorithm_4_amplitude() {
     let wave = Wave::default();
-    let pairs = samples(&wave, 4);
-    let window = &pairs[LEAD..];
-    let error = |angle: f64| (angle - wave.angle).abs().to_degrees();
-    let fine = error(algorithm1::shape(&Moments::of(window)).angle);
-    let gated = error(algorithm1::rough_angle(&Ratio::of(window, 0.2)));
-    let all = error(algorithm1::rough_angle(&Ratio::of(window, 0.0)));
-    println!(
-        "(12) {fine:.2e}°, (13) with small samples left out {gated:.2e}°, with all {all:.2e}°"
-    );
-    assert!(gated < all && fine < all);
-    assert!(algorithm1::rough_angle(&Ratio::of(window, 9.0)).is_nan());
+    // The whole number of samples that is nearest to the period: 5263 Hz for 5332.
+    let rough = TAU / 19.0;
+    for (periods, wanted) in [(4, 1.989), (10, 1.943)] {
+        let pairs = samples(&wave, periods);
+        let window = &pairs[LEAD..];
+        let found = algorithm4::wave(&Products::of(window, rough));
+        let moments = Moments::of(window);
+        let refined = frequency::on_grid(rough, TAU / RATE, 400, |omega| {
+            let products = Products::of(window, omega);
+            functional::squares(&algorithm4::wave(&products), &moments, &products)
+        });
+        let after = algorithm4::wave(&Products::of(window, refined));
+        let [before, after] = [found, after].map(|wave| wave.shape.main_amplitude);
+        println!("{periods} periods: a_A {before:.4} at (10), {after:.4} refined");
+        assert!((before - wanted).abs() < 1e-3, "{before}");
+        assert!((after - 2.0).abs() < 2e-3, "{after}");
+    }
 }

@@ -86,16 +86,11 @@ pub fn run(options: &Study) -> Result<(), Failure> {
         options.seed,
     )?;
     for conclusion in conclusions::check(&wave, &first, &second, &third, options) {
-        let mark = if conclusion.confirmed {
-            "confirmed"
-        } else {
-            "NOT CONFIRMED"
-        };
-        writeln!(
-            out,
-            "{mark:>13}  {}\n{:15}{}",
-            conclusion.claim, "", conclusion.found
-        )?;
+        let verdict = conclusion.verdict.text();
+        writeln!(out, "{verdict:>13}  {}", conclusion.claim)?;
+        for line in conclusion.found.lines() {
+            writeln!(out, "{:15}{line}", "")?;
+        }
     }
     Ok(())
 }

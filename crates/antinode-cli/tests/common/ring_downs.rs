@@ -1,9 +1,10 @@
 //! Rows of simulated ring-downs, and what `antinode resonator` finds in them.
 
+use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
-use super::run;
+use super::{Run, run, run_with};
 
 /// Rows of a simulated ring-down, in a file.
 pub fn rows(here: &Path, simulated: &str, identified: &str) {
@@ -35,4 +36,65 @@ pub fn joined(
         all.extend(fs::read(here.join("rows.csv")).unwrap());
     }
     all
+}
+
+/// A recording of 4 s.
+pub fn record(here: &Path, name: &str, wave: &str) {
+    let made = run(
+        here,
+        &format!("simulate -o {name} --seconds 4 --noise 0.002 {wave}"),
+    );
+    assert_eq!(made.code, 0, "{}", made.err);
+}
+
+/// Rows of recordings.
+pub fn identified(here: &Path, names: &str) -> String {
+    let rows = run(here, &format!("identify --periods 50 --output csv {names}"));
+    assert_eq!((rows.code, rows.err.as_str()), (0, ""));
+    rows.out
+}
+
+/// Rows of a recording of 4 s.
+pub fn four_seconds(here: &Path, wave: &str) -> String {
+    record(here, "it.wav", wave);
+    identified(here, "it.wav")
+}
+
+/// What `antinode resonator` makes of rows.
+pub fn resonator(here: &Path, rows: &str, options: &str) -> Run {
+    run_with(
+        here,
+        &format!("resonator - {options}"),
+        rows.as_bytes().into(),
+    )
+}
+
+/// Values and deviations of CSV, by run and quantity.
+pub fn numbers(run: &Run) -> HashMap<(String, String), (f64, Option<f64>)> {
+    assert_eq!(run.code, 0, "{}", run.err);
+    let mut lines = run.out.lines();
+    assert_eq!(lines.next(), Some("run,quantity,value,std"));
+    lines
+        .map(|line| {
+            let fields: Vec<_> = line.split(',').collect();
+            let [run, quantity, value, std] = fields[..] else {
+                panic!("{line}");
+            };
+            let key = (run.to_owned(), quantity.to_owned());
+            (key, (value.parse().unwrap(), std.parse().ok()))
+        })
+        .collect()
+}
+
+/// Nothing is told but that the pattern turns one way; gives the splits that it names, in 1/s and Hz.
+pub fn is_one_way(err: &str) -> [f64; 2] {
+    assert!(
+        err.starts_with("warning: the pattern turns one way only") && err.lines().count() == 1,
+        "{err}"
+    );
+    [" 1/s of damping", " Hz; give"].map(|unit| {
+        let (before, _) = err.split_once(unit).expect(err);
+        let (_, number) = before.rsplit_once(' ').unwrap();
+        number.parse().unwrap()
+    })
 }

@@ -1,0 +1,167 @@
+//! What repeats with the wave is hardly told from it: a second harmonic, and a stuck bit of the converter.
+
+use std::f64::consts::TAU;
+
+use antinode::Estimate;
+use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::codes::{codes, converted, identify, settings};
+use host_tests::methods::list;
+use host_tests::score::{errors, stated};
+use host_tests::{RATE, identify_changed, phase_error, windows};
+
+/// The `i`-th number of a sequence that fills 0 to 1 evenly.
+fn even(i: u64, step: f64) -> f64 {
+    (i as f64 * step).fract()
+}
+
+/// The largest errors of a_A, a_B, θ and phase, in shares of a second harmonic of 1 % of a_A, and how many windows of how many are flagged.
+fn of_second_harmonic(periods: u16, is_whole: bool, on_both: bool) -> ([f64; 4], [usize; 2]) {
+    let (mut worst, mut flagged, mut rows) = ([0f64; 4], 0, 0);
+    for seed in 0..120 {
+        // 4.3 to 60 samples a period.
+        let period = 4.3 * (60.0f64 / 4.3).powf(even(seed, 0.618_034));
+        let period = if is_whole { period.round() } else { period };
+        let wave = random_wave(seed, RATE / period, 0.5);
+        let main = wave.main_amplitude;
+        let phases = [0.754_878, 0.569_840].map(|step| TAU * even(seed, step));
+        let samples = (12.0 * f64::from(periods) * period) as usize + 400;
+        let found = identify_changed(
+            wave,
+            &Flaws::default(),
+            windows(periods),
+            samples,
+            seed,
+            |k, [c, d]| {
+                let [of_c, of_d] =
+                    phases.map(|phase| 0.01 * main * (2.0 * TAU * k as f64 / period - phase).cos());
+                [c + of_c, if on_both { d + of_d } else { d }]
+            },
+        );
+        for estimate in found.iter().skip(1) {
+            rows += 1;
+            flagged += usize::from(!estimate.flags.is_empty());
+            let [a, b, angle, _] = errors(estimate, &wave);
+            let truth = wave.at(estimate.time).phase;
+            let phase = phase_error(f64::from(estimate.phase), truth);
+            for (worst, error) in worst.iter_mut().zip([a / main, b / main, angle, phase]) {
+                *worst = worst.max((error / 0.01).abs());
+            }
+        }
+    }
+    (worst, [flagged, rows])
+}
+
+#[test]
+fn a_second_harmonic_leaves_of_itself_what_the_documentation_says() {
+    for (periods, is_whole, most) in [
+        (10, false, 0.07),
+        (50, false, 0.016),
+        (10, true, 0.0016),
+        (50, true, 0.0016),
+    ] {
+        let mut largest = 0f64;
+        for on_both in [false, true] {
+            let (worst, [flagged, rows]) = of_second_harmonic(periods, is_whole, on_both);
+            println!(
+                "{periods} periods, whole samples {is_whole}, both pick-offs {on_both}: a_A, a_B, angle, phase {}; {flagged} of {rows} flagged",
+                list(&worst)
+            );
+            assert!(rows > 1000);
+            // Of a period of five samples it looks like the third.
+            assert!(is_whole || flagged == 0, "{flagged} of {rows} flagged");
+            largest = worst.into_iter().fold(largest, f64::max);
+        }
+        assert!(largest < most && largest > 0.9 * most, "{largest} {most}");
+    }
+}
+
+/// What windows are behind a bit of S_C that sticks in a converter of 12, whose codes a_A takes 0.8 of.
+#[derive(Default)]
+struct Behind {
+    windows: f64,
+    without_flag: f64,
+    /// Of a_A in those: in a_A, and in deviations.
+    largest_error: [f64; 2],
+}
+
+impl Behind {
+    fn add(&mut self, estimate: &Estimate, wave: &Wave) {
+        self.windows += 1.0;
+        if estimate.flags.is_empty() {
+            self.without_flag += 1.0;
+            let error = errors(estimate, wave)[0].abs();
+            let sizes = [error / wave.main_amplitude, error / stated(estimate)[0]];
+            for (largest, size) in self.largest_error.iter_mut().zip(sizes) {
+                *largest = largest.max(size);
+            }
+        }
+    }
+}
+
+fn stuck(bit: u32, is_one: bool, noise: f64) -> Behind {
+    let mut behind = Behind::default();
+    for seed in 0..20 {
+        let wave = Wave {
+            decay_rate: 0.05,
+            angle_rate: 0.3,
+            ..random_wave(seed, 5332.0, 0.2)
+        };
+        let flaws = Flaws {
+            noise: noise * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let (wave, flaws) = converted(&wave, &flaws, 12, 0.8);
+        let mut all = codes(wave, &flaws, 60_000, seed);
+        let mask = 1 << bit;
+        for [c, _] in &mut all[30_000..] {
+            *c = if is_one { *c | mask } else { *c & !mask };
+        }
+        for estimate in identify(&all, settings(12, 10), |code| code as f32) {
+            if estimate.start >= 30_000 {
+                behind.add(&estimate, &wave);
+            } else if estimate.end() > 30_000 + 19 {
+                assert!(!estimate.flags.is_empty(), "bit {bit}, seed {seed}");
+            }
+        }
+    }
+    behind
+}
+
+#[test]
+fn a_stuck_bit_is_flagged_where_it_begins_and_behind_it_as_the_documentation_says() {
+    // A twelfth, a sixth, a third and 0.6 of a_A.
+    for (bit, shares, off, deviations) in [
+        (7, 0.6..0.85, 0.017, 12.0),
+        (8, 0.3..0.45, 0.044, 21.0),
+        (9, 0.06..0.15, 0.075, 36.0),
+        (10, 0.0..1e-3, 0.0, 0.0),
+    ] {
+        let mut largest = [0f64; 2];
+        for noise in [0.0, 1e-3, 1e-2] {
+            for is_one in [false, true] {
+                let behind = stuck(bit, is_one, noise);
+                let share = behind.without_flag / behind.windows;
+                println!(
+                    "bit {bit} at {}, noise {noise}: {share:.2} of {} windows without a flag, a_A off by {}",
+                    u8::from(is_one),
+                    behind.windows,
+                    list(&behind.largest_error)
+                );
+                assert!(
+                    behind.windows > 3000.0 && shares.contains(&share),
+                    "{share}"
+                );
+                for (largest, error) in largest.iter_mut().zip(behind.largest_error) {
+                    *largest = largest.max(error);
+                }
+            }
+        }
+        for (largest, told) in largest.into_iter().zip([off, deviations]) {
+            let rounded = 0.95 * told..=1.05 * told;
+            assert!(
+                rounded.contains(&largest),
+                "bit {bit}: {largest}, {told} is told"
+            );
+        }
+    }
+}

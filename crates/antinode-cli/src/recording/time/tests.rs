@@ -2,6 +2,8 @@
 
 mod change;
 
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+
 use super::*;
 
 /// The rate of times as they are printed, the first `head` of them read ahead; what is lost counts as a fault.
@@ -199,7 +201,7 @@ fn single_precision_is_not_uneven_sampling() {
         |t| format!("{t:.9}"),
         |t| format!("{t:.10}"),
     ];
-    for print in prints {
+    prints.into_par_iter().for_each(|print| {
         for start in [0.0, 7.3] {
             let single = |t: f64| print(t as f32);
             let text = times(3_000_000, 100_000.0, start, single);
@@ -216,7 +218,7 @@ fn single_precision_is_not_uneven_sampling() {
         let text = times(200_000, 100_000.0, 127.5, |t| print(t as f32));
         let (_, fault) = run(&text, HEAD).unwrap_err();
         assert!(fault.starts_with("time is told to "), "{fault}");
-    }
+    });
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Rows made from the averaged equations of a resonator, with noise.
 
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+
 use super::*;
 use crate::deviates::Deviates;
 use crate::runs::{Row, turn};
@@ -292,7 +294,7 @@ fn two_angles_for_a_short_time_do_not_tell_the_splits() {
 #[test]
 fn steps_settle_where_windows_turn_far_and_rows_are_not_quite_a_decay() {
     let small = [0.1, -0.005, 0.0109, 0.0091, -0.0234, 0.0];
-    for seed in 12..16 {
+    (12..16).into_par_iter().for_each(|seed| {
         let step = 0.009377;
         let mut run = run(&small, -60.0, [1.0, 0.04, 0.05], 639, step, 3e-4, seed);
         for row in &mut run.rows {
@@ -302,7 +304,7 @@ fn steps_settle_where_windows_turn_far_and_rows_are_not_quite_a_decay() {
         }
         let found = fit(&[run]).unwrap();
         assert!(found.resonator().is_some(), "{seed}");
-    }
+    });
 }
 
 #[test]

@@ -247,7 +247,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
 
     /// Number of the search whose blocks it takes, for [`Front::search_if_wanted`](crate::Front::search_if_wanted): 0 at first. It counts
     /// up, and wraps, where a new period must be searched: the first window showed no wave, or two in a row were [`Flags::LOST`] or did
-    /// not settle, or eight in a row held little of the wave beside all else. Windows that overlap count by the blocks they move on.
+    /// not settle, or eight in a row held little of the wave beside all else, or samples in every block that lie further beyond the wave
+    /// than it is large. Windows that overlap count by the blocks they move on.
     ///
     /// Hand it on after every block: a first window without a wave gives no estimate.
     #[must_use = "a lost wave is found again only by a search"]

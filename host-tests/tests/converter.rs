@@ -1,6 +1,6 @@
 //! Signals through a converter: its steps are counted in what is stated, and a clean signal is never flagged for them.
 
-use antinode::{Flags, Settings};
+use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::{errors, stated};
 use host_tests::{RATE, identify, identify_changed, windows};
@@ -108,11 +108,33 @@ fn the_residual_is_that_of_the_samples_whatever_the_window() {
             ..windows(periods)
         };
         let estimates = identify(wave, &flaws, settings, 60_000, 1);
-        let square = |e: &antinode::Estimate| f64::from(e.residual_rms).powi(2);
+        let square = |e: &Estimate| f64::from(e.residual_rms).powi(2);
         let mean = estimates.iter().map(square).sum::<f64>() / estimates.len() as f64;
         let ratio = mean.sqrt() / step / f64::sqrt(0.05f64.powi(2) + 1.0 / 12.0);
         assert!((0.9..1.1).contains(&ratio), "{periods} periods: {ratio}");
     }
+}
+
+/// A wave in steps, in noise of so many of them, and cut off at `most`: its estimates, where the step is known and where it is not.
+fn in_steps(
+    wave: Wave,
+    step: f64,
+    noise: f64,
+    is_known: bool,
+    (samples, seed): (usize, u64),
+    most: f64,
+) -> Vec<Estimate> {
+    let flaws = Flaws {
+        noise: noise * step,
+        ..Flaws::default()
+    };
+    let settings = Settings {
+        resolution: is_known.then_some(step as f32),
+        ..windows(10)
+    };
+    identify_changed(wave, &flaws, settings, samples, seed, |_, pair| {
+        pair.map(|s| (s.min(most) / step).round() * step)
+    })
 }
 
 #[test]
@@ -125,19 +147,8 @@ fn crests_in_noise_of_some_steps_are_not_clipped_and_limited_ones_are() {
             angle: 0.4,
             ..Wave::default()
         };
-        let step = 1.0 / steps;
-        let flaws = Flaws {
-            noise: noise * step,
-            ..Flaws::default()
-        };
-        let settings = Settings {
-            resolution: Some(step as f32),
-            ..windows(10)
-        };
         let clipped = |most: f64, samples| {
-            let found = identify_changed(wave, &flaws, settings, samples, 5, |_, pair| {
-                pair.map(|s| (s.min(most) / step).round() * step)
-            });
+            let found = in_steps(wave, 1.0 / steps, noise, true, (samples, 5), most);
             let clipped = found.iter().filter(|e| e.flags.contains(Flags::CLIPPED));
             (clipped.count(), found.len())
         };
@@ -174,19 +185,15 @@ fn crests_of_few_steps_are_not_clipped() {
                 frequency: RATE / period,
                 ..Wave::default()
             };
-            let step = 1.0 / steps;
-            let flaws = Flaws {
-                noise: noise * step,
-                ..Flaws::default()
-            };
-            let settings = Settings {
-                resolution: is_known.then_some(step as f32),
-                ..windows(10)
-            };
             let samples = (period * 400.0) as usize;
-            let found = identify_changed(wave, &flaws, settings, samples, 1, |_, pair| {
-                pair.map(|s| (s / step).round() * step)
-            });
+            let found = in_steps(
+                wave,
+                1.0 / steps,
+                noise,
+                is_known,
+                (samples, 1),
+                f64::INFINITY,
+            );
             assert!(found.len() > 30);
             for estimate in &found {
                 assert!(

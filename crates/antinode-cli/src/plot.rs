@@ -50,22 +50,8 @@ pub fn run(options: &Plot) -> Result<(), Failure> {
     // What cannot be written is found before the rows are read, which may come through a pipe for long.
     drop(WholeFile::create(&options.out)?);
     let (mut traces, inputs) = rows::open(&options.rows)?;
-    let times = traces
-        .iter()
-        .flat_map(|trace| &trace.rows)
-        .map(|row| row.time);
-    let span = times.fold(None, |span: Option<[f64; 2]>, time| {
-        let [first, last] = span.unwrap_or([time; 2]);
-        Some([first.min(time), last.max(time)])
-    });
-    let (from, to) = (
-        options.from.unwrap_or(f64::NEG_INFINITY),
-        options.to.unwrap_or(f64::INFINITY),
-    );
-    for trace in &mut traces {
-        trace.rows.retain(|row| (from..to).contains(&row.time));
-    }
-    traces.retain(|trace| !trace.rows.is_empty());
+    let span = rows::span(&traces);
+    rows::retain(&mut traces, options.from, options.to);
     let rows = || traces.iter().flat_map(|trace| &trace.rows);
     let count = rows().count();
     let Some(figure) = figure(&traces, draw::COLUMNS, options.log) else {

@@ -28,7 +28,7 @@ pub(super) struct Flagged {
 }
 
 impl Flagged {
-    /// Of rows with these self.
+    /// None yet, of an identification with `--hum` and `--coloured` or without.
     pub fn new(hum: bool, coloured: bool) -> Self {
         Self {
             hum,

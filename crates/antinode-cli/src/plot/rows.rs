@@ -178,6 +178,22 @@ fn find_gaps(rows: &mut [Row]) {
     }
 }
 
+/// The first and the last time, s; none of no row.
+pub fn span(traces: &[Trace]) -> Option<[f64; 2]> {
+    let rows = traces.iter().flat_map(|trace| &trace.rows);
+    let ends = rows.map(|row| [row.time; 2]);
+    ends.reduce(|[first, last], [time, _]| [first.min(time), last.max(time)])
+}
+
+/// Leaves the rows from one time on and before another, s, and the recordings that have any.
+pub fn retain(traces: &mut Vec<Trace>, from: Option<f64>, to: Option<f64>) {
+    let times = from.unwrap_or(f64::NEG_INFINITY)..to.unwrap_or(f64::INFINITY);
+    for trace in traces.iter_mut() {
+        trace.rows.retain(|row| times.contains(&row.time));
+    }
+    traces.retain(|trace| !trace.rows.is_empty());
+}
+
 /// The middle one; none of none. Numbers are finite.
 pub fn median(numbers: &mut [f64]) -> Option<f64> {
     let middle = numbers.len() / 2;

@@ -55,10 +55,24 @@ impl Extent {
         ];
     }
 
+    /// True where any value is a clean row's.
+    fn is_clean(&self) -> bool {
+        self.clean[0] <= self.clean[1]
+    }
+
+    /// The least and the greatest of the clean values, or else of all.
+    fn measured(&self) -> [f64; 2] {
+        if self.is_clean() {
+            self.clean
+        } else {
+            self.all
+        }
+    }
+
     /// The range to draw, of so wide a span at the least and with a margin of such a share of it; none of no value.
     pub fn range(&self, least_span: f64, margin: f64) -> Option<Range<f64>> {
-        let is_clean = self.clean[0] <= self.clean[1];
-        let [mut from, mut to] = if is_clean { self.clean } else { self.all };
+        let is_clean = self.is_clean();
+        let [mut from, mut to] = self.measured();
         if from > to {
             return None;
         }
@@ -75,8 +89,7 @@ impl Extent {
 
     /// The range of logarithms to draw, from number to number of the axis; none of no value above 0.
     pub fn log_range(&self) -> Option<Range<f64>> {
-        let is_clean = self.clean[0] <= self.clean[1];
-        let [from, to] = if is_clean { self.clean } else { self.all };
+        let [mut from, mut to] = self.measured();
         if to <= 0.0 {
             return None;
         }
@@ -85,9 +98,8 @@ impl Extent {
         } else {
             LEAST_OF_LOG * to
         };
-        let mut from = from.max(least);
-        let mut to = to;
-        if is_clean {
+        from = from.max(least);
+        if self.is_clean() {
             let most = (to / from).powf(BEYOND);
             (from, to) = (
                 self.all[0].max(least).max(from / most).min(from),
@@ -100,11 +112,7 @@ impl Extent {
 
     /// The greatest size of a value; 0 of no value.
     pub fn size(&self) -> f64 {
-        let [from, to] = if self.clean[0] <= self.clean[1] {
-            self.clean
-        } else {
-            self.all
-        };
+        let [from, to] = self.measured();
         if from <= to {
             from.abs().max(to.abs())
         } else {

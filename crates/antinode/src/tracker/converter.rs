@@ -81,6 +81,9 @@ const SIGMAS: f32 = 8.0;
 const SIGMAS_OF_ALL: f32 = 3.5;
 /// That share, and of how much noise.
 const LOUD: f32 = 0.25;
+/// How far hum may take samples beyond the wave, in its rms, from one end of it to the other; and samples of every block, for it swings.
+const HUM: f32 = 4.0;
+const HUM_OF_ALL: f32 = 1.5;
 /// How far samples may lie beyond the wave and its noise, as a share of a_A: common electronics have harmonics.
 const BEYOND: f32 = 0.01;
 
@@ -102,7 +105,8 @@ pub(super) fn sample_flags(
     if range.longest == 0 {
         return flags;
     }
-    let fine = wave.record.main.value > 100.0 * settings.resolution.unwrap_or(0.0);
+    let (main, deviation) = (wave.record.main.value, square_root(noise));
+    let fine = main > 100.0 * settings.resolution.unwrap_or(0.0);
     let at_rail = settings.rails.is_some_and(|[least, most]| {
         (0..2).any(|i| range.high[i] >= most || range.low[i] <= least)
     });
@@ -113,15 +117,8 @@ pub(super) fn sample_flags(
             let crest = greater(step.period() / 16.0, 1.0) + 1.5;
             let crest = crest as u16;
             let arc = f32::from(crest) * step.radians();
-            range.longest > crest
-                && range.is_flat(
-                    blocks,
-                    wave.record.main.value,
-                    crest,
-                    [arc, square_root(noise)],
-                )
+            range.longest > crest && range.is_flat(blocks, main, crest, [arc, deviation])
         };
-    let (main, deviation) = (wave.record.main.value, square_root(noise));
     let misfit = range.is_beyond(fit, SIGMAS * deviation + BEYOND * main)
         || (is_first || deviation > LOUD * main)
             && are_all_beyond(blocks, fit, SIGMAS_OF_ALL * deviation + LOUD * main);
@@ -178,7 +175,8 @@ impl Range {
                 }
             }
         }
-        // A crest is that much lower at its ends; three samples are equal by chance where seven deviations of theirs make it up.
+        // A crest is that much lower at its ends. Three samples of it are equal by chance where their noise makes up for that: the two at its
+        // ends on average, and the one between, differ by √1.5 deviations.
         let drop = 0.125 * arc * arc * main;
         ends > u32::from(drop < SIGMAS * deviation)
     }
@@ -186,7 +184,7 @@ impl Range {
     /// True when samples lie `apart` beyond the wave: what does is not of it, but a tone, say, that the sums of whole blocks do not see.
     #[inline(always)]
     fn is_beyond(&self, fit: &Fit, apart: f32) -> bool {
-        (0..2).any(|i| is_beyond(fit, i, [self.low[i], self.high[i]], apart, 4.0))
+        (0..2).any(|i| is_beyond(fit, i, [self.low[i], self.high[i]], apart, HUM))
     }
 }
 
@@ -197,7 +195,7 @@ pub(super) fn are_all_beyond(blocks: &[Seen], fit: &Fit, apart: f32) -> bool {
     blocks.iter().all(|block| {
         block.watched.as_ref().is_some_and(|watched| {
             let mut extremes = (0..2).zip(&watched.extremes);
-            extremes.any(|(i, seen)| is_beyond(fit, i, [seen.low, seen.high], apart, 1.5))
+            extremes.any(|(i, seen)| is_beyond(fit, i, [seen.low, seen.high], apart, HUM_OF_ALL))
         })
     })
 }

@@ -154,10 +154,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         } else {
             record.drift
         };
-        self.remember(record, flags, between, drift);
-        if !self.broken {
-            self.offset_rates = offset_rates;
-        }
+        self.remember(record, flags, between, offset_rates, drift);
         Some(flags)
     }
 
@@ -175,7 +172,14 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Keeps what the next windows need; `drift` is the frequency beyond the carrier weighted by power, rad a sample.
-    fn remember(&mut self, record: &Record, flags: Flags, between: Flags, drift: f32) {
+    fn remember(
+        &mut self,
+        record: &Record,
+        flags: Flags,
+        between: Flags,
+        offset_rates: [f32; 2],
+        drift: f32,
+    ) {
         self.broken = flags.intersects(BROKEN);
         if self.broken {
             // The next window is judged by itself: what lies between it and the last clean one is already flagged.
@@ -193,6 +197,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             }
             return;
         }
+        self.offset_rates = offset_rates;
         if !between.is_empty() {
             self.trend.clear();
         }

@@ -59,7 +59,7 @@ pub(crate) struct Amplitude {
 pub(crate) struct Record {
     /// Middle of the window, half samples from the start of the stream.
     pub middle: u64,
-    /// Sample pairs of the window.
+    /// Sample pairs of the window; never 0, so that a record that may be none takes no more room.
     pub samples: NonZeroU32,
     /// What this window alone leaves, as a noise variance a sample.
     pub residual: f32,

@@ -4,7 +4,7 @@
 //! growth of its quadrature of its own, which any run tells. The resonator that the runs share takes their place where they tell it: a
 //! pattern that stands still sees one side of each split alone. The steps are those of Levenberg and Marquardt.
 
-use nalgebra::{Cholesky, Complex, DMatrix, DVector, Dyn};
+use nalgebra::{Cholesky, Complex, DMatrix, DVector, Dyn, SMatrix, SVector};
 
 use super::found::Found;
 use super::model::{Model, Term, parameters};
@@ -157,17 +157,14 @@ impl Normal {
         let mut before = [0.0; 3];
         let mut time = run.rows[0].time;
         let mut shares = [0.0; 2];
-        // The run's own equations, for its unknowns in their order.
-        let count = terms.len();
-        let mut matrix = DMatrix::<f64>::zeros(count, count);
-        let mut right = DVector::<f64>::zeros(count);
-        let directions = DMatrix::from_fn(PARAMETERS, count, |i, j| terms[j].1[i]);
+        // The run's own equations, for the parameters of its motion.
+        let mut matrix = SMatrix::<f64, PARAMETERS, PARAMETERS>::zeros();
+        let mut right = SVector::<f64, PARAMETERS>::zeros();
         for row in &run.rows {
             motion.advance(row.time - time);
             time = row.time;
             // What a window averages changes the derivatives by too little to matter.
-            let (rest, by_parameters) = motion.rest(row);
-            let derivatives = by_parameters * &directions;
+            let (rest, derivatives) = motion.rest(row);
             for (index, (rest, deviation)) in rest.iter().zip(row.deviations).enumerate() {
                 let (rest, line) = (*rest / deviation, derivatives.row(index) / deviation);
                 self.squares += rest * rest;
@@ -179,10 +176,12 @@ impl Normal {
                 *sum += share / run.rows.len() as f64;
             }
         }
-        for (i, &(place, _)) in terms.iter().enumerate() {
-            self.right[place] += right[i];
-            for (j, &(other, _)) in terms.iter().enumerate() {
-                self.matrix[(place, other)] += matrix[(i, j)];
+        for &(place, direction) in terms {
+            let direction = SVector::from(direction);
+            self.right[place] += right.dot(&direction);
+            let along = matrix * direction;
+            for &(other, direction) in terms {
+                self.matrix[(place, other)] += along.dot(&SVector::from(direction));
             }
         }
         self.shares.push(shares);

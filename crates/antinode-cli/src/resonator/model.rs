@@ -2,16 +2,15 @@
 
 use nalgebra::DVector;
 
-use super::motion::{GAMMA, PARAMETERS, RATES};
+use super::motion::{GAMMA, KAPPA, PARAMETERS, RATES};
 use crate::runs::Run;
 
 /// An unknown of a run's motion: its place among all, and what one of it is in the parameters of the motion.
 pub type Term = (usize, [f64; PARAMETERS]);
 
-/// Places in the parameters of the motion: of 1/τ, of the first of Δω, and of κ.
+/// Places in the parameters of the motion: of 1/τ, and of the first of Δω.
 const DECAY: usize = 0;
 const FREQUENCY: usize = 3;
-const KAPPA: usize = 6;
 
 /// The parameters of a run's motion whose unknowns are these, at some values of all.
 pub fn parameters(terms: &[Term], values: &DVector<f64>) -> [f64; PARAMETERS] {

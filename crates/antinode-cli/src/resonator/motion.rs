@@ -12,7 +12,9 @@
 //! A shell whose stiffness depends on how far it bends turns a pattern that has quadrature: then κ has a part γQ. Of stiffness ω²(1 + βr²),
 //! r being how far both pick-offs' modes are from rest, γ is βω/8, and the frequency rises by 3γE rad/s beside that.
 
-use nalgebra::{Complex, Matrix3x4, Matrix4, Matrix4x3, RowVector4, SMatrix, Vector3, Vector4};
+use nalgebra::{
+    Complex, Matrix3x4, Matrix4, Matrix4x3, RowVector4, SMatrix, SVector, Vector3, Vector4,
+};
 
 use crate::runs::Row;
 
@@ -20,6 +22,8 @@ use crate::runs::Row;
 pub const RATES: usize = 7;
 /// The place of γ among them.
 pub const GAMMA: usize = 5;
+/// That of κ.
+pub const KAPPA: usize = 6;
 /// Those, and what a wave starts with: a_A, a_B, θ.
 pub const PARAMETERS: usize = RATES + 3;
 /// The state and its derivatives by all of these.
@@ -31,59 +35,28 @@ const MOST_STEPS: f64 = 500.0;
 /// The square of what a wave changes by in half a window, over its own, up to which the core takes it to grow and turn evenly.
 const MOST_CHANGE: f64 = 1.3;
 
-/// What some rates do to the state E, R, S, Q.
-#[derive(Debug, Clone)]
-pub struct Rates {
-    /// All but γ.
-    matrix: Matrix4<f64>,
-    /// What γ does at Q of one.
-    nonlinear: Matrix4<f64>,
-}
-
-impl Rates {
-    /// Of these values.
-    pub fn new(values: &[f64]) -> Self {
-        let mut rates = Self {
-            matrix: Matrix4::zeros(),
-            nonlinear: Matrix4::zeros(),
-        };
-        for (index, (part, value)) in parts().iter().zip(values).enumerate() {
-            let sum = if index == GAMMA {
-                &mut rates.nonlinear
-            } else {
-                &mut rates.matrix
-            };
-            *sum += part * *value;
-        }
-        rates
-    }
-
-    /// How fast the state changes.
-    pub fn slope(&self, state: &Vector4<f64>) -> Vector4<f64> {
-        self.at(state) * state
-    }
-
-    /// The matrix by which this state moves.
-    fn at(&self, state: &Vector4<f64>) -> Matrix4<f64> {
-        self.matrix + self.nonlinear * state[3]
-    }
-
-    /// How fast what differs from this state comes to differ.
-    fn derivative(&self, state: &Vector4<f64>) -> Matrix4<f64> {
-        let mut derivative = self.at(state);
-        let mut by_q = derivative.column_mut(3);
-        by_q += self.nonlinear * state;
-        derivative
-    }
+/// What one of each rate does to the state E, R, S, Q.
+pub fn by_rates(state: &Vector4<f64>) -> SMatrix<f64, 4, RATES> {
+    let [e, r, s, q] = (*state).into();
+    let turning = Vector4::new(0.0, 2.0 * s, -2.0 * r, 0.0);
+    SMatrix::from_columns(&[
+        state * -2.0,
+        Vector4::new(-r, -e, 0.0, 0.0),
+        Vector4::new(-s, 0.0, -e, 0.0),
+        Vector4::new(0.0, 0.0, -q, s),
+        Vector4::new(0.0, q, 0.0, -r),
+        turning * q,
+        turning,
+    ])
 }
 
 /// The state E, R, S, Q, and its derivatives by the rates and by what it started with.
 #[derive(Debug, Clone)]
 pub struct Motion {
     columns: SMatrix<f64, 4, COLUMNS>,
-    /// One of each rate, and all of them.
-    each: [Rates; RATES],
-    rates: Rates,
+    rates: SVector<f64, RATES>,
+    /// By which all of them but γ move the state.
+    matrix: Matrix4<f64>,
 }
 
 impl Motion {
@@ -116,26 +89,45 @@ impl Motion {
         columns
             .fixed_columns_mut::<3>(1 + RATES)
             .copy_from(&by_start);
-        let one = |rate| -> [f64; RATES] {
-            std::array::from_fn(|other| f64::from(u8::from(other == rate)))
-        };
+        let rates = SVector::from(rates);
+        // γ does nothing to these: it wants Q and another.
+        let units = Matrix4::identity();
+        let moved = units
+            .column_iter()
+            .map(|unit| by_rates(&unit.into_owned()) * rates);
         Self {
             columns,
-            each: std::array::from_fn(|rate| Rates::new(&one(rate))),
-            rates: Rates::new(&rates),
+            rates,
+            matrix: Matrix4::from_columns(&moved.collect::<Vec<_>>()),
         }
+    }
+
+    /// How fast a state changes.
+    fn slope(&self, state: &Vector4<f64>) -> Vector4<f64> {
+        by_rates(state) * self.rates
+    }
+
+    /// The matrix by which this state moves.
+    fn at(&self, state: &Vector4<f64>) -> Matrix4<f64> {
+        let mut matrix = self.matrix;
+        let turning = 2.0 * self.rates[GAMMA] * state[3];
+        matrix[(1, 2)] += turning;
+        matrix[(2, 1)] -= turning;
+        matrix
     }
 
     /// Moves on by so many seconds, by Runge and Kutta's fourth order.
     pub fn advance(&mut self, seconds: f64) {
         let slope = |columns: &SMatrix<f64, 4, COLUMNS>| {
             let state = columns.column(0).into_owned();
-            let mut slope = self.rates.derivative(&state) * columns;
-            slope.set_column(0, &self.rates.slope(&state));
-            for (index, rate) in self.each.iter().enumerate() {
-                let mut column = slope.column_mut(1 + index);
-                column += rate.slope(&state);
-            }
+            let by_rates = by_rates(&state);
+            let mut slope = self.at(&state) * columns;
+            // What differs from the state in Q is turned otherwise, too.
+            let turning = by_rates.column(KAPPA) * self.rates[GAMMA];
+            slope += turning * columns.row(3);
+            slope.set_column(0, &(by_rates * self.rates));
+            let mut of_rates = slope.fixed_columns_mut::<RATES>(1);
+            of_rates += by_rates;
             slope
         };
         self.columns = self.moved(self.columns, seconds, slope);
@@ -148,7 +140,7 @@ impl Motion {
         seconds: f64,
         slope: impl Fn(&SMatrix<f64, 4, N>) -> SMatrix<f64, 4, N>,
     ) -> SMatrix<f64, 4, N> {
-        let fastest = self.rates.at(&columns.column(0).into_owned()).norm();
+        let fastest = self.at(&columns.column(0).into_owned()).norm();
         let steps = (fastest * seconds.abs() / STEP).ceil().max(1.0);
         if steps > MOST_STEPS {
             return columns * f64::NAN;
@@ -179,7 +171,7 @@ impl Motion {
     fn averaged(&self, seconds: f64, sign: f64) -> (f64, Complex<f64>) {
         let now = self.columns.column(0).into_owned();
         let at = |by: f64| {
-            let state = self.moved(now, by, |state| self.rates.slope(state));
+            let state = self.moved(now, by, |state| self.slope(state));
             Self::travelling(&state, sign)
         };
         let (greater, lesser) = Self::travelling(&now, sign);
@@ -214,7 +206,7 @@ impl Motion {
     pub fn frequency_by_turning(&self) -> f64 {
         let state = self.columns.column(0).into_owned();
         let [e, r, s, q] = state.into();
-        let slope = self.rates.slope(&state);
+        let slope = self.slope(&state);
         let turning = 0.25 * (r * slope[2] - s * slope[1]) / (r * r + s * s).max(f64::MIN_POSITIVE);
         2.0 * turning * q / e
     }
@@ -256,28 +248,6 @@ impl Motion {
             by_state * self.columns.fixed_columns::<PARAMETERS>(1),
         )
     }
-}
-
-/// What each rate does to E, R, S and Q, γ at Q of one.
-fn parts() -> [Matrix4<f64>; RATES] {
-    let part = |entries: &[(usize, usize, f64)]| {
-        let mut part = Matrix4::zeros();
-        for &(row, column, entry) in entries {
-            part[(row, column)] = entry;
-        }
-        part
-    };
-    let [e, r, s, q] = [0, 1, 2, 3];
-    let turning = part(&[(r, s, 2.0), (s, r, -2.0)]);
-    [
-        Matrix4::from_diagonal_element(-2.0),
-        part(&[(e, r, -1.0), (r, e, -1.0)]),
-        part(&[(e, s, -1.0), (s, e, -1.0)]),
-        part(&[(q, s, 1.0), (s, q, -1.0)]),
-        part(&[(q, r, -1.0), (r, q, 1.0)]),
-        turning,
-        turning,
-    ]
 }
 
 #[cfg(test)]

@@ -3,10 +3,10 @@
 //! The motion is linear in the rates, so that E, R, S and Q are what they began with plus integrals over time of what each rate does to them:
 //! by linear least squares the rates follow, wherever the pattern stands and however it moves, but for noise in the integrals.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Matrix4, Vector4};
+use nalgebra::{Cholesky, DMatrix, DVector, Matrix4, SVector, Vector4};
 
 use super::model::{Model, Term};
-use super::motion::{RATES, Rates};
+use super::motion::{RATES, by_rates};
 use crate::runs::{Row, Run};
 
 /// The share of each unknown's own weight that is added to it: what the rows do not tell then stays next to nothing.
@@ -58,10 +58,10 @@ impl Normal {
         let mut places = vec![own + 1, own + 2, own + 3, last];
         let mut moves = Vec::new();
         for (place, direction) in terms {
-            let rates = &direction[..RATES];
-            if rates.iter().any(|&rate| rate != 0.0) {
+            let rates = SVector::<f64, RATES>::from_column_slice(&direction[..RATES]);
+            if rates.norm() > 0.0 {
                 places.push(*place);
-                moves.push(Rates::new(rates));
+                moves.push(rates);
             }
         }
         let rate = run.turned / run.seconds();
@@ -70,10 +70,8 @@ impl Normal {
         for row in &run.rows {
             let back = turned(-rate * (row.time - run.rows[0].time));
             let state = state(row);
-            let slopes: Vec<_> = moves
-                .iter()
-                .map(|rates| back * rates.slope(&state))
-                .collect();
+            let by_rates = back * by_rates(&state);
+            let slopes: Vec<_> = moves.iter().map(|rates| by_rates * rates).collect();
             if let Some((time, last)) = before {
                 let half = 0.5 * (row.time - time);
                 for ((integral, last), slope) in integrals.iter_mut().zip(last).zip(&slopes) {

@@ -202,7 +202,7 @@ fn a_window_averages_what_is_not_even() {
             (0.0, Complex::new(0.0, 0.0), Complex::new(0.0, 0.0));
         for part in 0..parts {
             let by = seconds * ((f64::from(part) + 0.5) / f64::from(parts) - 0.5);
-            let state = motion.moved(now, by, |state| motion.rates.slope(state));
+            let state = motion.moved(now, by, |state| motion.slope(state));
             let (plus, minus) = Motion::travelling(&state, -1.0);
             of_greater += plus.ln() / f64::from(parts);
             of_lesser += minus / f64::from(parts);

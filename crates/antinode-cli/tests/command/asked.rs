@@ -1,0 +1,116 @@
+//! `antinode identify` where what was asked cannot be.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{RATE, WAVE, npy, raw, rows, run, wav};
+
+/// Runs `identify`, which must exit 1 without a row, with one message that holds all of these.
+fn fault(directory: &Path, arguments: &str, input: Vec<u8>, told: &[&str]) {
+    assert_eq!(crate::common::fault(directory, arguments, input, told), []);
+}
+
+#[test]
+fn a_rate_that_cannot_be_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let codes = WAVE.codes(2000);
+    fs::write(here.join("a.wav"), wav(&codes)).unwrap();
+    fs::write(here.join("a.npy"), npy(&codes)).unwrap();
+    let mut wrong = wav(&codes);
+    wrong[24..28].fill(0);
+    fs::write(here.join("zero.wav"), wrong).unwrap();
+    fs::write(here.join("slow.csv"), "t,c,d\n0,1,2\n5,3,4\n").unwrap();
+    fault(
+        here,
+        "slow.csv",
+        Vec::new(),
+        &["slow.csv: ", "0.2 Hz is absurd", "as --rate HZ"],
+    );
+    fault(
+        here,
+        "a.npy",
+        Vec::new(),
+        &["a.npy: ", "rate is not known", "give --rate HZ"],
+    );
+    fault(here, "zero.wav", Vec::new(), &["zero.wav: ", "--rate"]);
+    fault(
+        here,
+        "- --raw i16",
+        raw(&codes),
+        &["standard input: ", "give --rate HZ"],
+    );
+    // The file is good all the same.
+    assert!(!rows(here, &format!("zero.wav --rate {RATE}")).is_empty());
+}
+
+#[test]
+fn options_that_make_no_sense_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::write(here.join("a.wav"), wav(&WAVE.codes(2000))).unwrap();
+    let cases = [
+        ("--periods 1", "--periods <N>': 1 is not in 2..=1022"),
+        ("--periods 1023", "1023 is not in 2..=1022"),
+        ("--hop 0", "--hop <BLOCKS>': 0 is not in 1.."),
+        ("--rate fast", "'fast' for '--rate <HZ>'"),
+        ("--rate 0", "'--rate <HZ>': it must be 1 to 10000000000 Hz"),
+        ("--rate -5", "'--rate <HZ>': it must be 1 to"),
+        ("--rate nan", "'--rate <HZ>': it must be 1 to"),
+        ("--rate 1e20", "'--rate <HZ>': it must be 1 to"),
+        (
+            "--gain-ratio 0",
+            "'--gain-ratio <RATIO>': it must be 0.1 to 10",
+        ),
+        ("--gain-ratio -1", "it must be 0.1 to 10"),
+        (
+            "--skew-ns 1e9",
+            "'--skew-ns <NS>': it must be -1000000 to 1000000 ns",
+        ),
+        ("--pick-off-angle 1", "it must be -0.3 to 0.3 rad"),
+        (
+            "--full-scale -1",
+            "'--full-scale <LEVEL|LOW,HIGH>': it must be a number above 0, or two numbers as LOW,HIGH",
+        ),
+        ("--full-scale 0", "it must be a number above 0"),
+        ("--full-scale nan", "it must be a number above 0"),
+        ("--full-scale 3,3", "LOW must lie below HIGH"),
+        ("--full-scale 1,-1", "LOW must lie below HIGH"),
+        ("--full-scale nan,1", "LOW and HIGH must be finite"),
+        ("--full-scale 0,inf", "LOW and HIGH must be finite"),
+        ("--full-scale 0,", "LOW and HIGH must be numbers"),
+        ("--full-scale 0,1,2", "LOW and HIGH must be numbers"),
+        (
+            "--resolution 0",
+            "'--resolution <STEP>': it must be a number above 0",
+        ),
+        ("--start-angle nan", "it must be -10000 to 10000 rad"),
+        ("--format xml", "table, csv, jsonl"),
+        ("--output xml", "table, csv, jsonl"),
+        ("--columns a", "two (S_C, S_D) or three"),
+        ("--raw u32", "u8, i8, u16, i16, i24, i32, f32, f64"),
+        ("--nonsense", "--nonsense"),
+    ];
+    for (arguments, told) in cases {
+        let run = run(here, &format!("identify a.wav {arguments}"));
+        assert_eq!(
+            (run.code, run.out.as_str()),
+            (2, ""),
+            "{arguments}: {}",
+            run.err
+        );
+        assert!(run.err.contains(told), "{arguments}: {}", run.err);
+    }
+    // The ends of a range belong to it.
+    let ends =
+        "--skew-ns 1000000 --gain-ratio 10 --pick-off-angle -0.3 --rate 1e5 --full-scale -1,1";
+    let ends = run(here, &format!("identify a.wav --format csv {ends}"));
+    assert_eq!((ends.code, ends.err.as_str()), (0, ""));
+    assert!(ends.out.starts_with("time_s,"));
+    let help = run(here, "identify --help").out;
+    for range in ["0.1 to 10", "within ±1000000", "within ±0.3", "1 to 1e10"] {
+        assert!(help.contains(range), "{range}");
+    }
+    assert_eq!(run(here, "identify").code, 2);
+    assert_eq!(run(here, "nonsense").code, 2);
+}

@@ -1,0 +1,239 @@
+//! `antinode calibrate`: the flaws of simulated pick-offs are found, and what it prints takes them out.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{Row, Run, rms, rows, run, run_with};
+
+const FLAWS: &str =
+    "--gain-ratio 1.012 --skew-ns 130 --pick-off-angle 0.008 --noise 0.003 --decay-rate 0.05";
+
+/// Two recordings that turn by more than 90° one way and the other.
+fn record(here: &Path) {
+    for turning in [
+        "-o one.wav --angle-rate 0.7 --seed 1",
+        "-o other.wav --angle-rate -0.6 --angle 1.1 --seed 2",
+    ] {
+        let run = run(here, &format!("simulate {turning} --seconds 3 {FLAWS}"));
+        assert_eq!(run.code, 0, "{}", run.err);
+    }
+}
+
+/// What `calibrate` makes of the rows of these recordings.
+fn calibrate(here: &Path, recordings: &str, options: &str) -> Run {
+    let rows = run(
+        here,
+        &format!("identify --output csv {recordings} {options}"),
+    );
+    assert_eq!((rows.code, rows.err.as_str()), (0, ""));
+    run_with(here, &format!("calibrate - {options}"), rows.out.into())
+}
+
+/// One such recording of a pattern that turns at this rate, and another of one that turns the other way.
+fn record_both_ways(here: &Path, simulated: &str, rate: f64) {
+    for (name, rate) in [("one", rate), ("other", -rate)] {
+        let made = run(
+            here,
+            &format!("simulate -o {name}.wav --angle-rate {rate} {simulated}"),
+        );
+        assert_eq!(made.code, 0, "{}", made.err);
+    }
+}
+
+/// What `calibrate` makes of both in such windows.
+fn of_windows(here: &Path, windows: &str, options: &str) -> Run {
+    let rows = run(
+        here,
+        &format!("identify --output csv one.wav other.wav {windows} {options}"),
+    );
+    assert_eq!(rows.code, 0, "{}", rows.err);
+    run_with(here, &format!("calibrate - {options}"), rows.out.into())
+}
+
+/// The numbers of the options printed, and the deviations told of them.
+fn numbers(run: &Run) -> ([f64; 3], [f64; 3]) {
+    assert_eq!(run.code, 0, "{}", run.err);
+    let words: Vec<_> = run.out.split_whitespace().collect();
+    let names = ["--gain-ratio", "--skew-ns", "--pick-off-angle"];
+    assert_eq!([words[0], words[2], words[4]], names);
+    let told: Vec<f64> = run
+        .err
+        .lines()
+        .filter_map(|line| line.split_once('±')?.1.trim().parse().ok())
+        .collect();
+    (
+        [1, 3, 5].map(|i: usize| words[i].parse().unwrap()),
+        told.try_into().unwrap(),
+    )
+}
+
+#[test]
+fn windows_in_which_the_pattern_turns_far_tell_the_same() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for seed in 1..=4 {
+        let simulated = format!(
+            "--sample f32 --seconds 4 --seed {seed} --noise 5e-4 --decay-rate 0.1 --gain-ratio 1.03 --skew-ns 800 --pick-off-angle 0.02"
+        );
+        record_both_ways(here, &simulated, 1.5);
+        // 4° in each: what they average of the flaws is half a per cent less than there is.
+        for options in ["", "--gain-ratio 0.98 --skew-ns -100"] {
+            let found = of_windows(here, "--periods 250", options);
+            let (values, deviations) = numbers(&found);
+            for ((value, truth), deviation) in
+                values.iter().zip([1.03, 800.0, 0.02]).zip(deviations)
+            {
+                assert!(
+                    (value - truth).abs() < 4.0 * deviation,
+                    "{options}: {}",
+                    found.err
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn gains_that_are_very_unlike_are_found_to_their_deviations() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (gain, amplitude) in [("3", "0.25"), ("0.33", "0.75")] {
+        let mut errors = Vec::new();
+        for seed in 1..=6 {
+            let simulated = format!(
+                "--main-amplitude {amplitude} --quadrature-amplitude 0.01 --seconds 3 --seed {seed} --noise 5e-4 --decay-rate 0.1 \
+                 --gain-ratio {gain} --skew-ns 800 --pick-off-angle 0.02"
+            );
+            record_both_ways(here, &simulated, 0.8);
+            // The pattern seems to turn by 0.4° to 3.9° in each.
+            let found = of_windows(here, "--periods 50", "");
+            assert!(!found.err.contains("warning"), "{}", found.err);
+            let (values, deviations) = numbers(&found);
+            let truth = [gain.parse().unwrap(), 800.0, 0.02];
+            let all = values.iter().zip(truth).zip(deviations);
+            errors.extend(all.map(|((value, truth), deviation)| (value - truth) / deviation));
+        }
+        let rms = rms(&errors);
+        assert!((0.6..1.5).contains(&rms), "{gain}: {errors:.1?}");
+    }
+}
+
+#[test]
+fn flaws_are_found_to_their_deviations_and_taken_out() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    record(here);
+    let both = calibrate(here, "one.wav other.wav", "");
+    let (found, deviations) = numbers(&both);
+    for ((found, truth), deviation) in found.iter().zip([1.012, 130.0, 0.008]).zip(deviations) {
+        assert!((found - truth).abs() < 4.0 * deviation, "{}", both.err);
+    }
+    // Three digits of the deviation, and no more.
+    let digits = both.out.split_whitespace().map(|word| {
+        word.split_once('.')
+            .map_or(0, |(_, decimals)| decimals.len())
+    });
+    let digits: Vec<_> = digits.collect();
+    assert_eq!([digits[1], digits[3], digits[5]], [7, 2, 7], "{}", both.out);
+    let limits = [1e-4, 3.0, 5e-5];
+    assert!(deviations.iter().zip(limits).all(|(std, most)| *std < most));
+    assert!(!both.err.contains("warning"), "{}", both.err);
+
+    // A file of rows each is the same.
+    for name in ["one", "other"] {
+        let rows = run(here, &format!("identify --output csv {name}.wav"));
+        fs::write(here.join(format!("{name}.csv")), rows.out).unwrap();
+    }
+    assert_eq!(run(here, "calibrate one.csv other.csv").out, both.out);
+
+    // Rows made with a calibration lead to the same one.
+    let again = calibrate(
+        here,
+        "one.wav other.wav",
+        "--gain-ratio 0.98 --skew-ns -400 --pick-off-angle 0.02",
+    );
+    for ((again, found), deviation) in numbers(&again).0.iter().zip(found).zip(deviations) {
+        assert!((again - found).abs() < 0.3 * deviation, "{found}, {again}");
+    }
+
+    let share = |row: &Row| row.number("quadrature_amplitude") / row.number("main_amplitude");
+    let spread = |options: &str| {
+        let rows = rows(here, &format!("one.wav --periods 50 {options}"));
+        let [least, most] = rows
+            .iter()
+            .fold([f64::MAX, f64::MIN], |[least, most], row| {
+                [least.min(share(row)), most.max(share(row))]
+            });
+        most - least
+    };
+    // The skew makes 4 mrad of quadrature as the pattern turns, noise some 2 in so many windows.
+    let [before, after] = ["", both.out.trim()].map(spread);
+    assert!(before > 2.0 * after && after < 2.5e-3, "{before} {after}");
+}
+
+#[test]
+fn one_way_alone_is_warned_of() {
+    let directory = tempfile::tempdir().unwrap();
+    record(directory.path());
+    let one = calibrate(directory.path(), "one.wav", "");
+    numbers(&one);
+    assert!(
+        one.err.contains("warning: the pattern turns one way only"),
+        "{}",
+        one.err
+    );
+}
+
+#[test]
+fn what_no_calibration_explains_is_warned_of() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // Amplitudes that a nonlinear amplifier changes with the angle.
+    let made = run(
+        here,
+        &format!("simulate -o bent.wav --angle-rate 0.7 --seconds 3 --cubic -0.1 {FLAWS}"),
+    );
+    assert_eq!(made.code, 0);
+    let rows = run(here, "identify --output csv bent.wav");
+    let bent = run_with(here, "calibrate -", rows.out.replace("clipped", "").into());
+    assert!(
+        ["times their noise", "converter is nonlinear", "further off"]
+            .iter()
+            .all(|part| bent.err.contains(part)),
+        "{}{}",
+        bent.err,
+        bent.out
+    );
+}
+
+#[test]
+fn what_cannot_be_calibrated_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let still = run(here, "simulate -o still.wav --angle-rate 0.1 --noise 0.003");
+    assert_eq!(still.code, 0);
+    let still = calibrate(here, "still.wav", "");
+    assert_eq!((still.code, still.out.as_str()), (1, ""));
+    assert!(
+        still
+            .err
+            .contains("turns by only 5.7°, but must turn by 90°"),
+        "{}",
+        still.err
+    );
+    for (arguments, told) in [
+        ("calibrate none.csv", ["error: none.csv: ", "no such file"]),
+        (
+            "calibrate still.wav",
+            ["error: still.wav: ", "identify --output csv"],
+        ),
+    ] {
+        let run = run(here, arguments);
+        assert_eq!((run.code, run.out.as_str()), (1, ""));
+        assert!(
+            run.err.starts_with(told[0]) && run.err.contains(told[1]),
+            "{}",
+            run.err
+        );
+    }
+}

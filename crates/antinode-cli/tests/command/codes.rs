@@ -1,0 +1,293 @@
+//! Recordings of converters that have fewer bits than the integers they are stored in.
+
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
+
+use crate::common::{RATE, Row, WAVE, Wave, npy, rms, rows, run, run_with};
+
+/// The rows of a simulated recording.
+fn identified(here: &Path, name: &str, simulate: &str, identify: &str) -> Vec<Row> {
+    let made = run(here, &format!("simulate -o {name} {simulate}"));
+    assert_eq!(made.code, 0, "{}", made.err);
+    rows(here, &format!("{name} {identify}"))
+}
+
+#[test]
+fn their_steps_count_in_the_deviations() {
+    let directory = tempfile::tempdir().unwrap();
+    // Next to 20 samples a period, so that 12-bit codes repeat, and a tenth of a code of noise, too little to break that up.
+    let simulate = "--seconds 1 --bits 12 --frequency 5000.01 --noise 5e-5";
+    for (name, sample, rate) in [
+        ("a.wav", "--sample i16", ""),
+        ("b.wav", "--sample i24", ""),
+        ("c.npy", "", "--rate 100000"),
+    ] {
+        let rows = identified(
+            directory.path(),
+            name,
+            &format!("{simulate} {sample}"),
+            rate,
+        );
+        assert!(rows.len() > 400);
+        let squares = rows.iter().map(|row| {
+            let off = row.number("main_amplitude") - 0.5;
+            (off / row.number("main_amplitude_std")).powi(2)
+        });
+        let rms = (squares.sum::<f64>() / rows.len() as f64).sqrt();
+        assert!((0.3..1.3).contains(&rms), "{name}: {rms}");
+    }
+}
+
+#[test]
+fn their_own_rail_is_a_rail() {
+    let directory = tempfile::tempdir().unwrap();
+    for (amplitude, is_clipped) in [(0.99, false), (0.9999, true)] {
+        let rows = identified(
+            directory.path(),
+            "a.wav",
+            &format!(
+                "--seconds 0.1 --bits 12 --noise 1e-4 --angle 0 --quadrature-amplitude 0.01 --main-amplitude {amplitude}"
+            ),
+            "",
+        );
+        let clipped = rows
+            .iter()
+            .filter(|row| row.text("flags").contains("clipped"));
+        let share = clipped.count() as f64 / rows.len() as f64;
+        // Not every window has a sample next to a crest.
+        let expected = if is_clipped { 0.9..=1.0 } else { 0.0..=0.0 };
+        assert!(expected.contains(&share), "{amplitude}: {share}");
+    }
+}
+
+#[test]
+fn both_rails_of_a_converter_without_sign_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let mut codes = "c,d\n".to_owned();
+    for k in 0..20_000 {
+        // Codes of 12 bits, whose lowest in a crest is 0; nothing is cut off.
+        let s = (TAU * 0.0532 * f64::from(k)).cos();
+        codes += &format!("{:.0},{:.0}\n", 1200.0 + 1200.0 * s, 1200.0 - 300.0 * s);
+    }
+    fs::write(here.join("codes.csv"), codes).unwrap();
+    for (option, is_clipped) in [
+        ("", false),
+        ("--full-scale 4095", false),
+        ("--full-scale -1,4095", false),
+        ("--full-scale 0,4095", true),
+        ("--full-scale -4095,2400", true),
+    ] {
+        let rows = rows(here, &format!("codes.csv --rate 1e5 {option}"));
+        assert!(rows.len() > 90);
+        let clipped = rows.iter().filter(|row| row.text("flags") == "clipped");
+        let share = clipped.count() as f64 / rows.len() as f64;
+        // Not every window has a sample next to a crest.
+        let expected = if is_clipped { 0.9..=1.0 } else { 0.0..=0.0 };
+        assert!(expected.contains(&share), "{option}: {share}");
+    }
+}
+
+#[test]
+fn the_rails_given_win_over_those_of_integers() {
+    let directory = tempfile::tempdir().unwrap();
+    let simulate = "--seconds 0.1 --bits 12 --noise 1e-4 --angle 0 --quadrature-amplitude 0.01 --main-amplitude 0.9999";
+    for (option, is_clipped) in [("", true), ("--full-scale -1.1,1.1", false)] {
+        let rows = identified(directory.path(), "a.wav", simulate, option);
+        let is_flagged = rows.iter().any(|row| row.text("flags").contains("clipped"));
+        assert_eq!(is_flagged, is_clipped, "{option}");
+    }
+}
+
+#[test]
+fn a_step_coarser_than_the_noise_is_told_where_rows_scatter() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let step = "(angle 1.45 times): the converter's step of 3.9e-3 is coarser than the noise";
+    for (noise, is_told) in [("0", true), ("0.004", false)] {
+        let simulate =
+            format!("simulate -o a.wav --seconds 4 --bits 9 --frequency 5321.7 --noise {noise}");
+        assert_eq!(run(here, &simulate).code, 0);
+        let found = run(here, "identify --output csv a.wav");
+        assert_eq!(found.code, 0, "{}", found.err);
+        assert_eq!(found.err.contains(step), is_told, "{noise}: {}", found.err);
+        assert_eq!(found.err.is_empty(), !is_told, "{noise}: {}", found.err);
+    }
+}
+
+/// An NPY file of unsigned integers, whose header is as long as that of signed ones.
+fn unsigned(codes: &[[i16; 2]]) -> Vec<u8> {
+    let mut bytes = npy(codes);
+    let place = bytes.windows(3).position(|bytes| bytes == b"<i2").unwrap();
+    bytes[place + 1] = b'u';
+    bytes
+}
+
+/// A wave of so many codes about the middle of a 12-bit converter that counts from 0, which saturates.
+fn counted(codes: f64) -> Vec<[i16; 2]> {
+    let wave = Wave {
+        main: codes / 32_768.0,
+        quadrature: -0.07 * codes / 32_768.0,
+        noise: 1.0 / 32_768.0,
+        ..WAVE
+    };
+    let pairs = wave.codes(20_000).into_iter();
+    pairs
+        .map(|pair| pair.map(|code| (code + 2048).clamp(0, 4095)))
+        .collect()
+}
+
+#[test]
+fn codes_from_0_are_one_wave_in_signed_and_in_unsigned_integers() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let numbers = |name: &str, codes: &[[i16; 2]], bytes: Vec<u8>| {
+        fs::write(here.join(name), bytes).unwrap();
+        let found = rows(here, &format!("{name} --rate {RATE}"));
+        assert!(found.len() * 200 > codes.len(), "{name}: {}", found.len());
+        found
+    };
+    for amplitude in [1500.0, 150.0] {
+        let codes = counted(amplitude);
+        let signed = numbers("signed.npy", &codes, npy(&codes));
+        let found = numbers("unsigned.npy", &codes, unsigned(&codes));
+        assert_eq!(found.len(), signed.len());
+        for (found, signed) in found.iter().zip(&signed) {
+            assert_eq!(found.text("flags"), "");
+            for name in ["main_amplitude", "quadrature_amplitude", "angle_rad"] {
+                let off = found.number(name) - signed.number(name);
+                assert!(
+                    off.abs() < 0.1 * signed.number("angle_std_rad"),
+                    "{name}: {off}"
+                );
+            }
+            // Mid-scale of all 16 bits is 0.
+            assert!((found.number("offset_c") - (2048.0 / 32_768.0 - 1.0)).abs() < 1e-4);
+        }
+    }
+    let codes = counted(3000.0);
+    let found = numbers("unsigned.npy", &codes, unsigned(&codes));
+    assert!(
+        found
+            .iter()
+            .all(|row| row.text("flags").contains("clipped"))
+    );
+}
+
+#[test]
+fn a_few_codes_tell_a_step_where_sampling_is_locked_to_the_wave() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (samples, sample) in [(4, "i16"), (5, "i16"), (4, "i24"), (5, "i24"), (8, "i16")] {
+        let mut errors = [Vec::new(), Vec::new(), Vec::new()];
+        for k in 0..24 {
+            let (main, angle) = (0.4 + 0.0137 * f64::from(k), 0.05 + 0.06 * f64::from(k));
+            let phase = 0.11 * f64::from(k);
+            let simulate = format!(
+                "--seconds 0.2 --bits 12 --sample {sample} --rate {} --main-amplitude {main} --quadrature-amplitude 0.03 \
+                 --angle {angle} --phase {phase}",
+                5332 * samples
+            );
+            let rows = identified(here, "a.wav", &simulate, "--frequency 5332");
+            assert!(rows.len() > 90);
+            for row in &rows {
+                let turn = TAU / 4.0;
+                let off = row.number("angle_rad") - angle;
+                for (errors, (error, std)) in errors.iter_mut().zip([
+                    (row.number("main_amplitude") - main, "main_amplitude_std"),
+                    (
+                        row.number("quadrature_amplitude") - 0.03,
+                        "quadrature_amplitude_std",
+                    ),
+                    (off - turn * (off / turn).round(), "angle_std_rad"),
+                ]) {
+                    errors.push(error / row.number(std));
+                }
+            }
+        }
+        for errors in errors {
+            let rms = rms(&errors);
+            assert!((0.7..1.5).contains(&rms), "{samples} {sample}: {rms}");
+        }
+    }
+}
+
+#[test]
+fn a_step_that_shows_only_at_the_end_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // Six codes, by two bits: too few to tell a step by.
+    let simulate = "simulate -o a.wav --seconds 1 --bits 14 --rate 21328";
+    assert_eq!(run(here, simulate).code, 0);
+    let raw = fs::read(here.join("a.wav")).unwrap()[44..].to_vec();
+    let silent = run(here, "identify --frequency 5332 a.wav");
+    assert_eq!(silent.code, 0, "{}", silent.err);
+    for option in [
+        "give --resolution 0.00012207031\n",
+        "warning: a.wav: all samples are multiples of 0.00012207031, ",
+    ] {
+        assert!(silent.err.contains(option), "{}", silent.err);
+    }
+    assert_eq!(
+        run(
+            here,
+            "identify --frequency 5332 --resolution 0.00012207031 a.wav"
+        )
+        .err,
+        ""
+    );
+    // A pipe is told of after a second, and once.
+    let piped = run_with(
+        here,
+        "identify --frequency 5332 --raw i16 --rate 21328 -",
+        [&raw[..], &raw[..]].concat(),
+    );
+    assert_eq!(
+        (piped.code, piped.err.lines().count()),
+        (0, 1),
+        "{}",
+        piped.err
+    );
+    let start = "warning: standard input: so far all samples are multiples of 0.00012207031, ";
+    assert!(piped.err.starts_with(start), "{}", piped.err);
+    // Noise of a step breaks its rounding up.
+    let noisy = format!("{simulate} --noise 0.0005");
+    assert_eq!(run(here, &noisy).code, 0);
+    let raw = fs::read(here.join("a.wav")).unwrap()[44..].to_vec();
+    let piped = run_with(
+        here,
+        "identify --frequency 5332 --raw i16 --rate 21328 -",
+        raw,
+    );
+    assert_eq!((piped.code, piped.err.as_str()), (0, ""));
+}
+
+#[test]
+fn a_few_values_of_text_are_told_where_no_step_is() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let simulate = "simulate -o a.csv --seconds 0.2 --bits 12 --rate 26660";
+    assert_eq!(run(here, simulate).code, 0);
+    let told = run(here, "identify --frequency 5332 a.csv");
+    let start = "warning: a.csv: the first samples show 10 values over and over: ";
+    assert!(
+        told.code == 0 && told.err.starts_with(start),
+        "{}",
+        told.err
+    );
+    let given = "identify --frequency 5332 --resolution 0.00048828125 a.csv";
+    assert_eq!(run(here, given).err, "");
+    // As whole numbers they tell their step.
+    let text = fs::read_to_string(here.join("a.csv")).unwrap();
+    let whole = text.lines().skip(1).map(|line| {
+        let mut fields = line.split(',').map(|field| field.parse::<f64>().unwrap());
+        let mut code = || 2048.0 * fields.next_back().unwrap();
+        let (d, c) = (code(), code());
+        format!("{c},{d}\n")
+    });
+    fs::write(here.join("whole.csv"), whole.collect::<String>()).unwrap();
+    let rows = rows(here, "whole.csv --rate 26660 --frequency 5332");
+    let std = rows[0].number("main_amplitude_std");
+    assert!((0.1..0.4).contains(&std), "{std}");
+}

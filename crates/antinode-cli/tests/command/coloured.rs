@@ -1,0 +1,138 @@
+//! `antinode identify` on recordings whose noise is not white: what it tells, and what `--coloured` and `--hum` make of them.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{RATE, Row, Run, WAVE, Wave, run, wav};
+
+/// A quiet wave, and noise of both pick-offs through a recursive filter: y = Σ a_i·y_i + x, plus `plain` of x.
+fn record(directory: &Path, feedback: [f64; 2], plain: f64, rms: f64) {
+    let quiet = Wave { noise: 0.0, ..WAVE };
+    let pairs = 200_000;
+    let white = Wave {
+        main: 0.0,
+        quadrature: 0.0,
+        noise: 0.05,
+        ..WAVE
+    };
+    let mut past = [[0.0; 2]; 2];
+    let mut squares = 0.0;
+    let noise: Vec<[f64; 2]> = white
+        .codes(pairs)
+        .iter()
+        .map(|pair| {
+            core::array::from_fn(|i| {
+                let x = f64::from(pair[i]);
+                let y = feedback[0] * past[i][0] + feedback[1] * past[i][1] + x;
+                past[i] = [y, past[i][0]];
+                squares += (y + plain * x).powi(2);
+                y + plain * x
+            })
+        })
+        .collect();
+    let scale = 32_768.0 * rms / (squares / (2 * pairs) as f64).sqrt();
+    let codes: Vec<[i16; 2]> = quiet
+        .codes(pairs)
+        .iter()
+        .zip(noise)
+        .map(|(pair, noise)| {
+            core::array::from_fn(|i| (f64::from(pair[i]) + scale * noise[i]).round() as i16)
+        })
+        .collect();
+    fs::write(directory.join("a.wav"), wav(&codes)).unwrap();
+}
+
+fn identified(directory: &Path, arguments: &str) -> (Run, [usize; 2]) {
+    let run = run(
+        directory,
+        &format!("identify --output csv {arguments} a.wav"),
+    );
+    assert_eq!(run.code, 0, "{}", run.err);
+    let rows = Row::all(&run.out);
+    let flagged = rows
+        .iter()
+        .filter(|row| !row.text("flags").is_empty())
+        .count();
+    let count = rows.len();
+    (run, [count, flagged])
+}
+
+/// A pole pair at the wave's frequency: a front end tuned to it.
+fn tuned(radius: f64) -> [f64; 2] {
+    let turn = std::f64::consts::TAU * WAVE.frequency / RATE;
+    [2.0 * radius * turn.cos(), -radius * radius]
+}
+
+#[test]
+fn noise_of_a_tuned_front_end_is_named_and_no_misfit_with_its_option() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    record(here, tuned(0.95), 0.0, 0.005);
+    let (plain, [count, flagged]) = identified(here, "--periods 50");
+    assert!(count > 200 && flagged > count / 2, "{flagged} of {count}");
+    assert!(
+        plain.err.starts_with("warning: a.wav: ") && plain.err.contains("give --coloured"),
+        "{}",
+        plain.err
+    );
+    let (told, [_, flagged]) = identified(here, "--periods 50 --coloured");
+    assert_eq!(flagged, 0);
+    assert!(!told.err.contains("--coloured"), "{}", told.err);
+}
+
+#[test]
+fn rows_that_scatter_more_than_they_state_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    record(here, tuned(0.95), 8.0, 0.005);
+    let (plain, [count, flagged]) = identified(here, "");
+    assert!(count > 1000 && flagged < 10, "{flagged} of {count}");
+    for part in [
+        "warning: a.wav: rows scatter by more",
+        "angle 1.",
+        "--coloured",
+    ] {
+        assert!(plain.err.contains(part), "{}", plain.err);
+    }
+    // Rows that overlap scatter together: of every tenth the same is told.
+    let (overlapping, _) = identified(here, "--hop 1");
+    assert!(
+        overlapping.err.contains("rows scatter by more"),
+        "{}",
+        overlapping.err
+    );
+    let (told, _) = identified(here, "--coloured");
+    assert_eq!(told.err, "");
+}
+
+#[test]
+fn rows_that_scatter_less_than_they_state_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    record(here, [0.98, 0.0], 5.0, 0.01);
+    let (plain, [count, flagged]) = identified(here, "");
+    assert!(count > 1000 && flagged < 10, "{flagged} of {count}");
+    for part in ["warning: a.wav: rows scatter by only 0.", "--hum"] {
+        assert!(plain.err.contains(part), "{}", plain.err);
+    }
+    let (told, _) = identified(here, "--hum");
+    assert_eq!(told.err, "");
+}
+
+#[test]
+fn of_white_noise_and_of_too_few_rows_nothing_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (feedback, arguments) in [
+        ([0.0; 2], ""),
+        ([0.0; 2], "--periods 2"),
+        ([0.0; 2], "--hop 1"),
+        ([0.0; 2], "--periods 50"),
+        ([0.0; 2], "--coloured"),
+        (tuned(0.9), "--periods 100"),
+    ] {
+        record(here, feedback, 5.0, 0.005);
+        let (told, _) = identified(here, arguments);
+        assert_eq!(told.err, "", "{arguments}");
+    }
+}

@@ -1,0 +1,311 @@
+//! What the tests of the command share: runs of it, its rows, and a wave made without the project's own code.
+
+pub mod ring_downs;
+pub mod svg;
+
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+
+/// Sample rate of every recording made here, Hz.
+pub const RATE: f64 = 100_000.0;
+
+/// What a run of the command left behind.
+pub struct Run {
+    pub code: i32,
+    pub out: String,
+    pub err: String,
+}
+
+/// Runs the command in a directory.
+pub fn run(directory: &Path, arguments: &str) -> Run {
+    run_with(directory, arguments, Vec::new())
+}
+
+/// The root of the mean square.
+pub fn rms(errors: &[f64]) -> f64 {
+    (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt()
+}
+
+/// Runs the command in a directory, with bytes on standard input.
+pub fn run_with(directory: &Path, arguments: &str, input: Vec<u8>) -> Run {
+    let output = Command::cargo_bin("antinode")
+        .unwrap()
+        .current_dir(directory)
+        .args(arguments.split_whitespace())
+        .write_stdin(input)
+        .output()
+        .unwrap();
+    Run {
+        code: output.status.code().expect("no signal ends the command"),
+        out: String::from_utf8(output.stdout).unwrap(),
+        err: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+/// Runs `identify --output csv`, which must succeed and say how many rows are flagged by what, and nothing else.
+pub fn rows(directory: &Path, arguments: &str) -> Vec<Row> {
+    let run = run(directory, &format!("identify --output csv {arguments}"));
+    let rows = Row::all(&run.out);
+    assert_eq!(
+        (run.code, beside_flagged(&rows, &run.err)),
+        (0, Vec::new()),
+        "{arguments}"
+    );
+    rows
+}
+
+/// What is told beside the flags of these rows, which must be told in one line a recording.
+pub fn beside_flagged<'a>(rows: &[Row], err: &'a str) -> Vec<&'a str> {
+    let mut lines: Vec<&str> = err.lines().collect();
+    let mut files: Vec<&str> = rows.iter().map(|row| row.text("file")).collect();
+    files.dedup();
+    for file in files {
+        let flags = rows.iter().filter(|row| row.text("file") == file);
+        let flags: Vec<&str> = flags.map(|row| row.text("flags")).collect();
+        let flagged = flags.iter().filter(|flags| !flags.is_empty()).count();
+        let start = format!("warning: {file}: {flagged} of {} rows ", flags.len());
+        let (told, others): (Vec<&str>, Vec<&str>) =
+            lines.iter().partition(|line| line.starts_with(&start));
+        assert_eq!(told.len(), usize::from(flagged > 0), "{start}: {err}");
+        for line in told {
+            let (_, counts) = line.split_once(" flagged: ").unwrap();
+            let counts = counts.split(';').next().unwrap();
+            let mut sum = 0;
+            for one in counts.split(", ") {
+                let (flag, count) = one.split_once(' ').unwrap();
+                let has = |flags: &&&str| flags.split('+').any(|one| one == flag);
+                assert_eq!(
+                    flags.iter().filter(has).count().to_string(),
+                    count,
+                    "{line}"
+                );
+                sum += count.parse::<usize>().unwrap();
+            }
+            let all = flags.iter().filter(|flags| !flags.is_empty());
+            assert_eq!(
+                all.map(|flags| flags.split('+').count()).sum::<usize>(),
+                sum
+            );
+        }
+        lines = others;
+    }
+    lines
+}
+
+/// The rows of a text, which must be read without a word.
+pub fn rows_of(directory: &Path, text: &str, arguments: &str) -> Vec<Row> {
+    fs::write(directory.join("a.csv"), text).unwrap();
+    rows(directory, &format!("a.csv {arguments}"))
+}
+
+/// Asserts that these are the rows expected, of windows that are later by so much.
+pub fn same_later(found: &[Row], expected: &[Row], later: f64) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        let time = found.number("time_s") - expected.number("time_s");
+        assert!((time - later).abs() < 1e-6, "{time}");
+        assert_eq!(found.unnamed()[1..], expected.unnamed()[1..]);
+    }
+}
+
+/// Runs `identify`, which must exit 1 with one message that holds all of these, beside that of flags; gives its rows.
+pub fn fault(directory: &Path, arguments: &str, input: Vec<u8>, told: &[&str]) -> Vec<Row> {
+    let run = run_with(
+        directory,
+        &format!("identify --output csv {arguments}"),
+        input,
+    );
+    assert_eq!(run.code, 1, "{arguments}: {}", run.err);
+    let rows = Row::all(&run.out);
+    let others = beside_flagged(&rows, &run.err);
+    assert_eq!(others.len(), 1, "{}", run.err);
+    assert!(others[0].starts_with("error: "), "{}", run.err);
+    for part in told {
+        assert!(
+            others[0].contains(part),
+            "{arguments}: `{part}` is not in {}",
+            run.err
+        );
+    }
+    rows
+}
+
+/// One row of CSV.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    header: Vec<String>,
+    fields: Vec<String>,
+}
+
+impl Row {
+    /// Every row of a CSV output.
+    pub fn all(text: &str) -> Vec<Self> {
+        let mut lines = text
+            .lines()
+            .map(|line| line.split(',').map(str::to_owned).collect());
+        let Some(header) = lines.next() else {
+            return Vec::new();
+        };
+        lines
+            .map(|fields: Vec<String>| {
+                let header: Vec<String> = Clone::clone(&header);
+                assert_eq!(fields.len(), header.len());
+                Self { header, fields }
+            })
+            .collect()
+    }
+
+    /// A field as it is printed.
+    pub fn text(&self, name: &str) -> &str {
+        let place = self.header.iter().position(|column| column == name);
+        &self.fields[place.unwrap_or_else(|| panic!("no column {name}"))]
+    }
+
+    /// A field as a number.
+    pub fn number(&self, name: &str) -> f64 {
+        self.text(name).parse().unwrap()
+    }
+
+    /// The row without the name of the file.
+    pub fn unnamed(&self) -> &[String] {
+        assert_eq!(self.header.last().unwrap(), "file");
+        &self.fields[..self.fields.len() - 1]
+    }
+}
+
+/// A wave by formulas (1) to (3), turning and decaying, in white noise.
+#[derive(Debug, Clone, Copy)]
+pub struct Wave {
+    pub main: f64,
+    pub quadrature: f64,
+    pub angle: f64,
+    pub phase: f64,
+    pub frequency: f64,
+    pub angle_rate: f64,
+    pub decay_rate: f64,
+    pub noise: f64,
+}
+
+/// A wave that differs from every default of the command.
+pub const WAVE: Wave = Wave {
+    main: 0.6,
+    quadrature: -0.04,
+    angle: 0.3,
+    phase: 1.1,
+    frequency: 5321.7,
+    angle_rate: 0.4,
+    decay_rate: 0.3,
+    noise: 0.005,
+};
+
+impl Wave {
+    /// Both amplitudes' decay until a time.
+    pub fn decay(&self, time: f64) -> f64 {
+        (-self.decay_rate * time).exp()
+    }
+
+    /// S_C and S_D as codes of a 16-bit converter whose full scale is 1.
+    pub fn codes(&self, pairs: usize) -> Vec<[i16; 2]> {
+        let mut random = Random(1);
+        (0..pairs)
+            .map(|k| {
+                let time = k as f64 / RATE;
+                let (sin, cos) = (TAU * self.frequency * time - self.phase).sin_cos();
+                let (sin2, cos2) = (2.0 * (self.angle + self.angle_rate * time)).sin_cos();
+                let a = self.main * self.decay(time) * cos;
+                let b = self.quadrature * self.decay(time) * sin;
+                let pair = [a * cos2 - b * sin2, a * sin2 + b * cos2];
+                pair.map(|s| ((s + self.noise * random.normal()) * 32_768.0).round() as i16)
+            })
+            .collect()
+    }
+}
+
+/// A generator of its own: SplitMix64.
+struct Random(u64);
+
+impl Random {
+    /// Uniform in 0 to 1, both excluded.
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+        ((z >> 12) as f64 + 0.5) / (1u64 << 52) as f64
+    }
+
+    /// Standard normal, by Box and Muller.
+    fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * self.uniform().ln()).sqrt();
+        radius * (TAU * self.uniform()).cos()
+    }
+}
+
+/// A 16-bit WAV file of two channels, byte by byte.
+pub fn wav(codes: &[[i16; 2]]) -> Vec<u8> {
+    let data = 4 * codes.len() as u32;
+    let mut bytes = Vec::with_capacity(44 + data as usize);
+    bytes.extend(b"RIFF");
+    bytes.extend((36 + data).to_le_bytes());
+    bytes.extend(b"WAVEfmt ");
+    bytes.extend(16u32.to_le_bytes());
+    // PCM, two channels.
+    bytes.extend([1, 0, 2, 0]);
+    bytes.extend((RATE as u32).to_le_bytes());
+    bytes.extend((4 * RATE as u32).to_le_bytes());
+    // Four bytes a pair, 16 bits a sample.
+    bytes.extend([4, 0, 16, 0]);
+    bytes.extend(b"data");
+    bytes.extend(data.to_le_bytes());
+    bytes.extend(raw(codes));
+    bytes
+}
+
+/// Codes as they come from a converter: little-endian, S_C and S_D in turn.
+pub fn raw(codes: &[[i16; 2]]) -> Vec<u8> {
+    codes
+        .as_flattened()
+        .iter()
+        .flat_map(|code| code.to_le_bytes())
+        .collect()
+}
+
+/// An NPY file of 16-bit integers of shape (N, 2), byte by byte.
+pub fn npy(codes: &[[i16; 2]]) -> Vec<u8> {
+    let mut header = format!(
+        "{{'descr': '<i2', 'fortran_order': False, 'shape': ({}, 2), }}",
+        codes.len()
+    );
+    // The header with its ten bytes before it fills 128.
+    header = format!("{header:<117}\n");
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((header.len() as u16).to_le_bytes());
+    bytes.extend(header.bytes());
+    bytes.extend(raw(codes));
+    bytes
+}
+
+/// Text with a header, the time in seconds and the two signals, full scale 1.
+pub fn text(codes: &[[i16; 2]]) -> String {
+    printed("time,C,D\n", codes, |k, [c, d]| {
+        format!("{:.5},{c},{d}", k as f64 / RATE)
+    })
+}
+
+/// Text with a header, each line as `print` has its number and its samples, full scale 1.
+pub fn printed(
+    header: &str,
+    codes: &[[i16; 2]],
+    print: impl Fn(usize, [f64; 2]) -> String,
+) -> String {
+    let mut text = header.to_owned();
+    for (k, pair) in codes.iter().enumerate() {
+        // A power of two: every digit is exact.
+        text += &print(k, pair.map(|code| f64::from(code) / 32_768.0));
+        text += "\n";
+    }
+    text
+}

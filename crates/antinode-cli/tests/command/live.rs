@@ -1,0 +1,68 @@
+//! `antinode identify` on a pipe that stays open: what is wrong with its samples is told all the same.
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc;
+use std::thread;
+use std::time::Duration;
+
+use crate::common::{WAVE, raw};
+
+/// Long beyond what a machine under load takes for a second of samples.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+fn start() -> Child {
+    Command::new(assert_cmd::cargo::cargo_bin("antinode"))
+        .args(["identify", "-", "--raw", "i16", "--rate", "1e5"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+/// What is told while the pipe is open behind these samples, and once it is closed behind as many more.
+fn told(codes: &[[i16; 2]]) -> [String; 2] {
+    let mut run = start();
+    let mut input = run.stdin.take().unwrap();
+    input.write_all(&raw(codes)).unwrap();
+    let mut error = BufReader::new(run.stderr.take().unwrap());
+    let (sender, receiver) = mpsc::channel();
+    thread::spawn(move || {
+        let mut line = String::new();
+        error.read_line(&mut line).unwrap();
+        sender.send(line).unwrap();
+        let mut rest = String::new();
+        error.read_to_string(&mut rest).unwrap();
+        sender.send(rest).unwrap();
+    });
+    let first = receiver.recv_timeout(PATIENCE);
+    input.write_all(&raw(codes)).unwrap();
+    drop(input);
+    run.wait().unwrap();
+    let first = first.expect("something is told while the pipe is open");
+    [first, receiver.recv().unwrap()]
+}
+
+#[test]
+fn one_signal_on_both_pick_offs_is_told_once() {
+    let same: Vec<[i16; 2]> = WAVE.codes(120_000).iter().map(|&[c, _]| [c, c]).collect();
+    let [first, rest] = told(&same);
+    let expected = "warning: standard input: so far S_C and S_D are the same samples: ";
+    assert!(first.starts_with(expected), "{first}");
+    assert!(!rest.contains("the same samples"), "{rest}");
+}
+
+#[test]
+fn samples_that_hold_one_value_are_told() {
+    let [first, rest] = told(&[[100, -100]; 120_000]);
+    let expected =
+        "warning: standard input: so far S_C and S_D hold one and the same value all the time, ";
+    assert!(first.starts_with(expected), "{first}");
+    // There is no row, and why is told.
+    assert_eq!(rest.lines().count(), 1, "{rest}");
+    assert!(
+        rest.starts_with("error: standard input: no period found in 240000 "),
+        "{rest}"
+    );
+}

@@ -1,0 +1,152 @@
+//! `antinode identify` on samples that are not what they are taken for: rows would look well.
+
+use crate::common::{RATE, WAVE, fault, npy, raw, run, run_with, text, wav};
+
+#[test]
+fn one_pick_off_behind_the_other_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let codes = WAVE.codes(20_000);
+    let [c, d] = [0, 1].map(|channel| codes.iter().map(move |pair| pair[channel]));
+    let behind: Vec<u8> = c.chain(d).flat_map(i16::to_le_bytes).collect();
+    for (bytes, bits) in [(behind, "i16"), (raw(&codes), "i32")] {
+        let arguments = format!("identify - --raw {bits} --rate 100000");
+        let run = run_with(directory.path(), &arguments, bytes);
+        assert_eq!(run.code, 0, "{}", run.err);
+        assert!(
+            run.err
+                .contains("warning: standard input: both pick-offs seem to be one signal"),
+            "{bits}: {}",
+            run.err
+        );
+    }
+}
+
+#[test]
+fn one_signal_on_both_pick_offs_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let codes = WAVE.codes(20_000);
+    let mut next = codes.clone();
+    next[19_999][0] += 1;
+    let same: Vec<[i16; 2]> = codes.iter().map(|&[c, _]| [c, c]).collect();
+    let negative: Vec<[i16; 2]> = codes.iter().map(|&[c, _]| [c, -c]).collect();
+    let nearly: Vec<[i16; 2]> = codes.iter().zip(&next).map(|(a, b)| [a[0], b[0]]).collect();
+    for (codes, told) in [
+        (same, Some("S_C and S_D are the same samples: ")),
+        (negative, Some("are the same samples but for the sign: ")),
+        // But for one code in the last pair of all.
+        (nearly, None),
+        // A generator's signal into two inputs has noise, if only that of their codes.
+        (codes, None),
+    ] {
+        for (name, bytes) in [("a.wav", wav(&codes)), ("a.csv", text(&codes).into_bytes())] {
+            std::fs::write(here.join(name), bytes).unwrap();
+            let run = run(here, &format!("identify --output csv {name}"));
+            assert_eq!(run.code, 0, "{}", run.err);
+            let Some(told) = told else {
+                assert_eq!(run.err, "");
+                continue;
+            };
+            assert_eq!(run.err.lines().count(), 1, "{}", run.err);
+            let is_told = run
+                .err
+                .starts_with(&format!("warning: {name}: S_C and S_D"));
+            assert!(is_told && run.err.contains(told), "{}", run.err);
+        }
+    }
+}
+
+#[test]
+fn a_time_among_raw_samples_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let pair = |(k, pair): (usize, &[i16; 2])| [k as f64 / RATE, f64::from(pair[0])];
+    let codes = WAVE.codes(20_000);
+    let pairs: Vec<[f64; 2]> = codes.iter().enumerate().map(pair).collect();
+    let bytes = |bits: &str| -> Vec<u8> {
+        let samples = pairs.as_flattened().iter();
+        match bits {
+            "f32" => samples.flat_map(|&x| (x as f32).to_le_bytes()).collect(),
+            _ => samples.flat_map(|x| x.to_le_bytes()).collect(),
+        }
+    };
+    for bits in ["f32", "f64"] {
+        let arguments = format!("- --raw {bits} --rate 100000");
+        let told = ["standard input: S_C goes up in equal steps"];
+        let rows = fault(directory.path(), &arguments, bytes(bits), &told);
+        assert!(rows.is_empty());
+        // Fewer pairs are looked at once all are read; what else is wrong with them is told too.
+        let all = bytes(bits);
+        let few = all[..all.len() / codes.len() * 300 + 3].to_vec();
+        let run = run_with(directory.path(), &format!("identify {arguments}"), few);
+        assert_eq!(run.code, 1);
+        for part in ["S_C goes up in equal steps", "the data end in the middle"] {
+            assert!(run.err.contains(part), "{bits}: {}", run.err);
+        }
+        assert_eq!(run.err.lines().count(), 2, "{}", run.err);
+    }
+}
+
+#[test]
+fn amplitudes_that_are_not_identified_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let codes = WAVE.codes(20_000);
+    for (scale, is_beyond) in [(1e-21, true), (1e-18, false), (1e12, false), (1e14, true)] {
+        let samples = codes.as_flattened().iter();
+        let bytes = samples.flat_map(|&code| (scale * f32::from(code)).to_le_bytes());
+        let run = run_with(
+            directory.path(),
+            "identify - --raw f32 --rate 100000",
+            bytes.collect(),
+        );
+        let is_told = run
+            .err
+            .contains("amplitudes are identified from 1e-15 to 1e17");
+        assert_eq!(is_told, is_beyond, "{scale}: {}", run.err);
+        assert!(is_beyond || run.code == 0, "{scale}: {}", run.err);
+    }
+}
+
+#[test]
+fn rows_in_a_recordings_place_and_a_recording_in_theirs_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let codes = WAVE.codes(20_000);
+    let write = |name: &str, bytes: &[u8]| std::fs::write(here.join(name), bytes).unwrap();
+    write("it.wav", &wav(&codes));
+    write("it.npy", &npy(&codes));
+    write("it.csv", text(&codes).as_bytes());
+    let printed = |format: &str| {
+        let run = run(here, &format!("identify it.wav --output {format}"));
+        run.out
+    };
+    let (rows, lines) = (printed("csv"), printed("jsonl"));
+    write("rows.csv", rows.as_bytes());
+    write("rows.jsonl", lines.as_bytes());
+    let mut broken: Vec<&str> = rows.lines().take(20).collect();
+    broken[10] = "0.1,190";
+    write("broken.csv", broken.join("\n").as_bytes());
+    for (arguments, told) in [
+        ("identify rows.csv", "rows.csv:1: these are rows"),
+        ("identify rows.jsonl", "rows.jsonl:1: these are rows"),
+        (
+            "resonator it.wav",
+            "it.wav: this is no text; give the rows that ",
+        ),
+        (
+            "calibrate it.npy",
+            "it.npy: this is no text; give the rows that ",
+        ),
+        ("plot it.csv -o it.svg", "--output csv it.csv`"),
+        ("resonator -", "--output csv -`"),
+        ("resonator rows.jsonl", "these are JSON lines"),
+        (
+            "resonator broken.csv",
+            "broken.csv, line 11: found 2 fields where the first line has 21; leave",
+        ),
+    ] {
+        let run = run(here, arguments);
+        assert_eq!((run.code, run.out.as_str()), (1, ""), "{arguments}");
+        let is_told = run.err.starts_with("error: ") && run.err.contains(told);
+        assert!(is_told, "{arguments}: {}", run.err);
+    }
+}

@@ -1,0 +1,278 @@
+//! `antinode command` and `antinode monitor` on a port: a pseudo-terminal with a device at its other end.
+#![cfg(unix)]
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::common::run;
+use antinode::{Estimate, Identifier, Settings};
+use antinode_telemetry::{
+    Acknowledgement, Command as Asked, CommandError, CommandFrame, Configuration, Decoder,
+    FrontEnd, Hello, MAX_FRAME, Report, Reporter, State,
+};
+use serialport::{SerialPort, TTYPort};
+
+/// A device at the other end of a port.
+struct Device {
+    /// The port's path.
+    path: String,
+    /// What the device was asked for.
+    asked: Receiver<Asked>,
+    /// What it reports of itself.
+    reports: Sender<Report>,
+}
+
+/// The port's two ends; the path is open again to whoever wants it alone.
+fn pair() -> (TTYPort, String) {
+    let (mut port, other) = TTYPort::pair().unwrap();
+    port.set_timeout(Duration::from_millis(10)).unwrap();
+    (port, other.name().unwrap())
+}
+
+impl Device {
+    /// A device with a ring of 64 blocks; `loud` ones say other things before every answer.
+    fn start(loud: bool) -> Self {
+        Self::hearing(loud, 0)
+    }
+
+    /// The same, that does not hear so many of its first commands.
+    fn hearing(loud: bool, mut unheard: u32) -> Self {
+        let (mut port, path) = pair();
+        let (asked_sender, asked) = channel();
+        let (reports, reported) = channel::<Report>();
+        thread::spawn(move || {
+            let mut reporter = Reporter::new();
+            let mut commands = Decoder::<CommandFrame>::new();
+            let mut configuration = Configuration::new(Settings::new(100_000.0), FrontEnd::DualAdc);
+            let mut send = |port: &mut TTYPort, report| {
+                let mut buffer = [0; MAX_FRAME];
+                let frame = reporter.frame(&report, &mut buffer).unwrap();
+                let _ = port.write_all(frame);
+            };
+            loop {
+                for report in reported.try_iter() {
+                    send(&mut port, report);
+                }
+                let mut buffer = [0; 64];
+                // While nobody holds the other end, reading fails.
+                let Ok(length) = port.read(&mut buffer) else {
+                    thread::sleep(Duration::from_millis(2));
+                    continue;
+                };
+                for &byte in &buffer[..length] {
+                    let Some(Ok(CommandFrame { id, command })) = commands.push(byte) else {
+                        continue;
+                    };
+                    if unheard > 0 {
+                        unheard -= 1;
+                        continue;
+                    }
+                    if loud {
+                        let _ = port.write_all(b"noise\0");
+                        send(&mut port, Report::State(State::Tracking));
+                        // The answer to somebody else.
+                        let other = Acknowledgement {
+                            id: !id,
+                            result: Err(CommandError::Busy),
+                        };
+                        send(&mut port, Report::Acknowledgement(other));
+                    }
+                    let new = configuration.after(&command, 64);
+                    // Told before it is acknowledged: whoever has the answer finds it here.
+                    if asked_sender.send(command).is_err() {
+                        return;
+                    }
+                    if let Ok(new) = new {
+                        configuration = new;
+                        send(&mut port, Report::Hello(Hello::new("1.2.3", new)));
+                    }
+                    let result = new.map(|_| ());
+                    send(
+                        &mut port,
+                        Report::Acknowledgement(Acknowledgement { id, result }),
+                    );
+                }
+            }
+        });
+        Self {
+            path,
+            asked,
+            reports,
+        }
+    }
+
+    /// Runs `antinode command` on it.
+    fn command(&self, arguments: &str) -> crate::common::Run {
+        run(
+            Path::new("."),
+            &format!("command {} {arguments}", self.path),
+        )
+    }
+}
+
+#[test]
+fn commands_are_done_and_acknowledged() {
+    let device = Device::start(true);
+    // Nothing is asked again, however slow this computer is.
+    let command = |arguments: &str| device.command(&format!("{arguments} --timeout 20"));
+    let cases = [
+        ("window 20", "window of 20 periods: done\n"),
+        ("hop 5", "hop of 5 blocks: done\n"),
+        ("methods on", "methods on: done\n"),
+        (
+            "calibration --gain-ratio 1.25 --pick-off-angle -0.01",
+            "calibration: gain ratio 1.25, skew 0 ns, pick-off angle -0.01 rad: done\n",
+        ),
+        // What is not given stays.
+        (
+            "calibration --skew-ns -250",
+            "calibration: gain ratio 1.25, skew -250 ns, pick-off angle -0.01 rad: done\n",
+        ),
+        ("restart", "restart: done\n"),
+    ];
+    for (arguments, told) in cases {
+        let run = command(arguments);
+        assert_eq!(
+            (run.code, run.out.as_str(), run.err.as_str()),
+            (0, told, ""),
+            "{arguments}"
+        );
+    }
+    let get = command("get --baud 115200").out;
+    for part in [
+        "firmware 1.2.3",
+        "window 20 periods",
+        "hop 5 blocks",
+        "methods on",
+        "gain ratio 1.25",
+        "skew -250 ns",
+    ] {
+        assert!(get.contains(part), "{part}: {get}");
+    }
+    assert_eq!(command("hop none").out, "no hop: done\n");
+    assert_eq!(command("methods off").out, "methods off: done\n");
+    let get = command("get").out;
+    assert!(get.contains("no hop, methods off"), "{get}");
+    let asked: Vec<_> = device.asked.try_iter().collect();
+    assert_eq!(asked[0], Asked::SetWindow { periods: 20 });
+    // Each calibration asks what there is first.
+    assert_eq!(asked.len(), cases.len() + 2 + 4);
+}
+
+#[test]
+fn what_the_device_refuses_is_told_with_the_remedy() {
+    let device = Device::start(false);
+    let run = device.command("window 63 --timeout 20");
+    assert_eq!((run.code, run.out.as_str()), (1, ""));
+    let told = "refused: 63 periods a window: the ring of blocks holds at most 62";
+    assert!(run.err.contains(told), "{}", run.err);
+    for arguments in [
+        "hop 0",
+        "hop many",
+        "calibration",
+        "calibration --gain-ratio 0",
+        "calibration --skew-ns 1e9",
+        "calibration --pick-off-angle 1",
+        "window",
+        "window 1",
+        "methods",
+        "",
+        "get --timeout 0",
+    ] {
+        assert_eq!(device.command(arguments).code, 2, "{arguments}");
+    }
+    // What makes no sense is not sent.
+    assert_eq!(device.asked.try_iter().count(), 1);
+}
+
+#[test]
+fn silence_is_told_after_the_time_out() {
+    let (_port, path) = pair();
+    let start = Instant::now();
+    let asked = run(
+        Path::new("."),
+        &format!("command {path} --timeout 0.3 restart"),
+    );
+    assert!(start.elapsed() >= Duration::from_millis(300));
+    assert_eq!(asked.code, 1);
+    assert!(
+        asked
+            .err
+            .contains("no acknowledgement within 0.3 s; nothing came"),
+        "{}",
+        asked.err
+    );
+}
+
+#[test]
+fn a_command_that_is_not_heard_is_sent_again() {
+    let device = Device::hearing(true, 2);
+    let window = device.command("--timeout 1 window 20");
+    assert_eq!((window.code, window.err.as_str()), (0, ""));
+    assert_eq!(device.asked.try_iter().count(), 1);
+    let deaf = Device::hearing(false, 3);
+    let get = deaf.command("--timeout 0.1 get");
+    let told = "no acknowledgement within 0.1 s, asked 3 times; nothing came";
+    assert!(get.code == 1 && get.err.contains(told), "{}", get.err);
+    // A second reset is not the same as one.
+    let deaf = Device::hearing(false, 1);
+    let restart = deaf.command("--timeout 0.1 restart");
+    assert!(
+        restart.code == 1 && !restart.err.contains("times"),
+        "{}",
+        restart.err
+    );
+    assert_eq!(deaf.asked.try_iter().count(), 0);
+}
+
+/// An estimate of a noise-free wave.
+fn estimate() -> Estimate {
+    let mut identifier = Identifier::<f32, 200, 16>::new(Settings::new(1e5)).unwrap();
+    let pair = |k: u32| [(f64::from(k) * 0.335).cos() as f32, 0.0];
+    (0..2000)
+        .find_map(|k| identifier.push(pair(k)))
+        .expect("a window")
+}
+
+#[test]
+fn a_monitor_on_a_port_shows_what_comes_until_it_is_interrupted() {
+    let device = Device::start(false);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_antinode"))
+        .args(["monitor", &device.path, "--format", "csv"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    assert_eq!(
+        device.asked.recv_timeout(Duration::from_secs(10)),
+        Ok(Asked::Get)
+    );
+    device.reports.send(estimate().into()).unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    assert!(lines.next().unwrap().unwrap().starts_with("time_s,"));
+    assert!(lines.next().unwrap().unwrap().ends_with(&device.path));
+    let interrupted = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(interrupted.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    let mut told = String::new();
+    child
+        .stderr
+        .take()
+        .unwrap()
+        .read_to_string(&mut told)
+        .unwrap();
+    assert!(
+        told.starts_with("device: firmware 1.2.3, protocol 5"),
+        "{told}"
+    );
+    assert!(
+        told.contains(": 1 estimates and 2 other reports; 0 lost, 0 damaged"),
+        "{told}"
+    );
+}

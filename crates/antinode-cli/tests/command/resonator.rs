@@ -1,0 +1,169 @@
+//! `antinode resonator`: what simulated resonators have is found to its deviations, in every format, and what is wrong is told.
+
+use std::collections::HashMap;
+use std::fs;
+
+use crate::common::ring_downs::{four_seconds, is_one_way, numbers, resonator};
+use crate::common::run;
+
+/// Decay time and quality factor of a decay rate of 0.08 1/s at 5332 Hz.
+const TRUTH: [(&str, f64); 2] = [("decay_time_s", 12.5), ("quality_factor", 209_387.2)];
+
+#[test]
+fn a_pattern_that_turns_tells_everything() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let rows = four_seconds(here, "--decay-rate 0.08 --angle-rate 0.4");
+    let found = resonator(here, &rows, "--output csv");
+    is_one_way(&found.err);
+    let numbers = numbers(&found);
+    let of = |run: &str, quantity: &str| numbers[&(run.to_owned(), quantity.to_owned())];
+    for run in ["1", ""] {
+        for (quantity, truth) in TRUTH {
+            let (value, std) = of(run, quantity);
+            let std = std.unwrap();
+            assert!(
+                (value - truth).abs() < 4.0 * std && std < 3e-4 * truth,
+                "{}",
+                found.out
+            );
+        }
+    }
+    let (rotation, std) = of("1", "rotation_rad_s");
+    assert!((rotation - 0.4).abs() < 4.0 * std.unwrap() && std.unwrap() < 2e-5);
+    // A resonator without splits: their sizes are not far beyond their deviations.
+    for (quantity, most) in [("damping_split_s", 3e-4), ("frequency_split_hz", 5e-5)] {
+        let (value, std) = of("", quantity);
+        assert!(
+            value < 4.0 * std.unwrap() && std.unwrap() < most,
+            "{}",
+            found.out
+        );
+    }
+    let (frequency, std) = of("", "frequency_hz");
+    let std = std.unwrap();
+    assert!((frequency - 5332.0).abs() < 4.0 * std && std < 0.01);
+
+    // The same as JSON lines, and to be read.
+    let lines = resonator(here, &rows, "--output jsonl").out;
+    assert_eq!(lines.lines().count(), numbers.len());
+    for line in lines.lines() {
+        let object: serde_json::Value = serde_json::from_str(line).unwrap();
+        let run = object["run"]
+            .as_u64()
+            .map_or(String::new(), |run| run.to_string());
+        let (value, std) = of(&run, object["quantity"].as_str().unwrap());
+        assert_eq!(
+            (object["value"].as_f64(), object["std"].as_f64()),
+            (Some(value), std)
+        );
+    }
+    let table = resonator(here, &rows, "").out;
+    for part in [
+        "standard input: ",
+        "run 1: ",
+        "turned by rotation, °/s",
+        "resonator\n",
+        "±",
+        "nonlinear pick-off or converter",
+    ] {
+        assert!(table.contains(part), "{table}");
+    }
+}
+
+#[test]
+fn the_unit_of_every_quantity_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let help = run(here, "resonator --help").out;
+    let units: HashMap<_, _> = help
+        .lines()
+        .filter_map(|line| line.trim().split_once(' '))
+        .map(|(name, unit)| (name, unit.trim()))
+        .collect();
+    let rows = four_seconds(
+        here,
+        "--decay-rate 0.08 --angle-rate 0.4 --damping-split 0.012 --frequency-split 0.004",
+    );
+    let found = numbers(&resonator(here, &rows, "--output csv"));
+    assert_eq!(found.len(), 3 + 8, "{found:?}");
+    for (_, quantity) in found.keys() {
+        let unit = units.get(quantity.as_str()).expect(quantity);
+        let is_time = quantity == "decay_time_s";
+        assert_eq!(unit.starts_with("s "), is_time, "{quantity}: {unit}");
+    }
+    assert!(units["damping_split_s"].starts_with("1/s,"), "{help}");
+}
+
+#[test]
+fn a_pattern_at_rest_tells_its_decay_and_that_no_more_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::write(
+        here.join("rest.csv"),
+        four_seconds(here, "--decay-rate 0.08 --angle 0.3"),
+    )
+    .unwrap();
+    let found = run(here, "resonator rest.csv --output csv");
+    assert!(
+        found
+            .err
+            .contains("do not tell the splits of damping and frequency")
+            && found.err.contains("22.5° and 45°"),
+        "{}",
+        found.err
+    );
+    let numbers = numbers(&found);
+    assert_eq!(numbers.len(), 4, "{}", found.out);
+    let (value, std) = numbers[&("1".to_owned(), "decay_time_s".to_owned())];
+    assert!((value - 12.5).abs() < 4.0 * std.unwrap());
+}
+
+#[test]
+fn what_is_wrong_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // A wave that is driven holds its amplitude.
+    let driven = four_seconds(here, "--decay-rate 0");
+    let found = resonator(here, &driven, "");
+    assert!(
+        found.code == 0 && found.err.contains("run 1 does not decay beyond its noise"),
+        "{}",
+        found.err
+    );
+    let grown = resonator(here, &four_seconds(here, "--decay-rate -0.05"), "");
+    assert!(
+        grown.code == 0 && grown.err.contains("run 1 grows: something drives it"),
+        "{}",
+        grown.err
+    );
+    // An amplitude that jumps is no decay.
+    let rows = four_seconds(here, "--decay-rate 0.08");
+    let mut lines: Vec<_> = rows.lines().map(str::to_owned).collect();
+    let count = lines.len();
+    for line in &mut lines[count / 2..] {
+        let mut fields: Vec<_> = line.split(',').map(str::to_owned).collect();
+        fields[2] = (0.97 * fields[2].parse::<f64>().unwrap()).to_string();
+        *line = fields.join(",");
+    }
+    let found = resonator(here, &lines.join("\n"), "");
+    assert!(
+        ["times their noise", "converter is nonlinear", "further off"]
+            .iter()
+            .all(|part| found.err.contains(part)),
+        "{}",
+        found.err
+    );
+    for (rows, told) in [
+        (lines[0].clone(), "no run of 12 clean rows"),
+        ("a,b\n1,2\n".to_owned(), "no column time_s"),
+    ] {
+        let found = resonator(here, &rows, "");
+        assert_eq!((found.code, found.out.as_str()), (1, ""));
+        assert!(
+            found.err.starts_with("error: standard input: ") && found.err.contains(told),
+            "{}",
+            found.err
+        );
+    }
+}

@@ -1,0 +1,96 @@
+//! `antinode resonator`: the mean frequency, and how it moves with time and with the energy.
+
+use crate::common::ring_downs::{joined, of_resonator, rows};
+use crate::common::{rms, run, run_with};
+
+#[test]
+fn the_mean_frequency_of_a_ring_down_that_ends_in_noise_is_found_to_its_deviation() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let mut all = Vec::new();
+    for seed in 1..=12 {
+        // 18 s: the amplitude falls to a ten-thousandth.
+        let simulated =
+            format!("--seconds 18 --decay-rate 0.5 --noise 0.002 --sample i24 --seed {seed}");
+        rows(here, &simulated, "--periods 100");
+        let found = run(here, "resonator rows.csv --output csv");
+        let (frequency, std) = of_resonator(&found.out, "frequency_hz");
+        assert!(std < 1e-3, "{}", found.out);
+        all.push((frequency - 5332.0) / std);
+        let (residual, of_residual) = of_resonator(&found.out, "residual_over_noise");
+        assert!((residual - 1.0).abs() < 5.0 * of_residual, "{}", found.out);
+    }
+    let rms = rms(&all);
+    assert!((0.6..1.5).contains(&rms), "{rms}: {all:.1?}");
+}
+
+#[test]
+fn the_mean_frequency_is_that_of_both_modes_wherever_the_patterns_stand() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let all = [(0, -0.3), (1, 0.0), (2, 0.1)].map(|(seed, angle)| {
+        format!(
+            "--seconds 4 --noise 0.002 --decay-rate 0.1 --frequency-split 0.02 --frequency-angle -0.3 --angle {angle} --seed {seed}"
+        )
+    });
+    let all = joined(here, all, "--periods 50");
+    let found = run_with(here, "resonator - --output csv", all);
+    assert_eq!(found.err, "");
+    // Along their patterns it is 10 mHz, 4 mHz and 0.3 mHz higher.
+    let (frequency, std) = of_resonator(&found.out, "frequency_hz");
+    assert!(
+        (frequency - 5332.0).abs() < 4.0 * std && std < 1e-3,
+        "{}",
+        found.out
+    );
+}
+
+#[test]
+fn a_frequency_that_moves_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (rate, is_told) in [("0", false), ("0.05", true), ("-0.3", true)] {
+        rows(
+            here,
+            &format!(
+                "--seconds 4 --noise 0.002 --decay-rate 0.1 --angle-rate 0.4 --frequency-rate {rate}"
+            ),
+            "--periods 50",
+        );
+        let found = run(here, "resonator rows.csv --output csv");
+        assert_eq!(found.code, 0);
+        assert_eq!(
+            found.err.contains("the frequency moves by"),
+            is_told,
+            "{rate}: {}",
+            found.err
+        );
+        // At the first sample it is 5332 Hz; in the middle of the recording it has moved by two seconds of its rate.
+        let (frequency, std) = of_resonator(&found.out, "frequency_hz");
+        let mean = 5332.0 + 2.0 * rate.parse::<f64>().unwrap();
+        assert!((frequency - mean).abs() < 4.0 * std, "{}", found.out);
+    }
+}
+
+#[test]
+fn a_drift_with_time_is_not_taken_to_go_with_the_energy() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for seed in 1..=4 {
+        let both = ["0.2", "-0.2"].map(|rate| {
+            format!(
+                "--seconds 20 --rate 25000 --noise 0.0005 --decay-rate 0.03 --angle-rate {rate} --frequency-rate 0.0002 --seed {seed}"
+            )
+        });
+        let both = joined(here, both, "--periods 100");
+        let found = run_with(here, "resonator - --output csv", both);
+        assert!(
+            found.err.contains("a drift with time") && !found.out.contains("by_energy"),
+            "{}{}",
+            found.out,
+            found.err
+        );
+        let (frequency, std) = of_resonator(&found.out, "frequency_hz");
+        assert!((frequency - 5332.002).abs() < 2.0 * std, "{}", found.out);
+    }
+}

@@ -1,0 +1,296 @@
+//! `antinode resonator`: what it makes of rows that overlap, that come twice, of which one is wild, or of
+//! recordings that are not one ring-down.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::ring_downs::{joined, of_resonator, rows};
+use crate::common::{rms, run, run_with};
+
+#[test]
+fn rows_that_overlap_do_not_make_it_seem_better_known() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let mut deviations = Vec::new();
+    for (hop, told) in [
+        ("", false),
+        ("--hop 5", true),
+        ("--hop 50", false),
+        ("--hop 120", false),
+    ] {
+        rows(
+            here,
+            "--seconds 4 --noise 0.002 --angle-rate 0.4 --decay-rate 0.1",
+            &format!("--periods 50 {hop}"),
+        );
+        let found = run(here, "resonator rows.csv --output csv");
+        assert_eq!(
+            found.err.contains("overlap the one before"),
+            told,
+            "{hop}: {}",
+            found.err
+        );
+        let (decay_time, std) = of_resonator(&found.out, "decay_time_s");
+        assert!((decay_time - 10.0).abs() < 4.0 * std, "{}", found.out);
+        deviations.push(std);
+        let calibrated = run(here, "calibrate rows.csv");
+        assert_eq!(calibrated.err.contains("overlap the one before"), told);
+    }
+    let [plain, overlapping, following, apart] = deviations[..] else {
+        unreachable!()
+    };
+    assert!(
+        (0.9..1.2).contains(&(overlapping / plain)),
+        "{deviations:?}"
+    );
+    assert!((0.9..1.2).contains(&(following / plain)), "{deviations:?}");
+    assert!(apart > 1.3 * plain, "{deviations:?}");
+}
+
+#[test]
+fn a_wild_row_and_rows_given_twice_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    rows(
+        here,
+        "--seconds 2 --noise 0.002 --decay-rate 0.5",
+        "--periods 200",
+    );
+    let text = fs::read_to_string(here.join("rows.csv")).unwrap();
+    let mut lines: Vec<_> = text.lines().map(str::to_owned).collect();
+    let mut fields: Vec<_> = lines[20].split(',').map(str::to_owned).collect();
+    fields[2] += "e6";
+    lines[20] = fields.join(",");
+    fs::write(here.join("wild.csv"), lines.join("\n")).unwrap();
+    let found = run(here, "resonator wild.csv");
+    assert_eq!(found.code, 1);
+    assert!(found.err.contains("far off all others"), "{}", found.err);
+    let found = run(here, "resonator rows.csv rows.csv");
+    assert_eq!(found.code, 1);
+    assert!(
+        found.err.contains("rows.csv is given twice"),
+        "{}",
+        found.err
+    );
+}
+
+/// Samples of a simulated ring-down of 3 s, as `--raw i16` takes them.
+fn samples(here: &Path, simulated: &str) -> Vec<u8> {
+    let made = run(
+        here,
+        &format!("simulate -o it.wav --seconds 3 --noise 0.002 --decay-rate 0.1 {simulated}"),
+    );
+    assert_eq!(made.code, 0, "{}", made.err);
+    // Behind the header.
+    fs::read(here.join("it.wav")).unwrap().split_off(44)
+}
+
+#[test]
+fn ring_downs_in_one_recording_are_runs_of_their_own() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let [first, second] =
+        ["--angle 0.3", "--angle 0.4 --phase 2 --seed 2"].map(|wave| samples(here, wave));
+    // Nothing at all between them, and exact silence, whose rows hold `NaN`.
+    for silence in [0, 400_000] {
+        let recording = [first.clone(), vec![0; silence], second.clone()].concat();
+        let rows = run_with(
+            here,
+            "identify - --raw i16 --rate 100000 --periods 50 --output csv",
+            recording,
+        );
+        assert_eq!(rows.code, 0, "{}", rows.err);
+        assert_eq!(rows.out.contains("NaN"), silence > 0);
+        let found = run_with(here, "resonator - --output csv", rows.out.clone().into());
+        assert!(
+            found.code == 0 && !found.err.contains("warning"),
+            "{}",
+            found.err
+        );
+        for run in ["1", "2"] {
+            let line = found
+                .out
+                .lines()
+                .find_map(|line| line.strip_prefix(&format!("{run},decay_time_s,")));
+            let (value, std) = line
+                .and_then(|line| line.split_once(','))
+                .expect(&found.out);
+            let [value, std] = [value, std].map(|number| number.parse::<f64>().unwrap());
+            assert!(
+                (value - 10.0).abs() < 4.0 * std && std < 0.02,
+                "{}",
+                found.out
+            );
+        }
+        let calibrated = run_with(here, "calibrate -", rows.out.into());
+        assert!(
+            calibrated.err.contains("must turn by 90° or more"),
+            "{}",
+            calibrated.err
+        );
+    }
+}
+
+#[test]
+fn samples_that_are_missing_leave_the_rates_right() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // A hundredth of the time, in two places: what is left seems to turn and decay faster.
+    rows(
+        here,
+        "--seconds 6 --noise 0.002 --decay-rate 0.1 --angle-rate 0.4 --lost 200000:3007 --lost 400000:3007",
+        "--periods 50",
+    );
+    let found = run(here, "resonator rows.csv --output csv");
+    assert_eq!(found.code, 0, "{}", found.err);
+    for run in ["1", "2", "3"] {
+        let line = found
+            .out
+            .lines()
+            .find_map(|line| line.strip_prefix(&format!("{run},rotation_rad_s,")));
+        let (value, std) = line
+            .and_then(|line| line.split_once(','))
+            .expect(&found.out);
+        let [value, std] = [value, std].map(|number| number.parse::<f64>().unwrap());
+        assert!(
+            (value - 0.4).abs() < 4.0 * std && std < 2e-3,
+            "{}",
+            found.out
+        );
+    }
+}
+
+#[test]
+fn pick_offs_that_are_not_calibrated_are_told_long_before_rows_are_far_off() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (gain, is_told) in [("1", false), ("1.001", true)] {
+        let both = ["0.4", "-0.4"].map(|rate| {
+            format!(
+                "--seconds 6 --noise 0.002 --decay-rate 0.1 --angle-rate {rate} --gain-ratio {gain}"
+            )
+        });
+        let both = joined(here, both, "--periods 50");
+        let found = run_with(here, "resonator - --output csv", both);
+        let (residual, _) = of_resonator(&found.out, "residual_over_noise");
+        assert!(residual < 2.0, "{}", found.out);
+        assert_eq!(
+            found.err.contains("not calibrated"),
+            is_told,
+            "{}",
+            found.err
+        );
+    }
+}
+
+#[test]
+fn rows_that_overlap_by_a_block_are_not_taken_for_a_change() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // Blocks of 7 or 8 samples a period of 7.5: ten of them are now and then less than a window of ten periods.
+    rows(
+        here,
+        "--seconds 8 --rate 40000 --noise 0.002 --decay-rate 0.1 --frequency 5340",
+        "--periods 10 --hum --hop 10",
+    );
+    let found = run(here, "resonator rows.csv");
+    assert_eq!(found.code, 0);
+    assert!(!found.err.contains("warning"), "{}", found.err);
+}
+
+#[test]
+fn a_pattern_that_is_a_circle_meanwhile_tells_the_resonator() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let mut all = Vec::new();
+    for seed in 1..=6 {
+        // Between the axes of frequency a line becomes a circle and a line again, four times.
+        rows(
+            here,
+            &format!(
+                "--seconds 8 --noise 0.002 --decay-rate 0.08 --damping-split 0.012 --damping-angle 0.5 --frequency-split 0.25 \
+                 --frequency-angle -0.3 --angle 0.1 --seed {seed}"
+            ),
+            "--periods 100",
+        );
+        let found = run(here, "resonator rows.csv --output csv");
+        assert_eq!((found.code, found.err.as_str()), (0, ""));
+        for (quantity, truth) in [
+            ("frequency_hz", 5332.0),
+            ("decay_time_s", 12.5),
+            ("damping_split_s", 0.012),
+            ("most_damped_at_rad", 0.5),
+            ("frequency_split_hz", 0.25),
+            ("highest_at_rad", -0.3),
+        ] {
+            let (value, std) = of_resonator(&found.out, quantity);
+            assert!((value - truth).abs() < 5.0 * std, "{}", found.out);
+            assert!(std < 0.02 * truth.abs(), "{}", found.out);
+            all.push((value - truth) / std);
+        }
+    }
+    let rms = rms(&all);
+    assert!((0.7..1.4).contains(&rms), "{rms}: {all:.1?}");
+}
+
+#[test]
+fn runs_of_a_few_rows_in_noise_are_told_in_one_line() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (seed, turning) in [(1, "0"), (2, "0.4"), (3, "0")] {
+        // 30 s: the amplitude falls to where one row in a few is lost.
+        let simulated = format!(
+            "--seconds 30 --decay-rate 0.3 --angle-rate {turning} --noise 0.001 --main-amplitude 0.8 --sample i24 --seed {seed}"
+        );
+        rows(here, &simulated, "");
+        let found = run(here, "resonator rows.csv");
+        let line = found.err.lines().find_map(|line| {
+            let (_, rest) = line
+                .strip_prefix("not listed: ")?
+                .split_once(" by themselves, ")?;
+            let (runs, rest) = rest.split_once(" with ")?;
+            let (rows, _) = rest.split_once(" rows;")?;
+            Some([runs, rows].map(|count| count.parse::<usize>().unwrap()))
+        });
+        let [runs, of_them] = line.expect(&found.err);
+        assert!(runs >= 2 && of_them >= 12 * runs, "{}", found.err);
+        assert!(
+            found.out.contains("\nrun 1: ") && !found.out.contains("\nrun 2: "),
+            "{}",
+            found.out
+        );
+        assert!(!found.err.contains("of run "), "{}", found.err);
+        assert_eq!(found.err.contains("one way only"), turning != "0");
+    }
+}
+
+#[test]
+fn a_recording_in_windows_of_two_lengths_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let wave = "--seconds 4 --noise 0.002 --decay-rate 0.1 --angle-rate 0.4";
+    let rows = |simulated: &str, identified: &str| {
+        rows(here, &format!("{wave} {simulated}"), identified);
+        fs::read_to_string(here.join("rows.csv")).unwrap()
+    };
+    let is_told = |text: String| {
+        let found = run_with(here, "resonator -", text.clone().into());
+        assert_eq!(found.code, 0, "{}", found.err);
+        let told = found.err.contains("rows of it.wav come again");
+        let calibrated = run_with(here, "calibrate -", text.into());
+        assert_eq!(calibrated.err.contains("come again"), told);
+        told
+    };
+    let long = rows("", "--periods 100");
+    assert!(!is_told(long.clone()));
+    for seed in 1..=4 {
+        let wave = format!("--seed {seed}");
+        let [long, short] = ["--periods 100", "--periods 50"].map(|windows| rows(&wave, windows));
+        assert!(is_told(long.clone() + &short) && is_told(short + &long));
+        // Other ring-downs of the same name, from the same place or not.
+        let other = format!("--seed {seed} --phase {}", 1 + seed);
+        assert!(!is_told(long.clone() + &rows(&other, "--periods 50")));
+        let other = format!("--seed {seed} --angle {}", 0.1 * f64::from(seed));
+        assert!(!is_told(long + &rows(&other, "--periods 50")));
+    }
+}

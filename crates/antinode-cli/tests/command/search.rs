@@ -1,0 +1,257 @@
+//! `antinode identify` where no window is a wave: what was found, and what to try.
+
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
+
+use crate::common::{RATE, Row, Run, rows, run, wav};
+
+/// A 16-bit WAV file of tones, each a frequency and an amplitude.
+fn tones(path: &Path, tones: &[(f64, f64)]) {
+    let value = |k: usize| -> f64 {
+        let tone = |&(frequency, amplitude): &(f64, f64)| {
+            amplitude * (TAU * frequency * k as f64 / RATE).cos()
+        };
+        tones.iter().map(tone).sum()
+    };
+    let code = |value: f64| (value * 32_767.0).round() as i16;
+    let pairs: Vec<[i16; 2]> = (0..20_000)
+        .map(|k| [code(0.8 * value(k)), code(0.6 * value(k))])
+        .collect();
+    fs::write(path, wav(&pairs)).unwrap();
+}
+
+/// Runs `identify`, which must exit 1 without a row, with one message that holds all of these.
+fn fault(directory: &Path, arguments: &str, told: &[&str]) {
+    let Run { code, out, err } = run(directory, &format!("identify {arguments}"));
+    assert_eq!((code, out.as_str()), (1, ""), "{arguments}: {err}");
+    assert_eq!(err.lines().count(), 1, "{err}");
+    for part in told {
+        assert!(err.contains(part), "{arguments}: `{part}` is not in {err}");
+    }
+}
+
+#[test]
+fn windows_that_are_no_wave_are_told_from_too_few_samples() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let refused = "a period was found, but no window of 10 periods in 20000 sample pairs";
+    tones(&here.join("two.wav"), &[(5321.7, 0.45), (7000.0, 0.45)]);
+    fault(
+        here,
+        "two.wav",
+        &[
+            refused,
+            "second tone; or hum is as large as the wave: give --hum; or",
+            "fewer than 4 samples a period",
+        ],
+    );
+    tones(&here.join("one.wav"), &[(5321.7, 1.0)]);
+    fault(here, "one.wav --resolution 1", &[refused, "--resolution"]);
+    assert!(rows(here, "one.wav --full-scale 2").len() > 90);
+    let mut tiny = String::new();
+    for k in 0..20_000 {
+        let value = 1e-20 * (TAU * 5321.7 * f64::from(k) / RATE).cos();
+        tiny += &format!("{value:e},{:e}\n", 0.5 * value);
+    }
+    fs::write(here.join("tiny.csv"), tiny).unwrap();
+    fault(here, "tiny.csv --rate 1e5", &[refused, "scale"]);
+    let short = "hold no window of 1022 periods; record longer or give a smaller --periods";
+    fs::write(
+        here.join("short.wav"),
+        wav(&crate::common::WAVE.codes(5000)),
+    )
+    .unwrap();
+    fault(here, "short.wav --periods 1022", &[short]);
+}
+
+#[test]
+fn too_few_samples_a_period_are_named() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for samples in [2.5, 2.6, 2.7] {
+        tones(&here.join("a.wav"), &[(RATE / samples, 0.9)]);
+        fault(
+            here,
+            "a.wav",
+            &["4 to 200 samples a period", "check the sample rate"],
+        );
+    }
+}
+
+#[test]
+fn an_offset_that_drowns_the_wave_is_named() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let write = |offset: f64| {
+        let mut lines = String::new();
+        for k in 0..20_000 {
+            let (sine, cosine) = (TAU * 5321.7 * f64::from(k) / RATE).sin_cos();
+            lines += &format!(
+                "{:.6},{:.6}\n",
+                offset + 0.5 * cosine,
+                offset + 0.2 * cosine + 0.1 * sine
+            );
+        }
+        fs::write(here.join("a.csv"), lines).unwrap();
+    };
+    write(1000.0);
+    let told = "the samples lie about an offset of 1.4142e3 and only 3.9e-1 rms off it";
+    fault(
+        here,
+        "a.csv --rate 1e5",
+        &["no period found", told, "take the offset off"],
+    );
+    write(10.0);
+    assert!(rows(here, "a.csv --rate 1e5").len() > 90);
+}
+
+#[test]
+fn the_other_detector_is_something_to_try() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    tones(&here.join("a.wav"), &[(5321.7, 0.5), (2660.0, 0.28)]);
+    let none = "no period found in 20000 sample pairs";
+    fault(
+        here,
+        "a.wav",
+        &[none, "try --detector mean-return", "second tone"],
+    );
+    let found = run(here, "identify --output csv a.wav --detector mean-return");
+    // The tone makes every row a misfit, and that is told.
+    let rows = Row::all(&found.out);
+    let all = format!(
+        "warning: a.wav: {0} of {0} rows are flagged: misfit {0}",
+        rows.len()
+    );
+    assert!(
+        found.code == 0 && found.err.starts_with(&all),
+        "{}",
+        found.err
+    );
+    assert!(rows.len() > 90);
+    let short = "short.wav --detector mean-return";
+    tones(&here.join("short.wav"), &[(RATE / 2.6, 0.9)]);
+    fault(
+        here,
+        short,
+        &["no period found", "try --detector difference"],
+    );
+    let help = run(here, "identify --help").out;
+    let words: Vec<&str> = help.split_whitespace().collect();
+    let told = "a second tone may hide it, try the other";
+    assert!(words.join(" ").contains(told), "{help}");
+}
+
+#[test]
+fn a_known_frequency_is_not_searched() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // Nearly as much noise as there is wave: the search finds nothing in it.
+    let loud = crate::common::Wave {
+        main: 0.2,
+        noise: 0.18,
+        ..crate::common::WAVE
+    };
+    fs::write(here.join("loud.wav"), wav(&loud.codes(100_000))).unwrap();
+    let options = "loud.wav --periods 100";
+    fault(here, options, &["no period found", "give --frequency"]);
+    let found = rows(here, &format!("{options} --frequency 5320"));
+    assert!(found.len() > 45, "{}", found.len());
+    for row in &found {
+        assert_eq!(row.text("flags"), "");
+        assert!((row.number("frequency_hz") - 5321.7).abs() < 5.0);
+    }
+    // From the first sample on: the middle of ten periods.
+    fs::write(
+        here.join("clear.wav"),
+        wav(&crate::common::WAVE.codes(5000)),
+    )
+    .unwrap();
+    let first = &rows(here, "clear.wav --frequency 5200")[0];
+    let middle = first.number("samples") / 2.0 / RATE;
+    assert!((first.number("time_s") - middle).abs() < 1e-5, "{middle}");
+}
+
+#[test]
+fn a_slow_wave_may_be_known() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    tones(&here.join("slow.wav"), &[(125.0, 0.9)]);
+    fault(here, "slow.wav", &["no wave of 4 to 200 samples a period"]);
+    let found = rows(here, "slow.wav --periods 4 --frequency 125");
+    assert!(found.len() > 4 && found.iter().all(|row| row.text("flags").is_empty()));
+}
+
+#[test]
+fn a_frequency_that_is_not_the_waves_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    tones(&here.join("a.wav"), &[(5321.7, 0.9)]);
+    for (frequency, found) in [("6600", ""), ("3732", "wave of 53"), ("10600", "")] {
+        let run = run(here, &format!("identify a.wav --frequency {frequency}"));
+        let warning = format!("where --frequency says {frequency} Hz: unless both are there");
+        assert!(run.err.contains(&warning), "{}", run.err);
+        assert!(run.err.contains(found), "{}", run.err);
+    }
+    let run = run(here, "identify a.wav --frequency 6600");
+    let error = "no window of 10 periods in 20000 sample pairs (0.2000 s) is mostly one wave within 5 % of 6600 Hz: check --frequency";
+    assert_eq!((run.code, run.out.as_str()), (1, ""));
+    assert!(run.err.contains(error), "{}", run.err);
+    // Too short for a window, which is no fault of the frequency.
+    let short = "a.wav: 20000 sample pairs (0.2000 s) hold no window of 1022 periods";
+    tones(&here.join("a.wav"), &[(4000.0, 0.9)]);
+    fault(here, "a.wav --frequency 4000 --periods 1022", &[short]);
+}
+
+#[test]
+fn a_frequency_that_cannot_be_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    tones(&here.join("a.wav"), &[(5321.7, 0.9)]);
+    for frequency in ["40001", "97", "0", "-5", "x"] {
+        let run = run(here, &format!("identify a.wav --frequency {frequency}"));
+        assert_eq!((run.code, run.out.as_str()), (2, ""), "{}", run.err);
+        assert!(run.err.contains("--frequency"), "{}", run.err);
+    }
+    let range = "a.wav: --frequency: 40001 Hz, but at 100000 Hz it must lie within 97.656250 to 40000 Hz, 1024 to 2.5 samples a period";
+    let told = run(here, "identify a.wav --frequency 40001").err;
+    assert!(told.contains(range), "{told}");
+    let both = run(
+        here,
+        "identify a.wav --frequency 5000 --detector difference",
+    );
+    assert_eq!(both.code, 2);
+    assert!(both.err.contains("--detector"), "{}", both.err);
+}
+
+#[test]
+fn samples_that_hold_one_value_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let both = "found in 5000 sample pairs (0.0500 s): S_C and S_D hold one and the same value all the time, ";
+    fs::write(here.join("flat.wav"), wav(&[[8192, -8192]; 5000])).unwrap();
+    fs::write(here.join("zero.wav"), wav(&[[0, 0]; 5000])).unwrap();
+    for (options, what, value) in [
+        ("flat.wav", "period", "0.25 and -0.25"),
+        ("zero.wav", "period", "0 and 0"),
+        ("zero.wav --frequency 5000", "wave", "0 and 0"),
+        ("zero.wav --hum --detector mean-return", "period", "0 and 0"),
+    ] {
+        let told = format!("no {what} {both}{value}: check the wiring");
+        fault(here, options, &[&told]);
+        let found = run(here, &format!("identify {options}"));
+        assert!(!found.err.contains("--detector"), "{}", found.err);
+    }
+    // One without a wave beside one that is dead.
+    let noise = crate::common::Wave {
+        main: 0.0,
+        quadrature: 0.0,
+        noise: 0.1,
+        ..crate::common::WAVE
+    };
+    let codes: Vec<[i16; 2]> = noise.codes(5000).iter().map(|&[c, _]| [c, 9]).collect();
+    fs::write(here.join("dead.wav"), wav(&codes)).unwrap();
+    let dead = "S_D holds one and the same value all the time, 0.00027";
+    fault(here, "dead.wav", &["no period found", dead]);
+}

@@ -1,0 +1,120 @@
+//! `antinode identify` on a wave beside a second tone, as of a neighbouring mode: what it tells, and that the remedy it names is one.
+
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
+
+use crate::common::{RATE, Row, Run, WAVE, Wave, run, wav};
+
+/// A steady wave.
+const STEADY: Wave = Wave {
+    angle_rate: 0.0,
+    decay_rate: 0.0,
+    ..WAVE
+};
+
+/// The wave in this noise, and beside it a tone 300 Hz above of this share of a_A, which both pick-offs see.
+fn record(directory: &Path, pairs: usize, noise: f64, share: f64) {
+    record_at(STEADY.frequency + 300.0, directory, pairs, noise, share);
+}
+
+/// The same with a tone of this frequency.
+fn record_at(frequency: f64, directory: &Path, pairs: usize, noise: f64, share: f64) {
+    let mut codes = Wave { noise, ..STEADY }.codes(pairs);
+    for (k, pair) in codes.iter_mut().enumerate() {
+        let turns = frequency * k as f64 / RATE;
+        let tone = 32_768.0 * STEADY.main * share * (TAU * turns).cos();
+        pair[0] += (0.8 * tone).round() as i16;
+        pair[1] += (0.6 * tone).round() as i16;
+    }
+    fs::write(directory.join("a.wav"), wav(&codes)).unwrap();
+}
+
+/// What a run told, its rows, and how many of them are flagged.
+fn identified(directory: &Path, arguments: &str) -> (Run, Vec<Row>, usize) {
+    let run = run(
+        directory,
+        &format!("identify --output csv {arguments} a.wav"),
+    );
+    assert_eq!(run.code, 0, "{}", run.err);
+    let rows = Row::all(&run.out);
+    let flagged = rows.iter().filter(|row| !row.text("flags").is_empty());
+    let count = flagged.count();
+    (run, rows, count)
+}
+
+#[test]
+fn a_second_tone_is_named_and_its_remedy_is_one() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    record(here, 200_000, 0.0006, 0.01);
+    let (told, rows, flagged) = identified(here, "");
+    assert!(2 * flagged > rows.len(), "{flagged} of {}", rows.len());
+    assert!(
+        told.err
+            .contains("if there is a second tone, give --coloured and a --periods"),
+        "{}",
+        told.err
+    );
+    // Several beats of 1/300 s.
+    let (told, rows, flagged) = identified(here, "--coloured --periods 100");
+    assert_eq!(flagged, 0, "{}", told.err);
+    for row in &rows {
+        for (name, deviation, truth) in [
+            ("main_amplitude", "main_amplitude_std", STEADY.main),
+            (
+                "quadrature_amplitude",
+                "quadrature_amplitude_std",
+                STEADY.quadrature,
+            ),
+            ("frequency_hz", "frequency_std_hz", STEADY.frequency),
+        ] {
+            let deviation = row.number(deviation);
+            assert!((row.number(name) - truth).abs() < 5.0 * deviation, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_remedy_is_named_for_a_few_long_windows_too() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    record(here, 50_000, 0.0006, 0.01);
+    let (told, rows, flagged) = identified(here, "--periods 300");
+    assert!((4..20).contains(&rows.len()) && flagged == rows.len());
+    assert!(told.err.contains("rows are flagged: misfit "));
+}
+
+#[test]
+fn scatter_between_misfits_or_below_a_step_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // With --coloured a third of the windows is flagged, and the others are off by several deviations.
+    record(here, 200_000, 0.0006, 0.01);
+    let (told, rows, flagged) = identified(here, "--coloured");
+    assert!(flagged > 0 && flagged < rows.len(), "{flagged}");
+    assert!(told.err.contains("rows scatter by more"), "{}", told.err);
+    // A tone of little more than a step of the converter, with a residual below one.
+    record(here, 200_000, 0.000_01, 0.000_07);
+    let (told, _, flagged) = identified(here, "");
+    assert_eq!(flagged, 0);
+    for part in ["rows scatter by more", "second tone", "--periods"] {
+        assert!(told.err.contains(part), "{}", told.err);
+    }
+    let (told, _, flagged) = identified(here, "--periods 100");
+    assert_eq!((told.err.as_str(), flagged), ("", 0));
+}
+
+#[test]
+fn a_tone_near_the_third_harmonic_is_told_from_it_by_longer_windows() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    record_at(3.0 * STEADY.frequency + 60.0, here, 200_000, 0.0006, 0.01);
+    let (told, rows, flagged) = identified(here, "");
+    assert_eq!(flagged, rows.len());
+    for part in ["rows are flagged: clipped ", "a larger --periods"] {
+        assert!(told.err.contains(part), "{}", told.err);
+    }
+    let (told, _, flagged) = identified(here, "--periods 100");
+    assert_eq!((told.err.as_str(), flagged), ("", 0));
+}

@@ -1,0 +1,110 @@
+//! `antinode identify` on recordings whose wave begins late or ends early.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{Row, WAVE, beside_flagged, run, wav};
+
+/// A recording that is silent but for a little noise outside of these pairs.
+fn ringing(pairs: usize, rings: impl Fn(usize) -> bool) -> Vec<u8> {
+    let silence = crate::common::Wave {
+        main: 0.0,
+        quadrature: 0.0,
+        noise: 1e-4,
+        ..WAVE
+    };
+    let mut codes = WAVE.codes(pairs);
+    for (k, code) in silence.codes(pairs).into_iter().enumerate() {
+        if !rings(k) {
+            codes[k] = code;
+        }
+    }
+    wav(&codes)
+}
+
+/// What is said beside the flags, and where the rows with a wave end.
+fn told(here: &Path, recording: Vec<u8>, arguments: &str) -> (String, f64) {
+    fs::write(here.join("a.wav"), recording).unwrap();
+    let run = run(here, &format!("identify --output csv a.wav {arguments}"));
+    assert_eq!(run.code, 0, "{}", run.err);
+    let rows = Row::all(&run.out);
+    let last = rows
+        .iter()
+        .rfind(|row| !row.text("flags").contains("lost"))
+        .unwrap();
+    (
+        beside_flagged(&rows, &run.err).join("\n"),
+        last.number("time_s") + last.number("samples") / 2e5,
+    )
+}
+
+/// The seconds behind a word of a message.
+fn seconds(text: &str, word: &str) -> f64 {
+    let (_, rest) = text
+        .split_once(word)
+        .unwrap_or_else(|| panic!("{word}: {text}"));
+    rest.split(' ').next().unwrap().parse().unwrap()
+}
+
+#[test]
+fn a_wave_that_ends_early_or_begins_late_is_told_once() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (from, to) in [(0, 60_000), (30_000, 100_000), (30_000, 60_000)] {
+        let (said, last) = told(here, ringing(100_000, |k| (from..to).contains(&k)), "");
+        assert!(
+            said.starts_with("warning: a.wav: no wave was found in the "),
+            "{said}"
+        );
+        assert_eq!(said.lines().count(), 1, "{said}");
+        assert!(
+            said.contains(" of 1.0000 s: the rows that show one go from "),
+            "{said}"
+        );
+        assert_eq!(said.contains("the first "), from > 0, "{said}");
+        assert_eq!(said.contains("the last "), to < 100_000, "{said}");
+        assert!((seconds(&said, " s to ") - last).abs() < 1e-4, "{said}");
+        if from > 0 {
+            assert!((seconds(&said, "the first ") - 0.3).abs() < 0.005, "{said}");
+            assert!((seconds(&said, "go from ") - 0.3).abs() < 0.005, "{said}");
+        }
+        if to < 100_000 {
+            assert!((seconds(&said, "the last ") - 0.4).abs() < 0.005, "{said}");
+        }
+    }
+    // Windows that begin with the first sample.
+    let (said, _) = told(here, ringing(100_000, |k| k < 60_000), "--frequency 5332");
+    assert!(said.contains(" go from 0.0000 s to "), "{said}");
+    // By the recording's own times, of the span that was asked for.
+    let (said, _) = told(
+        here,
+        ringing(100_000, |k| k < 60_000),
+        "--from 0.5 --to 0.8",
+    );
+    assert!(
+        said.contains("the last 0.19") || said.contains("the last 0.2"),
+        "{said}"
+    );
+    assert!(
+        said.contains(" of 0.3000 s: the rows that show one go from 0.5"),
+        "{said}"
+    );
+}
+
+#[test]
+fn nothing_is_told_of_what_is_usual() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // Silence between two ring-downs is flagged; one as short as a few windows is usual.
+    for (silent, arguments) in [
+        (30_000..60_000, ""),
+        (0..300, ""),
+        (0..300, "--periods 2"),
+        (0..0, "--periods 300"),
+        (0..0, "--hop 1000"),
+        (0..0, "--frequency 5321 --periods 1000"),
+    ] {
+        let recording = ringing(100_000, |k| !silent.contains(&k));
+        assert_eq!(told(here, recording, arguments).0, "", "{arguments}");
+    }
+}

@@ -1,0 +1,198 @@
+//! `antinode identify` on text with a time column: what it makes of it, and how it is left out.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{RATE, Row, WAVE, rows, rows_of, run, same_later, text};
+
+/// The pairs of [`WAVE`] with the time of each as `print` has it.
+fn timed(header: &str, pairs: usize, print: impl Fn(f64) -> String) -> String {
+    let mut lines = header.to_owned();
+    for (k, line) in text(&WAVE.codes(pairs)).lines().skip(1).enumerate() {
+        let samples = line.split_once(',').unwrap().1;
+        lines += &format!("{},{samples}\n", print(k as f64 / RATE));
+    }
+    lines
+}
+
+#[test]
+fn rows_have_the_recordings_own_time() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    assert!((0.001..0.003).contains(&expected[0].number("time_s")));
+    for start in [-0.5, 1.7e9] {
+        let text = timed("time,c,d\n", 5000, |t| format!("{:.6}", start + t));
+        same_later(&rows_of(here, &text, ""), &expected, start);
+        same_later(
+            &rows_of(here, &text, "--columns 2,3 --rate 1e5"),
+            &expected,
+            0.0,
+        );
+        let table = run(here, "identify a.csv").out;
+        let first = table.lines().nth(1).unwrap().split_whitespace().next();
+        let shown: f64 = first.unwrap().parse().unwrap();
+        assert!((shown - start - expected[0].number("time_s")).abs() < 1e-6);
+    }
+    let milliseconds = timed("time,c,d\nms,V,V\n", 5000, |t| {
+        format!("{:.3}", 1e3 * t + 250.0)
+    });
+    same_later(&rows_of(here, &milliseconds, ""), &expected, 0.25);
+}
+
+#[test]
+fn single_precision_is_as_good() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(200_000)), "");
+    // At 20 s single precision has steps of a fifth of a sample.
+    let text = timed("time,c,d\n", 200_000, |t| format!("{}", (20.0 + t) as f32));
+    same_later(&rows_of(here, &text, ""), &expected, 20.0);
+}
+
+#[test]
+fn a_clock_that_warms_up_is_told_and_costs_no_row() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let steady = text(&WAVE.codes(400_000));
+    let expected = rows_of(here, &steady, "");
+    // 3 ppm a second: 12 ppm in the end.
+    let text = timed("time,c,d\n", 400_000, |t| {
+        format!("{:.9}", t - 1.5e-6 * t * t)
+    });
+    fs::write(here.join("a.csv"), text).unwrap();
+    let run = run(here, "identify a.csv --output csv");
+    assert_eq!(run.code, 0, "{}", run.err);
+    let told = "warning: a.csv: in the time column the sample rate has gone slowly from 100000.";
+    assert!(
+        run.err.starts_with(told) && run.err.lines().count() == 1,
+        "{}",
+        run.err
+    );
+    assert!(run.err.contains(" s before that"), "{}", run.err);
+    let rows = Row::all(&run.out);
+    assert_eq!(rows.len(), expected.len());
+    for (row, expected) in rows.iter().zip(&expected) {
+        let off = row.number("time_s") / expected.number("time_s") - 1.0;
+        assert!(off.abs() < 2e-6, "{off}");
+    }
+}
+
+#[test]
+fn every_fault_of_the_time_names_the_way_around_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let good = |t: f64| format!("{t:.5}");
+    let lines: Vec<String> = timed("zeit,c,d\n", 5000, good)
+        .lines()
+        .map(str::to_owned)
+        .collect();
+    let lost = [&lines[..3000], &lines[3003..]].concat().join("\n");
+    let jitter = |t: f64| format!("{:.9}", t + 2e-6 * (1e5 * t).sin());
+    let cases = [
+        (lost, "3 samples are lost"),
+        (timed("zeit,c,d\n", 5000, jitter), "time steps by"),
+        (
+            timed("zeit,c,d\n", 5000, |t| format!("{t:.3}")),
+            "too coarse",
+        ),
+        (
+            timed("zeit,c,d\n", 5000, |t| format!("2024-05-01T00:00:{t:08.5}")),
+            "the time is `2024-05-01T00:00:00.00000`",
+        ),
+        (timed("time_min,c,d\n", 5000, good), "`time_min`"),
+    ];
+    for (text, told) in cases {
+        fs::write(here.join("a.csv"), text).unwrap();
+        let fault = run(here, "identify a.csv --rate 1e5 --output csv");
+        assert_eq!(fault.code, 1, "{told}");
+        assert!(fault.err.contains(told), "{}", fault.err);
+        let way = "ignore the time column with --columns 2,3 --rate HZ\n";
+        assert!(fault.err.ends_with(way), "{}", fault.err);
+        // And it is a way.
+        assert!(rows(here, "a.csv --columns 2,3 --rate 1e5").len() > 20);
+    }
+}
+
+/// The one warning of a run that succeeds, and its rows.
+fn warned(directory: &Path, arguments: &str) -> (String, Vec<Row>) {
+    let run = run(
+        directory,
+        &format!("identify a.csv --output csv {arguments}"),
+    );
+    assert_eq!((run.code, run.err.lines().count()), (0, 1), "{}", run.err);
+    (run.err, Row::all(&run.out))
+}
+
+#[test]
+fn an_index_is_warned_of() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    let index = |t: f64| format!("{:.0}", 1e5 * t + 500_000.0);
+    fs::write(here.join("a.csv"), timed("zeit,c,d\n", 5000, index)).unwrap();
+    let (told, _) = warned(here, "");
+    assert!(told.starts_with("warning: a.csv: the time column goes up by 1 a line"));
+    assert!(told.ends_with("with --columns 2,3 --rate HZ\n"), "{told}");
+    // A rate makes it an index, whose start is no time.
+    let (told, rows) = warned(here, "--rate 1e5");
+    assert!(
+        told.contains("taken for an index") && told.contains("from the first sample on"),
+        "{told}"
+    );
+    same_later(&rows, &expected, 0.0);
+    // And the rate of seconds leaves it seconds.
+    let seconds = crate::common::rows(here, "a.csv --rate 1");
+    assert!(seconds[0].number("time_s") > 500_000.0);
+}
+
+#[test]
+fn times_that_contradict_the_rate_are_warned_of() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    let (told, rows) = warned(here, "--rate 100200");
+    let both = "by the time column the sample rate is 100000 Hz, but --rate makes it 100200 Hz";
+    assert!(
+        told.contains(both) && told.ends_with("--columns 2,3 --rate HZ\n"),
+        "{told}"
+    );
+    assert_eq!(rows.len(), expected.len());
+    same_later(
+        &crate::common::rows(here, "a.csv --rate 1e5"),
+        &expected,
+        0.0,
+    );
+    assert_eq!(
+        crate::common::rows(here, "a.csv --rate 100050").len(),
+        expected.len()
+    );
+    assert_eq!(
+        crate::common::rows(here, "a.csv --columns 2,3 --rate 100200").len(),
+        expected.len()
+    );
+}
+
+#[test]
+fn a_rate_that_changes_is_told_as_what_it_is() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // From the sample 3000 on, every other one.
+    let lines: Vec<String> = text(&WAVE.codes(6000))
+        .lines()
+        .enumerate()
+        .filter(|&(at, _)| at < 3001 || at % 2 == 0)
+        .map(|(_, line)| line.to_owned())
+        .collect();
+    fs::write(here.join("a.csv"), lines.join("\n")).unwrap();
+    let run = run(here, "identify a.csv --output csv");
+    assert_eq!((run.code, run.err.lines().count()), (1, 2), "{}", run.err);
+    let told = "error: a.csv:3002: 1 sample is lost before this line (time goes from 0.02999 s to 0.03001 s), the first of 1500 gaps with 1500";
+    assert!(run.err.contains(told), "{}", run.err);
+    assert!(
+        run.err
+            .starts_with("warning: a.csv: no wave was found in the last 0.0310 s")
+    );
+    let last = Row::all(&run.out).last().unwrap().number("time_s");
+    assert!((0.027..0.03).contains(&last), "{last}");
+}

@@ -1,0 +1,189 @@
+//! `antinode identify` on text whose two signals are told in different units.
+
+use std::fs;
+
+use crate::common::{Row, WAVE, rows, run, text};
+
+/// A recording under a header, its signals times these.
+fn scaled(header: &str, time: f64, scales: [f64; 2]) -> String {
+    let mut text = header.to_owned();
+    for (k, pair) in WAVE.codes(5000).iter().enumerate() {
+        let [c, d] = [0, 1].map(|i| scales[i] * f64::from(pair[i]) / 32_768.0);
+        text += &format!("{:.5},{c},{d}\n", time * k as f64 * 1e-5);
+    }
+    text
+}
+
+#[test]
+fn signals_are_brought_to_the_larger_unit() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::write(here.join("a.csv"), text(&WAVE.codes(5000))).unwrap();
+    let expected = rows(here, "a.csv");
+    for (header, time, scales, told) in [
+        (
+            "Time (s),Channel A (mV),Channel B (V)\n",
+            1.0,
+            [1e3, 1.0],
+            "S_C is in mV and S_D in V: both are read in V",
+        ),
+        (
+            "Time,Channel A,Channel B\n(us),(V),(mV)\n\n",
+            1e6,
+            [1.0, 1e3],
+            "S_C is in V and S_D in mV: both are read in V",
+        ),
+        (
+            "time,c [µV],d [mV]\n",
+            1.0,
+            [1e3, 1.0],
+            "S_C is in µV and S_D in mV: both are read in mV",
+        ),
+        ("microseconds,V,mV\n", 1e6, [1.0, 1e3], "both are read in V"),
+        (
+            "x-axis,1,2\nsecond,Volt,millivolt\n",
+            1.0,
+            [1.0, 1e3],
+            "S_C is in Volt and S_D in millivolt: both are read in Volt",
+        ),
+    ] {
+        fs::write(here.join("a.csv"), scaled(header, time, scales)).unwrap();
+        let run = run(here, "identify a.csv --output csv");
+        assert_eq!((run.code, run.err.lines().count()), (0, 1), "{}", run.err);
+        assert!(run.err.starts_with("warning: a.csv: "), "{}", run.err);
+        assert!(run.err.contains(told), "{}", run.err);
+        let found = Row::all(&run.out);
+        assert_eq!(found.len(), expected.len(), "{header}");
+        for (found, expected) in found.iter().zip(&expected) {
+            for name in ["main_amplitude", "quadrature_amplitude", "angle_rad"] {
+                let apart = found.number(name) - expected.number(name);
+                assert!(apart.abs() < 1e-5, "{header} {name}: {apart}");
+            }
+        }
+    }
+}
+
+#[test]
+fn units_of_different_quantities_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (header, line) in [
+        ("Time (s),Channel A (V),Channel B (A)\n", 1),
+        ("Time,Channel A,Channel B\n(s),(mV),(A)\n\n", 2),
+        ("Time,Channel A,Channel B\ns,mV,LSB\n", 2),
+    ] {
+        fs::write(here.join("a.csv"), scaled(header, 1.0, [1.0, 1.0])).unwrap();
+        let run = run(here, "identify a.csv");
+        assert_eq!((run.code, run.out.as_str()), (1, ""), "{}", run.err);
+        let told = format!("error: a.csv:{line}: S_C is in ");
+        assert!(run.err.starts_with(&told), "{}", run.err);
+        assert!(run.err.contains("no common unit; "), "{}", run.err);
+        assert_eq!(run.err.lines().count(), 1);
+    }
+}
+
+#[test]
+fn equal_units_and_mere_names_say_nothing() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for header in [
+        "Time (s),Channel A (mV),Channel B (mV)\n",
+        "Time (s),Channel (A),Channel (B)\n",
+        "Time (s),S_A,S_B\n",
+        "Time (s),A,B\n",
+        "time,c,d\ns,V,volts\n",
+        "time,c,d\ns,V,\n",
+        "time,c,d\ns,A,B\n",
+        "time,S_C,S_D\n",
+    ] {
+        fs::write(here.join("a.csv"), scaled(header, 1.0, [1.0, 1.0])).unwrap();
+        assert!(rows(here, "a.csv").len() > 20, "{header}");
+    }
+}
+
+#[test]
+fn a_unit_that_is_not_known_beside_one_that_is_is_warned_of() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let text = scaled("time,c,d\ns,V,MV\n", 1.0, [1.0, 1.0]);
+    fs::write(here.join("a.csv"), text).unwrap();
+    let run = run(here, "identify a.csv");
+    assert_eq!(run.code, 0);
+    let told = "warning: a.csv: S_C is in V and S_D in MV: they are read as if these were the same";
+    assert!(run.err.starts_with(told), "{}", run.err);
+}
+
+#[test]
+fn units_are_known_in_russian_too() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::write(here.join("a.csv"), text(&WAVE.codes(5000))).unwrap();
+    let expected = rows(here, "a.csv");
+    for (header, time, c) in [
+        ("Время;Канал A;Канал B\n(мс);(мВ);(В)\n\n", 1e3, 1e3),
+        ("Время [мкс];Канал A [мВ];Канал B [В]\n", 1e6, 1e3),
+    ] {
+        let semicolons = scaled("", time, [c, 1.0]).replace(',', ";");
+        fs::write(here.join("a.csv"), format!("{header}{semicolons}")).unwrap();
+        let run = run(here, "identify a.csv --output csv");
+        let told = "warning: a.csv: S_C is in мВ and S_D in В: both are read in В\n";
+        assert_eq!((run.code, run.err.as_str()), (0, told), "{header}");
+        let found = Row::all(&run.out);
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().zip(&expected) {
+            for name in ["main_amplitude", "frequency_hz", "time_s"] {
+                let apart = found.number(name) / expected.number(name) - 1.0;
+                assert!(apart.abs() < 1e-4, "{header} {name}: {apart}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_time_in_brackets_of_no_known_unit_is_no_seconds() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for units in [
+        "(ミリ秒),(V),(V)",
+        "[Millisekunden],[V],[V]",
+        "(\u{3bc}s!),,",
+    ] {
+        let header = format!("Time,Channel A,Channel B\n{units}\n");
+        fs::write(here.join("a.csv"), scaled(&header, 1e3, [1.0, 1.0])).unwrap();
+        let fault = run(here, "identify a.csv --output csv");
+        assert_eq!((fault.code, fault.out.as_str()), (1, ""), "{units}");
+        let told = "error: a.csv:2: the time column `";
+        assert!(fault.err.starts_with(told), "{}", fault.err);
+        let told = "` is not in s, ms, us or ns; convert it to seconds, or ignore the time column with --columns 2,3 --rate HZ\n";
+        assert!(fault.err.ends_with(told), "{}", fault.err);
+        assert!(rows(here, "a.csv --columns 2,3 --rate 1e5").len() > 20);
+    }
+}
+
+#[test]
+fn a_time_whose_name_tells_no_known_unit_is_told_to_be_read_as_seconds() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (name, units) in [
+        ("Time (weeks)", ""),
+        ("t [ticks]", ""),
+        ("time [relative]", ",mV,mV\n"),
+    ] {
+        let text = scaled(&format!("{name},c,d\n{units}"), 1.0, [1.0, 1.0]);
+        fs::write(here.join("a.csv"), text).unwrap();
+        let run = run(here, "identify a.csv --output csv");
+        assert_eq!((run.code, run.err.lines().count()), (0, 1), "{}", run.err);
+        let told = format!("warning: a.csv: the time column `{name}` is read as seconds, ");
+        assert!(run.err.starts_with(&told), "{}", run.err);
+        assert!(
+            run.err
+                .ends_with("ignore it with --columns 2,3 --rate HZ\n")
+        );
+        assert!(Row::all(&run.out).len() > 20);
+    }
+    // A line of units, or the settings above, tell it.
+    for header in ["Zeit [Sekunden],c,d\n", "time [relative],c,d\ns,V,V\n"] {
+        fs::write(here.join("a.csv"), scaled(header, 1.0, [1.0, 1.0])).unwrap();
+        assert!(rows(here, "a.csv").len() > 20, "{header}");
+    }
+}

@@ -1,0 +1,58 @@
+//! `antinode identify` where a person watches: what it reads, told on standard error.
+#![cfg(unix)]
+
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use crate::common::{WAVE, text, wav};
+use serialport::{SerialPort, TTYPort};
+
+/// What a terminal shows of standard error.
+fn shown(directory: &Path, arguments: &[&str]) -> String {
+    let (mut terminal, end) = TTYPort::pair().unwrap();
+    terminal.set_timeout(Duration::from_millis(200)).unwrap();
+    let error = File::options().write(true).open(end.name().unwrap());
+    let run = Command::new(assert_cmd::cargo::cargo_bin("antinode"))
+        .args(["identify", "--output", "csv"])
+        .args(arguments)
+        .current_dir(directory)
+        .stderr(Stdio::from(error.unwrap()))
+        .output()
+        .unwrap();
+    assert!(run.status.success());
+    assert!(run.stdout.starts_with(b"time_s,"));
+    let mut text = Vec::new();
+    let mut buffer = [0; 1024];
+    while let Ok(length @ 1..) = terminal.read(&mut buffer) {
+        text.extend_from_slice(&buffer[..length]);
+    }
+    String::from_utf8(text).unwrap().replace('\r', "")
+}
+
+#[test]
+fn a_recording_is_told_with_its_format_length_and_rate() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::write(here.join("a.wav"), wav(&WAVE.codes(5000))).unwrap();
+    fs::write(here.join("a.csv"), text(&WAVE.codes(5000))).unwrap();
+    fs::write(here.join("a.bin"), crate::common::raw(&WAVE.codes(5000))).unwrap();
+    let sound = "a.wav: WAV of 16-bit integers, 5000 sample pairs at 100000 Hz\n";
+    assert_eq!(shown(here, &["a.wav"]), sound);
+    // A rate that is not the header's is warned of first.
+    let told = shown(here, &["a.wav", "--rate", "5e4"]);
+    let (warning, told) = told.split_once('\n').unwrap();
+    assert!(warning.starts_with("warning: a.wav: by its header "));
+    assert_eq!(told, sound.replace("100000", "50000"));
+    // How long a text is shows at its end.
+    let lines = "a.csv: CSV at 100000 Hz\na.csv: 5000 sample pairs\n";
+    assert_eq!(shown(here, &["a.csv"]), lines);
+    assert_eq!(shown(here, &["a.wav", "a.csv"]), format!("{sound}{lines}"));
+    let raw = "a.bin: raw 16-bit integers, 5000 sample pairs at 50000 Hz\n";
+    assert_eq!(
+        shown(here, &["a.bin", "--raw", "i16", "--rate", "5e4"]),
+        raw
+    );
+}

@@ -1,0 +1,35 @@
+//! The core on synthetic signals: how exact it is, and what it makes of faults. One program, as each would be built for itself.
+
+mod aftermath;
+mod arithmetic;
+mod behaviour;
+mod checks;
+mod circular;
+mod coloured;
+mod comparison;
+mod continuity;
+mod converter;
+mod dead;
+mod detector;
+mod efficiency;
+mod electronics;
+mod exact;
+mod faults;
+mod first;
+mod flash;
+mod gaps;
+mod hum;
+mod known;
+mod limits;
+mod methods;
+mod methods_shared;
+mod oracle;
+mod recovery;
+mod regrid;
+mod repeating;
+mod rounding;
+mod stated;
+mod step_sizes;
+mod steps;
+mod tones;
+mod turning;

@@ -123,7 +123,11 @@ impl<'q, S: Sample> Instrument<'q, S> {
             self.report_counters();
         }
         let alive = self.liveness.sees(self.counts.pairs.get());
-        self.asks = self.liveness.stalled(now) && self.requests.enqueue(Request::Resample).is_ok();
+        self.asks = self.liveness.stalled(now);
+        if self.asks {
+            // Where the queue is full, the interrupt that is asked for empties it, and the next stall finds room.
+            let _ = self.requests.enqueue(Request::Resample);
+        }
         alive
     }
 

@@ -19,7 +19,7 @@ use crate::hardware::line::{By, Line};
 use crate::marks::{leave, mark_begin, mark_end};
 use crate::methods::AVAILABLE;
 use crate::pipeline::{Places, Queues};
-use crate::sampling::{Lapse, Ready, Source, both, is_at_rail_12};
+use crate::sampling::{Lapse, Ready, Source, both};
 use crate::settings::{Arithmetic, DUAL_ADC_RAILS, HALF, configuration};
 
 /// Pairs in the ring of codes.
@@ -76,10 +76,6 @@ impl Source for Endless {
 
     fn rails(&self) -> [Packed; 2] {
         both(DUAL_ADC_RAILS)
-    }
-
-    fn is_at_rail(&self, pair: Packed) -> bool {
-        is_at_rail_12(pair)
     }
 }
 

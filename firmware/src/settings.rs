@@ -61,9 +61,9 @@ pub const COUNTERS_MS: u32 = 1000;
 /// The same, at least, where they tell that something went wrong, ms.
 pub const SOONEST_MS: u32 = 50;
 
-/// Least and greatest code of the STM32F405's 12-bit converters.
+/// Codes of the STM32F405's 12-bit converters at and beyond which samples are flagged, and counted, as clipped: its least and its greatest.
 pub const DUAL_ADC_RAILS: [i16; 2] = [0, 4095];
-/// Least and greatest code of the AD7380.
+/// The same of the AD7380.
 pub const AD7380_RAILS: [i16; 2] = [i16::MIN, i16::MAX];
 
 /// What an image is set to at its start, by its front end and the codes of its rails.
@@ -138,8 +138,8 @@ const _: () = {
         "QUEUE and REQUESTS must be 2 or more"
     );
     assert!(
-        OUTBOX >= 6 * MAX_FRAME,
-        "OUTBOX must be 6 * MAX_FRAME or more: an estimate leaves room for four frames"
+        OUTBOX >= 6 * MAX_FRAME && OUTBOX < 1 << 16,
+        "OUTBOX must be 6 * MAX_FRAME to 65_535: an estimate leaves room for four frames, and the DMA counts in 16 bits"
     );
     assert!(
         INBOX > MAX_FRAME && INBOX < 1 << 16,

@@ -81,7 +81,6 @@ pub const fn number(cause: Cause) -> u32 {
         Cause::Panic => 2,
         Cause::HardFault => 3,
         Cause::Clock => 4,
-        Cause::Converter => 5,
         _ => 0,
     }
 }
@@ -93,7 +92,6 @@ pub const fn numbered(number: u32) -> Option<Cause> {
         2 => Some(Cause::Panic),
         3 => Some(Cause::HardFault),
         4 => Some(Cause::Clock),
-        5 => Some(Cause::Converter),
         _ => None,
     }
 }
@@ -127,17 +125,16 @@ mod tests {
         assert_eq!(cause(SFTRSTF | PINRSTF, None), Cause::Unknown);
         assert_eq!(cause(BORRSTF | PINRSTF, None), Cause::BrownOut);
         assert_eq!(cause(PINRSTF, None), Cause::ResetPin);
-        for noted in [
-            Cause::Command,
-            Cause::Panic,
-            Cause::HardFault,
-            Cause::Clock,
-            Cause::Converter,
-        ] {
+        for noted in [Cause::Command, Cause::Panic, Cause::HardFault, Cause::Clock] {
             assert_eq!(numbered(number(noted)), Some(noted));
         }
         // What no firmware notes has no number, and no other number is a cause.
-        for other in [Cause::PowerOn, Cause::Watchdog, Cause::Unknown] {
+        for other in [
+            Cause::PowerOn,
+            Cause::Watchdog,
+            Cause::Converter,
+            Cause::Unknown,
+        ] {
             assert_eq!(numbered(number(other)), None);
         }
         assert_eq!([0, 6, u32::MAX].map(numbered), [None; 3]);

@@ -44,19 +44,17 @@ impl<SPI: SpiDevice> Ad7380<SPI> {
         adc.write(Register::Configuration2, HARD_RESET)?;
         delay.delay_us(RESET_US);
 
-        // The alert is enabled after its thresholds are there.
+        // The alert is enabled after its thresholds are there, and averages, which take their time, last of all.
         let [low, high] = config.alert.unwrap_or(Thresholds::FULL).registers();
-        let settings = [
+        for (register, wrote) in [
+            (Register::Configuration2, ONE_WIRE),
             (Register::AlertLowThreshold, low),
             (Register::AlertHighThreshold, high),
-            (Register::Configuration2, ONE_WIRE),
             (Register::Configuration1, config.configuration1()),
-        ];
-        for (register, value) in settings {
-            adc.write(register, value)?;
-        }
-        for (register, wrote) in settings {
-            let read = adc.read(register)? & register.read_back_mask();
+        ] {
+            adc.write(register, wrote)?;
+            adc.wait(delay);
+            let read = adc.read(register, delay)? & register.read_back_mask();
             if read != wrote {
                 return Err(Error::ReadBack {
                     register,
@@ -80,14 +78,15 @@ impl<SPI: SpiDevice> Ad7380<SPI> {
         delay.delay_us(RESET_US);
         for _ in 0..self.config.oversampling.stale_frames() {
             self.read_pair()?;
-            delay.delay_ns(self.config.oversampling.conversion_ns());
+            self.wait(delay);
         }
         Ok(())
     }
 
     /// The pair `[A, B]` as sampled at the last frame before this one, and a new conversion of both.
     ///
-    /// With resolution boost the two lowest bits of a result are cut off.
+    /// Call it no sooner than [`Oversampling::conversion_ns`](crate::Oversampling::conversion_ns) after the call before. With resolution
+    /// boost the two lowest bits of a result are cut off.
     ///
     /// # Errors
     ///
@@ -117,14 +116,14 @@ impl<SPI: SpiDevice> Ad7380<SPI> {
 
     /// Reads, and thereby clears, the register ALERT.
     ///
-    /// It takes two frames, which convert as any other: the result on its way is lost, and the next pair was sampled at the second
-    /// of them. To keep a steady rate ask between recordings, or watch the pin ALERT.
+    /// It takes two frames, which convert as any other, and waits for both: the result on its way is lost, and the next pair was sampled
+    /// at the second of them. To keep a steady rate ask between recordings, or watch the pin ALERT.
     ///
     /// # Errors
     ///
     /// [`Error::Spi`] from the bus.
-    pub fn alert(&mut self) -> Result<Alert, Error<SPI::Error>> {
-        Ok(Alert::from_register(self.read(Register::Alert)?))
+    pub fn alert<D: DelayNs>(&mut self, delay: &mut D) -> Result<Alert, Error<SPI::Error>> {
+        Ok(Alert::from_register(self.read(Register::Alert, delay)?))
     }
 
     /// The settings.
@@ -143,9 +142,21 @@ impl<SPI: SpiDevice> Ad7380<SPI> {
             .map_err(Error::Spi)
     }
 
-    fn read(&mut self, register: Register) -> Result<u16, Error<SPI::Error>> {
+    fn read<D: DelayNs>(
+        &mut self,
+        register: Register,
+        delay: &mut D,
+    ) -> Result<u16, Error<SPI::Error>> {
         self.spi.write(&register.read_frame()).map_err(Error::Spi)?;
-        Ok(Register::value(self.frame([0; 2])?))
+        self.wait(delay);
+        let value = Register::value(self.frame([0; 2])?);
+        self.wait(delay);
+        Ok(value)
+    }
+
+    /// Every frame converts, and the next one must not begin before that is done.
+    fn wait<D: DelayNs>(&self, delay: &mut D) {
+        delay.delay_ns(self.config.oversampling.conversion_ns());
     }
 
     /// Sends zeros, the chip's no-operation: what a plain read sends is up to the bus, and ones would be a write.

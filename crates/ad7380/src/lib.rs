@@ -1,7 +1,7 @@
 //! Driver for Analog Devices' AD7380: two 16-bit SAR converters that sample at the same instant, up to 4 MSPS.
 //!
 //! It runs the chip in 1-wire mode: one data line (SDOA) carries both results, A first. [`Ad7380::new`] resets the chip,
-//! configures it and reads every register back; [`Ad7380::read_pair`] then gives a pair a call.
+//! configures it and reads every register back; [`Ad7380::read_pair`] then returns one pair per call.
 //!
 //! # Example
 //!
@@ -12,8 +12,8 @@
 //! # let read = |tx: &[u8], rx: &[u8]| [T::transaction_start(), T::transfer_in_place(tx.to_vec(), rx.to_vec()), T::transaction_end()];
 //! # let register = |address: u8, value: u16| [write(u16::from(address) << 12), read(&[0; 2], &value.to_be_bytes())].concat();
 //! # let frames = [
-//! #     write(0xA0FF).to_vec(), write(0xC801).to_vec(), write(0xD7FE).to_vec(), write(0xA100).to_vec(), write(0x9008).to_vec(),
-//! #     register(4, 0x801), register(5, 0x7FE), register(2, 0x100), register(1, 0x008),
+//! #     write(0xA0FF).to_vec(), write(0xA100).to_vec(), register(2, 0x100), write(0xC801).to_vec(), register(4, 0x801),
+//! #     write(0xD7FE).to_vec(), register(5, 0x7FE), write(0x9008).to_vec(), register(1, 0x008),
 //! #     write(0xA13C).to_vec(), read(&[0; 4], &[0x55; 4]).to_vec(),
 //! #     read(&[0; 4], &[0x7F, 0xFF, 0xFF, 0xFE]).to_vec(), register(3, 0x0002),
 //! # ].concat();
@@ -25,7 +25,7 @@
 //!
 //! let pair = adc.read_pair()?;
 //! assert_eq!(pair, [32_767, -2]); // A stands at its rail.
-//! assert_eq!(adc.alert()?.out_of_range(), [true, false]); // The chip has seen it too.
+//! assert_eq!(adc.alert(&mut delay)?.out_of_range(), [true, false]); // The chip has seen it too.
 //! # check.done();
 //! # Ok::<(), ad7380::Error<embedded_hal::spi::ErrorKind>>(())
 //! ```
@@ -35,7 +35,7 @@
 //! The falling edge of CS samples both inputs and starts the conversion; the bits that the same frame shifts out are those of the
 //! conversion *before*. So `read_pair` returns the inputs as they were at the call before, and a steady rate of calls gives a steady
 //! rate of samples. What the first frame after the configuration shifts out was sampled under other settings: `new` reads it and
-//! throws it away. In rolling average it throws away as many frames as the average is long.
+//! throws it away. With a rolling average it throws away as many frames as the average is long.
 //!
 //! # Codes
 //!
@@ -48,10 +48,10 @@
 //! [`timing`] computes it for any rate:
 //!
 //! ```
-//! assert_eq!(ad7380::timing::min_sclk_hz(100_000), Some(3_203_204));
+//! assert_eq!(ad7380::timing::min_sclk_hz(100_000, ad7380::Oversampling::Off), Some(3_203_204));
 //! ```
 //!
-//! Access to the registers is more reliable below the largest clock, says Linux, and uses 10 MHz: so construct with that.
+//! Register access is more reliable below the largest clock, says Linux's driver, which uses 10 MHz: so construct with that.
 //!
 //! # By timer and DMA
 //!
@@ -59,7 +59,7 @@
 //! the SPI back with [`Ad7380::free`], send zeros (0 is the chip's no-operation) and decode each frame with [`pair_from_frame`] or
 //! [`pair_from_word`].
 //!
-//! # Not served
+//! # Not supported
 //!
 //! 2-wire mode, power-down and the optional CRC of both directions, which stays off. The 14-bit AD7381 has the same registers but
 //! frames of 28 clocks.

@@ -38,11 +38,7 @@ pub const fn min_frame_ns(sclk_hz: u32, oversampling: Oversampling) -> Option<u3
     if sclk_hz == 0 || sclk_hz > MAX_SCLK_HZ {
         return None;
     }
-    let clocks = if oversampling.boost() {
-        BOOSTED_FRAME_CLOCKS
-    } else {
-        FRAME_CLOCKS
-    };
+    let clocks = frame_clocks(oversampling);
     let shifting = (clocks as u64 * 1_000_000_000).div_ceil(sclk_hz as u64) + CS_HIGH_NS as u64;
     let converting = oversampling.conversion_ns() as u64;
     let frame = if shifting > converting {
@@ -71,26 +67,39 @@ pub const fn max_pair_rate_hz(sclk_hz: u32, oversampling: Oversampling) -> Optio
     }
 }
 
-/// The smallest SPI clock that serves a rate of pairs of 16 bits, Hz, rounded up.
+/// The smallest SPI clock that serves a rate of pairs, Hz, rounded up.
 ///
-/// `None` when `pair_rate_hz` is 0, or so large that it needs more than [`MAX_SCLK_HZ`]. Software needs time between its frames:
-/// then take a good deal more.
+/// `None` when `pair_rate_hz` is 0, or so large that it needs more than [`MAX_SCLK_HZ`] or leaves no time to convert. Software needs
+/// time between its frames: then take a good deal more.
 ///
 /// ```
-/// use ad7380::timing::min_sclk_hz;
-/// assert_eq!(min_sclk_hz(100_000), Some(3_203_204));
-/// assert_eq!(min_sclk_hz(2_500_000), None);
+/// use ad7380::{Oversampling, timing::min_sclk_hz};
+/// assert_eq!(min_sclk_hz(100_000, Oversampling::Off), Some(3_203_204));
+/// assert_eq!(min_sclk_hz(2_500_000, Oversampling::Off), None);
 /// ```
-pub const fn min_sclk_hz(pair_rate_hz: u32) -> Option<u32> {
+pub const fn min_sclk_hz(pair_rate_hz: u32, oversampling: Oversampling) -> Option<u32> {
     if pair_rate_hz == 0 || pair_rate_hz > MAX_CONVERSION_HZ {
+        return None;
+    }
+    if oversampling.conversion_ns() as u64 * pair_rate_hz as u64 > 1_000_000_000 {
         return None;
     }
     // A frame has 1 / rate less the time that CS is high; both sides times rate · 1e9, so that it stays exact.
     let shifting = 1_000_000_000 - CS_HIGH_NS as u64 * pair_rate_hz as u64;
-    let sclk = (FRAME_CLOCKS as u64 * pair_rate_hz as u64 * 1_000_000_000).div_ceil(shifting);
+    let clocks = frame_clocks(oversampling) as u64;
+    let sclk = (clocks * pair_rate_hz as u64 * 1_000_000_000).div_ceil(shifting);
     if sclk > MAX_SCLK_HZ as u64 {
         None
     } else {
         Some(sclk as u32)
+    }
+}
+
+/// Clocks of a frame that carries a pair.
+const fn frame_clocks(oversampling: Oversampling) -> u32 {
+    if oversampling.boost() {
+        BOOSTED_FRAME_CLOCKS
+    } else {
+        FRAME_CLOCKS
     }
 }

@@ -50,15 +50,30 @@ fn many_conversions_take_longer_than_the_frame() {
 
 #[test]
 fn the_smallest_clock_serves_its_rate_and_one_hertz_less_does_not() {
-    for rate in [1, 48_000, 100_000, 999_999, 1_000_000, 2_439_024] {
-        let sclk = min_sclk_hz(rate).unwrap();
-        // In units of 1e-9 clocks: what fits into the period less 10 ns.
-        let clocks =
-            |sclk: u32| u64::from(sclk) * (1_000_000_000 - 10 * u64::from(rate)) / u64::from(rate);
-        assert!(clocks(sclk) >= 32_000_000_000, "{rate} Hz");
-        assert!(clocks(sclk - 1) < 32_000_000_000, "{rate} Hz");
+    let boosted = Oversampling::Rolling {
+        ratio: RollingRatio::X2,
+        boost: true,
+    };
+    for (oversampling, wanted) in [(Oversampling::Off, 32), (boosted, 40)] {
+        for rate in [1, 48_000, 100_000, 999_999, 1_000_000, 1_960_784] {
+            let sclk = min_sclk_hz(rate, oversampling).unwrap();
+            // In units of 1e-9 clocks: what fits into the period less 10 ns.
+            let clocks = |sclk: u32| {
+                u64::from(sclk) * (1_000_000_000 - 10 * u64::from(rate)) / u64::from(rate)
+            };
+            assert!(clocks(sclk) >= wanted * 1_000_000_000, "{rate} Hz");
+            assert!(clocks(sclk - 1) < wanted * 1_000_000_000, "{rate} Hz");
+        }
     }
-    assert_eq!(min_sclk_hz(0), None);
-    assert_eq!(min_sclk_hz(2_439_025), None);
-    assert_eq!(min_sclk_hz(u32::MAX), None);
+    let least = |rate| min_sclk_hz(rate, Oversampling::Off);
+    assert!(least(2_439_024).is_some());
+    assert_eq!([0, 2_439_025, u32::MAX].map(least), [None; 3]);
+    assert_eq!(min_sclk_hz(1_960_785, boosted), None);
+    // The conversions alone take 31.01 us.
+    let slow = Oversampling::Normal {
+        ratio: Ratio::X32,
+        boost: false,
+    };
+    assert!(min_sclk_hz(32_247, slow).is_some());
+    assert_eq!(min_sclk_hz(32_248, slow), None);
 }

@@ -2,7 +2,7 @@
 //!
 //! | C type | samples | arithmetic at sample rate |
 //! |---|---|---|
-//! | `antinode_fixed_t` | `int16_t` codes | fixed point, needs no floating-point unit but to search |
+//! | `antinode_fixed_t` | `int16_t` codes | fixed point; uses floating point only for the search |
 //! | `antinode_float_t` | `float` in any unit, or codes | f32 |
 //!
 //! A state holds a [`Front`](antinode::Front) for the interrupt, a [`Tracker`](antinode::Tracker) for the thread, and between

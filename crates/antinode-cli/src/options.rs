@@ -29,7 +29,7 @@ Examples:
 
 /// Identifies the standing wave of a hemispherical resonator gyro, window by window, in recordings of its two pick-offs.
 ///
-/// With no command: simulates a ring-down, streams it through the identification, and shows what it found beside the truth.
+/// Without a command: simulates a ring-down, streams it through the identification, and shows the results beside the truth.
 #[derive(Debug, Parser)]
 #[command(name = "antinode", version, max_term_width = 100, after_help = EXAMPLES)]
 pub struct Options {
@@ -41,51 +41,50 @@ pub struct Options {
 /// What the command can do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Identifies the wave in recordings, one row a window.
+    /// Identifies the wave in recordings, one row per window.
     ///
-    /// A row's time is the middle of its window, s from the first sample, plus the first value of the recording's time column. A column that
-    /// goes up by 1 a line is no time but an index where --rate is given.
+    /// A row's time is the middle of its window, in s from the first sample, plus the first value of the recording's time column. If --rate
+    /// is given, a column that increases by 1 per line is an index, not a time.
     ///
-    /// Rows go to standard output; what is to be known of them, as how many are flagged and why, to standard error. The exit code is 0 if all
-    /// was read, with flags or without, 1 if something is wrong with a recording, 2 if something is wrong with the command line, and 130 after
+    /// Rows go to standard output; remarks, such as how many are flagged and why, go to standard error. The exit code is 0 if all was read,
+    /// flagged or not, 1 if something is wrong with a recording, 2 if something is wrong with the command line, and 130 after
     /// Ctrl-C.
     Identify(Box<Identify>),
     /// Finds the calibration of the pick-offs from rows of a gyro whose pattern turned, and prints it as options.
     ///
-    /// Let the gyro ring down on a table that turns until the pattern has turned by 90° or more, and once more the other way around;
+    /// Let the gyro ring down on a turning table until the pattern has turned by 90° or more, and repeat the other way around;
     /// identify both recordings in windows that do not overlap. Energy and quadrature then depend on the angle only through the flaws of
-    /// the pick-offs. The options alone go to standard output, their deviations to standard error.
+    /// the pick-offs. Only the options go to standard output; their deviations go to standard error.
     ///
     /// If the rows were identified with a calibration, give it here too; what is printed replaces it.
     Calibrate(Calibrate),
     /// Finds the resonator's quality factor and the splits of its damping and frequency from rows of ring-downs.
     ///
-    /// Calibrate the pick-offs first, and identify in windows that do not overlap; for a record of hours they may be long, provided that
-    /// the pattern turns by less than 22.5° within one. A pattern at rest gives the decay time at its own angle only. Ring-downs at
+    /// Calibrate the pick-offs first, and identify in windows that do not overlap; in a recording of hours, windows may be long, provided
+    /// that the pattern turns by less than 22.5° within one. A pattern at rest gives the decay time at its own angle only. Ring-downs at
     /// pattern angles of 0°, 22.5° and 45°, or of a pattern that turns, give both splits too: how far the decay rates and the
     /// frequencies of the two modes are apart, and the pattern angle at which each is greatest; and how fast rotation turns each run's
-    /// pattern. Give ring-downs that turn both ways: where all turn one way, what a calibration leaves of flaws looks like splits.
+    /// pattern. Give ring-downs that turn both ways: if all turn one way, flaws that a calibration leaves look like splits.
     ///
-    /// A shell whose stiffness depends on the amplitude turns a pattern by a_A·a_B, and its frequency moves with a_A² + a_B²: both are
-    /// printed where they are seen, for one input unit squared. The latter allows for a drift with time, as of temperature, unless none is
-    /// seen and the turning says the same; where it may be a drift, a line says so in its place.
+    /// If a shell's stiffness depends on the amplitude, its pattern turns in proportion to a_A·a_B and its frequency moves with a_A² +
+    /// a_B²: both are printed if they are seen, per input unit squared. The latter allows for a drift with time, as with temperature,
+    /// unless none is seen and the turning agrees; if it may be a drift, a line says so instead.
     ///
-    /// Deviations are those of noise. They do not hold what a nonlinear pick-off or converter does, which looks like damping that depends on
-    /// the amplitude: a cubic part of 1e-4 S³ makes the decay time of a wave of a_A = 0.8 shorter by 2e-5 of itself in a recording of four
-    /// decay times, and by 5e-5 in one of a third.
+    /// Deviations are those of noise. They do not include nonlinearity of pick-offs or converter, which looks like damping that depends on
+    /// the amplitude: a cubic part of 1e-4 S³ shortens the decay time of a wave of a_A = 0.8 by 2e-5 of itself in a recording of four decay
+    /// times, and by 5e-5 in one of a third of a decay time.
     ///
-    /// A run ends where the wave is lost or jumps: one recording may hold several ring-downs, and missing samples do not falsify the
-    /// rates.
+    /// A run ends where the wave is lost or jumps: one recording may hold several ring-downs, and missing samples do not bias the rates.
     Resonator(Resonator),
     /// Draws rows over time: both amplitudes, pattern angle, frequency and residual, with their deviations and flags.
     ///
-    /// Bands are one standard deviation wide to either side; red marks at a panel's foot are flagged rows. A line ends where rows are missing or
-    /// flagged `lost`. Axes fit the rows that have no flag and no more than three times the median deviation: an arrow at a panel's edge marks
-    /// what lies far beyond, as the last rows of a ring-down.
+    /// Bands extend one standard deviation to either side; red marks at the bottom of a panel are flagged rows. A line ends where rows are
+    /// missing or flagged `lost`. Axes fit the unflagged rows with at most three times the median deviation; an arrow at a panel's edge
+    /// marks what lies far beyond, such as the last rows of a ring-down.
     Plot(Plot),
     /// Writes a simulated recording, and the truth beside it as JSON.
     Simulate(Box<Simulate>),
-    /// Computes the paper's comparison of its four methods anew: figures, tables, and its conclusions checked.
+    /// Recomputes the paper's comparison of its four methods: figures, tables, and a check of its conclusions.
     Study(Study),
     /// Shows what a device reports over its serial port, live: estimates as rows, all else on standard error.
     ///
@@ -109,7 +108,7 @@ pub struct Corrected {
         value_parser = ranges::gain_ratio
     )]
     pub gain_ratio: f32,
-    /// How much later than C pick-off D is sampled, ns, within ±1000000.
+    /// How much later pick-off D is sampled than C, ns, within ±1000000.
     #[arg(
         long,
         default_value_t = 0.0,
@@ -134,7 +133,7 @@ pub enum Format {
     Table,
     /// Comma-separated values with a header.
     Csv,
-    /// One JSON object a line.
+    /// One JSON object per line.
     Jsonl,
 }
 

@@ -12,18 +12,18 @@
 //! | CRC | 4 | CRC-32 of header, number and body, that of Ethernet and zlib, lowest byte first |
 //! | `00` | 1 | delimiter |
 //!
-//! Noise that leaves the frame's shape gets past the CRC once in 2³² times: one wrong bit of a COBS code is many of what it stands for.
-//! A frame that is cut, too long, damaged or no frame at all is dropped and told as [`Damage`]; the next delimiter starts afresh, so
-//! noise costs the frames that it touches and no other. Floating-point values travel bit by bit.
+//! Noise that leaves the framing intact gets past the CRC once in 2³² times: one wrong bit of a COBS code is many wrong bits of the data.
+//! A frame that is cut, too long, damaged or no frame at all is dropped and reported as [`Damage`]; the next delimiter starts afresh, so
+//! noise costs only the frames that it touches. Floating-point values are sent bit for bit.
 //!
 //! An estimate takes at most [`MAX_FRAME`] bytes, about 110. At 921 600 baud, 8N1, a line carries 92 160 bytes and so some 800
-//! estimates a second: windows of ten periods at 5.3 kHz are 530. Methods beside every estimate double that.
+//! estimates a second: windows of ten periods at 5.3 kHz make 530. Methods sent with every estimate double that.
 //!
 //! # Who says what
 //!
 //! * The device sends [`Report::Hello`] at its start as number 0, on [`Command::Get`], and after each change of its configuration.
-//! * The device answers every command by [`Report::Acknowledgement`] with the command's id: after the Hello where it sends one, before
-//!   it restarts where it is to restart.
+//! * The device answers every command with [`Report::Acknowledgement`] and the command's id: after the Hello if it sends one, before it
+//!   restarts if it is to restart.
 //! * All else is sent when it happens; [`Report::Counters`] about once a second, and soon where blocks or pairs were lost.
 //!
 //! # Example

@@ -7,6 +7,8 @@ use crate::scalar::lesser;
 const BLOCKS_A_WINDOW: f32 = 5.0;
 /// Periods of a block at most: a reference that is off by the detector's 5 % then costs 2 % of its sums.
 const LONGEST_BLOCK: f32 = 2.0;
+/// Sample pairs of a block at most, whatever a front has room for: they are counted in 16 bits, and are even.
+const LONGEST_LENGTH: f32 = 65_534.0;
 /// A window has no more blocks than this or than periods, whichever is more.
 pub(crate) const MOST_BLOCKS: u16 = 11;
 /// Sample pairs of a window at least.
@@ -35,7 +37,7 @@ impl Cut {
             rounded(longest)
         } else {
             // Samples are summed in twos.
-            2 * rounded(0.5 * longest)
+            2 * rounded(0.5 * lesser(longest, LONGEST_LENGTH))
         };
         self.fitting(window, length.max(1)).min(most).max(1)
     }
@@ -91,6 +93,32 @@ fn rounded(x: f32) -> u16 {
 mod tests {
     use super::*;
     use crate::phase::PhaseStep;
+
+    #[test]
+    fn blocks_of_any_length_that_fits_make_a_window() {
+        // The longest block that a front may have; of the longest periods two do not fit.
+        for most in [200u16, 1024, 32_766, 65_534] {
+            for has_hop in [false, true] {
+                for periods in [2, 3, 5, 10, 50, 1000] {
+                    let cut = Cut { periods, has_hop };
+                    for i in 0..=400 {
+                        let period = 2.5 * libm::powf(f32::from(most) / 2.5, i as f32 / 400.0);
+                        let length = cut.length(period, most);
+                        let blocks =
+                            cut.blocks(Layout::unrounded(PhaseStep::from_period(period), length));
+                        let samples = f32::from(blocks) * f32::from(length);
+                        let off = (samples / (period * f32::from(periods)) - 1.0).abs();
+                        assert!(
+                            length <= most
+                                && blocks <= periods.max(MOST_BLOCKS)
+                                && (off < 0.1 || samples <= f32::from(LEAST_PAIRS)),
+                            "{period} samples a period, {periods} periods, hop {has_hop}, blocks up to {most}: {blocks} of {length}"
+                        );
+                    }
+                }
+            }
+        }
+    }
 
     #[test]
     fn windows_fit_the_smallest_ring_that_is_accepted() {

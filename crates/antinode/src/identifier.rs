@@ -91,6 +91,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     ///
     /// Those of [`Identifier::new`]; nothing is changed then.
     pub fn change(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        settings.check(BLOCKS)?;
         Front::<S, N>::check_period(&settings)?;
         self.tracker.change(settings)?;
         self.front.set(&settings);

@@ -13,18 +13,18 @@
 //!
 //! | step | at | by |
 //! |---|---|---|
-//! | the period is searched, then samples are summed in blocks of up to two periods | sample rate | [`Front`], of [`period`] and [`block`] |
+//! | the period is searched for, then samples are summed in blocks of up to two periods | sample rate | [`Front`], with [`period`] and [`block`] |
 //! | a window of blocks is solved for its waves by exact least squares, and joined to those before | window rate | [`Tracker`] |
-//! | both, and a new search where the wave is lost | | [`Identifier`] |
+//! | both, with a new search when the wave is lost | | [`Identifier`] |
 //!
-//! [`Settings`] shows how a known frequency, overlapping windows, hum and pick-offs that differ are set, [`Identifier`] what to do where
-//! samples are lost.
+//! [`Settings`] shows how a known frequency, overlapping windows, hum and pick-offs that differ are set; [`Identifier`] shows what to do
+//! when samples are lost.
 //!
 //! # On a microcontroller
 //!
-//! A [`Front`] in the interrupt, a [`Tracker`] in the main loop, both with the same [`Settings`], and between them a queue of
-//! [`Block`]s. Here it is the one of `heapless`. The other way goes the number of the search whose blocks the tracker takes, which
-//! counts up when the wave is lost:
+//! Run a [`Front`] in the interrupt and a [`Tracker`] in the main loop, both with the same [`Settings`], and a queue of [`Block`]s between
+//! them, here that of `heapless`. In the other direction goes the number of the search whose blocks the tracker accepts, which is
+//! incremented when the wave is lost:
 //!
 //! ```
 //! use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -75,8 +75,8 @@
 //! # Ok::<(), antinode::SettingsError>(())
 //! ```
 //!
-//! Calibration and settings are changed in place: calibration by [`Tracker::calibrate`] in the main loop alone, settings by `configure` on
-//! both sides, after which blocks from before are left out. Samples that the interrupt missed are told to [`Front::skip`].
+//! Calibration and settings are changed in place: calibration by [`Tracker::calibrate`] in the main loop only, settings by `configure` on
+//! both sides, after which earlier blocks are ignored. Report samples that the interrupt missed to [`Front::skip`].
 //!
 //! | bytes of RAM on a 32-bit core | `i16` | `f32` | `i32` |
 //! |---|---|---|---|
@@ -84,10 +84,10 @@
 //! | [`Block`], each in the queue | 72 | 128 | 128 |
 //! | [`Tracker`], with `BLOCKS` the length of its ring | 696 + 68 `BLOCKS` | the same | the same |
 //!
-//! [`Front::UNSET`], [`Tracker::UNSET`] and [`Identifier::UNSET`] are all zeros: statics of them take neither flash nor stack, and
-//! `configure` makes them work.
+//! [`Front::UNSET`], [`Tracker::UNSET`] and [`Identifier::UNSET`] are all zeros: statics initialised with them take neither flash nor
+//! stack; call `configure` before use.
 //!
-//! `opt-level = 2` is as fast as 3 and smaller. On a Cortex-M4 give rustc `-Ctarget-cpu=cortex-m4`: without it rustc takes three-cycle
+//! `opt-level = 2` is as fast as 3 and smaller. On a Cortex-M4 give rustc `-Ctarget-cpu=cortex-m4`: without it rustc mistakes three-cycle
 //! multiply-accumulates for single-cycle ones.
 //!
 //! # Features
@@ -99,7 +99,7 @@
 //! | `defmt` | no | `defmt::Format` of [`Estimate`], [`Flags`], [`Settings`], [`Calibration`], [`Detection`] and [`SettingsError`] |
 //! | `serde` | no | `Serialize` and `Deserialize` of the same; flags as names in human-readable formats, as bits in others |
 //!
-//! Firmware that needs none takes `default-features = false`. To send estimates and settings over a line take the crate
+//! Firmware that needs none sets `default-features = false`. To send estimates and settings over a serial line use the crate
 //! `antinode-telemetry`.
 //!
 //! # Accuracy
@@ -110,45 +110,45 @@
 //! | white noise of 0.1 to 20 % of a_A, 2 to 50 periods a window, from cold | rms 0.97 to 1.05 of the Cramér–Rao bound |
 //! | turning at 6 rad/s, decaying with τ = 0.3 s, drifting 2 Hz/s, 0.2 % noise, 10 periods | rms 1.00 to 1.07 of the bound |
 //!
-//! Standard deviations are stated within 5 % of the scatter. They hold what f32 rounds, up to 10⁻⁷ of a_A, and of f32 samples up to 10⁻⁷
-//! of the offsets: in long windows of so little noise they are larger than the scatter. The bound is that of seven constant parameters,
-//! offsets and frequency among them. All of this is asserted, with a margin, by the tests of `host-tests`.
+//! Stated standard deviations are within 5 % of the scatter. They include the rounding of f32, up to 10⁻⁷ of a_A, and with f32 samples up
+//! to 10⁻⁷ of the offsets: in long windows with so little noise they are larger than the scatter. The bound is that of seven constant
+//! parameters, offsets and frequency among them. All of this is asserted, with a margin, by the tests of `host-tests`.
 //!
 //! # Limits
 //!
-//! - θ is known modulo π/2, and phase modulo 2π: only continuity from window to window makes θ run on.
+//! - θ is known modulo π/2, and phase modulo 2π: θ is unwrapped only by continuity from window to window.
 //! - A period is 4 to 200 samples, and with [`Settings::frequency`] 2.5 to as many as a block holds.
-//! - Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: 260 rad/s and 480 1/s in ten periods of
-//!   5332 Hz, 2.6 rad/s and 4.8 1/s in a thousand. Where it turns by more than about 0.6 rad amplitudes are some per cent off, which
-//!   windows of more than ten periods flag as a misfit and shorter ones may not.
+//! - Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: 260 rad/s and 480 1/s in ten periods of 5332
+//!   Hz, 2.6 rad/s and 4.8 1/s in a thousand. If it turns by more than about 0.6 rad, amplitudes are some per cent off; windows of more
+//!   than ten periods flag this as a misfit, shorter ones may not.
 //! - A frequency that drifts or depends on the amplitude bends the phase within a window; splits of damping and frequency bend amplitudes
-//!   and θ too. Well above the noise (2 Hz/s in a window of 60 ms, say), or above 2·10⁻⁴ of a_A if that is more, it is flagged as a misfit.
-//!   Below, nothing is flagged, and values are off by up to 6 of their deviations in windows of 10 periods, and 30 in those of 100 and more:
-//!   6·10⁻⁵ rad of phase in noise of 10⁻⁴ of a_A, 4·10⁻⁴ rad in noise of 10⁻³. Use shorter windows.
-//! - A pattern that turns looks like a frequency off by 2 a_A a_B θ̇/(π(a_A² + a_B²)), which is taken out with θ̇ as the windows before have
-//!   it. Where θ̇ jumps, as splits make it near a circle, f may be off: 20 deviations at |a_B| of 0.94 a_A in windows of 100
-//!   periods.
+//!   and θ too. If this is well above the noise (2 Hz/s in a window of 60 ms, say), or above 2·10⁻⁴ of a_A if that is more, it is flagged
+//!   as a misfit. Below that, nothing is flagged, and values are off by up to 6 of their deviations in windows of 10 periods, and 30 in
+//!   those of 100 or more: 6·10⁻⁵ rad of phase in noise of 10⁻⁴ of a_A, 4·10⁻⁴ rad in noise of 10⁻³. Use shorter windows.
+//! - A turning pattern looks like a frequency off by 2 a_A a_B θ̇/(π(a_A² + a_B²)), which is corrected with the θ̇ of the windows before.
+//!   If θ̇ jumps, as splits make it do near a circle, f may be off, by 20 deviations at |a_B| of 0.94 a_A in windows of 100 periods.
 //! - Mains hum is a misfit too, unless [`Settings::hum`] takes it out.
 //! - Deviations and flags take noise to be white; [`Settings::coloured`] is for noise that is not. With it errors are 0.8 to 1.1 of their
 //!   deviations behind a low-pass or a high-pass, or in noise of 1/f²; behind a band-pass about the wave they are 1.1 with a quality of 1,
-//!   1.5 with 3, and 2 to 3 with 10. Of noise that grows with the frequency some windows stay misfits.
-//! - Deviations and flags also take noise to be independent, and equal in both pick-offs. Where one has ten times as much, one window in
-//!   some ten thousand is flagged. Where both have the share r of its variance in common, deviations are up to √(1 + r) times too small: at
+//!   1.5 with 3, and 2 to 3 with 10. With noise that grows with frequency, some windows remain misfits.
+//! - Deviations and flags also assume noise that is independent and equal in both pick-offs. If one has ten times as much, about one window
+//!   in ten thousand is flagged. If both have the share r of its variance in common, deviations are up to √(1 + r) times too small: at
 //!   an angle of 22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.
-//! - Deviations are those of noise and of the converter's steps, taken to be equal. Nonlinearity of pick-offs and converter is in none of
-//!   them, and a third harmonic below 10⁻³ of a_A raises no flag: a cubic of that size may move a_A by 0.4 %, θ by 5·10⁻⁴ rad and, with
-//!   |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. A second harmonic of 10⁻² of a_A raises none either where a period is
-//!   not a whole number of samples, and puts up to 7·10⁻² of itself into a_A, a_B, θ and phase in windows of 10 periods, 1.6·10⁻² in
-//!   those of 50; where it is a whole number, 1.6·10⁻³.
-//! - A fault that repeats with the wave, such as a stuck bit of the converter, is flagged where it begins, and may soon be taken for a new
-//!   level of noise: of windows of 10 periods behind a bit of a twelfth of a_A two in three and more have no flag, and a_A is up to 1.7 % off, 12 of
-//!   its deviations. Behind a sixth of a_A it is one in three, 4.4 %, 21 deviations; behind a third one in ten, 7.5 %, 36; behind 0.6 none.
+//! - Deviations cover noise and the converter's steps, assumed equal in size. They do not cover nonlinearity of pick-offs and converter,
+//!   and a third harmonic below 10⁻³ of a_A raises no flag: a cubic of that size may move a_A by 0.4 %, θ by 5·10⁻⁴ rad and, with
+//!   |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. A second harmonic of 10⁻² of a_A raises none either if a period is not a
+//!   whole number of samples, and leaks up to 7·10⁻² of itself into a_A, a_B, θ and phase in windows of 10 periods, 1.6·10⁻² in those of
+//!   50; if it is a whole number, 1.6·10⁻³.
+//! - A fault that repeats with the wave, such as a stuck bit of the converter, is flagged where it begins, but may soon be taken for a new
+//!   noise level: with a bit worth a twelfth of a_A, two in three or more of the windows of 10 periods that follow have no flag, and a_A is
+//!   up to 1.7 % off, 12 of its deviations. With a sixth of a_A it is one in three, 4.4 %, 21 deviations; with a third, one in ten, 7.5 %,
+//!   36; with 0.6, none.
 //! - Blocks of two periods hardly see a tone at half an odd multiple of f: 3·10⁻³ of a_A at f/2, in noise of 10⁻⁴, moved a_A and phase by 4
 //!   deviations, rms, without a flag.
 //! - Jitter of the sampling, common to both pick-offs, makes f and phase scatter by 1.8 of their deviations, θ and a_B by a fifth.
-//! - Amplitudes are 10⁻¹⁵ to 10¹⁷ input units, so that their squares are numbers of f32. Beyond that there may be no estimate, and no flag.
-//! - Sums of f32 round: in noise below 2·10⁻⁴ of a_A an offset beyond twenty times a_A, at 140 samples a period or more, is a misfit.
-//!   Codes do not, nor do f32 samples whose offset is subtracted first.
+//! - Amplitudes must be 10⁻¹⁵ to 10¹⁷ input units, so that their squares fit in f32. Beyond that there may be no estimate, and no flag.
+//! - Sums of f32 are rounded: in noise below 2·10⁻⁴ of a_A an offset beyond twenty times a_A, at 140 samples a period or more, is a misfit.
+//!   With codes it is not, nor with f32 samples whose offset is subtracted first.
 #![no_std]
 
 #[cfg(test)]

@@ -67,7 +67,7 @@ mod app {
         let settings = configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS);
         let Ok(parts) = c.local.queues.split(c.local.places, settings, cause) else {
             // Never: settings that cannot be do not compile.
-            reset::restart(Cause::Unknown, line!())
+            reset::restart(Cause::Panic, line!())
         };
         let line = Line::new(device.USART1, &rcc, parts.out, parts.inbox, By::Dma);
         let source = crystal.then(|| {

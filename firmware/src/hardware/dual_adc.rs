@@ -19,7 +19,6 @@ use crate::hardware::clock;
 use crate::hardware::pair_clock::{PairClock, Trigger};
 use crate::hardware::ring::{Memory, Origin, Ring};
 use crate::hardware::sampler::{Converter, Sampler, wait_for};
-use crate::sampling::is_at_rail_12;
 use crate::settings::{DUAL_ADC_RAILS, SAMPLE_RATE};
 
 /// Ticks of TIM3 from trigger to trigger.
@@ -169,10 +168,5 @@ impl Converter for DualAdc {
         // CSR.OVR1, OVR2: the flags of both converters.
         let status = self.common.csr().read();
         status.ovr1().bit_is_set() || status.ovr2().bit_is_set()
-    }
-
-    #[inline]
-    fn is_at_rail(pair: Packed) -> bool {
-        is_at_rail_12(pair)
     }
 }

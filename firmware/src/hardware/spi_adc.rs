@@ -29,7 +29,6 @@ use crate::hardware::clock;
 use crate::hardware::pair_clock::{PairClock, Trigger};
 use crate::hardware::ring::{Memory, Origin, Ring};
 use crate::hardware::sampler::{Converter, Sampler, wait_for};
-use crate::sampling::is_at_rail_16;
 use crate::settings::{AD7380_RAILS, SAMPLE_RATE};
 
 /// Ticks of TIM1 from frame to frame.
@@ -176,7 +175,7 @@ impl Converter for SpiAdc {
             QUIET[0] + 84 < QUIET[1],
             "SAMPLE_RATE must be 168_000 or less: a frame takes 3.8 us"
         );
-        match ad7380::timing::min_sclk_hz(SAMPLE_RATE) {
+        match ad7380::timing::min_sclk_hz(SAMPLE_RATE, ad7380::Oversampling::Off) {
             Some(least) => assert!(SCLK > least, "SAMPLE_RATE is too high for SCLK"),
             None => panic!("SAMPLE_RATE is beyond the AD7380"),
         }
@@ -210,11 +209,6 @@ impl Converter for SpiAdc {
     #[inline]
     fn has_overrun(&self) -> bool {
         self.spi.sr().read().ovr().bit_is_set()
-    }
-
-    #[inline]
-    fn is_at_rail(pair: Packed) -> bool {
-        is_at_rail_16(pair)
     }
 }
 

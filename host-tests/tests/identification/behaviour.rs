@@ -228,6 +228,37 @@ fn settings_that_cannot_work_are_refused() {
         error.to_string(),
         "20 periods a window: the ring of blocks holds at most 14"
     );
+    // The rate is the first fault of all, whatever else depends on it; and nothing is changed.
+    let wrong = Settings {
+        sample_rate: 0.0,
+        frequency: Some(5332.0),
+        ..windows(10)
+    };
+    let mut core = Core::new(windows(10)).unwrap();
+    let error = Some(SettingsError::SampleRate(0.0));
+    assert_eq!(Core::new(wrong).err(), error);
+    assert_eq!(core.configure(wrong).err(), error);
+    assert_eq!(core.change(wrong).err(), error);
+    assert_eq!(*core.settings(), windows(10));
+}
+
+#[test]
+fn what_has_no_settings_yet_takes_the_start_angle_of_those_it_changes_to() {
+    let settings = Settings {
+        start_angle: 100.0,
+        ..windows(10)
+    };
+    let mut tracker = Tracker::<256>::UNSET;
+    tracker.change(settings).unwrap();
+    let mut front = Front::<f32, 256>::new(settings).unwrap();
+    let mut angles = Vec::new();
+    for pair in stream(Wave::default(), Flaws::default(), 2000, 1) {
+        if let Some(estimate) = front.push(pair).and_then(|block| tracker.push(block)) {
+            angles.push(estimate.angle);
+        }
+    }
+    assert!(angles.iter().all(|angle| (angle - 100.0).abs() < 0.8));
+    assert!(angles.len() > 5);
 }
 
 #[test]

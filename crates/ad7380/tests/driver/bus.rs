@@ -16,8 +16,8 @@ impl ErrorType for FailingBus {
 
 impl SpiDevice for FailingBus {
     fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), ErrorKind> {
-        // Five writes, then a request and an answer for each of four registers.
-        let answers = [(6, 0x800_u16), (8, 0x7FF), (10, 0x100), (12, 0)];
+        // A reset, then a write, a request and an answer for each of four registers.
+        let answers = [(3, 0x100_u16), (6, 0x800), (9, 0x7FF), (12, 0)];
         if self.frame == self.good {
             return Err(ErrorKind::Overrun);
         }
@@ -51,7 +51,10 @@ fn an_error_of_the_bus_is_passed_on_from_every_frame() {
     .unwrap();
     assert_eq!(adc.read_pair(), Ok([0, 0]));
     assert_eq!(adc.read_pair(), Err(Error::Spi(ErrorKind::Overrun)));
-    assert_eq!(adc.alert(), Err(Error::Spi(ErrorKind::Overrun)));
+    assert_eq!(
+        adc.alert(&mut NoopDelay),
+        Err(Error::Spi(ErrorKind::Overrun))
+    );
     assert_eq!(
         adc.soft_reset(&mut NoopDelay),
         Err(Error::Spi(ErrorKind::Overrun))

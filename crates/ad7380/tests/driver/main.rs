@@ -39,13 +39,13 @@ fn read(address: u16, value: u16) -> Frames {
 fn configured(low: u16, high: u16, configuration1: u16) -> Frames {
     [
         write(0xA0FF), // CONFIGURATION2, RESET = 0xFF
-        write(0xC000 | low),
-        write(0xD000 | high),
         write(0xA100), // CONFIGURATION2, SDO = 1
-        write(0x9000 | configuration1),
-        read(4, low),
-        read(5, high),
         read(2, 0x100),
+        write(0xC000 | low),
+        read(4, low),
+        write(0xD000 | high),
+        read(5, high),
+        write(0x9000 | configuration1),
         read(1, configuration1),
         write(0xA13C), // CONFIGURATION2, SDO = 1, RESET = 0x3C
     ]

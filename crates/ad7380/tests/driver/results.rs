@@ -1,6 +1,7 @@
 //! Pairs and alerts.
 
 use ad7380::*;
+use embedded_hal_mock::eh1::delay::NoopDelay;
 
 use crate::{answer, configured, default_start, read, with};
 
@@ -80,19 +81,19 @@ fn saturation_raises_the_alert_of_its_channel() {
             high: [true, false],
             ..Alert::default()
         };
-        assert_eq!(adc.alert(), Ok(above));
+        assert_eq!(adc.alert(&mut NoopDelay), Ok(above));
         let below = Alert {
             low: [false, true],
             ..Alert::default()
         };
-        assert_eq!(adc.alert(), Ok(below));
-        let both = adc.alert().unwrap();
+        assert_eq!(adc.alert(&mut NoopDelay), Ok(below));
+        let both = adc.alert(&mut NoopDelay).unwrap();
         assert_eq!((both.low, both.high), ([true, false], [false, true]));
         assert_eq!(both.out_of_range(), [true, true]);
-        let failed = adc.alert().unwrap();
+        let failed = adc.alert(&mut NoopDelay).unwrap();
         assert!(failed.crc_failed && failed.setup_failed);
         assert_eq!(failed.out_of_range(), [false, false]);
-        assert_eq!(adc.alert(), Ok(Alert::default()));
+        assert_eq!(adc.alert(&mut NoopDelay), Ok(Alert::default()));
     });
     assert_eq!(at_rail([32_767, -32_768]), [true, true]);
     assert_eq!(at_rail([32_766, -32_767]), [false, false]);

@@ -9,14 +9,35 @@ use crate::{answer, configured, default_start, read, with, write};
 #[test]
 fn resets_configures_reads_back_and_waits() {
     let mut spi = Mock::new(&default_start().concat());
-    let mut delay = CheckedDelay::new(&[
-        Delay::delay_ms(5),
-        Delay::delay_us(10),
-        Delay::delay_us(10),
-        Delay::delay_ns(190),
-    ]);
+    let waits = |conversion| {
+        let mut waits = vec![Delay::delay_ms(5), Delay::delay_us(10)];
+        // A write, and the two frames of a read, of each of four registers.
+        waits.extend((0..12).map(|_| Delay::delay_ns(conversion)));
+        waits.extend([Delay::delay_us(10), Delay::delay_ns(conversion)]);
+        waits
+    };
+    let mut delay = CheckedDelay::new(&waits(190));
     let adc = Ad7380::new(&mut spi, &mut delay, Config::default()).unwrap();
     assert_eq!(*adc.config(), Config::default());
+    spi.done();
+    delay.done();
+
+    // Every frame starts as many conversions as are averaged.
+    let slow = Config {
+        oversampling: Oversampling::Normal {
+            ratio: Ratio::X32,
+            boost: false,
+        },
+        ..Config::default()
+    };
+    let start = [configured(0x800, 0x7FF, 0b01_0100_0000), answer(&[0; 4])];
+    let then = read(3, 0);
+    let mut spi = Mock::new(&[start.concat(), then].concat());
+    let mut waits = waits(31_010);
+    waits.extend([Delay::delay_ns(31_010), Delay::delay_ns(31_010)]);
+    let mut delay = CheckedDelay::new(&waits);
+    let mut adc = Ad7380::new(&mut spi, &mut delay, slow).unwrap();
+    adc.alert(&mut delay).unwrap();
     spi.done();
     delay.done();
 }
@@ -84,35 +105,32 @@ fn every_setting_reaches_its_bits() {
 
 #[test]
 fn a_register_that_reads_otherwise_stops_the_start() {
-    let writes = [
-        write(0xA0FF),
-        write(0xC800),
-        write(0xD7FF),
-        write(0xA100),
-        write(0x9002),
-    ]
-    .concat();
     let config = Config {
         reference: Reference::External,
         ..Config::default()
     };
     let good = [
-        read(4, 0x800),
-        read(5, 0x7FF),
-        read(2, 0x100),
-        read(1, 0x002),
+        [write(0xA100), read(2, 0x100)].concat(),
+        [write(0xC800), read(4, 0x800)].concat(),
+        [write(0xD7FF), read(5, 0x7FF)].concat(),
     ];
     // No chip: the line stays low or high. A chip that lost the write: its own settings after a reset.
     for (broken, register, wrote, value, seen) in [
-        (0, Register::AlertLowThreshold, 0x800, 0x000, 0x000),
-        (0, Register::AlertLowThreshold, 0x800, 0xFFFF, 0xFFF),
-        (1, Register::AlertHighThreshold, 0x7FF, 0x3FF, 0x3FF),
-        (2, Register::Configuration2, 0x100, 0x000, 0x000),
+        (0, Register::Configuration2, 0x100, 0x000, 0x000),
+        (1, Register::AlertLowThreshold, 0x800, 0x000, 0x000),
+        (1, Register::AlertLowThreshold, 0x800, 0xFFFF, 0xFFF),
+        (2, Register::AlertHighThreshold, 0x7FF, 0x3FF, 0x3FF),
         (3, Register::Configuration1, 0x002, 0x000, 0x000),
         (3, Register::Configuration1, 0x002, 0x022, 0x022),
     ] {
-        let reads = [good[..broken].concat(), read(register as u16, value)].concat();
-        let mut spi = Mock::new(&[writes.clone(), reads].concat());
+        let address = register as u16;
+        let frames = [
+            write(0xA0FF),
+            good[..broken].concat(),
+            write(0x8000 | address << 12 | wrote),
+            read(address, value),
+        ];
+        let mut spi = Mock::new(&frames.concat());
         let error = Ad7380::new(&mut spi, &mut NoopDelay, config).unwrap_err();
         assert_eq!(
             error,

@@ -37,7 +37,7 @@ pub enum Ask {
     Get,
     /// Changes the length of a window.
     Window {
-        /// Periods a window, 2 or more; the device refuses too many.
+        /// Periods per window, 2 or more; the device refuses too many.
         #[arg(value_name = "PERIODS", value_parser = value_parser!(u16).range(2..))]
         periods: u16,
     },
@@ -53,14 +53,14 @@ pub enum Ask {
         /// Gain of pick-off D over that of C, 0.1 to 10.
         #[arg(long, value_name = "RATIO", value_parser = ranges::gain_ratio)]
         gain_ratio: Option<f32>,
-        /// How much later than C pick-off D is sampled, ns, within ±1000000.
+        /// How much later pick-off D is sampled than C, ns, within ±1000000.
         #[arg(long, value_name = "NS", value_parser = ranges::skew_ns)]
         skew_ns: Option<f32>,
         /// Pick-off D stands at 45° plus this angle from C, rad, within ±0.3.
         #[arg(long, value_name = "RAD", value_parser = ranges::pick_off_angle)]
         pick_off_angle: Option<f32>,
     },
-    /// Switches the report of the paper's four methods beside every estimate on or off.
+    /// Turns reporting of the paper's four methods beside every estimate on or off.
     Methods {
         /// Whether they are reported.
         #[arg(value_enum)]

@@ -34,37 +34,36 @@ pub struct Identify {
     /// Only samples before this time, s.
     #[arg(long, value_name = "S", value_parser = ranges::time, help_heading = "Recording")]
     pub to: Option<f64>,
-    /// Sample format of recordings without a header: little-endian, S_C and S_D in turn, or among --channels.
-    ///
-    /// WAV and NPY are read as such all the same, and so are lines of numbers in a file named .csv, .tsv, .txt or .lvm.
+    /// Sample format of recordings without a header: little-endian, S_C and S_D interleaved, or two of the --channels.
+    /// WAV and NPY are still read as such, and so are lines of numbers in a file named .csv, .tsv, .txt or .lvm.
     #[arg(long, value_enum, value_name = "FORMAT", help_heading = "Recording")]
     pub raw: Option<RawFormat>,
-    /// How many channels raw samples have, 2 to 64; of more than two, --columns picks S_C and S_D [default: 2].
+    /// How many channels raw samples have, 2 to 64; if more than two, --columns picks S_C and S_D [default: 2].
     #[arg(long, value_name = "N", requires = "raw", value_parser = value_parser!(u8).range(2..=i64::from(MOST_CHANNELS)), help_heading = "Recording")]
     pub channels: Option<u8>,
     /// Where S_C and S_D are: columns of text by name or number from 1, as C,D or TIME,C,D; channels of WAV, NPY and raw samples by number, as
     /// C,D [default: by the names of columns, or all where there are two or three].
     ///
-    /// If only two columns of text are named, its own time is ignored, and --rate gives the rate. With --columns, what is neither WAV nor
-    /// NPY is read as text, unless --raw is given. Lines that begin with #, % or // are comments, and settings above the samples are skipped; a
-    /// line of units may follow the header, and a time in ms, us or ns is understood.
+    /// If only two columns of text are named, the file's own time is ignored, and --rate gives the rate. With --columns, anything but WAV
+    /// and NPY is read as text, unless --raw is given. Lines that begin with #, % or // are comments, and settings above the samples are
+    /// skipped; a line of units may follow the header, and a time in ms, us or ns is understood.
     #[arg(long, value_name = "COLUMNS", help_heading = "Recording")]
     pub columns: Option<Columns>,
-    /// The converter's rails, where samples are flagged `clipped`: ±LEVEL, or LOW,HIGH, as 0,4095 [default: known for integers, none for
-    /// others].
+    /// The converter's rails, where samples are flagged `clipped`: ±LEVEL, or LOW,HIGH, such as 0,4095 [default: known for integers, none
+    /// for others].
     ///
     /// They are in the unit of the samples; integers of WAV, NPY and raw samples are scaled so that full scale is 1.
     #[arg(long, value_name = "LEVEL|LOW,HIGH", value_parser = ranges::rails, allow_hyphen_values = true, help_heading = "Recording")]
     pub full_scale: Option<[f32; 2]>,
     /// The converter's step from code to code, above 0, in the unit of the samples [default: found in the first samples].
     ///
-    /// Deviations need it where noise is less than half of a step. It is found where the first samples are all multiples of one step, in
-    /// integers too, as they may come from a converter of fewer bits; a file may begin with up to 250 000 pairs of silence. In a pipe it is
-    /// found only in text with a time column; integers in a pipe have the step of all their bits. A warning tells where all integers of a
+    /// Deviations need it where noise is less than half of a step. It is found if the first samples are all multiples of one step, even in
+    /// integers, which may come from a converter with fewer bits; a file may begin with up to 250 000 pairs of silence. From a pipe it
+    /// is found only in text with a time column; integers from a pipe are taken to use all their bits. A warning says if all integers of a
     /// recording turn out to be multiples of a coarser step.
     #[arg(long, value_name = "STEP", value_parser = ranges::positive, help_heading = "Recording")]
     pub resolution: Option<f32>,
-    /// Periods a window, 2 to 1022.
+    /// Periods per window, 2 to 1022.
     #[arg(long, default_value_t = 10, value_name = "N", value_parser = value_parser!(u16).range(2..=i64::from(MOST_PERIODS)), help_heading = "Windows")]
     pub periods: u16,
     /// Begin a window every so many blocks [default: where the one before ends].
@@ -76,26 +75,26 @@ pub struct Identify {
     /// The wave's frequency, Hz, if it is known within 5 %: it is then not searched for, and the first window begins with the first
     /// sample.
     ///
-    /// For noise or tones in which the search finds no period, for recordings of a few periods, and for 2.5 to 1024 samples a period, where
-    /// the search needs 4 to 200.
+    /// Use it if noise or tones hide the period from the search, for recordings of a few periods, and for 2.5 to 1024 samples a period; the
+    /// search needs 4 to 200.
     #[arg(long, value_name = "HZ", value_parser = ranges::positive, conflicts_with = "detector", help_heading = "Windows")]
     pub frequency: Option<f32>,
     /// How the period is searched for: if one way finds none, as a second tone may hide it, try the other.
     #[arg(long, value_enum, default_value_t = Detector::Difference, help_heading = "Windows")]
     pub detector: Detector,
-    /// The pattern angle at the start, rad, to within π/4: samples tell it modulo π/2 only; within ±10000 [default: π/4, so that the first
-    /// window's angle lies in 0…π/2].
+    /// The pattern angle at the start, rad, to within π/4, as samples give it only modulo π/2; within ±10000 [default: π/4, so that the
+    /// first window's angle lies in 0…π/2].
     #[arg(long, value_name = "RAD", value_parser = ranges::start_angle, help_heading = "Windows")]
     pub start_angle: Option<f32>,
-    /// Leave out mains hum, or an offset that wanders, which else counts as noise or is flagged `misfit`.
+    /// Remove mains hum or a wandering offset, which otherwise counts as noise or is flagged `misfit`.
     ///
     /// Each block, of a period or two, gets an offset of its own. Windows must have 5 periods or more, or 10 where --hop is given.
     #[arg(long, help_heading = "Noise")]
     pub hum: bool,
-    /// Allow for noise that is not white, as behind a tuned front end, or a filter that cuts off below three times the frequency.
+    /// Allow for noise that is not white, such as behind a tuned front end or a filter that cuts off below three times the frequency.
     ///
-    /// Less of it at three times the frequency is then no fault. In windows of 5 periods or more (10 with --hop) what it has
-    /// at low frequencies does not count, as with --hum. A second tone that is there all along counts as noise.
+    /// Less noise at three times the frequency is then no fault. In windows of 5 periods or more (10 with --hop) noise at low frequencies
+    /// is removed, as with --hum. A second tone that is always present counts as noise.
     #[arg(long, help_heading = "Noise")]
     pub coloured: bool,
     #[command(flatten)]
@@ -103,7 +102,7 @@ pub struct Identify {
     /// How rows are printed.
     #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Table, value_name = "FORMAT", help_heading = "Output")]
     pub output: Format,
-    /// Which methods rows show.
+    /// Which methods' results to show.
     ///
     /// With `all`, columns method1_… to method4_… follow in CSV and JSON lines; those that end in off_sigma are differences from the
     /// exact solution in its standard deviations. They are empty in windows without a wave, or with less than a quarter of a period of

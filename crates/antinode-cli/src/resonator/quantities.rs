@@ -56,7 +56,7 @@ Quantities of CSV and JSON lines, their units, and those of their deviations:
   frequency_hz                 Hz
   frequency_by_energy_hz       Hz, at a_A² + a_B² of one unit of the samples squared
   residual_over_noise          none
-  damping_split_s              1/s, as decay_rate_s of the rows is; no time
+  damping_split_s              1/s, like decay_rate_s of the rows; not a time
   most_damped_at_rad           rad
   frequency_split_hz           Hz
   highest_at_rad               rad

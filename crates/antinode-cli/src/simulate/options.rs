@@ -14,7 +14,7 @@ use crate::recording::SampleFormat;
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub struct Simulate {
-    /// The recording to write: .wav, .csv or .npy. The truth goes beside it, under its name and .json.
+    /// The recording to write: .wav, .csv or .npy. The truth goes beside it, with .json appended to the name.
     #[arg(short = 'o', long, value_name = "FILE")]
     pub out: PathBuf,
     /// Length, s.
@@ -64,13 +64,13 @@ struct WaveOptions {
     /// Decay of the amplitudes, 1/s; with a split, the mean of both modes.
     #[arg(long, default_value_t = 0.0, value_name = "1/S")]
     decay_rate: f64,
-    /// Difference of the decay of both modes, 1/s.
+    /// Difference between the decay rates of the two modes, 1/s.
     #[arg(long, default_value_t = 0.0, value_name = "1/S")]
     damping_split: f64,
     /// Pattern angle at which damping is greatest, rad.
     #[arg(long, default_value_t = 0.0, value_name = "RAD")]
     damping_angle: f64,
-    /// Difference of the frequencies of both modes, Hz; --frequency is their mean.
+    /// Difference between the frequencies of the two modes, Hz; --frequency is their mean.
     #[arg(long, default_value_t = 0.0, value_name = "HZ")]
     frequency_split: f64,
     /// Pattern angle at which the frequency is highest, rad.
@@ -82,7 +82,7 @@ struct WaveOptions {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Flaws")]
 struct FlawOptions {
-    /// White noise, rms a sample and channel, in the units of the amplitudes.
+    /// White noise, rms per sample and channel, in the units of the amplitudes.
     #[arg(long, default_value_t = 0.0, value_name = "RMS")]
     noise: f64,
     /// Offset of S_C, in the units of the amplitudes.
@@ -100,7 +100,7 @@ struct FlawOptions {
     /// Gain of pick-off D over that of C.
     #[arg(long, default_value_t = 1.0, value_name = "RATIO")]
     gain_ratio: f64,
-    /// How much later than C pick-off D is sampled, ns.
+    /// How much later pick-off D is sampled than C, ns.
     #[arg(long, default_value_t = 0.0, value_name = "NS")]
     skew_ns: f64,
     /// Pick-off D stands at 45° plus this angle from C, rad.
@@ -112,22 +112,22 @@ struct FlawOptions {
     /// Level at which |S| is clipped.
     #[arg(long, value_name = "LEVEL")]
     clip: Option<f64>,
-    /// Level at which |S| is clipped between two times, s; may be given again.
+    /// Level at which |S| is clipped between two times, s; may be repeated.
     #[arg(long, value_name = "FROM:TO:LEVEL")]
     clip_span: Vec<Parsed<ClipSpan>>,
-    /// Bits of the converter, 2 to 32 [default: no converter, but the steps of the file].
+    /// Bits of the converter, 2 to 32 [default: no converter; only the file's own steps].
     #[arg(long, value_name = "BITS")]
     bits: Option<u32>,
-    /// Full scale of the converter of --bits.
+    /// Full scale of the converter set by --bits.
     #[arg(long, default_value_t = 1.0, value_name = "LEVEL", requires = "bits")]
     full_scale: f64,
     /// Jitter of the sampling instants, rms, ns.
     #[arg(long, default_value_t = 0.0, value_name = "NS")]
     jitter_ns: f64,
-    /// Sample pairs lost, COUNT of them from INDEX on (from 0); may be given again.
+    /// Sample pairs lost, COUNT of them from INDEX on (from 0); may be repeated.
     #[arg(long, value_name = "INDEX:COUNT")]
     lost: Vec<Parsed<Loss>>,
-    /// A dropout between two times, s; may be given again.
+    /// A dropout between two times, s; may be repeated.
     ///
     /// KIND is zero, hold (the last sample) or noise (no wave); CHANNEL is c or d, or both if not given.
     #[arg(long, value_name = "FROM:TO:KIND[:CHANNEL]")]

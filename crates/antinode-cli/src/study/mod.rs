@@ -31,7 +31,7 @@ Files in the folder:
 #[derive(Debug, Args)]
 #[command(after_help = FILES)]
 pub struct Study {
-    /// The folder that figures and tables go to; it is made where it is missing. Files of an earlier study are written over.
+    /// The folder for figures and tables; it is created if missing. Files of an earlier study are overwritten.
     #[arg(long, default_value = "study", value_name = "DIR")]
     out: PathBuf,
     /// Runs for each point of figure 3, at least 1.

@@ -67,7 +67,7 @@ pub enum Form {
 /// window's equations. Integers need no floating point at sample rate once the period is known.
 ///
 /// No other type can be one: what the core does with them has no public path.
-pub trait Sample: Copy + Debug + Default + PartialEq + Send + Arithmetic + 'static {}
+pub trait Sample: Copy + Debug + Default + PartialOrd + Send + Arithmetic + 'static {}
 
 impl Sample for f32 {}
 impl Sample for i16 {}

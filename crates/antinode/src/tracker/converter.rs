@@ -67,7 +67,7 @@ fn phases(frequency: PhaseStep, samples: f32, width: f32) -> f32 {
         let Some(more) = far.wrapping_sub(near).checked_div(near) else {
             break;
         };
-        let times = more + 1;
+        let times = more.wrapping_add(1);
         (far, near) = (near, far.wrapping_sub(times.wrapping_mul(near)));
         (before, count) = (count, count.saturating_mul(times).saturating_add(before));
     }

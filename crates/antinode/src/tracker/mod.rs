@@ -299,6 +299,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     ///
     /// Those of [`Settings::check`]; nothing is changed then.
     pub fn change(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        if self.settings.periods == 0 {
+            return self.configure(settings);
+        }
         settings.check(BLOCKS)?;
         self.settings = settings;
         let found = self.found;

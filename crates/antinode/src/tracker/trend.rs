@@ -133,7 +133,7 @@ impl Trend {
             let Ok(passed) = u32::try_from(passed) else {
                 continue;
             };
-            if passed < 2 * record.samples.get() {
+            if passed / 2 < record.samples.get() {
                 continue;
             }
             let time = -(passed as f32) * per_half;

@@ -12,6 +12,9 @@ use assert_cmd::Command;
 /// Sample rate of every recording made here, Hz.
 pub const RATE: f64 = 100_000.0;
 
+/// What the project tells first.
+pub const README: &str = include_str!("../../../../../README.md");
+
 /// What a run of the command left behind.
 pub struct Run {
     pub code: i32,

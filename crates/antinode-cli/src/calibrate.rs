@@ -4,7 +4,6 @@ mod moments;
 mod solve;
 
 use std::io::{self, Write};
-use std::path::PathBuf;
 
 use antinode::Flags;
 use clap::Args;
@@ -12,7 +11,7 @@ use clap::Args;
 use crate::digits::{decimals, with_std};
 use crate::failure::Failure;
 use crate::options::Corrected;
-use crate::runs::{BEYOND_NOISE, Runs};
+use crate::runs::{BEYOND_NOISE, Given, Runs};
 use moments::Run;
 use solve::{Found, PickOffs, solve};
 
@@ -23,9 +22,8 @@ const MOST_TURN: f64 = 0.1;
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub struct Calibrate {
-    /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
-    #[arg(required = true, value_name = "ROWS")]
-    pub rows: Vec<PathBuf>,
+    #[command(flatten)]
+    pub given: Given,
     // What the rows were identified with.
     #[command(flatten)]
     pub corrected: Corrected,
@@ -34,7 +32,7 @@ pub struct Calibrate {
 /// Finds the calibration and prints it as options.
 pub fn run(options: &Calibrate) -> Result<(), Failure> {
     let corrected = PickOffs::from(&options.corrected);
-    let (rows, name) = Runs::open(&options.rows, MOST_TURN, Flags::REACQUIRED)?;
+    let (rows, name) = Runs::open(&options.given, MOST_TURN, Flags::REACQUIRED)?;
     let runs: Vec<_> = rows
         .runs
         .iter()
@@ -105,8 +103,9 @@ fn tell(
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,
-            "warning: rows differ from the calibrated wave by {:.1} times their noise: something else moves with the angle, or a pick-off or the \
-             converter is nonlinear; the deviations above are wider by that, and the values may be further off than these",
+            "warning: rows differ from the calibrated wave by {:.1} times their noise: the wave is still driven in some rows (see --from), something \
+             else moves with the angle, or a pick-off or the converter is nonlinear; the deviations above are wider by that, and the values may \
+             be further off than these",
             found.residual
         )?;
     }

@@ -12,14 +12,13 @@ mod start;
 
 use std::f64::consts::PI;
 use std::io::{self, Write};
-use std::path::PathBuf;
 
 use antinode::Flags;
 use clap::Args;
 
 use crate::failure::Failure;
 use crate::options::Format;
-use crate::runs::{BEYOND_NOISE, Run, Runs};
+use crate::runs::{BEYOND_NOISE, Given, Run, Runs};
 use by_energy::ByEnergy;
 use fit::fit;
 use found::Found;
@@ -48,11 +47,10 @@ fn is_alike(correlation: f64, count: f64) -> bool {
 
 /// `antinode resonator`.
 #[derive(Debug, Args)]
-#[command(after_long_help = HELP)]
+#[command(after_long_help = HELP, allow_negative_numbers = true)]
 pub struct Resonator {
-    /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
-    #[arg(required = true, value_name = "ROWS")]
-    pub rows: Vec<PathBuf>,
+    #[command(flatten)]
+    pub given: Given,
     /// How the quantities are printed: a table in degrees, or CSV or JSON lines in radians.
     #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
     pub output: Format,
@@ -60,7 +58,7 @@ pub struct Resonator {
 
 /// Finds the resonator and prints it.
 pub fn run(options: &Resonator) -> Result<(), Failure> {
-    let (rows, name) = Runs::open(&options.rows, MOST_TURN, BREAKS)?;
+    let (rows, name) = Runs::open(&options.given, MOST_TURN, BREAKS)?;
     let found = fit(&rows.runs).map_err(|_| {
         Failure::Recording(format!(
             "{name}: no resonator explains the rows: see that nothing drives the gyro while it rings down, \
@@ -77,14 +75,15 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
             let mut writer = csv::Writer::from_writer(&mut out);
             for quantity in &quantities {
                 writer
-                    .serialize(Row::from(quantity))
+                    .serialize(Row::new(quantity, &rows, &listed))
                     .map_err(io::Error::from)?;
             }
             writer.flush()?;
         }
         Format::Jsonl => {
             for quantity in &quantities {
-                serde_json::to_writer(&mut out, &Row::from(quantity)).map_err(io::Error::from)?;
+                let row = Row::new(quantity, &rows, &listed);
+                serde_json::to_writer(&mut out, &row).map_err(io::Error::from)?;
                 writeln!(out)?;
             }
         }
@@ -97,9 +96,14 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
 /// How fast the patterns turn, rad/s, where all that turn do so one way, and too few stand still.
 fn one_way(rows: &Runs, listed: &[usize]) -> Option<f64> {
     let runs = listed.iter().map(|&run| &rows.runs[run]);
-    let (turning, still): (Vec<&Run>, Vec<&Run>) = runs.partition(|run| run.turned.abs() > TURNS);
-    let way = turning.first()?.turned.signum();
-    let is_one_way = turning.iter().all(|run| run.turned.signum() == way);
+    let furthest = |run: &Run| {
+        let [back, forth] = run.turns();
+        [-back, forth].map(|turned| turned > TURNS)
+    };
+    let (turning, still): (Vec<&Run>, Vec<&Run>) =
+        runs.partition(|run| furthest(run).contains(&true));
+    let ways = furthest(turning.first()?);
+    let is_one_way = ways != [true; 2] && turning.iter().all(|run| furthest(run) == ways);
     let turned: f64 = turning.iter().map(|run| run.turned.abs()).sum();
     let seconds: f64 = turning.iter().map(|run| run.seconds()).sum();
     (is_one_way && still.len() < ENOUGH_STILL).then(|| turned / seconds)
@@ -170,8 +174,15 @@ fn tell(
              the mean frequency is wider by that{with}"
         )?;
     }
-    let why = "the rotation or the damping changes meanwhile, or with the amplitude, the pick-offs are not calibrated, or a pick-off or the \
-               converter is nonlinear";
+    if found.is_turned() {
+        writeln!(
+            out,
+            "the rotation is not steady: the angles of the patterns are taken from the rows as they are, and tell nothing of the splits by \
+             their drift"
+        )?;
+    }
+    let why = "the wave is still driven in some rows (see --from), the damping changes meanwhile, or with the amplitude, the pick-offs are \
+               not calibrated, or a pick-off or the converter is nonlinear";
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,
@@ -179,7 +190,7 @@ fn tell(
              values may be further off than these",
             found.residual
         )?;
-    } else if is_alike(found.alike, 3.0 * rows.used() as f64) {
+    } else if found.is_alike() {
         writeln!(
             out,
             "warning: rows that follow each other differ from the resonator's motion alike, which noise does not: {why}; the values may be \

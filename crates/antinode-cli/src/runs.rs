@@ -6,11 +6,14 @@ mod row;
 
 use std::f64::consts::FRAC_PI_2;
 use std::io::{self, Read, Write};
+use std::ops::Range;
 use std::path::PathBuf;
 
 use antinode::Flags;
+use clap::Args;
 
 use crate::failure::Failure;
+use crate::ranges::{self, in_order};
 use crate::row_file::{self, RowFile};
 use jump::jumps;
 use row::Places;
@@ -22,6 +25,20 @@ pub const BEYOND_NOISE: f64 = 2.0;
 const LEAST_ROWS: usize = 12;
 /// Windows overlap where one follows another by less than this share of its length, which is known to a few per cent.
 const APART: f64 = 0.97;
+
+/// The rows that a fit is given.
+#[derive(Debug, Args)]
+pub struct Given {
+    /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
+    #[arg(required = true, value_name = "ROWS")]
+    pub rows: Vec<PathBuf>,
+    /// Only rows from this time on, s, as in their `time_s`: leave out what comes before the drive ends.
+    #[arg(long, value_name = "S", value_parser = ranges::time)]
+    pub from: Option<f64>,
+    /// Only rows before this time, s.
+    #[arg(long, value_name = "S", value_parser = ranges::time)]
+    pub to: Option<f64>,
+}
 
 /// A span of rows without a break.
 #[derive(Debug, Clone, Default)]
@@ -37,8 +54,11 @@ pub struct Run {
 #[derive(Debug)]
 pub struct Runs {
     pub runs: Vec<Run>,
-    /// Rows read, flagged ones among them.
+    /// Rows read, flagged ones among them, but for those outside the times asked for.
     pub rows: usize,
+    /// The first and the last time that there is, s, and the times asked for.
+    span: Option<[f64; 2]>,
+    asked: Range<f64>,
     /// Clean rows left out, for their windows overlap the one before: they would tell the same noise again.
     pub overlapping: usize,
     /// Clean rows of a recording that are not later than the one before.
@@ -50,14 +70,13 @@ pub struct Runs {
 }
 
 impl Runs {
-    /// Reads files of rows, `-` being standard input; gives their names too. A run ends where the pattern turns by more than `most_turn` rad
+    /// Reads the rows given; gives the names of their files too. A run ends where the pattern turns by more than `most_turn` rad
     /// from row to row, where the wave jumps across rows left out, and at a row that has one of the flags `breaks`.
-    pub fn open(
-        paths: &[PathBuf],
-        most_turn: f64,
-        breaks: Flags,
-    ) -> Result<(Self, String), Failure> {
+    pub fn open(given: &Given, most_turn: f64, breaks: Flags) -> Result<(Self, String), Failure> {
+        in_order(given.from, given.to)?;
+        let paths = &given.rows;
         let mut runs = Self::new(most_turn, breaks);
+        runs.asked = given.from.unwrap_or(f64::NEG_INFINITY)..given.to.unwrap_or(f64::INFINITY);
         let mut names = Vec::new();
         for (index, path) in paths.iter().enumerate() {
             if paths[..index].contains(path) {
@@ -78,6 +97,8 @@ impl Runs {
         Self {
             runs: Vec::new(),
             rows: 0,
+            span: None,
+            asked: f64::NEG_INFINITY..f64::INFINITY,
             overlapping: 0,
             backward: 0,
             most_turn,
@@ -89,6 +110,11 @@ impl Runs {
     fn fault(&self, name: &str) -> Option<Failure> {
         let recording = |why: String| Some(Failure::Recording(format!("{name}: {why}")));
         if self.runs.is_empty() {
+            if let (0, Some([first, last])) = (self.rows, self.span) {
+                return recording(format!(
+                    "no row lies within --from and --to: their times go from {first} s to {last} s"
+                ));
+            }
             // Else rows that are out of order are seen as runs of a few.
             if 3 * self.backward > self.rows {
                 return recording(format!(
@@ -162,6 +188,14 @@ impl Runs {
         // True where rows were left out that hold more than a circle.
         let mut is_torn = false;
         while let Some(record) = rows.next()? {
+            // A lost wave's row need not have a time: it then is as any other.
+            if let Some(time) = places.time(record) {
+                let [first, last] = self.span.unwrap_or([time; 2]);
+                self.span = Some([first.min(time), last.max(time)]);
+                if !self.asked.contains(&time) {
+                    continue;
+                }
+            }
             self.rows += 1;
             if !record[flags].is_empty() {
                 let flags = row_file::flags(&record[flags]);
@@ -226,6 +260,18 @@ impl Run {
     /// From the first row to the last, s.
     pub fn seconds(&self) -> f64 {
         self.rows[self.rows.len() - 1].time - self.rows[0].time
+    }
+
+    /// How far the pattern turns backwards at most, rad, at most 0, and forwards: from any row to any later one.
+    pub fn turns(&self) -> [f64; 2] {
+        let (mut angle, mut turns) = (0.0, [0f64; 2]);
+        let (mut least, mut most) = (0f64, 0f64);
+        for pair in self.rows.windows(2) {
+            angle += turn(pair[1].angle - pair[0].angle);
+            (least, most) = (least.min(angle), most.max(angle));
+            turns = [turns[0].min(angle - most), turns[1].max(angle - least)];
+        }
+        turns
     }
 
     /// True when the window of the last row, if any, has samples of this one.

@@ -28,8 +28,8 @@ pub struct Moment {
 #[derive(Debug, Clone)]
 pub struct Run {
     pub moments: Vec<Moment>,
-    /// By how much the pattern turns, rad.
-    pub turned: f64,
+    /// How far the pattern turns backwards at most, at most 0, and forwards, rad.
+    pub turns: [f64; 2],
 }
 
 impl Run {
@@ -38,7 +38,7 @@ impl Run {
         let moments = run.rows.iter().map(|row| Moment::new(row, corrected));
         Self {
             moments: moments.collect(),
-            turned: run.turned,
+            turns: run.turns(),
         }
     }
 

@@ -116,7 +116,7 @@ impl Fault {
 /// Finds the calibration that lets energy and quadrature run evenly; `start` is where the search begins.
 pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
     let turned = runs.iter().fold([0f64; 2], |[back, forth], run| {
-        [back.min(run.turned), forth.max(run.turned)]
+        [back.min(run.turns[0]), forth.max(run.turns[1])]
     });
     let [back, forth] = turned.map(|turned| turned.abs() >= LEAST_TURN);
     if !back && !forth {

@@ -4,16 +4,14 @@
 //! growth of its quadrature of its own, which any run tells. The resonator that the runs share takes their place where they tell it: a
 //! pattern that stands still sees one side of each split alone. The steps are those of Levenberg and Marquardt.
 
-use nalgebra::{Cholesky, Complex, DMatrix, DVector, Dyn, SMatrix, SVector};
+use nalgebra::{Cholesky, Complex, DMatrix, DVector, Dyn, RowSVector, SMatrix, SVector};
 
-use super::found::Found;
-use super::model::{Model, Term, parameters};
-use super::motion::{Motion, PARAMETERS};
+use super::found::{Found, OfRun, TOGETHER};
+use super::model::{Model, Term};
+use super::motion::PARAMETERS;
 use super::start::start;
-use crate::runs::Run;
+use crate::runs::{Run, turn};
 
-/// From this residual over the rows' own deviations on, the runs do not explain the rows each by itself.
-const TOGETHER: f64 = 1.5;
 /// Below this all patterns are one, and what seems to tell them apart is noise: 3° between two runs, 5° of one that turns.
 const LEAST_SPREAD: f64 = 0.005;
 /// Steps at most; ten do.
@@ -36,10 +34,22 @@ pub struct Unsettled;
 
 /// Finds the resonator whose waves come nearest to the rows.
 pub fn fit(runs: &[Run]) -> Result<Found, Unsettled> {
-    let found = |model| {
-        let values = start(runs, model).ok_or(Unsettled)?;
-        settle(runs, model, values)
-    };
+    let steady = steady(runs);
+    if steady.as_ref().is_ok_and(Found::is_explained) {
+        return steady;
+    }
+    // As a table turns that speeds up, ripples or goes to and fro.
+    let turned = turned(runs);
+    match (steady, turned) {
+        (Ok(steady), Ok(turned)) if turned.explains_more(&steady) => Ok(turned),
+        (Err(_), turned) => turned,
+        (steady, _) => steady,
+    }
+}
+
+/// Where nothing but the resonator and a steady rotation turns the patterns.
+fn steady(runs: &[Run]) -> Result<Found, Unsettled> {
+    let found = |model| found(runs, model);
     let each = found(Model::Each);
     // Beyond noise even one pattern that hardly moves shows how the splits move it.
     let is_enough = |each: &Found| {
@@ -55,6 +65,22 @@ pub fn fit(runs: &[Run]) -> Result<Found, Unsettled> {
     // As an unknown that is nothing it would leave less known of all others: of rotation above all, which quadrature that stays is like.
     let nonlinear = told(Model::Nonlinear).filter(Found::is_nonlinear);
     nonlinear.or_else(|| told(Model::Shared)).map_or(each, Ok)
+}
+
+/// Where patterns are turned as it happens.
+fn turned(runs: &[Run]) -> Result<Found, Unsettled> {
+    let each = found(runs, Model::EachTurned);
+    let shared = found(runs, Model::SharedTurned);
+    match shared {
+        Ok(shared) if is_told(&shared.covariance, &shared, each.as_ref().ok()) => Ok(shared),
+        _ => each,
+    }
+}
+
+/// What a model finds.
+fn found(runs: &[Run], model: Model) -> Result<Found, Unsettled> {
+    let values = start(runs, model).ok_or(Unsettled)?;
+    settle(runs, model, values)
 }
 
 /// True where rows of such runs tell the splits, if these are small: where nothing tells them a fit may find great ones, which seem told.
@@ -84,12 +110,12 @@ fn spread(runs: &[Run]) -> f64 {
 /// True where the rows tell both splits, whose unknowns have this covariance; what `found` says of the decays along the patterns is known
 /// wherever these stand.
 fn is_told(covariance: &DMatrix<f64>, found: &Found, each: Option<&Found>) -> bool {
-    let runs = found.shares.len();
+    let runs = found.of_runs.len();
     let decays = (0..runs).map(|run| found.decay_of_run(run).0.abs());
     let decay = decays.sum::<f64>() / runs as f64;
     let growths = each
         .iter()
-        .flat_map(|each| (0..runs).map(move |run| each.values[each.model.own_at(run) + 5].abs()));
+        .flat_map(|each| (0..runs).map(move |run| each.values[each.model.decay_at(run) + 1].abs()));
     let growth = growths.fold(0.0, f64::max);
     let knows = |at: usize, most: f64| (at..at + 2).all(|i| covariance[(i, i)] < most * most);
     knows(Model::DAMPING, TOLD[0] * decay)
@@ -103,9 +129,9 @@ fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Result<Found,
     let mut most = SETTLED;
     for _ in 0..STEPS {
         let whole = normal.step(0.0).ok_or(Unsettled)?;
-        if normal.right.dot(&whole) < most * normal.widening(runs, &values) {
+        if normal.right.dot(&whole) < most * normal.widening(&values) {
             let values = values + whole;
-            return Normal::of(runs, model, &values).conclude(runs, model, values);
+            return Normal::of(runs, model, &values).conclude(model, values);
         }
         let moved = &values + normal.step(damping).ok_or(Unsettled)?;
         let next = Normal::of(runs, model, &moved);
@@ -132,7 +158,9 @@ struct Normal {
     squares: f64,
     /// Sum of the products of what is left of rows that follow each other.
     neighbours: f64,
-    shares: Vec<[f64; 2]>,
+    of_runs: Vec<OfRun>,
+    /// Numbers of the rows that are explained.
+    count: f64,
 }
 
 impl Normal {
@@ -143,31 +171,36 @@ impl Normal {
             right: DVector::zeros(unknowns),
             squares: 0.0,
             neighbours: 0.0,
-            shares: Vec::with_capacity(runs.len()),
+            of_runs: Vec::with_capacity(runs.len()),
+            count: 0.0,
         };
         for (index, run) in runs.iter().enumerate() {
-            normal.add(run, &model.terms(index, run), values);
+            normal.add(run, model, &model.terms(index, run), values);
         }
         normal
     }
 
     /// Adds the rows of a run.
-    fn add(&mut self, run: &Run, terms: &[Term], values: &DVector<f64>) {
-        let mut motion = Motion::new(&parameters(terms, values));
+    fn add(&mut self, run: &Run, model: Model, terms: &[Term], values: &DVector<f64>) {
+        let mut motion = model.motion(run, terms, values);
         let mut before = [0.0; 3];
-        let mut time = run.rows[0].time;
+        let mut last = &run.rows[0];
         let mut shares = [0.0; 2];
+        let mut squares = 0.0;
+        let (mut turned, mut of_turned) = (0.0, RowSVector::zeros());
         // The run's own equations, for the parameters of its motion.
         let mut matrix = SMatrix::<f64, PARAMETERS, PARAMETERS>::zeros();
         let mut right = SVector::<f64, PARAMETERS>::zeros();
         for row in &run.rows {
-            motion.advance(row.time - time);
-            time = row.time;
+            let (beyond, derivatives) = model.advance(&mut motion, last, row);
+            turned += turn(row.angle - last.angle) - beyond;
+            last = row;
+            of_turned += derivatives;
             // What a window averages changes the derivatives by too little to matter.
             let (rest, derivatives) = motion.rest(row);
             for (index, (rest, deviation)) in rest.iter().zip(row.deviations).enumerate() {
                 let (rest, line) = (*rest / deviation, derivatives.row(index) / deviation);
-                self.squares += rest * rest;
+                squares += rest * rest;
                 self.neighbours += rest * std::mem::replace(&mut before[index], rest);
                 right += line.transpose() * rest;
                 matrix += line.transpose() * line;
@@ -184,7 +217,20 @@ impl Normal {
                 self.matrix[(place, other)] += along.dot(&SVector::from(direction));
             }
         }
-        self.shares.push(shares);
+        self.squares += squares;
+        self.count += (model.explained() * run.rows.len()) as f64;
+        let seconds = run.seconds();
+        let along = |direction| of_turned.transpose().dot(&SVector::from(direction)) / seconds;
+        self.of_runs.push(OfRun {
+            shares,
+            residual: (squares / (model.explained() * run.rows.len() - 4) as f64).sqrt(),
+            rotation: turned / seconds,
+            of_rotation: terms
+                .iter()
+                .map(|&(place, by)| (place, -along(by)))
+                .collect(),
+            rotation_noise: run.rows[0].deviations[2].hypot(last.deviations[2]) / seconds,
+        });
     }
 
     /// The step that a damping leaves.
@@ -206,32 +252,26 @@ impl Normal {
     }
 
     /// The rms residual over the rows' own deviations.
-    fn residual(&self, runs: &[Run], values: &DVector<f64>) -> f64 {
-        let rows: usize = runs.iter().map(|run| run.rows.len()).sum();
-        (self.squares / (3 * rows - values.len()) as f64).sqrt()
+    fn residual(&self, values: &DVector<f64>) -> f64 {
+        (self.squares / (self.count - values.len() as f64)).sqrt()
     }
 
     /// What variances are multiplied by where the residual is beyond the rows' own.
-    fn widening(&self, runs: &[Run], values: &DVector<f64>) -> f64 {
-        self.residual(runs, values).max(1.0).powi(2)
+    fn widening(&self, values: &DVector<f64>) -> f64 {
+        self.residual(values).max(1.0).powi(2)
     }
 
-    fn conclude(
-        self,
-        runs: &[Run],
-        model: Model,
-        values: DVector<f64>,
-    ) -> Result<Found, Unsettled> {
+    fn conclude(self, model: Model, values: DVector<f64>) -> Result<Found, Unsettled> {
         let covariance = self.covariance().ok_or(Unsettled)?;
-        let rows: f64 = runs.iter().map(|run| run.rows.len() as f64).sum();
         Ok(Found {
             model,
-            covariance: covariance * self.widening(runs, &values),
-            residual: self.residual(runs, &values),
+            covariance: covariance * self.widening(&values),
+            residual: self.residual(&values),
             // What is far below the rows' own deviations does no harm.
-            alike: self.neighbours / self.squares.max(3.0 * rows),
+            alike: self.neighbours / self.squares.max(self.count),
             values,
-            shares: self.shares,
+            count: self.count,
+            of_runs: self.of_runs,
         })
     }
 }

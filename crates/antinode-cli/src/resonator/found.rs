@@ -2,12 +2,18 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::model::{Model, parameters};
-use super::motion::Motion;
+use super::is_alike;
+use super::model::Model;
 use crate::runs::Run;
 
 /// Of fewer deviations than this, what amplitudes turn patterns by is taken to be nothing: more would be missed than it spares.
 const NONLINEAR_SEEN: f64 = 2.0;
+
+/// From this residual over the rows' own deviations on, the runs do not explain the rows each by itself.
+pub(super) const TOGETHER: f64 = 1.5;
+
+/// A variance that is less than another's by so many deviations of chance is less.
+const LESS_SEEN: f64 = 5.0;
 
 /// What was found.
 #[derive(Debug)]
@@ -21,8 +27,23 @@ pub struct Found {
     pub residual: f64,
     /// How much alike the residuals of rows that follow each other are, −1 to 1: 0 where there is nothing but noise.
     pub alike: f64,
-    /// The means of R/E and of S/E over each run.
-    pub(super) shares: Vec<[f64; 2]>,
+    /// Numbers of the rows that are explained: a_A and a_B, and θ but where patterns are turned as it happens.
+    pub count: f64,
+    pub(super) of_runs: Vec<OfRun>,
+}
+
+/// What was found of a run.
+#[derive(Debug)]
+pub(super) struct OfRun {
+    /// The means of R/E and of S/E.
+    pub shares: [f64; 2],
+    /// The rms residual over the rows' own deviations.
+    pub residual: f64,
+    /// Where patterns are turned as it happens: by how much this one was turned beside what the splits made of that, rad/s, the derivatives
+    /// of this by the unknowns, and the noise of its angles in it.
+    pub rotation: f64,
+    pub of_rotation: Vec<(usize, f64)>,
+    pub rotation_noise: f64,
 }
 
 /// A value and its standard deviation.
@@ -73,7 +94,7 @@ impl Found {
     pub fn decay_of_run(&self, run: usize) -> Measured {
         let mut terms = vec![(self.model.decay_at(run), 1.0)];
         if self.model.is_shared() {
-            let shares = self.shares[run].iter().enumerate();
+            let shares = self.of_runs[run].shares.iter().enumerate();
             terms.extend(shares.map(|(i, share)| (Model::DAMPING + i, 0.5 * share)));
         }
         self.sum(&terms)
@@ -85,11 +106,50 @@ impl Found {
             decay: self.sum(&[(self.model.decay_at(0), 1.0)]),
             damping_split: self.split(Model::DAMPING),
             frequency_split: self.split(Model::FREQUENCY),
-            rotations: (0..self.shares.len())
-                .map(|run| self.sum(&[(self.model.own_at(run), -0.5)]))
+            rotations: (0..self.of_runs.len())
+                .map(|run| self.rotation(run))
                 .collect(),
             turning_by_amplitudes: self.turning_by_amplitudes(),
         })
+    }
+
+    /// What rotation turns the pattern of a run by, rad/s.
+    fn rotation(&self, run: usize) -> Measured {
+        if !self.model.is_turned() {
+            return self.sum(&[(self.model.own_at(run), -0.5)]);
+        }
+        let of_run = &self.of_runs[run];
+        let (rotation, std) = self.measured(of_run.rotation, &of_run.of_rotation);
+        (rotation, std.hypot(of_run.rotation_noise))
+    }
+
+    /// The rms residual of a run over its rows' own deviations, and one standard deviation of it.
+    pub fn residual_of_run(&self, run: usize, rows: usize) -> Measured {
+        let count = (2 * self.model.explained() * rows) as f64;
+        let residual = self.of_runs[run].residual;
+        (residual, residual / count.sqrt())
+    }
+
+    /// True where patterns are turned as it happens, not steadily.
+    pub fn is_turned(&self) -> bool {
+        self.model.is_turned()
+    }
+
+    /// True where nothing but noise is left.
+    pub fn is_explained(&self) -> bool {
+        self.residual < TOGETHER && !self.is_alike()
+    }
+
+    /// True where residuals of rows that follow each other are alike, and not by chance.
+    pub fn is_alike(&self) -> bool {
+        is_alike(self.alike, self.count)
+    }
+
+    /// True where it leaves less than another, and not by chance.
+    pub fn explains_more(&self, other: &Self) -> bool {
+        let less = (other.residual / self.residual).powi(2) - 1.0;
+        let chance = LESS_SEEN * (2.0 / self.count + 2.0 / other.count).sqrt();
+        less > chance || other.is_alike() && !self.is_alike()
     }
 
     /// What a_A a_B of one input unit squared turns a pattern by, rad/s, where it is an unknown.
@@ -107,12 +167,13 @@ impl Found {
     pub fn frequency_moved(&self, runs: &[Run]) -> Vec<Moved> {
         let mut list = Vec::new();
         for (index, run) in runs.iter().enumerate() {
-            let mut motion = Motion::new(&parameters(&self.model.terms(index, run), &self.values));
-            let mut time = run.rows[0].time;
+            let terms = self.model.terms(index, run);
+            let mut motion = self.model.motion(run, &terms, &self.values);
+            let mut last = &run.rows[0];
             let mut before = motion.frequency_by_turning();
             for row in &run.rows {
-                motion.advance(row.time - time);
-                time = row.time;
+                self.model.advance(&mut motion, last, row);
+                last = row;
                 let by_turning = motion.frequency_by_turning();
                 let by_splits = if self.model.is_shared() {
                     motion.frequency_by_splits()

@@ -13,10 +13,11 @@
 //! r being how far both pick-offs' modes are from rest, γ is βω/8, and the frequency rises by 3γE rad/s beside that.
 
 use nalgebra::{
-    Complex, Matrix3x4, Matrix4, Matrix4x3, RowVector4, SMatrix, SVector, Vector3, Vector4,
+    Complex, Matrix3x4, Matrix4, Matrix4x3, RowSVector, RowVector4, SMatrix, SVector, Vector3,
+    Vector4,
 };
 
-use crate::runs::Row;
+use crate::runs::{Row, turn};
 
 /// What moves a wave: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, γ, κ.
 pub const RATES: usize = 7;
@@ -48,6 +49,16 @@ pub fn by_rates(state: &Vector4<f64>) -> SMatrix<f64, 4, RATES> {
         turning * q,
         turning,
     ])
+}
+
+/// By which rates, all but γ, move the state.
+fn matrix(rates: &SVector<f64, RATES>) -> Matrix4<f64> {
+    // γ does nothing to these: it wants Q and another.
+    let units = Matrix4::identity();
+    let moved = units
+        .column_iter()
+        .map(|unit| by_rates(&unit.into_owned()) * rates);
+    Matrix4::from_columns(&moved.collect::<Vec<_>>())
 }
 
 /// The state E, R, S, Q, and its derivatives by the rates and by what it started with.
@@ -90,16 +101,38 @@ impl Motion {
             .fixed_columns_mut::<3>(1 + RATES)
             .copy_from(&by_start);
         let rates = SVector::from(rates);
-        // γ does nothing to these: it wants Q and another.
-        let units = Matrix4::identity();
-        let moved = units
-            .column_iter()
-            .map(|unit| by_rates(&unit.into_owned()) * rates);
         Self {
             columns,
             rates,
-            matrix: Matrix4::from_columns(&moved.collect::<Vec<_>>()),
+            matrix: matrix(&rates),
         }
+    }
+
+    /// Has the pattern turned by so much from now on, rad/s, beside what splits make of that.
+    pub fn steer(&mut self, rate: f64) {
+        self.rates[KAPPA] = -2.0 * rate;
+        self.matrix = matrix(&self.rates);
+    }
+
+    /// Where the pattern will stand in so many seconds.
+    pub fn angle_after(&self, seconds: f64) -> f64 {
+        let now = self.columns.column(0).into_owned();
+        let then = self.moved(now, seconds, |state| self.slope(state));
+        0.25 * then[2].atan2(then[1])
+    }
+
+    /// Turns the pattern to an angle, where no parameter moves it: gives by how much it stood beyond that, and the derivatives of this.
+    pub fn turn_to(&mut self, angle: f64) -> (f64, RowSVector<f64, PARAMETERS>) {
+        let (r, s) = (self.columns[(1, 0)], self.columns[(2, 0)]);
+        let apart = r.hypot(s).max(f64::MIN_POSITIVE);
+        let [by_r, by_s] = [1, 2].map(|row| self.columns.row(row).into_owned());
+        let along = (by_r * r + by_s * s) / apart;
+        let across = (by_s * r - by_r * s) * (0.25 / (apart * apart));
+        let (sine, cosine) = (4.0 * angle).sin_cos();
+        self.columns.set_row(1, &(along * cosine));
+        self.columns.set_row(2, &(along * sine));
+        let beyond = turn(0.25 * s.atan2(r) - angle);
+        (beyond, across.fixed_columns::<PARAMETERS>(1).into_owned())
     }
 
     /// How fast a state changes.

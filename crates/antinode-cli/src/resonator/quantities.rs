@@ -60,7 +60,10 @@ Quantities of CSV and JSON lines, their units, and those of their deviations:
   most_damped_at_rad           rad
   frequency_split_hz           Hz
   highest_at_rad               rad
-  turning_by_amplitudes_rad_s  rad/s, at a_A·a_B of one unit of the samples squared";
+  turning_by_amplitudes_rad_s  rad/s, at a_A·a_B of one unit of the samples squared
+
+What is of one run has its number in `run`, its recording in `file`, and the times of its rows in `from_s` and `to_s`. Residuals near 1
+are noise; where one is larger, something else moves in that run.";
 
 /// A quantity of the resonator, or of one run.
 pub struct Quantity {
@@ -74,22 +77,31 @@ pub struct Quantity {
 
 /// A quantity as CSV and JSON lines have it; the names are the columns.
 #[derive(Serialize)]
-pub struct Row {
+pub struct Row<'a> {
     /// From 1.
     run: Option<usize>,
     quantity: &'static str,
     value: f64,
     std: Option<f64>,
+    /// The run's recording, and the times of its first row and its last.
+    file: Option<&'a str>,
+    from_s: Option<f64>,
+    to_s: Option<f64>,
 }
 
-impl From<&Quantity> for Row {
-    fn from(quantity: &Quantity) -> Self {
+impl<'a> Row<'a> {
+    /// That of a quantity found in rows, in the runs listed of these.
+    pub fn new(quantity: &Quantity, rows: &'a Runs, listed: &[usize]) -> Self {
+        let run = quantity.run.map(|run| &rows.runs[listed[run]]);
         Self {
             run: quantity.run.map(|run| run + 1),
             quantity: quantity.kind.name,
             // More would be digits of nothing.
             value: significant(quantity.value, 12),
             std: (quantity.std > 0.0).then(|| significant(quantity.std, 6)),
+            file: run.map(|run| run.file.as_str()),
+            from_s: run.map(|run| run.rows[0].time),
+            to_s: run.map(|run| run.rows[run.rows.len() - 1].time),
         }
     }
 }
@@ -120,12 +132,14 @@ pub fn quantities(
         if let Some(resonator) = &resonator {
             add(run, ROTATION, resonator.rotations[place]);
         }
+        let count = rows.runs[place].rows.len();
+        add(run, RESIDUAL, found.residual_of_run(place, count));
     }
     add(None, FREQUENCY, frequency.mean);
     if let Some(by_energy) = frequency.by_energy.told() {
         add(None, BY_ENERGY, by_energy);
     }
-    let of_residual = found.residual / (6.0 * rows.used() as f64).sqrt();
+    let of_residual = found.residual / (2.0 * found.count).sqrt();
     add(None, RESIDUAL, (found.residual, of_residual));
     let Some(resonator) = resonator else {
         return list;
@@ -180,11 +194,17 @@ pub fn table(
             Some(index) => {
                 let run = &rows.runs[listed[index]];
                 let turned = fixed(1, run.turned.to_degrees());
+                let file = if run.file.is_empty() {
+                    String::new()
+                } else {
+                    format!("{}, ", run.file)
+                };
                 writeln!(
                     out,
-                    "run {}: {:.1} s, the pattern at {}° turns by {}{turned}°",
+                    "run {}: {file}{:.1} s from {:.1} s on, the pattern at {}° turns by {}{turned}°",
                     index + 1,
                     run.seconds(),
+                    run.rows[0].time,
                     fixed(1, run.rows[0].angle.to_degrees()),
                     if turned.starts_with('-') { "" } else { "+" },
                 )?;

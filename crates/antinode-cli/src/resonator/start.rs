@@ -16,12 +16,29 @@ const RIDGE: f64 = 1e-10;
 pub fn start(runs: &[Run], model: Model) -> Option<DVector<f64>> {
     let unknowns = model.unknowns(runs.len());
     let mut normal = Normal {
-        // E, R and S at first stand where a_A, a_B and θ will, and Q behind all.
+        // E, R and S at first stand where a_A, a_B and θ will, and Q behind all; or E and Q where a_A and a_B will.
         matrix: DMatrix::zeros(unknowns + runs.len(), unknowns + runs.len()),
         right: DVector::zeros(unknowns + runs.len()),
     };
     for (index, run) in runs.iter().enumerate() {
-        normal.add(run, &model.terms(index, run), unknowns + index);
+        let own = model.own_at(index);
+        let begins = if model.is_turned() {
+            vec![(0, own), (3, own + 1)]
+        } else {
+            vec![
+                (0, own + 1),
+                (1, own + 2),
+                (2, own + 3),
+                (3, unknowns + index),
+            ]
+        };
+        normal.add(run, &model.terms(index, run), &begins);
+    }
+    if model.is_turned() {
+        normal
+            .matrix
+            .view_mut((unknowns, unknowns), (runs.len(), runs.len()))
+            .fill_diagonal(1.0);
     }
     for index in 0..normal.matrix.nrows() {
         normal.matrix[(index, index)] *= 1.0 + RIDGE;
@@ -30,6 +47,13 @@ pub fn start(runs: &[Run], model: Model) -> Option<DVector<f64>> {
     let mut values = found.rows(0, unknowns).into_owned();
     for (index, run) in runs.iter().enumerate() {
         let own = model.own_at(index);
+        if model.is_turned() {
+            let [e, q] = [found[own], found[own + 1]];
+            let main = (0.5 * (e + (e * e - q * q).max(0.0).sqrt())).sqrt();
+            values[own] = main;
+            values[own + 1] = 0.5 * q / main;
+            continue;
+        }
         let [r, s, q] = [found[own + 2], found[own + 3], found[unknowns + index]];
         let apart = r.hypot(s);
         let main = (0.5 * (apart.hypot(q) + apart)).sqrt();
@@ -49,13 +73,12 @@ struct Normal {
 }
 
 impl Normal {
-    /// Adds the rows of a run, whose Q at first stands at `last`.
+    /// Adds the rows of a run, of whose E, R, S and Q these, by number, begin with unknowns at these places.
     ///
     /// Seen from a frame that turns with the pattern's mean rate nothing moves far from row to row, and sums do for integrals; its κ is
     /// what is beyond that rate.
-    fn add(&mut self, run: &Run, terms: &[Term], last: usize) {
-        let own = terms[0].0;
-        let mut places = vec![own + 1, own + 2, own + 3, last];
+    fn add(&mut self, run: &Run, terms: &[Term], begins: &[(usize, usize)]) {
+        let mut places: Vec<usize> = begins.iter().map(|&(_, place)| place).collect();
         let mut moves = Vec::new();
         for (place, direction) in terms {
             let rates = SVector::<f64, RATES>::from_column_slice(&direction[..RATES]);
@@ -80,9 +103,11 @@ impl Normal {
             }
             before = Some((row.time, slopes));
             let weight = 1.0 / (state[0] * row.deviations[0].powi(2));
-            for (equation, seen) in (back * state).iter().enumerate() {
-                let mut entries = vec![0.0; 4];
-                entries[equation] = 1.0;
+            let turned = back * state;
+            for (begin, &(equation, _)) in begins.iter().enumerate() {
+                let seen = turned[equation];
+                let mut entries = vec![0.0; begins.len()];
+                entries[begin] = 1.0;
                 entries.extend(integrals.iter().map(|integral| integral[equation]));
                 for (&place, left) in places.iter().zip(&entries) {
                     self.right[place] += weight * left * seen;

@@ -66,6 +66,11 @@ impl Places {
             phase: rows.place(PHASE),
         })
     }
+
+    /// The time of a row, s, where it is a number.
+    pub fn time(&self, record: &StringRecord) -> Option<f64> {
+        number(record, self.needed[0])
+    }
 }
 
 impl Row {

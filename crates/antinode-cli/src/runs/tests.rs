@@ -202,3 +202,24 @@ fn rows_that_are_kept_do_not_overlap() {
         );
     }
 }
+
+#[test]
+fn a_pattern_that_turns_to_and_fro_turns_both_ways() {
+    let turns = |angles: &[f64]| {
+        let rows = angles
+            .iter()
+            .enumerate()
+            .map(|(k, angle)| format!("a,{k},0.5,0.02,{angle},5332,0.001,0.001,0.001,\n"));
+        let mut all = Runs::new(1.0, Flags::REACQUIRED);
+        add(&mut all, &(HEADER.to_owned() + &rows.collect::<String>())).unwrap();
+        let [back, forth] = all.runs[0].turns();
+        [back, forth].map(|turn| (turn * 10.0).round() / 10.0)
+    };
+    let forth: Vec<f64> = (0..20).map(|k| 0.5 * f64::from(k)).collect();
+    assert_eq!(turns(&forth), [0.0, 9.5]);
+    let back: Vec<f64> = forth.iter().rev().copied().collect();
+    assert_eq!(turns(&back), [-9.5, 0.0]);
+    // Further forth after it came back half of the way.
+    let both: Vec<f64> = [&forth[..], &back[1..10], &forth[10..]].concat();
+    assert_eq!(turns(&both), [-4.5, 9.5]);
+}

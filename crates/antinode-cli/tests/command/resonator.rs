@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::fs;
 
-use crate::common::ring_downs::{four_seconds, is_one_way, numbers, resonator};
-use crate::common::run;
+use crate::common::ring_downs::{four_seconds, identified, is_one_way, numbers, resonator};
+use crate::common::{RATE, WAVE, run, wav};
 
 /// Decay time and quality factor of a decay rate of 0.08 1/s at 5332 Hz.
 const TRUTH: [(&str, f64); 2] = [("decay_time_s", 12.5), ("quality_factor", 209_387.2)];
@@ -86,7 +86,7 @@ fn the_unit_of_every_quantity_is_told() {
         "--decay-rate 0.08 --angle-rate 0.4 --damping-split 0.012 --frequency-split 0.004",
     );
     let found = numbers(&resonator(here, &rows, "--output csv"));
-    assert_eq!(found.len(), 3 + 8, "{found:?}");
+    assert_eq!(found.len(), 4 + 8, "{found:?}");
     for (_, quantity) in found.keys() {
         let unit = units.get(quantity.as_str()).expect(quantity);
         let is_time = quantity == "decay_time_s";
@@ -114,7 +114,7 @@ fn a_pattern_at_rest_tells_its_decay_and_that_no_more_is_told() {
         found.err
     );
     let numbers = numbers(&found);
-    assert_eq!(numbers.len(), 4, "{}", found.out);
+    assert_eq!(numbers.len(), 5, "{}", found.out);
     let (value, std) = numbers[&("1".to_owned(), "decay_time_s".to_owned())];
     assert!((value - 12.5).abs() < 4.0 * std.unwrap());
 }
@@ -164,6 +164,129 @@ fn what_is_wrong_is_told() {
             found.err.starts_with("error: standard input: ") && found.err.contains(told),
             "{}",
             found.err
+        );
+    }
+}
+
+#[test]
+fn a_table_need_not_turn_steadily() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // It turns by 100° and back, and ripples: from a steady rotation it would differ by 500 times the noise.
+    for (name, way) in [("a.wav", 1.0), ("b.wav", -1.0)] {
+        let codes = WAVE.codes_as(400_000, |time| {
+            let angle = 0.9 * (1.6 * time).cos() + 1e-3 * (9.0 * time).sin();
+            (0.4 + way * angle, WAVE.decay(time))
+        });
+        fs::write(here.join(name), wav(&codes)).unwrap();
+    }
+    let found = resonator(here, &identified(here, "a.wav b.wav"), "--output csv");
+    assert!(
+        found.err.starts_with("the rotation is not steady: ") && found.err.lines().count() == 1,
+        "{}",
+        found.err
+    );
+    let numbers = numbers(&found);
+    let of = |quantity: &str| numbers[&(String::new(), quantity.to_owned())];
+    let (time, std) = of("decay_time_s");
+    let std = std.unwrap();
+    assert!(
+        (time - 1.0 / WAVE.decay_rate).abs() < 4.0 * std && std < 1e-3,
+        "{}",
+        found.out
+    );
+    for (quantity, most) in [("damping_split_s", 5e-4), ("frequency_split_hz", 1e-4)] {
+        let (value, std) = of(quantity);
+        let std = std.unwrap();
+        assert!(value < 4.0 * std && std < most, "{}", found.out);
+    }
+    // It turns both ways in each of them, which is all that a calibration needs.
+    fs::write(here.join("rows.csv"), identified(here, "a.wav")).unwrap();
+    let calibrated = run(here, "calibrate rows.csv");
+    assert!(
+        calibrated.code == 0 && !calibrated.err.contains("warning"),
+        "{}",
+        calibrated.err
+    );
+    let ratio = calibrated.out.split_whitespace().nth(1).unwrap();
+    assert!(
+        (ratio.parse::<f64>().unwrap() - 1.0).abs() < 2e-4,
+        "{ratio}"
+    );
+    for run in ["1", "2"] {
+        let (residual, _) = numbers[&(run.to_owned(), "residual_over_noise".to_owned())];
+        assert!((residual - 1.0).abs() < 0.2, "{}", found.out);
+    }
+}
+
+#[test]
+fn rows_from_before_the_drive_ended_are_left_out() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // It rings down from 1 s on.
+    for (name, way) in [("a.wav", 1.0), ("b.wav", -1.0)] {
+        let codes = WAVE.codes_as((5.0 * RATE) as usize, |time| {
+            (0.4 + way * 0.4 * time, WAVE.decay((time - 1.0).max(0.0)))
+        });
+        fs::write(here.join(name), wav(&codes)).unwrap();
+    }
+    let rows = identified(here, "a.wav b.wav");
+    let all = resonator(here, &rows, "--output csv");
+    assert!(
+        all.err.contains("still driven in some rows (see --from)"),
+        "{}",
+        all.err
+    );
+    let found = resonator(here, &rows, "--output csv --from 1 --to 4.9");
+    assert_eq!(found.err, "");
+    let (time, std) = numbers(&found)[&(String::new(), "decay_time_s".to_owned())];
+    assert!(
+        (time - 1.0 / WAVE.decay_rate).abs() < 4.0 * std.unwrap(),
+        "{}",
+        found.out
+    );
+    for line in found
+        .out
+        .lines()
+        .filter(|line| line.starts_with(['1', '2']))
+    {
+        let times: Vec<f64> = line
+            .rsplit(',')
+            .take(2)
+            .map(|text| text.parse().unwrap())
+            .collect();
+        assert!(
+            (4.85..4.9).contains(&times[0]) && (1.0..1.02).contains(&times[1]),
+            "{line}"
+        );
+    }
+
+    // So does `calibrate`; and where none is left, that is told.
+    fs::write(here.join("rows.csv"), &rows).unwrap();
+    let told = |options: &str| run(here, &format!("calibrate rows.csv {options}")).err;
+    assert!(
+        told("").contains("beyond") || told("").contains("times their noise"),
+        "{}",
+        told("")
+    );
+    assert!(
+        !told("--from 1").contains("times their noise"),
+        "{}",
+        told("--from 1")
+    );
+    for command in ["resonator", "calibrate"] {
+        let none = run(here, &format!("{command} rows.csv --from 7"));
+        assert!(
+            none.code == 1
+                && none
+                    .err
+                    .contains("no row lies within --from and --to: their times go from 0.0"),
+            "{}",
+            none.err
+        );
+        assert_eq!(
+            run(here, &format!("{command} rows.csv --from 7 --to 6")).code,
+            2
         );
     }
 }

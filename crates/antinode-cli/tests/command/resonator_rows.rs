@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::ring_downs::{joined, of_resonator, rows};
+use crate::common::ring_downs::{joined, of_resonator, of_run, rows};
 use crate::common::{rms, run, run_with};
 
 #[test]
@@ -108,14 +108,7 @@ fn ring_downs_in_one_recording_are_runs_of_their_own() {
             found.err
         );
         for run in ["1", "2"] {
-            let line = found
-                .out
-                .lines()
-                .find_map(|line| line.strip_prefix(&format!("{run},decay_time_s,")));
-            let (value, std) = line
-                .and_then(|line| line.split_once(','))
-                .expect(&found.out);
-            let [value, std] = [value, std].map(|number| number.parse::<f64>().unwrap());
+            let (value, std) = of_run(&found.out, run, "decay_time_s");
             assert!(
                 (value - 10.0).abs() < 4.0 * std && std < 0.02,
                 "{}",
@@ -144,14 +137,7 @@ fn samples_that_are_missing_leave_the_rates_right() {
     let found = run(here, "resonator rows.csv --output csv");
     assert_eq!(found.code, 0, "{}", found.err);
     for run in ["1", "2", "3"] {
-        let line = found
-            .out
-            .lines()
-            .find_map(|line| line.strip_prefix(&format!("{run},rotation_rad_s,")));
-        let (value, std) = line
-            .and_then(|line| line.split_once(','))
-            .expect(&found.out);
-        let [value, std] = [value, std].map(|number| number.parse::<f64>().unwrap());
+        let (value, std) = of_run(&found.out, run, "rotation_rad_s");
         assert!(
             (value - 0.4).abs() < 4.0 * std && std < 2e-3,
             "{}",

@@ -104,7 +104,10 @@ fn run(resonator: &Resonator, kappa: f64, pick_offs: &PickOffs, noise: f64, seed
         .collect();
     Run {
         moments,
-        turned: -0.5 * kappa * SECONDS,
+        turns: {
+            let turned = -0.5 * kappa * SECONDS;
+            [turned.min(0.0), turned.max(0.0)]
+        },
     }
 }
 

@@ -2,6 +2,7 @@
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
+use super::super::motion::Motion;
 use super::*;
 use crate::deviates::Deviates;
 use crate::runs::{Row, turn};
@@ -23,15 +24,33 @@ fn run(
     noise: f64,
     seed: u64,
 ) -> Run {
+    run_turned(resonator, |_| -0.5 * kappa, start, count, step, noise, seed)
+}
+
+/// The same, of a pattern that is turned at these rates, rad/s.
+fn run_turned(
+    resonator: &[f64; 6],
+    rate: impl Fn(f64) -> f64,
+    start: [f64; 3],
+    count: usize,
+    step: f64,
+    noise: f64,
+    seed: u64,
+) -> Run {
+    /// So often from row to row the rate changes.
+    const PARTS: usize = 2;
     let mut random = Deviates(seed);
     let [decay, dc, ds, wc, ws, gamma] = *resonator;
     let [main, quadrature, angle] = start;
+    let kappa = -2.0 * rate(0.0);
     let mut motion = Motion::new(&[decay, dc, ds, wc, ws, gamma, kappa, main, quadrature, angle]);
     let (mut turned, mut before) = (0.0, angle);
     let rows = (0..count)
         .map(|index| {
-            if index > 0 {
-                motion.advance(step);
+            let part = step / PARTS as f64;
+            for k in 0..if index > 0 { PARTS } else { 0 } {
+                motion.steer(rate(step * (index - 1) as f64 + part * (k as f64 + 0.5)));
+                motion.advance(part);
             }
             let wave = motion.wave();
             turned += turn(wave[2] - before);
@@ -351,5 +370,73 @@ fn stiffness_that_depends_on_the_amplitude_is_told_beside_the_splits() {
                 "{kappas:?}: {squares:?}"
             );
         }
+    }
+}
+
+/// Rates of tables, rad/s, by time, that are not steady: a ripple, a start, one that slows down, to and fro.
+const UNSTEADY: [fn(f64) -> f64; 4] = [
+    |time| 0.2 + 0.002 * time.sin(),
+    |time| 0.2 * (time / 0.5).min(1.0),
+    |time| 0.2 * (-0.05 * time).exp(),
+    |time| if time < 20.0 { 0.15 } else { -0.15 },
+];
+
+#[test]
+fn deviations_hold_however_patterns_are_turned() {
+    for (index, rate) in UNSTEADY.into_iter().enumerate() {
+        let trials = 60;
+        let mut squares = [0.0; 7];
+        for seed in 0..trials {
+            let one = |way: f64, angle: f64, seed| {
+                let start = [1.0, 0.03, angle];
+                run_turned(&RESONATOR, |t| way * rate(t), start, 200, 0.2, NOISE, seed)
+            };
+            let found = fit(&[one(1.0, 0.2, 2 * seed), one(-1.0, 0.9, 2 * seed + 1)]).unwrap();
+            assert!(found.is_turned());
+            assert!((found.residual - 1.0).abs() < 0.1, "{}", found.residual);
+            let resonator = found.resonator().unwrap();
+            // Of 39.8 s.
+            let rates = (0..3980).map(|k| rate(0.01 * (k as f64 + 0.5)));
+            let mean = rates.sum::<f64>() / 3980.0;
+            let turned = [mean, -mean];
+            let errors = (0..5)
+                .map(|i| (found.values[i] - RESONATOR[i]) / found.covariance[(i, i)].sqrt())
+                .chain((0..2).map(|run| {
+                    let (rotation, deviation) = resonator.rotations[run];
+                    assert!(deviation < 1e-5, "{deviation}");
+                    (rotation - turned[run]) / deviation
+                }));
+            for (square, error) in squares.iter_mut().zip(errors) {
+                *square += error * error / trials as f64;
+            }
+        }
+        for (i, square) in squares.iter().enumerate() {
+            assert!(
+                (0.75..1.25).contains(&square.sqrt()),
+                "{index}, {i}: {}",
+                square.sqrt()
+            );
+        }
+    }
+}
+
+#[test]
+fn a_steady_rotation_is_not_given_up() {
+    // It tells the splits better: angles drift by them too.
+    for seed in 0..20 {
+        assert!(!fit(&at_three_angles(NOISE, seed)).unwrap().is_turned());
+        let turned = [0.2, -0.2].map(|kappa| {
+            let start = [1.0, 0.03, 0.5];
+            run(
+                &RESONATOR,
+                kappa,
+                start,
+                400,
+                0.1,
+                NOISE,
+                7 * seed + u64::from(kappa > 0.0),
+            )
+        });
+        assert!(!fit(&turned).unwrap().is_turned());
     }
 }

@@ -257,3 +257,37 @@ fn the_splits_move_the_frequency_as_they_turn_the_phase() {
         .sum();
     assert!((found - expected).abs() < 1e-12, "{found} {expected}");
 }
+
+#[test]
+fn what_turns_a_pattern_to_an_angle_is_told_with_its_derivatives() {
+    let turned = |parameters: &[f64; PARAMETERS]| {
+        let mut motion = Motion::new(parameters);
+        motion.steer(0.2);
+        motion.advance(0.7);
+        let [main, quadrature, _] = motion.wave().into();
+        let (beyond, derivatives) = motion.turn_to(1.1);
+        let wave = motion.wave();
+        assert!((wave - Vector3::new(main, quadrature, turn(1.1))).norm() < 1e-12);
+        // What moved the angle does so no more.
+        let (rest, by) = motion.rest(&row([main, quadrature, 1.1], 0.0));
+        assert!(rest.norm() < 1e-9, "{rest}");
+        assert!(by.row(2).norm() < 1e-9, "{by}");
+        (beyond, derivatives)
+    };
+    let parameters = parameters(0.8, -0.1, 0.6);
+    let (beyond, derivatives) = turned(&parameters);
+    assert!(beyond.abs() > 0.1);
+    for i in (0..PARAMETERS).filter(|&i| i != KAPPA) {
+        let moved = |by: f64| {
+            let mut parameters = parameters;
+            parameters[i] += by;
+            turned(&parameters).0
+        };
+        let difference = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+        assert!(
+            (derivatives[i] - difference).abs() < 1e-7,
+            "{i}: {difference} {}",
+            derivatives[i]
+        );
+    }
+}

@@ -212,14 +212,21 @@ impl Wave {
 
     /// S_C and S_D as codes of a 16-bit converter whose full scale is 1.
     pub fn codes(&self, pairs: usize) -> Vec<[i16; 2]> {
+        self.codes_as(pairs, |time| {
+            (self.angle + self.angle_rate * time, self.decay(time))
+        })
+    }
+
+    /// The same with another course: of the angle, and of both amplitudes as shares of what they are.
+    pub fn codes_as(&self, pairs: usize, course: impl Fn(f64) -> (f64, f64)) -> Vec<[i16; 2]> {
         let mut random = Random(1);
         (0..pairs)
             .map(|k| {
                 let time = k as f64 / RATE;
                 let (sin, cos) = (TAU * self.frequency * time - self.phase).sin_cos();
-                let (sin2, cos2) = (2.0 * (self.angle + self.angle_rate * time)).sin_cos();
-                let a = self.main * self.decay(time) * cos;
-                let b = self.quadrature * self.decay(time) * sin;
+                let (angle, share) = course(time);
+                let (sin2, cos2) = (2.0 * angle).sin_cos();
+                let (a, b) = (self.main * share * cos, self.quadrature * share * sin);
                 let pair = [a * cos2 - b * sin2, a * sin2 + b * cos2];
                 pair.map(|s| ((s + self.noise * random.normal()) * 32_768.0).round() as i16)
             })

@@ -17,11 +17,16 @@ pub fn rows(here: &Path, simulated: &str, identified: &str) {
 
 /// A quantity of the resonator as CSV tells it, and its deviation.
 pub fn of_resonator(out: &str, quantity: &str) -> (f64, f64) {
+    of_run(out, "", quantity)
+}
+
+/// The same of a run, from 1.
+pub fn of_run(out: &str, run: &str, quantity: &str) -> (f64, f64) {
     let line = out
         .lines()
-        .find_map(|line| line.strip_prefix(&format!(",{quantity},")));
-    let (value, std) = line.and_then(|line| line.split_once(',')).expect(out);
-    (value.parse().unwrap(), std.parse().unwrap())
+        .find_map(|line| line.strip_prefix(&format!("{run},{quantity},")));
+    let fields: Vec<_> = line.expect(out).split(',').collect();
+    (fields[0].parse().unwrap(), fields[1].parse().unwrap())
 }
 
 /// Rows of several simulated ring-downs, one behind the other.
@@ -73,13 +78,18 @@ pub fn resonator(here: &Path, rows: &str, options: &str) -> Run {
 pub fn numbers(run: &Run) -> HashMap<(String, String), (f64, Option<f64>)> {
     assert_eq!(run.code, 0, "{}", run.err);
     let mut lines = run.out.lines();
-    assert_eq!(lines.next(), Some("run,quantity,value,std"));
+    assert_eq!(
+        lines.next(),
+        Some("run,quantity,value,std,file,from_s,to_s")
+    );
     lines
         .map(|line| {
             let fields: Vec<_> = line.split(',').collect();
-            let [run, quantity, value, std] = fields[..] else {
+            let [run, quantity, value, std, file, from, to] = fields[..] else {
                 panic!("{line}");
             };
+            // Of all runs together there is no recording.
+            assert_eq!([file, from, to].map(str::is_empty), [run.is_empty(); 3]);
             let key = (run.to_owned(), quantity.to_owned());
             (key, (value.parse().unwrap(), std.parse().ok()))
         })

@@ -115,6 +115,10 @@ fn identify(
         }
     }
     let rate = sample_rate(&name, options.rate, recording.sample_rate())?;
+    let rails = options.full_scale;
+    if let Some(warning) = rails.and_then(|rails| recording.rails_warning(rails)) {
+        eprintln!("warning: {}: {warning}", recording.name());
+    }
     for warning in recording.warnings() {
         eprintln!("warning: {warning}");
     }

@@ -54,7 +54,7 @@ pub(super) fn open(
         warnings,
         source: Box::new(source),
         pairs: None,
-        full_scale: None,
+        integers: None,
     })
 }
 

@@ -42,6 +42,7 @@ pub use error::{Channel, InputError};
 pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use raw::RawFormat;
+use sample::SampleCode;
 use source::{Known, Opened, Source, Stream};
 pub use source::{in_utf8, open_file};
 pub use write::{OutputError, RecordingWriter, SampleFormat, WholeFile};
@@ -117,7 +118,8 @@ impl Recording {
     }
 
     fn new(name: String, opened: Opened, bytes_total: Option<u64>) -> Self {
-        let lowest = opened.full_scale.map(|largest| Lowest::new(unit(largest)));
+        let largest = opened.integers.map(SampleCode::full_scale);
+        let lowest = largest.map(|largest| Lowest::new(unit(largest)));
         Self {
             name,
             bytes_total,
@@ -138,7 +140,7 @@ impl Recording {
         if self.bytes_total.is_some() {
             let head;
             (head, self.step, self.fault) = resolution::of_head(self.opened.source.as_mut());
-            let largest = self.opened.full_scale;
+            let largest = self.opened.integers.map(SampleCode::full_scale);
             let of_integers = || codes::of_integers(&head, unit(largest?));
             self.step = self.step.or_else(of_integers);
             self.head = head.into_iter();
@@ -200,9 +202,27 @@ impl Recording {
     /// The magnitude from which an integer sample is at its rail, 32767/32768 for 16 bits, 2047/2048 where only the upper 12 are in use;
     /// none for floats.
     pub fn full_scale(&self) -> Option<f32> {
-        let largest = self.opened.full_scale?;
+        let largest = self.opened.integers?.full_scale();
         // Full scale reads as 1: the largest code is a step below it.
         Some(self.step.map_or(largest, |step| largest.min(1.0 - step)))
+    }
+
+    /// What is wrong with rails that are given for integers, which are scaled so that full scale is 1.
+    pub fn rails_warning(&self, [low, high]: [f32; 2]) -> Option<String> {
+        let integers = self.opened.integers?;
+        // A little beyond is a way to have none.
+        if low >= -2.0 && high <= 2.0 {
+            return None;
+        }
+        let meant = integers
+            .scaled([low, high])
+            .map_or_else(String::new, |[low, high]| {
+                format!("; if these are codes, give --full-scale {low},{high}")
+            });
+        Some(format!(
+            "--full-scale: {low} and {high} are not rails of {}, which are scaled to lie within ±1{meant}",
+            integers.words()
+        ))
     }
 
     /// The step between two codes of the converter: of integers, and of text and floats that lie on one.

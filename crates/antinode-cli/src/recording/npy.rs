@@ -103,7 +103,7 @@ pub(super) fn open(
         start: 0.0,
         warnings: Vec::new(),
         pairs: Some(there),
-        full_scale: code.full_scale(),
+        integers: code.integers(),
     })
 }
 

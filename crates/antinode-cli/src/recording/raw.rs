@@ -89,7 +89,7 @@ pub(super) fn open(
         start: 0.0,
         warnings: Vec::new(),
         pairs: length.map(|length| length / frame_bytes),
-        full_scale: code.full_scale(),
+        integers: code.integers(),
     })
 }
 

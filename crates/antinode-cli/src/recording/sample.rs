@@ -72,10 +72,27 @@ impl SampleCode {
         (self.valid_bits, 8 * self.sample_bytes() as u32)
     }
 
-    /// The largest positive code as it is decoded; none for floats.
-    pub fn full_scale(self) -> Option<f32> {
+    /// The same where it is of integers.
+    pub fn integers(self) -> Option<Self> {
+        (!matches!(self.kind, Kind::F32 | Kind::F64)).then_some(self)
+    }
+
+    /// The largest positive code of integers as it is decoded.
+    pub fn full_scale(self) -> f32 {
         let step = (1.0 - f64::from(self.valid_bits)).exp2();
-        self.is_integer().then_some((1.0 - step) as f32)
+        (1.0 - step) as f32
+    }
+
+    /// Codes of integers as they are decoded; none where one of them is no such code.
+    pub fn scaled(self, codes: [f32; 2]) -> Option<[f64; 2]> {
+        let half = (f64::from(self.bits().1) - 1.0).exp2();
+        let middle = match self.kind {
+            Kind::U8 | Kind::U16 => half,
+            _ => 0.0,
+        };
+        let scaled = codes.map(|code| (f64::from(code) - middle) / half);
+        let is_code = |code: f32, scaled: f64| code.fract() == 0.0 && (-1.0..1.0).contains(&scaled);
+        (is_code(codes[0], scaled[0]) && is_code(codes[1], scaled[1])).then_some(scaled)
     }
 
     /// What the samples are, in words.
@@ -86,10 +103,6 @@ impl SampleCode {
             Kind::F32 | Kind::F64 => "floats",
         };
         format!("{}-bit {kind}", self.valid_bits)
-    }
-
-    fn is_integer(self) -> bool {
-        !matches!(self.kind, Kind::F32 | Kind::F64)
     }
 
     /// Appends the whole pairs in `bytes` to `pairs`, up to the first bad one.

@@ -11,6 +11,7 @@ use encoding_rs_io::DecodeReaderBytesBuilder;
 use super::error::InputError;
 use super::gaps::Gap;
 use super::not_finite::Written;
+use super::sample::SampleCode;
 
 /// Where the bytes come from.
 pub(super) type Stream = Box<dyn Read>;
@@ -113,5 +114,6 @@ pub(super) struct Opened {
     pub start: f64,
     pub warnings: Vec<String>,
     pub pairs: Option<u64>,
-    pub full_scale: Option<f32>,
+    /// How integers are stored; none for floats and text.
+    pub integers: Option<SampleCode>,
 }

@@ -62,7 +62,7 @@ pub(super) fn open(
             .into_iter()
             .collect(),
         pairs: bytes.map(|bytes| bytes / pair_bytes),
-        full_scale: format.code.full_scale(),
+        integers: format.code.integers(),
     })
 }
 

@@ -101,6 +101,47 @@ fn the_rails_given_win_over_those_of_integers() {
 }
 
 #[test]
+fn rails_that_are_codes_are_told_as_the_samples_have_them() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // 12-bit codes from 0 to 4095 that are cut off, in 16 bits without sign.
+    let bytes = (0..20_000u32).flat_map(|k| {
+        let s = (TAU * 0.0532 * f64::from(k)).cos();
+        [2048.0 + 2200.0 * s, 2048.0 + 500.0 * s].map(|code| code.round().clamp(0.0, 4095.0) as u16)
+    });
+    let bytes: Vec<u8> = bytes.flat_map(u16::to_le_bytes).collect();
+    fs::write(here.join("codes.raw"), bytes).unwrap();
+    let identify = |rails: &str| {
+        let found = run(
+            here,
+            &format!("identify --output csv --raw u16 --rate 1e5 --full-scale {rails} codes.raw"),
+        );
+        assert_eq!(found.code, 0, "{}", found.err);
+        let rows = Row::all(&found.out);
+        let clipped = rows
+            .iter()
+            .filter(|row| row.text("flags") == "clipped")
+            .count();
+        (found.err, clipped as f64 / rows.len() as f64)
+    };
+    let (told, _) = identify("0,4095");
+    assert!(
+        told.contains(
+            "codes.raw: --full-scale: 0 and 4095 are not rails of 16-bit unsigned integers, which are scaled to lie within ±1; \
+             if these are codes, give --full-scale -1,-0.875030517578125\n"
+        ),
+        "{told}"
+    );
+    let (told, share) = identify("-1,-0.875030517578125");
+    assert!(
+        !told.contains("--full-scale") && share > 0.9,
+        "{told} {share}"
+    );
+    let (told, _) = identify("2.5");
+    assert!(told.contains("within ±1\n"), "{told}");
+}
+
+#[test]
 fn a_step_coarser_than_the_noise_is_told_where_rows_scatter() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

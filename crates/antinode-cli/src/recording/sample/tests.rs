@@ -66,16 +66,17 @@ fn full_scale_is_the_largest_code() {
     ] {
         let code = SampleCode::new(kind);
         assert_eq!(
-            Some(decode(code, &[top, top].concat()).0[0][0]),
+            decode(code, &[top, top].concat()).0[0][0],
             code.full_scale()
         );
     }
     let code = SampleCode::new(Kind::I32).valid_bits(24);
     assert_eq!(
-        Some(decode(code, &[0, 0xff, 0xff, 0x7f, 0, 0xff, 0xff, 0x7f]).0[0][1]),
+        decode(code, &[0, 0xff, 0xff, 0x7f, 0, 0xff, 0xff, 0x7f]).0[0][1],
         code.full_scale()
     );
-    assert_eq!(SampleCode::new(Kind::F32).full_scale(), None);
+    assert_eq!(code.integers(), Some(code));
+    assert_eq!(SampleCode::new(Kind::F32).integers(), None);
 }
 
 #[test]
@@ -109,4 +110,28 @@ fn bits_below_the_valid_ones_are_refused() {
             channel: Channel::C
         })
     );
+}
+
+#[test]
+fn codes_are_scaled_as_they_are_decoded() {
+    for (kind, codes, bytes) in [
+        (Kind::U8, [3.0, 200.0], vec![3, 200]),
+        (Kind::I8, [-128.0, 127.0], vec![0x80, 0x7f]),
+        (Kind::U16, [0.0, 4095.0], vec![0, 0, 0xff, 0x0f]),
+        (Kind::I16, [0.0, 4095.0], vec![0, 0, 0xff, 0x0f]),
+        (Kind::I24, [-2.0, 1.0], vec![0xfe, 0xff, 0xff, 1, 0, 0]),
+        (
+            Kind::I32,
+            [-2.0, 65_536.0],
+            vec![0xfe, 0xff, 0xff, 0xff, 0, 0, 1, 0],
+        ),
+    ] {
+        let code = SampleCode::new(kind);
+        let decoded = decode(code, &bytes).0[0].map(f64::from);
+        assert_eq!(code.scaled(codes), Some(decoded), "{kind:?}");
+    }
+    let code = SampleCode::new(Kind::U8);
+    for none in [[-1.0, 3.0], [0.0, 256.0], [0.5, 3.0]] {
+        assert_eq!(code.scaled(none), None);
+    }
 }

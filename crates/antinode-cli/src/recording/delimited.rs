@@ -39,6 +39,9 @@ pub(super) fn open(
         (Some(_), Some(own)) => Some(Meaning::of_rate(own, options.rate)),
         _ => axis.map(|axis| axis.meaning(source.rows.printed, options.rate)),
     };
+    source.asked = options.rate;
+    source.is_index = source.rows.header.sequence.is_some()
+        || matches!(meaning, Some(Meaning::Index | Meaning::OtherRate { .. }));
     let header = &source.rows.header;
     let of_time = meaning.and_then(|meaning| source.warning(meaning));
     let told = header.warnings().into_iter().flatten().chain(of_time);
@@ -71,6 +74,10 @@ struct Delimited {
     /// The lines left out behind the last of them.
     left_out: u64,
     live: bool,
+    /// The rate asked for.
+    asked: Option<f64>,
+    /// True where the times are the numbers of the lines, or of another rate than that.
+    is_index: bool,
     /// Pairs read to tell the sample rate, and not yet delivered.
     ahead: std::vec::IntoIter<[f32; 2]>,
     /// What is wrong behind the last of them.
@@ -88,6 +95,8 @@ impl Delimited {
             pairs: 0,
             left_out: 0,
             live: false,
+            asked: None,
+            is_index: false,
             ahead: Vec::new().into_iter(),
             fault: None,
         })
@@ -277,8 +286,19 @@ impl Source for Delimited {
 
     fn late_warning(&self) -> Option<String> {
         let axis = self.axis.as_ref()?;
-        let (rate, late) = axis.drift()?;
-        let side = if late < 0.0 { "before" } else { "after" };
+        let side = |late: f64| if late < 0.0 { "before" } else { "after" };
+        let Some((rate, late)) = axis.drift() else {
+            let used = self.asked.unwrap_or(axis.rate());
+            let (rate, late) = axis.beside(used).filter(|_| !self.is_index)?;
+            return Some(format!(
+                "{}: by all of the time column the sample rate is {rate} Hz; times and frequencies of rows are by {used} Hz, and the last \
+                 sample's own time is {:.1e} s {} that: give --rate {rate} where that matters",
+                self.file,
+                late.abs(),
+                side(late)
+            ));
+        };
+        let side = side(late);
         Some(format!(
             "{}: in the time column the sample rate has gone slowly from {:.3} Hz to {rate:.3} Hz; times and frequencies of rows are by \
              the first of them, and the last sample's own time is {:.1e} s {side} that: resample it to a constant rate where that matters",

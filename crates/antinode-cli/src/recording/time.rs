@@ -139,6 +139,17 @@ impl TimeAxis {
         self.drifted.map(|rate| (rate, late))
     }
 
+    /// The rate of all lines, and how much later, s, the last one is than by another rate; none where rounding and half a sample explain that.
+    pub fn beside(&self, rate: f64) -> Option<(f64, f64)> {
+        let length = self.last - self.start;
+        let late = length - self.count as f64 / rate;
+        if late.abs() <= 0.5 / rate + 2.0 * self.rounding {
+            return None;
+        }
+        let own = self.count as f64 / length;
+        Some((roundest(own, own * self.rounding / length), late))
+    }
+
     /// The last time taken.
     pub fn last(&self) -> f64 {
         self.last

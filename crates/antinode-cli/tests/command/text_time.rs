@@ -79,6 +79,26 @@ fn a_clock_that_warms_up_is_told_and_costs_no_row() {
 }
 
 #[test]
+fn a_rate_that_is_nearly_round_is_told_with_its_option() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let text = timed("time,c,d\n", 600_000, |t| format!("{:.6}", t / 1.000_002));
+    fs::write(here.join("a.csv"), text).unwrap();
+    let rough = run(here, "identify a.csv --output csv");
+    assert_eq!(rough.code, 0, "{}", rough.err);
+    let (_, option) = rough.err.split_once("give --rate ").expect(&rough.err);
+    let (rate, _) = option.split_once(' ').unwrap();
+    assert_eq!(rate, "100000.2");
+    let mean = |rows: &[Row]| {
+        let sum: f64 = rows.iter().map(|row| row.number("frequency_hz")).sum();
+        sum / rows.len() as f64
+    };
+    let exact = rows(here, &format!("a.csv --rate {rate}"));
+    let share = mean(&exact) / mean(&Row::all(&rough.out)) - 1.0;
+    assert!((share - 2e-6).abs() < 1e-7, "{share}");
+}
+
+#[test]
 fn every_fault_of_the_time_names_the_way_around_it() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

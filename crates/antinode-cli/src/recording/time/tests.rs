@@ -275,6 +275,26 @@ fn a_slow_drift_is_followed_and_told() {
 }
 
 #[test]
+fn a_rate_that_is_nearly_round_is_told_by_all_lines() {
+    // Of the first lines, at a microsecond, 100 kHz may be; and by a tenth of a sample in all of them too.
+    for (rate, count, told) in [
+        (100_000.2, 1_000_000, Some(100_000.2)),
+        (100_000.0, 1_000_000, None),
+        (100_000.01, 1_000_000, None),
+    ] {
+        let (axis, _) = axis(&times(count, rate, 3.0, |t| format!("{t:.6}")), HEAD).unwrap();
+        assert_eq!((axis.rate(), axis.drift()), (100_000.0, None));
+        let beside = axis.beside(100_000.0);
+        assert_eq!(beside.map(|(rate, _)| rate), told, "{rate}");
+        if let Some((own, late)) = beside {
+            let off = count as f64 * (1.0 / rate - 1e-5);
+            assert!((late - off).abs() < 1.2e-5, "{late} {off}");
+            assert_eq!(axis.beside(own), None);
+        }
+    }
+}
+
+#[test]
 fn the_fewest_digits_are_chosen() {
     assert_eq!(roundest(99_999.3, 1.0), 100_000.0);
     assert_eq!(roundest(44_100.02, 0.1), 44_100.0);

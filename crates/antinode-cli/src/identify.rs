@@ -15,6 +15,7 @@ mod search;
 mod silence;
 mod span;
 mod stop;
+mod topped;
 mod windows;
 
 use std::io::{self, BufWriter, IsTerminal, Write};

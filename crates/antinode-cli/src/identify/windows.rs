@@ -18,6 +18,7 @@ use super::search::{Search, elsewhere};
 use super::silence::Silence;
 use super::span::{Span, Step};
 use super::stop::Stop;
+use super::topped::Topped;
 use super::{Core, LONGEST};
 use crate::failure::Failure;
 use crate::methods::History;
@@ -48,6 +49,7 @@ pub(super) struct Windows<'a> {
     early: Early,
     coarse: Coarse,
     few: Few,
+    topped: Topped,
     stop: &'a Stop,
 }
 
@@ -94,6 +96,7 @@ impl<'a> Windows<'a> {
                     .filter(|_| options.resolution.is_none()),
             ),
             few: Few::new(settings.resolution),
+            topped: Topped::new(settings.resolution),
             stop,
         })
     }
@@ -141,6 +144,7 @@ impl<'a> Windows<'a> {
             recording.look(self.span.take(taken), new);
             self.held.see(new);
             self.few.see(new);
+            self.topped.see(new);
             self.copied.see(new);
             if let Some(history) = &mut self.history {
                 history.extend(new);
@@ -196,6 +200,7 @@ impl<'a> Windows<'a> {
         self.scatter.see(estimate);
         self.in_turn.see(estimate, self.rate);
         self.coarse.see(estimate);
+        self.topped.row(estimate.flags, estimate.residual_rms);
         self.stop.see(estimate.flags);
         let estimate = Estimate {
             time: estimate.time + self.span.offset(),
@@ -230,6 +235,7 @@ impl<'a> Windows<'a> {
             self.silence.told(seconds, self.span.offset()),
             self.coarse.told(recording.resolution_so_far()),
             self.few.told().filter(|_| rows.count() > 0),
+            self.topped.told(),
             self.scatter.told(self.options.hum || self.options.coloured),
             self.in_turn.told(),
             self.copied

@@ -142,6 +142,30 @@ fn rails_that_are_codes_are_told_as_the_samples_have_them() {
 }
 
 #[test]
+fn a_wave_that_is_cut_off_where_no_rail_is_known_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (level, is_told) in [(2090.0, true), (1e9, false)] {
+        let mut codes = "c,d\n".to_owned();
+        let mut seed = 1u32;
+        for k in 0..50_000 {
+            let (s, c) = (TAU * 0.053_217 * f64::from(k)).sin_cos();
+            let mut noisy = |code: f64| {
+                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                (code + 4.0 * f64::from(seed) / 4_294_967_296.0)
+                    .round()
+                    .min(level)
+            };
+            codes += &format!("{},{}\n", noisy(300.0 * s), noisy(100.0 + 2000.0 * c));
+        }
+        fs::write(here.join("codes.csv"), codes).unwrap();
+        let found = run(here, "identify --rate 1e5 --output csv codes.csv");
+        let told = "warning: codes.csv: S_D stands at its highest value, 2090, ";
+        assert_eq!(found.err.contains(told), is_told, "{}", found.err);
+    }
+}
+
+#[test]
 fn a_step_coarser_than_the_noise_is_told_where_rows_scatter() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

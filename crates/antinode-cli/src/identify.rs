@@ -18,8 +18,9 @@ mod stop;
 mod topped;
 mod windows;
 
+use std::fs;
 use std::io::{self, BufWriter, IsTerminal, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use antinode::{Identifier, Settings};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -27,7 +28,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::failure::Failure;
 use crate::options::Format;
 use crate::ranges::in_order;
-use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
+use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording, WholeFile};
 use crate::rows::Rows;
 use flagged::Flagged;
 pub use options::Identify;
@@ -61,9 +62,24 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
             options.periods
         )));
     }
+    let (whole, out): (_, Box<dyn Write>) = match &options.out {
+        Some(path) => {
+            let is_input =
+                |file: &PathBuf| fs::canonicalize(file).ok() == fs::canonicalize(path).ok();
+            if path.exists() && options.files.iter().any(is_input) {
+                return Err(Failure::Usage(format!(
+                    "--out: {} is a recording to be read; give the rows another name",
+                    path.display()
+                )));
+            }
+            let (whole, file) = WholeFile::create(path)?;
+            (Some(whole), Box::new(file))
+        }
+        None => (None, Box::new(io::stdout().lock())),
+    };
     let mut rows = Rows::new(
-        BufWriter::new(io::stdout().lock()),
-        options.output,
+        BufWriter::new(out),
+        options.format(),
         options.methods == Methods::All,
     );
     let stop = Stop::new()?;
@@ -87,6 +103,10 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
         if is_last {
             break;
         }
+    }
+    // Rows found before a fault are good.
+    if let Some(whole) = whole.filter(|_| rows.count() > 0 || failure.is_none()) {
+        whole.finish()?;
     }
     failure.map_or(Ok(()), Err)
 }
@@ -125,20 +145,20 @@ fn identify(
     }
     let mut windows = Windows::new(&name, options, &recording, rate, stop)?;
     stop.begin(&name, Flagged::new(options.hum, options.coloured));
-    let bar = progress(&recording);
+    let is_shown = options.out.is_none() && io::stdout().is_terminal();
+    let bar = progress(&recording, is_shown);
     let length = recording
         .pairs()
         .map_or(String::new(), |pairs| format!(", {pairs} sample pairs"));
     let title = format!("{name}: {}{length} at {rate} Hz", recording.format());
     // Tables of several recordings have it above them.
-    let is_told = several && options.output == Format::Table;
+    let is_told = several && options.format() == Format::Table;
     let is_watched = !is_told && io::stderr().is_terminal();
     if is_watched {
         eprintln!("{title}");
     }
     rows.begin(several.then_some(title));
 
-    let live = io::stdout().is_terminal();
     let fault = loop {
         if stop.is_asked() {
             break Some(Failure::Stopped);
@@ -152,7 +172,7 @@ fn identify(
             .take(&mut recording, &buffer, rows)
             .and_then(|goes_on| {
                 // Somebody watches, or the samples arrive as they are taken.
-                if live || is_pipe {
+                if is_shown || is_pipe {
                     rows.flush()?;
                 }
                 Ok(goes_on)
@@ -187,9 +207,9 @@ fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, 
 }
 
 /// A progress bar where a person watches and rows go elsewhere.
-fn progress(recording: &Recording) -> ProgressBar {
+fn progress(recording: &Recording, is_shown: bool) -> ProgressBar {
     match recording.bytes_total() {
-        Some(total) if total > LONG && !io::stdout().is_terminal() => {
+        Some(total) if total > LONG && !is_shown => {
             let style = ProgressStyle::with_template(
                 "{wide_bar} {bytes}/{total_bytes} {bytes_per_sec} {eta}",
             );

@@ -38,6 +38,11 @@ impl<R: Read> RowFile<R> {
     pub fn new(name: &str, source: R) -> Result<Self, Failure> {
         let mut reader = Reader::from_reader(source);
         let header = reader.headers().map_err(|error| unreadable(name, &error))?;
+        if header.is_empty() {
+            return Err(Failure::Recording(format!(
+                "{name}: there is nothing in it, not even a header: see what the command that should have written rows has to say"
+            )));
+        }
         Ok(Self {
             name: name.to_owned(),
             header: header.clone(),

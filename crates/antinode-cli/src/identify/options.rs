@@ -1,5 +1,6 @@
 //! The command line of `antinode identify`.
 
+use std::ffi::OsStr;
 use std::path::PathBuf;
 
 use antinode::{Detection, Settings};
@@ -99,9 +100,18 @@ pub struct Identify {
     pub coloured: bool,
     #[command(flatten)]
     pub corrected: Corrected,
-    /// How rows are printed.
-    #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Table, value_name = "FORMAT", help_heading = "Output")]
-    pub output: Format,
+    /// How rows are printed [default: as the name of --out ends, or else a table].
+    #[arg(
+        long,
+        visible_alias = "format",
+        value_enum,
+        value_name = "FORMAT",
+        help_heading = "Output"
+    )]
+    pub output: Option<Format>,
+    /// Write rows to this file in place of standard output: CSV if it ends in .csv, JSON lines if in .jsonl, unless --output says otherwise.
+    #[arg(short = 'o', long, value_name = "FILE", help_heading = "Output")]
+    pub out: Option<PathBuf>,
     /// Which methods' results to show.
     ///
     /// With `all`, columns method1_… to method4_… follow in CSV and JSON lines; those that end in off_sigma are differences from the
@@ -130,6 +140,16 @@ pub enum Detector {
 }
 
 impl Identify {
+    /// How rows are printed.
+    pub fn format(&self) -> Format {
+        let ending = self.out.as_ref().and_then(|out| out.extension());
+        self.output.unwrap_or(match ending.and_then(OsStr::to_str) {
+            Some("csv") => Format::Csv,
+            Some("jsonl") => Format::Jsonl,
+            _ => Format::Table,
+        })
+    }
+
     /// The core's settings for a recording of this sample rate, full scale and resolution.
     pub fn settings(
         &self,

@@ -14,6 +14,9 @@ const LARGE_OFFSET: f64 = 300.0;
 /// A known frequency may be 5 % off, and so may one that was found.
 const APART: f64 = 0.1;
 
+/// Three of the longest periods that are searched: with fewer pairs none may be found for want of them.
+const FEW_PAIRS: u64 = 600;
+
 /// What became of the search for a period.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Search {
@@ -101,6 +104,11 @@ impl Search {
                  or the wave changes too fast: give a smaller --periods; and check the scale of the samples, --full-scale and \
                  --resolution{amiss}"
             )
+        } else if core.is_searching() && pairs < FEW_PAIRS {
+            format!(
+                "{name}: no period found in only {pairs} sample pairs ({seconds:.4} s): a search takes 3 periods, in noise 7; record longer, or give \
+                 --frequency where it is known{amiss}"
+            )
         } else if core.is_searching() {
             let other = match options.detector {
                 Detector::Difference => "mean-return",
@@ -109,7 +117,7 @@ impl Search {
             format!(
                 "{name}: no period found in {pairs} sample pairs ({seconds:.4} s): no wave of 4 to 200 samples a period \
                  stands out of the noise; check the sample rate, the channels and the signal; try --detector {other}, \
-                 as a second tone may hide the period, or give --frequency where it is known{amiss}"
+                 as a second tone may hide the period, or give --frequency where it is known, from 2.5 to 1024 samples a period{amiss}"
             )
         } else {
             let found = if options.frequency.is_some() {

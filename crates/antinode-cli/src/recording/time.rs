@@ -13,6 +13,9 @@ const COARSE: f64 = 0.25;
 /// So many times that stand in two lines each do so on purpose.
 const FEWEST_PAIRED: usize = 8;
 
+/// So many uneven steps as far from each other as all others, to two lines, are no chance.
+const LEAST_REGULAR: usize = 6;
+
 /// How many lines the rate is averaged over before it is compared.
 const RATE_LINES: u64 = 1 << 16;
 
@@ -89,10 +92,17 @@ impl TimeAxis {
         let rate = roundest(1.0 / mean, uncertainty / mean / mean);
         // A rate that changes makes many uneven steps too, but these are alike: of them the first counts.
         let is_off = |step: f64, usual: f64| ((step - usual) / mean).abs() > STEP_TOLERANCE;
-        let ragged = (0..steps.len())
+        let ragged: Vec<usize> = (0..steps.len())
             .filter(|&at| is_off(steps[at], mean))
             .filter(|&at| at == 0 || is_off(steps[at], steps[at - 1]))
-            .count();
+            .collect();
+        // Faults do not come in turn, as the last digit of a step that is no multiple of it does.
+        let apart = || ragged.windows(2).map(|pair| pair[1] - pair[0]);
+        let is_regular = ragged.len() >= LEAST_REGULAR
+            && apart()
+                .max()
+                .zip(apart().min())
+                .is_some_and(|(most, least)| most - least <= 2);
         let rounding = printed.step(*start);
         Some(Self {
             rate,
@@ -106,8 +116,8 @@ impl TimeAxis {
             anchor: *start,
             lines: 0,
             uncertainty,
-            // A few uneven steps are faults, many are the work of the rounding.
-            harmless: if ragged > 2 && 10 * ragged > steps.len() {
+            // A few uneven steps are faults, many or regular ones are the work of the rounding.
+            harmless: if is_regular || ragged.len() > 2 && 10 * ragged.len() > steps.len() {
                 0.0
             } else {
                 2.0 * rounding

@@ -292,3 +292,64 @@ fn hum_is_named_and_taken_out() {
     let clean = rows(directory.path(), "hum.wav --periods 50 --hum");
     assert!(clean.len() > 100 && clean.iter().all(|row| row.text("flags").is_empty()));
 }
+
+#[test]
+fn rows_go_to_a_file_in_the_format_of_its_name() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::write(here.join("a.wav"), wav(&WAVE.codes(20_000))).unwrap();
+    for (options, name, wanted) in [
+        ("-o rows.csv", "rows.csv", "--output csv"),
+        ("--out rows.jsonl", "rows.jsonl", "--output jsonl"),
+        ("-o rows.txt", "rows.txt", ""),
+        ("-o rows.csv --output table", "rows.csv", ""),
+    ] {
+        let written = run(here, &format!("identify a.wav {options}"));
+        assert_eq!(
+            (written.code, written.out.as_str()),
+            (0, ""),
+            "{}",
+            written.err
+        );
+        let printed = run(here, &format!("identify a.wav {wanted}"));
+        assert_eq!(
+            fs::read_to_string(here.join(name)).unwrap(),
+            printed.out,
+            "{options}"
+        );
+        assert_eq!(written.err, printed.err);
+        fs::remove_file(here.join(name)).unwrap();
+    }
+    // Rows before a fault are kept; where there is none, so is what was there; and no recording is written over.
+    fs::write(here.join("short.wav"), &wav(&WAVE.codes(20_000))[..70_000]).unwrap();
+    let cut = run(here, "identify short.wav -o rows.csv");
+    assert_eq!(cut.code, 1);
+    assert!(
+        fs::read_to_string(here.join("rows.csv"))
+            .unwrap()
+            .lines()
+            .count()
+            > 50
+    );
+    assert_eq!(run(here, "identify none.wav -o rows.csv").code, 1);
+    assert!(
+        fs::read_to_string(here.join("rows.csv"))
+            .unwrap()
+            .lines()
+            .count()
+            > 50
+    );
+    let over = run(here, "identify a.wav -o ./a.wav");
+    assert!(
+        over.code == 2 && over.err.contains("is a recording to be read"),
+        "{}",
+        over.err
+    );
+    assert_eq!(run(here, "identify a.wav").code, 0);
+    let mut files: Vec<_> = fs::read_dir(here)
+        .unwrap()
+        .map(|file| file.unwrap().file_name())
+        .collect();
+    files.sort();
+    assert_eq!(files, ["a.wav", "rows.csv", "short.wav"]);
+}

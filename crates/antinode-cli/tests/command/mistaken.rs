@@ -137,7 +137,7 @@ fn rows_in_a_recordings_place_and_a_recording_in_theirs_are_told() {
             "it.npy: this is no text; give the rows that ",
         ),
         ("plot it.csv -o it.svg", "--output csv it.csv`"),
-        ("resonator -", "--output csv -`"),
+        ("resonator -", "standard input: there is nothing in it"),
         ("resonator rows.jsonl", "these are JSON lines"),
         (
             "resonator broken.csv",

@@ -46,7 +46,7 @@ fn what_is_no_row_is_told() {
         "plot - -o it.png",
         "",
         1,
-        &["standard input: no column time_s"],
+        &["standard input: there is nothing in it"],
     );
     refused(
         here,

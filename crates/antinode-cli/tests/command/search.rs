@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
-use crate::common::{RATE, Row, Run, rows, run, wav};
+use crate::common::{RATE, Row, Run, WAVE, rows, run, wav};
 
 /// A 16-bit WAV file of tones, each a frequency and an amplitude.
 fn tones(path: &Path, tones: &[(f64, f64)]) {
@@ -104,6 +104,18 @@ fn an_offset_that_drowns_the_wave_is_named() {
     );
     write(10.0);
     assert!(rows(here, "a.csv --rate 1e5").len() > 90);
+}
+
+#[test]
+fn a_recording_too_short_for_a_search_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::write(here.join("a.wav"), wav(&WAVE.codes(30))).unwrap();
+    fault(
+        here,
+        "a.wav",
+        &["no period found in only 30 sample pairs", "record longer"],
+    );
 }
 
 #[test]

@@ -384,38 +384,34 @@ const UNSTEADY: [fn(f64) -> f64; 4] = [
 #[test]
 fn deviations_hold_however_patterns_are_turned() {
     for (index, rate) in UNSTEADY.into_iter().enumerate() {
-        let trials = 60;
-        let mut squares = [0.0; 7];
-        for seed in 0..trials {
+        // Of 39.8 s.
+        let rates = (0..3980).map(|k| rate(0.01 * (k as f64 + 0.5)));
+        let mean = rates.sum::<f64>() / 3980.0;
+        let trials = 100;
+        let errors = (1000..1000 + trials).into_par_iter().map(|seed| {
             let one = |way: f64, angle: f64, seed| {
                 let start = [1.0, 0.03, angle];
                 run_turned(&RESONATOR, |t| way * rate(t), start, 200, 0.2, NOISE, seed)
             };
             let found = fit(&[one(1.0, 0.2, 2 * seed), one(-1.0, 0.9, 2 * seed + 1)]).unwrap();
             assert!(found.is_turned());
-            assert!((found.residual - 1.0).abs() < 0.1, "{}", found.residual);
-            let resonator = found.resonator().unwrap();
-            // Of 39.8 s.
-            let rates = (0..3980).map(|k| rate(0.01 * (k as f64 + 0.5)));
-            let mean = rates.sum::<f64>() / 3980.0;
-            let turned = [mean, -mean];
-            let errors = (0..5)
-                .map(|i| (found.values[i] - RESONATOR[i]) / found.covariance[(i, i)].sqrt())
-                .chain((0..2).map(|run| {
-                    let (rotation, deviation) = resonator.rotations[run];
+            assert!((found.residual - 1.0).abs() < 0.15, "{}", found.residual);
+            let rotations = found.resonator().unwrap().rotations;
+            std::array::from_fn(|i| match i.checked_sub(5) {
+                None => (found.values[i] - RESONATOR[i]) / found.covariance[(i, i)].sqrt(),
+                Some(run) => {
+                    let (rotation, deviation) = rotations[run];
                     assert!(deviation < 1e-5, "{deviation}");
-                    (rotation - turned[run]) / deviation
-                }));
-            for (square, error) in squares.iter_mut().zip(errors) {
-                *square += error * error / trials as f64;
-            }
-        }
-        for (i, square) in squares.iter().enumerate() {
-            assert!(
-                (0.75..1.25).contains(&square.sqrt()),
-                "{index}, {i}: {}",
-                square.sqrt()
-            );
+                    (rotation - [mean, -mean][run]) / deviation
+                }
+            })
+        });
+        let errors: Vec<[f64; 7]> = errors.collect();
+        for i in 0..7 {
+            let squares = errors.iter().map(|errors| errors[i] * errors[i]);
+            let rms = (squares.sum::<f64>() / trials as f64).sqrt();
+            // It scatters by 7 %.
+            assert!((0.75..1.25).contains(&rms), "{index}, {i}: {rms}");
         }
     }
 }

@@ -48,19 +48,13 @@ struct Outlet<'q, S: Sample> {
 }
 
 impl<S: Sample> Outlet<'_, S> {
-    /// False where no sample of the block can be at a rail or beyond.
+    /// False where no sample of the block can be at a rail, the converter's least or greatest code.
     #[inline]
     fn may_be_saturated(block: &Block<S>, [low, high]: [S; 2]) -> bool {
         let watched = |[c, d]: &[ChannelWatch<S>; 2]| {
-            c.low <= low || d.low <= low || c.high >= high || d.high >= high
+            c.low == low || d.low == low || c.high == high || d.high == high
         };
         block.watch.as_ref().is_none_or(watched)
-    }
-
-    /// True for a pair with a sample at a rail or beyond.
-    #[inline]
-    fn is_at_rail(pair: impl SamplePair<S>, [low, high]: [S; 2]) -> bool {
-        pair.pair().iter().any(|&code| code <= low || code >= high)
     }
 
     /// Counts pairs at a rail, which are of a block or of none.
@@ -239,8 +233,7 @@ impl<'q, S: Sample> Gatherer<'q, S> {
             let extra = methods.add(done, block);
             // A watched block tells by its extremes whether it has pairs at a rail: they are looked for only there.
             if block.is_none_or(|block| Outlet::may_be_saturated(block, rails)) {
-                let at_rail = |&&pair: &&R::Pair| Outlet::is_at_rail(pair, rails);
-                let pairs = done.iter().filter(at_rail).count();
+                let pairs = done.iter().filter(|&&pair| source.is_at_rail(pair)).count();
                 outlet.saturate(pairs, !is_searching);
             }
             // Asked before the block is handed over: what was overwritten meanwhile must not be taken for a wave.
@@ -269,30 +262,5 @@ impl<'q, S: Sample> Gatherer<'q, S> {
         self.front.skip(u64::from(lapse.lost));
         self.methods.restart();
         self.outlet.owe(lapse);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use antinode::Packed;
-
-    use super::*;
-
-    #[test]
-    fn a_pair_is_at_a_rail_where_either_code_is_there_or_beyond() {
-        let pair = |c: i16, d: i16| Packed(u32::from(c as u16) | u32::from(d as u16) << 16);
-        for rails in [[0, 4095], [16, 4079], [i16::MIN, i16::MAX]] {
-            let inside = rails[0] / 2 + rails[1] / 2;
-            for code in (i16::MIN..=i16::MAX).step_by(5).chain(rails) {
-                let at_rail = code <= rails[0] || code >= rails[1];
-                for pair in [pair(code, inside), pair(inside, code)] {
-                    assert_eq!(
-                        Outlet::is_at_rail(pair, rails),
-                        at_rail,
-                        "{code}, {rails:?}"
-                    );
-                }
-            }
-        }
     }
 }

@@ -19,8 +19,8 @@ use crate::hardware::line::{By, Line};
 use crate::marks::{leave, mark_begin, mark_end};
 use crate::methods::AVAILABLE;
 use crate::pipeline::{Places, Queues};
-use crate::sampling::{Lapse, Ready, Source, both};
-use crate::settings::{Arithmetic, DUAL_ADC_RAILS, HALF, configuration};
+use crate::sampling::{DUAL_ADC_RAILS, Lapse, Ready, Source, both, is_at_rail_12};
+use crate::settings::{Arithmetic, HALF, configuration};
 
 /// Pairs in the ring of codes.
 const RING: usize = 1406;
@@ -76,6 +76,10 @@ impl Source for Endless {
 
     fn rails(&self) -> [Packed; 2] {
         both(DUAL_ADC_RAILS)
+    }
+
+    fn is_at_rail(&self, pair: Packed) -> bool {
+        is_at_rail_12(pair)
     }
 }
 

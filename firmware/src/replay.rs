@@ -19,8 +19,10 @@ use antinode::Packed;
 use antinode_telemetry::{Cause, Configuration, FrontEnd};
 use cortex_m_semihosting::syscall;
 
-use crate::sampling::{Lapse, Ready, Source, both};
-use crate::settings::{AD7380_RAILS, DUAL_ADC_RAILS, HALF, configuration};
+use crate::sampling::{
+    AD7380_RAILS, DUAL_ADC_RAILS, Lapse, Ready, Source, both, is_at_rail_12, is_at_rail_16,
+};
+use crate::settings::{HALF, configuration};
 use crate::wav::{Wav, is_wav};
 
 /// Most bytes of the command line.
@@ -216,5 +218,12 @@ impl Source for Replay {
 
     fn rails(&self) -> [Packed; 2] {
         both(self.codes())
+    }
+
+    fn is_at_rail(&self, pair: Packed) -> bool {
+        if self.wav.is_some() {
+            return is_at_rail_16(pair);
+        }
+        is_at_rail_12(pair)
     }
 }

@@ -28,7 +28,7 @@ pub enum Ready {
 /// A source of simultaneous sample pairs, in blocks, at a steady rate. All of it is called from the source's own interrupt.
 ///
 /// What can go wrong is told: an overrun or a stopped converter as a [`Lapse`] with the number of pairs lost, pairs overwritten while
-/// they were read by [`Source::is_intact`].
+/// they were read by [`Source::is_intact`], saturation by [`Source::is_at_rail`].
 pub trait Source {
     /// A sample pair as the converter leaves it, S_C first.
     type Pair: Copy;
@@ -47,6 +47,9 @@ pub trait Source {
 
     /// The least and the greatest code of both converters, as pairs.
     fn rails(&self) -> [Self::Pair; 2];
+
+    /// True for a pair with a sample at either end of the converter's range.
+    fn is_at_rail(&self, pair: Self::Pair) -> bool;
 }
 
 /// Pairs in a ring of two halves beyond the end of one of them, the first or the second, when `left` pairs of the round are to come.
@@ -64,6 +67,27 @@ pub const fn has_slipped(triggers: u32, pairs: u32) -> bool {
 /// The pairs with one code on both channels, of each code.
 pub fn both([low, high]: [i16; 2]) -> [Packed; 2] {
     [low, high].map(|code| Packed(u32::from(code as u16) * 0x0001_0001))
+}
+
+/// Least and greatest code of the STM32F405's 12-bit converters.
+pub const DUAL_ADC_RAILS: [i16; 2] = [0, 4095];
+/// Least and greatest code of the AD7380.
+pub const AD7380_RAILS: [i16; 2] = [i16::MIN, i16::MAX];
+
+/// True for a pair with a code of [`DUAL_ADC_RAILS`].
+#[inline]
+pub fn is_at_rail_12(pair: Packed) -> bool {
+    // One more, modulo 4096: 4095 becomes 0, and 0 becomes 1. A borrow comes out of the lower half only where that one is below 2.
+    let next = pair.0.wrapping_add(0x0001_0001) & 0x0FFF_0FFF;
+    next.wrapping_sub(0x0002_0002) & 0x8000_8000 != 0
+}
+
+/// True for a pair with a code of [`AD7380_RAILS`].
+#[inline]
+pub fn is_at_rail_16(pair: Packed) -> bool {
+    [pair.0 as i16, (pair.0 >> 16) as i16]
+        .iter()
+        .any(|&code| code == i16::MIN || code == i16::MAX)
 }
 
 #[cfg(test)]
@@ -93,6 +117,29 @@ mod tests {
                 [-1, 0, 1, 2, 1000].map(slips),
                 [true, false, false, true, true]
             );
+        }
+    }
+
+    #[test]
+    fn rails_are_the_first_and_the_last_code() {
+        for (code, at_rail) in (0..4096).map(|code| (code, code == 0 || code == 4095)) {
+            for other in [1, 2, 3, 2048, 4094] {
+                assert_eq!(is_at_rail_12(Packed(code << 16 | other)), at_rail);
+                assert_eq!(is_at_rail_12(Packed(other << 16 | code)), at_rail);
+            }
+        }
+    }
+
+    #[test]
+    fn rails_of_16_bits_are_the_first_and_the_last_code() {
+        for code in i16::MIN..=i16::MAX {
+            let at_rail = code == i16::MIN || code == i16::MAX;
+            let code = u32::from(code as u16);
+            // The bits of the rails themselves in the other half, but for one.
+            for other in [0, 1, 0x7FFE, 0x8001, 0xFFFF] {
+                assert_eq!(is_at_rail_16(Packed(code << 16 | other)), at_rail);
+                assert_eq!(is_at_rail_16(Packed(other << 16 | code)), at_rail);
+            }
         }
     }
 }

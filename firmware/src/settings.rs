@@ -4,6 +4,8 @@
 use antinode::{Calibration, Settings, SettingsError};
 use antinode_telemetry::{Configuration, FrontEnd, MAX_FRAME};
 
+use crate::sampling::DUAL_ADC_RAILS;
+
 /// Samples and their arithmetic: 16-bit codes, or the same codes in f32 with the feature `f32`.
 #[cfg(not(feature = "f32"))]
 pub type Arithmetic = i16;
@@ -61,12 +63,7 @@ pub const COUNTERS_MS: u32 = 1000;
 /// The same, at least, where they tell that something went wrong, ms.
 pub const SOONEST_MS: u32 = 50;
 
-/// Codes of the STM32F405's 12-bit converters at and beyond which samples are flagged, and counted, as clipped: its least and its greatest.
-pub const DUAL_ADC_RAILS: [i16; 2] = [0, 4095];
-/// The same of the AD7380.
-pub const AD7380_RAILS: [i16; 2] = [i16::MIN, i16::MAX];
-
-/// What an image is set to at its start, by its front end and the codes of its rails.
+/// What an image is set to at its start, by its front end and the least and greatest code of its converters.
 pub const fn configuration(front_end: FrontEnd, rails: [i16; 2]) -> Configuration {
     let settings = Settings {
         periods: PERIODS,

@@ -12,6 +12,8 @@ pub const fn pair_from_frame(frame: [u8; 4]) -> [i16; 2] {
 
 /// The pair `[A, B]` in a frame received as one word of 32 bits, highest bit first.
 ///
+/// A is in the high half: where a reader of such words wants it in the low one, give it `word.rotate_left(16)`.
+///
 /// ```
 /// assert_eq!(ad7380::pair_from_word(0x0001_FFFF), [1, -1]);
 /// ```

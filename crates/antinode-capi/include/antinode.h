@@ -2,7 +2,7 @@
  * antinode: the standing wave of a hemispherical resonator gyro, window by window, from its two pick-offs sampled together.
  * Apache-2.0 or MIT. Made by cbindgen from crates/antinode-capi; do not edit.
  *
- *     static antinode_fixed_t gyro;                                     // 8.8 KiB; or antinode_float_t, 10.7 KiB
+ *     static antinode_fixed_t gyro;                                     // 8832 bytes; antinode_float_t has 10816
  *
  *     antinode_settings_t settings = antinode_settings_default(100e3);  // before the interrupt is enabled
  *     antinode_status_t status = antinode_fixed_init(&gyro, &settings); // below 0: antinode_status_string(status)
@@ -333,9 +333,10 @@ antinode_status_t antinode_fixed_push_block_interleaved(antinode_fixed_t *state,
 antinode_status_t antinode_fixed_push_block_packed(antinode_fixed_t *state, const uint32_t *words, size_t count);
 
 // Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is
-// dropped, and time goes on. After a gap so long that the pattern may have turned by more than can be told (about pi/16) the
+// dropped, and time goes on. After a gap so long that the turning of the pattern is known no better than to 0.13 rad, one standard deviation, the
 // angle is known modulo pi/2 only: ANTINODE_FLAG_REACQUIRED says so.
-antinode_status_t antinode_fixed_skip(antinode_fixed_t *state, uint32_t count);
+antinode_status_t antinode_fixed_skip(antinode_fixed_t *state,
+                                      uint32_t count);
 
 // Thread side. Solves finished blocks up to the next estimate: ANTINODE_ESTIMATE when one was written, and then there may be
 // more; ANTINODE_OK when no block is left, and then `estimate` is as it was. A lost wave is searched anew by itself.
@@ -387,9 +388,10 @@ antinode_status_t antinode_float_push_block_interleaved(antinode_float_t *state,
 antinode_status_t antinode_float_push_block_packed(antinode_float_t *state, const uint32_t *words, size_t count);
 
 // Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is
-// dropped, and time goes on. After a gap so long that the pattern may have turned by more than can be told (about pi/16) the
+// dropped, and time goes on. After a gap so long that the turning of the pattern is known no better than to 0.13 rad, one standard deviation, the
 // angle is known modulo pi/2 only: ANTINODE_FLAG_REACQUIRED says so.
-antinode_status_t antinode_float_skip(antinode_float_t *state, uint32_t count);
+antinode_status_t antinode_float_skip(antinode_float_t *state,
+                                      uint32_t count);
 
 // Thread side. Solves finished blocks up to the next estimate: ANTINODE_ESTIMATE when one was written, and then there may be
 // more; ANTINODE_OK when no block is left, and then `estimate` is as it was. A lost wave is searched anew by itself.

@@ -77,7 +77,7 @@ pub unsafe extern "C" fn antinode_fixed_push_block_packed(
 }
 
 /// Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is
-/// dropped, and time goes on. After a gap so long that the pattern may have turned by more than can be told (about π/16) the
+/// dropped, and time goes on. After a gap so long that the turning of the pattern is known no better than to 0.13 rad, one standard deviation, the
 /// angle is known modulo π/2 only: ANTINODE_FLAG_REACQUIRED says so.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_skip(state: *mut Fixed, count: u32) -> Status {

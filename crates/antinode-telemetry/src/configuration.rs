@@ -1,6 +1,6 @@
 //! What the device is set to.
 
-use antinode::Settings;
+use antinode::{Calibration, Settings};
 use serde::{Deserialize, Serialize};
 
 use crate::command::{Command, CommandError};
@@ -47,7 +47,8 @@ impl Configuration {
     ///
     /// # Errors
     ///
-    /// [`CommandError::Settings`] names the value that cannot be, and what could.
+    /// [`CommandError::Settings`] names the value that cannot be, and what could; [`CommandError::Calibrated`] where methods and a calibration
+    /// would stand side by side.
     pub fn after(self, command: &Command, blocks: usize) -> Result<Self, CommandError> {
         let mut new = self;
         match *command {
@@ -58,13 +59,16 @@ impl Configuration {
             Command::Get | Command::Restart => {}
         }
         new.settings.check(blocks)?;
+        if new.methods && new.settings.calibration != Calibration::IDEAL {
+            return Err(CommandError::Calibrated);
+        }
         Ok(new)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use antinode::{Calibration, SettingsError};
+    use antinode::SettingsError;
 
     use super::*;
 
@@ -81,7 +85,6 @@ mod tests {
             Command::SetWindow { periods: 20 },
             Command::SetHop { blocks: Some(5) },
             Command::SetCalibration(calibration),
-            Command::SetMethods { on: true },
             Command::Get,
             Command::Restart,
         ];
@@ -97,10 +100,21 @@ mod tests {
                     calibration,
                     ..PLAIN.settings
                 },
-                methods: true,
                 ..PLAIN
             }
         );
+        let on = PLAIN.after(&Command::SetMethods { on: true }, 64);
+        let with_methods = Configuration {
+            methods: true,
+            ..PLAIN
+        };
+        assert_eq!(on, Ok(with_methods));
+        // They know of no calibration.
+        let refused = Err(CommandError::Calibrated);
+        assert_eq!(new.after(&Command::SetMethods { on: true }, 64), refused);
+        let calibrate = Command::SetCalibration(calibration);
+        assert_eq!(with_methods.after(&calibrate, 64), refused);
+        assert!(new.after(&Command::SetMethods { on: false }, 64).is_ok());
     }
 
     #[test]

@@ -5,7 +5,9 @@ use core::fmt;
 use serde::de::{Error, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use crate::calibration::Calibration;
 use crate::estimate::Flags;
+use crate::settings::Settings;
 
 impl Serialize for Flags {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -25,6 +27,25 @@ impl<'de> Deserialize<'de> for Flags {
             u16::deserialize(deserializer).map(Self::from_bits_truncate)
         }
     }
+}
+
+/// What settings that are stored may lack, as [`Settings::new`] has it.
+const PLAIN: Settings = Settings::new(1.0);
+
+pub(crate) fn periods() -> u16 {
+    PLAIN.periods
+}
+
+pub(crate) fn start_angle() -> f32 {
+    PLAIN.start_angle
+}
+
+pub(crate) fn watch() -> bool {
+    PLAIN.watch
+}
+
+pub(crate) fn calibration() -> Calibration {
+    PLAIN.calibration
 }
 
 /// Reads names joined by `+`.
@@ -52,7 +73,7 @@ mod tests {
     use std::format;
 
     use super::*;
-    use crate::{Estimate, Settings};
+    use crate::Estimate;
 
     #[test]
     fn flags_are_read_by_their_names() {
@@ -78,6 +99,9 @@ mod tests {
         };
         let text = serde_json::to_string(&settings).unwrap();
         assert_eq!(serde_json::from_str::<Settings>(&text).unwrap(), settings);
+        let least: Settings = serde_json::from_str("{\"sample_rate\": 1e5}").unwrap();
+        assert_eq!(least, Settings::new(1e5));
+        assert!(serde_json::from_str::<Settings>("{\"periods\": 5}").is_err());
         let mut identifier = crate::Identifier::<f32, 200, 16>::new(Settings {
             frequency: Some(5000.0),
             ..Settings::new(1e5)

@@ -20,7 +20,8 @@ pub enum Detection {
     MeanReturn,
 }
 
-/// Settings of an identification. Start from [`Settings::new`] and change what differs; later versions may have more of them.
+/// Settings of an identification. Start from [`Settings::new`] and change what differs; later versions may have more of them. With the
+/// feature `serde`, what stored settings lack, but for the sample rate, is as `new` has it.
 ///
 /// # Example
 ///
@@ -53,13 +54,15 @@ pub struct Settings {
     /// Sample rate in Hz, 10⁻³ to 10¹².
     pub sample_rate: f64,
     /// Length of a window in periods, from 2 to the ring's blocks less 2, 60 000 at most; 10 unless changed. A window is a whole number of blocks,
-    /// up to a tenth off this length: a block has up to two periods, or a fifth of the window where that is less.
+    /// up to a tenth off this length, and of 6 sample pairs at least: a block has up to two periods, or a fifth of the window where that is less.
+    #[cfg_attr(feature = "serde", serde(default = "crate::serial::periods"))]
     pub periods: u16,
     /// Blocks from the start of one window to the start of the next, 1 or more. Blocks are then half as long, so that windows move
     /// in finer steps: about a period, or a tenth of a window of fewer than ten periods. A hop beyond the window leaves gaps. `None`: windows follow each other without gap or overlap.
     pub hop: Option<u16>,
     /// Where the pattern stands at first, rad, within ±10⁴: the angle is known modulo π/2, and the first window takes the one nearest to
     /// this. With π/4, the default, that lies in 0…π/2.
+    #[cfg_attr(feature = "serde", serde(default = "crate::serial::start_angle"))]
     pub start_angle: f32,
     /// The least and the greatest sample that the converter gives, input units: at or beyond them a window is flagged as clipped.
     /// `None` where they are not known. A signed converter of 12 bits, taken as codes, has −2048 and 2047.
@@ -72,18 +75,23 @@ pub struct Settings {
     /// Where the wave is elsewhere there is no window, or a flagged one. `None`: the period is found as `detection` says.
     pub frequency: Option<f32>,
     /// How the period is found from cold.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub detection: Detection,
     /// True, unless changed, where the third harmonic and the extremes of the samples are watched: [`Flags::CLIPPED`](crate::Flags::CLIPPED)
     /// needs it, and other faults are found earlier with it. It about doubles the work at sample rate.
+    #[cfg_attr(feature = "serde", serde(default = "crate::serial::watch"))]
     pub watch: bool,
     /// True where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
     /// only moves an offset is neither noise nor a fault. Windows need 5 periods for it, with a hop 10; shorter ones do without.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub hum: bool,
     /// True where the noise is not white: a tuned front end, or a filter that cuts off below three times the frequency, leaves less than a
     /// sixteenth of its power there. That is no fault then, and blocks have offsets of their own as with `hum`. In return what is in every
     /// window is not flagged: a second tone counts as noise, and so does a fault in the first window.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub coloured: bool,
     /// How the pick-offs differ from ideal ones.
+    #[cfg_attr(feature = "serde", serde(default = "crate::serial::calibration"))]
     pub calibration: Calibration,
 }
 

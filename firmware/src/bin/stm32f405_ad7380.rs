@@ -21,7 +21,8 @@ mod app {
     use firmware::hardware::{clock, log, main_loop, reset};
     use firmware::instrument::Instrument;
     use firmware::pipeline::{Places, Queues};
-    use firmware::settings::{AD7380_RAILS, Arithmetic, HALF, configuration};
+    use firmware::sampling::AD7380_RAILS;
+    use firmware::settings::{Arithmetic, HALF, configuration};
     use stm32f4xx_hal::gpio::Speed;
     use stm32f4xx_hal::prelude::*;
 

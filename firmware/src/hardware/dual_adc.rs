@@ -19,7 +19,8 @@ use crate::hardware::clock;
 use crate::hardware::pair_clock::{PairClock, Trigger};
 use crate::hardware::ring::{Memory, Origin, Ring};
 use crate::hardware::sampler::{Converter, Sampler, wait_for};
-use crate::settings::{DUAL_ADC_RAILS, SAMPLE_RATE};
+use crate::sampling::{DUAL_ADC_RAILS, is_at_rail_12};
+use crate::settings::SAMPLE_RATE;
 
 /// Ticks of TIM3 from trigger to trigger.
 const TICKS: u32 = APB1_TIMERS / SAMPLE_RATE;
@@ -168,5 +169,10 @@ impl Converter for DualAdc {
         // CSR.OVR1, OVR2: the flags of both converters.
         let status = self.common.csr().read();
         status.ovr1().bit_is_set() || status.ovr2().bit_is_set()
+    }
+
+    #[inline]
+    fn is_at_rail(pair: Packed) -> bool {
+        is_at_rail_12(pair)
     }
 }

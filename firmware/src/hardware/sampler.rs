@@ -27,6 +27,9 @@ pub trait Converter {
 
     /// The least and the greatest code.
     const RAILS: [i16; 2];
+
+    /// True for a pair with a sample at either end of the range.
+    fn is_at_rail(pair: Packed) -> bool;
 }
 
 /// Waits until a timer of `ticks` a period, which `count` reads, stands within `quiet`: at most two periods, and for ever neither, as a dead
@@ -138,5 +141,10 @@ impl<C: Converter> Source for Sampler<C> {
     #[inline]
     fn rails(&self) -> [Packed; 2] {
         both(C::RAILS)
+    }
+
+    #[inline]
+    fn is_at_rail(&self, pair: Packed) -> bool {
+        C::is_at_rail(pair)
     }
 }

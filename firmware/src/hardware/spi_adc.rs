@@ -29,7 +29,8 @@ use crate::hardware::clock;
 use crate::hardware::pair_clock::{PairClock, Trigger};
 use crate::hardware::ring::{Memory, Origin, Ring};
 use crate::hardware::sampler::{Converter, Sampler, wait_for};
-use crate::settings::{AD7380_RAILS, SAMPLE_RATE};
+use crate::sampling::{AD7380_RAILS, is_at_rail_16};
+use crate::settings::SAMPLE_RATE;
 
 /// Ticks of TIM1 from frame to frame.
 const TICKS: u32 = APB2_TIMERS / SAMPLE_RATE;
@@ -209,6 +210,11 @@ impl Converter for SpiAdc {
     #[inline]
     fn has_overrun(&self) -> bool {
         self.spi.sr().read().ovr().bit_is_set()
+    }
+
+    #[inline]
+    fn is_at_rail(pair: Packed) -> bool {
+        is_at_rail_16(pair)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Commands are obeyed and acknowledged.
 
-use antinode::{Calibration, Sample};
+use antinode::Sample;
 use antinode_telemetry::{Acknowledgement, Command, CommandError, CommandFrame, Report};
 
 use super::Instrument;
@@ -29,18 +29,20 @@ impl<S: Sample> Instrument<'_, S> {
             Command::Get => self.hello(),
             Command::Restart => self.restart = Some(self.now),
             Command::SetMethods { on } => {
-                self.check_methods(*on, &self.configuration.settings.calibration)?;
+                if *on && !AVAILABLE {
+                    return Err(CommandError::Unsupported);
+                }
+                let configuration = self.configuration.after(command, RING)?;
                 let request = Request::Tune(None);
                 self.requests
                     .enqueue(request)
                     .map_err(|_| CommandError::Busy)?;
                 self.tuning = None;
-                self.configuration.methods = *on;
+                self.configuration = configuration;
                 self.hello();
             }
             Command::SetWindow { .. } | Command::SetHop { .. } | Command::SetCalibration(_) => {
                 let configuration = self.configuration.after(command, RING)?;
-                self.check_methods(configuration.methods, &configuration.settings.calibration)?;
                 // Blocks are as they were, but for their calibration.
                 let is_new = !matches!(command, Command::SetCalibration(_));
                 if is_new {
@@ -57,18 +59,5 @@ impl<S: Sample> Instrument<'_, S> {
             }
         }
         Ok(())
-    }
-
-    /// The methods are to be built in, and know of no calibration.
-    fn check_methods(&self, on: bool, calibration: &Calibration) -> Result<(), CommandError> {
-        if !on {
-            Ok(())
-        } else if !AVAILABLE {
-            Err(CommandError::Unsupported)
-        } else if *calibration != Calibration::IDEAL {
-            Err(CommandError::Calibrated)
-        } else {
-            Ok(())
-        }
     }
 }

@@ -8,10 +8,9 @@ use firmware::inbox::Inbox;
 use firmware::instrument::{Event, Instrument};
 use firmware::link::{Outgoing, Run};
 use firmware::pipeline::{Places, Queues};
-use firmware::sampling::{Lapse, Ready, Source, both};
+use firmware::sampling::{DUAL_ADC_RAILS, Lapse, Ready, Source, both};
 use firmware::settings::{
-    BAUD, COUNTERS_MS, DUAL_ADC_RAILS, HALF, INBOX, QUEUE, RESTART_MS, SAMPLE_RATE, SOONEST_MS,
-    configuration,
+    BAUD, COUNTERS_MS, HALF, INBOX, QUEUE, RESTART_MS, SAMPLE_RATE, SOONEST_MS, configuration,
 };
 
 use crate::emulator::bytes;

@@ -3,8 +3,8 @@
 use antinode::{Packed, Sample, SamplePair};
 use antinode_telemetry::{Cause, FrontEnd, Receiver, Report};
 use firmware::pipeline::{Places, Queues};
-use firmware::sampling::{Lapse, Ready, Source, both, is_at_rail_12};
-use firmware::settings::{DUAL_ADC_RAILS, HALF, configuration};
+use firmware::sampling::{DUAL_ADC_RAILS, Lapse, Ready, Source, both, is_at_rail_12};
+use firmware::settings::{HALF, configuration};
 
 /// Codes from memory.
 pub struct Recorded<'a> {

@@ -5,8 +5,8 @@ use antinode_sim::Wave;
 use antinode_telemetry::{Cause, Command, CommandError, Report, State};
 use firmware::instrument::Event;
 use firmware::pipeline::{Places, Queues};
-use firmware::sampling::{Lapse, Ready, Source, both};
-use firmware::settings::{DUAL_ADC_RAILS, HALF, QUEUE, SAMPLE_RATE, SOONEST_MS, STALL_MS};
+use firmware::sampling::{DUAL_ADC_RAILS, Lapse, Ready, Source, both};
+use firmware::settings::{HALF, QUEUE, SAMPLE_RATE, SOONEST_MS, STALL_MS};
 
 use crate::emulator::bytes;
 use crate::line::{BYTES, Losing, Wire, hop_of};

@@ -2,8 +2,8 @@
 
 use antinode::{Estimate, Flags, Identifier, Packed};
 use antinode_telemetry::{Report, State};
-use firmware::sampling::is_at_rail_12;
-use firmware::settings::{DUAL_ADC_RAILS, RING, configuration};
+use firmware::sampling::{DUAL_ADC_RAILS, is_at_rail_12};
+use firmware::settings::{RING, configuration};
 
 use crate::emulator::Device;
 use crate::{mirror, recordings};

@@ -67,7 +67,7 @@ pub enum Form {
 /// window's equations. Integers need no floating point at sample rate once the period is known.
 ///
 /// No other type can be one: what the core does with them has no public path.
-pub trait Sample: Copy + Debug + Default + PartialOrd + Send + Arithmetic + 'static {}
+pub trait Sample: Copy + Debug + Default + PartialEq + Send + Arithmetic + 'static {}
 
 impl Sample for f32 {}
 impl Sample for i16 {}
@@ -93,6 +93,9 @@ impl Sample for i32 {}
 /// | unsigned codes of 16 bits | words `u32`, each `^ 0x8000_8000`, or `[u16; 2]` for `i32` and `f32` |
 /// | codes of 24 bits | `[i32; 2]`, with the sign carried to the upper bits, or left where they are in the upper ones of 32 |
 /// | a slice of S_C and one of S_D | [`Front::extend_separate`](crate::Front::extend_separate) |
+///
+/// On a Cortex-M4F slices of `[i16; 2]` are read as words, aligned or not: where `CCR.UNALIGN_TRP` makes that a fault, take `Packed`, or align
+/// the buffer to 4 bytes.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no pair of samples `{S}`",
     label = "not a form of a pair of `{S}`",
@@ -105,6 +108,8 @@ pub trait SamplePair<S>: Copy + sealed::Pair {
 }
 
 /// A pair of 16-bit codes in one word, S_C in its low half: as a dual converter's DMA leaves it.
+///
+/// Where a converter on SPI sends S_C first, in the high half of a word, turn that round: `Packed(word.rotate_left(16))`.
 ///
 /// The codes are signed. Unsigned ones of up to 15 bits are the same; of 16 bits, `word ^ 0x8000_8000` makes them signed, and the
 /// offsets of the estimates are then less by 32 768.

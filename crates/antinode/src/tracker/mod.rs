@@ -250,7 +250,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// not settle, or eight in a row held little of the wave beside all else, or samples in every block that lie further beyond the wave
     /// than it is large. Windows that overlap count by the blocks they move on.
     ///
-    /// Hand it on after every block: a first window without a wave gives no estimate.
+    /// Hand it on after every block, for a first window without a wave gives no estimate, and after [`configure`](Self::configure) and
+    /// [`search`](Self::search).
     #[must_use = "a lost wave is found again only by a search"]
     pub fn wanted_search(&self) -> u32 {
         self.wanted
@@ -292,8 +293,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Changes the settings, all but the start angle: the next block starts a new first window, flagged [`Flags::REACQUIRED`], its angle
     /// continued. [`configure`](Self::configure) begins with the start angle instead.
     ///
-    /// The front needs the same settings, except `calibration`, `hum` and `coloured`; where it is configured anew, [`search`](Self::search)
-    /// too, so that blocks from before are left out.
+    /// The front needs the same `sample_rate`, `frequency`, `periods`, `hop`, `detection` and `watch`; where it is configured anew,
+    /// [`search`](Self::search) too, so that blocks from before are left out.
     ///
     /// # Errors
     ///

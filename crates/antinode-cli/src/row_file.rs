@@ -1,20 +1,22 @@
 //! Rows as `antinode identify --output csv` prints them, from a file or standard input, and what is told where they are not.
 
-use std::io::{self, IsTerminal, Read};
+use std::io::{self, BufRead, BufReader, Chain, Cursor, IsTerminal, Read};
 use std::path::Path;
 
 use antinode::Flags;
-use csv::{ErrorKind, Position, Reader, StringRecord};
+use csv::{ErrorKind, Position, Reader, ReaderBuilder, StringRecord};
 
 use crate::failure::Failure;
 use crate::recording::{in_utf8, open_file};
 
 const STANDARD_INPUT: &str = "standard input";
+/// No header of rows is longer, bytes.
+const LONGEST_HEADER: u64 = 1 << 16;
 
 /// A file of rows, read line by line.
 pub struct RowFile<R> {
     name: String,
-    reader: Reader<R>,
+    reader: Reader<Chain<Cursor<Vec<u8>>, BufReader<R>>>,
     header: StringRecord,
     record: StringRecord,
 }
@@ -36,7 +38,17 @@ impl RowFile<Box<dyn Read>> {
 impl<R: Read> RowFile<R> {
     /// Reads the header.
     pub fn new(name: &str, source: R) -> Result<Self, Failure> {
-        let mut reader = Reader::from_reader(source);
+        let mut source = BufReader::new(source);
+        // Spreadsheets whose decimal mark is a comma separate fields by a semicolon.
+        let mut first = Vec::new();
+        let mut head = (&mut source).take(LONGEST_HEADER);
+        head.read_until(b'\n', &mut first)
+            .map_err(|fault| unreadable(name, &fault.into()))?;
+        let is_by_semicolon = first.contains(&b';') && !first.contains(&b',');
+        let delimiter = if is_by_semicolon { b';' } else { b',' };
+        let mut reader = ReaderBuilder::new()
+            .delimiter(delimiter)
+            .from_reader(Cursor::new(first).chain(source));
         let header = reader.headers().map_err(|error| unreadable(name, &error))?;
         if header.is_empty() {
             return Err(Failure::Recording(format!(
@@ -98,9 +110,11 @@ impl<R: Read> RowFile<R> {
     }
 }
 
-/// The number in a field of a row.
+/// The number in a field of a row, its decimal mark a point or a comma.
 pub fn number(row: &StringRecord, place: usize) -> Option<f64> {
-    row.get(place)?.trim().parse().ok()
+    let text = row.get(place)?.trim();
+    let number = text.parse().ok();
+    number.or_else(|| text.replacen(',', ".", 1).parse().ok())
 }
 
 /// The flags in a row's column of that name; those of no known name are none.

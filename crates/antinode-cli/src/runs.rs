@@ -1,20 +1,20 @@
 //! Rows that `antinode identify` printed become runs: spans of time in which the pattern moves without a break.
 
 mod again;
+mod given;
 mod jump;
 mod row;
 
 use std::f64::consts::FRAC_PI_2;
 use std::io::{self, Read, Write};
 use std::ops::Range;
-use std::path::PathBuf;
 
 use antinode::Flags;
-use clap::Args;
 
 use crate::failure::Failure;
-use crate::ranges::{self, in_order};
+use crate::ranges::in_order;
 use crate::row_file::{self, RowFile};
+pub use given::Given;
 use jump::jumps;
 use row::Places;
 pub use row::Row;
@@ -25,20 +25,6 @@ pub const BEYOND_NOISE: f64 = 2.0;
 const LEAST_ROWS: usize = 12;
 /// Windows overlap where one follows another by less than this share of its length, which is known to a few per cent.
 const APART: f64 = 0.97;
-
-/// The rows that a fit is given.
-#[derive(Debug, Args)]
-pub struct Given {
-    /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
-    #[arg(required = true, value_name = "ROWS")]
-    pub rows: Vec<PathBuf>,
-    /// Only rows from this time on, s, as in their `time_s`: leave out what comes before the drive ends.
-    #[arg(long, value_name = "S", value_parser = ranges::time)]
-    pub from: Option<f64>,
-    /// Only rows before this time, s.
-    #[arg(long, value_name = "S", value_parser = ranges::time)]
-    pub to: Option<f64>,
-}
 
 /// A span of rows without a break.
 #[derive(Debug, Clone, Default)]

@@ -286,26 +286,9 @@ impl Source for Delimited {
 
     fn late_warning(&self) -> Option<String> {
         let axis = self.axis.as_ref()?;
-        let side = |late: f64| if late < 0.0 { "before" } else { "after" };
-        let Some((rate, late)) = axis.drift() else {
-            let used = self.asked.unwrap_or(axis.rate());
-            let (rate, late) = axis.beside(used).filter(|_| !self.is_index)?;
-            return Some(format!(
-                "{}: by all of the time column the sample rate is {rate} Hz; times and frequencies of rows are by {used} Hz, and the last \
-                 sample's own time is {:.1e} s {} that: give --rate {rate} where that matters",
-                self.file,
-                late.abs(),
-                side(late)
-            ));
-        };
-        let side = side(late);
-        Some(format!(
-            "{}: in the time column the sample rate has gone slowly from {:.3} Hz to {rate:.3} Hz; times and frequencies of rows are by \
-             the first of them, and the last sample's own time is {:.1e} s {side} that: resample it to a constant rate where that matters",
-            self.file,
-            axis.rate(),
-            late.abs()
-        ))
+        let used = (!self.is_index).then(|| self.asked.unwrap_or(axis.rate()));
+        let told = axis.late_warning(used)?;
+        Some(format!("{}: {told}", self.file))
     }
 
     fn not_finite(&self) -> Option<Written> {

@@ -207,22 +207,9 @@ impl Recording {
         Some(self.step.map_or(largest, |step| largest.min(1.0 - step)))
     }
 
-    /// What is wrong with rails that are given for integers, which are scaled so that full scale is 1.
-    pub fn rails_warning(&self, [low, high]: [f32; 2]) -> Option<String> {
-        let integers = self.opened.integers?;
-        // A little beyond is a way to have none.
-        if low >= -2.0 && high <= 2.0 {
-            return None;
-        }
-        let meant = integers
-            .scaled([low, high])
-            .map_or_else(String::new, |[low, high]| {
-                format!("; if these are codes, give --full-scale {low},{high}")
-            });
-        Some(format!(
-            "--full-scale: {low} and {high} are not rails of {}, which are scaled to lie within ±1{meant}",
-            integers.words()
-        ))
+    /// What is wrong with rails that are given, where the samples are integers.
+    pub fn rails_warning(&self, rails: [f32; 2]) -> Option<String> {
+        self.opened.integers?.rails_warning(rails)
     }
 
     /// The step between two codes of the converter: of integers, and of text and floats that lie on one.

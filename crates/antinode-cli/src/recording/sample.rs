@@ -84,7 +84,7 @@ impl SampleCode {
     }
 
     /// Codes of integers as they are decoded; none where one of them is no such code.
-    pub fn scaled(self, codes: [f32; 2]) -> Option<[f64; 2]> {
+    fn scaled(self, codes: [f32; 2]) -> Option<[f64; 2]> {
         let half = (f64::from(self.bits().1) - 1.0).exp2();
         let middle = match self.kind {
             Kind::U8 | Kind::U16 => half,
@@ -93,6 +93,22 @@ impl SampleCode {
         let scaled = codes.map(|code| (f64::from(code) - middle) / half);
         let is_code = |code: f32, scaled: f64| code.fract() == 0.0 && (-1.0..1.0).contains(&scaled);
         (is_code(codes[0], scaled[0]) && is_code(codes[1], scaled[1])).then_some(scaled)
+    }
+
+    /// What is wrong with rails that are given for integers, which are scaled so that full scale is 1.
+    pub fn rails_warning(self, [low, high]: [f32; 2]) -> Option<String> {
+        // A little beyond is a way to have none.
+        if low >= -2.0 && high <= 2.0 {
+            return None;
+        }
+        let meant = self.scaled([low, high]);
+        let meant = meant.map_or_else(String::new, |[low, high]| {
+            format!("; if these are codes, give --full-scale {low},{high}")
+        });
+        Some(format!(
+            "--full-scale: {low} and {high} are not rails of {}, which are scaled to lie within ±1{meant}",
+            self.words()
+        ))
     }
 
     /// What the samples are, in words.

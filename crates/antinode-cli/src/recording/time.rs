@@ -1,5 +1,7 @@
 //! The time column of a text recording: its sample rate, and whether it keeps to it.
 
+mod late;
+
 use super::error::TimeFault;
 use super::printed::Printed;
 use crate::digits::significant;

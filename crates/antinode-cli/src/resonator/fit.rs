@@ -2,7 +2,8 @@
 //!
 //! Every row is a measurement of a_A, a_B and θ, or near a circle of both travelling waves. First each run gets a decay, a rotation and a
 //! growth of its quadrature of its own, which any run tells. The resonator that the runs share takes their place where they tell it: a
-//! pattern that stands still sees one side of each split alone. The steps are those of Levenberg and Marquardt.
+//! pattern that stands still sees one side of each split alone. Where no steady rotation explains the rows, their angles are taken as they
+//! are: they tell where the splits act, and only the amplitudes are explained. The steps are those of Levenberg and Marquardt.
 
 use nalgebra::{Cholesky, Complex, DMatrix, DVector, Dyn, RowSVector, SMatrix, SVector};
 

@@ -123,6 +123,7 @@ fn commands_are_done_and_acknowledged() {
         ("window 20", "window of 20 periods: done\n"),
         ("hop 5", "hop of 5 blocks: done\n"),
         ("methods on", "methods on: done\n"),
+        ("methods off", "methods off: done\n"),
         (
             "calibration --gain-ratio 1.25 --pick-off-angle -0.01",
             "calibration: gain ratio 1.25, skew 0 ns, pick-off angle -0.01 rad: done\n",
@@ -147,7 +148,7 @@ fn commands_are_done_and_acknowledged() {
         "firmware 1.2.3",
         "window 20 periods",
         "hop 5 blocks",
-        "methods on",
+        "methods off",
         "gain ratio 1.25",
         "skew -250 ns",
     ] {

@@ -27,9 +27,9 @@ pub(super) fn flags(
     offset_rates: &mut [f32; 2],
     knows_angle: bool,
 ) -> Flags {
-    let passed = Passed::new(before, now);
+    let interval = Interval::new(before, now);
     let phase = wrap(now.phase_advance(before));
-    let phase_variance = passed.variance(
+    let phase_variance = interval.variance(
         before.phase_variance + now.phase_variance,
         before.drift_variance + now.drift_variance,
     );
@@ -37,11 +37,11 @@ pub(super) fn flags(
     let jump = beyond(phase, phase_variance, PHASE_FLOOR);
 
     let amplitude_floor = AMPLITUDE_FLOOR * before.main.value;
-    let main = passed.change(&before.main, &now.main, amplitude_floor);
-    let quadrature = passed.change(&before.quadrature, &now.quadrature, amplitude_floor);
+    let main = interval.change(&before.main, &now.main, amplitude_floor);
+    let quadrature = interval.change(&before.quadrature, &now.quadrature, amplitude_floor);
     let angle = beyond(
-        now.angle.less(before.angle) - passed.promised([before.turning, now.turning]),
-        passed.variance(
+        now.angle.less(before.angle) - interval.promised([before.turning, now.turning]),
+        interval.variance(
             now.angle_variance + before.angle_variance,
             now.turning_variance + before.turning_variance,
         ),
@@ -52,8 +52,8 @@ pub(super) fn flags(
     for (i, rate) in offset_rates.iter_mut().enumerate() {
         let moved = now.offsets[i] - before.offsets[i];
         // One that goes on as it went before wanders, and does not step.
-        let beside = moved - *rate * passed.samples;
-        *rate = moved / passed.samples;
+        let beside = moved - *rate * interval.samples;
+        *rate = moved / interval.samples;
         step = greater(lesser(moved.abs(), beside.abs()), step);
     }
     let offsets = beyond(step, offset_variance, amplitude_floor);
@@ -72,7 +72,7 @@ pub(super) fn turns_otherwise(before: &Record, now: &Record) -> bool {
 }
 
 /// What lies between the middles of two windows.
-struct Passed {
+struct Interval {
     samples: f32,
     /// Half the later window.
     half: f32,
@@ -82,7 +82,7 @@ struct Passed {
     factor: f32,
 }
 
-impl Passed {
+impl Interval {
     fn new(before: &Record, now: &Record) -> Self {
         let samples = 0.5 * long(now.middle.wrapping_sub(before.middle));
         // Each rate by its own amplitude: the other one times one over the product of both.

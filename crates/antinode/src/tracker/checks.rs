@@ -13,6 +13,14 @@ use crate::window::{Covariance, Fit, Model, Remains};
 pub(super) const SIGMAS: f32 = 7.0;
 /// Standard deviations of one that is looked at only once, where no windows before are known: one in a million.
 const REACH_ONCE: f32 = 4.75;
+/// The square of an amplitude over its variance from which on it stands out of its noise: six deviations.
+pub(super) const SIGNIFICANT: f32 = 36.0;
+/// Below this share of a_A the lesser of the travelling waves is none, and the pattern a circle.
+const ROUND: f32 = 2e-3;
+/// Degrees of freedom of the noise about the third harmonic from which on it is known: those of four blocks.
+const LEAST_FREEDOM: f32 = 12.0;
+/// Margin on the share of a sample's noise that the third harmonic has, which is taken to be that of the wave.
+const THIRD_SHARE: f32 = 1.2;
 /// Third harmonic, as a share of a_A, that common electronics may have.
 const HARMONIC_FLOOR: f32 = 1e-3;
 /// The square of what [`SIGMAS`] times is 0.1 of the hum's rms: its slopes within blocks leave up to 0.05 of that as third harmonic, seen of
@@ -50,22 +58,38 @@ pub(crate) fn is_hidden(wave: &Standing) -> bool {
 
 /// True when the main amplitude stands out of its own noise.
 fn is_significant(wave: &Standing) -> bool {
-    wave.record.main.value * wave.record.main.value > 36.0 * wave.record.main.variance
+    wave.record.main.value * wave.record.main.value > SIGNIFICANT * wave.record.main.variance
 }
 
-/// Tests of one window by itself and against the noise of those before.
-///
-/// `variance` is the noise variance that it leaves, `stated` that for which it states its deviations, `coding` what the converter's steps
-/// may add, `colour` how many times that about the third harmonic it may be; `advance` of its blocks are not in the next one.
+/// Noise variances of a window.
+#[derive(Clone, Copy)]
+pub(crate) struct Levels {
+    /// What it leaves.
+    pub own: f32,
+    /// For which it states its deviations.
+    pub stated: f32,
+    /// What the converter's steps may add.
+    pub coding: f32,
+    /// How many times that about the third harmonic its own may be.
+    pub colour: f32,
+}
+
+/// Tests of one window by itself and against the noise of those before; `advance` of its blocks are not in the next one.
 #[inline(always)]
 pub(crate) fn within(
     model: &Model,
     fit: &Fit,
     wave: &Standing,
-    [variance, stated, coding, colour]: [f32; 4],
+    levels: Levels,
     noise: &mut Noise,
     advance: u16,
 ) -> Flags {
+    let Levels {
+        own,
+        stated,
+        coding,
+        colour,
+    } = levels;
     let remains = &fit.remains;
     let power = wave.record.main.value * wave.record.main.value;
     let floor = RESIDUAL_FLOOR * power + 3.0 * coding;
@@ -84,8 +108,8 @@ pub(crate) fn within(
         let least = lesser(remains.third_noise, remains.third_spared);
         (least, REACH_ONCE)
     };
-    let beyond = variance - 4.0 * floor;
-    let coloured = remains.third_freedom >= 12.0
+    let beyond = own - 4.0 * floor;
+    let coloured = remains.third_freedom >= LEAST_FREEDOM
         && beyond > colour * about_third
         && beyond > limit_of(reach, remains.freedom, remains.third_freedom) * about_third;
     // What is white is seen better in both together.
@@ -94,7 +118,7 @@ pub(crate) fn within(
     // Blocks of a few samples have more sums than samples: no more is known than these tell, less ten unknowns.
     let wide_freedom = lesser(both, 4.0 * model.half - 10.0);
     let louder = known
-        && (noise.is_exceeded(variance, remains.freedom, floor)
+        && (noise.is_exceeded(own, remains.freedom, floor)
             || is_louder(wide - floor, noise.wide, wide_freedom, noise.freedom));
     // A part of the residual beside the noise of the windows before, or beside the rest where that is known better.
     let stands_out = |part: f32, degrees: f32, floor: f32| {
@@ -118,16 +142,16 @@ pub(crate) fn within(
     flags = flags.with_if(misfit, Flags::MISFIT);
 
     let third_noise = greater(remains.third_noise, lesser(wide, noise.wide));
-    let harmonic =
-        remains.third_freedom >= 12.0 && has_harmonic(model, remains, wave, coding, third_noise);
+    let harmonic = remains.third_freedom >= LEAST_FREEDOM
+        && has_harmonic(model, remains, wave, coding, third_noise);
     flags = flags.with_if(harmonic, Flags::CLIPPED);
 
-    let round = wave.lesser * wave.lesser < 36.0 * wave.lesser_variance
-        || wave.lesser < 2e-3 * wave.record.main.value;
+    let round = wave.lesser * wave.lesser < SIGNIFICANT * wave.lesser_variance
+        || wave.lesser < ROUND * wave.record.main.value;
     flags = flags.with_if(round && significant, Flags::CIRCULAR);
 
     if flags.with(Flags::CIRCULAR) == Flags::CIRCULAR {
-        noise.learn(variance, stated, wide, remains.freedom);
+        noise.learn(own, stated, wide, remains.freedom);
     } else if flags.with(Flags::CIRCULAR) == Flags::MISFIT.with(Flags::CIRCULAR)
         && !(coloured || outlier || stepped)
         && fit.settled
@@ -158,7 +182,7 @@ fn has_harmonic(
         .any(|(gain, third)| {
             let square = gain * gain * third.norm_sqr();
             square > floor * floor && {
-                let chance = square_root(1.2 * share * noise) + square_root(steady);
+                let chance = square_root(THIRD_SHARE * share * noise) + square_root(steady);
                 let limit = SIGMAS * gain * chance + floor;
                 square > limit * limit
             }

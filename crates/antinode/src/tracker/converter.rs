@@ -9,6 +9,9 @@ use crate::scalar::{greater, lesser};
 use crate::settings::Settings;
 use crate::window::{Fit, Model, Seen};
 
+/// 4π²: noise of this inverse of a step's square, in its deviation, breaks up its errors to 1/e.
+const BREAKING: f32 = 39.5;
+
 /// What the converter's steps add to the noise variance a sample.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Coding {
@@ -33,7 +36,7 @@ impl Coding {
         let square = step * step;
         let own = square / 12.0;
         // The steps' own noise does not break up anything.
-        let share = |noise: f32| exponential(-39.5 * greater(noise - own, 0.0) / square);
+        let share = |noise: f32| exponential(-BREAKING * greater(noise - own, 0.0) / square);
         let repeated = share(noise);
         let white = greater(own - noise, 0.0);
         let most = white + 0.09 * square * share(least) * model.half;

@@ -1,7 +1,7 @@
 //! A fit becomes a record with flags: what is wrong with a window, and what the next ones need of it.
 
 use super::angle::wrap;
-use super::checks;
+use super::checks::{self, Levels};
 use super::converter::{self, Coding};
 use super::failures::{Failures, LEFT};
 use super::record::{Record, Units};
@@ -39,19 +39,14 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let errors = rounding + coding.expected + f32::MIN_POSITIVE;
         let share = (stated + errors) / (noise + errors);
         let mut wave = Standing::new(model, fit, [noise + errors, share], own, self.end);
-        let flags = self.judge(fit, [coding.most, stated], &mut wave)?;
+        let flags = self.judge(fit, coding.most, stated, &mut wave)?;
         Some(make(&self.units, &wave.record, flags))
     }
 
     /// Tests a window's wave and joins it to those before; none where the first window shows no wave. `coding` is the noise variance that
     /// the converter's steps may add, `stated` that for which the window states its deviations.
     #[inline(always)]
-    fn judge(
-        &mut self,
-        fit: &Fit,
-        [coding, stated]: [f32; 2],
-        wave: &mut Standing,
-    ) -> Option<Flags> {
+    fn judge(&mut self, fit: &Fit, coding: f32, stated: f32, wave: &mut Standing) -> Option<Flags> {
         let model = self.model.as_ref()?;
         let is_no_wave = checks::is_no_wave(model, fit, wave);
         if self.before.is_none() && is_no_wave {
@@ -83,7 +78,12 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             model,
             fit,
             wave,
-            [own, stated, coding, colour],
+            Levels {
+                own,
+                stated,
+                coding,
+                colour,
+            },
             &mut self.noise,
             advance,
         );
@@ -147,7 +147,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
                 flags = flags.with(Flags::REACQUIRED);
                 self.lost = false;
             }
-            self.ever = true;
+            self.had_wave = true;
         }
         let drift = if is_circular {
             fit.waves.drift() * model.per_half

@@ -54,7 +54,8 @@ pub struct Tracker<const BLOCKS: usize> {
     angle: Angle,
     /// True from the loss of a wave to the first window after it.
     lost: bool,
-    ever: bool,
+    /// True where a wave was found since the settings were configured.
+    had_wave: bool,
     /// Number of the search whose blocks are taken.
     wanted: u32,
     failures: Failures,
@@ -91,7 +92,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             offset_rates: [0.0; 2],
             angle: Angle::ZERO,
             lost: false,
-            ever: false,
+            had_wave: false,
             wanted: 0,
             failures: Failures::NONE,
             broken: false,
@@ -135,7 +136,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
         self.settings = *settings;
         self.angle = Angle::new(settings.start_angle);
-        self.ever = false;
+        self.had_wave = false;
     }
 
     /// Takes a block; gives the estimate of the window that it completes.
@@ -331,7 +332,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.trend.clear();
         self.before = None;
         self.offset_rates = [0.0; 2];
-        self.lost = self.ever;
+        self.lost = self.had_wave;
         self.failures = Failures::NONE;
     }
 

@@ -3,6 +3,7 @@
 use core::num::NonZeroU32;
 
 use super::angle::Angle;
+use super::checks::SIGNIFICANT;
 use crate::arch::square_root;
 use crate::double::{self, reciprocal, scaled, to_single};
 use crate::estimate::{Estimate, Flags};
@@ -179,7 +180,7 @@ impl Record {
     /// True when pick-off `channel` shows no wave.
     pub(crate) fn is_silent(&self, channel: usize) -> bool {
         self.channel_power[channel]
-            < 36.0 * self.channel_variance + 1e-6 * self.main.value * self.main.value
+            < SIGNIFICANT * self.channel_variance + 1e-6 * self.main.value * self.main.value
     }
 
     /// By how much the phase has run beyond what the mean frequency of both windows explains, rad, not wrapped.

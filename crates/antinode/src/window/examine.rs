@@ -65,7 +65,7 @@ pub(super) fn examine(
         if waves.slope[0].re == 0.0 || waves.slope[1].re == 0.0 {
             bend(&mut course, model, waves, index, blocks.len());
         }
-        let mut left = Left::default();
+        let mut left = LeftOfBlocks::default();
         let mut prediction = Prediction::of_c(model, waves, offsets);
         take_rests(
             model,
@@ -87,7 +87,7 @@ pub(super) fn examine(
 
 /// What is left of the sums of a run of blocks.
 #[derive(Default)]
-struct Left {
+struct LeftOfBlocks {
     /// What both pick-offs leave beside the waves: the sum of the squares.
     power: [f32; CHUNK],
     /// The squared sums, from the first block to each, of what is left along z.
@@ -106,7 +106,7 @@ fn take_rests(
     prediction: &mut Prediction,
     (index, blocks): (usize, &[Seen]),
     course: &Course,
-    left: &mut Left,
+    left: &mut LeftOfBlocks,
     gradients: &mut [Gradient; 2],
     wander: &mut [f32; 2],
 ) {
@@ -175,7 +175,7 @@ impl Views {
 
     /// Takes what `count` blocks from block `index` on leave.
     #[inline(never)]
-    fn take(&mut self, model: &Model, index: usize, left: &Left, count: usize) {
+    fn take(&mut self, model: &Model, index: usize, left: &LeftOfBlocks, count: usize) {
         let mut views = Self { ..*self };
         let mut u = model.time(index as u16);
         let least = 0.2 * views.spread;

@@ -116,8 +116,16 @@
 //!
 //! # Limits
 //!
+//! ## The signal
+//!
 //! - θ is known modulo π/2, and phase modulo 2π: θ is unwrapped only by continuity from window to window.
 //! - A period is 4 to 200 samples, and with [`Settings::frequency`] 2.5 to as many as a block holds.
+//! - Amplitudes must be 10⁻¹⁵ to 10¹⁷ input units, so that their squares fit in f32. Beyond that there may be no estimate, and no flag.
+//! - Sums of f32 are rounded: in noise below 2·10⁻⁴ of a_A an offset beyond twenty times a_A, at 140 samples a period or more, is a misfit.
+//!   With codes it is not, nor with f32 samples whose offset is subtracted first.
+//!
+//! ## Waves that change
+//!
 //! - Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: 260 rad/s and 480 1/s in ten periods of 5332
 //!   Hz, 2.6 rad/s and 4.8 1/s in a thousand. If it turns by more than about 0.6 rad, amplitudes are some per cent off; windows of more
 //!   than ten periods flag this as a misfit, shorter ones may not.
@@ -127,6 +135,9 @@
 //!   those of 100 or more: 6·10⁻⁵ rad of phase in noise of 10⁻⁴ of a_A, 4·10⁻⁴ rad in noise of 10⁻³. Use shorter windows.
 //! - A turning pattern looks like a frequency off by 2 a_A a_B θ̇/(π(a_A² + a_B²)), which is corrected with the θ̇ of the windows before.
 //!   If θ̇ jumps, as splits make it do near a circle, f may be off, by 20 deviations at |a_B| of 0.94 a_A in windows of 100 periods.
+//!
+//! ## Noise
+//!
 //! - Mains hum is a misfit too, unless [`Settings::hum`] takes it out.
 //! - Deviations and flags take noise to be white; [`Settings::coloured`] is for noise that is not. With it errors are 0.8 to 1.1 of their
 //!   deviations behind a low-pass or a high-pass, or in noise of 1/f²; behind a band-pass about the wave they are 1.1 with a quality of 1,
@@ -134,6 +145,10 @@
 //! - Deviations and flags also assume noise that is independent and equal in both pick-offs. If one has ten times as much, about one window
 //!   in ten thousand is flagged. If both have the share r of its variance in common, deviations are up to √(1 + r) times too small: at
 //!   an angle of 22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.
+//! - Jitter of the sampling, common to both pick-offs, makes f and phase scatter by 1.8 of their deviations, θ and a_B by a fifth.
+//!
+//! ## What raises no flag
+//!
 //! - Deviations cover noise and the converter's steps, assumed equal in size. They do not cover nonlinearity of pick-offs and converter,
 //!   and a third harmonic below 10⁻³ of a_A raises no flag: a cubic of that size may move a_A by 0.4 %, θ by 5·10⁻⁴ rad and, with
 //!   |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. A second harmonic of 10⁻² of a_A raises none either if a period is not a
@@ -145,10 +160,6 @@
 //!   36; with 0.6, none.
 //! - Blocks of two periods hardly see a tone at half an odd multiple of f: 3·10⁻³ of a_A at f/2, in noise of 10⁻⁴, moved a_A and phase by 4
 //!   deviations, rms, without a flag.
-//! - Jitter of the sampling, common to both pick-offs, makes f and phase scatter by 1.8 of their deviations, θ and a_B by a fifth.
-//! - Amplitudes must be 10⁻¹⁵ to 10¹⁷ input units, so that their squares fit in f32. Beyond that there may be no estimate, and no flag.
-//! - Sums of f32 are rounded: in noise below 2·10⁻⁴ of a_A an offset beyond twenty times a_A, at 140 samples a period or more, is a misfit.
-//!   With codes it is not, nor with f32 samples whose offset is subtracted first.
 #![no_std]
 
 #[cfg(test)]

@@ -243,25 +243,6 @@ fn settings_that_cannot_work_are_refused() {
 }
 
 #[test]
-fn what_has_no_settings_yet_takes_the_start_angle_of_those_it_changes_to() {
-    let settings = Settings {
-        start_angle: 100.0,
-        ..windows(10)
-    };
-    let mut tracker = Tracker::<256>::UNSET;
-    tracker.change(settings).unwrap();
-    let mut front = Front::<f32, 256>::new(settings).unwrap();
-    let mut angles = Vec::new();
-    for pair in stream(Wave::default(), Flaws::default(), 2000, 1) {
-        if let Some(estimate) = front.push(pair).and_then(|block| tracker.push(block)) {
-            angles.push(estimate.angle);
-        }
-    }
-    assert!(angles.iter().all(|angle| (angle - 100.0).abs() < 0.8));
-    assert!(angles.len() > 5);
-}
-
-#[test]
 fn other_settings_in_place_do_what_a_new_start_does() {
     let wave = random_wave(7, 5332.0, 0.4);
     let flaws = Flaws {

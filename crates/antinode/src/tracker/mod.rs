@@ -292,7 +292,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Changes the settings, all but the start angle: the next block starts a new first window, flagged [`Flags::REACQUIRED`], its angle
-    /// continued. [`configure`](Self::configure) begins with the start angle instead.
+    /// continued. [`configure`](Self::configure) begins with the start angle instead, and comes first: where it did not, the angle begins at 0.
     ///
     /// The front needs the same `sample_rate`, `frequency`, `periods`, `hop`, `detection` and `watch`; where it is configured anew,
     /// [`search`](Self::search) too, so that blocks from before are left out.
@@ -301,9 +301,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     ///
     /// Those of [`Settings::check`]; nothing is changed then.
     pub fn change(&mut self, settings: Settings) -> Result<(), SettingsError> {
-        if self.settings.periods == 0 {
-            return self.configure(settings);
-        }
         settings.check(BLOCKS)?;
         self.settings = settings;
         let found = self.found;

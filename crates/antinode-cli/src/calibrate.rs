@@ -10,8 +10,9 @@ use clap::Args;
 
 use crate::digits::{decimals, with_std};
 use crate::failure::Failure;
+use crate::given::Given;
 use crate::options::Corrected;
-use crate::runs::{BEYOND_NOISE, Given, Runs};
+use crate::runs::{BEYOND_NOISE, Runs};
 use moments::Run;
 use solve::{Found, PickOffs, solve};
 

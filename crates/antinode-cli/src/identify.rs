@@ -20,7 +20,7 @@ mod windows;
 
 use std::fs;
 use std::io::{self, BufWriter, IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use antinode::{Identifier, Settings};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -62,21 +62,7 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
             options.periods
         )));
     }
-    let (whole, out): (_, Box<dyn Write>) = match &options.out {
-        Some(path) => {
-            let is_input =
-                |file: &PathBuf| fs::canonicalize(file).ok() == fs::canonicalize(path).ok();
-            if path.exists() && options.files.iter().any(is_input) {
-                return Err(Failure::Usage(format!(
-                    "--out: {} is a recording to be read; give the rows another name",
-                    path.display()
-                )));
-            }
-            let (whole, file) = WholeFile::create(path)?;
-            (Some(whole), Box::new(file))
-        }
-        None => (None, Box::new(io::stdout().lock())),
-    };
+    let (whole, out) = output(options)?;
     let mut rows = Rows::new(
         BufWriter::new(out),
         options.format(),
@@ -111,6 +97,24 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     failure.map_or(Ok(()), Err)
 }
 
+/// Where rows go, and the file that takes its name once they are all there.
+fn output(options: &Identify) -> Result<(Option<WholeFile>, Box<dyn Write>), Failure> {
+    let Some(path) = &options.out else {
+        return Ok((None, Box::new(io::stdout().lock())));
+    };
+    if let Ok(path) = fs::canonicalize(path)
+        && let mut files = options.files.iter().flat_map(fs::canonicalize)
+        && files.any(|file| file == path)
+    {
+        return Err(Failure::Usage(format!(
+            "--out: {} is a recording to be read; give the rows another name",
+            path.display()
+        )));
+    }
+    let (whole, file) = WholeFile::create(path)?;
+    Ok((Some(whole), Box::new(file)))
+}
+
 fn identify(
     path: &Path,
     options: &Identify,
@@ -138,7 +142,7 @@ fn identify(
     let rate = sample_rate(&name, options.rate, recording.sample_rate())?;
     let rails = options.full_scale;
     if let Some(warning) = rails.and_then(|rails| recording.rails_warning(rails)) {
-        eprintln!("warning: {}: {warning}", recording.name());
+        eprintln!("warning: {name}: {warning}");
     }
     for warning in recording.warnings() {
         eprintln!("warning: {warning}");

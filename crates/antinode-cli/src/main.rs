@@ -9,6 +9,7 @@ mod deviates;
 mod device;
 mod digits;
 mod failure;
+mod given;
 mod ideal;
 mod identify;
 mod interrupt;

@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::failure::Failure;
-use crate::ranges::{self, in_order};
+use crate::given::{Given, none_within};
 use crate::recording::{OutputError, WholeFile};
 use draw::Format;
 use figure::figure;
@@ -26,18 +26,11 @@ use rows::Trust;
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub struct Plot {
-    /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
-    #[arg(required = true, value_name = "ROWS")]
-    pub rows: Vec<PathBuf>,
+    #[command(flatten)]
+    pub given: Given,
     /// The figure to write: .svg or .png.
     #[arg(short = 'o', long, value_name = "FILE")]
     pub out: PathBuf,
-    /// Only rows from this time on, s, as in their `time_s`.
-    #[arg(long, value_name = "S", value_parser = ranges::time)]
-    pub from: Option<f64>,
-    /// Only rows before this time, s.
-    #[arg(long, value_name = "S", value_parser = ranges::time)]
-    pub to: Option<f64>,
     /// Logarithmic axes for main amplitude, quadrature amplitude without its sign, and residual, as for a long ring-down.
     #[arg(long)]
     pub log: bool,
@@ -45,27 +38,25 @@ pub struct Plot {
 
 /// Draws the rows.
 pub fn run(options: &Plot) -> Result<(), Failure> {
-    in_order(options.from, options.to)?;
+    let times = options.given.times()?;
     let format = Format::of(&options.out)?;
     // What cannot be written is found before the rows are read, which may come through a pipe for long.
     drop(WholeFile::create(&options.out)?);
-    let (mut traces, inputs) = rows::open(&options.rows)?;
+    let (mut traces, inputs) = rows::open(&options.given.rows)?;
     let span = rows::span(&traces);
-    rows::retain(&mut traces, options.from, options.to);
+    rows::retain(&mut traces, &times);
     let rows = || traces.iter().flat_map(|trace| &trace.rows);
     let count = rows().count();
     let Some(figure) = figure(&traces, draw::COLUMNS, options.log) else {
-        return Err(Failure::Recording(
-            if let (0, Some([first, last])) = (count, span) {
-                format!(
-                    "{inputs}: no row lies within --from and --to: their times go from {first} s to {last} s"
-                )
-            } else if count == 0 {
-                format!("{inputs}: there is no row; identify a recording of more windows")
-            } else {
-                format!("{inputs}: not one of {count} rows has a wave; see their flags")
-            },
-        ));
+        return Err(match (count, span) {
+            (0, Some(span)) => none_within(&inputs, span),
+            (0, None) => Failure::Recording(format!(
+                "{inputs}: there is no row; identify a recording of more windows"
+            )),
+            _ => Failure::Recording(format!(
+                "{inputs}: not one of {count} rows has a wave; see their flags"
+            )),
+        });
     };
     let (whole, mut file) = WholeFile::create(&options.out)?;
     let names: Vec<_> = traces.iter().map(|trace| trace.name.as_str()).collect();

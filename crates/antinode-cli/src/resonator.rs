@@ -17,8 +17,9 @@ use antinode::Flags;
 use clap::Args;
 
 use crate::failure::Failure;
+use crate::given::Given;
 use crate::options::Format;
-use crate::runs::{BEYOND_NOISE, Given, Run, Runs};
+use crate::runs::{BEYOND_NOISE, Run, Runs};
 use by_energy::ByEnergy;
 use fit::fit;
 use found::Found;
@@ -104,7 +105,7 @@ fn one_way(rows: &Runs, listed: &[usize]) -> Option<f64> {
         runs.partition(|run| furthest(run).contains(&true));
     let ways = furthest(turning.first()?);
     let is_one_way = ways != [true; 2] && turning.iter().all(|run| furthest(run) == ways);
-    let turned: f64 = turning.iter().map(|run| run.turned.abs()).sum();
+    let turned: f64 = turning.iter().map(|run| run.turned().abs()).sum();
     let seconds: f64 = turning.iter().map(|run| run.seconds()).sum();
     (is_one_way && still.len() < ENOUGH_STILL).then(|| turned / seconds)
 }

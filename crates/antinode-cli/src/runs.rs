@@ -1,7 +1,6 @@
 //! Rows that `antinode identify` printed become runs: spans of time in which the pattern moves without a break.
 
 mod again;
-mod given;
 mod jump;
 mod row;
 
@@ -12,9 +11,8 @@ use std::ops::Range;
 use antinode::Flags;
 
 use crate::failure::Failure;
-use crate::ranges::in_order;
+use crate::given::{Given, none_within};
 use crate::row_file::{self, RowFile};
-pub use given::Given;
 use jump::jumps;
 use row::Places;
 pub use row::Row;
@@ -30,8 +28,6 @@ const APART: f64 = 0.97;
 #[derive(Debug, Clone, Default)]
 pub struct Run {
     pub rows: Vec<Row>,
-    /// By how much the pattern turns, rad.
-    pub turned: f64,
     /// The recording, as its rows name it.
     pub file: String,
 }
@@ -59,10 +55,8 @@ impl Runs {
     /// Reads the rows given; gives the names of their files too. A run ends where the pattern turns by more than `most_turn` rad
     /// from row to row, where the wave jumps across rows left out, and at a row that has one of the flags `breaks`.
     pub fn open(given: &Given, most_turn: f64, breaks: Flags) -> Result<(Self, String), Failure> {
-        in_order(given.from, given.to)?;
         let paths = &given.rows;
-        let mut runs = Self::new(most_turn, breaks);
-        runs.asked = given.from.unwrap_or(f64::NEG_INFINITY)..given.to.unwrap_or(f64::INFINITY);
+        let mut runs = Self::new(given.times()?, most_turn, breaks);
         let mut names = Vec::new();
         for (index, path) in paths.iter().enumerate() {
             if paths[..index].contains(path) {
@@ -79,12 +73,12 @@ impl Runs {
         Ok((runs, names))
     }
 
-    fn new(most_turn: f64, breaks: Flags) -> Self {
+    fn new(asked: Range<f64>, most_turn: f64, breaks: Flags) -> Self {
         Self {
             runs: Vec::new(),
             rows: 0,
             span: None,
-            asked: f64::NEG_INFINITY..f64::INFINITY,
+            asked,
             overlapping: 0,
             backward: 0,
             most_turn,
@@ -96,10 +90,8 @@ impl Runs {
     fn fault(&self, name: &str) -> Option<Failure> {
         let recording = |why: String| Some(Failure::Recording(format!("{name}: {why}")));
         if self.runs.is_empty() {
-            if let (0, Some([first, last])) = (self.rows, self.span) {
-                return recording(format!(
-                    "no row lies within --from and --to: their times go from {first} s to {last} s"
-                ));
+            if let (0, Some(span)) = (self.rows, self.span) {
+                return Some(none_within(name, span));
             }
             // Else rows that are out of order are seen as runs of a few.
             if 3 * self.backward > self.rows {
@@ -220,8 +212,6 @@ impl Runs {
             is_torn = false;
             if turn.abs() > self.most_turn {
                 self.end(&mut run);
-            } else {
-                run.turned += turn;
             }
             if run.rows.is_empty() {
                 from.clone_into(&mut run.file);
@@ -248,12 +238,23 @@ impl Run {
         self.rows[self.rows.len() - 1].time - self.rows[0].time
     }
 
+    /// By how much the pattern turns from row to row, rad.
+    fn steps(&self) -> impl Iterator<Item = f64> {
+        let pairs = self.rows.windows(2);
+        pairs.map(|pair| turn(pair[1].angle - pair[0].angle))
+    }
+
+    /// By how much the pattern turns from the first row to the last, rad.
+    pub fn turned(&self) -> f64 {
+        self.steps().sum()
+    }
+
     /// How far the pattern turns backwards at most, rad, at most 0, and forwards: from any row to any later one.
     pub fn turns(&self) -> [f64; 2] {
         let (mut angle, mut turns) = (0.0, [0f64; 2]);
         let (mut least, mut most) = (0f64, 0f64);
-        for pair in self.rows.windows(2) {
-            angle += turn(pair[1].angle - pair[0].angle);
+        for step in self.steps() {
+            angle += step;
             (least, most) = (least.min(angle), most.max(angle));
             turns = [turns[0].min(angle - most), turns[1].max(angle - least)];
         }

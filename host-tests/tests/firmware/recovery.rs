@@ -6,7 +6,7 @@ use antinode_telemetry::{Cause, Command, CommandError, Report, State};
 use firmware::instrument::Event;
 use firmware::pipeline::{Places, Queues};
 use firmware::sampling::{DUAL_ADC_RAILS, Lapse, Ready, Source, both};
-use firmware::settings::{HALF, QUEUE, SAMPLE_RATE, SOONEST_MS, STALL_MS};
+use firmware::settings::{HALF, QUEUE, REQUESTS, SAMPLE_RATE, SOONEST_MS, STALL_MS};
 
 use crate::emulator::bytes;
 use crate::line::{BYTES, Losing, Wire, hop_of};
@@ -118,6 +118,42 @@ fn a_converter_that_stands_still_is_started_anew() {
             assert!(off.abs() < 0.01, "{off} at {} s", estimate.time);
         }
     }
+}
+
+#[test]
+fn requests_that_wait_do_not_keep_a_converter_from_being_started_anew() {
+    let codes = recordings::codes(recordings::WAVE, recordings::quiet(), 60_000);
+    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
+    let parts = queues
+        .split(&mut places, hop_of(5), Cause::Unknown)
+        .expect("the settings can be");
+    let mut wire = Wire::new(parts.out);
+    let mut source = Halting {
+        codes: &codes,
+        half: &[],
+        triggered: 0,
+        taken: 0,
+        still: 0,
+    };
+    for half in 1..=400 {
+        source.triggered += HALF;
+        if half == 200 {
+            source.still = 1;
+        }
+        if (200..200 + 2 * REQUESTS).contains(&half) {
+            // No interrupt comes that would take it from the queue.
+            bytes(half as u16, Command::SetWindow { periods: 12 })
+                .iter()
+                .for_each(|&byte| parts.inbox.put(byte));
+        }
+        if source.still == 0 || parts.instrument.asks_for_source() {
+            parts.gatherer.serve(&mut source);
+        }
+        let now = half * HALF * 1000 / SAMPLE_RATE as usize;
+        parts.instrument.poll(now as u32, |_| {});
+        wire.pass(4 * BYTES);
+    }
+    assert_eq!(source.still, 0);
 }
 
 #[test]

@@ -1,7 +1,5 @@
 //! A converter's step that all samples show, and the first of them did not, or otherwise.
 
-use antinode::{Estimate, Flags};
-
 /// Residual, in steps, from which on noise breaks up all rounding, and a step adds nothing to deviations.
 const NOISY: f32 = 0.6;
 /// A step that shows late is told from so many times the assumed one on: a few codes may all be even by chance.
@@ -12,8 +10,6 @@ const COARSER: f32 = 4.0;
 pub(super) struct Coarse {
     /// None where it was given: then it is right.
     assumed: Option<f32>,
-    /// The least residual of a row.
-    residual: f32,
     is_told: bool,
 }
 
@@ -22,20 +18,12 @@ impl Coarse {
     pub fn new(assumed: Option<f32>) -> Self {
         Self {
             assumed,
-            residual: f32::INFINITY,
             is_told: false,
         }
     }
 
-    /// Takes a row.
-    pub fn see(&mut self, estimate: &Estimate) {
-        if !estimate.flags.contains(Flags::LOST) {
-            self.residual = self.residual.min(estimate.residual_rms);
-        }
-    }
-
-    /// What to tell, once, where this is the step of all samples so far.
-    pub fn told(&mut self, step: Option<f32>) -> Option<String> {
+    /// What to tell, once, where this is the step of all samples so far, and this the least residual of a row.
+    pub fn told(&mut self, step: Option<f32>, residual: f32) -> Option<String> {
         let (assumed, step) = (self.assumed?, step?);
         let (fine, coarse) = (assumed.min(step), assumed.max(step));
         let is_other = if step > assumed {
@@ -44,7 +32,7 @@ impl Coarse {
             // Of a step that is no power of two, samples have only a part in common.
             step < assumed && is_power_of_two(coarse / fine)
         };
-        if self.is_told || !is_other || self.residual >= NOISY * coarse {
+        if self.is_told || !is_other || residual >= NOISY * coarse {
             return None;
         }
         self.is_told = true;
@@ -72,9 +60,7 @@ mod tests {
 
     /// What is told of steps, where the least residual is this.
     fn told(assumed: Option<f32>, step: Option<f32>, residual: f32) -> Option<String> {
-        let mut coarse = Coarse::new(assumed);
-        coarse.residual = residual;
-        coarse.told(step)
+        Coarse::new(assumed).told(step, residual)
     }
 
     #[test]
@@ -95,8 +81,7 @@ mod tests {
         assert_eq!(told(Some(fine), None, 0.0), None);
         // Rows without a wave have no residual, and nothing is told twice.
         let mut coarse = Coarse::new(Some(fine));
-        assert_eq!(coarse.told(Some(1.0)), None);
-        coarse.residual = 0.0;
-        assert!(coarse.told(Some(0.5)).is_some() && coarse.told(Some(0.5)).is_none());
+        assert_eq!(coarse.told(Some(1.0), f32::INFINITY), None);
+        assert!(coarse.told(Some(0.5), 0.0).is_some() && coarse.told(Some(0.5), 0.0).is_none());
     }
 }

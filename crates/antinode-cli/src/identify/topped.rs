@@ -11,6 +11,9 @@ const LEAST: u64 = 40;
 const LEAST_BESIDE: u64 = 5;
 /// Noise of less than this, in steps, leaves the samples of a wave that repeats on the same few codes.
 const LEAST_NOISE: f32 = 0.3;
+/// Pairs that are all looked at; of those behind them one stretch in so many.
+const ALL: u64 = 1 << 17;
+const SHARE: u64 = 8;
 
 /// One end of a pick-off's samples, as the greatest of what they are or of their negatives.
 #[derive(Debug, Clone, Copy)]
@@ -21,10 +24,6 @@ struct End {
     beside: u64,
 }
 
-/// Pairs that are all looked at; of those behind them one stretch in so many.
-const ALL: u64 = 1 << 17;
-const SHARE: u64 = 8;
-
 /// The ends of both pick-offs' samples.
 #[derive(Debug)]
 pub(super) struct Topped {
@@ -34,8 +33,6 @@ pub(super) struct Topped {
     ends: [[End; 2]; 2],
     pairs: u64,
     stretches: u64,
-    /// The least residual of a row.
-    residual: f32,
     rows: u64,
     clipped: u64,
 }
@@ -53,7 +50,6 @@ impl Topped {
             ends: [[none; 2]; 2],
             pairs: 0,
             stretches: 0,
-            residual: f32::INFINITY,
             rows: 0,
             clipped: 0,
         }
@@ -74,19 +70,16 @@ impl Topped {
         }
     }
 
-    /// Takes a row's flags and residual.
-    pub fn row(&mut self, flags: Flags, residual: f32) {
+    /// Takes a row's flags.
+    pub fn row(&mut self, flags: Flags) {
         self.rows += 1;
         self.clipped += u64::from(flags.contains(Flags::CLIPPED));
-        if !flags.contains(Flags::LOST) {
-            self.residual = self.residual.min(residual);
-        }
     }
 
-    /// What to tell, where most rows do not have the flag.
-    pub fn told(&self) -> Option<String> {
+    /// What to tell, where most rows do not have the flag, and this is the least residual of a row.
+    pub fn told(&self, residual: f32) -> Option<String> {
         let step = self.step?;
-        if self.rows == 0 || 2 * self.clipped > self.rows || self.residual < LEAST_NOISE * step {
+        if self.rows == 0 || 2 * self.clipped > self.rows || residual < LEAST_NOISE * step {
             return None;
         }
         let ends = self.ends.iter().zip(["S_C", "S_D"]);
@@ -165,8 +158,8 @@ mod tests {
             .collect();
         let mut topped = Topped::new(Some(1.0));
         pairs.chunks(700).for_each(|pairs| topped.see(pairs));
-        topped.row(Flags::empty(), noise.hypot(0.29) as f32);
-        topped.told()
+        topped.row(Flags::empty());
+        topped.told(noise.hypot(0.29) as f32)
     }
 
     #[test]
@@ -201,7 +194,7 @@ mod tests {
     fn nothing_is_told_without_a_step_or_where_rows_have_the_flag() {
         let mut topped = Topped::new(None);
         topped.see(&[[1.0; 2]; 100]);
-        assert_eq!(topped.told(), None);
+        assert_eq!(topped.told(1.0), None);
         let end = End {
             value: 1.0,
             count: 1000,
@@ -209,15 +202,15 @@ mod tests {
         };
         let mut topped = Topped::new(Some(1.0));
         topped.ends = [[end; 2]; 2];
-        assert_eq!(topped.told(), None);
-        (topped.rows, topped.residual) = (10, 1.0);
+        assert_eq!(topped.told(1.0), None);
+        topped.rows = 10;
         assert!(
             topped
-                .told()
+                .told(1.0)
                 .unwrap()
                 .contains("S_C stands at its lowest value, -1, 100 times")
         );
         topped.clipped = 6;
-        assert_eq!(topped.told(), None);
+        assert_eq!(topped.told(1.0), None);
     }
 }

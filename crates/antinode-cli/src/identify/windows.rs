@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use antinode::{Estimate, SettingsError};
+use antinode::{Estimate, Flags, SettingsError};
 
 use super::coarse::Coarse;
 use super::copied::Copied;
@@ -50,6 +50,8 @@ pub(super) struct Windows<'a> {
     coarse: Coarse,
     few: Few,
     topped: Topped,
+    /// The least residual of a row that shows a wave.
+    residual: f32,
     stop: &'a Stop,
 }
 
@@ -97,6 +99,7 @@ impl<'a> Windows<'a> {
             ),
             few: Few::new(settings.resolution),
             topped: Topped::new(settings.resolution),
+            residual: f32::INFINITY,
             stop,
         })
     }
@@ -168,7 +171,8 @@ impl<'a> Windows<'a> {
         // Rows have flags where one of them holds its value.
         let held = self.held.told().filter(|_| rows.count() == 0);
         let early = held.or_else(|| self.copied.told());
-        let coarse = self.coarse.told(recording.resolution_so_far());
+        let step = recording.resolution_so_far();
+        let coarse = self.coarse.told(step, self.residual);
         for told in early.into_iter().chain(coarse) {
             rows.flush()?;
             eprintln!("warning: {}: so far {told}", self.name);
@@ -199,8 +203,10 @@ impl<'a> Windows<'a> {
         self.silence.see(estimate, self.rate, self.options.hop);
         self.scatter.see(estimate);
         self.in_turn.see(estimate, self.rate);
-        self.coarse.see(estimate);
-        self.topped.row(estimate.flags, estimate.residual_rms);
+        if !estimate.flags.contains(Flags::LOST) {
+            self.residual = self.residual.min(estimate.residual_rms);
+        }
+        self.topped.row(estimate.flags);
         self.stop.see(estimate.flags);
         let estimate = Estimate {
             time: estimate.time + self.span.offset(),
@@ -233,9 +239,10 @@ impl<'a> Windows<'a> {
         let warnings = [
             self.span.warning().filter(|_| fault.is_none()),
             self.silence.told(seconds, self.span.offset()),
-            self.coarse.told(recording.resolution_so_far()),
+            self.coarse
+                .told(recording.resolution_so_far(), self.residual),
             self.few.told().filter(|_| rows.count() > 0),
-            self.topped.told(),
+            self.topped.told(self.residual),
             self.scatter.told(self.options.hum || self.options.coloured),
             self.in_turn.told(),
             self.copied

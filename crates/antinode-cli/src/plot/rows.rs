@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::io::Read;
+use std::ops::Range;
 use std::path::PathBuf;
 
 use antinode::Flags;
@@ -185,9 +186,8 @@ pub fn span(traces: &[Trace]) -> Option<[f64; 2]> {
     ends.reduce(|[first, last], [time, _]| [first.min(time), last.max(time)])
 }
 
-/// Leaves the rows from one time on and before another, s, and the recordings that have any.
-pub fn retain(traces: &mut Vec<Trace>, from: Option<f64>, to: Option<f64>) {
-    let times = from.unwrap_or(f64::NEG_INFINITY)..to.unwrap_or(f64::INFINITY);
+/// Leaves the rows of these times, s, and the recordings that have any.
+pub fn retain(traces: &mut Vec<Trace>, times: &Range<f64>) {
     for trace in traces.iter_mut() {
         trace.rows.retain(|row| times.contains(&row.time));
     }

@@ -39,9 +39,10 @@ pub(super) fn open(
         (Some(_), Some(own)) => Some(Meaning::of_rate(own, options.rate)),
         _ => axis.map(|axis| axis.meaning(source.rows.printed, options.rate)),
     };
-    source.asked = options.rate;
-    source.is_index = source.rows.header.sequence.is_some()
-        || matches!(meaning, Some(Meaning::Index | Meaning::OtherRate { .. }));
+    let is_time = matches!(meaning, Some(Meaning::Time | Meaning::PerhapsIndex));
+    if is_time && source.rows.header.sequence.is_none() {
+        source.used = options.rate.or(sample_rate);
+    }
     let header = &source.rows.header;
     let of_time = meaning.and_then(|meaning| source.warning(meaning));
     let told = header.warnings().into_iter().flatten().chain(of_time);
@@ -74,10 +75,8 @@ struct Delimited {
     /// The lines left out behind the last of them.
     left_out: u64,
     live: bool,
-    /// The rate asked for.
-    asked: Option<f64>,
-    /// True where the times are the numbers of the lines, or of another rate than that.
-    is_index: bool,
+    /// The rate in use, where it is that of the times.
+    used: Option<f64>,
     /// Pairs read to tell the sample rate, and not yet delivered.
     ahead: std::vec::IntoIter<[f32; 2]>,
     /// What is wrong behind the last of them.
@@ -95,8 +94,7 @@ impl Delimited {
             pairs: 0,
             left_out: 0,
             live: false,
-            asked: None,
-            is_index: false,
+            used: None,
             ahead: Vec::new().into_iter(),
             fault: None,
         })
@@ -286,8 +284,7 @@ impl Source for Delimited {
 
     fn late_warning(&self) -> Option<String> {
         let axis = self.axis.as_ref()?;
-        let used = (!self.is_index).then(|| self.asked.unwrap_or(axis.rate()));
-        let told = axis.late_warning(used)?;
+        let told = axis.late_warning(self.used)?;
         Some(format!("{}: {told}", self.file))
     }
 

@@ -11,7 +11,7 @@ use super::found::{Found, OfRun, TOGETHER};
 use super::model::{Model, Term};
 use super::motion::PARAMETERS;
 use super::start::start;
-use crate::runs::{Run, turn};
+use crate::runs::Run;
 
 /// Below this all patterns are one, and what seems to tell them apart is noise: 3° between two runs, 5° of one that turns.
 const LEAST_SPREAD: f64 = 0.005;
@@ -188,15 +188,16 @@ impl Normal {
         let mut last = &run.rows[0];
         let mut shares = [0.0; 2];
         let mut squares = 0.0;
-        let (mut turned, mut of_turned) = (0.0, RowSVector::zeros());
+        // By how much it was turned otherwise than by rotation.
+        let (mut otherwise, mut of_otherwise) = (0.0, RowSVector::zeros());
         // The run's own equations, for the parameters of its motion.
         let mut matrix = SMatrix::<f64, PARAMETERS, PARAMETERS>::zeros();
         let mut right = SVector::<f64, PARAMETERS>::zeros();
         for row in &run.rows {
             let (beyond, derivatives) = model.advance(&mut motion, last, row);
-            turned += turn(row.angle - last.angle) - beyond;
             last = row;
-            of_turned += derivatives;
+            otherwise += beyond;
+            of_otherwise += derivatives;
             // What a window averages changes the derivatives by too little to matter.
             let (rest, derivatives) = motion.rest(row);
             for (index, (rest, deviation)) in rest.iter().zip(row.deviations).enumerate() {
@@ -221,11 +222,11 @@ impl Normal {
         self.squares += squares;
         self.count += (model.explained() * run.rows.len()) as f64;
         let seconds = run.seconds();
-        let along = |direction| of_turned.transpose().dot(&SVector::from(direction)) / seconds;
+        let along = |direction| of_otherwise.transpose().dot(&SVector::from(direction)) / seconds;
         self.of_runs.push(OfRun {
             shares,
             residual: (squares / (model.explained() * run.rows.len() - 4) as f64).sqrt(),
-            rotation: turned / seconds,
+            rotation: (run.turned() - otherwise) / seconds,
             of_rotation: terms
                 .iter()
                 .map(|&(place, by)| (place, -along(by)))

@@ -51,22 +51,12 @@ pub fn by_rates(state: &Vector4<f64>) -> SMatrix<f64, 4, RATES> {
     ])
 }
 
-/// By which rates, all but γ, move the state.
-fn matrix(rates: &SVector<f64, RATES>) -> Matrix4<f64> {
-    // γ does nothing to these: it wants Q and another.
-    let units = Matrix4::identity();
-    let moved = units
-        .column_iter()
-        .map(|unit| by_rates(&unit.into_owned()) * rates);
-    Matrix4::from_columns(&moved.collect::<Vec<_>>())
-}
-
 /// The state E, R, S, Q, and its derivatives by the rates and by what it started with.
 #[derive(Debug, Clone)]
 pub struct Motion {
     columns: SMatrix<f64, 4, COLUMNS>,
     rates: SVector<f64, RATES>,
-    /// By which all of them but γ move the state.
+    /// By which all of them but γ and κ move the state.
     matrix: Matrix4<f64>,
 }
 
@@ -101,17 +91,23 @@ impl Motion {
             .fixed_columns_mut::<3>(1 + RATES)
             .copy_from(&by_start);
         let rates = SVector::from(rates);
+        let mut still = rates;
+        still[KAPPA] = 0.0;
+        // γ does nothing to these: it wants Q and another.
+        let units = Matrix4::identity();
+        let moved = units
+            .column_iter()
+            .map(|unit| by_rates(&unit.into_owned()) * still);
         Self {
             columns,
             rates,
-            matrix: matrix(&rates),
+            matrix: Matrix4::from_columns(&moved.collect::<Vec<_>>()),
         }
     }
 
     /// Has the pattern turned by so much from now on, rad/s, beside what splits make of that.
     pub fn steer(&mut self, rate: f64) {
         self.rates[KAPPA] = -2.0 * rate;
-        self.matrix = matrix(&self.rates);
     }
 
     /// Where the pattern will stand in so many seconds.
@@ -143,7 +139,7 @@ impl Motion {
     /// The matrix by which this state moves.
     fn at(&self, state: &Vector4<f64>) -> Matrix4<f64> {
         let mut matrix = self.matrix;
-        let turning = 2.0 * self.rates[GAMMA] * state[3];
+        let turning = 2.0 * (self.rates[KAPPA] + self.rates[GAMMA] * state[3]);
         matrix[(1, 2)] += turning;
         matrix[(2, 1)] -= turning;
         matrix

@@ -193,7 +193,7 @@ pub fn table(
         match of[0].run {
             Some(index) => {
                 let run = &rows.runs[listed[index]];
-                let turned = fixed(1, run.turned.to_degrees());
+                let turned = fixed(1, run.turned().to_degrees());
                 let file = if run.file.is_empty() {
                     String::new()
                 } else {

@@ -57,7 +57,7 @@ pub fn start(runs: &[Run], model: Model) -> Option<DVector<f64>> {
         let [r, s, q] = [found[own + 2], found[own + 3], found[unknowns + index]];
         let apart = r.hypot(s);
         let main = (0.5 * (apart.hypot(q) + apart)).sqrt();
-        values[own] -= 2.0 * run.turned / run.seconds();
+        values[own] -= 2.0 * run.turned() / run.seconds();
         values[own + 1] = main;
         values[own + 2] = 0.5 * q / main;
         values[own + 3] = 0.25 * s.atan2(r);
@@ -87,7 +87,7 @@ impl Normal {
                 moves.push(rates);
             }
         }
-        let rate = run.turned / run.seconds();
+        let rate = run.turned() / run.seconds();
         let mut integrals = vec![Vector4::zeros(); moves.len()];
         let mut before: Option<(f64, Vec<Vector4<f64>>)> = None;
         for row in &run.rows {

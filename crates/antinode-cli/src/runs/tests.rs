@@ -15,8 +15,17 @@ fn rows(file: &str, count: usize, turn: f64, flags: impl Fn(usize) -> &'static s
         .collect()
 }
 
+/// None yet, of all times.
+fn runs(most_turn: f64) -> Runs {
+    Runs::new(
+        f64::NEG_INFINITY..f64::INFINITY,
+        most_turn,
+        Flags::REACQUIRED,
+    )
+}
+
 fn read(rows: &str) -> Runs {
-    let mut all = Runs::new(0.1, Flags::REACQUIRED);
+    let mut all = runs(0.1);
     add(&mut all, &(HEADER.to_owned() + rows)).unwrap();
     all
 }
@@ -35,14 +44,14 @@ fn a_run_ends_with_its_file() {
     let all = read(&(rows("a", 20, 0.05, |_| "") + &rows("b", 30, -0.04, |_| "")));
     assert_eq!(lengths(&all), [20, 30]);
     assert_eq!(all.rows, 50);
-    assert!((all.runs[0].turned - 19.0 * 0.05).abs() < 1e-9);
-    assert!((all.runs[1].turned + 29.0 * 0.04).abs() < 1e-9);
+    assert!((all.runs[0].turned() - 19.0 * 0.05).abs() < 1e-9);
+    assert!((all.runs[1].turned() + 29.0 * 0.04).abs() < 1e-9);
     // A file that goes on where the last one ended is another recording.
     let one = rows("a", 40, 0.01, |_| "");
     let (first, rest) = one.split_at(one.match_indices("a,0.2,").next().unwrap().0);
     let all = read(&(first.to_owned() + &rest.replace("a,", "b,")));
     assert_eq!(lengths(&all), [20, 20]);
-    let mut all = Runs::new(0.1, Flags::REACQUIRED);
+    let mut all = runs(0.1);
     for turn in [0.05, -0.05] {
         let text = HEADER.to_owned() + &rows("a", 20, turn, |_| "");
         add(&mut all, &text).unwrap();
@@ -65,7 +74,7 @@ fn flagged_rows_are_left_out() {
     };
     let all = read(&rows("a", 40, 0.002, lost));
     assert_eq!(lengths(&all), [15, 19]);
-    assert!((all.runs[1].turned - 18.0 * 0.002).abs() < 1e-9);
+    assert!((all.runs[1].turned() - 18.0 * 0.002).abs() < 1e-9);
 }
 
 #[test]
@@ -112,7 +121,7 @@ fn an_angle_is_known_modulo_a_quarter_turn() {
     for text in [wrapped(&text), text] {
         let all = read(&text);
         assert_eq!(lengths(&all), [41]);
-        assert!((all.runs[0].turned - 3.2).abs() < 1e-9);
+        assert!((all.runs[0].turned() - 3.2).abs() < 1e-9);
     }
 }
 
@@ -126,14 +135,14 @@ fn too_fast_a_turn_and_too_few_rows_are_no_run() {
 #[test]
 fn what_is_no_row_is_told_with_its_line() {
     let text = HEADER.to_owned() + &rows("a", 3, 0.01, |_| "").replace("0.01,0.5", "0.01,x");
-    let fault = add(&mut Runs::new(0.1, Flags::REACQUIRED), &text).unwrap_err();
+    let fault = add(&mut runs(0.1), &text).unwrap_err();
     assert!(fault.to_string().contains("it, line 3: "), "{fault}");
     for (before, after, told) in [
         ("frequency_hz", "f", "no column frequency_hz"),
         ("flags", "state", "no column flags"),
     ] {
         let text = HEADER.replace(before, after);
-        let fault = add(&mut Runs::new(0.1, Flags::REACQUIRED), &text).unwrap_err();
+        let fault = add(&mut runs(0.1), &text).unwrap_err();
         assert!(fault.to_string().contains(told), "{fault}");
     }
 }
@@ -192,7 +201,7 @@ fn rows_that_are_kept_do_not_overlap() {
                 format!("a,{time},0.5,0.02,0.1,5332,0.001,0.001,0.001,{of_rate},\n")
             })
             .collect();
-        let mut all = Runs::new(0.1, Flags::REACQUIRED);
+        let mut all = runs(0.1);
         add(&mut all, &(header.clone() + &text)).unwrap();
         let kept = 400usize.div_ceil(kept_every);
         assert_eq!(
@@ -210,7 +219,7 @@ fn a_pattern_that_turns_to_and_fro_turns_both_ways() {
             .iter()
             .enumerate()
             .map(|(k, angle)| format!("a,{k},0.5,0.02,{angle},5332,0.001,0.001,0.001,\n"));
-        let mut all = Runs::new(1.0, Flags::REACQUIRED);
+        let mut all = runs(1.0);
         add(&mut all, &(HEADER.to_owned() + &rows.collect::<String>())).unwrap();
         let [back, forth] = all.runs[0].turns();
         [back, forth].map(|turn| (turn * 10.0).round() / 10.0)

@@ -80,16 +80,15 @@ pub(crate) fn within(
     model: &Model,
     fit: &Fit,
     wave: &Standing,
-    levels: Levels,
-    noise: &mut Noise,
-    advance: u16,
-) -> Flags {
-    let Levels {
+    Levels {
         own,
         stated,
         coding,
         colour,
-    } = levels;
+    }: Levels,
+    noise: &mut Noise,
+    advance: u16,
+) -> Flags {
     let remains = &fit.remains;
     let power = wave.record.main.value * wave.record.main.value;
     let floor = RESIDUAL_FLOOR * power + 3.0 * coding;

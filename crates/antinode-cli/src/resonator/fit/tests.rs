@@ -1,11 +1,13 @@
 //! Rows made from the averaged equations of a resonator, with noise.
 
+mod unsteady;
+
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::super::motion::Motion;
 use super::*;
 use crate::deviates::Deviates;
-use crate::runs::{Row, turn};
+use crate::runs::Row;
 
 /// 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, γ.
 const RESONATOR: [f64; 6] = [0.05, 0.006, -0.008, 0.03, 0.04, 0.0];
@@ -44,7 +46,6 @@ fn run_turned(
     let [main, quadrature, angle] = start;
     let kappa = -2.0 * rate(0.0);
     let mut motion = Motion::new(&[decay, dc, ds, wc, ws, gamma, kappa, main, quadrature, angle]);
-    let (mut turned, mut before) = (0.0, angle);
     let rows = (0..count)
         .map(|index| {
             let part = step / PARTS as f64;
@@ -53,8 +54,6 @@ fn run_turned(
                 motion.advance(part);
             }
             let wave = motion.wave();
-            turned += turn(wave[2] - before);
-            before = wave[2];
             // Noise is alike in all parts of both travelling waves, z₊ and z₋.
             let mut travelling = |sign: f64| {
                 let size = wave[0] + sign * wave[1];
@@ -82,7 +81,6 @@ fn run_turned(
         .collect();
     Run {
         rows,
-        turned,
         file: String::new(),
     }
 }
@@ -370,69 +368,5 @@ fn stiffness_that_depends_on_the_amplitude_is_told_beside_the_splits() {
                 "{kappas:?}: {squares:?}"
             );
         }
-    }
-}
-
-/// Rates of tables, rad/s, by time, that are not steady: a ripple, a start, one that slows down, to and fro.
-const UNSTEADY: [fn(f64) -> f64; 4] = [
-    |time| 0.2 + 0.002 * time.sin(),
-    |time| 0.2 * (time / 0.5).min(1.0),
-    |time| 0.2 * (-0.05 * time).exp(),
-    |time| if time < 20.0 { 0.15 } else { -0.15 },
-];
-
-#[test]
-fn deviations_hold_however_patterns_are_turned() {
-    for (index, rate) in UNSTEADY.into_iter().enumerate() {
-        // Of 39.8 s.
-        let rates = (0..3980).map(|k| rate(0.01 * (k as f64 + 0.5)));
-        let mean = rates.sum::<f64>() / 3980.0;
-        let trials = 100;
-        let errors = (1000..1000 + trials).into_par_iter().map(|seed| {
-            let one = |way: f64, angle: f64, seed| {
-                let start = [1.0, 0.03, angle];
-                run_turned(&RESONATOR, |t| way * rate(t), start, 200, 0.2, NOISE, seed)
-            };
-            let found = fit(&[one(1.0, 0.2, 2 * seed), one(-1.0, 0.9, 2 * seed + 1)]).unwrap();
-            assert!(found.is_turned());
-            assert!((found.residual - 1.0).abs() < 0.15, "{}", found.residual);
-            let rotations = found.resonator().unwrap().rotations;
-            std::array::from_fn(|i| match i.checked_sub(5) {
-                None => (found.values[i] - RESONATOR[i]) / found.covariance[(i, i)].sqrt(),
-                Some(run) => {
-                    let (rotation, deviation) = rotations[run];
-                    assert!(deviation < 1e-5, "{deviation}");
-                    (rotation - [mean, -mean][run]) / deviation
-                }
-            })
-        });
-        let errors: Vec<[f64; 7]> = errors.collect();
-        for i in 0..7 {
-            let squares = errors.iter().map(|errors| errors[i] * errors[i]);
-            let rms = (squares.sum::<f64>() / trials as f64).sqrt();
-            // It scatters by 7 %.
-            assert!((0.75..1.25).contains(&rms), "{index}, {i}: {rms}");
-        }
-    }
-}
-
-#[test]
-fn a_steady_rotation_is_not_given_up() {
-    // It tells the splits better: angles drift by them too.
-    for seed in 0..20 {
-        assert!(!fit(&at_three_angles(NOISE, seed)).unwrap().is_turned());
-        let turned = [0.2, -0.2].map(|kappa| {
-            let start = [1.0, 0.03, 0.5];
-            run(
-                &RESONATOR,
-                kappa,
-                start,
-                400,
-                0.1,
-                NOISE,
-                7 * seed + u64::from(kappa > 0.0),
-            )
-        });
-        assert!(!fit(&turned).unwrap().is_turned());
     }
 }

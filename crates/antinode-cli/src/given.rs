@@ -1,0 +1,38 @@
+//! Which rows a command is given.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::failure::Failure;
+use crate::ranges::{self, in_order};
+
+/// The rows that a command is given.
+#[derive(Debug, Args)]
+pub struct Given {
+    /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
+    #[arg(required = true, value_name = "ROWS")]
+    pub rows: Vec<PathBuf>,
+    /// Only rows from this time on, s, as in their `time_s`.
+    #[arg(long, value_name = "S", value_parser = ranges::time)]
+    pub from: Option<f64>,
+    /// Only rows before this time, s.
+    #[arg(long, value_name = "S", value_parser = ranges::time)]
+    pub to: Option<f64>,
+}
+
+impl Given {
+    /// The times asked for, s.
+    pub fn times(&self) -> Result<Range<f64>, Failure> {
+        in_order(self.from, self.to)?;
+        Ok(self.from.unwrap_or(f64::NEG_INFINITY)..self.to.unwrap_or(f64::INFINITY))
+    }
+}
+
+/// The failure where none of the rows has one of these times, but only some from a first one to a last one, s.
+pub fn none_within(names: &str, [first, last]: [f64; 2]) -> Failure {
+    Failure::Recording(format!(
+        "{names}: no row lies within --from and --to: their times go from {first} s to {last} s"
+    ))
+}

@@ -1,0 +1,67 @@
+//! Patterns that are turned as it happens.
+
+use super::*;
+
+/// Rates of tables, rad/s, by time, that are not steady: a ripple, a start, one that slows down, to and fro.
+const UNSTEADY: [fn(f64) -> f64; 4] = [
+    |time| 0.2 + 0.002 * time.sin(),
+    |time| 0.2 * (time / 0.5).min(1.0),
+    |time| 0.2 * (-0.05 * time).exp(),
+    |time| if time < 20.0 { 0.15 } else { -0.15 },
+];
+
+#[test]
+fn deviations_hold_however_patterns_are_turned() {
+    for (index, rate) in UNSTEADY.into_iter().enumerate() {
+        // Of 39.8 s.
+        let rates = (0..3980).map(|k| rate(0.01 * (k as f64 + 0.5)));
+        let mean = rates.sum::<f64>() / 3980.0;
+        let trials = 100;
+        let errors = (1000..1000 + trials).into_par_iter().map(|seed| {
+            let one = |way: f64, angle: f64, seed| {
+                let start = [1.0, 0.03, angle];
+                run_turned(&RESONATOR, |t| way * rate(t), start, 200, 0.2, NOISE, seed)
+            };
+            let found = fit(&[one(1.0, 0.2, 2 * seed), one(-1.0, 0.9, 2 * seed + 1)]).unwrap();
+            assert!(found.is_turned());
+            assert!((found.residual - 1.0).abs() < 0.15, "{}", found.residual);
+            let rotations = found.resonator().unwrap().rotations;
+            std::array::from_fn(|i| match i.checked_sub(5) {
+                None => (found.values[i] - RESONATOR[i]) / found.covariance[(i, i)].sqrt(),
+                Some(run) => {
+                    let (rotation, deviation) = rotations[run];
+                    assert!(deviation < 1e-5, "{deviation}");
+                    (rotation - [mean, -mean][run]) / deviation
+                }
+            })
+        });
+        let errors: Vec<[f64; 7]> = errors.collect();
+        for i in 0..7 {
+            let squares = errors.iter().map(|errors| errors[i] * errors[i]);
+            let rms = (squares.sum::<f64>() / trials as f64).sqrt();
+            // It scatters by 7 %.
+            assert!((0.75..1.25).contains(&rms), "{index}, {i}: {rms}");
+        }
+    }
+}
+
+#[test]
+fn a_steady_rotation_is_not_given_up() {
+    // It tells the splits better: angles drift by them too.
+    for seed in 0..20 {
+        assert!(!fit(&at_three_angles(NOISE, seed)).unwrap().is_turned());
+        let turned = [0.2, -0.2].map(|kappa| {
+            let start = [1.0, 0.03, 0.5];
+            run(
+                &RESONATOR,
+                kappa,
+                start,
+                400,
+                0.1,
+                NOISE,
+                7 * seed + u64::from(kappa > 0.0),
+            )
+        });
+        assert!(!fit(&turned).unwrap().is_turned());
+    }
+}

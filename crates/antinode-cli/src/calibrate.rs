@@ -6,9 +6,10 @@ mod solve;
 use std::io::{self, Write};
 
 use antinode::Flags;
-use clap::Args;
+use clap::{Args, ValueEnum};
+use serde::Serialize;
 
-use crate::digits::{decimals, with_std};
+use crate::digits::{decimals, significant, with_std};
 use crate::failure::Failure;
 use crate::given::Given;
 use crate::options::Corrected;
@@ -16,6 +17,8 @@ use crate::runs::{BEYOND_NOISE, Runs};
 use moments::Run;
 use solve::{Found, PickOffs, solve};
 
+/// A flaw of fewer deviations than this is none.
+const SEEN: f64 = 3.0;
 /// The pattern turns by no more than this from row to row, rad: the sums over time are then good to 2 %.
 const MOST_TURN: f64 = 0.1;
 
@@ -28,6 +31,28 @@ pub struct Calibrate {
     // What the rows were identified with.
     #[command(flatten)]
     pub corrected: Corrected,
+    /// How the calibration is printed.
+    #[arg(long, visible_alias = "format", value_enum, default_value_t = Printed::Options, value_name = "FORMAT")]
+    pub output: Printed,
+}
+
+/// How a calibration is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Printed {
+    /// Options of `antinode identify`, in one line.
+    Options,
+    /// Comma-separated values with a header: quantity, value and deviation.
+    Csv,
+    /// One JSON object per quantity.
+    Jsonl,
+}
+
+/// A quantity of CSV and JSON lines; the names are the columns.
+#[derive(Serialize)]
+struct Row {
+    quantity: &'static str,
+    value: f64,
+    std: f64,
 }
 
 /// Finds the calibration and prints it as options.
@@ -46,25 +71,93 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
         angle,
     } = found.pick_offs;
     let [of_gain, of_skew, of_angle] = found.deviations;
+    let quantity = |label, option, name, value, std| Quantity {
+        label,
+        option,
+        row: Row {
+            quantity: name,
+            value,
+            std,
+        },
+    };
     let quantities = [
-        ("gain ratio", "--gain-ratio", gain_ratio, of_gain),
-        ("skew, ns", "--skew-ns", skew * 1e9, of_skew * 1e9),
-        ("pick-off angle, rad", "--pick-off-angle", angle, of_angle),
+        quantity(
+            "gain ratio",
+            "--gain-ratio",
+            "gain_ratio",
+            gain_ratio,
+            of_gain,
+        ),
+        quantity(
+            "skew, ns",
+            "--skew-ns",
+            "skew_ns",
+            skew * 1e9,
+            of_skew * 1e9,
+        ),
+        quantity(
+            "pick-off angle, rad",
+            "--pick-off-angle",
+            "pick_off_angle_rad",
+            angle,
+            of_angle,
+        ),
     ];
     let mut report = io::stderr().lock();
     // The result goes to the other stream: standard error may be closed.
     let _ = tell(&mut report, &name, &rows, &found, &quantities);
-    // One digit more than the report's two of the deviation.
-    let options = quantities.map(|(_, option, value, deviation)| {
-        let decimals = decimals(deviation) + 1;
-        format!("{option} {value:.decimals$}")
-    });
-    writeln!(io::stdout(), "{}", options.join(" "))?;
+    let apart = found.deviations.map(|std| SEEN * std);
+    if corrected == PickOffs::IDEAL && found.pick_offs.are_ideal_to(apart) {
+        let _ = writeln!(
+            report,
+            "the pick-offs look ideal: if the rows were identified with a calibration, give it here too, for what is printed replaces it"
+        );
+    }
+    print(&mut io::stdout().lock(), options.output, &quantities)?;
     Ok(())
 }
 
-/// A quantity's name, its option, its value and its standard deviation.
-type Quantity = (&'static str, &'static str, f64, f64);
+/// Prints the quantities.
+fn print(out: &mut impl Write, how: Printed, quantities: &[Quantity]) -> io::Result<()> {
+    let rows = quantities.iter().map(|Quantity { row, .. }| Row {
+        // More would be digits of nothing.
+        value: significant(row.value, 12),
+        std: significant(row.std, 6),
+        ..*row
+    });
+    match how {
+        Printed::Options => {
+            // One digit more than the report's two of the deviation.
+            let options = quantities.iter().map(|Quantity { option, row, .. }| {
+                let decimals = decimals(row.std) + 1;
+                format!("{option} {:.decimals$}", row.value)
+            });
+            let options: Vec<_> = options.collect();
+            writeln!(out, "{}", options.join(" "))
+        }
+        Printed::Csv => {
+            let mut writer = csv::Writer::from_writer(out);
+            for row in rows {
+                writer.serialize(row)?;
+            }
+            writer.flush()
+        }
+        Printed::Jsonl => {
+            for row in rows {
+                serde_json::to_writer(&mut *out, &row)?;
+                writeln!(out)?;
+            }
+            Ok(())
+        }
+    }
+}
+
+/// A quantity by the names that it has in the report, as an option, and in CSV.
+struct Quantity {
+    label: &'static str,
+    option: &'static str,
+    row: Row,
+}
 
 /// Tells what was found, and how well.
 fn tell(
@@ -90,9 +183,9 @@ fn tell(
         turns.join(" and ")
     )?;
     rows.tell_overlaps(out)?;
-    for &(quantity, _, value, deviation) in quantities {
-        let text = with_std(value, deviation);
-        writeln!(out, "{quantity:<20} {}", text.trim_end())?;
+    for Quantity { label, row, .. } in quantities {
+        let text = with_std(row.value, row.std);
+        writeln!(out, "{label:<20} {}", text.trim_end())?;
     }
     if !found.knows_splits {
         writeln!(

@@ -9,6 +9,7 @@ mod flagged;
 mod held;
 mod in_turn;
 mod mistaken;
+mod one_sided;
 mod options;
 mod scatter;
 mod search;
@@ -18,9 +19,10 @@ mod stop;
 mod topped;
 mod windows;
 
+use std::collections::HashSet;
 use std::fs;
 use std::io::{self, BufWriter, IsTerminal, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use antinode::{Identifier, Settings};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -62,6 +64,7 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
             options.periods
         )));
     }
+    warn_of_twins(&options.files);
     let (whole, out) = output(options)?;
     let mut rows = Rows::new(
         BufWriter::new(out),
@@ -95,6 +98,16 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
         whole.finish()?;
     }
     failure.map_or(Ok(()), Err)
+}
+
+/// Tells of a file that is given twice: its rows would count twice in what is made of them.
+fn warn_of_twins(files: &[PathBuf]) {
+    let mut seen = HashSet::new();
+    for file in files {
+        if fs::canonicalize(file).is_ok_and(|one| !seen.insert(one)) {
+            eprintln!("warning: {} is given twice", file.display());
+        }
+    }
 }
 
 /// Where rows go, and the file that takes its name once they are all there.

@@ -51,6 +51,22 @@ impl From<&Corrected> for PickOffs {
 }
 
 impl PickOffs {
+    /// Those that need no calibration.
+    pub const IDEAL: Self = Self {
+        gain_ratio: 1.0,
+        skew: 0.0,
+        angle: 0.0,
+    };
+
+    /// Whether these are no further from ideal ones than by so much in gain ratio, skew and angle.
+    pub fn are_ideal_to(&self, apart: [f64; 3]) -> bool {
+        let flaws = [self.gain_ratio - 1.0, self.skew, self.angle];
+        flaws
+            .iter()
+            .zip(apart)
+            .all(|(flaw, apart)| flaw.abs() <= apart)
+    }
+
     /// Phasors as these pick-offs show them, of those of ideal ones.
     pub fn distort(&self, [c, d]: [Complex<f64>; 2], omega: f64) -> [Complex<f64>; 2] {
         let (sine, cosine) = (2.0 * self.angle).sin_cos();

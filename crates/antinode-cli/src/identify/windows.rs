@@ -12,6 +12,7 @@ use super::first::First;
 use super::held::Held;
 use super::in_turn::InTurn;
 use super::mistaken::straight;
+use super::one_sided::OneSided;
 use super::options::{Identify, Methods};
 use super::scatter::Scatter;
 use super::search::{Search, elsewhere};
@@ -46,6 +47,7 @@ pub(super) struct Windows<'a> {
     in_turn: InTurn,
     held: Held,
     copied: Copied,
+    one_sided: OneSided,
     early: Early,
     coarse: Coarse,
     few: Few,
@@ -91,6 +93,7 @@ impl<'a> Windows<'a> {
             in_turn: InTurn::default(),
             held: Held::default(),
             copied: Copied::default(),
+            one_sided: OneSided::default(),
             early: Early::new(recording.bytes_total().is_none(), rate),
             coarse: Coarse::new(
                 recording
@@ -203,6 +206,7 @@ impl<'a> Windows<'a> {
         self.silence.see(estimate, self.rate, self.options.hop);
         self.scatter.see(estimate);
         self.in_turn.see(estimate, self.rate);
+        self.one_sided.see(estimate);
         if !estimate.flags.contains(Flags::LOST) {
             self.residual = self.residual.min(estimate.residual_rms);
         }
@@ -245,6 +249,7 @@ impl<'a> Windows<'a> {
             self.topped.told(self.residual),
             self.scatter.told(self.options.hum || self.options.coloured),
             self.in_turn.told(),
+            self.one_sided.told(),
             self.copied
                 .told()
                 .filter(|_| !self.held.are_both() && self.early != Early::Passed),

@@ -110,11 +110,14 @@ impl FirstLine<'_> {
     fn find(&self, wanted: &str, is_number: bool) -> Result<usize, LineFault> {
         let names = self.names.filter(|_| !is_number).unwrap_or_default();
         let by_name = names.iter().position(|name| name == wanted);
-        let mut bare = (0..names.len()).filter(|&place| without_unit(&names[place]) == wanted);
-        // Of several that differ in their units alone, none is meant for sure.
-        let by_bare = bare.next().filter(|_| bare.next().is_none());
+        // Of several that differ in their units or in capitals alone, none is meant for sure.
+        let only = |is_wanted: &dyn Fn(&str) -> bool| {
+            let mut places = (0..names.len()).filter(|&place| is_wanted(&names[place]));
+            places.next().filter(|_| places.next().is_none())
+        };
         by_name
-            .or(by_bare)
+            .or_else(|| only(&|name| without_unit(name) == wanted))
+            .or_else(|| only(&|name| without_unit(name).to_lowercase() == wanted.to_lowercase()))
             .or_else(|| self.number(wanted))
             .ok_or_else(|| {
                 let numbers = format!("the numbers 1 to {}", self.width);

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::by_energy::{ByEnergy, Seen, beside_one_mean, by_energy};
+use super::drift::drift;
 use super::found::{Found, Measured, Moved};
 use super::is_alike;
 use crate::runs::{Row, Runs};
@@ -15,6 +16,8 @@ pub struct Frequency {
     pub moves: Option<f64>,
     /// What it is above that at rest.
     pub by_energy: ByEnergy,
+    /// How fast it moves in each run, Hz/s.
+    pub drifts: Vec<Measured>,
 }
 
 /// The mean frequency, of which each row tells as much as its deviation says; wider where rows differ by more than that, and by all that it
@@ -79,6 +82,7 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
     Frequency {
         mean: (from + mean, std.hypot(moves.unwrap_or(0.0))),
         moves,
+        drifts: runs.iter().map(|run| drift(run, is_told)).collect(),
         by_energy: if is_along {
             // θ turns by −γ a_A a_B, and the frequency rises by 3γ (a_A² + a_B²) rad/s.
             let by_turning = found.turning_by_amplitudes();

@@ -29,6 +29,7 @@ const DECAY_TIME: Kind = kind("decay_time_s", "decay time, s", 1.0);
 const QUALITY_FACTOR: Kind = kind("quality_factor", "quality factor", 1.0);
 const ROTATION: Kind = kind("rotation_rad_s", "turned by rotation, °/s", DEGREES);
 const FREQUENCY: Kind = kind("frequency_hz", "mean frequency, Hz", 1.0);
+const DRIFT: Kind = kind("frequency_drift_hz_s", "frequency drift, Hz/s", 1.0);
 /// Both at one input unit squared.
 const BY_ENERGY: Kind = kind(
     "frequency_by_energy_hz",
@@ -53,6 +54,7 @@ Quantities of CSV and JSON lines, their units, and those of their deviations:
   decay_time_s                 s      of amplitudes, to 1/e
   quality_factor               none
   rotation_rad_s               rad/s
+  frequency_drift_hz_s         Hz/s, of a straight line through the run's frequencies
   frequency_hz                 Hz
   frequency_by_energy_hz       Hz, at a_A² + a_B² of one unit of the samples squared
   residual_over_noise          none
@@ -132,6 +134,7 @@ pub fn quantities(
         if let Some(resonator) = &resonator {
             add(run, ROTATION, resonator.rotations[place]);
         }
+        add(run, DRIFT, frequency.drifts[place]);
         let count = rows.runs[place].rows.len();
         add(run, RESIDUAL, found.residual_of_run(place, count));
     }

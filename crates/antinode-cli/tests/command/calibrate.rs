@@ -172,6 +172,57 @@ fn flaws_are_found_to_their_deviations_and_taken_out() {
 }
 
 #[test]
+fn a_program_reads_the_same_numbers_with_their_deviations() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    record(here);
+    let rows = run(here, "identify --output csv one.wav other.wav").out;
+    let [options, csv, jsonl] = ["options", "csv", "jsonl"].map(|how| {
+        let arguments = format!("calibrate - --output {how}");
+        run_with(here, &arguments, rows.clone().into())
+    });
+    assert_eq!([&csv.err, &jsonl.err], [&options.err; 2]);
+    let (values, deviations) = numbers(&options);
+    let mut lines = csv.out.lines();
+    assert_eq!(lines.next(), Some("quantity,value,std"));
+    let lines: Vec<_> = lines.collect();
+    assert_eq!([lines.len(), jsonl.out.lines().count()], [3; 2]);
+    let names = ["gain_ratio", "skew_ns", "pick_off_angle_rad"];
+    for (i, (line, json)) in lines.iter().zip(jsonl.out.lines()).enumerate() {
+        let fields: Vec<_> = line.split(',').collect();
+        let json: serde_json::Value = serde_json::from_str(json).unwrap();
+        assert_eq!(
+            [fields[0], json["quantity"].as_str().unwrap()],
+            [names[i]; 2]
+        );
+        let [value, std] = [fields[1], fields[2]].map(|field| field.parse::<f64>().unwrap());
+        assert_eq!(
+            [json["value"].as_f64(), json["std"].as_f64()],
+            [Some(value), Some(std)]
+        );
+        // The options and the report are rounded.
+        assert!((value - values[i]).abs() <= 0.006 * std, "{line}");
+        assert!((std / deviations[i] - 1.0).abs() < 0.05, "{line}");
+    }
+}
+
+#[test]
+fn rows_that_were_calibrated_already_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    record(here);
+    let first = calibrate(here, "one.wav other.wav", "");
+    let told = "the pick-offs look ideal: if the rows were identified with a calibration, give it";
+    assert!(!first.err.contains(told), "{}", first.err);
+    let arguments = format!("identify --output csv one.wav other.wav {}", first.out);
+    let rows = run(here, &arguments).out;
+    let forgotten = run_with(here, "calibrate -", rows.clone().into());
+    assert!(forgotten.err.contains(told), "{}", forgotten.err);
+    let given = run_with(here, &format!("calibrate - {}", first.out), rows.into());
+    assert!(!given.err.contains(told), "{}", given.err);
+}
+
+#[test]
 fn one_way_alone_is_warned_of() {
     let directory = tempfile::tempdir().unwrap();
     record(directory.path());

@@ -57,6 +57,36 @@ fn one_signal_on_both_pick_offs_is_told() {
 }
 
 #[test]
+fn a_recording_given_twice_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for name in ["a.wav", "b.wav"] {
+        std::fs::write(here.join(name), wav(&WAVE.codes(2000))).unwrap();
+    }
+    let told = |files: &str| run(here, &format!("identify {files}")).err;
+    assert_eq!(told("a.wav b.wav"), "");
+    assert_eq!(
+        told("a.wav b.wav ./a.wav"),
+        "warning: ./a.wav is given twice\n"
+    );
+}
+
+#[test]
+fn a_pick_off_that_is_not_connected_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // A code of noise on S_D.
+    let codes = WAVE.codes(20_000).into_iter().enumerate();
+    let codes: Vec<[i16; 2]> = codes
+        .map(|(k, [c, _])| [c, (k * 7919 % 13 / 5) as i16])
+        .collect();
+    std::fs::write(here.join("a.wav"), wav(&codes)).unwrap();
+    let run = run(here, "identify --output csv a.wav");
+    let told = "warning: a.wav: S_D shows no wave in any row: unless the pattern stands on";
+    assert!(run.err.contains(told), "{}", run.err);
+}
+
+#[test]
 fn a_time_among_raw_samples_is_told() {
     let directory = tempfile::tempdir().unwrap();
     let pair = |(k, pair): (usize, &[i16; 2])| [k as f64 / RATE, f64::from(pair[0])];

@@ -86,7 +86,7 @@ fn the_unit_of_every_quantity_is_told() {
         "--decay-rate 0.08 --angle-rate 0.4 --damping-split 0.012 --frequency-split 0.004",
     );
     let found = numbers(&resonator(here, &rows, "--output csv"));
-    assert_eq!(found.len(), 4 + 8, "{found:?}");
+    assert_eq!(found.len(), 5 + 8, "{found:?}");
     for (_, quantity) in found.keys() {
         let unit = units.get(quantity.as_str()).expect(quantity);
         let is_time = quantity == "decay_time_s";
@@ -114,7 +114,7 @@ fn a_pattern_at_rest_tells_its_decay_and_that_no_more_is_told() {
         found.err
     );
     let numbers = numbers(&found);
-    assert_eq!(numbers.len(), 5, "{}", found.out);
+    assert_eq!(numbers.len(), 6, "{}", found.out);
     let (value, std) = numbers[&("1".to_owned(), "decay_time_s".to_owned())];
     assert!((value - 12.5).abs() < 4.0 * std.unwrap());
 }

@@ -1,6 +1,6 @@
 //! `antinode resonator`: the mean frequency, and how it moves with time and with the energy.
 
-use crate::common::ring_downs::{joined, of_resonator, rows};
+use crate::common::ring_downs::{joined, of_resonator, of_run, rows};
 use crate::common::{rms, run, run_with};
 
 #[test]
@@ -65,9 +65,16 @@ fn a_frequency_that_moves_is_told() {
             "{rate}: {}",
             found.err
         );
+        let (drift, std) = of_run(&found.out, "1", "frequency_drift_hz_s");
+        let rate: f64 = rate.parse().unwrap();
+        assert!(
+            (drift - rate).abs() < 4.0 * std && std < 2e-3,
+            "{}",
+            found.out
+        );
         // At the first sample it is 5332 Hz; in the middle of the recording it has moved by two seconds of its rate.
         let (frequency, std) = of_resonator(&found.out, "frequency_hz");
-        let mean = 5332.0 + 2.0 * rate.parse::<f64>().unwrap();
+        let mean = 5332.0 + 2.0 * rate;
         assert!((frequency - mean).abs() < 4.0 * std, "{}", found.out);
     }
 }

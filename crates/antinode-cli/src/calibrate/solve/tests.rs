@@ -97,7 +97,7 @@ fn run(resonator: &Resonator, kappa: f64, pick_offs: &PickOffs, noise: f64, seed
                 raw,
                 omega,
                 variance: noise.max(1e-9).powi(2),
-                corrected: IDEAL,
+                corrected: PickOffs::IDEAL,
                 seconds: 0.0,
             }
         })
@@ -110,12 +110,6 @@ fn run(resonator: &Resonator, kappa: f64, pick_offs: &PickOffs, noise: f64, seed
         },
     }
 }
-
-const IDEAL: PickOffs = PickOffs {
-    gain_ratio: 1.0,
-    skew: 0.0,
-    angle: 0.0,
-};
 
 /// Errors of gain ratio, phase (rad) and angle (rad).
 fn errors(found: &PickOffs, truth: &PickOffs) -> [f64; 3] {
@@ -142,7 +136,7 @@ fn pick_offs_are_found_however_flawed() {
         };
         // 1.25 and 2 turns of 4θ.
         for kappa in [0.2, -0.32] {
-            let found = solve(&[run(&ROUND, kappa, &truth, 0.0, 1)], IDEAL).unwrap();
+            let found = solve(&[run(&ROUND, kappa, &truth, 0.0, 1)], PickOffs::IDEAL).unwrap();
             assert!(!found.knows_splits);
             for error in errors(&found.pick_offs, &truth) {
                 assert!(error.abs() < 1e-7, "{truth:?}: {found:?}");
@@ -160,12 +154,12 @@ fn a_split_resonator_is_told_from_flaws_by_turning_both_ways() {
     };
     let one_way = run(&SPLIT, 0.25, &truth, 0.0, 1);
     let other_way = run(&SPLIT, -0.2, &truth, 0.0, 1);
-    let found = solve(&[one_way.clone(), other_way], IDEAL).unwrap();
+    let found = solve(&[one_way.clone(), other_way], PickOffs::IDEAL).unwrap();
     assert!(found.knows_splits);
     for error in errors(&found.pick_offs, &truth) {
         assert!(error.abs() < 2e-5, "{found:?}");
     }
-    let found = solve(&[one_way], IDEAL).unwrap();
+    let found = solve(&[one_way], PickOffs::IDEAL).unwrap();
     assert!(!found.knows_splits);
     let [gain, skew, angle] = errors(&found.pick_offs, &truth);
     assert!(gain.abs() > 1e-3 && skew.abs() > 1e-3 && angle.abs() > 1e-3);
@@ -188,7 +182,7 @@ fn stated_deviations_are_the_rms_errors() {
                 run(&SPLIT, 0.25, &truth, 1e-3, 2 * seed + 1),
                 run(&SPLIT, -0.2, &truth, 1e-3, 2 * seed + 2),
             ];
-            let found = solve(&both, IDEAL).unwrap();
+            let found = solve(&both, PickOffs::IDEAL).unwrap();
             let [gain, phase, angle] = errors(&found.pick_offs, &truth);
             let [of_gain, of_skew, of_angle] = found.deviations;
             let of_phase = of_skew * std::f64::consts::TAU * 5332.0;
@@ -214,12 +208,12 @@ fn stated_deviations_are_the_rms_errors() {
 
 #[test]
 fn what_else_moves_widens_the_deviations() {
-    let honest = run(&ROUND, 0.2, &IDEAL, 1e-3, 1);
+    let honest = run(&ROUND, 0.2, &PickOffs::IDEAL, 1e-3, 1);
     let mut boastful = honest.clone();
     for moment in &mut boastful.moments {
         moment.variance *= 0.01;
     }
-    let [honest, boastful] = [honest, boastful].map(|run| solve(&[run], IDEAL).unwrap());
+    let [honest, boastful] = [honest, boastful].map(|run| solve(&[run], PickOffs::IDEAL).unwrap());
     assert!((boastful.residual / honest.residual - 10.0).abs() < 1e-6);
     for (wide, deviation) in boastful.deviations.iter().zip(honest.deviations) {
         assert!((wide / deviation - 1.0).abs() < 0.05, "{boastful:?}");
@@ -228,8 +222,8 @@ fn what_else_moves_widens_the_deviations() {
 
 #[test]
 fn what_cannot_be_known_is_refused() {
-    let still = run(&ROUND, 0.1, &IDEAL, 1e-3, 1);
+    let still = run(&ROUND, 0.1, &PickOffs::IDEAL, 1e-3, 1);
     assert!(
-        matches!(solve(&[still], IDEAL), Err(Fault::Still(turned)) if (turned - 1.0).abs() < 1e-9)
+        matches!(solve(&[still], PickOffs::IDEAL), Err(Fault::Still(turned)) if (turned - 1.0).abs() < 1e-9)
     );
 }

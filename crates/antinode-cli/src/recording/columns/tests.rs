@@ -97,6 +97,18 @@ fn a_name_may_be_chosen_without_its_unit() {
 }
 
 #[test]
+fn a_name_may_be_chosen_in_other_letters() {
+    let usual = Ok([Some(0), Some(1), Some(2)]);
+    assert_eq!(places("Time [s],C,D", Some("time,c,d")), usual);
+    assert_eq!(
+        places("t,T,c,d", Some("T,C,D")),
+        Ok([Some(1), Some(2), Some(3)])
+    );
+    let unsure = places("Ua,UA,d", Some("ua,d")).unwrap_err();
+    assert!(unsure.starts_with("there is no column `ua`; choose among `Ua`, `UA`"));
+}
+
+#[test]
 fn no_column_is_chosen_twice() {
     for (chosen, number) in [
         ("3,3", 3),

@@ -1,0 +1,112 @@
+//! A pick-off that never shows the wave: its rows look like a pattern on the other's axis.
+
+use antinode::Estimate;
+
+/// Clean rows from which on they are believed.
+const MANY: u32 = 16;
+/// The rms of a pick-off's wave, as a share of the other's, below which it is none: no pattern stands on an axis by chance so exactly.
+const NONE: f64 = 1e-3;
+
+/// What clean rows show of each pick-off's wave.
+#[derive(Debug, Default)]
+pub(super) struct OneSided {
+    rows: u32,
+    /// Σ of the squared amplitudes of S_C and of S_D, less what noise adds.
+    powers: [f64; 2],
+    /// Σ of the variances of these squares where there is noise alone.
+    chance: f64,
+}
+
+impl OneSided {
+    /// Takes a row.
+    pub fn see(&mut self, row: &Estimate) {
+        if !row.flags.is_empty() {
+            return;
+        }
+        let (sine, cosine) = (2.0 * row.angle).sin_cos();
+        let (a, b) = (
+            f64::from(row.main_amplitude),
+            f64::from(row.quadrature_amplitude),
+        );
+        // Both parts of a phasor have noise.
+        let noise = f64::from(row.main_amplitude_std).powi(2)
+            + f64::from(row.quadrature_amplitude_std).powi(2);
+        self.rows += 1;
+        self.powers[0] += (a * cosine).powi(2) + (b * sine).powi(2) - noise;
+        self.powers[1] += (a * sine).powi(2) + (b * cosine).powi(2) - noise;
+        self.chance += noise * noise;
+    }
+
+    /// What to tell of a pick-off that shows no wave, however long the rows are looked at.
+    pub fn told(&self) -> Option<String> {
+        let [c, d] = self.powers;
+        let (less, more, who) = if c < d { (c, d, "S_C") } else { (d, c, "S_D") };
+        let least = NONE * NONE * more;
+        // Noise must leave such a wave to be seen.
+        let is_told = self.rows >= MANY && less < least && 3.0 * self.chance.sqrt() < least;
+        is_told.then(|| {
+            format!(
+                "{who} shows no wave in any row: unless the pattern stands on the other pick-off's axis, rows show one signal; check the wiring, \
+                 and which channels were recorded"
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use antinode::Flags;
+
+    use super::*;
+    use crate::deviates::Deviates;
+
+    /// What is told of so many rows of a pattern at this angle, rad, with these amplitudes and deviation.
+    fn told(rows: u64, angle: f64, [main, quadrature]: [f64; 2], deviation: f64) -> Option<String> {
+        let (mut one_sided, mut deviates) = (OneSided::default(), Deviates(1));
+        for index in 0..rows {
+            let mut near = |value: f64, by: f64| value + by * deviates.draw();
+            one_sided.see(&Estimate {
+                start: 200 * index,
+                samples: 200,
+                time: 2e-3 * index as f64,
+                main_amplitude: near(main, deviation) as f32,
+                quadrature_amplitude: near(quadrature, deviation) as f32,
+                angle: near(angle, 0.5 * deviation / main),
+                phase: 0.0,
+                frequency: 5332.0,
+                angle_rate: 0.0,
+                decay_rate: 0.0,
+                offsets: [0.0; 2],
+                main_amplitude_std: deviation as f32,
+                quadrature_amplitude_std: deviation as f32,
+                angle_std: (0.5 * deviation / main) as f32,
+                phase_std: 1e-3,
+                frequency_std: 0.1,
+                angle_rate_std: 0.1,
+                decay_rate_std: 0.1,
+                residual_rms: 1e-3,
+                flags: Flags::empty(),
+            });
+        }
+        one_sided.told()
+    }
+
+    #[test]
+    fn the_pick_off_without_a_wave_is_named() {
+        use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+        for (angle, who) in [(0.0, "S_D"), (FRAC_PI_2, "S_D"), (FRAC_PI_4, "S_C")] {
+            let told = told(1000, angle, [0.5, 0.0], 1e-3).expect("one has no wave");
+            assert!(told.starts_with(&format!("{who} shows no wave")), "{told}");
+        }
+    }
+
+    #[test]
+    fn a_wave_on_both_is_not_told() {
+        assert_eq!(told(1000, 2e-3, [0.5, 0.0], 1e-3), None);
+        assert_eq!(told(1000, 0.0, [0.5, 2e-3], 1e-3), None);
+        assert_eq!(told(1000, 0.4, [0.5, 0.3], 1e-3), None);
+        // Too few rows, or too much noise.
+        assert_eq!(told(15, 0.0, [0.5, 0.0], 1e-6), None);
+        assert_eq!(told(1000, 0.0, [0.5, 0.0], 3e-2), None);
+    }
+}

@@ -1,0 +1,59 @@
+//! How fast the frequency of a run moves: the straight line through its rows.
+
+use super::by_energy::Seen;
+use super::found::Measured;
+
+/// The slope, Hz/s; wider where rows scatter about the line by more than their deviations, if these are told.
+pub fn drift(run: &[Seen], is_told: bool) -> Measured {
+    let (mut weights, mut mean, mut level) = (0.0, 0.0, 0.0);
+    let (mut of_time, mut product, mut of_beyond) = (0.0, 0.0, 0.0);
+    for row in run {
+        weights += row.weight;
+        let share = row.weight / weights;
+        let (apart, above) = (row.time - mean, row.beyond - level);
+        mean += share * apart;
+        level += share * above;
+        of_time += row.weight * apart * (row.time - mean);
+        product += row.weight * apart * (row.beyond - level);
+        of_beyond += row.weight * above * (row.beyond - level);
+    }
+    let slope = product / of_time;
+    let scatter = (of_beyond - slope * product) / (run.len() - 2) as f64;
+    let scatter = if is_told { scatter.max(1.0) } else { scatter };
+    (slope, (scatter / of_time).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::deviates::Deviates;
+
+    /// The error of the drift over its deviation, of rows that scatter by `times` of theirs.
+    fn off(seed: u64, times: f64, is_told: bool) -> f64 {
+        let mut random = Deviates(seed);
+        let rows: Vec<_> = (0..60)
+            .map(|k| {
+                let time = 1000.0 + f64::from(k);
+                // Of a wave that decays.
+                let std = 1e-3 * (0.02 * f64::from(k)).exp();
+                Seen {
+                    time,
+                    weight: if is_told { std.powi(-2) } else { 1.0 },
+                    energy: 0.0,
+                    beyond: 5.0 - 2e-4 * time + times * std * random.draw(),
+                }
+            })
+            .collect();
+        let (slope, std) = drift(&rows, is_told);
+        (slope + 2e-4) / std
+    }
+
+    #[test]
+    fn stated_deviations_are_the_rms_errors() {
+        for (times, is_told, least) in [(1.0, true, 0.85), (3.0, true, 0.9), (1.0, false, 0.9)] {
+            let squares: f64 = (0..400).map(|seed| off(seed, times, is_told).powi(2)).sum();
+            let rms = (squares / 400.0).sqrt();
+            assert!((least..1.15).contains(&rms), "{times}, {is_told}: {rms}");
+        }
+    }
+}

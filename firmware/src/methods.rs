@@ -187,7 +187,9 @@ impl<S: Sample> History<S> {
             sums = (sums.0.with(&next.moments), sums.1.with(&next.delayed));
         }
         let (moments, delayed) = sums;
-        if !alike || moments.count != estimate.samples {
+        // The first products after a tuning are missing until the delay is filled.
+        let whole = [moments.count, delayed.count] == [estimate.samples; 2];
+        if !alike || !whole {
             return None;
         }
         let offsets = first.tuning.offsets.map(f64::from);

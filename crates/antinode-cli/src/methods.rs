@@ -23,6 +23,13 @@ pub struct Methods {
     pub frequency_differences: [f64; 4],
 }
 
+/// The most samples of a window that are whole periods at `omega` rad a sample, to the nearest one; none of less than a period.
+fn whole_periods(samples: u32, omega: f64) -> Option<usize> {
+    let period = TAU / omega;
+    let periods = ((f64::from(samples) + 0.5) / period).floor();
+    (periods >= 1.0 && periods.is_finite()).then(|| (periods * period).round() as usize)
+}
+
 /// Keeps the samples that the next window may need.
 #[derive(Debug)]
 pub struct History {
@@ -65,8 +72,8 @@ impl History {
         self.pairs.clear();
     }
 
-    /// All methods over the window of an estimate; `None` where it holds no wave, or the samples are not
-    /// here that it and a quarter of a period before it have.
+    /// All methods over the whole periods of an estimate's window, to the nearest sample, (8); `None` where it holds no wave, or the samples
+    /// are not here that it and a quarter of a period before it have.
     pub fn compare(&self, estimate: &Estimate) -> Option<Methods> {
         if estimate.flags.contains(Flags::LOST) {
             return None;
@@ -74,7 +81,7 @@ impl History {
         let omega = TAU * estimate.frequency / self.sample_rate;
         let first = usize::try_from(estimate.start.checked_sub(self.start)?).ok()?;
         let from = first.saturating_sub(self.lead);
-        let end = first + estimate.samples as usize;
+        let end = first + whole_periods(estimate.samples, omega)?;
         let raw: Vec<Pair> = self
             .pairs
             .range(from..end.min(self.pairs.len()))
@@ -85,9 +92,6 @@ impl History {
         let pairs = ideal.pairs(&raw, estimate.offsets);
         let lead = first - from;
         let window = pairs.get(lead..)?;
-        if window.len() < 4 || !omega.is_finite() {
-            return None;
-        }
         let lag = algorithm2::quarter_lag((TAU / omega) as f32);
         if lead < usize::from(lag) {
             // A wave of known frequency may begin with the first sample.

@@ -77,7 +77,7 @@ impl core::error::Error for RegridError {}
 
 /// Resamples a stream of sample pairs to `per_period` samples a period. `TAPS` input samples make an output: even, 4 or more.
 ///
-/// It holds 65 × `TAPS` f32 of filter. An output costs 4 `TAPS` multiplications and additions, all f32.
+/// It holds 65 × `TAPS` f32 of filter. An output costs 3 `TAPS` multiplications and 4 `TAPS` additions, all f32.
 #[derive(Debug, Clone)]
 pub struct Regrid<const TAPS: usize> {
     rows: [[f32; TAPS]; PLACES + 1],

@@ -1,6 +1,6 @@
 //! Patterns near a circle: when they are told from others, and what runs on over them.
 
-use antinode::{Flags, Settings};
+use antinode::{Calibration, Flags, Settings};
 use antinode_sim::{Flaws, Wave};
 use host_tests::{Core, RATE, identify, identify_changed, windows};
 
@@ -128,6 +128,57 @@ fn a_circle_that_is_passed_has_neither_a_step_nor_a_jump() {
         }
     }
     assert!(circular > 40, "{circular}");
+}
+
+#[test]
+fn the_first_angle_after_a_circle_that_began_without_one_is_told_to_be_unsure() {
+    let wave = Wave {
+        main_amplitude: 1.0,
+        quadrature_amplitude: 0.04,
+        angle_rate: 5.0,
+        ..Wave::default()
+    };
+    let full = Wave {
+        quadrature_amplitude: 1.0,
+        ..wave
+    };
+    let flaws = Flaws {
+        noise: 0.002,
+        ..Flaws::default()
+    };
+    // Circular from the start on, or searched anew or calibrated while it is; with a gap or without one before it is a circle no more.
+    for before in ["nothing", "a search", "a calibration"] {
+        for gap in [0, 50_000, 100_000] {
+            let mut core = Core::new(windows(10)).unwrap();
+            let mut found = Vec::new();
+            for k in 0..40_000 {
+                let is_circular = (if before == "nothing" { 0 } else { 5000 }..25_000).contains(&k);
+                match (k, before) {
+                    (10_000, "a search") => core.search(),
+                    (10_000, "a calibration") => core.calibrate(Calibration::IDEAL).unwrap(),
+                    (25_000, _) => core.skip(gap),
+                    _ => {}
+                }
+                let at = if k < 25_000 { k } else { k + gap };
+                let time = at as f64 / RATE;
+                let (c, d) = (if is_circular { full } else { wave }).pick_offs(time);
+                let noise =
+                    flaws.noise * f64::from((k as u32).wrapping_mul(0x9e37_79b9)) / 2f64.powi(31);
+                found.extend(core.push([(c + noise) as f32, (d - noise) as f32]));
+            }
+            let circles = found
+                .iter()
+                .rposition(|e| e.flags.contains(Flags::CIRCULAR))
+                .unwrap();
+            // A window in which the circle ends is a misfit; one right after it may tell of the step.
+            let is_misfit = |e: &&antinode::Estimate| e.flags.contains(Flags::MISFIT);
+            let mut after = found[circles + 1..].iter().skip_while(is_misfit);
+            let first = after.next().unwrap().flags;
+            let label = format!("{before}, a gap of {gap}");
+            assert_eq!(first.without(Flags::STEP), Flags::REACQUIRED, "{label}");
+            assert!(after.all(|e| e.flags.is_empty()), "{label}");
+        }
+    }
 }
 
 #[test]

@@ -16,8 +16,9 @@ pub const CONDITION: f64 = 3.0;
 /// [`Display`](fmt::Display) gives the formulas of those that fail, joined by `+`: `(8)+(17)`; nothing where all hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Conditions {
-    /// (8), asked of all: the window fits the period so well that |⟨e^{2jωt}⟩|·a_A/2, which leaks into a_A of algorithms 1 to 3 and twice into that
-    /// of 4, is below the deviation of a_A, or of θ.
+    /// (8), asked of all: the window fits the period so well that the leakage |⟨e^{2jωt}⟩| is below two deviations of a_A, as a share of it,
+    /// or below one of θ, rad. As a share of a_A half of it leaks into that of algorithms 1 to 3 and all of it into that of 4; into θ, rad,
+    /// a_B/a_A times as much.
     pub window: bool,
     /// (12), asked of algorithm 1: |a_B| is below two of its deviations.
     pub no_quadrature: bool,

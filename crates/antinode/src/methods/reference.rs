@@ -59,7 +59,8 @@ impl Reference {
             estimate.angle_std,
         ];
         let noise = f64::from(estimate.residual_rms);
-        // The core sees noise in three sums a block of each pick-off, less ten unknowns: blocks of two periods, five at the least.
+        // The core sees noise in three sums a block of each pick-off, less ten unknowns: blocks of two periods, as without a hop, and five
+        // at the least; with one they may be twice as many, and the deviation here is too large by up to √2.
         let blocks = (0.5 * samples * omega / core::f64::consts::TAU).max(5.0);
         Self {
             wave: Wave {

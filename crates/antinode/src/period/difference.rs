@@ -50,7 +50,7 @@ impl<S: Sample> Candidate<S> {
 /// The streaming detector of formula (10): periods of 4 to 200 samples, from cold, with offsets of up to 100 a_A.
 ///
 /// Work a sample: ten lags of an octave, on average of two octaves, and a few samples of a trial while there is a candidate; it is
-/// done in integers on codes, but for the trial. White noise is taken for a wave with a chance below 10⁻⁹ a frame, and codes are never
+/// done in integers on codes, but for the trial. White noise is taken for a wave with a chance of 3·10⁻⁸ a frame, and codes are never
 /// taken to leave less than their own rounding. In steps, in f32 or of several codes, noise of less than half a step has but a few
 /// values: it is taken for one some 3·10⁻⁶ times a pair, and the first window tells that it is none. A wave of a dozen codes is found a
 /// third of a period later than a greater one; one of four may not be found at all, nor one of eight in i32. A wave in 20 % noise is

@@ -177,7 +177,7 @@ impl MeanReturnDetector {
                 Stage::Crest {
                     mean,
                     margin: 0.25 * *swing * period / TAU,
-                    // The sum's first sample is to stand half a sample past the next crest.
+                    // The sum's first sample is to stand half a sample past the crest after the next.
                     samples: (1.25 * period - late) as u16,
                 }
             }

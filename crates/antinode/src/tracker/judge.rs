@@ -145,7 +145,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             let is_clean = !flags.intersects(BROKEN);
             if self.lost || !is_certain && is_clean && !flags.contains(Flags::CIRCULAR) {
                 flags = flags.with(Flags::REACQUIRED);
-                self.lost = false;
+                // Whoever leaves out what else is flagged must see it too.
+                self.lost = !is_clean;
             }
             self.had_wave = true;
         }
@@ -218,8 +219,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             before.drift = drift;
             before.angle = angle;
             (before.turning, before.turning_variance) = (0.0, 0.0);
-            // The last angle may have turned on since then.
-            (before.promised, before.promised_variance) = (0.0, 0.0);
+            // The last angle may have turned on since then; where none was, it is not known by how much.
+            (before.promised, before.promised_variance) = (0.0, f32::INFINITY);
             if let Some(last) = last {
                 before.angle_middle = last.angle_middle;
                 (before.promised, before.promised_variance) =

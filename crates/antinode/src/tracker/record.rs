@@ -76,7 +76,7 @@ pub(crate) struct Record {
     pub angle_variance: f32,
     pub turning: f32,
     pub turning_variance: f32,
-    /// The same with what the angles of the windows before say.
+    /// The same with what the angles of the windows before say; the variance is infinite where no window has had an angle yet.
     pub promised: f32,
     pub promised_variance: f32,
     /// α, paired with `angle`.
@@ -141,8 +141,9 @@ impl Record {
     /// a gap it may not.
     pub(crate) fn angle_at(&self, middle: u64, samples: u32) -> (Angle, bool) {
         let passed = 0.5 * long(middle.wrapping_sub(self.angle_middle));
-        let is_certain = passed < 1.5 * samples as f32
-            || self.promised_variance * passed * passed < UNKNOWN_TURN * UNKNOWN_TURN;
+        let is_next = passed < 1.5 * samples as f32 && self.promised_variance < f32::INFINITY;
+        let is_certain =
+            is_next || self.promised_variance * passed * passed < UNKNOWN_TURN * UNKNOWN_TURN;
         // As much of the turning as stands out of its noise: in much of it a pattern that stands still would be promised a quarter turn.
         let square = self.promised * self.promised;
         let share = square / (square + self.promised_variance + f32::MIN_POSITIVE);
@@ -156,6 +157,9 @@ impl Record {
 
     /// Promises the rate that the windows before have too, each by itself: over gaps of unknown turns no angles tell it.
     pub(crate) fn average_rate(&mut self, before: &Self) {
+        if before.promised_variance == f32::INFINITY {
+            return;
+        }
         let known = greater(
             before.promised_variance,
             self.turning_variance / (AVERAGED - 1.0),

@@ -4,7 +4,7 @@ use num_complex::Complex32;
 
 use super::course::{CHUNK, Course, bend, course};
 use super::gradient::Gradient;
-use super::hum::take_slopes;
+use super::hum::Hum;
 use super::model::Model;
 use super::prediction::Prediction;
 use super::response::Response;
@@ -57,7 +57,7 @@ pub(super) fn examine(
     let is_watched = blocks.first().is_some_and(|block| block.watched.is_some());
     let mut thirds = Thirds::default();
     let mut views = Views::new(model);
-    remains.wander = [0.0; 2];
+    let mut hum = Hum::default();
     for (chunk, blocks) in blocks.chunks(CHUNK).enumerate() {
         let index = chunk * CHUNK;
         let mut course = course(model, waves, index);
@@ -74,13 +74,14 @@ pub(super) fn examine(
             &course,
             &mut left,
             gradients,
-            &mut remains.wander,
+            &mut hum,
         );
         views.take(model, index, &left, blocks.len());
         if is_watched {
             thirds.add(model, waves, offsets, &prediction.factors, blocks, &course);
         }
     }
+    remains.wander = hum.squares.map(|sum| sum * (0.5 * model.per_half));
     views.conclude(model, remains);
     thirds.conclude(model, remains);
 }
@@ -92,8 +93,6 @@ struct LeftOfBlocks {
     power: [f32; CHUNK],
     /// The squared sums, from the first block to each, of what is left along z.
     run: [f32; CHUNK],
-    /// What a slope of the offset of the pick-off looked at adds to the odd sums.
-    slope: [f32; CHUNK],
 }
 
 /// Takes what both pick-offs leave of the blocks from block `index` on, one after the other: the constants of one stay in registers.
@@ -108,7 +107,7 @@ fn take_rests(
     course: &Course,
     left: &mut LeftOfBlocks,
     gradients: &mut [Gradient; 2],
-    wander: &mut [f32; 2],
+    hum: &mut Hum,
 ) {
     let (shared, response) = (model.shared, model.response.in_blocks(model.blocks));
     // Only residuals are turned by it: they have no digits to lose.
@@ -118,8 +117,7 @@ fn take_rests(
             prediction.change_to_d();
         }
         if shared == 0.0 {
-            let slopes = &mut left.slope;
-            take_slopes(model, prediction, channel, blocks, course, slopes, wander);
+            hum.take(model, prediction, channel, (index, blocks), course);
         }
         let prediction = *prediction;
         let mut sums = if index == 0 {
@@ -128,7 +126,7 @@ fn take_rests(
             *gradient
         };
         let waves = course[0].iter().zip(&course[1]);
-        let left = left.power.iter_mut().zip(&mut left.run).zip(&left.slope);
+        let left = left.power.iter_mut().zip(&mut left.run).zip(&hum.slopes);
         for ((block, (&plus, &minus)), ((power, run), slope)) in blocks.iter().zip(waves).zip(left)
         {
             let mut rest = prediction.rest(&block.whitened[channel & 1], &[plus, minus]);
@@ -202,7 +200,6 @@ impl Views {
         // Mean weight of z in a block, over all phases of the carrier.
         let known = model.shared * mean.level;
         let weight = 0.5 * (known * mean.level + even.level * even.level + odd.level * odd.level);
-        remains.wander = remains.wander.map(|sum| sum * (0.5 * model.per_half));
         remains.residual = self.residual;
         remains.freedom = model.freedom();
         remains.worst_block = self.worst_block;

@@ -100,6 +100,45 @@ fn a_limiter_before_the_noise_is_flagged_by_its_harmonic() {
 }
 
 #[test]
+fn a_limiter_is_told_where_a_harmonic_folds_onto_the_third() {
+    for period in [5.5, 5.7, 5.9, 6.1, 6.3, 6.5, 7.9, 8.1, 8.2] {
+        for (periods, least) in [(5, 0.8), (10, 0.95), (20, 0.95)] {
+            for cubic in [-0.4, 0.0] {
+                let wave = Wave {
+                    main_amplitude: 0.5,
+                    quadrature_amplitude: 0.05,
+                    angle: 0.1,
+                    frequency: RATE / period,
+                    ..Wave::default()
+                };
+                // The noise is not limited: crests are not flat.
+                let flaws = Flaws {
+                    cubic,
+                    noise: 1e-3,
+                    ..Flaws::default()
+                };
+                let samples = (300.0 * period * f64::from(periods)) as usize;
+                let gyro = Gyro::new(wave, flaws, RATE, u64::from(periods)).unwrap();
+                let mut core = Core::new(windows(periods)).unwrap();
+                let pairs = gyro
+                    .take(samples)
+                    .map(|pair| [pair.c as f32, pair.d as f32]);
+                let found: Vec<Estimate> = pairs.filter_map(|pair| core.push(pair)).collect();
+                assert!(found.len() > 250, "{}", found.len());
+                let clipped = |e: &&Estimate| e.flags.contains(Flags::CLIPPED);
+                let share = found.iter().filter(clipped).count() as f64 / found.len() as f64;
+                let label = format!("{period} samples a period, {periods} periods, {cubic}");
+                if cubic < 0.0 {
+                    assert!(share > least, "{label}: {share}");
+                } else {
+                    assert!(found.iter().all(|e| e.flags.is_empty()), "{label}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn a_pick_off_that_was_dead_from_the_start_is_flagged() {
     for value in [0.0, 0.3] {
         let estimates = changed(4, 0.01, 10, 20_000, |_, [c, _]| [c, value]);

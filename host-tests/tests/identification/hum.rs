@@ -60,38 +60,39 @@ fn slow_waves_in_much_hum_are_not_clipped() {
 
 #[test]
 fn the_bound_is_reached_in_hum() {
-    for size in [0.0, 1e-3, 0.01] {
-        // Blocks are seen in runs of five: of 12 and 22 periods the last is alone in its run.
-        for periods in [5, 10, 12, 22, 50] {
-            let (mut score, mut flagged, mut rows) = (Score::default(), 0, 0);
-            for seed in 0..40 {
-                let wave = random_wave(seed, 5332.0, 0.5);
-                let noise = 2e-4 * wave.main_amplitude;
-                let flaws = Flaws {
-                    noise,
-                    offset_c: 0.2,
-                    ..Flaws::default()
-                };
-                let size = size * wave.main_amplitude;
-                let samples = 1900 * usize::from(periods).max(10) / 10 * 4;
-                for estimate in
-                    identified(wave, flaws, size, samples, settings(periods, true), seed)
-                {
-                    score.add(&estimate, &wave, noise);
-                    rows += 1;
-                    flagged += usize::from(!estimate.flags.is_empty());
-                }
+    // Blocks are seen in runs of five: of 12 and 22 periods the last is alone in its run. Of a slower wave they are longer, and hum moves
+    // further in each.
+    for (frequency, size, periods) in [0.0, 1e-3, 0.01]
+        .into_iter()
+        .flat_map(|size| [5, 10, 12, 22, 50].map(|periods| (5332.0, size, periods)))
+        .chain([(4000.0, 0.01, 10), (4000.0, 0.01, 22)])
+    {
+        let (mut score, mut flagged, mut rows) = (Score::default(), 0, 0);
+        for seed in 0..40 {
+            let wave = random_wave(seed, frequency, 0.5);
+            let noise = 2e-4 * wave.main_amplitude;
+            let flaws = Flaws {
+                noise,
+                offset_c: 0.2,
+                ..Flaws::default()
+            };
+            let size = size * wave.main_amplitude;
+            let samples = (RATE / frequency * f64::from(periods.max(10)) * 41.0) as usize;
+            for estimate in identified(wave, flaws, size, samples, settings(periods, true), seed) {
+                score.add(&estimate, &wave, noise);
+                rows += 1;
+                flagged += usize::from(!estimate.flags.is_empty());
             }
-            let (error, stated) = (score.error(), score.stated());
-            println!(
-                "hum of {size} a_A, {periods} periods: {rows} windows, rms error/bound {error:.3?}, stated/bound {stated:.3?}"
-            );
-            assert!(flagged * 1000 <= rows, "{flagged} of {rows} flagged");
-            for i in 0..4 {
-                assert!(error[i] < 1.15, "{} at {:.3}", NAMES[i], error[i]);
-                let ratio = stated[i] / error[i];
-                assert!((0.85..1.15).contains(&ratio), "{}: {ratio:.3}", NAMES[i]);
-            }
+        }
+        let (error, stated) = (score.error(), score.stated());
+        println!(
+            "hum of {size} a_A, {periods} periods, {frequency} Hz: {rows} windows, rms error/bound {error:.3?}, stated/bound {stated:.3?}"
+        );
+        assert!(flagged * 1000 <= rows, "{flagged} of {rows} flagged");
+        for i in 0..4 {
+            assert!(error[i] < 1.1, "{} at {:.3}", NAMES[i], error[i]);
+            let ratio = stated[i] / error[i];
+            assert!((0.85..1.15).contains(&ratio), "{}: {ratio:.3}", NAMES[i]);
         }
     }
 }

@@ -140,7 +140,8 @@ pub(crate) fn within(
     let misfit = coloured || louder || outlier || stepped || !fit.settled;
     flags = flags.with_if(misfit, Flags::MISFIT);
 
-    let third_noise = greater(remains.third_noise, lesser(wide, noise.wide));
+    let alone = (remains.residual + remains.third_alone * remains.third_freedom) / both;
+    let third_noise = greater(remains.third_alone, lesser(alone, noise.wide));
     let harmonic = remains.third_freedom >= LEAST_FREEDOM
         && has_harmonic(model, remains, wave, coding, third_noise);
     flags = flags.with_if(harmonic, Flags::CLIPPED);
@@ -179,7 +180,7 @@ fn has_harmonic(
         .iter()
         .zip(&remains.third)
         .any(|(gain, third)| {
-            let square = gain * gain * third.norm_sqr();
+            let square = gain * gain * third;
             square > floor * floor && {
                 let chance = square_root(THIRD_SHARE * share * noise) + square_root(steady);
                 let limit = SIGMAS * gain * chance + floor;

@@ -9,7 +9,7 @@ use super::model::Model;
 use super::prediction::Prediction;
 use super::response::Response;
 use super::seen::Seen;
-use super::third::Thirds;
+use super::third::{Thirds, cube, image_turn};
 use super::waves::Waves;
 use crate::scalar::{greater, lesser};
 
@@ -26,13 +26,15 @@ pub(crate) struct Remains {
     pub worst_block: f32,
     /// The most that one step of both phasors between two blocks would take off `residual`: 4 degrees of freedom.
     pub step: f32,
-    /// Third harmonic of each pick-off: complex amplitude, input units.
-    pub third: [Complex32; 2],
+    /// Squared amplitude of each pick-off's third harmonic, or the mean of that and of an image next to it.
+    pub third: [f32; 2],
     /// Noise variance a sample seen about the third harmonic, and its degrees of freedom.
     pub third_noise: f32,
     pub third_freedom: f32,
     /// The same without the block that has the most of it: a fault in one block is not in it, but the third harmonic is.
     pub third_spared: f32,
+    /// The same without an image of a harmonic.
+    pub third_alone: f32,
 }
 
 impl Remains {
@@ -55,11 +57,15 @@ pub(super) fn examine(
     gradients: &mut [Gradient; 2],
 ) {
     let is_watched = blocks.first().is_some_and(|block| block.watched.is_some());
-    let mut thirds = Thirds::default();
+    let mut thirds = Thirds::of(cube(model.turn));
     let mut views = Views::new(model);
     let mut hum = Hum::default();
-    for (chunk, blocks) in blocks.chunks(CHUNK).enumerate() {
+    let all = blocks;
+    for (chunk, blocks) in all.chunks(CHUNK).enumerate() {
         let index = chunk * CHUNK;
+        if model.shared == 0.0 {
+            hum.look_ahead(model, waves, index, all);
+        }
         let mut course = course(model, waves, index);
         // A slope of no growth may be that of a steady wave: then it adds nothing.
         if waves.slope[0].re == 0.0 || waves.slope[1].re == 0.0 {
@@ -83,7 +89,30 @@ pub(super) fn examine(
     }
     remains.wander = hum.squares.map(|sum| sum * (0.5 * model.per_half));
     views.conclude(model, remains);
-    thirds.conclude(model, remains);
+    let turn = if is_watched { image_turn(model) } else { None };
+    let image = turn.map(|turn| image(model, all, waves, offsets, turn));
+    thirds.conclude(model, image.as_ref(), remains);
+}
+
+/// The sums of the line that turns by `turn` in a block.
+#[cold]
+#[inline(never)]
+fn image(
+    model: &Model,
+    blocks: &[Seen],
+    waves: &Waves,
+    offsets: &[f32; 2],
+    turn: Complex32,
+) -> Thirds {
+    let mut image = Thirds::of(turn);
+    for (chunk, blocks) in blocks.chunks(CHUNK).enumerate() {
+        let index = chunk * CHUNK;
+        let mut course = course(model, waves, index);
+        bend(&mut course, model, waves, index, blocks.len());
+        let factors = Prediction::of_c(model, waves, offsets).factors;
+        image.add(model, waves, offsets, &factors, blocks, &course);
+    }
+    image
 }
 
 /// What is left of the sums of a run of blocks.

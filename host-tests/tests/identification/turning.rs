@@ -58,6 +58,54 @@ fn much_turning_beside_much_quadrature_is_neither_biased_nor_flagged() {
 }
 
 #[test]
+fn the_frequency_of_a_pattern_that_vibrates_is_stated_with_what_its_turning_leaves_unknown() {
+    // Periods a window, a_B in a_A, rad/s at the most, and Hz of the vibration.
+    for (periods, share, rate, vibration) in [
+        (10, 0.3, 5.0, 20.0),
+        (10, 0.6, 1.0, 50.0),
+        (10, 0.8, 5.0, 20.0),
+        (20, 0.3, 0.3, 20.0),
+        (20, 0.6, 0.3, 20.0),
+        (20, 0.6, 5.0, 5.0),
+        (20, 0.8, 1.0, 20.0),
+    ] {
+        let (mut squares, mut rows, mut worst) = (0.0, 0.0, 0f64);
+        for seed in 0..6 {
+            let wave = turning(seed, 5332.0, share, 0.0);
+            let vibrating = |k: usize| {
+                let phase = std::f64::consts::TAU * vibration * k as f64 / RATE + seed as f64;
+                let turned = rate / (std::f64::consts::TAU * vibration) * phase.sin();
+                let angle = wave.angle + turned;
+                Wave { angle, ..wave }.pick_offs(k as f64 / RATE)
+            };
+            let settings = windows(periods);
+            let samples = 300 * 19 * usize::from(periods);
+            let flaws = noisy(&wave, 1e-3);
+            let found = identify_changed(wave, &flaws, settings, samples, seed, |k, [c, d]| {
+                let (still, now) = (wave.pick_offs(k as f64 / RATE), vibrating(k));
+                [c + now.0 - still.0, d + now.1 - still.1]
+            });
+            // Until it is known that the pattern vibrates.
+            for estimate in found.iter().skip(30).filter(|e| e.flags.is_empty()) {
+                let error =
+                    (estimate.frequency - wave.frequency) / f64::from(estimate.frequency_std);
+                squares += error * error;
+                rows += 1.0;
+                worst = worst.max(error.abs());
+            }
+        }
+        let rms = f64::sqrt(squares / rows);
+        println!(
+            "{periods} periods, a_B of {share} a_A, {rate} rad/s at {vibration} Hz: error of f over stated {rms:.2}, {worst:.1} at the most"
+        );
+        assert!(
+            rows > 1500.0 && (0.8..1.2).contains(&rms) && worst < 7.0,
+            "{rows} {rms} {worst}"
+        );
+    }
+}
+
+#[test]
 fn quick_turning_and_decay_in_little_noise_are_not_taken_for_clipping() {
     // Samples a period; a share of a_A; rad and the share of the wave that a window loses; noise in a_A.
     for (period, share, turn, decay, noise) in [

@@ -326,7 +326,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             .insert(Model::empty(layout, settings.calibration, rate))
             .begin(layout.step, self.count, settings.hum || settings.coloured);
         self.noise = Noise::NONE;
-        self.trend.clear();
+        self.trend.forget();
         self.before = None;
         self.offset_rates = [0.0; 2];
         self.lost = self.had_wave;

@@ -6,12 +6,25 @@
 use super::angle::Angle;
 use super::record::Record;
 use super::standing::Standing;
+use crate::scalar::{greater, lesser};
 use crate::window::Model;
 
 /// Windows kept.
 const KEPT: usize = 5;
 /// Quarter windows ago beyond which an angle says nothing of the present rate: what its powers leave of nearer ones is lost in rounding.
 const OLDEST: f32 = 4e3;
+
+/// Angles from which on a window's own is compared with the curve through the others.
+const ENOUGH: u32 = 5;
+/// Windows over which is averaged by how much it lies beside that.
+const AVERAGED: f32 = 16.0;
+/// The share of its variance by which that average exceeds its noise by chance.
+const BY_CHANCE: f32 = 0.4;
+/// A single window counts no more than so many times what is expected of it: one step is no vibration.
+const MOST: f32 = 16.0;
+/// What a rate is off, times the distance of two windows, where the last angle of six, which turn as a cubic, is off the parabola through
+/// the others by one.
+const OF_CUBIC: f32 = 0.82;
 
 /// A rate in rad/sample and its variance.
 #[derive(Debug, Clone, Copy)]
@@ -22,11 +35,18 @@ struct Rate {
 
 #[derive(Debug, Clone, Copy)]
 struct Point {
-    /// Middle of the window, half samples.
-    middle: u64,
+    /// Middle of the window, half samples, in halves of 32 bits: one of 64 would leave a gap in every point.
+    middle: [u32; 2],
     angle: Angle,
     /// One over the variance.
     weight: f32,
+}
+
+impl Point {
+    fn middle(&self) -> u64 {
+        let [low, high] = self.middle;
+        u64::from(high) << 32 | u64::from(low)
+    }
 }
 
 /// Angles of the last clean windows that do not overlap.
@@ -36,23 +56,34 @@ pub(crate) struct Trend {
     length: u16,
     /// Where the last one is.
     last: u16,
+    /// Mean square of what angles are beside the curves through those before, less what noise makes of it, rad²: a pattern that vibrates
+    /// turns as no parabola.
+    beside: f32,
 }
 
 impl Trend {
     pub(crate) const fn new() -> Self {
         Self {
             points: [Point {
-                middle: 0,
+                middle: [0; 2],
                 angle: Angle::ZERO,
                 weight: 0.0,
             }; KEPT],
             length: 0,
             last: 0,
+            beside: 0.0,
         }
     }
 
+    /// Drops the angles: the next ones do not continue them.
     pub(crate) fn clear(&mut self) {
         self.length = 0;
+    }
+
+    /// Drops what is known of the pattern's vibration too.
+    pub(crate) fn forget(&mut self) {
+        self.clear();
+        self.beside = 0.0;
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -62,7 +93,7 @@ impl Trend {
     /// Keeps a clean window of `samples`, unless it overlaps the last one kept.
     #[inline]
     pub(crate) fn keep(&mut self, middle: u64, samples: u32, angle: Angle, variance: f32) {
-        let overlaps = |last: &Point| middle < last.middle + 2 * u64::from(samples);
+        let overlaps = |last: &Point| middle < last.middle() + 2 * u64::from(samples);
         if self
             .known()
             .get(usize::from(self.last))
@@ -80,7 +111,7 @@ impl Trend {
         self.length = (self.length + 1).min(KEPT as u16);
         if let Some(place) = self.points.get_mut(usize::from(self.last)) {
             *place = Point {
-                middle,
+                middle: [middle as u32, (middle >> 32) as u32],
                 angle,
                 weight: 1.0 / variance,
             };
@@ -94,7 +125,7 @@ impl Trend {
 
     /// Takes the share of a turning pattern out of a window's frequency, with what the angles of the windows before promise.
     #[inline]
-    pub(crate) fn take_turning_out(&self, wave: &mut Standing, model: &Model) {
+    pub(crate) fn take_turning_out(&mut self, wave: &mut Standing, model: &Model) {
         let record = &mut wave.record;
         let rate = self.rate(record, model.per_half);
         let (apart, spread) = if rate.variance > 0.0 {
@@ -121,15 +152,15 @@ impl Trend {
     ///
     /// `per_half` is one over half the window's samples.
     #[inline(always)]
-    fn rate(&self, record: &Record, per_half: f32) -> Rate {
+    fn rate(&mut self, record: &Record, per_half: f32) -> Rate {
         // Sums of weight·timeⁿ and of weight·timeⁿ·angle; the window itself is at time and angle 0, and its weight is one.
         let own = record.angle_variance;
         let mut powers = [1.0, 0.0, 0.0, 0.0, 0.0];
         let mut values = [0.0; 3];
-        let mut used = 1;
+        let (mut used, mut nearest) = (1, -OLDEST);
         for point in self.known() {
             // Not overlapping, and so near that 32 bits hold it.
-            let passed = record.middle.wrapping_sub(point.middle);
+            let passed = record.middle.wrapping_sub(point.middle());
             let Ok(passed) = u32::try_from(passed) else {
                 continue;
             };
@@ -140,6 +171,7 @@ impl Trend {
             if time < -OLDEST {
                 continue;
             }
+            nearest = greater(time, nearest);
             let angle = point.angle.less(record.angle);
             let mut weight = point.weight * own;
             for (n, power) in powers.iter_mut().enumerate() {
@@ -167,10 +199,27 @@ impl Trend {
         let (level_value, rate_value) = (v0 - of_level * v2, v1 - of_rate * v2);
         // Of a rate a quarter window: a rate a sample is so much less.
         let per_sample = 2.0 * per_half;
-        let per_determinant = per_sample / (level * rate - mixed * mixed);
-        Rate {
-            value: (level * rate_value - mixed * level_value) * per_determinant,
-            variance: level * own * per_determinant * per_sample,
+        let per_determinant = 1.0 / (level * rate - mixed * mixed);
+        let mut variance = level * own * per_determinant;
+        if used >= ENOUGH {
+            // The angle of the curve at the window, and the share of its own in that: what is left is its distance from the others' curve.
+            let at_window = (rate * level_value - mixed * rate_value) * per_determinant;
+            let of_others = 1.0 - rate * per_determinant;
+            let expected = own / of_others;
+            let distance = at_window / of_others;
+            self.beside += self.learned(distance * distance, expected);
+            let bias = greater(self.beside - BY_CHANCE * expected, 0.0);
+            variance += OF_CUBIC * OF_CUBIC * bias / (nearest * nearest);
         }
+        Rate {
+            value: (level * rate_value - mixed * level_value) * per_determinant * per_sample,
+            variance: variance * per_sample * per_sample,
+        }
+    }
+
+    /// By how much the mean square of distances moves by one more, of which noise is expected to make so much.
+    fn learned(&self, square: f32, expected: f32) -> f32 {
+        let most = MOST * (expected + greater(self.beside, 0.0));
+        (lesser(square, most) - expected - self.beside) * (1.0 / AVERAGED)
     }
 }

@@ -82,7 +82,7 @@
 //! |---|---|---|---|
 //! | [`Front`], with `N` the most sample pairs of a block | 1680 + 8 `N` | 2760 + 8 `N` | 3000 + 8 `N` |
 //! | [`Block`], each in the queue | 72 | 128 | 128 |
-//! | [`Tracker`], with `BLOCKS` the length of its ring | 696 + 68 `BLOCKS` | the same | the same |
+//! | [`Tracker`], with `BLOCKS` the length of its ring | 672 + 68 `BLOCKS` | the same | the same |
 //!
 //! [`Front::UNSET`], [`Tracker::UNSET`] and [`Identifier::UNSET`] are all zeros: statics initialised with them take neither flash nor
 //! stack; call `configure` before use.
@@ -208,7 +208,7 @@ const _: () = {
     assert!(size_of::<Front<i16, 200>>() == 1680 + 8 * 200);
     assert!(size_of::<Front<f32, 200>>() == 2760 + 8 * 200);
     assert!(size_of::<Front<i32, 200>>() == 3000 + 8 * 200);
-    assert!(size_of::<Tracker<64>>() == 696 + 68 * 64);
+    assert!(size_of::<Tracker<64>>() == 672 + 68 * 64);
     assert!(size_of::<Block<i16>>() == 72);
     assert!(size_of::<Block<f32>>() == 128);
     assert!(size_of::<Block<i32>>() == 128);
@@ -225,7 +225,7 @@ mod tests {
         near(size_of::<Front<i16, 200>>(), 1680 + 8 * 200);
         near(size_of::<Front<f32, 200>>(), 2760 + 8 * 200);
         near(size_of::<Front<i32, 200>>(), 3000 + 8 * 200);
-        near(size_of::<Tracker<64>>(), 696 + 68 * 64);
+        near(size_of::<Tracker<64>>(), 672 + 68 * 64);
         near(size_of::<Block<i16>>(), 72);
         near(size_of::<Block<f32>>(), 128);
         near(size_of::<Block<i32>>(), 128);

@@ -90,7 +90,8 @@ fn the_bound_is_reached_in_hum() {
         );
         assert!(flagged * 1000 <= rows, "{flagged} of {rows} flagged");
         for i in 0..4 {
-            assert!(error[i] < 1.1, "{} at {:.3}", NAMES[i], error[i]);
+            let limit = if frequency > 5000.0 { 1.1 } else { 1.15 };
+            assert!(error[i] < limit, "{} at {:.3}", NAMES[i], error[i]);
             let ratio = stated[i] / error[i];
             assert!((0.85..1.15).contains(&ratio), "{}: {ratio:.3}", NAMES[i]);
         }

@@ -204,12 +204,13 @@ impl Trend {
         if used >= ENOUGH {
             // The angle of the curve at the window, and the share of its own in that: what is left is its distance from the others' curve.
             let at_window = (rate * level_value - mixed * rate_value) * per_determinant;
-            let of_others = 1.0 - rate * per_determinant;
-            let expected = own / of_others;
-            let distance = at_window / of_others;
+            let per_others = 1.0 / (1.0 - rate * per_determinant);
+            let (expected, distance) = (own * per_others, at_window * per_others);
             self.beside += self.learned(distance * distance, expected);
-            let bias = greater(self.beside - BY_CHANCE * expected, 0.0);
-            variance += OF_CUBIC * OF_CUBIC * bias / (nearest * nearest);
+            let bias = self.beside - BY_CHANCE * expected;
+            if bias > 0.0 {
+                variance += OF_CUBIC * OF_CUBIC * bias / (nearest * nearest);
+            }
         }
         Rate {
             value: (level * rate_value - mixed * level_value) * per_determinant * per_sample,

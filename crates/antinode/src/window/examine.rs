@@ -1,15 +1,14 @@
 //! What a window's waves leave unexplained: the residual as a whole, by blocks, as a step, and about the third harmonic.
 
-use num_complex::Complex32;
-
 use super::course::{CHUNK, Course, bend, course};
 use super::gradient::Gradient;
 use super::hum::Hum;
+use super::image;
 use super::model::Model;
 use super::prediction::Prediction;
 use super::response::Response;
 use super::seen::Seen;
-use super::third::{Thirds, cube, image_turn};
+use super::third::{Line, Thirds};
 use super::waves::Waves;
 use crate::scalar::{greater, lesser};
 
@@ -57,19 +56,15 @@ pub(super) fn examine(
     gradients: &mut [Gradient; 2],
 ) {
     let is_watched = blocks.first().is_some_and(|block| block.watched.is_some());
-    let mut thirds = Thirds::of(cube(model.turn));
+    let mut thirds = Thirds::of(Line::Third);
     let mut views = Views::new(model);
-    let mut hum = Hum::default();
-    let all = blocks;
-    for (chunk, blocks) in all.chunks(CHUNK).enumerate() {
+    let mut hum = Hum::new(waves, &mut remains.wander);
+    for (chunk, run) in blocks.chunks(CHUNK).enumerate() {
         let index = chunk * CHUNK;
-        if model.shared == 0.0 {
-            hum.look_ahead(model, waves, index, all);
-        }
         let mut course = course(model, waves, index);
         // A slope of no growth may be that of a steady wave: then it adds nothing.
         if waves.slope[0].re == 0.0 || waves.slope[1].re == 0.0 {
-            bend(&mut course, model, waves, index, blocks.len());
+            bend(&mut course, model, waves, index, run.len());
         }
         let mut left = LeftOfBlocks::default();
         let mut prediction = Prediction::of_c(model, waves, offsets);
@@ -82,37 +77,16 @@ pub(super) fn examine(
             gradients,
             &mut hum,
         );
-        views.take(model, index, &left, blocks.len());
+        views.take(model, index, &left, run.len());
         if is_watched {
-            thirds.add(model, waves, offsets, &prediction.factors, blocks, &course);
+            thirds.add(model, waves, offsets, &prediction.factors, run, &course);
         }
     }
-    remains.wander = hum.squares.map(|sum| sum * (0.5 * model.per_half));
     views.conclude(model, remains);
-    let turn = if is_watched { image_turn(model) } else { None };
-    let image = turn.map(|turn| image(model, all, waves, offsets, turn));
-    thirds.conclude(model, image.as_ref(), remains);
-}
-
-/// The sums of the line that turns by `turn` in a block.
-#[cold]
-#[inline(never)]
-fn image(
-    model: &Model,
-    blocks: &[Seen],
-    waves: &Waves,
-    offsets: &[f32; 2],
-    turn: Complex32,
-) -> Thirds {
-    let mut image = Thirds::of(turn);
-    for (chunk, blocks) in blocks.chunks(CHUNK).enumerate() {
-        let index = chunk * CHUNK;
-        let mut course = course(model, waves, index);
-        bend(&mut course, model, waves, index, blocks.len());
-        let factors = Prediction::of_c(model, waves, offsets).factors;
-        image.add(model, waves, offsets, &factors, blocks, &course);
+    thirds.conclude(model, remains);
+    if is_watched && let Some(line) = image::of(model) {
+        image::take_out(line, &thirds, model, blocks, waves, offsets, remains);
     }
-    image
 }
 
 /// What is left of the sums of a run of blocks.
@@ -124,7 +98,8 @@ struct LeftOfBlocks {
     run: [f32; CHUNK],
 }
 
-/// Takes what both pick-offs leave of the blocks from block `index` on, one after the other: the constants of one stay in registers.
+/// Takes what both pick-offs leave of the run of blocks from block `index` on, of all `blocks`, one after the other: the constants of one
+/// stay in registers.
 ///
 /// The sums are against the carrier in the middle of the last block taken, and that along z′ is in blocks before it: at the window's end
 /// both become what they are about its middle.
@@ -136,9 +111,10 @@ fn take_rests(
     course: &Course,
     left: &mut LeftOfBlocks,
     gradients: &mut [Gradient; 2],
-    hum: &mut Hum,
+    hum: &mut Hum<'_>,
 ) {
     let (shared, response) = (model.shared, model.response.in_blocks(model.blocks));
+    let run = blocks.get(index..).unwrap_or(&[]);
     // Only residuals are turned by it: they have no digits to lose.
     let turn = model.turn;
     for (channel, gradient) in gradients.iter_mut().enumerate() {
@@ -156,8 +132,7 @@ fn take_rests(
         };
         let waves = course[0].iter().zip(&course[1]);
         let left = left.power.iter_mut().zip(&mut left.run).zip(&hum.slopes);
-        for ((block, (&plus, &minus)), ((power, run), slope)) in blocks.iter().zip(waves).zip(left)
-        {
+        for ((block, (&plus, &minus)), ((power, run), slope)) in run.iter().zip(waves).zip(left) {
             let mut rest = prediction.rest(&block.whitened[channel & 1], &[plus, minus]);
             rest.odd -= slope;
             // Of an offset that the block has to itself the mean says nothing else.
@@ -168,7 +143,7 @@ fn take_rests(
             *power += known * rest.mean + rest.even * rest.even + rest.odd * rest.odd;
             *run += sums.level.norm_sqr();
         }
-        if index + blocks.len() == usize::from(model.blocks) {
+        if run.len() <= CHUNK {
             // The last block lies as far behind the middle as the first before it.
             let last = 1.0 - 0.5 * model.advance;
             sums.slope = (sums.slope * model.advance + sums.level * last) * model.first;
@@ -230,6 +205,7 @@ impl Views {
         let known = model.shared * mean.level;
         let weight = 0.5 * (known * mean.level + even.level * even.level + odd.level * odd.level);
         remains.residual = self.residual;
+        remains.wander = remains.wander.map(|sum| sum * (0.5 * model.per_half));
         remains.freedom = model.freedom();
         remains.worst_block = self.worst_block;
         // No step takes off more than there is, but what rounding left of the gradients may seem to.

@@ -5,40 +5,30 @@ use num_complex::Complex32;
 use super::course::{CHUNK, Course, at, bend, course};
 use super::model::Model;
 use super::prediction::Prediction;
-use super::response::Whitened;
 use super::seen::Seen;
 use super::waves::Waves;
 
-/// Offsets kept of the blocks before a run.
-const KEPT: usize = 3;
-
-/// The offsets of the blocks taken so far, beyond that of the window.
-#[derive(Default)]
-pub(super) struct Hum {
+/// The offsets of a window's blocks beyond its own.
+pub(super) struct Hum<'a> {
+    waves: &'a Waves,
     /// The sum of their squares, of each pick-off.
-    pub squares: [f32; 2],
-    /// Those of the last blocks, of each pick-off.
-    before: [[f32; KEPT]; 2],
-    /// The block after the run, and the waves there.
-    after: Option<([Whitened; 2], [Complex32; 2])>,
+    wander: &'a mut [f32; 2],
     /// What their slopes add to the odd sums of the pick-off and the run of blocks looked at.
     pub slopes: [f32; CHUNK],
 }
 
-impl Hum {
-    /// Looks at the block after the run that begins with block `index`, where there is one.
-    #[cold]
-    #[inline(never)]
-    pub fn look_ahead(&mut self, model: &Model, waves: &Waves, index: usize, blocks: &[Seen]) {
-        let index = index + CHUNK;
-        self.after = blocks.get(index).map(|block| {
-            let mut course = course(model, waves, index);
-            bend(&mut course, model, waves, index, 1);
-            (block.whitened, at(&course, 0))
-        });
+impl<'a> Hum<'a> {
+    /// None taken yet, of a window of these waves: the sum of the squares is to be in `wander`.
+    pub fn new(waves: &'a Waves, wander: &'a mut [f32; 2]) -> Self {
+        *wander = [0.0; 2];
+        Self {
+            waves,
+            wander,
+            slopes: [0.0; CHUNK],
+        }
     }
 
-    /// Takes the run of blocks of pick-off `channel` from block `index` on.
+    /// Takes the run of blocks of pick-off `channel` from block `index` on, of all `blocks`.
     ///
     /// The slope of a block is that between its neighbours' offsets, less what the wave puts there; of a window's first and last block it is
     /// that of the parabola of least squares through four: as noisy as a straight line through two, and exact to one order more.
@@ -53,28 +43,54 @@ impl Hum {
         course: &Course,
     ) {
         let channel = channel & 1;
-        let count = blocks.len().min(CHUNK);
-        let [a, b, c] = self.before[channel];
-        let mut rests = [a, b, c, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        for (i, block) in blocks.iter().enumerate().take(CHUNK) {
-            let rest = prediction.mean_rest(&block.whitened[channel], &at(course, i));
-            self.squares[channel] += rest * rest;
-            rests[KEPT + i] = rest;
+        let mut rests = [0.0; CHUNK + 2];
+        let mut count = 0;
+        let places = rests.iter_mut().skip(1).take(CHUNK);
+        for (place, block) in places.zip(blocks.iter().skip(index)) {
+            *place = offset(prediction, block, channel, &at(course, count));
+            self.wander[channel] += *place * *place;
+            count += 1;
         }
-        if index == 0 {
-            let [_, _, before, a, b, c, d, ..] = &mut rests;
-            *before = *b - slope_at_first([*a, *b, *c, *d]);
+        let beside = |index| beside(model, prediction, self.waves, channel, (index, blocks));
+        let [before, a, b, c, d, e, after] = &mut rests;
+        *before = beside(index.wrapping_sub(1)).unwrap_or(*b - slope_at_first([*a, *b, *c, *d]));
+        let next = beside(index + CHUNK);
+        if count == CHUNK {
+            *after = next.unwrap_or(*d - slope_at_first([*e, *d, *c, *b]));
+        } else if let [.., before, now] = rests.get(..=count).unwrap_or(&[])
+            && let next = 2.0 * now - before
+            && let Some(place) = rests.get_mut(count + 1)
+        {
+            // In a window's last run, if it is short, on the straight line through two.
+            *place = next;
         }
-        let last: [f32; 4] = core::array::from_fn(|i| rests[(KEPT + count - 1).saturating_sub(i)]);
-        rests[KEPT + count] = match &self.after {
-            Some((block, waves)) => prediction.mean_rest(&block[channel], waves),
-            None => last[1] - slope_at_first(last),
-        };
-        for (slope, rests) in self.slopes.iter_mut().zip(rests[KEPT - 1..].windows(3)) {
-            *slope = model.basis.ramp * (rests[2] - rests[0]);
+        for (slope, neighbours) in self.slopes.iter_mut().zip(rests.windows(3)) {
+            *slope = model.basis.ramp * (neighbours[2] - neighbours[0]);
         }
-        self.before[channel] = [last[2], last[1], last[0]];
     }
+}
+
+/// The offset of a block beside the run looked at, where that one's course does not reach.
+#[cold]
+#[inline(never)]
+fn beside(
+    model: &Model,
+    prediction: &Prediction,
+    waves: &Waves,
+    channel: usize,
+    (index, blocks): (usize, &[Seen]),
+) -> Option<f32> {
+    let block = blocks.get(index)?;
+    let mut course = course(model, waves, index);
+    bend(&mut course, model, waves, index, 1);
+    Some(offset(prediction, block, channel, &at(&course, 0)))
+}
+
+/// The offset of a block, where the waves are these.
+#[cold]
+#[inline(never)]
+fn offset(prediction: &Prediction, block: &Seen, channel: usize, waves: &[Complex32; 2]) -> f32 {
+    prediction.mean_rest(&block.whitened[channel & 1], waves)
 }
 
 /// The slope over two blocks in the first of four of these offsets.

@@ -6,6 +6,7 @@ mod fit;
 mod gathered;
 mod gradient;
 mod hum;
+mod image;
 mod model;
 mod normal;
 mod prediction;

@@ -1,0 +1,91 @@
+//! The image of a harmonic that sampling brings next to the third: in a window of few samples a period it would look like noise there, and
+//! hide the third harmonic that a limiter leaves.
+
+use num_complex::Complex32;
+
+use super::course::{CHUNK, bend, course};
+use super::examine::Remains;
+use super::model::Model;
+use super::prediction::Prediction;
+use super::seen::Seen;
+use super::third::{Line, Thirds};
+use super::waves::Waves;
+use crate::scalar::greater;
+
+/// No image is slow at more samples a period.
+const FEW: f32 = 10.5;
+/// Where an image answers in a block with less than one over this, it is left among what looks like noise.
+const SLOW: f32 = 6.0;
+/// Of fewer blocks a line beside the first would leave too few degrees of freedom.
+const LEAST_BLOCKS: u16 = 5;
+/// Below this share of what they have apart a line and its image are one.
+const APART: f32 = 0.02;
+
+/// The image that a window would take for noise.
+#[inline]
+pub(super) fn of(model: &Model) -> Option<Line> {
+    if model.layout.step.period() > FEW {
+        return None;
+    }
+    slow(model)
+}
+
+#[cold]
+#[inline(never)]
+fn slow(model: &Model) -> Option<Line> {
+    // A block adds up a tone so many carriers away to the sine of all its turn over that of a sample's.
+    let answer = |carriers: i64| model.carrier.after_half_samples(carriers).unit().im.abs();
+    let (own, fifth) = (answer(6), answer(8));
+    let (line, nearest) = if own < fifth {
+        (Line::OwnImage, own)
+    } else {
+        (Line::ImageOfFifth, fifth)
+    };
+    (nearest * f32::from(model.layout.length) < SLOW).then_some(line)
+}
+
+/// Takes the image of a line out of what looks like noise about the third harmonic, and into the latter's amplitudes: of a limiter both are
+/// about as large.
+#[cold]
+#[inline(never)]
+pub(super) fn take_out(
+    line: Line,
+    thirds: &Thirds,
+    model: &Model,
+    blocks: &[Seen],
+    waves: &Waves,
+    offsets: &[f32; 2],
+    remains: &mut Remains,
+) {
+    let mut image = Thirds::of(line);
+    for (chunk, blocks) in blocks.chunks(CHUNK).enumerate() {
+        let index = chunk * CHUNK;
+        let mut course = course(model, waves, index);
+        bend(&mut course, model, waves, index, blocks.len());
+        let factors = Prediction::of_c(model, waves, offsets).factors;
+        image.add(model, waves, offsets, &factors, blocks, &course);
+    }
+    // Both lines, block for block before the last one, one against the other.
+    let against = Line::Third.turn(model.turn) * line.turn(model.turn).conj();
+    let (mut mixed, mut unit) = (Complex32::ZERO, Complex32::ONE);
+    for _ in 0..thirds.watched {
+        mixed += unit;
+        unit *= against;
+    }
+    let count = f32::from(thirds.watched);
+    let apart = count * count - mixed.norm_sqr();
+    if thirds.watched < LEAST_BLOCKS || apart < APART * count * count {
+        return;
+    }
+    let (amplitude, power) = thirds.scales(model);
+    let mut left = thirds.power;
+    let sums = thirds.sum.iter().zip(&image.sum);
+    for (third, (sum, other)) in remains.third.iter_mut().zip(sums) {
+        // What is left of the other sum when the line is taken out, and of the unit that it answers to.
+        let rest = other - sum * mixed.conj() / count;
+        let explained = sum.norm_sqr() / count + rest.norm_sqr() * count / apart;
+        left -= explained;
+        *third = 0.5 * explained * amplitude * amplitude / count;
+    }
+    remains.third_alone = greater(left, 0.0) * power / (remains.third_freedom - 4.0);
+}

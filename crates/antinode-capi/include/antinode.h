@@ -100,7 +100,8 @@
 #define ANTINODE_FLAG_DEAD_CHANNEL 64u
 
 // First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo pi/2
-// only. Also the first window after a new calibration, unless it is the first of all.
+// only. Also the first window after a new calibration, unless it is the first of all. It stands up to the first window without a misfit,
+// and later windows continue that one's angle.
 #define ANTINODE_FLAG_REACQUIRED 128u
 
 // A sample that is no finite number, or one so large that its sums are none.
@@ -123,7 +124,7 @@ enum
  {
     // Done.
     ANTINODE_OK = 0,
-    // Done, and finished blocks wait for a `_solve` function.
+    // Done, and a block was finished: it waits for a `_solve` function.
     ANTINODE_READY = 1,
     // Done, and an estimate was written.
     ANTINODE_ESTIMATE = 2,
@@ -202,7 +203,7 @@ typedef struct {
     // ten periods, rounded to whole samples: of short periods 0.9 to 1.25. 1 to 65535; 0, the default, and not the number of periods,
     // makes windows follow each other without gap or overlap.
     uint32_t hop_blocks;
-    // The first window's angle is chosen within pi/4 of this one, rad. Within +-10000; default pi/4, which puts it in 0 to pi/2.
+    // The first window's angle is chosen within pi/4 of this one, rad. Within +-10000, so take whole turns off a greater one; default pi/4, which puts it in 0 to pi/2.
     float start_angle_rad;
     // The least sample that the converter gives, input units: at or below it a window is flagged as clipped. Default 0,
     // which is that of a converter with unsigned codes.
@@ -212,13 +213,13 @@ typedef struct {
     // Step between neighbouring codes of the converter, input units, > 0: its share counts in the standard deviations. 0, the
     // default: not known.
     float resolution;
-    // The wave's frequency, Hz, within 5 %, where it is known: it is then not searched, and the first window begins with the first
-    // sample. `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5; 0, the default: the period is found as `detection` says.
+    // The wave's frequency, Hz, within 5 % all the time, where it is known: it is then not searched, at first or later, and the first window
+    // begins with the first sample. `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5; 0, the default: the period is found as `detection` says.
     float frequency_hz;
     // How the period is found: ANTINODE_DETECTION_DIFFERENCE, the default, or ANTINODE_DETECTION_MEAN_RETURN.
     uint32_t detection;
-    // 1, the default: the third harmonic and the extremes of the samples are watched: without, ANTINODE_FLAG_CLIPPED is never set, and
-    // ANTINODE_FLAG_DEAD_CHANNEL only where a wave goes. 0: not, which about halves the work at sample rate.
+    // 1, the default: the third harmonic and the extremes of the samples are watched: without, ANTINODE_FLAG_CLIPPED is never set,
+    // ANTINODE_FLAG_DEAD_CHANNEL only where a wave goes, and ANTINODE_FLAG_MISFIT of a second tone or a wave elsewhere hardly ever. 0: not, which about halves the work at sample rate.
     uint32_t watch;
     // How the pick-offs differ from ideal ones. Default: not at all.
     antinode_calibration_t calibration;

@@ -21,7 +21,8 @@ pub const ANTINODE_FLAG_MISFIT: u32 = 0x020_u32;
 /// flagged.
 pub const ANTINODE_FLAG_DEAD_CHANNEL: u32 = 0x040_u32;
 /// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
-/// only. Also the first window after a new calibration, unless it is the first of all.
+/// only. Also the first window after a new calibration, unless it is the first of all. It stands up to the first window without a misfit,
+/// and later windows continue that one's angle.
 pub const ANTINODE_FLAG_REACQUIRED: u32 = 0x080_u32;
 /// A sample that is no finite number, or one so large that its sums are none.
 pub const ANTINODE_FLAG_NOT_FINITE: u32 = 0x100_u32;

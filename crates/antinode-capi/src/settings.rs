@@ -36,7 +36,7 @@ pub struct Settings {
     /// ten periods, rounded to whole samples: of short periods 0.9 to 1.25. 1 to 65535; 0, the default, and not the number of periods,
     /// makes windows follow each other without gap or overlap.
     pub hop_blocks: u32,
-    /// The first window's angle is chosen within π/4 of this one, rad. Within ±10000; default π/4, which puts it in 0…π/2.
+    /// The first window's angle is chosen within π/4 of this one, rad. Within ±10000, so take whole turns off a greater one; default π/4, which puts it in 0…π/2.
     pub start_angle_rad: f32,
     /// The least sample that the converter gives, input units: at or below it a window is flagged as clipped. Default 0,
     /// which is that of a converter with unsigned codes.
@@ -46,13 +46,13 @@ pub struct Settings {
     /// Step between neighbouring codes of the converter, input units, > 0: its share counts in the standard deviations. 0, the
     /// default: not known.
     pub resolution: f32,
-    /// The wave's frequency, Hz, within 5 %, where it is known: it is then not searched, and the first window begins with the first
-    /// sample. `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5; 0, the default: the period is found as `detection` says.
+    /// The wave's frequency, Hz, within 5 % all the time, where it is known: it is then not searched, at first or later, and the first window
+    /// begins with the first sample. `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5; 0, the default: the period is found as `detection` says.
     pub frequency_hz: f32,
     /// How the period is found: ANTINODE_DETECTION_DIFFERENCE, the default, or ANTINODE_DETECTION_MEAN_RETURN.
     pub detection: u32,
-    /// 1, the default: the third harmonic and the extremes of the samples are watched: without, ANTINODE_FLAG_CLIPPED is never set, and
-    /// ANTINODE_FLAG_DEAD_CHANNEL only where a wave goes. 0: not, which about halves the work at sample rate.
+    /// 1, the default: the third harmonic and the extremes of the samples are watched: without, ANTINODE_FLAG_CLIPPED is never set,
+    /// ANTINODE_FLAG_DEAD_CHANNEL only where a wave goes, and ANTINODE_FLAG_MISFIT of a second tone or a wave elsewhere hardly ever. 0: not, which about halves the work at sample rate.
     pub watch: u32,
     /// How the pick-offs differ from ideal ones. Default: not at all.
     pub calibration: Calibration,

@@ -4,13 +4,18 @@ use core::ffi::{CStr, c_char};
 
 use antinode::SettingsError;
 
+use crate::capacity::ANTINODE_MOST_PERIODS;
+
+// The text of ErrorPeriods has the number.
+const _: () = assert!(ANTINODE_MOST_PERIODS == 50);
+
 /// What a function answers: from zero on it was done, below zero nothing was.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(i32)]
 pub enum Status {
     /// Done.
     Ok = 0,
-    /// Done, and finished blocks wait for a `_solve` function.
+    /// Done, and a block was finished: it waits for a `_solve` function.
     Ready = 1,
     /// Done, and an estimate was written.
     Estimate = 2,
@@ -71,7 +76,7 @@ impl Status {
         ),
         (
             Self::ErrorNotInitialised,
-            c"the state is not initialised, or is of the other arithmetic",
+            c"the state is not initialised, or is of the other arithmetic: call _init",
         ),
         (
             Self::ErrorCount,
@@ -83,7 +88,7 @@ impl Status {
         ),
         (
             Self::ErrorPeriods,
-            c"periods must lie within 2 to ANTINODE_MOST_PERIODS",
+            c"periods must lie within 2 to 50",
         ),
         (Self::ErrorHop, c"hop_blocks must lie within 0 to 65535"),
         (
@@ -97,7 +102,7 @@ impl Status {
         ),
         (
             Self::ErrorDetection,
-            c"detection must be one of ANTINODE_DETECTION_*",
+            c"detection must be 0 or 1, ANTINODE_DETECTION_*",
         ),
         (Self::ErrorWatch, c"watch must be 0 or 1"),
         (
@@ -176,10 +181,7 @@ mod tests {
 
     #[test]
     fn every_number_has_a_text() {
-        assert_eq!(
-            text(-11),
-            "periods must lie within 2 to ANTINODE_MOST_PERIODS"
-        );
+        assert_eq!(text(-11), "periods must lie within 2 to 50");
         assert_eq!(text(i32::MIN), "unknown status");
         for (status, string) in Status::ALL {
             assert_eq!(text(status as i32), string.to_str().unwrap());

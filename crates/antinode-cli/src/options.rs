@@ -67,7 +67,7 @@ pub enum Command {
     /// pattern. Give ring-downs that turn both ways: if all turn one way, flaws that a calibration leaves look like splits.
     ///
     /// If a shell's stiffness depends on the amplitude, its pattern turns in proportion to a_A·a_B and its frequency moves with a_A² +
-    /// a_B²: both are printed if they are seen, per input unit squared. The latter allows for a drift with time, as with temperature,
+    /// a_B²: both are printed if they exceed their noise, the former by three deviations, per input unit squared. The latter allows for a drift with time, as with temperature,
     /// unless none is seen and the turning agrees; if it may be a drift, a line says so instead.
     ///
     /// Deviations are those of noise. They do not include nonlinearity of pick-offs or converter, which looks like damping that depends on

@@ -78,7 +78,8 @@ pub struct Settings {
     #[cfg_attr(feature = "serde", serde(default))]
     pub detection: Detection,
     /// True, unless changed, where the third harmonic and the extremes of the samples are watched: [`Flags::CLIPPED`](crate::Flags::CLIPPED)
-    /// needs it, and other faults are found earlier with it. It about doubles the work at sample rate.
+    /// needs it, a second tone or a wave elsewhere is hardly a [`Flags::MISFIT`](crate::Flags::MISFIT) without, and other faults are found
+    /// earlier with it. It about doubles the work at sample rate.
     #[cfg_attr(feature = "serde", serde(default = "crate::serial::watch"))]
     pub watch: bool,
     /// True where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what

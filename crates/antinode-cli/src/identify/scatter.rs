@@ -148,7 +148,7 @@ impl Scatter {
                 "hum, which --hum leaves out, or "
             };
             return Some(format!(
-                "rows scatter by only {most:.2} of their stated deviations: most of what was taken for noise is {hum}a tone that is not near the wave"
+                "rows scatter by only {most:.2} of their stated deviations: most of what was taken for noise is {hum}a tone; what it adds to every row alike does not scatter"
             ));
         }
         let more: Vec<String> = NAMES

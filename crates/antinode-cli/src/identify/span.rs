@@ -7,6 +7,9 @@ use crate::recording::Recording;
 /// How much of a sample a time may be rounded by.
 const ROUNDING: f64 = 1e-3;
 
+/// The share of a period by which the steps of a time may be off its phase: 10⁻³ rad.
+const COARSE: f64 = 1.6e-4;
+
 /// What to do with the next pairs.
 pub(super) enum Step {
     /// So many samples are missing before them.
@@ -109,6 +112,18 @@ impl Span {
 
     fn time(&self, number: u64) -> f64 {
         self.start + number as f64 / self.rate
+    }
+
+    /// What to tell of rows of a wave of this frequency, Hz, whose phase their time does not tell any more.
+    pub fn coarse_time(&self, frequency: f64) -> Option<String> {
+        let start = self.offset();
+        let step = start.abs() * f64::EPSILON;
+        (step * frequency > COARSE).then(|| {
+            format!(
+                "time begins at {start} s, and such a number has steps of {step:.0e} s: `phase_rad` stands for times that `time_s` does not tell \
+                 so exactly; count the time from the recording's start"
+            )
+        })
     }
 
     /// What to tell where the recording was read as far as was asked, and has no sample in the span.

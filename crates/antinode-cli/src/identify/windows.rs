@@ -52,8 +52,9 @@ pub(super) struct Windows<'a> {
     coarse: Coarse,
     few: Few,
     topped: Topped,
-    /// The least residual of a row that shows a wave.
+    /// The least residual of a row that shows a wave, and the frequency of the last one, Hz.
     residual: f32,
+    frequency: f64,
     stop: &'a Stop,
 }
 
@@ -103,6 +104,7 @@ impl<'a> Windows<'a> {
             few: Few::new(settings.resolution),
             topped: Topped::new(settings.resolution),
             residual: f32::INFINITY,
+            frequency: 0.0,
             stop,
         })
     }
@@ -209,6 +211,7 @@ impl<'a> Windows<'a> {
         self.one_sided.see(estimate);
         if !estimate.flags.contains(Flags::LOST) {
             self.residual = self.residual.min(estimate.residual_rms);
+            self.frequency = estimate.frequency;
         }
         self.topped.row(estimate.flags);
         self.stop.see(estimate.flags);
@@ -242,6 +245,7 @@ impl<'a> Windows<'a> {
         let seconds = self.core.index() as f64 / self.rate;
         let warnings = [
             self.span.warning().filter(|_| fault.is_none()),
+            self.span.coarse_time(self.frequency),
             self.silence.told(seconds, self.span.offset()),
             self.coarse
                 .told(recording.resolution_so_far(), self.residual),

@@ -8,6 +8,8 @@ use crate::runs::Run;
 
 /// Of fewer deviations than this, what amplitudes turn patterns by is taken to be nothing: more would be missed than it spares.
 const NONLINEAR_SEEN: f64 = 2.0;
+/// Of fewer it is not told: one in twenty resonators without it would seem to have it.
+const NONLINEAR_TOLD: f64 = 3.0;
 
 /// From this residual over the rows' own deviations on, the runs do not explain the rows each by itself.
 pub(super) const TOGETHER: f64 = 1.5;
@@ -109,7 +111,9 @@ impl Found {
             rotations: (0..self.of_runs.len())
                 .map(|run| self.rotation(run))
                 .collect(),
-            turning_by_amplitudes: self.turning_by_amplitudes(),
+            turning_by_amplitudes: self
+                .turning_by_amplitudes()
+                .filter(|(turning, std)| turning.abs() > NONLINEAR_TOLD * std),
         })
     }
 

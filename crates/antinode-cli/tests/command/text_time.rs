@@ -16,12 +16,25 @@ fn timed(header: &str, pairs: usize, print: impl Fn(f64) -> String) -> String {
 }
 
 #[test]
+fn a_time_from_so_far_back_that_it_does_not_tell_the_phase_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    let since_1970 = timed("time,c,d\n", 5000, |t| format!("{:.6}", 1.7e9 + t));
+    fs::write(here.join("a.csv"), since_1970).unwrap();
+    let run = run(here, "identify --output csv a.csv");
+    same_later(&Row::all(&run.out), &expected, 1.7e9);
+    let told = "warning: a.csv: time begins at 1700000000 s, and such a number has steps of 4e-7 s: `phase_rad`";
+    assert!(run.err.starts_with(told), "{}", run.err);
+}
+
+#[test]
 fn rows_have_the_recordings_own_time() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
     assert!((0.001..0.003).contains(&expected[0].number("time_s")));
-    for start in [-0.5, 1.7e9] {
+    for start in [-0.5, 3e7] {
         let text = timed("time,c,d\n", 5000, |t| format!("{:.6}", start + t));
         same_later(&rows_of(here, &text, ""), &expected, start);
         same_later(

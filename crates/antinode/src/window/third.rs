@@ -11,7 +11,10 @@ use super::waves::Waves;
 use crate::scalar::greater;
 
 /// A line in the sums about the third harmonic, which sampling may bring there from elsewhere.
+///
+/// As wide as what stands beside it: of a single byte the compiler clears it and others by a store that is not aligned.
 #[derive(Clone, Copy)]
+#[repr(u16)]
 pub(super) enum Line {
     /// The third harmonic.
     Third,

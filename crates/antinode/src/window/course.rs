@@ -12,12 +12,6 @@ pub(super) const CHUNK: usize = 5;
 /// z₊ and z₋ at the middles of a chunk's blocks, turned with the carrier: their halves, which is what C sees of each.
 pub(super) type Course = [[Complex32; CHUNK]; 2];
 
-/// Both waves at one block of them.
-#[inline(always)]
-pub(super) fn at([plus, minus]: &Course, block: usize) -> [Complex32; 2] {
-    [plus[block], minus[block]]
-}
-
 /// That of the blocks from block `index` of a window on, but for what [`bend`] adds: they may be more than the window has.
 #[inline(never)]
 pub(super) fn course(model: &Model, waves: &Waves, index: usize) -> Course {

@@ -58,7 +58,7 @@ pub(super) fn examine(
     let is_watched = blocks.first().is_some_and(|block| block.watched.is_some());
     let mut thirds = Thirds::of(Line::Third);
     let mut views = Views::new(model);
-    let mut hum = Hum::new(waves, &mut remains.wander);
+    let mut hum = Hum::new(&mut remains.wander);
     for (chunk, run) in blocks.chunks(CHUNK).enumerate() {
         let index = chunk * CHUNK;
         let mut course = course(model, waves, index);

@@ -2,15 +2,13 @@
 
 use num_complex::Complex32;
 
-use super::course::{CHUNK, Course, at, bend, course};
+use super::course::{CHUNK, Course};
 use super::model::Model;
 use super::prediction::Prediction;
 use super::seen::Seen;
-use super::waves::Waves;
 
 /// The offsets of a window's blocks beyond its own.
 pub(super) struct Hum<'a> {
-    waves: &'a Waves,
     /// The sum of their squares, of each pick-off.
     wander: &'a mut [f32; 2],
     /// What their slopes add to the odd sums of the pick-off and the run of blocks looked at.
@@ -18,11 +16,10 @@ pub(super) struct Hum<'a> {
 }
 
 impl<'a> Hum<'a> {
-    /// None taken yet, of a window of these waves: the sum of the squares is to be in `wander`.
-    pub fn new(waves: &'a Waves, wander: &'a mut [f32; 2]) -> Self {
+    /// None taken yet: the sum of the squares is to be in `wander`.
+    pub fn new(wander: &'a mut [f32; 2]) -> Self {
         *wander = [0.0; 2];
         Self {
-            waves,
             wander,
             slopes: [0.0; CHUNK],
         }
@@ -43,26 +40,28 @@ impl<'a> Hum<'a> {
         course: &Course,
     ) {
         let channel = channel & 1;
+        // From the block before the run to that after it.
         let mut rests = [0.0; CHUNK + 2];
-        let mut count = 0;
-        let places = rests.iter_mut().skip(1).take(CHUNK);
-        for (place, block) in places.zip(blocks.iter().skip(index)) {
-            *place = offset(prediction, block, channel, &at(course, count));
-            self.wander[channel] += *place * *place;
-            count += 1;
+        for (i, rest) in rests.iter_mut().enumerate() {
+            if let Some(block) = blocks.get((index + i).wrapping_sub(1)) {
+                let waves = course.each_ref().map(|wave| beside(wave, i));
+                *rest = offset(prediction, block, channel, &waves);
+            }
         }
-        let beside = |index| beside(model, prediction, self.waves, channel, (index, blocks));
+        self.wander[channel] += rests[1..=CHUNK].iter().map(|rest| rest * rest).sum::<f32>();
         let [before, a, b, c, d, e, after] = &mut rests;
-        *before = beside(index.wrapping_sub(1)).unwrap_or(*b - slope_at_first([*a, *b, *c, *d]));
-        let next = beside(index + CHUNK);
-        if count == CHUNK {
-            *after = next.unwrap_or(*d - slope_at_first([*e, *d, *c, *b]));
-        } else if let [.., before, now] = rests.get(..=count).unwrap_or(&[])
-            && let next = 2.0 * now - before
-            && let Some(place) = rests.get_mut(count + 1)
+        if index == 0 {
+            *before = *b - slope_at_first([*a, *b, *c, *d]);
+        }
+        let left = blocks.len() - index.min(blocks.len());
+        if left == CHUNK {
+            *after = *d - slope_at_first([*e, *d, *c, *b]);
+        } else if let Some([before, now, after]) = rests
+            .get_mut(left.saturating_sub(1)..)
+            .and_then(<[f32]>::first_chunk_mut)
         {
             // In a window's last run, if it is short, on the straight line through two.
-            *place = next;
+            *after = 2.0 * *now - *before;
         }
         for (slope, neighbours) in self.slopes.iter_mut().zip(rests.windows(3)) {
             *slope = model.basis.ramp * (neighbours[2] - neighbours[0]);
@@ -70,20 +69,28 @@ impl<'a> Hum<'a> {
     }
 }
 
-/// The offset of a block beside the run looked at, where that one's course does not reach.
+/// A wave at place `i` of the run and the blocks beside it.
 #[cold]
 #[inline(never)]
-fn beside(
-    model: &Model,
-    prediction: &Prediction,
-    waves: &Waves,
-    channel: usize,
-    (index, blocks): (usize, &[Seen]),
-) -> Option<f32> {
-    let block = blocks.get(index)?;
-    let mut course = course(model, waves, index);
-    bend(&mut course, model, waves, index, 1);
-    Some(offset(prediction, block, channel, &at(&course, 0)))
+fn beside(wave: &[Complex32; CHUNK], i: usize) -> Complex32 {
+    let &[first, second, .., last_but_one, last] = wave;
+    match wave.get(i.wrapping_sub(1)) {
+        Some(&wave) => wave,
+        None if i == 0 => beyond(second, first),
+        None => beyond(last_but_one, last),
+    }
+}
+
+/// A wave one block beyond the last of two.
+#[cold]
+#[inline(never)]
+fn beyond(before: Complex32, last: Complex32) -> Complex32 {
+    let square = before.norm_sqr();
+    if square > 0.0 {
+        last * last * before.conj() / square
+    } else {
+        last
+    }
 }
 
 /// The offset of a block, where the waves are these.

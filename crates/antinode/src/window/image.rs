@@ -58,11 +58,11 @@ pub(super) fn take_out(
     remains: &mut Remains,
 ) {
     let mut image = Thirds::of(line);
+    let factors = Prediction::of_c(model, waves, offsets).factors;
     for (chunk, blocks) in blocks.chunks(CHUNK).enumerate() {
         let index = chunk * CHUNK;
         let mut course = course(model, waves, index);
         bend(&mut course, model, waves, index, blocks.len());
-        let factors = Prediction::of_c(model, waves, offsets).factors;
         image.add(model, waves, offsets, &factors, blocks, &course);
     }
     // Both lines, block for block before the last one, one against the other.

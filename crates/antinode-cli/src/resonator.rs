@@ -10,6 +10,7 @@ mod model;
 mod motion;
 mod quantities;
 mod start;
+mod stretches;
 
 use std::f64::consts::PI;
 use std::io::{self, Write};

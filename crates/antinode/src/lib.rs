@@ -82,7 +82,7 @@
 //! |---|---|---|---|
 //! | [`Front`], with `N` the most sample pairs of a block | 1680 + 8 `N` | 2760 + 8 `N` | 3000 + 8 `N` |
 //! | [`Block`], each in the queue | 72 | 128 | 128 |
-//! | [`Tracker`], with `BLOCKS` the length of its ring | 672 + 68 `BLOCKS` | the same | the same |
+//! | [`Tracker`], with `BLOCKS` the length of its ring | 680 + 68 `BLOCKS` | the same | the same |
 //!
 //! [`Front::UNSET`], [`Tracker::UNSET`] and [`Identifier::UNSET`] are all zeros: statics initialised with them take neither flash nor
 //! stack; call `configure` before use.
@@ -134,12 +134,13 @@
 //!   as a misfit. Below that, nothing is flagged, and values are off by up to 6 of their deviations in windows of 10 periods, and 30 in
 //!   those of 100 or more: 6·10⁻⁵ rad of phase in noise of 10⁻⁴ of a_A, 4·10⁻⁴ rad in noise of 10⁻³. Use shorter windows.
 //! - A turning pattern looks like a frequency off by 2 a_A a_B θ̇/(π(a_A² + a_B²)), which is corrected with the θ̇ of the windows before.
-//!   If θ̇ jumps, as splits make it do near a circle, f may be off, by 20 deviations at |a_B| of 0.94 a_A in windows of 100 periods.
+//!   If θ̇ jumps, as splits make it do near a circle, f may be off, by 20 deviations at |a_B| of 0.94 a_A in windows of 100 periods. If the
+//!   pattern vibrates, deviations of f grow with it from some ten windows on.
 //!
 //! ## Noise
 //!
 //! - Mains hum is a misfit too, unless [`Settings::hum`] takes it out. Of hum with fewer than 13 blocks a period, such as 150 Hz beside a wave
-//!   of 2 kHz, part counts as noise; 10 % of a_A in noise of 3·10⁻⁵ makes errors of up to 2 deviations.
+//!   of 2 kHz, part counts as noise.
 //! - Deviations and flags take noise to be white; [`Settings::coloured`] is for noise that is not. With it errors are 0.8 to 1.1 of their
 //!   deviations behind a low-pass or a high-pass, or in noise of 1/f²; behind a band-pass about the wave, in windows of ten periods or more,
 //!   they are 1.1 with a quality of 1, 1.5 with 3, and 2 to 3 with 10; in windows of 3 to 5 periods up to 1.8, 3.3 and 7. With noise that grows with frequency, some windows remain misfits.
@@ -153,9 +154,9 @@
 //! - Deviations cover noise and the converter's steps, assumed equal in size. They do not cover nonlinearity of pick-offs and converter,
 //!   and a third harmonic below 10⁻³ of a_A raises no flag: a cubic of that size may move a_A by 0.4 %, θ by 5·10⁻⁴ rad and, with
 //!   |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. In windows of 5 periods at fewer than 5 samples a period a third harmonic
-//!   of several per cent may raise none, where noise is added after a limiter. A second harmonic of 10⁻² of a_A raises none either, except
-//!   at 4.9 to 5.1 samples a period; if a period is not a whole number of samples, it leaks up to 7·10⁻² of itself into a_A, a_B, θ and
-//!   phase in windows of 10 periods, 1.6·10⁻² in those of 50; if it is a whole number, 1.6·10⁻³.
+//!   of several per cent may raise none, where noise is added after a limiter. A second harmonic of 10⁻² of a_A raises none either if
+//!   a period is not a whole number of samples, and leaks up to 7·10⁻² of itself into a_A, a_B, θ and phase in windows of 10 periods,
+//!   1.6·10⁻² in those of 50; if it is a whole number, 1.6·10⁻³.
 //! - A fault that repeats with the wave, such as a stuck bit of the converter, is flagged where it begins, but may soon be taken for a new
 //!   noise level: with a bit worth a twelfth of a_A, two in three or more of the windows of 10 periods that follow have no flag, and a_A is
 //!   up to 1.7 % off, 12 of its deviations. With a sixth of a_A it is one in three, 4.4 %, 21 deviations; with a third, one in ten, 7.5 %,
@@ -208,7 +209,7 @@ const _: () = {
     assert!(size_of::<Front<i16, 200>>() == 1680 + 8 * 200);
     assert!(size_of::<Front<f32, 200>>() == 2760 + 8 * 200);
     assert!(size_of::<Front<i32, 200>>() == 3000 + 8 * 200);
-    assert!(size_of::<Tracker<64>>() == 672 + 68 * 64);
+    assert!(size_of::<Tracker<64>>() == 680 + 68 * 64);
     assert!(size_of::<Block<i16>>() == 72);
     assert!(size_of::<Block<f32>>() == 128);
     assert!(size_of::<Block<i32>>() == 128);
@@ -225,7 +226,7 @@ mod tests {
         near(size_of::<Front<i16, 200>>(), 1680 + 8 * 200);
         near(size_of::<Front<f32, 200>>(), 2760 + 8 * 200);
         near(size_of::<Front<i32, 200>>(), 3000 + 8 * 200);
-        near(size_of::<Tracker<64>>(), 672 + 68 * 64);
+        near(size_of::<Tracker<64>>(), 680 + 68 * 64);
         near(size_of::<Block<i16>>(), 72);
         near(size_of::<Block<f32>>(), 128);
         near(size_of::<Block<i32>>(), 128);

@@ -82,8 +82,10 @@ fn the_frequency_of_a_pattern_that_vibrates_is_stated_with_what_its_turning_leav
             let samples = 300 * 19 * usize::from(periods);
             let flaws = noisy(&wave, 1e-3);
             let found = identify_changed(wave, &flaws, settings, samples, seed, |k, [c, d]| {
+                // A fault is no vibration, and hides none after it.
+                let fault = if k == 100_003 { f64::NAN } else { 0.0 };
                 let (still, now) = (wave.pick_offs(k as f64 / RATE), vibrating(k));
-                [c + now.0 - still.0, d + now.1 - still.1]
+                [c + now.0 - still.0 + fault, d + now.1 - still.1]
             });
             // Until it is known that the pattern vibrates.
             for estimate in found.iter().skip(30).filter(|e| e.flags.is_empty()) {
@@ -102,6 +104,41 @@ fn the_frequency_of_a_pattern_that_vibrates_is_stated_with_what_its_turning_leav
             rows > 1500.0 && (0.8..1.2).contains(&rms) && worst < 7.0,
             "{rows} {rms} {worst}"
         );
+    }
+}
+
+#[test]
+fn a_step_of_the_angle_is_no_vibration() {
+    // Rad; the frequency of rows behind it is known as well as before, or nearly where nothing flags the step.
+    for (step, most) in [(0.002, 1.8), (0.05, 1.15), (0.3, 1.15)] {
+        for periods in [10, 50] {
+            let (mut sum, mut rows) = (0.0, 0.0);
+            for seed in 0..6 {
+                let wave = turning(seed, 5332.0, 0.8, 0.0);
+                let window = 19 * usize::from(periods);
+                let at = 60 * window + 7;
+                let flaws = noisy(&wave, 1e-3);
+                let settings = windows(periods);
+                let found =
+                    identify_changed(wave, &flaws, settings, 100 * window, seed, |k, [c, d]| {
+                        let angle = wave.angle + if k < at { 0.0 } else { step };
+                        let (time, turned) = (k as f64 / RATE, Wave { angle, ..wave });
+                        let (still, now) = (wave.pick_offs(time), turned.pick_offs(time));
+                        [c + now.0 - still.0, d + now.1 - still.1]
+                    });
+                let deviations = |from: usize, to: usize| -> f64 {
+                    let rows = found.iter().skip(from).take(to - from);
+                    rows.map(|e| f64::from(e.frequency_std)).sum::<f64>() / (to - from) as f64
+                };
+                sum += deviations(68, 85) / deviations(20, 55);
+                rows += 1.0;
+            }
+            let wider = sum / rows;
+            println!(
+                "{step} rad, {periods} periods: deviations of f behind it {wider:.2} times those before"
+            );
+            assert!(wider < most, "{step}, {periods} periods: {wider}");
+        }
     }
 }
 

@@ -3,8 +3,19 @@
 use super::by_energy::Seen;
 use super::found::Measured;
 
-/// The slope, Hz/s; wider where rows scatter about the line by more than their deviations, if these are told.
-pub fn drift(run: &[Seen], is_told: bool) -> Measured {
+/// Deviations from which on a drift is seen.
+const SEEN: f64 = 3.5;
+
+/// A straight line through the frequencies of a run.
+pub struct Drift {
+    /// Its slope, Hz/s; wider where frequencies scatter about it by more than their deviations, if these are told.
+    pub slope: Measured,
+    /// The squares of the frequencies, over their variances, that go with it; 0 where it may be noise, or these are not told.
+    pub squares: f64,
+}
+
+/// The line through a run.
+pub fn drift(run: &[Seen], is_told: bool) -> Drift {
     let (mut weights, mut mean, mut level) = (0.0, 0.0, 0.0);
     let (mut of_time, mut product, mut of_beyond) = (0.0, 0.0, 0.0);
     for row in run {
@@ -20,7 +31,15 @@ pub fn drift(run: &[Seen], is_told: bool) -> Measured {
     let slope = product / of_time;
     let scatter = (of_beyond - slope * product) / (run.len() - 2) as f64;
     let scatter = if is_told { scatter.max(1.0) } else { scatter };
-    (slope, (scatter / of_time).sqrt())
+    let squares = slope * product;
+    Drift {
+        slope: (slope, (scatter / of_time).sqrt()),
+        squares: if is_told && squares > SEEN * SEEN * scatter {
+            squares
+        } else {
+            0.0
+        },
+    }
 }
 
 #[cfg(test)]
@@ -44,7 +63,7 @@ mod tests {
                 }
             })
             .collect();
-        let (slope, std) = drift(&rows, is_told);
+        let (slope, std) = drift(&rows, is_told).slope;
         (slope + 2e-4) / std
     }
 

@@ -6,7 +6,8 @@ use super::by_energy::{ByEnergy, Seen, beside_one_mean, by_energy};
 use super::drift::drift;
 use super::found::{Found, Measured, Moved};
 use super::is_alike;
-use crate::runs::{Row, Runs};
+use super::stretches::{Told, stretches};
+use crate::runs::Runs;
 
 /// The mean frequency.
 pub struct Frequency {
@@ -20,8 +21,8 @@ pub struct Frequency {
     pub drifts: Vec<Measured>,
 }
 
-/// The mean frequency, of which each row tells as much as its deviation says; wider where rows differ by more than that, and by all that it
-/// moves with the energy, or alike in rows that follow each other.
+/// The mean frequency, of which each stretch of rows tells as much as its deviation says; wider where stretches differ by more than that, and
+/// by all that it moves with the energy, or alike in stretches that follow each other.
 ///
 /// A row has the frequency along its pattern: what the splits make of that is taken off, where they are told. With quadrature a pattern that
 /// turns looks like another frequency, and a row takes it to turn as the rows before do: what that has changed by adds to its deviation.
@@ -31,39 +32,44 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
     let mut moved = found.frequency_moved(&rows.runs).into_iter();
     // From one of them on, for the digits.
     let from = rows.runs[0].rows[0].frequency;
-    let (mut weights, mut mean, mut mean_by) = (0.0, 0.0, [0.0; 4]);
-    let mut see = |row: &Row, moved: &Moved| {
-        let weight = if is_told {
-            row.frequency_deviation.hypot(moved.change / TAU).powi(-2)
-        } else {
-            1.0
+    let (mut of_rows, mut mean_by) = (0.0, [0.0; 4]);
+    let mut tell = |row, moved: &Moved| {
+        let told = Told {
+            row,
+            by_splits: found.splits(&moved.by_splits).0 / TAU,
+            weight: if is_told {
+                row.frequency_deviation.hypot(moved.change / TAU).powi(-2)
+            } else {
+                1.0
+            },
         };
-        let beyond = row.frequency - from - found.splits(&moved.by_splits).0 / TAU;
-        weights += weight;
-        mean += weight * beyond;
+        of_rows += told.weight;
         for (sum, by) in mean_by.iter_mut().zip(moved.by_splits) {
-            *sum += weight * by;
+            *sum += told.weight * by;
         }
-        Seen {
-            time: row.time,
-            weight,
-            energy: row.main.powi(2) + row.quadrature.powi(2),
-            beyond,
-        }
+        told
     };
     let runs = rows.runs.iter().map(|run| {
         let pairs = run.rows.iter().zip(&mut moved);
-        pairs.map(|(row, moved)| see(row, &moved)).collect()
+        let told: Vec<_> = pairs.map(|(row, moved)| tell(row, &moved)).collect();
+        if is_told {
+            stretches(&told, from)
+        } else {
+            let alone = told.chunks(1);
+            alone.flat_map(|told| stretches(told, from)).collect()
+        }
     });
     let runs: Vec<Vec<Seen>> = runs.collect();
-    mean /= weights;
+    let all = || runs.iter().flatten();
+    let weights: f64 = all().map(|seen| seen.weight).sum();
+    let mean = all().map(|seen| seen.weight * seen.beyond).sum::<f64>() / weights;
     let (mut squares, mut neighbours, mut before) = (0.0, 0.0, 0.0);
-    for seen in runs.iter().flatten() {
+    for seen in all() {
         let rest = seen.weight.sqrt() * (seen.beyond - mean);
         squares += rest * rest;
         neighbours += rest * std::mem::replace(&mut before, rest);
     }
-    let count = rows.used() as f64;
+    let count = all().count() as f64;
     let scatter = squares / (count - 1.0);
     let widened = if is_told { scatter.max(1.0) } else { scatter };
     let beside = beside_one_mean(&runs);
@@ -75,14 +81,18 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
     } else {
         0.0
     };
-    let moves = (is_along || is_alike).then(|| (alone.along().max(moved_alike) / weights).sqrt());
+    let drifts: Vec<_> = runs.iter().map(|run| drift(run, is_told)).collect();
+    let drifted: f64 = drifts.iter().map(|drift| drift.squares).sum();
+    let is_moving = is_along || is_alike || drifted > 0.0;
+    let moved = alone.along().max(moved_alike).max(drifted);
+    let moves = is_moving.then(|| (moved / weights).sqrt());
     // What is not known of the splits is not known of what they make either.
-    let (_, of_splits) = found.splits(&mean_by.map(|sum| sum / weights / TAU));
+    let (_, of_splits) = found.splits(&mean_by.map(|sum| sum / of_rows / TAU));
     let std = (widened / weights).sqrt().hypot(of_splits);
     Frequency {
         mean: (from + mean, std.hypot(moves.unwrap_or(0.0))),
         moves,
-        drifts: runs.iter().map(|run| drift(run, is_told)).collect(),
+        drifts: drifts.iter().map(|drift| drift.slope).collect(),
         by_energy: if is_along {
             // θ turns by −γ a_A a_B, and the frequency rises by 3γ (a_A² + a_B²) rad/s.
             let by_turning = found.turning_by_amplitudes();

@@ -19,8 +19,8 @@ const COLUMNS: [&str; 8] = [
     "angle_std_rad",
 ];
 
-/// Those of the frequency, Hz, and of the decay rate, 1/s; rows may lack them.
-const OTHER_DEVIATIONS: [&str; 2] = ["frequency_std_hz", "decay_rate_std_s"];
+/// Those of the frequency, Hz, of the decay rate, 1/s, and of the phase, rad; rows may lack them.
+const OTHER_DEVIATIONS: [&str; 3] = ["frequency_std_hz", "decay_rate_std_s", "phase_std_rad"];
 /// Rows may lack it too.
 const PHASE: &str = "phase_rad";
 
@@ -36,6 +36,8 @@ pub struct Row {
     pub angle: f64,
     /// Of the main wave, rad, where the rows tell it.
     pub phase: Option<f64>,
+    /// One standard deviation of it: infinite where the rows do not tell it.
+    pub phase_deviation: f64,
     /// Hz, and one standard deviation of it: infinite where the rows do not tell it.
     pub frequency: f64,
     pub frequency_deviation: f64,
@@ -104,9 +106,13 @@ impl Row {
         };
         let other =
             |place: Option<usize>| place.map_or(Some(f64::INFINITY), |place| number(record, place));
-        let (of_frequency, of_rate) = (other(places.others[0])?, other(places.others[1])?);
+        let [Some(of_frequency), Some(of_rate), Some(of_phase)] = places.others.map(other) else {
+            return None;
+        };
         let deviations = [of_main, of_quadrature, of_angle];
-        let mut positive = deviations.into_iter().chain([main, of_frequency, of_rate]);
+        let mut positive = deviations
+            .into_iter()
+            .chain([main, of_frequency, of_rate, of_phase]);
         let is_usable = positive.all(|number| number > 0.0);
         let [more, less] = [1.0, -1.0].map(|sign| longer(main + sign * quadrature, of_main));
         is_usable.then_some(Self {
@@ -115,6 +121,7 @@ impl Row {
             quadrature: quadrature - 0.5 * (more - less),
             angle,
             phase: places.phase.and_then(finite),
+            phase_deviation: of_phase,
             frequency,
             frequency_deviation: of_frequency,
             deviations,

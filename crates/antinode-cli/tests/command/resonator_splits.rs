@@ -174,7 +174,8 @@ fn what_amplitudes_turn_a_pattern_by_is_told_and_moves_no_split() {
                 let fallen = (-0.16 * fields[0].parse::<f64>().unwrap()).exp();
                 let turned = -gamma * 0.05 * (1.0 - fallen) / 0.16;
                 let risen = 3.0 * gamma * 0.26 * fallen / TAU;
-                for (field, more) in [(4, turned), (6, risen)] {
+                let run_on = -3.0 * gamma * 0.26 * (1.0 - fallen) / 0.16;
+                for (field, more) in [(4, turned), (5, run_on), (6, risen)] {
                     let value = fields[field].parse::<f64>().unwrap() + more;
                     fields[field] = format!("{value:.12}");
                 }

@@ -20,11 +20,14 @@ const ENOUGH: u32 = 5;
 const AVERAGED: f32 = 16.0;
 /// The share of its variance by which that average exceeds its noise by chance.
 const BY_CHANCE: f32 = 0.4;
-/// A single window counts no more than so many times what is expected of it: one step is no vibration.
-const MOST: f32 = 16.0;
+/// A single window counts no more than so many times what is expected of it: one step is no vibration, and by itself no more than chance.
+const MOST: f32 = 7.0;
 /// What a rate is off, times the distance of two windows, where the last angle of six, which turn as a cubic, is off the parabola through
 /// the others by one.
 const OF_CUBIC: f32 = 0.82;
+
+/// The square of the same of a few angles: a line or a parabola through them is off by more.
+const OF_LINE: f32 = 20.0;
 
 /// A rate in rad/sample and its variance.
 #[derive(Debug, Clone, Copy)]
@@ -56,9 +59,11 @@ pub(crate) struct Trend {
     length: u16,
     /// Where the last one is.
     last: u16,
-    /// Mean square of what angles are beside the curves through those before, less what noise makes of it, rad²: a pattern that vibrates
+    /// Mean square of what angles are beside the curves through those before, over what noise makes of it, less one: a pattern that vibrates
     /// turns as no parabola.
     beside: f32,
+    /// What that becomes if the present window is kept.
+    learned: f32,
 }
 
 impl Trend {
@@ -72,18 +77,20 @@ impl Trend {
             length: 0,
             last: 0,
             beside: 0.0,
+            learned: 0.0,
         }
     }
 
     /// Drops the angles: the next ones do not continue them.
     pub(crate) fn clear(&mut self) {
         self.length = 0;
+        self.learned = self.beside;
     }
 
     /// Drops what is known of the pattern's vibration too.
     pub(crate) fn forget(&mut self) {
         self.clear();
-        self.beside = 0.0;
+        (self.beside, self.learned) = (0.0, 0.0);
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -101,6 +108,7 @@ impl Trend {
         {
             return;
         }
+        self.beside = self.learned;
         // In the place of the oldest where all are taken.
         let next = self.last + 1;
         self.last = if self.length == 0 || next == KEPT as u16 {
@@ -201,26 +209,29 @@ impl Trend {
         let per_sample = 2.0 * per_half;
         let per_determinant = 1.0 / (level * rate - mixed * mixed);
         let mut variance = level * own * per_determinant;
-        if used >= ENOUGH {
+        // Of a pattern that vibrates a curve through the angles is off by this, where those of the windows before were beside theirs by one.
+        let off = if used >= ENOUGH {
             // The angle of the curve at the window, and the share of its own in that: what is left is its distance from the others' curve.
             let at_window = (rate * level_value - mixed * rate_value) * per_determinant;
             let per_others = 1.0 / (1.0 - rate * per_determinant);
             let (expected, distance) = (own * per_others, at_window * per_others);
-            self.beside += self.learned(distance * distance, expected);
-            let bias = self.beside - BY_CHANCE * expected;
-            if bias > 0.0 {
-                variance += OF_CUBIC * OF_CUBIC * bias / (nearest * nearest);
-            }
+            // The square over what is expected of it.
+            let most = MOST * (1.0 + greater(self.beside, 0.0));
+            let square = lesser(distance * distance, most * expected);
+            let change = square / expected - 1.0 - self.beside;
+            self.learned = self.beside + change * (1.0 / AVERAGED);
+            OF_CUBIC * OF_CUBIC * expected
+        } else {
+            self.learned = self.beside;
+            OF_LINE * own
+        };
+        let bias = self.learned - BY_CHANCE;
+        if bias > 0.0 {
+            variance += off * bias / (nearest * nearest);
         }
         Rate {
             value: (level * rate_value - mixed * level_value) * per_determinant * per_sample,
             variance: variance * per_sample * per_sample,
         }
-    }
-
-    /// By how much the mean square of distances moves by one more, of which noise is expected to make so much.
-    fn learned(&self, square: f32, expected: f32) -> f32 {
-        let most = MOST * (expected + greater(self.beside, 0.0));
-        (lesser(square, most) - expected - self.beside) * (1.0 / AVERAGED)
     }
 }

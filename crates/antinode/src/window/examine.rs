@@ -131,10 +131,13 @@ fn take_rests(
             *gradient
         };
         let waves = course[0].iter().zip(&course[1]);
-        let left = left.power.iter_mut().zip(&mut left.run).zip(&hum.slopes);
-        for ((block, (&plus, &minus)), ((power, run), slope)) in run.iter().zip(waves).zip(left) {
+        let left = left.power.iter_mut().zip(&mut left.run).zip(&hum.within);
+        for ((block, (&plus, &minus)), ((power, run), [slope, bend])) in
+            run.iter().zip(waves).zip(left)
+        {
             let mut rest = prediction.rest(&block.whitened[channel & 1], &[plus, minus]);
             rest.odd -= slope;
+            rest.even -= bend;
             // Of an offset that the block has to itself the mean says nothing else.
             let known = shared * rest.mean;
             sums.slope = (sums.slope - sums.level) * turn + response.across(&rest, known);

@@ -11,8 +11,8 @@ use super::seen::Seen;
 pub(super) struct Hum<'a> {
     /// The sum of their squares, of each pick-off.
     wander: &'a mut [f32; 2],
-    /// What their slopes add to the odd sums of the pick-off and the run of blocks looked at.
-    pub slopes: [f32; CHUNK],
+    /// What their slopes add to the odd sums of the pick-off and the run of blocks looked at, and their bends to the even ones.
+    pub within: [[f32; 2]; CHUNK],
 }
 
 impl<'a> Hum<'a> {
@@ -21,7 +21,7 @@ impl<'a> Hum<'a> {
         *wander = [0.0; 2];
         Self {
             wander,
-            slopes: [0.0; CHUNK],
+            within: [[0.0; 2]; CHUNK],
         }
     }
 
@@ -63,8 +63,12 @@ impl<'a> Hum<'a> {
             // In a window's last run, if it is short, on the straight line through two.
             *after = 2.0 * *now - *before;
         }
-        for (slope, neighbours) in self.slopes.iter_mut().zip(rests.windows(3)) {
-            *slope = model.basis.ramp * (neighbours[2] - neighbours[0]);
+        for (within, neighbours) in self.within.iter_mut().zip(rests.windows(3)) {
+            let (from, to) = (neighbours[1] - neighbours[0], neighbours[2] - neighbours[1]);
+            *within = [
+                model.basis.ramp * (to + from),
+                model.basis.bow * (to - from),
+            ];
         }
     }
 }

@@ -16,6 +16,8 @@ use crate::scalar::greater;
 const FEW: f32 = 10.5;
 /// Where an image answers in a block with less than one over this, it is left among what looks like noise.
 const SLOW: f32 = 6.0;
+/// The same of the second harmonic, which common electronics have: where it is nearer than that, nothing is told from it.
+const SECOND: f32 = 0.55;
 /// Of fewer blocks a line beside the first would leave too few degrees of freedom.
 const LEAST_BLOCKS: u16 = 5;
 /// Below this share of what they have apart a line and its image are one.
@@ -35,13 +37,15 @@ pub(super) fn of(model: &Model) -> Option<Line> {
 fn slow(model: &Model) -> Option<Line> {
     // A block adds up a tone so many carriers away to the sine of all its turn over that of a sample's.
     let answer = |carriers: i64| model.carrier.after_half_samples(carriers).unit().im.abs();
-    let (own, fifth) = (answer(6), answer(8));
+    let (second, own, fifth) = (answer(5), answer(6), answer(8));
     let (line, nearest) = if own < fifth {
         (Line::OwnImage, own)
     } else {
         (Line::ImageOfFifth, fifth)
     };
-    (nearest * f32::from(model.layout.length) < SLOW).then_some(line)
+    let samples = f32::from(model.layout.length);
+    // Near five samples a period the second harmonic has its image there: it would be taken for a limiter's.
+    (nearest * samples < SLOW && second * samples > SECOND).then_some(line)
 }
 
 /// Takes the image of a line out of what looks like noise about the third harmonic, and into the latter's amplitudes: of a limiter both are

@@ -21,6 +21,8 @@ pub(crate) struct Basis {
     sine: f32,
     /// What a slope adds to the odd sum, of one over two blocks.
     pub ramp: f32,
+    /// What a bend adds to the even sum, of one from block to block.
+    pub bow: f32,
     /// One over the layout's scale.
     pub unit: f32,
     /// How many of the three a block resolves: 1 for a block of one sample, else 2 or 3.
@@ -73,9 +75,12 @@ impl Basis {
         }
         let cosine_mean = mean.get() / n;
         let mut even = Sum::default();
+        let mut bend = Sum::default();
         for k in 0..layout.length {
             let rest = layout.reference(k).cosine - cosine_mean;
             even.add(rest * rest);
+            let twice = layout.twice_from_middle(k) as i32 as f32;
+            bend.add(twice * twice * rest);
         }
         // Below these the vector is only rounding: a block of one or two samples has no room for it.
         let least = 1e-4 * n * layout.one() * layout.one();
@@ -94,6 +99,7 @@ impl Basis {
             cosine_mean,
             sine,
             ramp: 0.25 * slope.get() * sine * one / n,
+            bow: 0.125 * bend.get() * cosine * one / (n * n),
             unit: 1.0 / layout.one(),
             rank: 1 + u8::from(cosine > 0.0) + u8::from(sine > 0.0),
         }

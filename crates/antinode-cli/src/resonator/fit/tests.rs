@@ -72,6 +72,7 @@ fn run_turned(
                 quadrature,
                 angle: 0.25 * (plus * minus.conj()).arg(),
                 phase: None,
+                phase_deviation: f64::INFINITY,
                 frequency: 5332.0,
                 frequency_deviation: 1e-3,
                 deviations: [noise, noise, of_angle].map(|std| std.max(1e-9)),

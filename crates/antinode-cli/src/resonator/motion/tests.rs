@@ -32,6 +32,7 @@ fn row([main, quadrature, angle]: [f64; 3], seconds: f64) -> Row {
         quadrature,
         angle,
         phase: None,
+        phase_deviation: f64::INFINITY,
         frequency: 5332.0,
         frequency_deviation: 1e-3,
         deviations: [1e-6; 3],

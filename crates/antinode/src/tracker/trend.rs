@@ -16,6 +16,8 @@ const OLDEST: f32 = 4e3;
 
 /// Angles from which on a window's own is compared with the curve through the others.
 const ENOUGH: u32 = 5;
+/// The share that these others have in the curve at the window, below which it is lost in rounding: all were in far more noise.
+const LEAST: f32 = 1e-4;
 /// Windows over which is averaged by how much it lies beside that.
 const AVERAGED: f32 = 16.0;
 /// The share of its variance by which that average exceeds its noise by chance.
@@ -25,7 +27,6 @@ const MOST: f32 = 7.0;
 /// What a rate is off, times the distance of two windows, where the last angle of six, which turn as a cubic, is off the parabola through
 /// the others by one.
 const OF_CUBIC: f32 = 0.82;
-
 /// The square of the same of a few angles: a line or a parabola through them is off by more.
 const OF_LINE: f32 = 20.0;
 
@@ -210,10 +211,11 @@ impl Trend {
         let per_determinant = 1.0 / (level * rate - mixed * mixed);
         let mut variance = level * own * per_determinant;
         // Of a pattern that vibrates a curve through the angles is off by this, where those of the windows before were beside theirs by one.
-        let off = if used >= ENOUGH {
-            // The angle of the curve at the window, and the share of its own in that: what is left is its distance from the others' curve.
+        let of_others = 1.0 - rate * per_determinant;
+        let off = if used >= ENOUGH && of_others > LEAST {
+            // The angle of the curve at the window, in which the others have this share: what is left is its distance from the others' curve.
             let at_window = (rate * level_value - mixed * rate_value) * per_determinant;
-            let per_others = 1.0 / (1.0 - rate * per_determinant);
+            let per_others = 1.0 / of_others;
             let (expected, distance) = (own * per_others, at_window * per_others);
             // The square over what is expected of it.
             let most = MOST * (1.0 + greater(self.beside, 0.0));

@@ -203,7 +203,8 @@ typedef struct {
     // ten periods, rounded to whole samples: of short periods 0.9 to 1.25. 1 to 65535; 0, the default, and not the number of periods,
     // makes windows follow each other without gap or overlap.
     uint32_t hop_blocks;
-    // The first window's angle is chosen within pi/4 of this one, rad. Within +-10000, so take whole turns off a greater one; default pi/4, which puts it in 0 to pi/2.
+    // The first window's angle is chosen within pi/4 of this one, rad. Within +-10000, so take whole turns off a greater one; default pi/4,
+    // which puts it in 0 to pi/2.
     float start_angle_rad;
     // The least sample that the converter gives, input units: at or below it a window is flagged as clipped. Default 0,
     // which is that of a converter with unsigned codes.
@@ -219,7 +220,8 @@ typedef struct {
     // How the period is found: ANTINODE_DETECTION_DIFFERENCE, the default, or ANTINODE_DETECTION_MEAN_RETURN.
     uint32_t detection;
     // 1, the default: the third harmonic and the extremes of the samples are watched: without, ANTINODE_FLAG_CLIPPED is never set,
-    // ANTINODE_FLAG_DEAD_CHANNEL only where a wave goes, and ANTINODE_FLAG_MISFIT of a second tone or a wave elsewhere hardly ever. 0: not, which about halves the work at sample rate.
+    // ANTINODE_FLAG_DEAD_CHANNEL only where a wave goes, and ANTINODE_FLAG_MISFIT of a second tone or a wave elsewhere hardly
+    // ever. 0: not, which about halves the work at sample rate.
     uint32_t watch;
     // How the pick-offs differ from ideal ones. Default: not at all.
     antinode_calibration_t calibration;

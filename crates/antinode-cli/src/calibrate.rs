@@ -14,6 +14,7 @@ use crate::failure::Failure;
 use crate::given::Given;
 use crate::options::Corrected;
 use crate::runs::{BEYOND_NOISE, Runs};
+use crate::serialized;
 use moments::Run;
 use solve::{Found, PickOffs, solve};
 
@@ -135,20 +136,8 @@ fn print(out: &mut impl Write, how: Printed, quantities: &[Quantity]) -> io::Res
             let options: Vec<_> = options.collect();
             writeln!(out, "{}", options.join(" "))
         }
-        Printed::Csv => {
-            let mut writer = csv::Writer::from_writer(out);
-            for row in rows {
-                writer.serialize(row)?;
-            }
-            writer.flush()
-        }
-        Printed::Jsonl => {
-            for row in rows {
-                serde_json::to_writer(&mut *out, &row)?;
-                writeln!(out)?;
-            }
-            Ok(())
-        }
+        Printed::Csv => serialized::csv(out, rows),
+        Printed::Jsonl => serialized::jsonl(out, rows),
     }
 }
 

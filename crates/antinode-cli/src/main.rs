@@ -24,6 +24,7 @@ mod resonator;
 mod row_file;
 mod rows;
 mod runs;
+mod serialized;
 mod simulate;
 mod study;
 

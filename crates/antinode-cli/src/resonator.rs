@@ -6,6 +6,7 @@ mod fit;
 mod found;
 mod frequency;
 mod informing;
+mod line;
 mod model;
 mod motion;
 mod quantities;
@@ -22,6 +23,7 @@ use crate::failure::Failure;
 use crate::given::Given;
 use crate::options::Format;
 use crate::runs::{BEYOND_NOISE, Run, Runs};
+use crate::serialized;
 use by_energy::ByEnergy;
 use fit::fit;
 use found::Found;
@@ -72,24 +74,11 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
     let listed = informing(&rows.runs, &found);
     let quantities = quantities(&rows, &listed, &found, &frequency);
     let mut out = io::stdout().lock();
+    let rows_of = || quantities.iter().map(|one| Row::new(one, &rows, &listed));
     match options.output {
         Format::Table => table(&mut out, &name, &rows, &listed, &quantities)?,
-        Format::Csv => {
-            let mut writer = csv::Writer::from_writer(&mut out);
-            for quantity in &quantities {
-                writer
-                    .serialize(Row::new(quantity, &rows, &listed))
-                    .map_err(io::Error::from)?;
-            }
-            writer.flush()?;
-        }
-        Format::Jsonl => {
-            for quantity in &quantities {
-                let row = Row::new(quantity, &rows, &listed);
-                serde_json::to_writer(&mut out, &row).map_err(io::Error::from)?;
-                writeln!(out)?;
-            }
-        }
+        Format::Csv => serialized::csv(&mut out, rows_of())?,
+        Format::Jsonl => serialized::jsonl(&mut out, rows_of())?,
     }
     // The result is printed: standard error may be closed.
     let _ = tell(&mut io::stderr().lock(), &rows, &listed, &found, &frequency);

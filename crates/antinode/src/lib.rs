@@ -144,7 +144,8 @@
 //!   of 2 kHz, part counts as noise.
 //! - Deviations and flags take noise to be white; [`Settings::coloured`] is for noise that is not. With it errors are 0.8 to 1.1 of their
 //!   deviations behind a low-pass or a high-pass, or in noise of 1/f²; behind a band-pass about the wave, in windows of ten periods or more,
-//!   they are 1.1 with a quality of 1, 1.5 with 3, and 2 to 3 with 10; in windows of 3 to 5 periods up to 1.8, 3.3 and 7. With noise that grows with frequency, some windows remain misfits.
+//!   they are 1.1 with a quality of 1, 1.5 with 3, and 2 to 3 with 10; in windows of 3 to 5 periods up to 1.8, 3.3 and 7. With noise that
+//!   grows with frequency, some windows remain misfits.
 //! - Deviations and flags also assume noise that is independent and equal in both pick-offs. If one has ten times as much, about one window
 //!   in ten thousand is flagged. If both have the share r of its variance in common, deviations are up to √(1 + r) times too small: at
 //!   an angle of 22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.

@@ -3,7 +3,8 @@
 use antinode::{Calibration, Flags, Packed};
 use antinode_sim::Wave;
 use antinode_telemetry::{Cause, Command, CommandError, Report, State};
-use firmware::instrument::Event;
+use firmware::gather::Gatherer;
+use firmware::instrument::{Event, Instrument};
 use firmware::pipeline::{Places, Queues};
 use firmware::sampling::{DUAL_ADC_RAILS, Lapse, Ready, Source, both};
 use firmware::settings::{HALF, QUEUE, REQUESTS, SAMPLE_RATE, SOONEST_MS, STALL_MS};
@@ -23,6 +24,44 @@ struct Halting<'a> {
     triggered: usize,
     taken: usize,
     still: u32,
+}
+
+impl<'a> Halting<'a> {
+    /// One of these codes that stands not still.
+    fn new(codes: &'a [Packed]) -> Self {
+        Self {
+            codes,
+            half: &[],
+            triggered: 0,
+            taken: 0,
+            still: 0,
+        }
+    }
+
+    /// Lets 400 half-buffers be triggered, from the middle one on standing still so often; before each one `put` puts what is received.
+    fn stand_still(
+        &mut self,
+        still: u32,
+        gatherer: &mut Gatherer<'_, i16>,
+        instrument: &mut Instrument<'_, i16>,
+        wire: &mut Wire<'_>,
+        put: impl Fn(usize),
+    ) {
+        for half in 1..=400 {
+            self.triggered += HALF;
+            if half == 200 {
+                self.still = still;
+            }
+            put(half);
+            // While it stands still no interrupt of its own comes.
+            if self.still == 0 || instrument.asks_for_source() {
+                gatherer.serve(self);
+            }
+            let now = half * HALF * 1000 / SAMPLE_RATE as usize;
+            instrument.poll(now as u32, |_| {});
+            wire.pass(4 * BYTES);
+        }
+    }
 }
 
 impl Source for Halting<'_> {
@@ -74,26 +113,8 @@ fn a_converter_that_stands_still_is_started_anew() {
             .split(&mut places, hop_of(5), Cause::Unknown)
             .expect("the settings can be");
         let mut wire = Wire::new(parts.out);
-        let mut source = Halting {
-            codes: &codes,
-            half: &[],
-            triggered: 0,
-            taken: 0,
-            still: 0,
-        };
-        for half in 1..=400 {
-            source.triggered += HALF;
-            if half == 200 {
-                source.still = still;
-            }
-            // While it stands still no interrupt of its own comes.
-            if source.still == 0 || parts.instrument.asks_for_source() {
-                parts.gatherer.serve(&mut source);
-            }
-            let now = half * HALF * 1000 / SAMPLE_RATE as usize;
-            parts.instrument.poll(now as u32, |_| {});
-            wire.pass(4 * BYTES);
-        }
+        let mut source = Halting::new(&codes);
+        source.stand_still(still, parts.gatherer, parts.instrument, &mut wire, |_| {});
         let told = counters(&wire.reports);
         parts.instrument.report_counters();
         wire.pass(100 * BYTES);
@@ -128,31 +149,16 @@ fn requests_that_wait_do_not_keep_a_converter_from_being_started_anew() {
         .split(&mut places, hop_of(5), Cause::Unknown)
         .expect("the settings can be");
     let mut wire = Wire::new(parts.out);
-    let mut source = Halting {
-        codes: &codes,
-        half: &[],
-        triggered: 0,
-        taken: 0,
-        still: 0,
-    };
-    for half in 1..=400 {
-        source.triggered += HALF;
-        if half == 200 {
-            source.still = 1;
-        }
+    let mut source = Halting::new(&codes);
+    let inbox = parts.inbox;
+    source.stand_still(1, parts.gatherer, parts.instrument, &mut wire, |half| {
         if (200..200 + 2 * REQUESTS).contains(&half) {
             // No interrupt comes that would take it from the queue.
             bytes(half as u16, Command::SetWindow { periods: 12 })
                 .iter()
-                .for_each(|&byte| parts.inbox.put(byte));
+                .for_each(|&byte| inbox.put(byte));
         }
-        if source.still == 0 || parts.instrument.asks_for_source() {
-            parts.gatherer.serve(&mut source);
-        }
-        let now = half * HALF * 1000 / SAMPLE_RATE as usize;
-        parts.instrument.poll(now as u32, |_| {});
-        wire.pass(4 * BYTES);
-    }
+    });
     assert_eq!(source.still, 0);
 }
 

@@ -8,6 +8,46 @@ use host_tests::score::errors;
 use host_tests::{Core, RATE, gyro, identify_changed, stream, windows};
 
 #[test]
+fn what_is_reacquired_in_a_misfit_is_told_again_with_the_first_row_that_is_none() {
+    // The frequency is known: the window in which the wave comes back, elsewhere, is the first.
+    let settings = Settings {
+        frequency: Some(5332.0),
+        ..windows(10)
+    };
+    let wave = Wave {
+        main_amplitude: 0.5,
+        ..Wave::default()
+    };
+    let turned = Wave {
+        angle: wave.angle + 2.0,
+        ..wave
+    };
+    let mut misfits = 0;
+    for onset in (20_000..20_190).step_by(10) {
+        let mut core = Core::new(settings).unwrap();
+        let mut found = Vec::new();
+        for k in 0..24_000u32 {
+            let noise = 1e-4 * f64::from(k.wrapping_mul(0x9e37_79b9)) / 2f64.powi(32);
+            let (c, d) = if k < 10_000 {
+                wave.pick_offs(f64::from(k) / RATE)
+            } else if k < onset {
+                (0.0, 0.0)
+            } else {
+                turned.pick_offs(f64::from(k) / RATE)
+            };
+            found.extend(core.push([(c + noise) as f32, (d - noise) as f32]));
+        }
+        let mut again = found.iter().filter(|e| e.end() > u64::from(onset));
+        let is_misfit = |e: &&Estimate| e.flags.contains(Flags::MISFIT);
+        misfits += again.clone().take_while(is_misfit).count();
+        let first = again.find(|e| !is_misfit(e)).unwrap().flags;
+        assert_eq!(first, Flags::REACQUIRED, "{onset}");
+        assert!(again.all(|e| e.flags.is_empty()), "{onset}");
+    }
+    assert!(misfits > 0);
+}
+
+#[test]
 fn a_wave_that_comes_back_is_reacquired_once_and_its_angle_runs_on() {
     // Silence of both pick-offs for 0.1 s, of a pattern whose angle has run over several quarter turns.
     for seed in 0..5 {

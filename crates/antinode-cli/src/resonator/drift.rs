@@ -2,6 +2,7 @@
 
 use super::by_energy::Seen;
 use super::found::Measured;
+use super::line::Times;
 
 /// Deviations from which on a drift is seen.
 const SEEN: f64 = 3.5;
@@ -16,24 +17,18 @@ pub struct Drift {
 
 /// The line through a run.
 pub fn drift(run: &[Seen], is_told: bool) -> Drift {
-    let (mut weights, mut mean, mut level) = (0.0, 0.0, 0.0);
-    let (mut of_time, mut product, mut of_beyond) = (0.0, 0.0, 0.0);
-    for row in run {
-        weights += row.weight;
-        let share = row.weight / weights;
-        let (apart, above) = (row.time - mean, row.beyond - level);
-        mean += share * apart;
-        level += share * above;
-        of_time += row.weight * apart * (row.time - mean);
-        product += row.weight * apart * (row.beyond - level);
-        of_beyond += row.weight * above * (row.beyond - level);
-    }
-    let slope = product / of_time;
-    let scatter = (of_beyond - slope * product) / (run.len() - 2) as f64;
+    let times = Times::new(run.iter().map(|row| [row.weight, row.time]));
+    let slope = times.slope(run.iter().map(|row| row.beyond));
+    let squares = slope * slope * times.along;
+    let weights: f64 = run.iter().map(|row| row.weight).sum();
+    let mean = run.iter().map(|row| row.weight * row.beyond).sum::<f64>() / weights;
+    let all = run
+        .iter()
+        .map(|row| row.weight * (row.beyond - mean).powi(2));
+    let scatter = (all.sum::<f64>() - squares) / (run.len() - 2) as f64;
     let scatter = if is_told { scatter.max(1.0) } else { scatter };
-    let squares = slope * product;
     Drift {
-        slope: (slope, (scatter / of_time).sqrt()),
+        slope: (slope, (scatter / times.along).sqrt()),
         squares: if is_told && squares > SEEN * SEEN * scatter {
             squares
         } else {

@@ -9,6 +9,9 @@ use super::is_alike;
 use super::stretches::{Told, stretches};
 use crate::runs::Runs;
 
+/// Stretches of a run, at least, if it has as many rows.
+const STRETCHES: usize = 100;
+
 /// The mean frequency.
 pub struct Frequency {
     /// Hz.
@@ -52,12 +55,12 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
     let runs = rows.runs.iter().map(|run| {
         let pairs = run.rows.iter().zip(&mut moved);
         let told: Vec<_> = pairs.map(|(row, moved)| tell(row, &moved)).collect();
-        if is_told {
-            stretches(&told, from)
+        let most = if is_told {
+            told.len().div_ceil(STRETCHES)
         } else {
-            let alone = told.chunks(1);
-            alone.flat_map(|told| stretches(told, from)).collect()
-        }
+            1
+        };
+        stretches(&told, most, from)
     });
     let runs: Vec<Vec<Seen>> = runs.collect();
     let all = || runs.iter().flatten();

@@ -3,10 +3,9 @@
 use std::f64::consts::TAU;
 
 use super::by_energy::Seen;
+use super::line::Times;
 use crate::runs::Row;
 
-/// Stretches of a run, at least, if it has as many rows.
-const STRETCHES: usize = 100;
 /// Deviations of what the phase runs on by that must lie within half a turn: else nobody knows how many turns it was.
 const KNOWN: f64 = 6.0;
 
@@ -37,9 +36,8 @@ impl Told<'_> {
     }
 }
 
-/// The stretches of a run; frequencies are beyond `from`, Hz.
-pub fn stretches(run: &[Told], from: f64) -> Vec<Seen> {
-    let most = run.len().div_ceil(STRETCHES);
+/// The stretches of a run, of so many rows at the most; frequencies are beyond `from`, Hz.
+pub fn stretches(run: &[Told], most: usize, from: f64) -> Vec<Seen> {
     let mut stretches = Vec::new();
     let mut begun: Option<Stretch> = None;
     for told in run {
@@ -108,30 +106,13 @@ impl<'a> Stretch<'a> {
             );
         }
         // The slopes of the straight lines through what was run up to, by as much as the noise of the phases leaves.
-        let weights = self
-            .rows
-            .iter()
-            .map(|told| (TAU / told.row.phase_deviation).powi(2));
-        let times = self.rows.iter().map(|told| told.row.time - first.time);
-        let known: Vec<[f64; 2]> = weights.zip(times).map(|pair| pair.into()).collect();
-        let all: f64 = known.iter().map(|[weight, _]| weight).sum();
-        let middle = known
-            .iter()
-            .map(|[weight, time]| weight * time)
-            .sum::<f64>()
-            / all;
-        let along: f64 = known
-            .iter()
-            .map(|[weight, time]| weight * (time - middle).powi(2))
-            .sum();
-        if along > 0.0 {
-            let slopes = std::array::from_fn(|i| {
-                let products = known.iter().zip(&self.run);
-                let products =
-                    products.map(|([weight, time], run)| weight * (time - middle) * run[i]);
-                products.sum::<f64>() / along
-            });
-            add(along, slopes);
+        let times = Times::new(self.rows.iter().map(|told| {
+            let row = told.row;
+            [(TAU / row.phase_deviation).powi(2), row.time - first.time]
+        }));
+        if times.along > 0.0 {
+            let slope = |i: usize| times.slope(self.run.iter().map(|run| run[i]));
+            add(times.along, std::array::from_fn(slope));
         }
         let [beyond, energy, time] = sums.map(|sum| sum / weight);
         Seen {
@@ -197,7 +178,7 @@ mod tests {
         let (mut squares, mut count, mut least) = (0.0, 0.0, f64::INFINITY);
         for seed in 0..20 {
             let rows = rows(3000, seed);
-            let seen = stretches(&told(&rows), 5330.0);
+            let seen = stretches(&told(&rows), 30, 5330.0);
             assert_eq!(seen.len(), 100);
             for seen in &seen {
                 let truth = 5332.1 + 0.01 * (seen.time - 100.0) - 0.02 - 5330.0;
@@ -224,7 +205,7 @@ mod tests {
         for row in &mut rows[2000..] {
             row.phase = None;
         }
-        let seen = stretches(&told(&rows), 5330.0);
+        let seen = stretches(&told(&rows), 30, 5330.0);
         // 1000 and 1000 rows by 30, and 1000 by themselves.
         assert_eq!(seen.len(), 34 + 34 + 1000);
         for seen in &seen[2 * 34..] {

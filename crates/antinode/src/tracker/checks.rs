@@ -113,7 +113,8 @@ pub(crate) fn within(
         && beyond > limit_of(reach, remains.freedom, remains.third_freedom) * about_third;
     // What is white is seen better in both together.
     let both = remains.freedom + remains.third_freedom;
-    let wide = (remains.residual + remains.third_noise * remains.third_freedom) / both;
+    let over_both = |third: f32| (remains.residual + third * remains.third_freedom) / both;
+    let wide = over_both(remains.third_noise);
     // Blocks of a few samples have more sums than samples: no more is known than these tell, less ten unknowns.
     let wide_freedom = lesser(both, 4.0 * model.half - 10.0);
     let louder = known
@@ -140,7 +141,7 @@ pub(crate) fn within(
     let misfit = coloured || louder || outlier || stepped || !fit.settled;
     flags = flags.with_if(misfit, Flags::MISFIT);
 
-    let alone = (remains.residual + remains.third_alone * remains.third_freedom) / both;
+    let alone = over_both(remains.third_alone);
     let third_noise = greater(remains.third_alone, lesser(alone, noise.wide));
     let harmonic = remains.third_freedom >= LEAST_FREEDOM
         && has_harmonic(model, remains, wave, coding, third_noise);

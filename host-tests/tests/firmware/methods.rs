@@ -69,6 +69,18 @@ fn methods_come_with_their_windows() {
 }
 
 #[test]
+fn the_first_window_after_a_tuning_is_compared_once_its_sums_are_whole() {
+    let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 50_000);
+    // A window begins with every block: the first one whose blocks all have sums, too.
+    let mut commands = bytes(1, Command::SetHop { blocks: Some(1) });
+    commands.extend(bytes(2, Command::SetMethods { on: true }));
+    let methods = methods(&mirror::reports::<i16>(&recording, &commands, 1));
+    assert!(methods.len() > 1000, "{}", methods.len());
+    let disagree = methods.iter().filter(|m| m.disagree).count();
+    assert_eq!(disagree, 0, "of {}", methods.len());
+}
+
+#[test]
 #[ignore = "needs the ARM target and QEMU"]
 fn methods_are_off_by_default_and_again() {
     let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 50_000);

@@ -99,6 +99,42 @@ fn the_bound_is_reached_in_hum() {
 }
 
 #[test]
+fn slow_hum_bends_no_block() {
+    // 50 Hz alone, a tenth of the wave and 500 times the noise or more: what it does within blocks beside their slopes is seen then.
+    for noise in [2e-4, 3e-5] {
+        let mut score = Score::default();
+        for seed in 0..20 {
+            let wave = random_wave(seed, 5332.0, 0.5);
+            let noise = noise * wave.main_amplitude;
+            let flaws = Flaws {
+                noise,
+                ..Flaws::default()
+            };
+            let size = 0.1 * wave.main_amplitude;
+            let found = identify_changed(
+                wave,
+                &flaws,
+                settings(10, true),
+                40_000,
+                seed,
+                |k, [c, d]| {
+                    let tone = size * (std::f64::consts::TAU * 50.0 * k as f64 / RATE).sin();
+                    [c + tone, d + 0.8 * tone]
+                },
+            );
+            for estimate in &found {
+                score.add(estimate, &wave, noise);
+            }
+        }
+        let error = score.error();
+        println!("50 Hz of 0.1 a_A, noise of {noise} a_A: rms error/bound {error:.3?}");
+        for (name, error) in NAMES.iter().zip(error) {
+            assert!(error < 1.5, "{name} at {error:.3}");
+        }
+    }
+}
+
+#[test]
 fn hum_alone_is_no_fault_over_gaps_and_at_its_crests() {
     for (size, periods, hop) in [
         (0.01, 10, Some(20)),

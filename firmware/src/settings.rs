@@ -98,6 +98,9 @@ const _: () = {
         Err(SettingsError::PickOffAngle(_)) => {
             panic!("CALIBRATION: pick_off_angle must be -0.3 to 0.3 rad")
         }
+        Err(SettingsError::HumPeriods { .. }) => {
+            panic!("HUM: PERIODS must be 5 or more, or 10 with a HOP")
+        }
         Err(_) => panic!("see antinode::Settings"),
     }
     if let Some(frequency) = FREQUENCY {

@@ -161,7 +161,7 @@ enum
     ANTINODE_ERROR_SKEW = -19,
     // `pick_off_angle_rad` is not within +-0.3.
     ANTINODE_ERROR_PICK_OFF_ANGLE = -20,
-    // `hum` is neither 0 nor 1.
+    // `hum` is neither 0 nor 1, or windows with it have fewer than 5 periods, or 10 with a hop.
     ANTINODE_ERROR_HUM = -21,
     // `frequency_hz` is neither 0 nor within `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5.
     ANTINODE_ERROR_FREQUENCY = -22,
@@ -226,8 +226,7 @@ typedef struct {
     // How the pick-offs differ from ideal ones. Default: not at all.
     antinode_calibration_t calibration;
     // 1 where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
-    // only moves an offset is neither noise nor a fault. In windows of less than five periods, or ten where there is a hop, blocks are
-    // shorter, and this does nothing. 0, the default: not.
+    // only moves an offset is neither noise nor a fault. Windows must have 5 periods for it, or 10 with a hop. 0, the default: not.
     uint32_t hum;
     // 1 where the noise is not white: a tuned front end, or a filter that ends below three times the frequency, leaves less than a
     // sixteenth of its power there. That is no fault then, and blocks have offsets of their own as with `hum`. Of what is in every window

@@ -59,8 +59,7 @@ pub struct Settings {
     /// How the pick-offs differ from ideal ones. Default: not at all.
     pub calibration: Calibration,
     /// 1 where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
-    /// only moves an offset is neither noise nor a fault. In windows of less than five periods, or ten where there is a hop, blocks are
-    /// shorter, and this does nothing. 0, the default: not.
+    /// only moves an offset is neither noise nor a fault. Windows must have 5 periods for it, or 10 with a hop. 0, the default: not.
     pub hum: u32,
     /// 1 where the noise is not white: a tuned front end, or a filter that ends below three times the frequency, leaves less than a
     /// sixteenth of its power there. That is no fault then, and blocks have offsets of their own as with `hum`. Of what is in every window

@@ -52,7 +52,7 @@ pub enum Status {
     ErrorSkew = -19,
     /// `pick_off_angle_rad` is not within ±0.3.
     ErrorPickOffAngle = -20,
-    /// `hum` is neither 0 nor 1.
+    /// `hum` is neither 0 nor 1, or windows with it have fewer than 5 periods, or 10 with a hop.
     ErrorHum = -21,
     /// `frequency_hz` is neither 0 nor within `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5.
     ErrorFrequency = -22,
@@ -114,7 +114,10 @@ impl Status {
             Self::ErrorPickOffAngle,
             c"pick_off_angle_rad must lie within +-0.3",
         ),
-        (Self::ErrorHum, c"hum must be 0 or 1"),
+        (
+            Self::ErrorHum,
+            c"hum must be 0 or 1, and 0 where periods < 5, or < 10 with a hop",
+        ),
         (
             Self::ErrorFrequency,
             c"frequency_hz must be 0 or lie within sample_rate_hz / 200 and sample_rate_hz / 2.5",
@@ -137,6 +140,7 @@ impl From<SettingsError> for Status {
             SettingsError::GainRatio(_) => Self::ErrorGainRatio,
             SettingsError::Skew(_) => Self::ErrorSkew,
             SettingsError::PickOffAngle(_) => Self::ErrorPickOffAngle,
+            SettingsError::HumPeriods { .. } => Self::ErrorHum,
             // The enum may grow; the sample rate is what is left today.
             _ => Self::ErrorSampleRate,
         }

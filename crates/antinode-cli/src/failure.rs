@@ -58,6 +58,7 @@ impl From<SettingsError> for Failure {
             SettingsError::Rails(_) => "--full-scale: ",
             SettingsError::Resolution(_) => "--resolution: ",
             SettingsError::StartAngle(_) => "--start-angle: ",
+            SettingsError::HumPeriods { .. } => "--hum: ",
             _ => "",
         };
         Self::Usage(format!("{option}{error}"))

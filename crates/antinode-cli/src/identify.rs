@@ -56,14 +56,6 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     }
     .check(usize::from(MOST_PERIODS) + 2)?;
     in_order(options.from, options.to)?;
-    // The core would do without it there, and nothing would tell.
-    let least = if options.hop.is_some() { 10 } else { 5 };
-    if options.hum && options.periods < least {
-        return Err(Failure::Usage(format!(
-            "--hum: windows of {} periods are too short for it: give --periods {least} or more",
-            options.periods
-        )));
-    }
     warn_of_twins(&options.files);
     let (whole, out) = output(options)?;
     let mut rows = Rows::new(

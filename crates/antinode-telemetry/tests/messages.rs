@@ -158,7 +158,7 @@ fn a_frame_is_laid_out_as_documented() {
         number: 0,
         report: Report::State(State::Tracking),
     });
-    // Python: zlib.crc32(bytes([10, 0, 2, 2])) is 0x92c13cd6.
-    let expected = [0, 2, 10, 7, 2, 2, 0xd6, 0x3c, 0xc1, 0x92, 0];
+    // Python: zlib.crc32(bytes([12, 0, 2, 2])) is 0xb7aa630a.
+    let expected = [0, 2, 12, 7, 2, 2, 0x0a, 0x63, 0xaa, 0xb7, 0];
     assert_eq!(sent, expected);
 }

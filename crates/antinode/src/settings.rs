@@ -83,7 +83,7 @@ pub struct Settings {
     #[cfg_attr(feature = "serde", serde(default = "crate::serial::watch"))]
     pub watch: bool,
     /// True where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
-    /// only moves an offset is neither noise nor a fault. Windows need 5 periods for it, with a hop 10; shorter ones do without.
+    /// only moves an offset is neither noise nor a fault. Windows must have 5 periods for it, or 10 with a hop.
     #[cfg_attr(feature = "serde", serde(default))]
     pub hum: bool,
     /// True where the noise is not white: a tuned front end, or a filter that cuts off below three times the frequency, leaves less than a
@@ -129,6 +129,13 @@ pub enum SettingsError {
     Skew(f32),
     /// The pick-off angle is outside ±0.3 rad.
     PickOffAngle(f32),
+    /// Windows too short to tell the wave from hum.
+    HumPeriods {
+        /// The periods asked for.
+        periods: u16,
+        /// The fewest with hum: 5, or 10 with a hop.
+        least: u16,
+    },
 }
 
 impl fmt::Display for SettingsError {
@@ -175,6 +182,12 @@ impl fmt::Display for SettingsError {
                 write!(
                     f,
                     "pick-off angle error {angle} rad: it must lie within ±0.3"
+                )
+            }
+            Self::HumPeriods { periods, least } => {
+                write!(
+                    f,
+                    "{periods} periods a window: hum is taken out of {least} or more"
                 )
             }
         }
@@ -256,6 +269,14 @@ impl Settings {
         }
         if let Some(0) = self.hop {
             return Err(SettingsError::Hop);
+        }
+        // Blocks of less than a period have no offsets of their own.
+        let least = if self.hop.is_some() { 10 } else { 5 };
+        if self.hum && self.periods < least {
+            return Err(SettingsError::HumPeriods {
+                periods: self.periods,
+                least,
+            });
         }
         if !within(self.start_angle, -1e4, 1e4) {
             return Err(SettingsError::StartAngle(self.start_angle));

@@ -191,6 +191,18 @@ fn settings_that_cannot_work_are_refused() {
         refused(|s| s.periods = 1),
         Some(SettingsError::PeriodsTooFew(1))
     );
+    let too_short = |periods, least| Some(SettingsError::HumPeriods { periods, least });
+    assert_eq!(refused(|s| (s.periods, s.hum) = (4, true)), too_short(4, 5));
+    assert_eq!(
+        refused(|s| (s.periods, s.hop, s.hum) = (9, Some(1), true)),
+        too_short(9, 10)
+    );
+    assert_eq!(refused(|s| (s.periods, s.hum) = (5, true)), None);
+    assert_eq!(
+        refused(|s| (s.periods, s.hop, s.hum) = (10, Some(1), true)),
+        None
+    );
+    assert_eq!(refused(|s| (s.periods, s.coloured) = (2, true)), None);
     assert_eq!(
         refused(|s| s.periods = 255),
         Some(SettingsError::PeriodsTooMany {

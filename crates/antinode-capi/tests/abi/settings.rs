@@ -61,7 +61,7 @@ fn every_setting_reaches_the_core_in_both() {
 fn refused_settings_leave_no_state<S: Arithmetic>() {
     let codes = codes(100, 5_332.0);
     let plain = antinode_settings_default(RATE);
-    let refused: [(Status, Change); 14] = [
+    let refused: [(Status, Change); 16] = [
         (Status::ErrorSampleRate, |s| s.sample_rate_hz = 0.5),
         (Status::ErrorPeriods, |s| s.periods = 51),
         (Status::ErrorHop, |s| s.hop_blocks = 65_536),
@@ -72,6 +72,10 @@ fn refused_settings_leave_no_state<S: Arithmetic>() {
         (Status::ErrorDetection, |s| s.detection = 2),
         (Status::ErrorWatch, |s| s.watch = 2),
         (Status::ErrorHum, |s| s.hum = 2),
+        (Status::ErrorHum, |s| (s.hum, s.periods) = (1, 4)),
+        (Status::ErrorHum, |s| {
+            (s.hum, s.periods, s.hop_blocks) = (1, 9, 3);
+        }),
         (Status::ErrorColoured, |s| s.coloured = 2),
         (Status::ErrorGainRatio, |s| s.calibration.gain_ratio = 0.0),
         (Status::ErrorSkew, |s| s.calibration.skew_s = 1.0),

@@ -52,6 +52,7 @@ fn options_that_make_no_sense_are_refused() {
     let cases = [
         ("--periods 1", "--periods <N>': 1 is not in 2..=1022"),
         ("--periods 1023", "1023 is not in 2..=1022"),
+        ("--periods 4 --hum", "--hum: 4 periods a window"),
         ("--hop 0", "--hop <BLOCKS>': 0 is not in 1.."),
         ("--rate fast", "'fast' for '--rate <HZ>'"),
         ("--rate 0", "'--rate <HZ>': it must be 1 to 10000000000 Hz"),

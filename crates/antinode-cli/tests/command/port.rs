@@ -269,7 +269,7 @@ fn a_monitor_on_a_port_shows_what_comes_until_it_is_interrupted() {
         .read_to_string(&mut told)
         .unwrap();
     assert!(
-        told.starts_with("device: firmware 1.2.3, protocol 5"),
+        told.starts_with("device: firmware 1.2.3, protocol 6"),
         "{told}"
     );
     assert!(

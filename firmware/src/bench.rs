@@ -225,7 +225,13 @@ where
     // Which call it is: they are the same in every run.
     let (mut longest, mut call) = (0, None);
     for periods in WAVES.step_by(7) {
-        for flaw in [Flaw::None, Flaw::Clipped, Flaw::Held] {
+        for flaw in [
+            Flaw::None,
+            Flaw::Clipped,
+            Flaw::Held,
+            Flaw::Tone,
+            Flaw::Noise,
+        ] {
             codes.make(periods, flaw);
             if front.configure(settings).is_err() {
                 leave()

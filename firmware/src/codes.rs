@@ -19,6 +19,10 @@ pub enum Flaw {
     Clipped,
     /// Every pair comes twice.
     Held,
+    /// Another tone is nearly as large.
+    Tone,
+    /// There is none, only noise as large.
+    Noise,
 }
 
 /// A wave with quadrature, both offsets, and noise of two codes, repeated without end.
@@ -39,20 +43,29 @@ impl Codes {
     /// Computes those of a wave of so many periods in 1406 pairs.
     pub fn make(&mut self, periods: u64, flaw: Flaw) {
         let mut seed = 1u32;
-        let mut noise = || {
+        let mut random = || {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            ((seed >> 29) as i16) - 4
+            seed >> 21
         };
+        let unit =
+            |turns: u64| antinode::phase::Phase((turns * (1 << 32) / RING as u64) as u32).unit();
         let mut last = Packed(0);
         for (k, pair) in self.ring.iter_mut().enumerate() {
-            let phase =
-                antinode::phase::Phase(((k as u64 * periods * (1 << 32)) / RING as u64) as u32);
-            let wave = phase.unit();
+            let wave = unit(k as u64 * periods);
             let (main, quadrature) = (1600.0 * wave.re, 80.0 * wave.im);
-            let mut c = (main * 0.5 - quadrature * 0.866) as i16 + 20 + noise();
-            let mut d = (main * 0.866 + quadrature * 0.5) as i16 - 15 + noise();
-            if let Flaw::Clipped = flaw {
-                (c, d) = (c.clamp(-400, 400), d.clamp(-700, 700));
+            let noise = [random(), random()].map(|bits| bits as i16);
+            let small = noise.map(|bits| (bits >> 8) - 4);
+            let mut c = (main * 0.5 - quadrature * 0.866) as i16 + 20 + small[0];
+            let mut d = (main * 0.866 + quadrature * 0.5) as i16 - 15 + small[1];
+            match flaw {
+                Flaw::None | Flaw::Held => {}
+                Flaw::Clipped => (c, d) = (c.clamp(-400, 400), d.clamp(-700, 700)),
+                Flaw::Tone => {
+                    let tone = unit(k as u64 * (periods * 7 / 5 + 1));
+                    c += (500.0 * tone.re) as i16;
+                    d += (900.0 * tone.im) as i16;
+                }
+                Flaw::Noise => (c, d) = (noise[0] - 1024, noise[1] - 1024),
             }
             if !matches!(flaw, Flaw::Held) || k % 2 == 0 {
                 last = Packed(u32::from(c as u16) | u32::from(d as u16) << 16);

@@ -70,6 +70,10 @@ impl Gauge {
     /// Begins to count: to be followed by `mark_begin`.
     #[inline(always)]
     pub fn start(&mut self) {
+        if let Some(peripherals) = &mut self.peripherals {
+            // The flag tells of what was before too: it is read away.
+            peripherals.SYST.has_wrapped();
+        }
         self.began = self.count();
     }
 

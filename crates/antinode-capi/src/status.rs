@@ -135,7 +135,9 @@ impl From<SettingsError> for Status {
             SettingsError::Hop => Self::ErrorHop,
             SettingsError::StartAngle(_) => Self::ErrorStartAngle,
             SettingsError::Rails(_) => Self::ErrorRails,
-            SettingsError::Frequency(_) => Self::ErrorFrequency,
+            SettingsError::Frequency(_) | SettingsError::FrequencyTooLow { .. } => {
+                Self::ErrorFrequency
+            }
             SettingsError::Resolution(_) => Self::ErrorResolution,
             SettingsError::GainRatio(_) => Self::ErrorGainRatio,
             SettingsError::Skew(_) => Self::ErrorSkew,

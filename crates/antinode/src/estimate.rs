@@ -1,7 +1,7 @@
 //! What a window says of the wave.
 
-use core::fmt;
-use core::ops::{BitOr, BitOrAssign};
+use core::fmt::{self, Alignment, Write};
+use core::ops::{BitAnd, BitOr, BitOrAssign};
 
 /// What is wrong or noteworthy about a window. A clean window has none.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Hash)]
@@ -28,7 +28,8 @@ impl Flags {
     /// other's axis, and is not flagged.
     pub const DEAD_CHANNEL: Self = Self(1 << 6);
     /// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
-    /// only. Also the first window after a change of calibration or settings, unless it is the first of all. It stands up to the first window
+    /// only. Also the first window after a change of calibration or settings, unless it is the first of all, or `configure` began at the
+    /// start angle. It stands up to the first window
     /// that is free of a misfit, and later windows continue that one's angle.
     pub const REACQUIRED: Self = Self(1 << 7);
     /// A sample is NaN or infinite, or so large that its square is.
@@ -120,16 +121,33 @@ impl BitOrAssign for Flags {
     }
 }
 
+impl BitAnd for Flags {
+    type Output = Self;
+
+    fn bitand(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+}
+
 impl fmt::Display for Flags {
-    /// The [`names`](Self::names) joined by `+`; nothing when clean.
+    /// The [`names`](Self::names) joined by `+`; nothing when clean. Width, fill and alignment are as those of text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let length = self.names().map(|name| name.len() + 1).sum::<usize>();
+        let (fill, room) = (f.fill(), f.width().unwrap_or(0));
+        let room = room.saturating_sub(length.saturating_sub(1));
+        let before = match f.align() {
+            Some(Alignment::Right) => room,
+            Some(Alignment::Center) => room / 2,
+            _ => 0,
+        };
+        (0..before).try_for_each(|_| f.write_char(fill))?;
         let mut join = "";
         for name in self.names() {
             f.write_str(join)?;
             f.write_str(name)?;
             join = "+";
         }
-        Ok(())
+        (before..room).try_for_each(|_| f.write_char(fill))
     }
 }
 
@@ -168,7 +186,7 @@ pub struct Estimate {
     pub start: u64,
     /// Sample pairs in the window.
     pub samples: u32,
-    /// Time of the window's middle, s from the stream's first sample.
+    /// Time of the window's middle, s from the stream's first sample: as if every pair had come at the present sample rate.
     pub time: f64,
     /// a_A, amplitude of the main standing wave, > 0.
     pub main_amplitude: f32,
@@ -210,7 +228,7 @@ pub struct Estimate {
 impl Estimate {
     /// Index in the stream of the sample pair after the window's last.
     pub const fn end(&self) -> u64 {
-        self.start + self.samples as u64
+        self.start.wrapping_add(self.samples as u64)
     }
 }
 
@@ -228,6 +246,14 @@ mod tests {
         assert_eq!(Flags::from_bits_truncate(flags.bits()), flags);
         assert_eq!(flags.to_string(), "clipped+not_finite");
         assert_eq!(std::format!("{flags:?}"), "Flags(clipped+not_finite)");
+        assert_eq!(flags & Flags::CLIPPED, Flags::CLIPPED);
+        assert!((flags & Flags::LOST).is_empty());
+        for flags in [Flags::empty(), Flags::LOST, flags] {
+            let text = flags.to_string();
+            assert_eq!(std::format!("{flags:20}|"), std::format!("{text:20}|"));
+            assert_eq!(std::format!("{flags:->9}"), std::format!("{text:->9}"));
+            assert_eq!(std::format!("{flags:^7}"), std::format!("{text:^7}"));
+        }
         assert!(flags.names().eq(["clipped", "not_finite"]));
         // Every bit that is kept has a name, and no other.
         assert_eq!(Flags::from_bits_truncate(u16::MAX).bits(), 0x1ff);

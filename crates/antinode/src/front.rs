@@ -107,7 +107,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     }
 
     /// Searches anew with other settings, in place: a new front in this one's place would take its size in stack. The count of
-    /// sample pairs goes on.
+    /// sample pairs goes on. Where a tracker is configured too, [the order of both matters](crate#on-a-microcontroller).
     ///
     /// # Errors
     ///
@@ -152,7 +152,10 @@ impl<S: Sample, const N: usize> Front<S, N> {
     pub(crate) const fn check_period(settings: &Settings) -> Result<(), SettingsError> {
         match (settings.frequency, settings.period()) {
             (Some(frequency), Some(period)) if !Self::holds(period) => {
-                Err(SettingsError::Frequency(frequency))
+                Err(SettingsError::FrequencyTooLow {
+                    frequency,
+                    most: N as u16,
+                })
             }
             _ => Ok(()),
         }
@@ -209,7 +212,8 @@ impl<S: Sample, const N: usize> Front<S, N> {
         self.stage = self.known.map_or(Stage::Searching, Stage::Found);
     }
 
-    /// True while a period is searched: never where the frequency is known.
+    /// True while a period is searched: never where the frequency is known. For ever, where it has fewer than 4 samples, or more than 200 or
+    /// `N`.
     pub fn is_searching(&self) -> bool {
         matches!(self.stage, Stage::Searching)
     }
@@ -220,7 +224,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     }
 
     /// Tells that `count` sample pairs were lost before the next one: the block that they would have been part of is dropped.
-    /// The index wraps at 2⁶².
+    /// An index that this takes to 2⁶² begins again at 0: no stream is as long.
     pub fn skip(&mut self, count: u64) {
         if count == 0 {
             return;

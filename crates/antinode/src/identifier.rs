@@ -64,14 +64,32 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         })
     }
 
+    /// Checks settings as [`new`](Self::new) does, in a constant too: those that a [`Front`] and a [`Tracker`] of these sizes both take.
+    ///
+    /// ```
+    /// use antinode::{Identifier, Settings};
+    ///
+    /// const SETTINGS: Settings = Settings { periods: 14, frequency: Some(5_332.0), ..Settings::new(100_000.0) };
+    /// const _: () = assert!(Identifier::<i16, 40, 16>::check(&SETTINGS).is_ok());
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of [`new`](Self::new).
+    pub const fn check(settings: &Settings) -> Result<(), SettingsError> {
+        match settings.check(BLOCKS) {
+            Ok(()) => Front::<S, N>::check_period(settings),
+            Err(error) => Err(error),
+        }
+    }
+
     /// Begins anew from cold with other settings, in place. The count of sample pairs goes on.
     ///
     /// # Errors
     ///
     /// Those of [`Identifier::new`]; nothing is changed then.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
-        settings.check(BLOCKS)?;
-        Front::<S, N>::check_period(&settings)?;
+        Self::check(&settings)?;
         self.tracker.set(&settings);
         self.front.set(&settings);
         self.search_if_wanted();
@@ -91,8 +109,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     ///
     /// Those of [`Identifier::new`]; nothing is changed then.
     pub fn change(&mut self, settings: Settings) -> Result<(), SettingsError> {
-        settings.check(BLOCKS)?;
-        Front::<S, N>::check_period(&settings)?;
+        Self::check(&settings)?;
         self.tracker.change(settings)?;
         self.front.set(&settings);
         Ok(())

@@ -101,6 +101,19 @@ mod tests {
         assert_eq!(serde_json::from_str::<Settings>(&text).unwrap(), settings);
         let least: Settings = serde_json::from_str("{\"sample_rate\": 1e5}").unwrap();
         assert_eq!(least, Settings::new(1e5));
+        let skewed = "{\"sample_rate\": 1e5, \"calibration\": {\"skew\": 1e-7}}";
+        let skewed: Settings = serde_json::from_str(skewed).unwrap();
+        let calibration = Calibration {
+            skew: 1e-7,
+            ..Calibration::IDEAL
+        };
+        assert_eq!(
+            skewed,
+            Settings {
+                calibration,
+                ..least
+            }
+        );
         assert!(serde_json::from_str::<Settings>("{\"periods\": 5}").is_err());
         let mut identifier = crate::Identifier::<f32, 200, 16>::new(Settings {
             frequency: Some(5000.0),

@@ -68,7 +68,8 @@ pub struct Settings {
     /// `None` where they are not known. A signed converter of 12 bits, taken as codes, has −2048 and 2047.
     pub rails: Option<[f32; 2]>,
     /// Step between neighbouring codes of the converter, input units, > 0, where it is known: 1 of codes. With less noise
-    /// than a step, errors repeat with the signal and do not average: where the step is given, deviations count them.
+    /// than a step, errors repeat with the signal and do not average: where the step is given, deviations count them. A wave of
+    /// about a step or less is not found.
     pub resolution: Option<f32>,
     /// The wave's frequency in Hz, where it is known within 5 %: no period is searched, and the first window begins with the first
     /// sample, even in noise nearly as large as the wave. It may have 2.5 samples a period or more, and no more than a block holds, `N`.
@@ -121,7 +122,7 @@ pub enum SettingsError {
     Rails([f32; 2]),
     /// The resolution is not a positive number.
     Resolution(f32),
-    /// The frequency is not a positive number, has fewer than 2.5 samples a period, or more than a block holds.
+    /// The frequency is not a positive number, or has fewer than 2.5 samples a period.
     Frequency(f32),
     /// The gain ratio is outside 0.1 to 10.
     GainRatio(f32),
@@ -135,6 +136,13 @@ pub enum SettingsError {
         periods: u16,
         /// The fewest with hum: 5, or 10 with a hop.
         least: u16,
+    },
+    /// A period of the known frequency does not fit in a block.
+    FrequencyTooLow {
+        /// The frequency asked for, Hz.
+        frequency: f32,
+        /// The most sample pairs of a block, `N` of a [`Front`](crate::Front).
+        most: u16,
     },
 }
 
@@ -173,7 +181,7 @@ impl fmt::Display for SettingsError {
             Self::Frequency(frequency) => {
                 write!(
                     f,
-                    "frequency {frequency} Hz: it must lie below 0.4 of the sample rate, and a period must fit in a block"
+                    "frequency {frequency} Hz: it must be a positive number, and at most 0.4 of the sample rate"
                 )
             }
             Self::GainRatio(ratio) => write!(f, "gain ratio {ratio}: it must lie within 0.1 to 10"),
@@ -188,6 +196,12 @@ impl fmt::Display for SettingsError {
                 write!(
                     f,
                     "{periods} periods a window: hum is taken out of {least} or more"
+                )
+            }
+            Self::FrequencyTooLow { frequency, most } => {
+                write!(
+                    f,
+                    "frequency {frequency} Hz: a period must have {most} sample pairs at most, as many as a block has room for"
                 )
             }
         }
@@ -238,7 +252,7 @@ impl Settings {
         }
     }
 
-    /// Checks every value for a ring of `blocks`, the `BLOCKS` of a [`Tracker`](crate::Tracker). Whether a block holds a period of a known
+    /// Checks every value for a ring of `blocks`, the `BLOCKS` of a [`Tracker`](crate::Tracker), 11 to 65 535. Whether a block holds a period of a known
     /// frequency is what [`Front::check`](crate::Front::check) asks.
     ///
     /// ```

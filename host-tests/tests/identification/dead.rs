@@ -95,3 +95,32 @@ fn patterns_that_turn_past_the_axes_are_no_dead_pick_offs() {
     }
     assert!(count > 30_000);
 }
+
+#[test]
+fn a_wave_that_ends_in_one_and_the_same_code_leaves_numbers() {
+    let mut lost = 0;
+    for code in 1..2048 {
+        let settings = Settings {
+            resolution: Some(1.0),
+            ..windows(10)
+        };
+        let mut core = antinode::Identifier::<i16, 200, 16>::new(settings).unwrap();
+        let pairs = (0..2000).map(|k: i16| {
+            let wave = if k < 1000 {
+                1500.0 * (0.335 * f64::from(k)).cos()
+            } else {
+                0.0
+            };
+            [code + wave as i16, code + (0.6 * wave) as i16]
+        });
+        let pairs: Vec<_> = pairs.collect();
+        core.extend(&pairs, |estimate| {
+            assert!(
+                estimate.main_amplitude.is_finite() && estimate.residual_rms.is_finite(),
+                "{code}: {estimate:?}"
+            );
+            lost += u32::from(estimate.flags.contains(Flags::LOST));
+        });
+    }
+    assert!(lost > 2000, "{lost}");
+}

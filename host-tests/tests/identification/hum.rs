@@ -162,14 +162,8 @@ fn hum_alone_is_no_fault_over_gaps_and_at_its_crests() {
 }
 
 #[test]
-fn windows_too_short_for_it_do_without_the_setting() {
-    for (periods, hop, is_same) in [
-        (2, None, true),
-        (4, None, true),
-        (5, None, false),
-        (8, Some(5), true),
-        (10, Some(5), false),
-    ] {
+fn the_shortest_windows_that_may_have_the_setting_heed_it() {
+    for (periods, hop) in [(5, None), (10, Some(5))] {
         let wave = random_wave(1, 5332.0, 0.5);
         let flaws = Flaws {
             noise: 2e-4,
@@ -182,7 +176,7 @@ fn windows_too_short_for_it_do_without_the_setting() {
             };
             identified(wave, flaws.clone(), 0.01, 20_000, settings, 1)
         });
-        assert_eq!(with == without, is_same, "{periods} periods, hop {hop:?}");
+        assert_ne!(with, without, "{periods} periods, hop {hop:?}");
     }
 }
 

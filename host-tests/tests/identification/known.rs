@@ -293,7 +293,14 @@ fn a_frequency_of_which_no_block_holds_a_period_is_refused() {
         -5332.0,
         f32::INFINITY,
     ] {
-        let error = SettingsError::Frequency(frequency);
+        let error = if frequency > 0.0 && frequency < lowest {
+            SettingsError::FrequencyTooLow {
+                frequency,
+                most: 256,
+            }
+        } else {
+            SettingsError::Frequency(frequency)
+        };
         assert_eq!(refused(frequency), Some(error));
         let text = error.to_string();
         assert!(

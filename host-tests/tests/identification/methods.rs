@@ -289,3 +289,21 @@ fn the_frequency_of_formula_10_costs_algorithm_4_amplitude() {
         assert!((after - 2.0).abs() < 2e-3, "{after}");
     }
 }
+
+#[test]
+fn of_what_is_no_number_no_amplitude_is_found() {
+    let wave = Wave::default();
+    let mut pairs = samples(&wave, 4);
+    pairs[LEAD + 30][1] = f32::NAN;
+    let omega = omega(&wave);
+    for (index, found) in found(&pairs, omega).iter().enumerate() {
+        let shape = found.shape;
+        assert!(shape.main_amplitude.is_nan(), "{}: {found:?}", index + 1);
+    }
+    let solution = exact::solve(&pairs[LEAD..], omega);
+    assert!(
+        solution.wave.shape.main_amplitude.is_nan(),
+        "{:?}",
+        solution.wave
+    );
+}

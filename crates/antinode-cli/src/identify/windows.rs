@@ -69,7 +69,8 @@ impl<'a> Windows<'a> {
     ) -> Result<Self, Failure> {
         let settings = options.settings(rate, recording.full_scale(), recording.resolution());
         let core = Core::new(settings).map_err(|error| match error {
-            SettingsError::Frequency(frequency) => Failure::Usage(format!(
+            SettingsError::Frequency(frequency)
+            | SettingsError::FrequencyTooLow { frequency, .. } => Failure::Usage(format!(
                 "{name}: --frequency: {frequency} Hz, but at {rate} Hz it must lie within {:.6} to {} Hz, {LONGEST} to 2.5 samples a period",
                 rate / LONGEST as f64,
                 rate / 2.5

@@ -159,7 +159,7 @@ fn command_error() -> impl Strategy<Value = CommandError> {
         Just(CommandError::Unsupported),
         Just(CommandError::Calibrated),
         Just(CommandError::Busy),
-        (0..12, single(), double(), any::<(u16, u16)>()).prop_map(|(kind, s, d, (n, most))| {
+        (0..13, single(), double(), any::<(u16, u16)>()).prop_map(|(kind, s, d, (n, most))| {
             CommandError::Settings(match kind {
                 0 => SettingsError::SampleRate(d),
                 1 => SettingsError::PeriodsTooFew(n),
@@ -172,10 +172,11 @@ fn command_error() -> impl Strategy<Value = CommandError> {
                 8 => SettingsError::Skew(s),
                 9 => SettingsError::Frequency(s),
                 10 => SettingsError::PickOffAngle(s),
-                _ => SettingsError::HumPeriods {
+                11 => SettingsError::HumPeriods {
                     periods: n,
                     least: most,
                 },
+                _ => SettingsError::FrequencyTooLow { frequency: s, most },
             })
         }),
     ]

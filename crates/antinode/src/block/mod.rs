@@ -193,7 +193,7 @@ impl<S: Sample, const N: usize> Summing<S, N> {
         let length = usize::from(self.block.layout.length);
         let mut index = usize::from(self.count);
         if index >= length {
-            self.block.start += length as u64;
+            self.block.start = self.block.start.wrapping_add(length as u64);
             index = 0;
         }
         let pairs = pairs.get(..length - index).unwrap_or(pairs);

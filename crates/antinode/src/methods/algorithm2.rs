@@ -4,6 +4,7 @@
 //! then off by about a_A·(ωΔt₃)/2·sin 4θ; [`Delayed::quarter`] takes that out at no cost a sample.
 
 use super::delayed::Delayed;
+use super::functional::root;
 use super::moments::Moments;
 use super::wave::Shape;
 use crate::block::Pair;
@@ -12,8 +13,8 @@ use crate::block::Pair;
 pub fn shape(moments: &Moments, q: f64) -> Shape {
     let (cc, dd, cd) = moments.means();
     let power = 2.0 * (cc + dd);
-    let e = libm::sqrt((power + 4.0 * q).max(0.0));
-    let f = libm::sqrt((power - 4.0 * q).max(0.0));
+    let e = root(power + 4.0 * q);
+    let f = root(power - 4.0 * q);
     Shape {
         main_amplitude: 0.5 * (e + f),
         quadrature_amplitude: 0.5 * (f - e),

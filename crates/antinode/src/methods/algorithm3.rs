@@ -1,5 +1,6 @@
 //! Algorithm 3: the axes of the wave, formulas (21) and (22).
 
+use super::functional::root;
 use super::moments::Moments;
 use super::wave::Shape;
 
@@ -12,8 +13,8 @@ pub fn shape(moments: &Moments, sign: f64) -> Shape {
     let angle = 0.25 * libm::atan2(2.0 * cd, cc - dd);
     let (main, quadrature) = rotated(moments, angle);
     Shape {
-        main_amplitude: libm::sqrt((2.0 * main).max(0.0)),
-        quadrature_amplitude: libm::copysign(libm::sqrt((2.0 * quadrature).max(0.0)), sign),
+        main_amplitude: root(2.0 * main),
+        quadrature_amplitude: libm::copysign(root(2.0 * quadrature), sign),
         angle,
     }
 }

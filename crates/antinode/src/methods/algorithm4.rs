@@ -3,6 +3,7 @@
 //! It holds exactly only where the window fits the period, condition (8); elsewhere leakage remains: up to 1.3 % of a_A for a window
 //! of 19 samples at 18.75 a period, 0.36 % of the paper's wave. The window solution of the [`Tracker`](crate::Tracker) is its exact counterpart and has none.
 
+use super::functional::root;
 use super::phase;
 use super::products::Products;
 use super::wave::{Shape, Wave};
@@ -19,8 +20,8 @@ pub fn wave(products: &Products) -> Wave {
     let s = 2.0 * (sx * sy + cx * cy);
     let l = 2.0 * (sx * cx + sy * cy);
     let m = cx * cx + cy * cy - sx * sx - sy * sy;
-    let sum = libm::sqrt((e + q).max(0.0));
-    let difference = libm::sqrt((e - q).max(0.0));
+    let sum = root(e + q);
+    let difference = root(e - q);
     let shape = Shape {
         main_amplitude: 0.5 * (sum + difference),
         quadrature_amplitude: 0.5 * (sum - difference),

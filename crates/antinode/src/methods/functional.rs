@@ -24,6 +24,11 @@ pub(super) fn above_zero(squares: f64) -> f64 {
     if squares < 0.0 { 0.0 } else { squares }
 }
 
+/// The root of [`above_zero`].
+pub(super) fn root(squares: f64) -> f64 {
+    libm::sqrt(above_zero(squares))
+}
+
 /// (15), input units: the mean of |residual| of both pick-offs, at `omega` rad a sample. It takes the samples themselves, centred.
 ///
 /// Printed for algorithm 1, it serves any wave.

@@ -112,7 +112,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Waits for its first block anew with other settings, in place: a new tracker in this one's place would take its size in stack. Where
-    /// it had settings before, it [wants](Self::wanted_search) a new search, and blocks from before are left out.
+    /// it had settings before, it [wants](Self::wanted_search) a new search, and blocks from before are left out, if the front is
+    /// configured [in the right order](crate#on-a-microcontroller). The angle begins at the start angle, without a flag.
     ///
     /// # Errors
     ///
@@ -223,7 +224,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Takes a block that continues those gathered, or begins a window.
     #[inline(never)]
     fn take<S: Sample>(&mut self, block: &Block<S>) -> bool {
-        self.end = block.start + u64::from(block.layout.length);
+        self.end = block.start.wrapping_add(u64::from(block.layout.length));
         let (Some(model), Some(place)) = (&self.model, self.gathered.next()) else {
             return false;
         };
@@ -295,7 +296,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// continued. [`configure`](Self::configure) begins with the start angle instead, and comes first: where it did not, the angle begins at 0.
     ///
     /// The front needs the same `sample_rate`, `frequency`, `periods`, `hop`, `detection` and `watch`; where it is configured anew,
-    /// [`search`](Self::search) too, so that blocks from before are left out.
+    /// [`search`](Self::search) here too, [in the right order](crate#on-a-microcontroller), so that blocks from before are left out.
     ///
     /// # Errors
     ///

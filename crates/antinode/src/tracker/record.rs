@@ -114,7 +114,7 @@ impl Record {
         let [main, quadrature, of_angle, phase, drift, turning, decay] = stated;
         let per_amplitude = rate / self.main.value;
         Estimate {
-            start: (self.middle + 1 - u64::from(self.samples.get())) / 2,
+            start: self.middle.wrapping_sub(u64::from(self.samples.get()) - 1) / 2,
             samples: self.samples.get(),
             time,
             main_amplitude: self.main.value,

@@ -108,7 +108,7 @@ impl Standing {
         end: u64,
     ) -> Self {
         let samples = u32::from(model.blocks) * u32::from(model.layout.length);
-        let middle = 2 * end - u64::from(samples) - 1;
+        let middle = end.wrapping_mul(2).wrapping_sub(u64::from(samples) + 1);
         let [plus, minus] = fit.waves.value;
         let [plus_change, minus_change] = fit.waves.change;
         let absolute = |z: Complex32| square_root(z.norm_sqr());

@@ -101,7 +101,7 @@ impl Trend {
     /// Keeps a clean window of `samples`, unless it overlaps the last one kept.
     #[inline]
     pub(crate) fn keep(&mut self, middle: u64, samples: u32, angle: Angle, variance: f32) {
-        let overlaps = |last: &Point| middle < last.middle() + 2 * u64::from(samples);
+        let overlaps = |last: &Point| middle < last.middle().wrapping_add(2 * u64::from(samples));
         if self
             .known()
             .get(usize::from(self.last))

@@ -112,7 +112,8 @@ impl Waves {
             let (value, change) = (self.value[w], self.change[w]);
             let power = value.norm_sqr();
             let share = if power > small { 1.3 } else { 0.25 };
-            self.slope[w] = if change.norm_sqr() < share * power {
+            // Nor has one whose power has no inverse: that would be no number.
+            self.slope[w] = if change.norm_sqr() + f32::MIN_POSITIVE < share * power {
                 change * value.conj() * (1.0 / power)
             } else {
                 Complex32::ZERO

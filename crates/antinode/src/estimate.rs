@@ -16,7 +16,7 @@ impl Flags {
     pub const PHASE_JUMP: Self = Self(1 << 2);
     /// Amplitude, angle or offset stepped between the window before and this one. Beyond 0.2 % of a_A or 2 mrad, half of the steps of 20
     /// deviations that the window states are flagged, and all of 30; in the middle of a window, where [`MISFIT`](Self::MISFIT) may stand
-    /// instead, those of an amplitude from 25 and 35 deviations on, and of the angle, which may be a turn, from 60 and 85. An offset that
+    /// instead, those of an amplitude from 25 and 45 deviations on, and of the angle, which may be a turn, from 60 and 85. An offset that
     /// moves on as it did from window to window before wanders, and does not step.
     pub const STEP: Self = Self(1 << 3);
     /// |a_B| ≈ a_A: the pattern is circular, and the angle has no meaning.
@@ -27,8 +27,8 @@ impl Flags {
     /// 25 deviations of an amplitude half are flagged, and of 35 all. After a new search a dead one cannot be told from a pattern on the
     /// other's axis, and is not flagged.
     pub const DEAD_CHANNEL: Self = Self(1 << 6);
-    /// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
-    /// only. Also the first window after a change of calibration or settings, unless it is the first of all, or `configure` began at the
+    /// First window after the wave was lost, or after a gap or misfits in which the pattern may have turned by a quarter more or less: the angle is
+    /// known modulo π/2 only. Also the first window after a change of calibration or settings, unless it is the first of all, or `configure` began at the
     /// start angle. It stands up to the first window
     /// that is free of a misfit, and later windows continue that one's angle.
     pub const REACQUIRED: Self = Self(1 << 7);

@@ -146,3 +146,32 @@ fn faults_are_told_in_coloured_noise() {
         assert!(far.iter().all(|e| e.flags.is_empty()), "seed {seed}");
     }
 }
+
+#[test]
+fn a_first_window_that_the_wave_begins_in_is_no_noise_to_those_after_it() {
+    for begin in [20, 50, 80, 110, 140] {
+        let wave = Wave {
+            main_amplitude: 1.0,
+            quadrature_amplitude: 0.1,
+            ..Wave::default()
+        };
+        let flaws = Flaws {
+            noise: 1e-3,
+            ..Flaws::default()
+        };
+        let settings = Settings {
+            frequency: Some(5350.0),
+            ..settings(10, true)
+        };
+        let found = identify_changed(wave, &flaws, settings, 20_000, 1, |k, [c, d]| {
+            let (still_c, still_d) = wave.pick_offs(k as f64 / RATE);
+            let share = f64::from(u8::from(k < begin));
+            [c - share * still_c, d - share * still_d]
+        });
+        assert!(found.len() > 90);
+        for estimate in &found[2..] {
+            let deviation = f64::from(estimate.main_amplitude_std);
+            assert!(deviation < 2.5e-4, "from {begin} on: {estimate:?}");
+        }
+    }
+}

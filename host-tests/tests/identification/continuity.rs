@@ -198,3 +198,66 @@ fn a_search_or_a_change_of_settings_continues_the_angle() {
         .filter(|(_, estimate)| !estimate.flags.is_empty());
     assert_eq!(told.count(), 2);
 }
+
+#[test]
+fn the_angle_is_followed_through_misfits_while_the_pattern_turns_otherwise() {
+    let mut reacquired = 0;
+    for (seed, (before, after, seconds)) in [
+        (4.0, -4.0, 0.4),
+        (4.0, 0.0, 0.4),
+        (0.0, 4.0, 0.6),
+        (10.0, -10.0, 0.15),
+        (1.0, -1.0, 1.5),
+        (4.0, 4.0, 0.4),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let wave = Wave {
+            main_amplitude: 1.0,
+            quadrature_amplitude: 0.1,
+            ..Wave::default()
+        };
+        let flaws = Flaws {
+            noise: 1e-3,
+            ..Flaws::default()
+        };
+        let (from, middle, to) = (0.3, 0.3 + 0.5 * seconds, 0.3 + seconds);
+        let angle = |t: f64| 0.7 + before * t.min(middle) + after * (t - middle).max(0.0);
+        let count = ((to + 0.3) * RATE) as usize;
+        let found = identify_changed(
+            wave,
+            &flaws,
+            windows(10),
+            count,
+            seed as u64,
+            |k, [c, d]| {
+                let t = k as f64 / RATE;
+                let (still_c, still_d) = wave.pick_offs(t);
+                let turned = Wave {
+                    angle: angle(t),
+                    ..wave
+                };
+                let hum = if (from..to).contains(&t) {
+                    0.1 * (314.0 * t).sin()
+                } else {
+                    0.0
+                };
+                let (turned_c, turned_d) = turned.pick_offs(t);
+                [c - still_c + turned_c + hum, d - still_d + turned_d + hum]
+            },
+        );
+        let clean: Vec<_> = found.iter().filter(|e| e.flags.is_empty()).collect();
+        let misfits = found.iter().filter(|e| e.flags.contains(Flags::MISFIT));
+        assert!(clean.len() > 250 && misfits.count() > 70);
+        for estimate in clean {
+            let off = estimate.angle - angle(estimate.time);
+            assert!(off.abs() < 0.01, "{before} to {after} rad/s: {estimate:?}");
+        }
+        let is_told = found.iter().any(|e| e.flags == Flags::REACQUIRED);
+        // A rate that stays is promised rightly.
+        assert!(before != after || !is_told);
+        reacquired += u32::from(is_told);
+    }
+    assert!(reacquired >= 4, "{reacquired}");
+}

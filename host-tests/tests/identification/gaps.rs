@@ -382,3 +382,56 @@ fn a_rate_that_changes_between_windows_far_apart_is_learnt_anew() {
         }
     }
 }
+
+#[test]
+fn a_rate_that_changes_in_a_gap_leaves_no_angle_that_is_wrong_and_unflagged() {
+    // Turning before and after, rad/s, and how long nothing is seen: by more than π/4 otherwise than promised, and by less.
+    for (before, after, gap, is_told) in [
+        (0.0, 6.0, 0.3, true),
+        (6.0, -6.0, 0.3, true),
+        (0.0, 2.0, 1.0, true),
+        (0.0, 30.0, 0.05, true),
+        (6.0, 6.0, 0.3, false),
+        (0.0, 1.0, 0.3, false),
+    ] {
+        let still = Wave {
+            main_amplitude: 1.0,
+            quadrature_amplitude: 0.1,
+            ..Wave::default()
+        };
+        let from = 20_000;
+        let to = from + (gap * RATE) as usize;
+        let flaws = Flaws {
+            noise: 1e-3,
+            ..Flaws::default()
+        };
+        let mut pairs = stream(still, flaws, to + 20_000, 1);
+        for (k, pair) in pairs.iter_mut().enumerate() {
+            let t = k as f64 / RATE;
+            let change = from as f64 / RATE;
+            let angle = before * t.min(change) + after * (t - change).max(0.0);
+            let turned = Wave {
+                angle: still.angle + angle,
+                ..still
+            };
+            let ((c, d), (still_c, still_d)) = (turned.pick_offs(t), still.pick_offs(t));
+            pair[0] += (c - still_c) as f32;
+            pair[1] += (d - still_d) as f32;
+        }
+        let mut core = Core::new(windows(10)).unwrap();
+        core.extend(&pairs[..from], |estimate| {
+            assert!(estimate.flags.is_empty(), "{estimate:?}");
+        });
+        core.skip((to - from) as u64);
+        let mut first = None;
+        core.extend(&pairs[to..], |estimate| {
+            first.get_or_insert(estimate);
+        });
+        let flags = first.unwrap().flags;
+        assert_eq!(
+            flags.contains(Flags::REACQUIRED),
+            is_told,
+            "{before} to {after} rad/s in {gap} s: {flags}"
+        );
+    }
+}

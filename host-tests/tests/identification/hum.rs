@@ -313,3 +313,25 @@ fn a_ring_down_is_followed_under_its_hum() {
     assert!(with.len() > 4100 && clean(&with) > 4100);
     assert!(clean(&without) < 3500);
 }
+
+#[test]
+fn waves_of_any_size_that_the_core_takes_are_found_with_the_setting_too() {
+    for scale in [1e-15, 1e-14, 1.0, 1e14, 9e16] {
+        let wave = Wave {
+            main_amplitude: scale,
+            quadrature_amplitude: 0.1 * scale,
+            ..Wave::default()
+        };
+        let flaws = Flaws {
+            noise: 1e-3 * scale,
+            ..Flaws::default()
+        };
+        let settings = Settings {
+            hop: Some(10),
+            ..settings(10, true)
+        };
+        let found = identified(wave, flaws, 0.0, 20_000, settings, 1);
+        let clean = found.iter().filter(|e| e.flags.is_empty()).count();
+        assert!(clean > 95 && clean == found.len(), "{scale:e}: {clean}");
+    }
+}

@@ -2,7 +2,7 @@
 //!
 //! Every threshold is a false-alarm rate below 10⁻⁹ a window for white noise, plus a floor under which a deviation is no fault.
 
-use super::noise::{Noise, REACH, RISE, is_beyond_chance, is_louder, limit_of};
+use super::noise::{Noise, REACH, REACH_ONCE, RISE, is_beyond_chance, is_louder, limit_of};
 use super::standing::Standing;
 use crate::arch::square_root;
 use crate::estimate::Flags;
@@ -11,8 +11,6 @@ use crate::window::{Covariance, Fit, Model, Remains};
 
 /// Standard deviations of an innocent deviation.
 pub(super) const SIGMAS: f32 = 7.0;
-/// Standard deviations of one that is looked at only once, where no windows before are known: one in a million.
-const REACH_ONCE: f32 = 4.75;
 /// The square of an amplitude over its variance from which on it stands out of its noise: six deviations.
 pub(super) const SIGNIFICANT: f32 = 36.0;
 /// Below this share of a_A the lesser of the travelling waves is none, and the pattern a circle.

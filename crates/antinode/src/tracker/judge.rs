@@ -4,6 +4,7 @@ use super::angle::wrap;
 use super::checks::{self, Levels};
 use super::converter::{self, Coding};
 use super::failures::{Failures, LEFT};
+use super::followed::Followed;
 use super::record::{Record, Units};
 use super::standing::Standing;
 use super::{Tracker, between};
@@ -16,6 +17,12 @@ const BROKEN: Flags = Flags::LOST
     .with(Flags::MISFIT)
     .with(Flags::NOT_FINITE)
     .with(Flags::DEAD_CHANNEL);
+
+/// Flags of a window that has no angle of its own.
+const UNSEEN: Flags = Flags::LOST
+    .with(Flags::NOT_FINITE)
+    .with(Flags::DEAD_CHANNEL)
+    .with(Flags::CIRCULAR);
 
 impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Makes something of a fit's record and flags; nothing where there is no wave to be tracked.
@@ -55,12 +62,18 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             return None;
         }
 
-        let (expected, is_certain) = match &self.before {
-            Some(before) => before.angle_at(wave.record.middle, wave.record.samples.get()),
-            None => (self.angle, true),
-        };
         let record = &mut wave.record;
-        let (angle, quarters) = expected.nearest(record.angle.rest);
+        let (expected, rate, mut is_certain) = match &self.before {
+            Some(before) => before.angle_at(record),
+            None => (self.angle, 0.0, true),
+        };
+        let (mut angle, mut quarters) = expected.nearest(record.angle.rest);
+        if self.broken && self.before.is_some() {
+            let promised = quarters;
+            let followed = self.followed.at(record.middle, rate);
+            (angle, quarters) = followed.nearest(record.angle.rest);
+            is_certain &= quarters == promised;
+        }
         record.angle = angle;
         record.phase = wrap(record.phase + (quarters & 1) as f32 * core::f32::consts::PI);
 
@@ -149,6 +162,13 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
                 self.lost = !is_clean;
             }
             self.had_wave = true;
+        }
+        if fit.settled && !flags.intersects(UNSEEN) {
+            if flags.intersects(BROKEN) {
+                self.followed.follow(record, rate);
+            } else {
+                self.followed = Followed::from(record);
+            }
         }
         let drift = if is_circular {
             fit.waves.drift() * model.per_half

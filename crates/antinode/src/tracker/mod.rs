@@ -5,6 +5,7 @@ mod between;
 mod checks;
 mod converter;
 mod failures;
+mod followed;
 mod judge;
 mod noise;
 mod record;
@@ -20,6 +21,7 @@ use crate::settings::{Settings, SettingsError};
 use crate::window::{CARRIER_REACH, Fit, Gathered, Model, solve};
 use angle::Angle;
 use failures::Failures;
+use followed::Followed;
 use noise::Noise;
 use record::{Record, Units};
 use trend::Trend;
@@ -52,6 +54,8 @@ pub struct Tracker<const BLOCKS: usize> {
     offset_rates: [f32; 2],
     /// The angle of the last window that had one: continuity is kept over faults.
     angle: Angle,
+    /// From the last clean window on.
+    followed: Followed,
     /// True from the loss of a wave to the first window after it.
     lost: bool,
     /// True where a wave was found since the settings were configured.
@@ -91,6 +95,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             before: None,
             offset_rates: [0.0; 2],
             angle: Angle::ZERO,
+            followed: Followed::NONE,
             lost: false,
             had_wave: false,
             wanted: 0,

@@ -5,6 +5,8 @@ use crate::scalar::{greater, lesser};
 
 /// Standard deviations of an innocent variance: three in 10¹⁰, as a window has several parts.
 pub(super) const REACH: f32 = 6.2;
+/// Standard deviations of one that is looked at only once, where no windows before are known: one in a million.
+pub(super) const REACH_ONCE: f32 = 4.75;
 /// By how much a window's noise variance may exceed that of the windows before and be no fault.
 pub(super) const RISE: f32 = 4.0;
 
@@ -96,9 +98,12 @@ impl Noise {
     #[inline(always)]
     pub(super) fn learn(&mut self, variance: f32, stated: f32, wide: f32, freedom: f32) {
         self.stated = stated;
-        // What is so much more than this was no noise, but a fault that a first window could not tell.
-        if is_louder(self.variance, variance, self.freedom, freedom) {
+        // What is so much more than this was no noise, but a fault that a first window could not tell. That is less unlikely than chance soon.
+        if self.variance > RISE * variance
+            && self.variance > limit_of(REACH_ONCE, self.freedom, freedom) * variance
+        {
             self.freedom = 0.0;
+            self.stated = variance;
         }
         self.freedom = lesser(self.freedom + freedom, Self::MEMORY * freedom);
         let share = freedom / self.freedom;

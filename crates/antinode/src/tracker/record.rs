@@ -13,6 +13,12 @@ use crate::scalar::{greater, long};
 /// Deviation of a promised angle, rad, of which six reach the next angle that looks the same.
 const UNKNOWN_TURN: f32 = 0.13;
 
+/// What a rate that changes adds to an angle at most, rad, and is no quarter turn.
+const OTHERWISE: f32 = 0.7;
+
+/// Deviations by which a rate is another one than was promised.
+const TOLD: f32 = 3.0;
+
 /// Windows over whose gaps rates are averaged at most.
 const AVERAGED: f32 = 8.0;
 
@@ -137,22 +143,23 @@ impl Record {
         }
     }
 
-    /// The angle that this window promises one of `samples` about `middle`, and whether it knows it to less than a quarter turn: over
-    /// a gap it may not.
-    pub(crate) fn angle_at(&self, middle: u64, samples: u32) -> (Angle, bool) {
-        let passed = 0.5 * long(middle.wrapping_sub(self.angle_middle));
-        let is_next = passed < 1.5 * samples as f32 && self.promised_variance < f32::INFINITY;
-        let is_certain =
+    /// The angle that this window promises another, `now`, at which rate a sample it gets there, and whether it knows that to less than a
+    /// quarter turn: over a gap it may not, nor where the pattern turns otherwise behind it.
+    pub(crate) fn angle_at(&self, now: &Self) -> (Angle, f32, bool) {
+        let passed = 0.5 * long(now.middle.wrapping_sub(self.angle_middle));
+        let is_next =
+            passed < 1.5 * now.samples.get() as f32 && self.promised_variance < f32::INFINITY;
+        let is_known =
             is_next || self.promised_variance * passed * passed < UNKNOWN_TURN * UNKNOWN_TURN;
+        let by = now.turning - self.promised;
+        let spread = now.turning_variance + self.promised_variance;
+        let turns_on = (by * passed).abs() < OTHERWISE || by * by < TOLD * TOLD * spread;
         // As much of the turning as stands out of its noise: in much of it a pattern that stands still would be promised a quarter turn.
         let square = self.promised * self.promised;
         let share = square / (square + self.promised_variance + f32::MIN_POSITIVE);
-        let turned = if is_certain {
-            share * self.promised * passed
-        } else {
-            0.0
-        };
-        (self.angle.plus(turned), is_certain)
+        let rate = if is_known { share * self.promised } else { 0.0 };
+        let is_certain = is_known && (is_next || turns_on);
+        (self.angle.plus(rate * passed), rate, is_certain)
     }
 
     /// Promises the rate that the windows before have too, each by itself: over gaps of unknown turns no angles tell it.

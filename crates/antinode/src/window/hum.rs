@@ -91,7 +91,8 @@ fn beside(wave: &[Complex32; CHUNK], i: usize) -> Complex32 {
 fn beyond(before: Complex32, last: Complex32) -> Complex32 {
     let square = before.norm_sqr();
     if square > 0.0 {
-        last * last * before.conj() / square
+        // No power of three: that of a great wave is beyond f32.
+        last * (last * before.conj() / square)
     } else {
         last
     }

@@ -7,6 +7,9 @@
     clean = windows[windows["flags"] == 0]
     clean["angle_rad"], clean["angle_std_rad"]     # fields as antinode_estimate_t has them
 
+The command `antinode identify` takes the converter's step and rails from the format of a recording: here give `resolution`, `rail_low` and
+`rail_high`, such as 1/32768 and ±32767/32768 for 16 bits. Windows have 50 periods at most, and periods 200 samples.
+
 Needs numpy, and the shared library: `crates/antinode-capi/install PREFIX`, on Linux. ANTINODE_LIBRARY names it where the system does not
 find it: PREFIX/lib/libantinode.so. Elsewhere `cargo rustc --profile capi -p antinode-capi --lib --crate-type cdylib` makes it, in
 target/capi; made together with the static library, as `cargo build` does, it would not load on Linux.
@@ -93,7 +96,7 @@ class Gyro:
         """Cold, at this sample rate in Hz; `settings` are those of antinode_settings_t and antinode_calibration_t, by name."""
         wanted = _library.antinode_settings_default(sample_rate_hz)
         for name, value in settings.items():
-            if not hasattr(wanted, name):
+            if name not in dict(_Settings._fields_):
                 raise TypeError(f"no setting is called {name}")
             setattr(wanted, name, value)
             # An integer too large would wrap around.
@@ -107,14 +110,14 @@ class Gyro:
         pairs = numpy.ascontiguousarray(samples, "f4")
         if pairs.ndim != 2 or pairs.shape[1] != 2:
             raise ValueError(f"samples are to be of shape (N, 2), not {pairs.shape}")
-        windows, window, taken, at = [], numpy.zeros(1, WINDOW), ctypes.c_size_t(), 0
+        windows, window, taken, at = bytearray(), numpy.zeros(1, WINDOW), ctypes.c_size_t(), 0
         while at < len(pairs):
             here = pairs.ctypes.data + at * pairs.strides[0]
             status = _identify(self._state.ctypes.data, here, len(pairs) - at, ctypes.byref(taken), window.ctypes.data)
             if _check(status) == WINDOW_ENDED:
-                windows.append(window.copy())
+                windows += window.tobytes()
             at += taken.value
-        return numpy.concatenate(windows) if windows else numpy.zeros(0, WINDOW)
+        return numpy.frombuffer(windows, WINDOW)
 
     @property
     def has_wave(self):

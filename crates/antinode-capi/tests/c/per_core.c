@@ -1,7 +1,7 @@
 /*
  * What a core costs that is given as TARGET: instructions per sample pair of _push_block_packed, without the watch and with it, and
- * thousands of instructions per window of _solve, of 10 and of 50 periods; and the stack, in bytes, of _init, of _solve and of every way
- * to push. All with unaligned accesses trapped: one would end in the fault handler.
+ * thousands of instructions per window of _solve, of 10 and of 50 periods; and the stack, in bytes, of _init, of _solve, of every way to
+ * push and of _identify, with whatever settings take most. All with unaligned accesses trapped: one would end in the fault handler.
  *
  * In QEMU with -icount shift=0,align=off,sleep=off every instruction takes 1 ns, and SysTick counts the 168 MHz of the core.
  */
@@ -17,7 +17,7 @@ static sample_t interleaved[2 * HALF_BUFFER] __attribute__((aligned(4))), arrays
 static sample_t *const c = arrays + 1, *const d = arrays + 1 + HALF_BUFFER;
 static antinode_estimate_t estimate;
 /* The most that a call took, bytes. */
-static uint32_t stack_of_init, stack_of_solve, stack_of_push[FORMS];
+static uint32_t stack_of_init, stack_of_solve, stack_of_push[FORMS], stack_of_identify;
 
 static void trap_unaligned(int on)
 {
@@ -88,6 +88,17 @@ static __attribute__((noinline)) void push(enum form form, const uint32_t *words
         stack_of_push[form] = taken;
 }
 
+/* The codes from pair `at` of the endless stream on, in turn. */
+static void fill(uint32_t at)
+{
+    uint32_t i;
+    for (i = 0; i < HALF_BUFFER; i++) {
+        const uint32_t word = _binary_codes_bin_start[(at + i) % RING];
+        interleaved[2 * i] = (int16_t)(uint16_t)word;
+        interleaved[2 * i + 1] = (int16_t)(uint16_t)(word >> 16);
+    }
+}
+
 /* Every way in, from cold to a full queue, with a search on the way; gives 1 where windows came of it. */
 static int push_by(enum form form, const antinode_settings_t *settings)
 {
@@ -110,6 +121,37 @@ static int push_by(enum form form, const antinode_settings_t *settings)
             windows += solve(&ticks);
     }
     return windows > 50;
+}
+
+/* Identifies from cold; gives the windows found. */
+static __attribute__((noinline)) uint32_t identify(void)
+{
+    volatile uint32_t *top = paint_stack();
+    uint32_t at, windows = 0, stack;
+    for (at = 0; at < PAIRS; at += HALF_BUFFER) {
+        size_t done = 0, taken;
+        while (done < HALF_BUFFER) {
+            windows += CALL(identify)(&gyro, interleaved + 2 * done, HALF_BUFFER - done, &taken, &estimate) == ANTINODE_ESTIMATE;
+            done += taken;
+        }
+        fill(at + HALF_BUFFER);
+    }
+    stack = stack_taken(top);
+    if (stack > stack_of_identify)
+        stack_of_identify = stack;
+    return windows;
+}
+
+/* What takes more stack than the usual settings: offsets of each block's own, and the other detector. Gives 1 where windows come of it. */
+static int call_with(uint32_t hum, uint32_t detection)
+{
+    antinode_settings_t settings = antinode_settings_default(100e3);
+    settings.hum = hum;
+    settings.detection = detection;
+    if (init(&settings) != ANTINODE_OK || run(0, PAIRS).windows == 0 || init(&settings) != ANTINODE_OK)
+        return 0;
+    fill(0);
+    return identify() > 0;
 }
 
 /* The functions that are called now and then; gives 1 where each did its work. */
@@ -157,13 +199,13 @@ int main(void)
         if (!push_by((enum form)i, &settings))
             return 1;
     }
-    if (!call_the_others())
+    if (!call_the_others() || !call_with(1, 0) || !call_with(0, ANTINODE_DETECTION_MEAN_RETURN))
         return 1;
     trap_unaligned(0);
-    printf("%s %lu.%lu %lu.%lu %lu.%lu %lu.%lu %lu %lu %lu %lu %lu %lu\n", NAME, (unsigned long)tenths[0] / 10, (unsigned long)tenths[0] % 10,
+    printf("%s %lu.%lu %lu.%lu %lu.%lu %lu.%lu %lu %lu %lu %lu %lu %lu %lu\n", NAME, (unsigned long)tenths[0] / 10, (unsigned long)tenths[0] % 10,
            (unsigned long)tenths[1] / 10, (unsigned long)tenths[1] % 10, (unsigned long)thousands[0] / 10, (unsigned long)thousands[0] % 10,
            (unsigned long)thousands[1] / 10, (unsigned long)thousands[1] % 10, (unsigned long)stack_of_init, (unsigned long)stack_of_solve,
            (unsigned long)stack_of_push[SINGLE], (unsigned long)stack_of_push[SEPARATE], (unsigned long)stack_of_push[INTERLEAVED],
-           (unsigned long)stack_of_push[PACKED]);
+           (unsigned long)stack_of_push[PACKED], (unsigned long)stack_of_identify);
     return 0;
 }

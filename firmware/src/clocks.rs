@@ -45,6 +45,17 @@ pub const fn baud_error_ppm(baud: u32) -> u32 {
     (made.abs_diff(baud as u64 * 1_000_000) / baud as u64) as u32
 }
 
+/// How long the line takes for so many bytes at a baud rate, ms, in ten bits each.
+pub const fn sending_ms(bytes: usize, baud: u32) -> u32 {
+    (bytes as u64 * 10_000).div_ceil(baud as u64) as u32
+}
+
+/// How long a restart may wait for an outbox of so many bytes, ms: its acknowledgement goes last. At a dead line it waits no longer.
+pub const fn restart_ms(outbox: usize, baud: u32) -> u32 {
+    let twice = 2 * sending_ms(outbox, baud);
+    if twice < 100 { 100 } else { twice }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -93,5 +104,16 @@ mod tests {
             );
         }
         assert!(baud_error_ppm(5_000_000) > 10_000);
+    }
+
+    #[test]
+    fn a_restart_waits_until_a_full_outbox_is_sent() {
+        assert_eq!(sending_ms(2048, 921_600), 23);
+        assert_eq!(sending_ms(2048, 115_200), 178);
+        for baud in [9600, 115_200, 921_600, 5_250_000] {
+            assert!(restart_ms(2048, baud) >= 2 * sending_ms(2048, baud));
+        }
+        assert_eq!(restart_ms(2048, 115_200), 356);
+        assert_eq!(restart_ms(2048, 921_600), 100);
     }
 }

@@ -4,6 +4,7 @@
 use antinode::{Calibration, Settings, SettingsError};
 use antinode_telemetry::{Configuration, FrontEnd, MAX_FRAME};
 
+use crate::clocks::restart_ms;
 use crate::sampling::DUAL_ADC_RAILS;
 
 /// Samples and their arithmetic: 16-bit codes, or the same codes in f32 with the feature `f32`.
@@ -56,8 +57,8 @@ pub const OSCILLATOR: bool = false;
 pub const STALL_MS: u32 = 20;
 /// Without a live pipeline for so long, ms, the watchdog resets the chip.
 pub const WATCHDOG_MS: u32 = 250;
-/// A restart that was asked for waits for the line so long, ms, at most.
-pub const RESTART_MS: u32 = 100;
+/// A restart that was asked for waits for the line so long, ms, at most: twice what a full outbox takes, and 100 at least.
+pub const RESTART_MS: u32 = restart_ms(OUTBOX, BAUD);
 /// From one report of the counters to the next, ms.
 pub const COUNTERS_MS: u32 = 1000;
 /// The same, at least, where they tell that something went wrong, ms.

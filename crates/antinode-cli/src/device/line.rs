@@ -6,7 +6,7 @@ use std::process;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use antinode_telemetry::{
-    Command, CommandError, CommandFrame, Hello, MAX_FRAME, Receiver, Report, frame,
+    Cause, Command, CommandError, CommandFrame, Hello, MAX_FRAME, Receiver, Report, State, frame,
 };
 use serialport::SerialPort;
 
@@ -35,12 +35,16 @@ struct Heard {
 }
 
 impl Heard {
-    /// Takes a report after the command of this id was sent.
-    fn take(&mut self, report: Report, id: u16) -> Result<(), CommandError> {
+    /// Takes a report after this command was sent.
+    fn take(&mut self, report: Report, asked: CommandFrame) -> Result<(), CommandError> {
         match report {
             Report::Hello(told) => self.hello = Some(told),
-            Report::Acknowledgement(answer) if answer.id == id => {
+            Report::Acknowledgement(answer) if answer.id == asked.id => {
                 answer.result?;
+                self.is_done = true;
+            }
+            // Its acknowledgement was damaged, or a slow line had no time for it.
+            Report::State(State::Started(Cause::Command)) if asked.command == Command::Restart => {
                 self.is_done = true;
             }
             _ => {}
@@ -75,9 +79,12 @@ impl Line {
     /// Sends a command and waits for its answer; gives the Hello that came on the way, and waits for one where it is wanted.
     pub fn ask(&mut self, command: Command, wanted: bool) -> Result<Option<Hello>, Failure> {
         // One id for all: a late answer to the first is good for the others.
-        let id = fresh_id();
+        let asked = CommandFrame {
+            id: fresh_id(),
+            command,
+        };
         let mut buffer = [0; MAX_FRAME];
-        let request = frame(&CommandFrame { id, command }, &mut buffer)
+        let request = frame(&asked, &mut buffer)
             .map_err(|error| Failure::Recording(format!("{}: {error}", self.name)))?;
         let sends = if command == Command::Restart {
             1
@@ -92,7 +99,7 @@ impl Line {
             let end = Instant::now() + self.patience;
             while Instant::now() < end {
                 for report in self.read()? {
-                    match heard.take(report, id) {
+                    match heard.take(report, asked) {
                         Ok(()) => {}
                         // It may be busy with the same command, whose answer was lost.
                         Err(CommandError::Busy) if send < sends => {}

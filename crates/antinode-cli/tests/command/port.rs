@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use crate::common::run;
 use antinode::{Estimate, Identifier, Settings};
 use antinode_telemetry::{
-    Acknowledgement, Command as Asked, CommandError, CommandFrame, Configuration, Decoder,
+    Acknowledgement, Cause, Command as Asked, CommandError, CommandFrame, Configuration, Decoder,
     FrontEnd, Hello, MAX_FRAME, Report, Reporter, State,
 };
 use serialport::{SerialPort, TTYPort};
@@ -228,6 +228,29 @@ fn a_command_that_is_not_heard_is_sent_again() {
         restart.err
     );
     assert_eq!(deaf.asked.try_iter().count(), 0);
+}
+
+#[test]
+fn a_restart_whose_acknowledgement_is_lost_is_told_by_the_start_that_follows() {
+    let (mut port, path) = pair();
+    let device = thread::spawn(move || {
+        // While nobody holds the other end, reading fails.
+        while port.read(&mut [0; 64]).is_err() {
+            thread::sleep(Duration::from_millis(2));
+        }
+        let mut buffer = [0; MAX_FRAME];
+        let started = Report::State(State::Started(Cause::Command));
+        let frame = Reporter::new().frame(&started, &mut buffer).unwrap();
+        port.write_all(frame).unwrap();
+        port
+    });
+    let restart = run(
+        Path::new("."),
+        &format!("command {path} --timeout 5 restart"),
+    );
+    let told = (restart.code, restart.out.as_str(), restart.err.as_str());
+    assert_eq!(told, (0, "restart: done\n", ""));
+    device.join().unwrap();
 }
 
 /// An estimate of a noise-free wave.

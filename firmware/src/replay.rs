@@ -1,5 +1,6 @@
 //! A recording as a source, read through semihosting, half a ring at a time: a WAV file of two channels of 16 bits, S_C left, at any
-//! sample rate; or else 12-bit codes as the STM32F405's converters give them, 16 bits each, S_C and S_D in turn, lowest byte first.
+//! sample rate; or else 12-bit codes as the STM32F405's converters give them, 16 bits each, S_C and S_D in turn, lowest byte first. Of
+//! these `firmware/run` takes only files called `*.raw`: anything would pass for codes.
 //!
 //! For the emulator. The command line of semihosting is the recording's name and, for tests, options that make things go wrong:
 //!

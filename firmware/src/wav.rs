@@ -7,7 +7,7 @@ pub struct Wav {
     pub sample_rate: u32,
     /// Byte at which they begin.
     pub start: u32,
-    /// Sample pairs.
+    /// Sample pairs at the most: the file may end before.
     pub pairs: u32,
 }
 
@@ -47,7 +47,8 @@ impl Wav {
                     return Some(Self {
                         sample_rate: sample_rate?,
                         start,
-                        pairs: length / 4,
+                        // A program that writes into a pipe leaves 0: then they go on to the file's end.
+                        pairs: if length == 0 { u32::MAX } else { length / 4 },
                     });
                 }
                 _ => {}
@@ -90,6 +91,13 @@ mod tests {
         };
         assert_eq!(find(&file(1, 2, 16)), Some(wav));
         assert_eq!(find(&file(0xFFFE, 2, 16)), Some(wav));
+    }
+
+    #[test]
+    fn samples_without_a_length_go_on_to_the_end() {
+        let mut file = file(1, 2, 16);
+        file[52..56].fill(0);
+        assert_eq!(find(&file).map(|wav| wav.pairs), Some(u32::MAX));
     }
 
     #[test]

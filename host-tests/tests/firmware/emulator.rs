@@ -19,7 +19,7 @@ const TARGET: &str = "thumbv7em-none-eabihf";
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A folder of this test's own.
-fn folder() -> PathBuf {
+pub fn folder() -> PathBuf {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("firmware");
     fs::create_dir_all(&folder).expect("the target directory can be written");
     folder

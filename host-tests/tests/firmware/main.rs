@@ -13,6 +13,7 @@ mod methods;
 mod mirror;
 mod recordings;
 mod recovery;
+mod run;
 mod same;
 mod stack;
 mod steered;

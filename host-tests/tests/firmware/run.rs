@@ -1,0 +1,112 @@
+//! `firmware/run`, the script behind `cargo replay`: where the line's bytes go, and which recordings it takes.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use antinode::Packed;
+use antinode_telemetry::{Receiver, Report};
+
+use crate::emulator::{folder, images};
+use crate::recordings;
+use crate::same::estimates;
+
+/// A file of this test's own.
+fn file(name: &str, bytes: &[u8]) -> PathBuf {
+    let path = folder().join(name);
+    fs::write(&path, bytes).expect("it can be written");
+    path
+}
+
+/// What a run on this recording puts into `out`; gives its exit code and what it says.
+fn replay(recording: &Path, out: File) -> (Option<i32>, String) {
+    let output = Command::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../firmware/run"))
+        .arg(images().join("replay"))
+        .arg(recording)
+        .stdin(Stdio::null())
+        .stdout(out)
+        .stderr(Stdio::piped())
+        .output()
+        .expect("bash is installed");
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    (output.status.code(), told)
+}
+
+/// What a run on this recording, which is taken, reports.
+fn reports(recording: &Path) -> Vec<Report> {
+    let out = recording.with_extension("out");
+    let (code, told) = replay(recording, File::create(&out).expect("it can be written"));
+    assert_eq!(code, Some(0), "{told}");
+    let mut receiver = Receiver::new();
+    let bytes = fs::read(out).expect("it is there");
+    let reports = bytes.iter().filter_map(|&byte| receiver.push(byte));
+    reports
+        .map(|report| report.expect("a sound frame"))
+        .collect()
+}
+
+fn little_endian(codes: &[Packed]) -> Vec<u8> {
+    codes.iter().flat_map(|pair| pair.0.to_le_bytes()).collect()
+}
+
+/// A WAV file whose header promises so many bytes.
+fn wav(codes: &[Packed], promised: u32) -> Vec<u8> {
+    let mut bytes = b"RIFF\0\0\0\0WAVEfmt \x10\0\0\0\x01\0\x02\0".to_vec();
+    bytes.extend(100_000u32.to_le_bytes());
+    bytes.extend(400_000u32.to_le_bytes());
+    bytes.extend(b"\x04\0\x10\0data");
+    bytes.extend(promised.to_le_bytes());
+    bytes.extend(little_endian(codes));
+    bytes
+}
+
+#[test]
+#[ignore = "needs the ARM target and QEMU"]
+fn what_is_in_a_file_stays_before_what_is_appended() {
+    let codes = recordings::codes(recordings::WAVE, recordings::quiet(), 5000);
+    let recording = file("appended.raw", &little_endian(&codes));
+    let expected = reports(&recording);
+    assert!(estimates(&expected).len() > 10);
+    let out = file("appended.bin", b"kept");
+    let open = File::options().append(true).open(&out);
+    let (code, told) = replay(&recording, open.expect("it is there"));
+    assert_eq!(code, Some(0), "{told}");
+    let bytes = fs::read(&out).expect("it is there");
+    assert!(bytes.starts_with(b"kept") && bytes.len() > 1000);
+}
+
+#[test]
+#[ignore = "needs the ARM target and QEMU"]
+fn a_wav_file_is_read_whole_where_its_header_has_no_length() {
+    let codes = recordings::codes(recordings::WAVE, recordings::quiet(), 5000);
+    let whole = reports(&file("whole.wav", &wav(&codes, 4 * 5000)));
+    assert!(estimates(&whole).len() > 10);
+    for (name, promised) in [("streamed.wav", 0), ("unknown.wav", u32::MAX)] {
+        let streamed = reports(&file(name, &wav(&codes, promised)));
+        assert_eq!(estimates(&streamed), estimates(&whole), "{name}");
+    }
+}
+
+#[test]
+#[ignore = "needs the ARM target and QEMU"]
+fn what_is_no_recording_is_refused_with_the_remedy() {
+    let codes = recordings::codes(recordings::WAVE, recordings::quiet(), 5000);
+    let no_stereo = [&wav(&codes, 20_000)[..22], &[1], &wav(&codes, 20_000)[23..]].concat();
+    let out = folder().join("refused.bin");
+    for (recording, part) in [
+        (file("codes.csv", b"time,C,D\n0,1,2\n"), "is no WAV file"),
+        (file("codes.bin", &little_endian(&codes)), "is no WAV file"),
+        (file("mono.wav", &no_stereo), "was refused"),
+        (folder(), "is no file that can be read"),
+        (folder().join("none.wav"), "is no file that can be read"),
+    ] {
+        let (code, told) = replay(&recording, File::create(&out).expect("it can be written"));
+        let name = recording.display();
+        assert!(code.is_some_and(|code| code > 0), "{name}: {told}");
+        let told = told.lines().last().unwrap_or("");
+        let start = format!("firmware/run: {name} {part}");
+        assert!(told.starts_with(&start), "{told}");
+        assert!(told.contains("two channels of 16 bits"), "{told}");
+        assert!(fs::read(&out).expect("it is there").is_empty(), "{name}");
+    }
+}

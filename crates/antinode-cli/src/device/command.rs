@@ -36,12 +36,14 @@ pub enum Ask {
     /// Prints the device's version and configuration.
     Get,
     /// Changes the length of a window.
+    #[command(allow_negative_numbers = true)]
     Window {
         /// Periods per window, 2 or more; the device refuses too many.
         #[arg(value_name = "PERIODS", value_parser = value_parser!(u16).range(2..))]
         periods: u16,
     },
     /// Changes the step from the start of one window to the start of the next.
+    #[command(allow_negative_numbers = true)]
     Hop {
         /// Blocks, 1 or more; `none`: windows follow each other without gap or overlap.
         #[arg(value_name = "BLOCKS|none", value_parser = blocks)]
@@ -139,12 +141,12 @@ impl fmt::Display for Words<'_> {
             Command::SetHop { blocks: None } => write!(f, "no hop"),
             Command::SetHop {
                 blocks: Some(blocks),
-            } => write!(f, "hop of {blocks} blocks"),
+            } => write!(f, "hop of {}", told::blocks(*blocks)),
             Command::SetCalibration(c) => write!(
                 f,
                 "calibration: gain ratio {}, skew {} ns, pick-off angle {} rad",
                 c.gain_ratio,
-                c.skew * 1e9,
+                told::nanoseconds(c.skew),
                 c.pick_off_angle
             ),
             Command::SetMethods { on: true } => write!(f, "methods on"),

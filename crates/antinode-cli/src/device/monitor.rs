@@ -1,6 +1,7 @@
 //! `antinode monitor`: what a device reports, as it comes.
 
 use std::io::{self, BufWriter, Write};
+use std::mem;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -19,7 +20,7 @@ pub struct Monitor {
     /// A serial port, a file of bytes recorded from one, or `-` for standard input.
     #[arg(value_name = "PORT|FILE|-")]
     pub source: PathBuf,
-    /// How estimates are printed; the columns are those of `identify`.
+    /// How estimates are printed; the columns are those of `identify`. Only a table shows the paper's methods, under their window's row.
     #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
     pub output: Format,
     /// Speed of the port, baud (bits a second; 8N1). Files and standard input have none.
@@ -30,8 +31,11 @@ pub struct Monitor {
 /// The id of the Get that greets a device.
 const GREETING: u16 = 0;
 
-/// Damage is told this often at the most: at a wrong baud rate nothing else comes.
-const DAMAGE_TOLD: Duration = Duration::from_secs(1);
+/// Damage is told this often at the most, at a wrong baud rate nothing else comes; and so are lost reports, on a line that is too slow.
+const TOLD: Duration = Duration::from_secs(1);
+
+/// A port that says nothing for so long is told of.
+const SILENCE: Duration = Duration::from_secs(3);
 
 /// Prints what a device reports until its bytes end or the user interrupts.
 pub fn run(options: &Monitor) -> Result<(), Failure> {
@@ -45,15 +49,20 @@ pub fn run(options: &Monitor) -> Result<(), Failure> {
     let out = BufWriter::new(io::stdout().lock());
     let mut screen = Screen {
         rows: Rows::new(out, options.output, false),
-        name: source.name,
+        name: source.name.clone(),
         receiver: Receiver::new(),
         estimates: 0,
         bytes: 0,
+        // A port may be opened within a frame; a file has what was saved.
+        is_amidst: source.is_port,
+        excused: 0,
         damage: None,
         told: Instant::now(),
+        lost: 0,
+        lost_told: None,
     };
     let begin = Instant::now();
-    let result = follow(&source.input, &mut screen);
+    let result = follow(&source, &mut screen);
     screen.end(begin.elapsed());
     result?;
     if screen.receiver.reports() > 0 {
@@ -65,23 +74,31 @@ pub fn run(options: &Monitor) -> Result<(), Failure> {
             "{name}: not one byte came; check that the device runs and is wired, or that its bytes were saved or sent"
         )));
     }
+    let remedy = if source.is_port {
+        format!("check --baud (it was {}), the wiring", options.baud)
+    } else {
+        "check that they are a device's, received at its speed (--baud is for ports only)"
+            .to_owned()
+    };
     Err(Failure::Recording(format!(
-        "{name}: no telemetry in {bytes} bytes; check --baud (it was {}), the wiring, and that firmware and command \
-         speak the same protocol version",
-        options.baud
+        "{name}: no telemetry in {bytes} bytes; {remedy}, and that firmware and command speak the same protocol version"
     )))
 }
 
 /// Takes bytes until they end.
-fn follow(
-    input: &std::sync::mpsc::Receiver<Input>,
-    screen: &mut Screen<impl Write>,
-) -> Result<(), Failure> {
-    for input in input {
+fn follow(source: &Source, screen: &mut Screen<impl Write>) -> Result<(), Failure> {
+    let first = source.is_port.then(|| first(source)).flatten();
+    for input in first.into_iter().chain(&source.input) {
         match input {
             Input::Bytes(bytes) => screen.take(&bytes)?,
-            Input::End | Input::Interrupted => break,
+            Input::End => {
+                screen.finish();
+                break;
+            }
+            // What has begun would have gone on.
+            Input::Interrupted => break,
             Input::Fault(error) => {
+                screen.finish();
                 return Err(Failure::Recording(format!(
                     "{}: it cannot be read any more: {error}; check that the device is plugged in",
                     screen.name
@@ -92,6 +109,20 @@ fn follow(
     Ok(())
 }
 
+/// What comes from a port within some seconds; `None`, and a word about it, where nothing does.
+fn first(source: &Source) -> Option<Input> {
+    match source.input.recv_timeout(SILENCE) {
+        Ok(input) => Some(input),
+        Err(_) => {
+            eprintln!(
+                "silent: nothing has come from {} yet; check that the device runs, the wiring, and that it is this port",
+                source.name
+            );
+            None
+        }
+    }
+}
+
 /// What the user sees.
 struct Screen<W: Write> {
     rows: Rows<W>,
@@ -99,10 +130,18 @@ struct Screen<W: Write> {
     receiver: Receiver,
     estimates: u64,
     bytes: u64,
+    /// True until a first delimiter has come where the bytes may begin within a frame.
+    is_amidst: bool,
+    /// Damage that is none: the frame that they began within.
+    excused: u64,
     /// Damage that is not told yet: how often, and the last.
     damage: Option<(u64, Damage)>,
     /// When damage was told last.
     told: Instant,
+    /// Lost reports that are not told yet.
+    lost: u64,
+    /// When such were told last.
+    lost_told: Option<Instant>,
 }
 
 impl<W: Write> Screen<W> {
@@ -110,19 +149,23 @@ impl<W: Write> Screen<W> {
         self.bytes += bytes.len() as u64;
         for &byte in bytes {
             let lost = self.receiver.lost();
-            match self.receiver.push(byte) {
-                None => {}
-                Some(Err(damage)) => {
+            let Some(result) = self.receiver.push(byte) else {
+                continue;
+            };
+            let is_amidst = mem::take(&mut self.is_amidst);
+            match result {
+                Err(_) if is_amidst => self.excused = 1,
+                Err(damage) => {
                     self.damaged(damage);
-                    if self.told.elapsed() >= DAMAGE_TOLD {
+                    if self.told.elapsed() >= TOLD {
                         self.tell_damage();
                     }
                 }
-                Some(Ok(report)) => {
+                Ok(report) => {
                     self.tell_damage();
-                    let lost = self.receiver.lost() - lost;
-                    if lost > 0 {
-                        eprintln!("lost: {lost} before this report");
+                    self.lost += self.receiver.lost() - lost;
+                    if self.lost_told.is_none_or(|told| told.elapsed() >= TOLD) {
+                        self.tell_lost();
                     }
                     self.show(report)?;
                 }
@@ -169,10 +212,25 @@ impl<W: Write> Screen<W> {
         self.told = Instant::now();
     }
 
-    /// What remains to be told once all has come.
-    fn end(&mut self, time: Duration) {
+    fn tell_lost(&mut self) {
+        let lost = mem::take(&mut self.lost);
+        if lost > 0 {
+            eprintln!("lost: {lost} before this report");
+            self.lost_told = Some(Instant::now());
+        }
+    }
+
+    /// The bytes end, and with them what has begun.
+    fn finish(&mut self) {
         if let Some(damage) = self.receiver.finish() {
             self.damaged(damage);
+        }
+    }
+
+    /// What remains to be told once all has come.
+    fn end(&mut self, time: Duration) {
+        if self.lost > 0 {
+            eprintln!("lost: {} more", self.lost);
         }
         self.tell_damage();
         let reports = self.receiver.reports();
@@ -182,7 +240,7 @@ impl<W: Write> Screen<W> {
             self.estimates,
             reports - self.estimates,
             self.receiver.lost(),
-            self.receiver.damaged(),
+            self.receiver.damaged() - self.excused,
             self.bytes,
             time.as_secs_f64(),
         );

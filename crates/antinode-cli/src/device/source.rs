@@ -1,7 +1,9 @@
 //! Where the device's bytes come from: a port, a file, or standard input, read beside the thread that prints.
 
 use std::io::{self, Read};
+use std::mem;
 use std::path::Path;
+use std::process;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
@@ -26,6 +28,8 @@ pub enum Input {
 pub struct Source {
     /// What to call it in messages.
     pub name: String,
+    /// True for a port, with a device that may have run for long.
+    pub is_port: bool,
     /// Its bytes.
     pub input: Receiver<Input>,
 }
@@ -33,34 +37,49 @@ pub struct Source {
 impl Source {
     /// Opens a port, a file, or standard input where the path is `-`; to a port it sends `greeting` first.
     pub fn open(path: &Path, baud: u32, greeting: &[u8]) -> Result<Self, Failure> {
-        let name = path.display().to_string();
+        let is_port = path != Path::new("-") && port::is_port(path);
+        // Before Ctrl-C is caught: a pipe opens once somebody writes into it.
+        let (name, from): (String, Box<dyn Read + Send>) = if path == Path::new("-") {
+            ("standard input".to_owned(), Box::new(io::stdin()))
+        } else {
+            let name = path.display().to_string();
+            if is_port {
+                let mut port = port::open(path, baud)?;
+                // A line that only receives is good enough to listen.
+                let _ = port.write_all(greeting);
+                (name, Box::new(port))
+            } else if path.exists() {
+                (name, Box::new(open_file(path)?))
+            } else {
+                return Err(Failure::Recording(format!(
+                    "{name}: there is neither such a port nor such a file; {}",
+                    port::ports()
+                )));
+            }
+        };
         // A few chunks ahead: a file of any size keeps memory as it is.
         let (sender, input) = sync_channel(4);
-        let interrupt = sender.clone();
-        on_interrupt(move || {
-            let _ = interrupt.send(Input::Interrupted);
-        })?;
-        if path == Path::new("-") {
-            thread::spawn(move || read(io::stdin(), &sender));
-            let name = "standard input".to_owned();
-            return Ok(Self { name, input });
-        }
-        if port::is_port(path) {
-            let mut port = port::open(path, baud)?;
-            // A line that only receives is good enough to listen.
-            let _ = port.write_all(greeting);
-            thread::spawn(move || read(port, &sender));
-        } else if path.exists() {
-            let file = open_file(path)?;
-            thread::spawn(move || read(file, &sender));
-        } else {
-            return Err(Failure::Recording(format!(
-                "{name}: there is neither such a port nor such a file; {}",
-                port::ports()
-            )));
-        }
-        Ok(Self { name, input })
+        end_on_interrupt(sender.clone())?;
+        thread::spawn(move || read(from, &sender));
+        Ok(Self {
+            name,
+            is_port,
+            input,
+        })
     }
+}
+
+/// Ends the input at Ctrl-C, after what was read before it; at the next one the command.
+fn end_on_interrupt(sender: SyncSender<Input>) -> Result<(), Failure> {
+    let mut is_asked = false;
+    on_interrupt(move || {
+        // Whoever reads the rows may have stopped: then they wait for ever.
+        if mem::replace(&mut is_asked, true) {
+            process::exit(Failure::Stopped.code().into());
+        }
+        let sender = sender.clone();
+        thread::spawn(move || sender.send(Input::Interrupted));
+    })
 }
 
 /// Reads until the end, or until nobody listens any more.

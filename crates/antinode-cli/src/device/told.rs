@@ -3,6 +3,7 @@
 use antinode::Detection;
 use antinode_telemetry::{Configuration, Counters, FrontEnd, Hello, Methods};
 
+use crate::digits::significant;
 use crate::method_table::DISAGREE;
 
 /// Who the device is and what it is set to, in one line.
@@ -15,7 +16,7 @@ pub fn hello(hello: &Hello) -> String {
     let c = &s.calibration;
     let hop = match s.hop {
         None => "no hop".to_owned(),
-        Some(blocks) => format!("hop {blocks} blocks"),
+        Some(blocks) => format!("hop {}", self::blocks(blocks)),
     };
     let level = |name, value: Option<f32>| value.map_or(String::new(), |x| format!(", {name} {x}"));
     format!(
@@ -28,7 +29,7 @@ pub fn hello(hello: &Hello) -> String {
         s.periods,
         if *methods { "on" } else { "off" },
         c.gain_ratio,
-        c.skew * 1e9,
+        nanoseconds(c.skew),
         c.pick_off_angle,
         s.start_angle,
         s.rails.map_or(String::new(), |[low, high]| format!(
@@ -45,6 +46,16 @@ pub fn hello(hello: &Hello) -> String {
         if s.hum { ", hum" } else { "" },
         if s.coloured { ", coloured noise" } else { "" },
     )
+}
+
+/// A hop's length.
+pub fn blocks(count: u16) -> String {
+    format!("{count} block{}", if count == 1 { "" } else { "s" })
+}
+
+/// A skew in ns, to the digits that single precision keeps of any number: as it was typed.
+pub fn nanoseconds(skew: f32) -> f64 {
+    significant(f64::from(skew) * 1e9, f32::DIGITS as usize)
 }
 
 fn source(front_end: FrontEnd) -> &'static str {

@@ -124,10 +124,11 @@ fn rows_are_those_of_identify_but_for_what_was_hurt() {
             "state: searching for a wave",
             "damaged: the checksum does not fit",
             "lost: 1 before this report",
-            "lost: 1 before this report",
             "damaged: longer than any frame",
             "counters: up 12.3 s, 1230000 sample pairs, 2 ADC overruns",
             "state: fault: overrun",
+            // Within the same second as the one before.
+            "lost: 1 more",
             "damaged: cut, or no frame",
         ];
         assert_eq!(told[..told.len() - 1], expected);
@@ -200,6 +201,13 @@ fn what_is_no_telemetry_is_told() {
     let garbage: Vec<u8> = (0..100_000u32)
         .map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8)
         .collect();
+    fs::write(here.join("garbage.bin"), &garbage).unwrap();
+    fault(
+        here,
+        "garbage.bin",
+        Vec::new(),
+        &["no telemetry in 100000 bytes", "--baud is for ports only"],
+    );
     fault(
         here,
         "-",

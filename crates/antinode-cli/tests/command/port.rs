@@ -3,7 +3,7 @@
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -121,6 +121,7 @@ fn commands_are_done_and_acknowledged() {
     let command = |arguments: &str| device.command(&format!("{arguments} --timeout 20"));
     let cases = [
         ("window 20", "window of 20 periods: done\n"),
+        ("hop 1", "hop of 1 block: done\n"),
         ("hop 5", "hop of 5 blocks: done\n"),
         ("methods on", "methods on: done\n"),
         ("methods off", "methods off: done\n"),
@@ -132,6 +133,11 @@ fn commands_are_done_and_acknowledged() {
         (
             "calibration --skew-ns -250",
             "calibration: gain ratio 1.25, skew -250 ns, pick-off angle -0.01 rad: done\n",
+        ),
+        // As it was typed, though the device has it in s and single precision.
+        (
+            "calibration --skew-ns 15",
+            "calibration: gain ratio 1.25, skew 15 ns, pick-off angle -0.01 rad: done\n",
         ),
         ("restart", "restart: done\n"),
     ];
@@ -150,7 +156,7 @@ fn commands_are_done_and_acknowledged() {
         "hop 5 blocks",
         "methods off",
         "gain ratio 1.25",
-        "skew -250 ns",
+        "skew 15 ns",
     ] {
         assert!(get.contains(part), "{part}: {get}");
     }
@@ -161,7 +167,7 @@ fn commands_are_done_and_acknowledged() {
     let asked: Vec<_> = device.asked.try_iter().collect();
     assert_eq!(asked[0], Asked::SetWindow { periods: 20 });
     // Each calibration asks what there is first.
-    assert_eq!(asked.len(), cases.len() + 2 + 4);
+    assert_eq!(asked.len(), cases.len() + 3 + 4);
 }
 
 #[test]
@@ -185,6 +191,11 @@ fn what_the_device_refuses_is_told_with_the_remedy() {
         "get --timeout 0",
     ] {
         assert_eq!(device.command(arguments).code, 2, "{arguments}");
+    }
+    // Not how to write it so that it would be taken for a number.
+    for arguments in ["window -3", "hop -3"] {
+        let run = device.command(arguments);
+        assert!(run.code == 2 && run.err.contains("65535"), "{}", run.err);
     }
     // What makes no sense is not sent.
     assert_eq!(device.asked.try_iter().count(), 1);
@@ -262,15 +273,49 @@ fn estimate() -> Estimate {
         .expect("a window")
 }
 
-#[test]
-fn a_monitor_on_a_port_shows_what_comes_until_it_is_interrupted() {
-    let device = Device::start(false);
-    let mut child = Command::new(env!("CARGO_BIN_EXE_antinode"))
-        .args(["monitor", &device.path, "--format", "csv"])
+/// A monitor on this port, or on anything else that comes to it.
+fn monitor(path: &str) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_antinode"))
+        .args(["monitor", path, "--format", "csv"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
-        .unwrap();
+        .unwrap()
+}
+
+/// Ctrl-C.
+fn interrupt(child: &Child) {
+    let interrupted = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(interrupted.unwrap().success());
+}
+
+/// What a command that has ended, or is about to, says.
+fn told(child: &mut Child) -> String {
+    let mut told = String::new();
+    let mut err = child.stderr.take().unwrap();
+    err.read_to_string(&mut told).unwrap();
+    told
+}
+
+/// True where a command ends within 10 s; it is gone then in any case.
+fn ends(child: &mut Child) -> bool {
+    for _ in 0..500 {
+        if child.try_wait().unwrap().is_some() {
+            return true;
+        }
+        thread::sleep(Duration::from_millis(20));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    false
+}
+
+#[test]
+fn a_monitor_on_a_port_shows_what_comes_until_it_is_interrupted() {
+    let device = Device::start(false);
+    let mut child = monitor(&device.path);
     assert_eq!(
         device.asked.recv_timeout(Duration::from_secs(10)),
         Ok(Asked::Get)
@@ -279,18 +324,9 @@ fn a_monitor_on_a_port_shows_what_comes_until_it_is_interrupted() {
     let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
     assert!(lines.next().unwrap().unwrap().starts_with("time_s,"));
     assert!(lines.next().unwrap().unwrap().ends_with(&device.path));
-    let interrupted = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(interrupted.unwrap().success());
+    interrupt(&child);
     assert_eq!(child.wait().unwrap().code(), Some(0));
-    let mut told = String::new();
-    child
-        .stderr
-        .take()
-        .unwrap()
-        .read_to_string(&mut told)
-        .unwrap();
+    let told = told(&mut child);
     assert!(
         told.starts_with("device: firmware 1.2.3, protocol 6"),
         "{told}"
@@ -299,4 +335,88 @@ fn a_monitor_on_a_port_shows_what_comes_until_it_is_interrupted() {
         told.contains(": 1 estimates and 2 other reports; 0 lost, 0 damaged"),
         "{told}"
     );
+}
+
+#[test]
+fn frames_that_a_monitor_begins_or_ends_within_are_not_damaged() {
+    let (mut port, path) = pair();
+    let mut child = monitor(&path);
+    // Its greeting: it listens.
+    while port.read(&mut [0; 64]).is_err() {
+        thread::sleep(Duration::from_millis(2));
+    }
+    let (mut reporter, mut buffer) = (Reporter::new(), [0; MAX_FRAME]);
+    let mut frame = || {
+        let frame = reporter.frame(&estimate().into(), &mut buffer);
+        frame.unwrap().to_vec()
+    };
+    port.write_all(&frame()[40..]).unwrap();
+    port.write_all(&frame()).unwrap();
+    port.write_all(&frame()[..40]).unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    assert!(lines.next().unwrap().unwrap().starts_with("time_s,"));
+    assert!(lines.next().is_some());
+    interrupt(&child);
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    let told = told(&mut child);
+    let summary = format!("{path}: 1 estimates and 0 other reports; 0 lost, 0 damaged; ");
+    assert!(told.starts_with(&summary), "{told}");
+}
+
+#[test]
+fn a_silent_port_is_told_of_while_it_is_waited_for() {
+    let (mut port, path) = pair();
+    let mut child = monitor(&path);
+    let mut err = BufReader::new(child.stderr.take().unwrap()).lines();
+    let told = err.next().unwrap().unwrap();
+    let expected = format!("silent: nothing has come from {path} yet; check ");
+    assert!(told.starts_with(&expected), "{told}");
+    let mut buffer = [0; MAX_FRAME];
+    let frame = Reporter::new().frame(&estimate().into(), &mut buffer);
+    port.write_all(frame.unwrap()).unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    assert!(lines.nth(1).is_some());
+    interrupt(&child);
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    let last = err.next().unwrap().unwrap();
+    assert!(last.contains(": 1 estimates"), "{last}");
+}
+
+#[test]
+fn a_monitor_of_a_pipe_that_nobody_writes_into_is_interrupted() {
+    let directory = tempfile::tempdir().unwrap();
+    let pipe = directory.path().join("pipe");
+    assert!(
+        Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    let mut child = monitor(pipe.to_str().unwrap());
+    thread::sleep(Duration::from_millis(300));
+    interrupt(&child);
+    assert!(ends(&mut child));
+}
+
+#[test]
+fn a_monitor_whose_rows_nobody_reads_ends_at_the_second_interrupt() {
+    let device = Device::start(false);
+    let mut child = monitor(&device.path);
+    assert_eq!(
+        device.asked.recv_timeout(Duration::from_secs(10)),
+        Ok(Asked::Get)
+    );
+    // More rows than a pipe holds.
+    let estimate = estimate();
+    for _ in 0..2000 {
+        device.reports.send(estimate.into()).unwrap();
+    }
+    thread::sleep(Duration::from_millis(500));
+    interrupt(&child);
+    thread::sleep(Duration::from_millis(200));
+    assert_eq!(child.try_wait().unwrap(), None);
+    interrupt(&child);
+    assert!(ends(&mut child));
+    assert_eq!(child.wait().unwrap().code(), Some(130));
 }

@@ -36,9 +36,10 @@ pub const HALF: usize = 128;
 pub const LONGEST_PERIOD: usize = 200;
 /// Blocks that the tracker holds: two more than the periods of the longest window.
 pub const RING: usize = 24;
-/// Blocks that may wait for the main loop, and one more. The interrupt hands over those of `HALF` pairs at once: a block of 6 pairs, as
-/// windows of 2 periods may have, makes 21; shorter ones (a hop within such windows) are dropped in part, and counted.
-pub const QUEUE: usize = 32;
+/// Blocks that may wait for the main loop, and one more; 72 bytes each. A power of two: the interrupt divides by it. It hands over those of
+/// `HALF` pairs at once, of 2 pairs each at the shortest; of 1, with a hop within windows of 2 periods of fewer than 7.5 samples, one of
+/// 128 is dropped. Those of 6 pairs and more outlast the 5 ms that methods take of the main loop. What is dropped is counted.
+pub const QUEUE: usize = 128;
 /// Requests that may wait for the interrupt, and one more.
 pub const REQUESTS: usize = 4;
 /// Bytes that may wait for the line: a dozen estimates of 110 bytes, 14 ms, and what goes before them. Six frames and more.

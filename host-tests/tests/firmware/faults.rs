@@ -4,6 +4,7 @@ use std::fs;
 
 use antinode::{Estimate, Packed};
 use antinode_telemetry::{Cause, Command, Counters, Report, State};
+use firmware::settings::QUEUE;
 
 use crate::emulator::Device;
 use crate::image::output;
@@ -112,10 +113,13 @@ fn a_reader_that_sleeps() {
 #[ignore = "needs the ARM target and QEMU"]
 fn a_main_loop_that_is_too_slow() {
     let recording = steady(300_000);
-    let (reports, lost, _) = Device::start("replay", &recording, "slow=22").finish();
+    let mut device = Device::start("replay", &recording, "hold=1 slow=88");
+    // The outbox holds the estimates of a round.
+    device.command(1, Command::SetWindow { periods: 22 });
+    let (reports, lost, _) = device.finish();
     assert_eq!(lost, 0);
     let last = counters(&reports);
-    // 22 halves are 74 blocks, of which the queue holds 31.
+    // 88 halves are 296 blocks, of which the queue holds 127.
     assert!(last.blocks_dropped > 2_500, "{last:?}");
     assert_eq!(last.pairs, 300_000);
     let first = reports
@@ -123,7 +127,7 @@ fn a_main_loop_that_is_too_slow() {
         .position(|r| matches!(r, Report::Counters(c) if c.blocks_dropped > 0))
         .expect("it is told");
     // It is told in the round in which it happens, not with the next second's counters.
-    assert!(estimates(&reports[..first]).len() < 8);
+    assert!(estimates(&reports[..first]).len() < QUEUE / 8);
     let estimates = estimates(&reports);
     assert!(estimates.len() > 100);
     assert_right(&estimates);

@@ -1,8 +1,10 @@
 //! A line that is too slow, too dead or too busy, and a main loop that is: the pipeline on the host, at the pace of a board.
 
+use std::mem;
 use std::sync::atomic::Ordering;
 
 use antinode::Packed;
+use antinode_sim::Wave;
 use antinode_telemetry::{Cause, Command, Configuration, Counters, FrontEnd, Receiver, Report};
 use firmware::inbox::Inbox;
 use firmware::instrument::{Event, Instrument};
@@ -102,6 +104,8 @@ struct Board<'q> {
     /// Halves of the ring so far, and the time, ms.
     half: usize,
     now: u32,
+    /// Halves that fill before the main loop has its next turn, beside one.
+    missed: usize,
 }
 
 impl Board<'_> {
@@ -134,11 +138,14 @@ fn board_on(
         wire: Wire::new(parts.out),
         half: 0,
         now: 0,
+        missed: 0,
     };
     let mut source = Recorded::new(recording);
     while go_on(&mut board) {
-        parts.gatherer.serve(&mut source);
-        board.half += 1;
+        for _ in 0..=mem::take(&mut board.missed) {
+            parts.gatherer.serve(&mut source);
+            board.half += 1;
+        }
         board.now = (board.half * HALF * 1000 / SAMPLE_RATE as usize) as u32;
         assert!(board.half * HALF < recording.len(), "it does not end");
         board.instrument.poll(board.now, |_| {});
@@ -311,12 +318,13 @@ fn counters_come_every_second_however_busy_the_line() {
 
 #[test]
 fn counters_that_tell_of_drops_leave_the_line_to_estimates() {
-    // Blocks of so few pairs that a half of the ring has more of them than the queue holds.
-    let configuration = windows_of(2, Some(40));
+    // Blocks of so few pairs that five halves of the ring have more of them than the queue holds.
+    let configuration = windows_of(2, Some(30));
     let (mut counters, mut estimated, mut lost) = (Vec::new(), 0, 0);
     let mut end = 0;
     board(configuration, |board| {
-        board.wire.pass(BYTES);
+        board.missed = 4;
+        board.wire.pass(5 * BYTES);
         (counters, lost) = (board.wire.counters(), board.wire.receiver.lost());
         estimated = estimates(&board.wire.reports).len();
         end = board.now;
@@ -330,6 +338,71 @@ fn counters_that_tell_of_drops_leave_the_line_to_estimates() {
         "{}",
         counters.len()
     );
+}
+
+/// What a board counts of its blocks that are dropped, in 1.8 s of a wave of so many Hz; after each half of the ring `each` does what it
+/// likes.
+fn blocks_dropped(
+    frequency: f64,
+    configuration: Configuration,
+    mut each: impl FnMut(&mut Board<'_>),
+) -> u32 {
+    let wave = Wave {
+        frequency,
+        ..recordings::WAVE
+    };
+    let recording = recordings::codes(wave, recordings::quiet(), 200_000);
+    let mut dropped = 0;
+    board_on(&recording, configuration, |board| {
+        // The line is not in the way.
+        board.wire.pass(100 * BYTES);
+        each(board);
+        let last = board.wire.counters().last().copied();
+        dropped = last.map_or(0, |counters| counters.blocks_dropped);
+        board.now < 1800
+    });
+    dropped
+}
+
+#[test]
+fn a_half_of_the_ring_has_no_more_blocks_than_the_queue_holds() {
+    for (frequency, hop) in [
+        (5332.0, Some(1)),
+        (9000.0, None),
+        // Blocks of two pairs.
+        (13_000.0, Some(40)),
+        (24_000.0, None),
+    ] {
+        let dropped = blocks_dropped(frequency, windows_of(2, hop), |_| {});
+        assert_eq!(dropped, 0, "{frequency} Hz, {hop:?}");
+    }
+}
+
+#[test]
+fn methods_cost_no_block() {
+    for (frequency, periods, hop) in [
+        (5332.0, 10, None),
+        (5332.0, 10, Some(10)),
+        (5332.0, 20, Some(20)),
+        (8000.0, 20, None),
+        (8000.0, 20, Some(20)),
+        (12_000.0, 22, None),
+        (12_000.0, 20, Some(20)),
+    ] {
+        let mut compared = 0;
+        let dropped = blocks_dropped(frequency, windows_of(periods, hop), |board| {
+            if board.half == 1 {
+                board.command(1, Command::SetMethods { on: true });
+            }
+            let is_methods = |report: &&Report| matches!(report, Report::Methods(_));
+            let now = board.wire.reports.iter().filter(is_methods).count();
+            // 5 ms of the main loop for each.
+            board.missed = 4 * (now - compared);
+            compared = now;
+        });
+        assert!(compared > 100, "{compared}");
+        assert_eq!(dropped, 0, "{frequency} Hz, {periods} periods, {hop:?}");
+    }
 }
 
 #[test]

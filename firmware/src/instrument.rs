@@ -6,7 +6,9 @@ use core::mem::MaybeUninit;
 use core::sync::atomic::Ordering;
 
 use antinode::{Estimate, Sample, Tracker};
-use antinode_telemetry::{Cause, Configuration, Counters, Hello, Methods, Report, State};
+use antinode_telemetry::{
+    Cause, CommandError, Configuration, Counters, Hello, Methods, Report, State,
+};
 use heapless::spsc::{Consumer, Producer};
 
 use crate::counts::Counts;
@@ -126,9 +128,19 @@ impl<'q, S: Sample> Instrument<'q, S> {
         self.asks = self.liveness.stalled(now);
         if self.asks {
             // Where the queue is full, the interrupt that is asked for empties it, and the next stall finds room.
-            let _ = self.requests.enqueue(Request::Resample);
+            let _ = self.ask(Request::Resample);
         }
         alive
+    }
+
+    /// Asks something of the interrupt; [`CommandError::Busy`] where the queue to it is full.
+    fn ask(&mut self, request: Request) -> Result<(), CommandError> {
+        // Nothing samples, so that nobody would take it from the queue.
+        if matches!(self.state, State::Fault(_)) {
+            return Ok(());
+        }
+        let asked = self.requests.enqueue(request);
+        asked.map_err(|_| CommandError::Busy)
     }
 
     /// Takes the next item; false where there is none.
@@ -182,7 +194,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
             .is_some_and(|tuning| tuning.serves(estimate, rate));
         if !tuned && estimate.flags.is_empty() {
             let tuning = Some(Tuning::of(estimate, rate));
-            if self.requests.enqueue(Request::Tune(tuning)).is_ok() {
+            if self.ask(Request::Tune(tuning)).is_ok() {
                 self.tuning = tuning;
             }
         }

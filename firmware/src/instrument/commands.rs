@@ -33,10 +33,7 @@ impl<S: Sample> Instrument<'_, S> {
                     return Err(CommandError::Unsupported);
                 }
                 let configuration = self.configuration.after(command, RING)?;
-                let request = Request::Tune(None);
-                self.requests
-                    .enqueue(request)
-                    .map_err(|_| CommandError::Busy)?;
+                self.ask(Request::Tune(None))?;
                 self.tuning = None;
                 self.configuration = configuration;
                 self.hello();
@@ -46,10 +43,7 @@ impl<S: Sample> Instrument<'_, S> {
                 // Blocks are as they were, but for their calibration.
                 let is_new = !matches!(command, Command::SetCalibration(_));
                 if is_new {
-                    let request = Request::Configure(configuration.settings);
-                    self.requests
-                        .enqueue(request)
-                        .map_err(|_| CommandError::Busy)?;
+                    self.ask(Request::Configure(configuration.settings))?;
                     // What waits was gathered with the settings before.
                     self.tracker.search();
                 }

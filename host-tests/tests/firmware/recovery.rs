@@ -7,7 +7,7 @@ use firmware::gather::Gatherer;
 use firmware::instrument::{Event, Instrument};
 use firmware::pipeline::{Places, Queues};
 use firmware::sampling::{DUAL_ADC_RAILS, Lapse, Ready, Source, both};
-use firmware::settings::{HALF, QUEUE, REQUESTS, SAMPLE_RATE, SOONEST_MS, STALL_MS};
+use firmware::settings::{HALF, QUEUE, REQUESTS, SAMPLE_RATE, SOONEST_MS, STALL_MS, WATCHDOG_MS};
 
 use crate::emulator::bytes;
 use crate::line::{BYTES, Losing, Wire, hop_of};
@@ -160,6 +160,38 @@ fn requests_that_wait_do_not_keep_a_converter_from_being_started_anew() {
         }
     });
     assert_eq!(source.still, 0);
+}
+
+#[test]
+fn a_device_that_does_not_sample_obeys_all_the_same() {
+    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
+    let parts = queues
+        .split(&mut places, hop_of(5), Cause::Unknown)
+        .expect("the settings can be");
+    let mut wire = Wire::new(parts.out);
+    let fault = State::Fault(Cause::Clock);
+    parts.instrument.fault(Cause::Clock, |_| {});
+    // As long as the watchdog lets it, and with more commands than requests may wait.
+    for now in 0..WATCHDOG_MS {
+        if now % STALL_MS == STALL_MS / 2 {
+            bytes(1, Command::SetWindow { periods: 12 })
+                .iter()
+                .for_each(|&byte| parts.inbox.put(byte));
+        }
+        parts.instrument.poll(now, |_| {});
+        wire.pass(BYTES);
+    }
+    let result = |report: &Report| match report {
+        Report::Acknowledgement(acknowledgement) => Some(acknowledgement.result),
+        _ => None,
+    };
+    let results: Vec<_> = wire.reports.iter().filter_map(result).collect();
+    assert!(results.len() > 2 * REQUESTS, "{results:?}");
+    assert!(results.iter().all(Result::is_ok), "{results:?}");
+    // It goes on saying that it does not.
+    let is_state = |report: &&Report| matches!(report, Report::State(_));
+    let last = wire.reports.iter().filter(is_state).next_back();
+    assert_eq!(last, Some(&Report::State(fault)));
 }
 
 #[test]

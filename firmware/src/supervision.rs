@@ -68,7 +68,9 @@ pub const fn cause(csr: u32, noted: Option<Cause>) -> Cause {
     match noted {
         Some(cause) => cause,
         None if csr & BORRSTF != 0 => Cause::BrownOut,
-        None if csr & (SFTRSTF | LPWRRSTF) != 0 => Cause::Unknown,
+        // The firmware notes why it resets itself: this was a debug probe.
+        None if csr & SFTRSTF != 0 => Cause::Software,
+        None if csr & LPWRRSTF != 0 => Cause::Unknown,
         None if csr & PINRSTF != 0 => Cause::ResetPin,
         None => Cause::Unknown,
     }
@@ -122,7 +124,9 @@ mod tests {
         );
         assert_eq!(cause(IWDGRSTF | PINRSTF, None), Cause::Watchdog);
         assert_eq!(cause(SFTRSTF | PINRSTF, Some(Cause::Panic)), Cause::Panic);
-        assert_eq!(cause(SFTRSTF | PINRSTF, None), Cause::Unknown);
+        // What a probe leaves behind it, as after flashing.
+        assert_eq!(cause(SFTRSTF | PINRSTF, None), Cause::Software);
+        assert_eq!(cause(LPWRRSTF | PINRSTF, None), Cause::Unknown);
         assert_eq!(cause(BORRSTF | PINRSTF, None), Cause::BrownOut);
         assert_eq!(cause(PINRSTF, None), Cause::ResetPin);
         for noted in [Cause::Command, Cause::Panic, Cause::HardFault, Cause::Clock] {
@@ -131,6 +135,7 @@ mod tests {
         // What no firmware notes has no number, and no other number is a cause.
         for other in [
             Cause::PowerOn,
+            Cause::Software,
             Cause::Watchdog,
             Cause::Converter,
             Cause::Unknown,

@@ -7,6 +7,7 @@ use crate::command::{Command, CommandError};
 
 /// Where the device's samples come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum FrontEnd {
     /// Two converters of the microcontroller that sample both pick-offs at once.
     DualAdc,

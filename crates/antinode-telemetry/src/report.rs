@@ -12,6 +12,7 @@ use crate::configuration::Configuration;
 
 /// What the device tells the PC.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Report {
     /// Who it is and what it is set to.
     Hello(Hello),
@@ -77,6 +78,7 @@ impl Hello {
 
 /// What the device does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum State {
     /// The device has started; the cause is that of its reset.
     Started(Cause),
@@ -92,6 +94,7 @@ pub enum State {
 
 /// Why the device restarted or stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[non_exhaustive]
 pub enum Cause {
     /// Power came on.
     PowerOn,
@@ -99,6 +102,8 @@ pub enum Cause {
     BrownOut,
     /// The reset pin was pulled.
     ResetPin,
+    /// A debug probe reset the chip, or software that left no note.
+    Software,
     /// A command or a new configuration asked for it.
     Command,
     /// The watchdog was not fed in time.
@@ -138,6 +143,7 @@ impl Cause {
             Self::PowerOn => "power on",
             Self::BrownOut => "brown-out",
             Self::ResetPin => "reset pin",
+            Self::Software => "probe or software reset",
             Self::Command => "command",
             Self::Watchdog => "watchdog",
             Self::Panic => "panic",

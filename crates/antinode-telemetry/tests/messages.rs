@@ -158,7 +158,7 @@ fn a_frame_is_laid_out_as_documented() {
         number: 0,
         report: Report::State(State::Tracking),
     });
-    // Python: zlib.crc32(bytes([12, 0, 2, 2])) is 0xb7aa630a.
-    let expected = [0, 2, 12, 7, 2, 2, 0x0a, 0x63, 0xaa, 0xb7, 0];
+    // Python: zlib.crc32(bytes([14, 0, 2, 2])) is 0x1da3ab81.
+    let expected = [0, 2, 14, 7, 2, 2, 0x81, 0xab, 0xa3, 0x1d, 0];
     assert_eq!(sent, expected);
 }

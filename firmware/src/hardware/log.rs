@@ -34,6 +34,8 @@ pub fn event(event: Event) {
             defmt::warn!("sampling restarted: {=str}", cause.name());
         }
         Event::State(State::Fault(cause)) => defmt::error!("fault: {=str}", cause.name()),
+        // There is no other.
+        Event::State(_) => {}
         Event::Lapse(lapse) => {
             defmt::warn!("{=u32} pairs lost: {=str}", lapse.lost, lapse.cause.name());
         }

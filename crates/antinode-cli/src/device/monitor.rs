@@ -194,6 +194,7 @@ impl<W: Write> Screen<W> {
                 Ok(()) => eprintln!("command {}: done", answer.id),
                 Err(error) => eprintln!("command {}: refused: {error}", answer.id),
             },
+            _ => eprintln!("report: of a kind that is not known here"),
         }
         Ok(())
     }

@@ -113,10 +113,11 @@ fn configuration() -> impl Strategy<Value = Configuration> {
         )
 }
 
-pub const CAUSES: [Cause; 12] = [
+pub const CAUSES: [Cause; 13] = [
     Cause::PowerOn,
     Cause::BrownOut,
     Cause::ResetPin,
+    Cause::Software,
     Cause::Command,
     Cause::Watchdog,
     Cause::Panic,

@@ -190,7 +190,7 @@ fn a_device_that_does_not_sample_obeys_all_the_same() {
     assert!(results.iter().all(Result::is_ok), "{results:?}");
     // It goes on saying that it does not.
     let is_state = |report: &&Report| matches!(report, Report::State(_));
-    let last = wire.reports.iter().filter(is_state).next_back();
+    let last = wire.reports.iter().rfind(is_state);
     assert_eq!(last, Some(&Report::State(fault)));
 }
 

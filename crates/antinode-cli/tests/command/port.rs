@@ -412,7 +412,7 @@ fn a_monitor_whose_rows_nobody_reads_ends_at_the_second_interrupt() {
     for _ in 0..2000 {
         device.reports.send(estimate.into()).unwrap();
     }
-    thread::sleep(Duration::from_millis(500));
+    thread::sleep(Duration::from_secs(2));
     interrupt(&child);
     thread::sleep(Duration::from_millis(200));
     assert_eq!(child.try_wait().unwrap(), None);

@@ -11,6 +11,7 @@ mod in_turn;
 mod mistaken;
 mod one_sided;
 mod options;
+mod out;
 mod scatter;
 mod search;
 mod silence;
@@ -21,7 +22,7 @@ mod windows;
 
 use std::collections::HashSet;
 use std::fs;
-use std::io::{self, BufWriter, IsTerminal, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use antinode::{Identifier, Settings};
@@ -30,11 +31,12 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::failure::Failure;
 use crate::options::Format;
 use crate::ranges::in_order;
-use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording, WholeFile};
+use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
 use flagged::Flagged;
 pub use options::Identify;
 use options::{MOST_PERIODS, Methods};
+use out::{Out, check_other};
 use stop::Stop;
 use windows::Windows;
 
@@ -56,40 +58,38 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     }
     .check(usize::from(MOST_PERIODS) + 2)?;
     in_order(options.from, options.to)?;
+    check_other(options)?;
+    let format = options.format()?;
     warn_of_twins(&options.files);
-    let (whole, out) = output(options)?;
-    let mut rows = Rows::new(
-        BufWriter::new(out),
-        options.format(),
-        options.methods == Methods::All,
-    );
+    let (out, to) = Out::open(options)?;
+    let mut rows = Rows::new(to, format, options.methods == Methods::All);
     let stop = Stop::new()?;
     let several = options.files.len() > 1;
     let mut failure = None;
     for path in &options.files {
-        let result = identify(path, options, several, &stop, &mut rows);
+        let is_titled = several && format == Format::Table;
+        let result = identify(path, options, [several, is_titled], &stop, &mut rows);
         // Rows found before a fault are printed before the fault is told.
-        rows.flush()?;
-        let is_last = match result {
+        let flushed = rows.flush().map_err(Failure::from);
+        let error = match flushed.and(result) {
+            Ok(()) => continue,
             Err(Failure::Closed) => return Err(Failure::Closed),
-            Err(error) => {
-                let is_last = matches!(error, Failure::Stopped);
-                if let Some(before) = failure.replace(error) {
-                    eprintln!("error: {before}");
-                }
-                is_last
-            }
-            Ok(()) => false,
+            Err(error) => error,
         };
+        let is_last = matches!(error, Failure::Stopped | Failure::Rows(_));
+        if let Some(before) = failure.replace(error) {
+            eprintln!("error: {before}");
+        }
         if is_last {
             break;
         }
     }
     // Rows found before a fault are good.
-    if let Some(whole) = whole.filter(|_| rows.count() > 0 || failure.is_none()) {
-        whole.finish()?;
-    }
-    failure.map_or(Ok(()), Err)
+    let total = rows.total();
+    drop(rows);
+    let is_cut = matches!(failure, Some(Failure::Rows(_)));
+    let finished = out.finish(total, is_cut);
+    failure.map_or(finished, Err)
 }
 
 /// Tells of a file that is given twice: its rows would count twice in what is made of them.
@@ -102,28 +102,11 @@ fn warn_of_twins(files: &[PathBuf]) {
     }
 }
 
-/// Where rows go, and the file that takes its name once they are all there.
-fn output(options: &Identify) -> Result<(Option<WholeFile>, Box<dyn Write>), Failure> {
-    let Some(path) = &options.out else {
-        return Ok((None, Box::new(io::stdout().lock())));
-    };
-    if let Ok(path) = fs::canonicalize(path)
-        && let mut files = options.files.iter().flat_map(fs::canonicalize)
-        && files.any(|file| file == path)
-    {
-        return Err(Failure::Usage(format!(
-            "--out: {} is a recording to be read; give the rows another name",
-            path.display()
-        )));
-    }
-    let (whole, file) = WholeFile::create(path)?;
-    Ok((Some(whole), Box::new(file)))
-}
-
+/// Identifies one recording; of `several` rows have titles, which are printed where they are `told`.
 fn identify(
     path: &Path,
     options: &Identify,
-    several: bool,
+    [several, is_told]: [bool; 2],
     stop: &Stop,
     rows: &mut Rows<impl Write>,
 ) -> Result<(), Failure> {
@@ -154,14 +137,12 @@ fn identify(
     }
     let mut windows = Windows::new(&name, options, &recording, rate, stop)?;
     stop.begin(&name, Flagged::new(options.hum, options.coloured));
-    let is_shown = options.out.is_none() && io::stdout().is_terminal();
+    let is_shown = options.file().is_none() && io::stdout().is_terminal();
     let bar = progress(&recording, is_shown);
     let length = recording
         .pairs()
         .map_or(String::new(), |pairs| format!(", {pairs} sample pairs"));
     let title = format!("{name}: {}{length} at {rate} Hz", recording.format());
-    // Tables of several recordings have it above them.
-    let is_told = several && options.format() == Format::Table;
     let is_watched = !is_told && io::stderr().is_terminal();
     if is_watched {
         eprintln!("{title}");

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use antinode::Estimate;
 use serde::Serialize;
 
-use crate::digits::{heading, significant, with_std};
+use crate::digits::{fixed, heading, significant, with_std};
 use crate::method_rows::{self, Columns};
 use crate::method_table;
 use crate::methods::Methods;
@@ -41,8 +41,13 @@ impl<'a> Row<'a> {
     fn new(file: &'a str, flags: &'a str, e: &Estimate) -> Self {
         // Nine decimals of an angle are beyond every bound, and twelve of a time beyond every clock; more would be digits of nothing.
         let to = |x: f64, unit: f64| (x * unit).round() / unit;
+        let mut time = to(e.time, 1e12);
+        // Fifteen digits a double always holds; a date's time, in s since 1970, needs what it holds beyond them.
+        if time.abs() < 1e4 {
+            time = significant(time, 15);
+        }
         Self {
-            time_s: to(e.time, 1e12),
+            time_s: time,
             samples: e.samples,
             main_amplitude: e.main_amplitude,
             quadrature_amplitude: e.quadrature_amplitude,
@@ -87,8 +92,9 @@ enum Sink<W: Write> {
 /// Prints estimates to a stream.
 pub struct Rows<W: Write> {
     sink: Sink<W>,
-    /// Rows printed of the present recording.
+    /// Rows printed of the present recording, and of those before.
     count: u64,
+    before: u64,
     /// True where each row has the methods' columns too.
     wide: bool,
     /// True once the header of a wide CSV stands.
@@ -115,6 +121,7 @@ impl<W: Write> Rows<W> {
         Self {
             sink,
             count: 0,
+            before: 0,
             title: None,
             tables: 0,
             wide,
@@ -124,7 +131,7 @@ impl<W: Write> Rows<W> {
 
     /// Begins a recording; `title` stands above its table.
     pub fn begin(&mut self, title: Option<String>) {
-        self.count = 0;
+        self.before += std::mem::take(&mut self.count);
         self.title = title;
     }
 
@@ -195,6 +202,11 @@ impl<W: Write> Rows<W> {
         self.count
     }
 
+    /// Rows printed of all recordings.
+    pub fn total(&self) -> u64 {
+        self.before + self.count
+    }
+
     /// Hands on what is buffered.
     pub fn flush(&mut self) -> io::Result<()> {
         match &mut self.sink {
@@ -231,8 +243,8 @@ fn table_heading(out: &mut impl Write) -> io::Result<()> {
 /// A line of a table.
 fn table(out: &mut impl Write, e: &Estimate) -> io::Result<()> {
     let line = format!(
-        "{:>10.6} {} {} {} {} {:>8.2} {:>8.3} {:>8.1e}  {}",
-        e.time,
+        "{:>10} {} {} {} {} {:>8} {:>8} {:>8.1e}  {}",
+        fixed(6, e.time),
         with_std(e.main_amplitude.into(), e.main_amplitude_std.into()),
         with_std(
             e.quadrature_amplitude.into(),
@@ -240,8 +252,8 @@ fn table(out: &mut impl Write, e: &Estimate) -> io::Result<()> {
         ),
         with_std(e.angle.to_degrees(), f64::from(e.angle_std).to_degrees()),
         with_std(e.frequency, e.frequency_std.into()),
-        e.angle_rate.to_degrees(),
-        e.decay_rate,
+        fixed(2, f64::from(e.angle_rate).to_degrees()),
+        fixed(3, e.decay_rate.into()),
         e.residual_rms,
         e.flags,
     );

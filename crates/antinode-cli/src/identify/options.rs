@@ -1,11 +1,11 @@
 //! The command line of `antinode identify`.
 
-use std::ffi::OsStr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use antinode::{Detection, Settings};
 use clap::{Args, ValueEnum, value_parser};
 
+use crate::failure::Failure;
 use crate::options::{Corrected, Format};
 use crate::ranges;
 use crate::recording::{Columns, RawFormat};
@@ -109,7 +109,8 @@ pub struct Identify {
         help_heading = "Output"
     )]
     pub output: Option<Format>,
-    /// Write rows to this file in place of standard output: CSV if it ends in .csv, JSON lines if in .jsonl, unless --output says otherwise.
+    /// Write rows to this file in place of standard output, `-`: CSV if it ends in .csv, JSON lines if in .jsonl, unless --output says
+    /// otherwise.
     #[arg(short = 'o', long, value_name = "FILE", help_heading = "Output")]
     pub out: Option<PathBuf>,
     /// Which methods' results to show.
@@ -140,14 +141,27 @@ pub enum Detector {
 }
 
 impl Identify {
+    /// The file that rows go to; none where that is standard output.
+    pub fn file(&self) -> Option<&Path> {
+        let is_standard = |out: &&Path| ["-", "/dev/stdout"].map(Path::new).contains(out);
+        self.out.as_deref().filter(|out| !is_standard(out))
+    }
+
     /// How rows are printed.
-    pub fn format(&self) -> Format {
+    pub fn format(&self) -> Result<Format, Failure> {
+        if let Some(format) = self.output {
+            return Ok(format);
+        }
         let ending = self.out.as_ref().and_then(|out| out.extension());
-        self.output.unwrap_or(match ending.and_then(OsStr::to_str) {
-            Some("csv") => Format::Csv,
-            Some("jsonl") => Format::Jsonl,
-            _ => Format::Table,
-        })
+        let ending = ending.map(|ending| ending.to_string_lossy().to_lowercase());
+        match ending.as_deref() {
+            Some("csv") => Ok(Format::Csv),
+            Some("jsonl" | "ndjson" | "json") => Ok(Format::Jsonl),
+            None | Some("txt") => Ok(Format::Table),
+            Some(other) => Err(Failure::Usage(format!(
+                "--out: .{other} names no format of rows; end the name in .csv, .jsonl or .txt, or give --output"
+            ))),
+        }
     }
 
     /// The core's settings for a recording of this sample rate, full scale and resolution.

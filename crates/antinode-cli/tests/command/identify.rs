@@ -317,7 +317,11 @@ fn rows_go_to_a_file_in_the_format_of_its_name() {
             printed.out,
             "{options}"
         );
-        assert_eq!(written.err, printed.err);
+        let file = fs::read_to_string(here.join(name)).unwrap();
+        let of_rows = |line: &&str| !line.starts_with("time_s") && !line.contains("time, s");
+        let count = file.lines().filter(of_rows).count();
+        let told = format!("{}{name}: {count} rows\n", printed.err);
+        assert_eq!(written.err, told);
         fs::remove_file(here.join(name)).unwrap();
     }
     // Rows before a fault are kept; where there is none, so is what was there; and no recording is written over.

@@ -17,6 +17,11 @@ pub enum OutputError {
     /// A device, a pipe or a directory.
     #[error("{file}: this exists and is not a file; give the path of a file")]
     NotAFile { file: String },
+    /// A file that its owner does not want changed.
+    #[error(
+        "{file}: this file is read-only, and stays as it is; give another name, or make it writable"
+    )]
+    ReadOnly { file: String },
     /// The directory that the file would stand in is not there.
     #[error("{file}: there is no directory `{directory}`; make it first, or correct the path")]
     NoDirectory { file: String, directory: String },

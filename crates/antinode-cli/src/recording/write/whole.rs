@@ -1,12 +1,15 @@
 //! Files that take their name only once they are whole.
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::TempPath;
 
 use super::OutputError;
+
+/// No line of what is written is longer, bytes.
+const LONGEST_LINE: u64 = 1 << 16;
 
 /// A file under a temporary name beside the one it will have; whatever is there stays until then.
 pub struct WholeFile {
@@ -20,11 +23,15 @@ impl WholeFile {
     /// Begins a file, and gives what writes to it.
     pub fn create(path: &Path) -> Result<(Self, File), OutputError> {
         let file = path.display().to_string();
-        let target = match fs::metadata(path) {
-            Ok(metadata) if !metadata.is_file() => return Err(OutputError::NotAFile { file }),
+        let there = fs::metadata(path).ok();
+        let target = match &there {
+            Some(there) if !there.is_file() => return Err(OutputError::NotAFile { file }),
+            Some(there) if there.permissions().readonly() => {
+                return Err(OutputError::ReadOnly { file });
+            }
             // A link keeps leading to the file it leads to.
-            Ok(_) => fs::canonicalize(path).map_err(|fault| OutputError::io(&file, fault))?,
-            Err(_) => path.to_owned(),
+            Some(_) => fs::canonicalize(path).map_err(|fault| OutputError::io(&file, fault))?,
+            None => path.to_owned(),
         };
         let parent = target.parent().filter(|name| !name.as_os_str().is_empty());
         let directory = parent.unwrap_or(Path::new("."));
@@ -39,12 +46,16 @@ impl WholeFile {
         });
         let suffix = format!(".tmp{ending}");
         builder.prefix(".antinode-").suffix(&suffix);
-        // The permissions of any new file, not those of a secret one.
+        // Those of any new file, not those of a secret one.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         // The temporary name would tell the user nothing.
         let plain = |fault: io::Error| OutputError::io(&file, fault.kind().into());
         let (output, temporary) = builder.tempfile_in(directory).map_err(plain)?.into_parts();
+        // Before there is anything in it that others may not read.
+        if let Some(there) = there {
+            output.set_permissions(there.permissions()).map_err(plain)?;
+        }
         let whole = Self {
             file,
             target,
@@ -75,6 +86,28 @@ impl WholeFile {
             .and_then(|output| output.sync_all())
             .and_then(|()| temporary.persist(target).map_err(|fault| fault.error))
             .map_err(|fault| OutputError::io(&file, fault))
+    }
+
+    /// Leaves off what follows its last end of line, as of a disk that became full; false where no line is whole.
+    pub fn cut(&self) -> Result<bool, OutputError> {
+        self.cut_to_lines()
+            .map_err(|fault| OutputError::io(&self.file, fault))
+    }
+
+    fn cut_to_lines(&self) -> io::Result<bool> {
+        let mut output = File::options()
+            .read(true)
+            .write(true)
+            .open(&self.temporary)?;
+        let from = output.metadata()?.len().saturating_sub(LONGEST_LINE);
+        output.seek(SeekFrom::Start(from))?;
+        let mut last = Vec::new();
+        output.read_to_end(&mut last)?;
+        let Some(end) = last.iter().rposition(|&byte| byte == b'\n') else {
+            return Ok(false);
+        };
+        output.set_len(from + end as u64 + 1)?;
+        Ok(true)
     }
 
     /// Where it is until then.

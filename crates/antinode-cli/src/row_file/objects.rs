@@ -1,0 +1,38 @@
+//! Rows as JSON lines: each an object, whose names are the columns.
+
+use std::io::{self, BufRead};
+
+use csv::StringRecord;
+use serde_json::{Map, Value};
+
+use super::lines::Lines;
+
+/// The names of an object.
+pub(super) fn names(line: &[u8]) -> serde_json::Result<StringRecord> {
+    let object: Map<String, Value> = serde_json::from_slice(line)?;
+    Ok(object.keys().map(String::as_str).collect())
+}
+
+/// Reads the next object's fields in the order of the names; false at the end.
+pub(super) fn read(
+    lines: &mut Lines<impl BufRead>,
+    names: &StringRecord,
+    record: &mut StringRecord,
+) -> io::Result<bool> {
+    let line = lines.next()?;
+    if line.is_empty() {
+        return Ok(false);
+    }
+    let object: Map<String, Value> = serde_json::from_slice(line)?;
+    record.clear();
+    for name in names {
+        match object.get(name) {
+            None => record.push_field(""),
+            // What JSON has for what is no number.
+            Some(Value::Null) => record.push_field("NaN"),
+            Some(Value::String(text)) => record.push_field(text),
+            Some(other) => record.push_field(&other.to_string()),
+        }
+    }
+    Ok(true)
+}

@@ -1,0 +1,153 @@
+//! `antinode identify -o`: what becomes of the file of rows, and of what stood there.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{Row, WAVE, run, wav};
+
+/// A recording `a.wav`, and `none.wav`, which holds none.
+fn recordings(here: &Path) {
+    fs::write(here.join("a.wav"), wav(&WAVE.codes(20_000))).unwrap();
+    fs::write(here.join("none.wav"), wav(&[[0; 2]; 2000])).unwrap();
+}
+
+fn read(here: &Path, name: &str) -> String {
+    fs::read_to_string(here.join(name)).unwrap()
+}
+
+#[test]
+fn rows_of_earlier_recordings_are_kept() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    recordings(here);
+    let mixed = run(here, "identify a.wav none.wav -o rows.csv");
+    assert_eq!(mixed.code, 1);
+    let rows = Row::all(&read(here, "rows.csv"));
+    assert!(rows.len() > 90 && rows.iter().all(|row| row.text("file") == "a.wav"));
+    let told = format!("rows.csv: {} rows\n", rows.len());
+    assert!(mixed.err.contains(&told), "{}", mixed.err);
+    // Where there is no row at all, what was there stays, and that is told.
+    let none = run(here, "identify none.wav -o rows.csv");
+    assert_eq!(none.code, 1);
+    let told = "rows.csv: not written, for there is no row\n";
+    assert!(none.err.contains(told), "{}", none.err);
+    assert_eq!(Row::all(&read(here, "rows.csv")).len(), rows.len());
+}
+
+#[test]
+fn the_ending_of_the_name_is_the_format() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    recordings(here);
+    for (name, start) in [
+        ("rows.CSV", "time_s,"),
+        ("rows.JSONL", "{"),
+        ("rows.json", "{"),
+        ("rows.ndjson", "{"),
+        ("rows.TXT", "   time, s"),
+        ("rows", "   time, s"),
+    ] {
+        assert_eq!(run(here, &format!("identify a.wav -o {name}")).code, 0);
+        assert!(read(here, name).starts_with(start), "{name}");
+    }
+    let unknown = run(here, "identify a.wav -o rows.tsv");
+    assert_eq!(
+        (unknown.code, unknown.err.as_str()),
+        (
+            2,
+            "error: --out: .tsv names no format of rows; end the name in .csv, .jsonl or .txt, or give --output\n"
+        )
+    );
+    assert!(!here.join("rows.tsv").exists());
+    let given = run(here, "identify a.wav -o rows.tsv --output csv");
+    assert_eq!(given.code, 0);
+    assert!(read(here, "rows.tsv").starts_with("time_s,"));
+}
+
+#[test]
+fn a_dash_is_standard_output() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    recordings(here);
+    let plain = run(here, "identify a.wav --output csv");
+    let dash = run(here, "identify a.wav --output csv -o -");
+    assert_eq!((dash.code, dash.out, dash.err), (0, plain.out, plain.err));
+    assert!(!here.join("-").exists());
+}
+
+#[cfg(unix)]
+mod unix {
+    use std::os::unix::fs::PermissionsExt;
+    use std::process::{Command, Output};
+
+    use super::*;
+
+    /// Runs a line of shell in a directory, where `$antinode` is the command.
+    fn shell(here: &Path, line: &str) -> Output {
+        Command::new("sh")
+            .args(["-c", line])
+            .env("antinode", assert_cmd::cargo::cargo_bin("antinode"))
+            .current_dir(here)
+            .output()
+            .unwrap()
+    }
+
+    #[test]
+    fn a_full_disk_leaves_the_rows_that_it_holds() {
+        let directory = tempfile::tempdir().unwrap();
+        let here = directory.path();
+        recordings(here);
+        let all = run(here, "identify a.wav --output csv").out;
+        // No file may grow beyond 8 blocks of 512 bytes.
+        let full = shell(
+            here,
+            "trap '' XFSZ; ulimit -f 8; \"$antinode\" identify a.wav a.wav -o rows.csv",
+        );
+        assert_eq!(full.status.code(), Some(1));
+        let rows = read(here, "rows.csv");
+        assert!(rows.len() > 2000 && rows.ends_with('\n') && all.starts_with(&rows));
+        let err = String::from_utf8(full.stderr).unwrap();
+        assert!(
+            err.contains("rows.csv: the rows up to there are written\nerror: rows cannot be written: rows.csv: "),
+            "{err}"
+        );
+        assert_eq!(fs::read_dir(here).unwrap().count(), 3, "{err}");
+    }
+
+    #[test]
+    fn devices_and_pipes_are_written_to_as_they_are() {
+        let directory = tempfile::tempdir().unwrap();
+        let here = directory.path();
+        recordings(here);
+        let plain = run(here, "identify a.wav --output csv").out;
+        for line in [
+            "echo first > rows; \"$antinode\" identify a.wav --output csv -o /dev/stdout >> rows",
+            "echo first > rows; \"$antinode\" identify a.wav --output csv -o /dev/fd/3 3>> rows",
+            "mkfifo pipe; (echo first; cat pipe) > rows & \"$antinode\" identify a.wav --output csv -o pipe; wait",
+        ] {
+            let written = shell(here, line);
+            assert!(written.status.success(), "{line}: {written:?}");
+            assert_eq!(read(here, "rows"), format!("first\n{plain}"), "{line}");
+        }
+    }
+
+    #[test]
+    fn permissions_are_kept_and_read_only_files_too() {
+        let directory = tempfile::tempdir().unwrap();
+        let here = directory.path();
+        recordings(here);
+        let path = here.join("rows.csv");
+        fs::write(&path, "good").unwrap();
+        let allow = |mode| fs::set_permissions(&path, PermissionsExt::from_mode(mode)).unwrap();
+        allow(0o444);
+        let kept = run(here, "identify a.wav -o rows.csv");
+        assert_eq!(kept.code, 1);
+        let told = "rows.csv: this file is read-only, and stays as it is; give another name, or make it writable";
+        assert!(kept.err.contains(told), "{}", kept.err);
+        assert_eq!(read(here, "rows.csv"), "good");
+        allow(0o600);
+        assert_eq!(run(here, "identify a.wav -o rows.csv").code, 0);
+        let mode = fs::metadata(&path).unwrap().permissions().mode();
+        assert_eq!(mode & 0o777, 0o600);
+    }
+}

@@ -2,6 +2,7 @@
 
 mod again;
 mod jump;
+mod recording;
 mod row;
 
 use std::f64::consts::FRAC_PI_2;
@@ -13,7 +14,7 @@ use antinode::Flags;
 use crate::failure::Failure;
 use crate::given::{Given, none_within};
 use crate::row_file::{self, RowFile};
-use jump::jumps;
+use recording::{Recording, Taken};
 use row::Places;
 pub use row::Row;
 
@@ -101,9 +102,13 @@ impl Runs {
                 ));
             }
             if self.rows < LEAST_ROWS {
+                let only = match self.rows {
+                    0 => "there is no row".to_owned(),
+                    1 => "there is only 1".to_owned(),
+                    rows => format!("there are only {rows}"),
+                };
                 return recording(format!(
-                    "no run of {LEAST_ROWS} clean rows, for there are only {}: shorten the windows, or record longer",
-                    self.rows
+                    "no run of {LEAST_ROWS} clean rows, for {only}: shorten the windows, or record longer"
                 ));
             }
             return recording(format!(
@@ -115,13 +120,19 @@ impl Runs {
         // A copy by another name.
         let same = self.runs.iter().enumerate().find_map(|(index, run)| {
             let mut before = self.runs[..index].iter();
-            before.any(|other| run.is_copy(other)).then_some(run)
+            Some((run, before.find(|other| run.is_copy(other))?))
         });
-        same.map(|run| {
+        same.map(|(run, other)| {
+            let of = match (other.file.as_str(), run.file.as_str()) {
+                ("", "") => String::new(),
+                (one, other) if one == other => format!(" of {one}"),
+                (one, other) => format!(" of {one} and of {other}"),
+            };
             given_twice(&format!(
-                "{name}: a run of {:.1} s with {} rows",
+                "{name}: a run{of}, {:.1} s with {} rows from {} s on,",
                 run.seconds(),
-                run.rows.len()
+                run.rows.len(),
+                run.rows[0].time
             ))
         })
     }
@@ -161,10 +172,8 @@ impl Runs {
         let flags = rows.needed("flags")?;
         let file = rows.place("file");
 
-        let mut present: Option<(String, f64)> = None;
-        let mut run = Run::default();
-        // True where rows were left out that hold more than a circle.
-        let mut is_torn = false;
+        let mut recordings: Vec<Recording> = Vec::new();
+        let mut present = 0;
         while let Some(record) = rows.next()? {
             // A lost wave's row need not have a time: it then is as any other.
             if let Some(time) = places.time(record) {
@@ -175,13 +184,17 @@ impl Runs {
                 }
             }
             self.rows += 1;
-            if !record[flags].is_empty() {
-                let flags = row_file::flags(&record[flags]);
-                if flags.intersects(self.breaks) {
-                    self.end(&mut run);
-                    present = None;
+            let from = file.map_or("", |file| &record[file]);
+            // Rows of several recordings may stand in the order of their time.
+            if recordings.get(present).is_none_or(|one| one.file != from) {
+                let known = recordings.iter().position(|one| one.file == from);
+                present = known.unwrap_or(recordings.len());
+                if known.is_none() {
+                    recordings.push(Recording::new(from));
                 }
-                is_torn |= flags != Flags::CIRCULAR;
+            }
+            if !record[flags].is_empty() {
+                recordings[present].leave_out(row_file::flags(&record[flags]), self.breaks);
                 continue;
             }
             // Only here: a flagged row need not have numbers.
@@ -190,45 +203,17 @@ impl Runs {
                     "a time, amplitude, angle, frequency or deviation is no number, or an amplitude or a deviation not above 0",
                 ));
             };
-            let from = file.map_or("", |file| &record[file]);
-            let turn = match &present {
-                Some((before, _)) if before == from && !run.is_before(row.time) => {
-                    self.backward += 1;
-                    f64::INFINITY
-                }
-                Some((before, angle)) if before == from => {
-                    if run.overlaps(&row) {
-                        self.overlapping += 1;
-                        continue;
-                    }
-                    if is_torn && jumps(&run.rows, &row) {
-                        f64::INFINITY
-                    } else {
-                        turn(row.angle - angle)
-                    }
-                }
-                _ => f64::INFINITY,
-            };
-            is_torn = false;
-            if turn.abs() > self.most_turn {
-                self.end(&mut run);
+            match recordings[present].take(row, self.most_turn) {
+                Taken::Kept => {}
+                Taken::Overlaps => self.overlapping += 1,
+                Taken::Backward => self.backward += 1,
             }
-            if run.rows.is_empty() {
-                from.clone_into(&mut run.file);
-            }
-            run.rows.push(row);
-            present = Some((from.to_owned(), row.angle));
         }
-        self.end(&mut run);
+        for mut recording in recordings {
+            recording.end();
+            self.runs.append(&mut recording.runs);
+        }
         Ok(())
-    }
-
-    /// Keeps a run that is long enough, and begins another.
-    fn end(&mut self, run: &mut Run) {
-        let run = std::mem::take(run);
-        if run.rows.len() >= LEAST_ROWS {
-            self.runs.push(run);
-        }
     }
 }
 
@@ -273,11 +258,6 @@ impl Run {
         let numbers = |row: &Row| [row.time, row.main, row.quadrature, row.angle];
         let mut pairs = self.rows.iter().zip(&other.rows);
         pairs.all(|(one, other)| numbers(one) == numbers(other))
-    }
-
-    /// True when the last row, if any, is earlier.
-    fn is_before(&self, time: f64) -> bool {
-        self.rows.last().is_none_or(|last| last.time < time)
     }
 }
 

@@ -63,6 +63,21 @@ fn a_run_ends_with_its_file() {
 }
 
 #[test]
+fn rows_of_several_recordings_may_stand_in_the_order_of_their_time() {
+    let late = |k: usize| if k == 17 { "reacquired" } else { "" };
+    let one = rows("a", 40, 0.05, |_| "");
+    let other = rows("b", 40, -0.04, late);
+    let pairs = one.lines().zip(other.lines());
+    let mixed: String = pairs.map(|(a, b)| format!("{a}\n{b}\n")).collect();
+    let [mixed, apart] = [read(&mixed), read(&(one + &other))];
+    assert_eq!(lengths(&mixed), [40, 17, 22]);
+    assert_eq!((mixed.backward, mixed.rows), (0, 80));
+    for (mixed, apart) in mixed.runs.iter().zip(&apart.runs) {
+        assert!(mixed.is_copy(apart) && mixed.file == apart.file);
+    }
+}
+
+#[test]
 fn flagged_rows_are_left_out() {
     let all = read(&rows("a", 40, 0.02, |k| if k == 5 { "misfit" } else { "" }));
     assert_eq!(lengths(&all), [39]);
@@ -185,7 +200,13 @@ fn what_leaves_no_run_is_told() {
     );
     // One recording by two names.
     let copies = rows("a", 40, 0.01, |_| "") + &rows("b", 40, 0.01, |_| "");
-    assert!(told(&copies).unwrap().contains("given twice"));
+    let fault = told(&copies).unwrap();
+    let twice = "it: a run of a and of b, 0.4 s with 40 rows from 0 s on, is given twice: ";
+    assert!(fault.starts_with(twice), "{fault}");
+    for (count, told_of_it) in [(0, "for there is no row:"), (1, "for there is only 1:")] {
+        let fault = told(&rows("a", count, 0.01, |_| "")).unwrap();
+        assert!(fault.contains(told_of_it), "{fault}");
+    }
     assert_eq!(told(&rows("a", 40, 0.01, |_| "")), None);
 }
 

@@ -11,7 +11,7 @@ use crate::ranges::{self, in_order};
 /// The rows that a command is given.
 #[derive(Debug, Args)]
 pub struct Given {
-    /// Rows that `antinode identify` or `antinode monitor` printed with --output csv; `-` is standard input.
+    /// Rows that `antinode identify` or `antinode monitor` printed with --output csv or jsonl; `-` is standard input.
     #[arg(required = true, value_name = "ROWS")]
     pub rows: Vec<PathBuf>,
     /// Only rows from this time on, s, as in their `time_s`.

@@ -1,24 +1,44 @@
-//! Rows as `antinode identify --output csv` prints them, from a file or standard input, and what is told where they are not.
+//! Rows as `antinode identify` prints them as CSV or JSON lines, from a file or standard input, and what is told where they are not.
+
+mod lines;
+mod objects;
 
 use std::io::{self, BufRead, BufReader, Chain, Cursor, IsTerminal, Read};
 use std::path::Path;
 
 use antinode::Flags;
-use csv::{ErrorKind, Position, Reader, ReaderBuilder, StringRecord};
+use csv::{ErrorKind, Reader, ReaderBuilder, StringRecord};
 
 use crate::failure::Failure;
 use crate::recording::{in_utf8, open_file};
+use crate::rows::MAIN_AMPLITUDE;
+use lines::{Lines, is_skipped};
 
 const STANDARD_INPUT: &str = "standard input";
 /// No header of rows is longer, bytes.
 const LONGEST_HEADER: u64 = 1 << 16;
+/// Lines that may stand above the heading of a table.
+const ABOVE_TABLE: usize = 4;
+/// What separates fields: spreadsheets whose decimal mark is a comma take a semicolon, and a tab where they write text.
+const MARKS: [u8; 3] = [b',', b';', b'\t'];
+
+/// Lines, and those that were looked at before.
+type Source<R> = Lines<Chain<Cursor<Vec<u8>>, BufReader<R>>>;
+
+/// How rows are written.
+enum Records<R: Read> {
+    Fields(Box<Reader<Source<R>>>),
+    Objects(Source<R>),
+}
 
 /// A file of rows, read line by line.
-pub struct RowFile<R> {
+pub struct RowFile<R: Read> {
     name: String,
-    reader: Reader<Chain<Cursor<Vec<u8>>, BufReader<R>>>,
+    records: Records<R>,
     header: StringRecord,
     record: StringRecord,
+    /// True for the table that is for reading.
+    is_table: bool,
 }
 
 impl RowFile<Box<dyn Read>> {
@@ -39,17 +59,25 @@ impl<R: Read> RowFile<R> {
     /// Reads the header.
     pub fn new(name: &str, source: R) -> Result<Self, Failure> {
         let mut source = BufReader::new(source);
-        // Spreadsheets whose decimal mark is a comma separate fields by a semicolon.
-        let mut first = Vec::new();
-        let mut head = (&mut source).take(LONGEST_HEADER);
-        head.read_until(b'\n', &mut first)
-            .map_err(|fault| unreadable(name, &fault.into()))?;
-        let is_by_semicolon = first.contains(&b';') && !first.contains(&b',');
-        let delimiter = if is_by_semicolon { b';' } else { b',' };
-        let mut reader = ReaderBuilder::new()
-            .delimiter(delimiter)
-            .from_reader(Cursor::new(first).chain(source));
-        let header = reader.headers().map_err(|error| unreadable(name, &error))?;
+        let (head, first) =
+            head(&mut source).map_err(|fault| unreadable(name, 1, &fault.into()))?;
+        let first = &head[first..];
+        let is_table = holds(&head, MAIN_AMPLITUDE);
+        let is_objects = first.trim_ascii_start().starts_with(b"{");
+        let mark = MARKS.into_iter().find(|mark| first.contains(mark));
+        let of_first = is_objects.then(|| objects::names(first));
+        let lines = Lines::new(Cursor::new(head.clone()).chain(source));
+        let (records, header) = if let Some(names) = of_first {
+            let names = names.map_err(|fault| no_object(name, 1, &fault.into()))?;
+            (Records::Objects(lines), names)
+        } else {
+            let mut reader = ReaderBuilder::new()
+                .delimiter(mark.unwrap_or(b','))
+                .from_reader(lines);
+            let header = reader.headers();
+            let header = header.map_err(|error| unreadable(name, 1, &error))?.clone();
+            (Records::Fields(Box::new(reader)), header)
+        };
         if header.is_empty() {
             return Err(Failure::Recording(format!(
                 "{name}: there is nothing in it, not even a header: see what the command that should have written rows has to say"
@@ -57,9 +85,10 @@ impl<R: Read> RowFile<R> {
         }
         Ok(Self {
             name: name.to_owned(),
-            header: header.clone(),
-            reader,
+            records,
+            header,
             record: StringRecord::new(),
+            is_table,
         })
     }
 
@@ -76,23 +105,38 @@ impl<R: Read> RowFile<R> {
     /// Where a column stands that rows must have.
     pub fn needed(&self, column: &str) -> Result<usize, Failure> {
         self.place(column).ok_or_else(|| {
-            let remedy = if self.header.iter().any(|name| name.starts_with('{')) {
-                "these are JSON lines, give the rows with `--output csv`".to_owned()
-            } else {
-                remedy(&self.name)
-            };
             let name = &self.name;
-            Failure::Recording(format!(
-                "{name}: no column {column} in its first line; {remedy}"
-            ))
+            Failure::Recording(if self.is_table {
+                format!(
+                    "{name}: this is the table to read; add --output csv to the command that prints it"
+                )
+            } else {
+                format!("{name}: no column {column} in its first line; {REMEDY}")
+            })
         })
     }
 
     /// The next row; none at the end.
     pub fn next(&mut self) -> Result<Option<&StringRecord>, Failure> {
         loop {
-            let more = self.reader.read_record(&mut self.record);
-            let more = more.map_err(|error| unreadable(&self.name, &error))?;
+            let more = match &mut self.records {
+                Records::Fields(reader) => reader.read_record(&mut self.record),
+                Records::Objects(lines) => {
+                    objects::read(lines, &self.header, &mut self.record).map_err(csv::Error::from)
+                }
+            };
+            let more = match more {
+                Ok(more) => more,
+                Err(error) if self.lines().is_cut && is_unfinished(&error) => {
+                    eprintln!(
+                        "warning: {}, line {}: it does not end, as where writing was stopped, and is left out",
+                        self.name,
+                        self.lines().number
+                    );
+                    false
+                }
+                Err(error) => return Err(self.unreadable(&error)),
+            };
             // Files that were put together bring their headers along.
             if !more || self.record != self.header {
                 return Ok(more.then_some(&self.record));
@@ -102,12 +146,58 @@ impl<R: Read> RowFile<R> {
 
     /// What is told where the last row cannot be used.
     pub fn fault(&self, what: &str) -> Failure {
-        let line = self.record.position().map_or(0, Position::line);
         Failure::Recording(format!(
-            "{}, line {line}: {what}; leave the line out",
-            self.name
+            "{}, line {}: {what}; leave the line out",
+            self.name,
+            self.lines().number
         ))
     }
+
+    fn lines(&self) -> &Source<R> {
+        match &self.records {
+            Records::Fields(reader) => reader.get_ref(),
+            Records::Objects(lines) => lines,
+        }
+    }
+
+    fn unreadable(&self, error: &csv::Error) -> Failure {
+        let line = self.lines().number;
+        match (&self.records, error.kind()) {
+            (Records::Objects(_), ErrorKind::Io(fault)) => no_object(&self.name, line, fault),
+            _ => unreadable(&self.name, line, error),
+        }
+    }
+}
+
+/// The first lines, and where the first that may be a header begins; where that is none, as many as may stand above a table.
+fn head(source: &mut impl BufRead) -> io::Result<(Vec<u8>, usize)> {
+    let mut head = Vec::new();
+    let mut line = |head: &mut Vec<u8>| {
+        let begun = head.len();
+        let read = source
+            .by_ref()
+            .take(LONGEST_HEADER)
+            .read_until(b'\n', head)?;
+        io::Result::Ok((begun, read > 0))
+    };
+    loop {
+        let (begun, is_line) = line(&mut head)?;
+        if is_line && is_skipped(&head[begun..]) {
+            continue;
+        }
+        if !holds(&head[begun..], "time_s") {
+            for _ in 0..ABOVE_TABLE {
+                line(&mut head)?;
+            }
+        }
+        return Ok((head, begun));
+    }
+}
+
+/// Whether these words stand in a text.
+fn holds(text: &[u8], words: &str) -> bool {
+    text.windows(words.len())
+        .any(|text| text == words.as_bytes())
 }
 
 /// The number in a field of a row, its decimal mark a point or a comma.
@@ -124,12 +214,11 @@ pub fn flags(column: &str) -> Flags {
 }
 
 /// What is told where there are no rows, or a line is none.
-fn unreadable(name: &str, error: &csv::Error) -> Failure {
-    let line = error.position().map_or(0, Position::line);
+fn unreadable(name: &str, line: u64, error: &csv::Error) -> Failure {
     Failure::Recording(match error.kind() {
         // Of the header there is no other line to leave out.
         ErrorKind::Utf8 { .. } if line <= 1 => {
-            format!("{name}: this is no text; {}", remedy(name))
+            format!("{name}: this is no text; {REMEDY}")
         }
         ErrorKind::Utf8 { .. } => {
             format!("{name}, line {line}: this is no text; leave the line out")
@@ -139,12 +228,27 @@ fn unreadable(name: &str, error: &csv::Error) -> Failure {
         } => format!(
             "{name}, line {line}: found {len} fields where the first line has {expected_len}; leave the line out"
         ),
-        _ => format!("{name}: {error}; {}", remedy(name)),
+        _ => format!("{name}: {error}; {REMEDY}"),
     })
 }
 
-/// How to come by rows.
-fn remedy(name: &str) -> String {
-    let file = if name == STANDARD_INPUT { "-" } else { name };
-    format!("give the rows that `antinode identify --output csv {file}` prints of a recording")
+/// Whether a row ends too soon.
+fn is_unfinished(error: &csv::Error) -> bool {
+    match error.kind() {
+        ErrorKind::UnequalLengths {
+            expected_len, len, ..
+        } => len < expected_len,
+        ErrorKind::Io(fault) => fault.kind() == io::ErrorKind::UnexpectedEof,
+        _ => false,
+    }
 }
+
+/// What is told where a line is no JSON object.
+fn no_object(name: &str, line: u64, fault: &io::Error) -> Failure {
+    Failure::Recording(format!(
+        "{name}, line {line}: this is no JSON object: {fault}; leave the line out"
+    ))
+}
+
+/// How to come by rows.
+const REMEDY: &str = "give the rows that `antinode identify --output csv RECORDING` prints";

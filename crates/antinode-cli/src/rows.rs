@@ -11,6 +11,9 @@ use crate::method_table;
 use crate::methods::Methods;
 use crate::options::Format;
 
+/// The heading of a table's first quantity, which no other format has.
+pub const MAIN_AMPLITUDE: &str = "main amplitude";
+
 /// One row of CSV or JSON lines; the names are the columns.
 #[derive(Debug, Serialize)]
 struct Row<'a> {
@@ -228,7 +231,7 @@ fn header(row: &Row) -> io::Result<csv::StringRecord> {
 
 /// The line above a table.
 fn table_heading(out: &mut impl Write) -> io::Result<()> {
-    let names = ["main amplitude", "quadrature", "angle, °", "frequency, Hz"].map(heading);
+    let names = [MAIN_AMPLITUDE, "quadrature", "angle, °", "frequency, Hz"].map(heading);
     writeln!(
         out,
         "{:>10} {} {:>8} {:>8} {:>8}  flags",

@@ -36,3 +36,22 @@ pub(super) fn read(
     }
     Ok(true)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_number_is_null() {
+        let first = b"{\"time_s\":0.1,\"flags\":\"lost\"}\n";
+        let names = names(first).unwrap();
+        let text = [&first[..], b"{\"flags\":\"\",\"time_s\":null}\n"].concat();
+        let mut lines = Lines::new(text.as_slice());
+        let mut record = StringRecord::new();
+        for expected in [["lost", "0.1"], ["", "NaN"]] {
+            assert!(read(&mut lines, &names, &mut record).unwrap());
+            assert_eq!(record, expected.to_vec());
+        }
+        assert!(!read(&mut lines, &names, &mut record).unwrap());
+    }
+}

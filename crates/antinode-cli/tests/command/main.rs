@@ -25,6 +25,7 @@ mod resonator_frequency;
 mod resonator_rows;
 mod resonator_splits;
 mod rows_file;
+mod rows_read;
 mod search;
 mod second_tone;
 mod silence;

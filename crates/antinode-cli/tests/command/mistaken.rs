@@ -166,9 +166,11 @@ fn rows_in_a_recordings_place_and_a_recording_in_theirs_are_told() {
             "calibrate it.npy",
             "it.npy: this is no text; give the rows that ",
         ),
-        ("plot it.csv -o it.svg", "--output csv it.csv`"),
+        (
+            "plot it.csv -o it.svg",
+            "it.csv: no column time_s in its first line; give the rows that ",
+        ),
         ("resonator -", "standard input: there is nothing in it"),
-        ("resonator rows.jsonl", "these are JSON lines"),
         (
             "resonator broken.csv",
             "broken.csv, line 11: found 2 fields where the first line has 21; leave",

@@ -1,0 +1,195 @@
+//! Rows as `resonator`, `calibrate` and `plot` read them: whatever a spreadsheet, another program or a stop left of them.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::ring_downs::rows;
+use crate::common::{run, run_with};
+
+/// What `resonator` prints and tells of rows, none of which it may leave out.
+fn resonator(here: &Path, rows: impl Into<Vec<u8>>) -> (String, String) {
+    let found = run_with(here, "resonator - --output csv", rows.into());
+    assert!(
+        found.code == 0 && !found.err.contains("left out"),
+        "{}",
+        found.err
+    );
+    (found.out, found.err)
+}
+
+/// Rows of a ring-down in a file, and as a text.
+fn ring_down(here: &Path) -> String {
+    let simulated = "--seconds 2 --noise 0.002 --decay-rate 0.5 --angle 0.4";
+    rows(here, simulated, "--periods 200");
+    fs::read_to_string(here.join("rows.csv")).unwrap()
+}
+
+#[test]
+fn rows_of_other_programs_are_the_same_rows() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let text = ring_down(here);
+    let expected = resonator(here, text.as_str());
+    let (header, lines) = text.split_once('\n').unwrap();
+    let (first, others) = lines.split_once('\n').unwrap();
+    let decimal_commas = text.replace(',', ";").replace('.', ",");
+    let decimal_commas = decimal_commas.replace("it,wav", "it.wav");
+    let commas = ",".repeat(header.matches(',').count());
+    let tabs = text.replace(',', "\t");
+    let utf_16 = ("\u{feff}".to_owned() + &tabs)
+        .encode_utf16()
+        .flat_map(u16::to_le_bytes)
+        .collect();
+    for other in [
+        text.replace('\n', "\r\n").into_bytes(),
+        text.replace('\n', "\r").into_bytes(),
+        tabs.into_bytes(),
+        utf_16,
+        format!("sep=;\n{decimal_commas}").into_bytes(),
+        format!("sep=,\r\n{header}\r\n{commas}\r\n{lines}{commas}\n\n").into_bytes(),
+        format!("# of today\n{header}\n# the first\n{first}\n{others}").into_bytes(),
+    ] {
+        assert_eq!(resonator(here, other), expected);
+    }
+}
+
+#[test]
+fn json_lines_are_read_as_csv_is() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (name, rate) in [("a", 1.2), ("b", -1.2)] {
+        let made = format!(
+            "simulate -o {name}.wav --seconds 3 --noise 0.002 --decay-rate 0.3 --angle-rate {rate} --dropout 1:1.1:noise"
+        );
+        assert_eq!(run(here, &made).code, 0);
+    }
+    for name in ["rows.csv", "rows.jsonl"] {
+        let made = run(
+            here,
+            &format!("identify a.wav b.wav --periods 50 -o {name}"),
+        );
+        assert_eq!(made.code, 0, "{}", made.err);
+    }
+    let lines = fs::read_to_string(here.join("rows.jsonl")).unwrap();
+    assert!(lines.contains("lost"));
+    for command in ["resonator", "calibrate", "plot -o it.svg"] {
+        let [csv, json] = ["rows.csv", "rows.jsonl"].map(|rows| {
+            let run = run(here, &format!("{command} {rows}"));
+            assert_eq!(run.code, 0, "{}", run.err);
+            let told = [run.out, run.err].map(|text| text.replace(rows, "ROWS"));
+            (told, fs::read_to_string(here.join("it.svg")).ok())
+        });
+        assert_eq!(csv, json, "{command}");
+    }
+    let wrong = lines.replacen("\n{", "\n(", 1);
+    let wrong = run_with(here, "resonator -", wrong.into());
+    assert_eq!(wrong.code, 1);
+    let told = "standard input, line 2: this is no JSON object: ";
+    assert!(wrong.err.contains(told), "{}", wrong.err);
+}
+
+#[test]
+fn the_line_at_fault_is_named() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let text = ring_down(here);
+    let mut lines: Vec<_> = text.lines().map(str::to_owned).collect();
+    lines[4] = lines[4].replacen("0.", "o.", 1);
+    lines.insert(2, "# a comment".to_owned());
+    for end in ["\n", "\r\n"] {
+        let found = run_with(here, "resonator -", lines.join(end).into());
+        assert_eq!(found.code, 1);
+        assert!(
+            found.err.contains("standard input, line 6: "),
+            "{}",
+            found.err
+        );
+    }
+}
+
+#[test]
+fn a_last_line_that_does_not_end_is_left_out() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let text = ring_down(here);
+    let lines = run(here, "identify --output jsonl --periods 200 it.wav").out;
+    for whole in [text, lines] {
+        let count = whole.lines().count();
+        let last = whole.trim_end().rfind('\n').unwrap() + 1;
+        let cut = &whole[..last + 40];
+        let found = run_with(here, "resonator - --output csv", cut.into());
+        let told = format!(
+            "warning: standard input, line {count}: it does not end, as where writing was stopped, and is left out\n"
+        );
+        let (out, err) = resonator(here, &whole[..last]);
+        assert_eq!((found.code, found.err), (0, told + &err));
+        assert_eq!(found.out, out);
+        // A whole line need not have an end.
+        let whole = whole.trim_end();
+        assert_eq!(
+            resonator(here, whole),
+            resonator(here, format!("{whole}\n"))
+        );
+    }
+}
+
+#[test]
+fn a_table_is_told_from_rows() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    ring_down(here);
+    fs::copy(here.join("it.wav"), here.join("other.wav")).unwrap();
+    for identified in [
+        "it.wav",
+        "it.wav other.wav",
+        "--methods all it.wav other.wav",
+    ] {
+        let table = run(here, &format!("identify --periods 200 {identified}")).out;
+        for command in ["resonator -", "calibrate -", "plot - -o it.svg"] {
+            let found = run_with(here, command, table.clone().into());
+            assert_eq!(
+                (found.code, found.err.as_str()),
+                (
+                    1,
+                    "error: standard input: this is the table to read; add --output csv to the command that prints it\n"
+                )
+            );
+        }
+    }
+    // Of what are no rows it is not said that they are a recording.
+    fs::write(here.join("log.csv"), "time,C,D\n0,0.1,0.2\n").unwrap();
+    let found = run(here, "resonator log.csv");
+    assert_eq!(
+        (found.code, found.err.as_str()),
+        (
+            1,
+            "error: log.csv: no column time_s in its first line; give the rows that `antinode identify --output csv RECORDING` prints\n"
+        )
+    );
+}
+
+#[test]
+fn rows_of_several_recordings_may_be_sorted_by_time() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (name, rate) in [("a", 0.7), ("b", -0.7)] {
+        let made = format!(
+            "simulate -o {name}.wav --seconds 3 --noise 0.002 --decay-rate 0.3 --angle-rate {rate}"
+        );
+        assert_eq!(run(here, &made).code, 0);
+    }
+    let text = run(here, "identify a.wav b.wav --periods 50 --output csv").out;
+    let (header, lines) = text.split_once('\n').unwrap();
+    let mut lines: Vec<_> = lines.lines().collect();
+    let time = |line: &str| -> f64 { line.split(',').next().unwrap().parse().unwrap() };
+    lines.sort_by(|one, other| time(one).total_cmp(&time(other)));
+    let sorted = format!("{header}\n{}\n", lines.join("\n"));
+    for command in ["resonator -", "calibrate -"] {
+        let [of_sorted, of_others] = [&sorted, &text].map(|rows| {
+            let run = run_with(here, command, rows.clone().into());
+            assert_eq!(run.code, 0, "{}", run.err);
+            (run.out, run.err)
+        });
+        assert_eq!(of_sorted, of_others);
+    }
+}

@@ -1,5 +1,6 @@
 //! What fits read of a row.
 
+use std::f64::consts::TAU;
 use std::io::Read;
 
 use csv::StringRecord;
@@ -36,7 +37,7 @@ pub struct Row {
     pub angle: f64,
     /// Of the main wave, rad, where the rows tell it.
     pub phase: Option<f64>,
-    /// One standard deviation of it: infinite where the rows do not tell it.
+    /// One standard deviation of it at this time: infinite where the rows do not tell it.
     pub phase_deviation: f64,
     /// Hz, and one standard deviation of it: infinite where the rows do not tell it.
     pub frequency: f64,
@@ -113,6 +114,8 @@ impl Row {
         let mut positive = deviations
             .into_iter()
             .chain([main, of_frequency, of_rate, of_phase]);
+        // The phase is that of the time before it was rounded: doubles as large as a date, in s since 1970, are 0.2 µs apart.
+        let rounded = TAU * frequency * (time.abs().next_up() - time.abs()) / 12f64.sqrt();
         let is_usable = positive.all(|number| number > 0.0);
         let [more, less] = [1.0, -1.0].map(|sign| longer(main + sign * quadrature, of_main));
         is_usable.then_some(Self {
@@ -121,7 +124,7 @@ impl Row {
             quadrature: quadrature - 0.5 * (more - less),
             angle,
             phase: places.phase.and_then(finite),
-            phase_deviation: of_phase,
+            phase_deviation: of_phase.hypot(rounded),
             frequency,
             frequency_deviation: of_frequency,
             deviations,

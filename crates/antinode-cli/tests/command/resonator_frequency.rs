@@ -1,5 +1,7 @@
 //! `antinode resonator`: the mean frequency, and how it moves with time and with the energy.
 
+use std::fs;
+
 use crate::common::ring_downs::{joined, of_resonator, of_run, rows};
 use crate::common::{rms, run, run_with};
 
@@ -22,6 +24,32 @@ fn the_mean_frequency_of_a_ring_down_that_ends_in_noise_is_found_to_its_deviatio
     }
     let rms = rms(&all);
     assert!((0.6..1.5).contains(&rms), "{rms}: {all:.1?}");
+}
+
+#[test]
+fn the_mean_frequency_is_found_to_its_deviation_where_times_are_dates() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let mut all = Vec::new();
+    for seed in 1..=8 {
+        let simulated =
+            format!("--seconds 6 --decay-rate 0.1 --noise 1e-4 --sample f32 --seed {seed}");
+        rows(here, &simulated, "--periods 20");
+        let text = fs::read_to_string(here.join("rows.csv")).unwrap();
+        let (header, lines) = text.split_once('\n').unwrap();
+        let since_1970 = lines.lines().map(|line| {
+            let (time, rest) = line.split_once(',').unwrap();
+            let time = 1.7e9 + 0.1 * f64::from(seed) + time.parse::<f64>().unwrap();
+            format!("{time},{rest}\n")
+        });
+        let text = format!("{header}\n{}", since_1970.collect::<String>());
+        let found = run_with(here, "resonator - --output csv", text.into());
+        let (frequency, std) = of_resonator(&found.out, "frequency_hz");
+        assert!(std < 1e-4, "{}", found.out);
+        all.push((frequency - 5332.0) / std);
+    }
+    let rms = rms(&all);
+    assert!((0.5..1.6).contains(&rms), "{rms}: {all:.1?}");
 }
 
 #[test]

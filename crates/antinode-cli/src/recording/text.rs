@@ -11,10 +11,14 @@ use super::error::{InputError, LineFault};
 pub(super) const MAX_LINE: usize = 1 << 16;
 
 /// Text whose lines end in `\n` alone, byte for byte: they may have ended in `\r\n` or in `\r`.
+///
+/// A `\r` before a mark between fields ended a line of one of two files that stand side by side, and is a blank.
 pub(super) struct LineEnds {
     stream: Stream,
     /// True after a `\r`, which is a `\n` by now.
     is_after_return: bool,
+    /// A byte that is read and not yet given: what a `\r` is, the next one tells.
+    ahead: Option<u8>,
 }
 
 impl LineEnds {
@@ -22,26 +26,53 @@ impl LineEnds {
         Self {
             stream,
             is_after_return: false,
+            ahead: None,
         }
+    }
+
+    /// Reads what there is, and a byte ahead where it ends in a `\r`.
+    fn read_on(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let held = self.ahead.iter().len();
+        let read = self.stream.read(&mut bytes[held..])?;
+        let is_end = read == 0 && held < bytes.len();
+        if let Some(byte) = self.ahead.take() {
+            bytes[0] = byte;
+        }
+        let count = held + read;
+        if bytes[..count].last() == Some(&b'\r') && !is_end {
+            if count > 1 {
+                self.ahead = Some(b'\r');
+                return Ok(count - 1);
+            }
+            let mut next = [0];
+            self.ahead = (self.stream.read(&mut next)? == 1).then_some(next[0]);
+        }
+        Ok(count)
     }
 }
 
 impl Read for LineEnds {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        let count = self.stream.read(bytes)?;
+        if bytes.is_empty() {
+            return Ok(0);
+        }
+        let count = self.read_on(bytes)?;
         let bytes = &mut bytes[..count];
         if !self.is_after_return && !bytes.contains(&b'\r') {
             return Ok(count);
         }
-        for byte in bytes {
-            let is_return = *byte == b'\r';
-            *byte = match *byte {
+        for place in 0..count {
+            let next = bytes.get(place + 1).copied().or(self.ahead);
+            let byte = bytes[place];
+            let is_inside = byte == b'\r' && next.is_some_and(is_mark);
+            bytes[place] = match byte {
+                b'\r' if is_inside => b' ',
                 b'\r' => b'\n',
                 // A blank before the next line does no harm.
                 b'\n' if self.is_after_return => b' ',
                 other => other,
             };
-            self.is_after_return = is_return;
+            self.is_after_return = byte == b'\r' && !is_inside;
         }
         Ok(count)
     }
@@ -218,9 +249,16 @@ pub(super) fn is_comment(line: &[u8]) -> bool {
     is_marked || is_sentence
 }
 
+/// The marks that separate fields, those first that go before others.
+const MARKS: [u8; 3] = [b';', b'\t', b','];
+
+fn is_mark(byte: u8) -> bool {
+    MARKS.contains(&byte)
+}
+
 /// What separates the fields: the first of `;`, tab and `,` that is there, or else blanks.
 pub(super) fn separator(line: &[u8]) -> u8 {
-    [b';', b'\t', b',']
+    MARKS
         .into_iter()
         .find(|mark| line.contains(mark))
         .unwrap_or(b' ')

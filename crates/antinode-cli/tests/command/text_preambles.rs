@@ -191,6 +191,15 @@ fn one_channel_a_file_is_told_and_two_side_by_side_are_read() {
     });
     fault(here, "- --rate 1e5", c.clone().into(), &["input:5: ", told]);
     same(here, &pasted(&c, &d), "--columns 1,2,4", &expected, START);
+    // Of Windows, where each has its own end of line.
+    let windows = pasted(&c, &d).replace('\n', "\r\n");
+    let windows: String = windows
+        .lines()
+        .zip(c.lines())
+        .map(|(both, c)| format!("{c}\r{}\r\n", &both[c.len()..]))
+        .collect();
+    assert!(windows.contains("\r,"));
+    same(here, &windows, "--columns 1,2,4", &expected, START);
     // Without a name above them.
     let above = HIOKI.replace(", \"ACH2\"", "");
     let text = recording(&above, |_, time, [c, _]| format!("{time:.5}, {c}"));

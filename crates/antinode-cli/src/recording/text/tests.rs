@@ -59,8 +59,10 @@ fn lines_end_the_same_way() {
         ("1,2\r3,4\r", "1,2\n3,4\n"),
         ("1,2\n3,4\n", "1,2\n3,4\n"),
         ("1,2\r\r\n3,4", "1,2\n\n 3,4\n"),
+        // Two files side by side.
+        ("1\r,2\r\n3\r;4", "1 ,2\n 3 ;4\n"),
     ] {
-        for most in [1, 100] {
+        for most in [1, 2, 3, 100] {
             let bytes = text.as_bytes().to_vec();
             let stream = super::super::tests::Dribble::new(bytes, most);
             let mut found = String::new();

@@ -227,7 +227,11 @@ fn told(role: Role, text: &[u8], read: Option<f32>) -> String {
 fn shown(field: &[u8]) -> String {
     let text = lossy(field);
     text.chars()
-        .flat_map(char::escape_debug)
+        .flat_map(|letter| {
+            // A quote stands for itself.
+            let escape = usize::from(matches!(letter, '"' | '\''));
+            letter.escape_debug().skip(escape)
+        })
         .take(SHOWN_LETTERS)
         .collect()
 }

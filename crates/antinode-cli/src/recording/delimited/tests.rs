@@ -112,7 +112,7 @@ fn faults_in_a_line_are_named_by_line_and_column() {
         (
             "1,2\n\"3,4\n5,6\n",
             3,
-            "a.csv:2:1: sample pair 1 (from 0), S_C (left): the value is `\\\"3`, not",
+            "a.csv:2:1: sample pair 1 (from 0), S_C (left): the value is `\"3`, not",
         ),
         (
             "1,2\nx,y\nz,-\n",

@@ -121,7 +121,7 @@ pub enum TimeFault {
     /// Time stands still or runs backwards.
     #[error(
         "time goes from {from} s to {to} s, but must go up; sort the lines, cut the \
-         recording here, print the time with more digits"
+         recording here, print the time with more digits: what follows is not read"
     )]
     Backwards { from: f64, to: f64 },
     /// Each time in two lines.

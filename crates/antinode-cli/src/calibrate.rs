@@ -9,7 +9,7 @@ use antinode::Flags;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
-use crate::digits::{decimals, significant, with_std};
+use crate::digits::{decimals, fixed, significant, with_std};
 use crate::failure::Failure;
 use crate::given::Given;
 use crate::options::Corrected;
@@ -29,12 +29,12 @@ const MOST_TURN: f64 = 0.1;
 pub struct Calibrate {
     #[command(flatten)]
     pub given: Given,
-    // What the rows were identified with.
-    #[command(flatten)]
-    pub corrected: Corrected,
     /// How the calibration is printed.
     #[arg(long, visible_alias = "format", value_enum, default_value_t = Printed::Options, value_name = "FORMAT")]
     pub output: Printed,
+    // What the rows were identified with. Last, for what follows would stand under its heading.
+    #[command(flatten)]
+    pub corrected: Corrected,
 }
 
 /// How a calibration is printed.
@@ -108,10 +108,15 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
     // The result goes to the other stream: standard error may be closed.
     let _ = tell(&mut report, &name, &rows, &found, &quantities);
     let apart = found.deviations.map(|std| SEEN * std);
-    if corrected == PickOffs::IDEAL && found.pick_offs.are_ideal_to(apart) {
+    if corrected == PickOffs::IDEAL {
+        let look = if found.pick_offs.are_ideal_to(apart) {
+            "the pick-offs look ideal: "
+        } else {
+            ""
+        };
         let _ = writeln!(
             report,
-            "the pick-offs look ideal: if the rows were identified with a calibration, give it here too, for what is printed replaces it"
+            "{look}if the rows were identified with a calibration, give it here too, for what is printed replaces it"
         );
     }
     print(&mut io::stdout().lock(), options.output, &quantities)?;
@@ -131,7 +136,7 @@ fn print(out: &mut impl Write, how: Printed, quantities: &[Quantity]) -> io::Res
             // One digit more than the report's two of the deviation.
             let options = quantities.iter().map(|Quantity { option, row, .. }| {
                 let decimals = decimals(row.std) + 1;
-                format!("{option} {:.decimals$}", row.value)
+                format!("{option} {}", fixed(decimals, row.value))
             });
             let options: Vec<_> = options.collect();
             writeln!(out, "{}", options.join(" "))
@@ -160,7 +165,7 @@ fn tell(
         .turned
         .iter()
         .rev()
-        .filter(|turned| turned.abs() > 0.0);
+        .filter(|turned| turned.to_degrees().abs() >= 0.5);
     let turns: Vec<_> = turns
         .map(|turned| format!("{:+.0}°", turned.to_degrees()))
         .collect();

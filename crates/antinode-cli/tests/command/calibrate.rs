@@ -214,12 +214,18 @@ fn rows_that_were_calibrated_already_are_told() {
     let first = calibrate(here, "one.wav other.wav", "");
     let told = "the pick-offs look ideal: if the rows were identified with a calibration, give it";
     assert!(!first.err.contains(told), "{}", first.err);
+    // It is told wherever none is given.
+    let plain = "\nif the rows were identified with a calibration, give it here too, for what is printed replaces it\n";
+    assert!(first.err.ends_with(plain), "{}", first.err);
     let arguments = format!("identify --output csv one.wav other.wav {}", first.out);
     let rows = run(here, &arguments).out;
     let forgotten = run_with(here, "calibrate -", rows.clone().into());
     assert!(forgotten.err.contains(told), "{}", forgotten.err);
     let given = run_with(here, &format!("calibrate - {}", first.out), rows.into());
-    assert!(!given.err.contains(told), "{}", given.err);
+    assert!(!given.err.contains("give it here too"), "{}", given.err);
+    let help = run(here, "calibrate --help").out;
+    let (options, pick_offs) = help.split_once("Pick-offs:").unwrap();
+    assert!(options.contains("--output") && !pick_offs.contains("--output"));
 }
 
 #[test]

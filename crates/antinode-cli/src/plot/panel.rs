@@ -72,6 +72,8 @@ pub fn panel(
         (range, (Scale::LOG, title))
     } else {
         let least = match (quantity, extent.size()) {
+            // The deviations of zeros span something.
+            (_, 0.0) if extent.has_deviation() => 0.0,
             (_, 0.0) => 1.0,
             (FREQUENCY, size) => LEAST_OF_FREQUENCY * size,
             (RESIDUAL, size) => LEAST_OF_RESIDUAL * size,
@@ -171,7 +173,7 @@ fn scale(traces: &[Trace], quantity: usize, range: &Range<f64>, size: f64) -> (S
             )
         }
         _ => {
-            let (times, told) = factor(size);
+            let (times, told) = factor(if size > 0.0 { size } else { range.end });
             (Scale::linear(0.0, times), format!("{title}{told}"))
         }
     }

@@ -55,6 +55,11 @@ impl Extent {
         ];
     }
 
+    /// True where each clean value has a deviation.
+    pub fn has_deviation(&self) -> bool {
+        self.least_deviation > 0.0 && self.least_deviation.is_finite()
+    }
+
     /// True where any value is a clean row's.
     fn is_clean(&self) -> bool {
         self.clean[0] <= self.clean[1]

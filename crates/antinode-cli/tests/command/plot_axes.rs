@@ -59,6 +59,20 @@ fn constants_and_single_rows_have_axes() {
 }
 
 #[test]
+fn zeros_show_their_deviation() {
+    let directory = tempfile::tempdir().unwrap();
+    let header = HEADER.replace("residual", "quadrature_amplitude_std,residual");
+    let lines = (0..10).map(|k| format!("{k},0.5,0,0,0.1,5332,2e-5,0.01,,a\n"));
+    let rows = header + &lines.collect::<String>();
+    let svg = drawn(directory.path(), &rows, "10 rows of a; 0 flagged");
+    let texts = svg.texts();
+    // Two of them high, and a margin.
+    for text in ["quadrature amplitude × 10⁶", "20", "−20"] {
+        assert!(texts.contains(&text), "{text}: {texts:?}");
+    }
+}
+
+#[test]
 fn times_of_a_clock_that_began_long_ago_can_be_read() {
     let directory = tempfile::tempdir().unwrap();
     let times = (0..10).map(|k| format!("170000000{k}.5,0.5,0,0,0,5332,0,,a\n"));

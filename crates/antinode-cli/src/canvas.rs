@@ -1,5 +1,6 @@
 //! What all figures are drawn with: a font of their own, and colours.
 
+use std::io;
 use std::sync::Once;
 
 use plotters::style::{FontStyle, RGBColor, register_font};
@@ -18,6 +19,11 @@ pub const PURPLE: RGBColor = RGBColor(204, 121, 167);
 pub const GREY: RGBColor = RGBColor(150, 150, 150);
 /// Lines of the grid.
 pub const GRID: RGBColor = RGBColor(215, 215, 215);
+
+/// What is told where an image cannot be stored: the encoder gives the system's words among names of its own.
+pub fn not_stored() -> io::Error {
+    io::Error::other("the image is not stored whole")
+}
 
 /// Makes the font known; to be called before anything is drawn or measured.
 pub fn register_fonts() {

@@ -15,6 +15,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::canvas;
 use crate::failure::Failure;
 use crate::given::{Given, none_within};
 use crate::recording::{OutputError, WholeFile};
@@ -62,7 +63,9 @@ pub fn run(options: &Plot) -> Result<(), Failure> {
     let names: Vec<_> = traces.iter().map(|trace| trace.name.as_str()).collect();
     let written = match format {
         Format::Svg => draw::svg(&figure, &names).map(|text| file.write_all(text.as_bytes())),
-        Format::Png => draw::png(whole.temporary(), &figure, &names).map(Ok),
+        Format::Png => {
+            Ok(draw::png(whole.temporary(), &figure, &names).map_err(|_| canvas::not_stored()))
+        }
     };
     written
         .unwrap_or_else(|error| Err(io::Error::other(error.to_string())))

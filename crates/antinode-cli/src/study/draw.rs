@@ -1,6 +1,8 @@
 //! A panel as SVG and PNG.
 
 use std::error::Error;
+use std::fs;
+use std::io;
 use std::path::Path;
 
 use plotters::coord::Shift;
@@ -9,27 +11,36 @@ use plotters::prelude::*;
 
 use super::figure::{Figure, Name, Panel};
 use crate::canvas::{self, FONT};
+use crate::recording::OutputError;
 
 /// Width and height, pixels.
 const SIZE: (u32, u32) = (960, 600);
+/// Size of the caption, pixels: the longest one fits even where a viewer has a font a quarter wider.
+const CAPTION: u32 = 17;
 /// Width of the legend, right of the chart, pixels.
 const KEY_WIDTH: u32 = 220;
 /// A bound's dashes and the gaps between them, pixels.
 const DASH: (u32, u32) = (7, 5);
 
 /// Writes `path`.svg and `path`.png.
-pub fn write(path: &Path, figure: &Figure, panel: &Panel) -> Result<(), Box<dyn Error>> {
+pub fn write(path: &Path, figure: &Figure, panel: &Panel) -> Result<(), OutputError> {
     canvas::register_fonts();
+    let [svg, png] = ["svg", "png"].map(|ending| path.with_extension(ending));
+    let failed = |path: &Path, fault| OutputError::io(&path.display().to_string(), fault);
+    let mut text = String::new();
     draw(
-        &SVGBackend::new(&path.with_extension("svg"), SIZE).into_drawing_area(),
-        figure,
-        panel,
-    )?;
-    draw(
-        &BitMapBackend::new(&path.with_extension("png"), SIZE).into_drawing_area(),
+        &SVGBackend::with_string(&mut text, SIZE).into_drawing_area(),
         figure,
         panel,
     )
+    .map_err(|error| failed(&svg, io::Error::other(error.to_string())))?;
+    fs::write(&svg, text).map_err(|fault| failed(&svg, fault))?;
+    draw(
+        &BitMapBackend::new(&png, SIZE).into_drawing_area(),
+        figure,
+        panel,
+    )
+    .map_err(|_| failed(&png, canvas::not_stored()))
 }
 
 fn draw<B: DrawingBackend>(
@@ -63,7 +74,7 @@ where
     builder
         .caption(
             format!("Figure {}{}: {}", figure.number, panel.letter, panel.title),
-            (FONT, 22),
+            (FONT, CAPTION),
         )
         .margin(12)
         .x_label_area_size(48)

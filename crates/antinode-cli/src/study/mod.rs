@@ -14,12 +14,13 @@ mod tests;
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use antinode_sim::Wave;
 use clap::Args;
 
 use crate::failure::Failure;
+use crate::recording::OutputError;
 
 /// Under the help of the study.
 const FILES: &str = "\
@@ -47,9 +48,6 @@ const RATE: f64 = 100_000.0;
 
 /// Computes, draws, and tells what is confirmed.
 pub fn run(options: &Study) -> Result<(), Failure> {
-    let failed = |what: &Path, error: &dyn std::fmt::Display| {
-        Failure::Recording(format!("{}: cannot be written: {error}", what.display()))
-    };
     // Before the work, not after it.
     fs::create_dir_all(&options.out).map_err(|error| {
         Failure::Recording(format!(
@@ -64,12 +62,13 @@ pub fn run(options: &Study) -> Result<(), Failure> {
 
     for figure in [&first, &second, &third] {
         let path = options.out.join(format!("figure-{}.csv", figure.number));
-        table::write(&path, figure).map_err(|error| failed(&path, &error))?;
+        table::write(&path, figure)
+            .map_err(|error| OutputError::io(&path.display().to_string(), error.into()))?;
         for panel in &figure.panels {
             let path = options
                 .out
                 .join(format!("figure-{}{}", figure.number, panel.letter));
-            draw::write(&path, figure, panel).map_err(|error| failed(&path, &error))?;
+            draw::write(&path, figure, panel)?;
         }
     }
 

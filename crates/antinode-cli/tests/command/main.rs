@@ -32,6 +32,7 @@ mod silence;
 mod simulate;
 mod simulate_refusals;
 mod span;
+mod study;
 mod text;
 mod text_broken;
 mod text_gaps;

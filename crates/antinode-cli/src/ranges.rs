@@ -10,6 +10,18 @@ fn within(text: &str, least: f64, most: f64, unit: &str) -> Result<f64, String> 
     }
 }
 
+/// Any number.
+pub fn number(text: &str) -> Result<f64, String> {
+    text.parse()
+        .map_err(|_| "it must be a number, without its unit".to_owned())
+}
+
+/// What noise begins with.
+pub fn seed(text: &str) -> Result<u64, String> {
+    text.parse()
+        .map_err(|_| "it must be a whole number from 0 on".to_owned())
+}
+
 /// A sample rate, Hz.
 pub fn rate(text: &str) -> Result<f64, String> {
     within(text, 1.0, 1e10, " Hz, 100000 for 100 kS/s")

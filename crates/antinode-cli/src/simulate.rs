@@ -44,6 +44,17 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     let pairs = pairs as u64;
     options.check_places(pairs)?;
     options.check_frequency()?;
+    // The whole name: recordings that differ in their extension alone have each their own.
+    let mut beside = options.out.clone().into_os_string();
+    beside.push(".json");
+    let beside = PathBuf::from(beside);
+    // What was simulated can be simulated again; a recording cannot be recorded again.
+    if options.out.is_file() && !beside.exists() {
+        return Err(Failure::Recording(format!(
+            "{}: this is there, and was not simulated, for no truth is beside it; give another name, or delete it first",
+            options.out.display()
+        )));
+    }
     // Files that have no name yet go as they are dropped, but not with a process that is killed.
     let interrupted = interrupted()?;
     let mut writer = RecordingWriter::create(&options.out, options.rate, options.sample)?;
@@ -55,10 +66,6 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
         flaws: &flaws,
     };
     let text = serde_json::to_string_pretty(&truth).map_err(io::Error::from)?;
-    // The whole name: recordings that differ in their extension alone have each their own.
-    let mut beside = options.out.clone().into_os_string();
-    beside.push(".json");
-    let beside = PathBuf::from(beside);
     // Written before the samples: what cannot be is found at once, and not after a long recording.
     let beside_whole = WholeFile::text(&beside, &(text + "\n"))?;
     let mut beyond = 0u64;

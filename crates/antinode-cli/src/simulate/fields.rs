@@ -12,6 +12,7 @@ pub struct Parsed<T>(pub T);
 fn fields<'a>(
     text: &'a str,
     form: &str,
+    example: &str,
     least: usize,
     most: usize,
 ) -> Result<Vec<&'a str>, String> {
@@ -19,7 +20,7 @@ fn fields<'a>(
     if (least..=most).contains(&fields.len()) {
         Ok(fields)
     } else {
-        Err(format!("it must be {form}"))
+        Err(format!("it must be {form}, as {example}"))
     }
 }
 
@@ -32,7 +33,7 @@ impl FromStr for Parsed<ClipSpan> {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let f = fields(text, "FROM:TO:LEVEL", 3, 3)?;
+        let f = fields(text, "FROM:TO:LEVEL", "0.2:0.3:0.4", 3, 3)?;
         Ok(Self(ClipSpan {
             from: number(f[0])?,
             to: number(f[1])?,
@@ -45,7 +46,7 @@ impl FromStr for Parsed<Loss> {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let f = fields(text, "INDEX:COUNT", 2, 2)?;
+        let f = fields(text, "INDEX:COUNT", "500000:3", 2, 2)?;
         Ok(Self(Loss {
             at: number(f[0])?,
             count: number(f[1])?,
@@ -57,7 +58,13 @@ impl FromStr for Parsed<Dropout> {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let f = fields(text, "FROM:TO:KIND or FROM:TO:KIND:CHANNEL", 3, 4)?;
+        let f = fields(
+            text,
+            "FROM:TO:KIND or FROM:TO:KIND:CHANNEL",
+            "0.2:0.3:hold",
+            3,
+            4,
+        )?;
         let kind = match f[2] {
             "zero" => DropoutKind::Zero,
             "hold" => DropoutKind::Hold,

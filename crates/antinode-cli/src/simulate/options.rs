@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::fields::Parsed;
 use crate::failure::Failure;
+use crate::ranges;
 use crate::recording::SampleFormat;
 
 /// `antinode simulate`.
@@ -18,13 +19,13 @@ pub struct Simulate {
     #[arg(short = 'o', long, value_name = "FILE")]
     pub out: PathBuf,
     /// Length, s.
-    #[arg(long, default_value_t = 1.0, value_name = "S")]
+    #[arg(long, default_value_t = 1.0, value_name = "S", value_parser = ranges::number)]
     pub seconds: f64,
     /// Sample rate, Hz.
-    #[arg(long, default_value_t = 100_000.0, value_name = "HZ")]
+    #[arg(long, default_value_t = 100_000.0, value_name = "HZ", value_parser = ranges::number)]
     pub rate: f64,
     /// Seed of all noise.
-    #[arg(long, default_value_t = 1, value_name = "SEED")]
+    #[arg(long, default_value_t = 1, value_name = "SEED", value_parser = ranges::seed)]
     pub seed: u64,
     /// How samples are stored.
     #[arg(long, value_enum, default_value_t = SampleFormat::I16, value_name = "FORMAT")]
@@ -41,40 +42,40 @@ pub struct Simulate {
 #[command(next_help_heading = "Wave")]
 struct WaveOptions {
     /// Main amplitude at the start; integer samples saturate at 1.
-    #[arg(long, default_value_t = 0.5, value_name = "LEVEL")]
+    #[arg(long, default_value_t = 0.5, value_name = "LEVEL", value_parser = ranges::number)]
     main_amplitude: f64,
     /// Quadrature amplitude at the start, signed.
-    #[arg(long, default_value_t = 0.025, value_name = "LEVEL")]
+    #[arg(long, default_value_t = 0.025, value_name = "LEVEL", value_parser = ranges::number)]
     quadrature_amplitude: f64,
     /// Pattern angle at the start, rad [default: π/6].
-    #[arg(long, default_value_t = FRAC_PI_6, hide_default_value = true, value_name = "RAD")]
+    #[arg(long, default_value_t = FRAC_PI_6, hide_default_value = true, value_name = "RAD", value_parser = ranges::number)]
     angle: f64,
     /// Phase at the start, rad [default: π/6].
-    #[arg(long, default_value_t = FRAC_PI_6, hide_default_value = true, value_name = "RAD")]
+    #[arg(long, default_value_t = FRAC_PI_6, hide_default_value = true, value_name = "RAD", value_parser = ranges::number)]
     phase: f64,
     /// Frequency at the start, Hz, below half of the rate.
-    #[arg(long, default_value_t = 5332.0, value_name = "HZ")]
+    #[arg(long, default_value_t = 5332.0, value_name = "HZ", value_parser = ranges::number)]
     frequency: f64,
     /// Drift of the frequency, Hz/s.
-    #[arg(long, default_value_t = 0.0, value_name = "HZ/S")]
+    #[arg(long, default_value_t = 0.0, value_name = "HZ/S", value_parser = ranges::number)]
     frequency_rate: f64,
     /// Precession by rotation, rad/s.
-    #[arg(long, default_value_t = 0.0, value_name = "RAD/S")]
+    #[arg(long, default_value_t = 0.0, value_name = "RAD/S", value_parser = ranges::number)]
     angle_rate: f64,
     /// Decay of the amplitudes, 1/s; with a split, the mean of both modes.
-    #[arg(long, default_value_t = 0.0, value_name = "1/S")]
+    #[arg(long, default_value_t = 0.0, value_name = "1/S", value_parser = ranges::number)]
     decay_rate: f64,
     /// Difference between the decay rates of the two modes, 1/s.
-    #[arg(long, default_value_t = 0.0, value_name = "1/S")]
+    #[arg(long, default_value_t = 0.0, value_name = "1/S", value_parser = ranges::number)]
     damping_split: f64,
     /// Pattern angle at which damping is greatest, rad.
-    #[arg(long, default_value_t = 0.0, value_name = "RAD")]
+    #[arg(long, default_value_t = 0.0, value_name = "RAD", value_parser = ranges::number)]
     damping_angle: f64,
     /// Difference between the frequencies of the two modes, Hz; --frequency is their mean.
-    #[arg(long, default_value_t = 0.0, value_name = "HZ")]
+    #[arg(long, default_value_t = 0.0, value_name = "HZ", value_parser = ranges::number)]
     frequency_split: f64,
     /// Pattern angle at which the frequency is highest, rad.
-    #[arg(long, default_value_t = 0.0, value_name = "RAD")]
+    #[arg(long, default_value_t = 0.0, value_name = "RAD", value_parser = ranges::number)]
     frequency_angle: f64,
 }
 
@@ -83,34 +84,34 @@ struct WaveOptions {
 #[command(next_help_heading = "Flaws")]
 struct FlawOptions {
     /// White noise, rms per sample and channel, in the units of the amplitudes.
-    #[arg(long, default_value_t = 0.0, value_name = "RMS")]
+    #[arg(long, default_value_t = 0.0, value_name = "RMS", value_parser = ranges::number)]
     noise: f64,
     /// Offset of S_C, in the units of the amplitudes.
-    #[arg(long, default_value_t = 0.0, value_name = "LEVEL")]
+    #[arg(long, default_value_t = 0.0, value_name = "LEVEL", value_parser = ranges::number)]
     offset_c: f64,
     /// Offset of S_D, in the units of the amplitudes.
-    #[arg(long, default_value_t = 0.0, value_name = "LEVEL")]
+    #[arg(long, default_value_t = 0.0, value_name = "LEVEL", value_parser = ranges::number)]
     offset_d: f64,
     /// Amplitude of the mains hum on both pick-offs, in the units of the amplitudes.
-    #[arg(long, default_value_t = 0.0, value_name = "LEVEL")]
+    #[arg(long, default_value_t = 0.0, value_name = "LEVEL", value_parser = ranges::number)]
     hum: f64,
     /// Frequency of the hum, Hz.
-    #[arg(long, default_value_t = 50.0, value_name = "HZ")]
+    #[arg(long, default_value_t = 50.0, value_name = "HZ", value_parser = ranges::number)]
     hum_frequency: f64,
     /// Gain of pick-off D over that of C.
-    #[arg(long, default_value_t = 1.0, value_name = "RATIO")]
+    #[arg(long, default_value_t = 1.0, value_name = "RATIO", value_parser = ranges::number)]
     gain_ratio: f64,
     /// How much later pick-off D is sampled than C, ns.
-    #[arg(long, default_value_t = 0.0, value_name = "NS")]
+    #[arg(long, default_value_t = 0.0, value_name = "NS", value_parser = ranges::number)]
     skew_ns: f64,
     /// Pick-off D stands at 45° plus this angle from C, rad.
-    #[arg(long, default_value_t = 0.0, value_name = "RAD")]
+    #[arg(long, default_value_t = 0.0, value_name = "RAD", value_parser = ranges::number)]
     pick_off_angle: f64,
     /// Cubic nonlinearity: S becomes S + C·S³/a², a the main amplitude at the start.
-    #[arg(long, default_value_t = 0.0, value_name = "C")]
+    #[arg(long, default_value_t = 0.0, value_name = "C", value_parser = ranges::number)]
     cubic: f64,
     /// Level at which |S| is clipped.
-    #[arg(long, value_name = "LEVEL")]
+    #[arg(long, value_name = "LEVEL", value_parser = ranges::number)]
     clip: Option<f64>,
     /// Level at which |S| is clipped between two times, s; may be repeated.
     #[arg(long, value_name = "FROM:TO:LEVEL")]
@@ -119,10 +120,10 @@ struct FlawOptions {
     #[arg(long, value_name = "BITS")]
     bits: Option<u32>,
     /// Full scale of the converter set by --bits.
-    #[arg(long, default_value_t = 1.0, value_name = "LEVEL", requires = "bits")]
+    #[arg(long, default_value_t = 1.0, value_name = "LEVEL", requires = "bits", value_parser = ranges::number)]
     full_scale: f64,
     /// Jitter of the sampling instants, rms, ns.
-    #[arg(long, default_value_t = 0.0, value_name = "NS")]
+    #[arg(long, default_value_t = 0.0, value_name = "NS", value_parser = ranges::number)]
     jitter_ns: f64,
     /// Sample pairs lost, COUNT of them from INDEX on (from 0); may be repeated.
     #[arg(long, value_name = "INDEX:COUNT")]

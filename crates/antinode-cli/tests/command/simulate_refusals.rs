@@ -55,7 +55,19 @@ fn what_makes_no_sense_is_refused() {
         ("-o a.wav --clip 0", "--clip: it must be"),
         ("-o a.wav --bits 1", "--bits: it must be"),
         ("-o a.wav --full-scale 2", "--bits"),
-        ("-o a.wav --clip-span 0:1", "FROM:TO:LEVEL"),
+        (
+            "-o a.wav --clip-span 0:1",
+            "it must be FROM:TO:LEVEL, as 0.2:0.3:0.4",
+        ),
+        ("-o a.wav --lost 10", "it must be INDEX:COUNT, as 500000:3"),
+        (
+            "-o a.wav --angle 30deg",
+            "'--angle <RAD>': it must be a number, without its unit",
+        ),
+        (
+            "-o a.wav --seed -1",
+            "'--seed <SEED>': it must be a whole number from 0 on",
+        ),
         (
             "-o a.wav --clip-span 0.5:0.2:1",
             "--clip-span: it goes from 0.5 s to 0.2 s",
@@ -132,6 +144,7 @@ fn files_are_replaced_only_when_whole() {
     assert_eq!(names(here), ["a.npy", "a.npy.json"]);
     // Whole ones replace what was there.
     fs::remove_dir(here.join("a.npy.json")).unwrap();
+    fs::write(here.join("a.npy.json"), "true").unwrap();
     let whole = run(here, "simulate -o a.npy --seconds 0.01");
     assert_eq!((whole.code, whole.err.as_str()), (0, ""));
     assert_eq!(
@@ -167,6 +180,7 @@ fn an_interruption_leaves_nothing_behind() {
         let directory = tempfile::tempdir().unwrap();
         let here = directory.path();
         fs::write(here.join("a.wav"), "good").unwrap();
+        fs::write(here.join("a.wav.json"), "true").unwrap();
         let child = Command::new(env!("CARGO_BIN_EXE_antinode"))
             .current_dir(here)
             .args(["simulate", "-o", "a.wav", "--seconds", "10000"])
@@ -175,7 +189,7 @@ fn an_interruption_leaves_nothing_behind() {
             .unwrap();
         // Both files are begun before the first sample.
         let begun = Instant::now();
-        while fs::read_dir(here).unwrap().count() < 3 {
+        while fs::read_dir(here).unwrap().count() < 4 {
             assert!(begun.elapsed() < Duration::from_secs(10));
         }
         let id = child.id().to_string();
@@ -193,7 +207,27 @@ fn an_interruption_leaves_nothing_behind() {
             told,
             "error: a.wav: interrupted, and not written; run it again\n"
         );
-        assert_eq!(fs::read_dir(here).unwrap().count(), 1, "{signal}");
+        assert_eq!(fs::read_dir(here).unwrap().count(), 2, "{signal}");
         assert_eq!(fs::read(here.join("a.wav")).unwrap(), b"good");
+        assert_eq!(fs::read(here.join("a.wav.json")).unwrap(), b"true");
+    }
+}
+
+#[test]
+fn what_was_not_simulated_is_not_written_over() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::write(here.join("a.wav"), "recorded").unwrap();
+    let refused = run(here, "simulate -o a.wav");
+    assert_eq!(
+        (refused.code, refused.err.as_str()),
+        (
+            1,
+            "error: a.wav: this is there, and was not simulated, for no truth is beside it; give another name, or delete it first\n"
+        )
+    );
+    assert_eq!(fs::read(here.join("a.wav")).unwrap(), b"recorded");
+    for _ in 0..2 {
+        assert_eq!(run(here, "simulate -o b.wav --seconds 0.1").code, 0);
     }
 }

@@ -6,6 +6,7 @@ mod early;
 mod few;
 mod first;
 mod flagged;
+mod format;
 mod held;
 mod in_turn;
 mod mistaken;
@@ -58,6 +59,7 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     }
     .check(usize::from(MOST_PERIODS) + 2)?;
     in_order(options.from, options.to)?;
+    options.check_channels()?;
     check_other(options)?;
     let format = options.format()?;
     warn_of_twins(&options.files);

@@ -25,7 +25,10 @@ Examples:
   antinode plot rows.csv -o ring.svg
   antinode simulate -o ring.wav --noise 0.005 --decay-rate 0.5
   antinode monitor /dev/ttyACM0 --output csv > rows.csv
-  antinode command /dev/ttyACM0 window 20";
+  antinode command /dev/ttyACM0 window 20
+
+The exit code is 0 if all went well, 1 if something is wrong with a file, a port or the system, 2 if something is wrong with the
+command line, and 130 after Ctrl-C.";
 
 /// Identifies the standing wave of a hemispherical resonator gyro, window by window, in recordings of its two pick-offs.
 ///

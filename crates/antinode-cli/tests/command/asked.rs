@@ -88,6 +88,14 @@ fn options_that_make_no_sense_are_refused() {
         ("--start-angle nan", "it must be -10000 to 10000 rad"),
         ("--format xml", "table, csv, jsonl"),
         ("--output xml", "table, csv, jsonl"),
+        (
+            "--output rows.csv",
+            "error: --output is the format, and rows.csv a file: use -o rows.csv",
+        ),
+        (
+            "--channels 4",
+            "--channels: it is for raw samples, with --raw FORMAT; ",
+        ),
         ("--columns a", "two (S_C, S_D) or three"),
         ("--raw u32", "u8, i8, u16, i16, i24, i32, f32, f64"),
         ("--nonsense", "--nonsense"),
@@ -112,6 +120,9 @@ fn options_that_make_no_sense_are_refused() {
     for range in ["0.1 to 10", "within ±1000000", "within ±0.3", "1 to 1e10"] {
         assert!(help.contains(range), "{range}");
     }
+    assert!(help.contains("[possible values: table, csv, jsonl]") || help.contains("- jsonl:"));
+    assert!(help.contains("16 times as long"));
+    assert!(run(here, "--help").out.contains("The exit code is 0 if"));
     assert_eq!(run(here, "identify").code, 2);
     assert_eq!(run(here, "nonsense").code, 2);
 }

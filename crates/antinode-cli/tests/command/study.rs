@@ -16,7 +16,11 @@ fn captions_fit_and_what_cannot_be_written_is_named() {
     fs::create_dir_all(here.join("it/figure-3d.png")).unwrap();
     let made = run(here, "study --out it --runs 1");
     assert_eq!(
-        (made.code, made.out.as_str(), made.err.replace('\\', "/").as_str()),
+        (
+            made.code,
+            made.out.as_str(),
+            made.err.replace('\\', "/").as_str()
+        ),
         (
             1,
             "",

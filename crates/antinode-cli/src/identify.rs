@@ -65,7 +65,7 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     warn_of_twins(&options.files);
     let (out, to) = Out::open(options)?;
     let mut rows = Rows::new(to, format, options.methods == Methods::All);
-    let stop = Stop::new()?;
+    let stop = Stop::new(&out)?;
     let several = options.files.len() > 1;
     let mut failure = None;
     for path in &options.files {
@@ -89,8 +89,10 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     // Rows found before a fault are good.
     let total = rows.total();
     drop(rows);
-    let is_cut = matches!(failure, Some(Failure::Rows(_)));
-    let finished = out.finish(total, is_cut);
+    if matches!(failure, Some(Failure::Rows(_))) {
+        drop(out.cut_short());
+    }
+    let finished = out.finish(total);
     failure.map_or(finished, Err)
 }
 

@@ -3,52 +3,75 @@
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::options::Identify;
 use crate::failure::Failure;
 use crate::recording::{OutputError, WholeFile};
 
-/// The file of the rows, if they go to one.
+/// The file of the rows, if they go to one that has no name yet.
+#[derive(Clone)]
 pub(super) struct Out {
-    whole: Option<WholeFile>,
+    whole: Arc<Mutex<Option<WholeFile>>>,
 }
 
 impl Out {
     /// Begins it, and gives what writes to it.
     pub fn open(options: &Identify) -> Result<(Self, BufWriter<Box<dyn Write>>), Failure> {
-        let (whole, to): (_, Box<dyn Write>) = match options.file() {
-            None => (None, Box::new(io::stdout().lock())),
-            Some(path) => {
-                let (whole, file) = if is_stream(path) {
-                    (None, stream(path)?)
-                } else {
-                    let (whole, file) = WholeFile::create(path)?;
-                    (Some(whole), file)
-                };
-                let name = path.display().to_string();
-                (whole, Box::new(UpToFault::new(file, name)))
-            }
+        let out = |whole| Self {
+            whole: Arc::new(Mutex::new(whole)),
         };
-        Ok((Self { whole }, BufWriter::new(to)))
+        let Some(path) = options.file() else {
+            return Ok((out(None), BufWriter::new(Box::new(io::stdout().lock()))));
+        };
+        let (out, file, watched) = if is_stream(path) {
+            (out(None), stream(path)?, None)
+        } else {
+            let (whole, file) = WholeFile::create(path)?;
+            let out = out(Some(whole));
+            (out.clone(), file, Some(out))
+        };
+        let writer = UpToFault {
+            file,
+            name: path.display().to_string(),
+            out: watched,
+            fault: None,
+        };
+        Ok((out, BufWriter::new(Box::new(writer))))
     }
 
-    /// Gives the file of so many rows its name; of one that is cut, up to the last row that is whole.
-    pub fn finish(self, rows: u64, is_cut: bool) -> Result<(), Failure> {
-        let Some(whole) = self.whole else {
+    /// Gives the file of so many rows its name.
+    pub fn finish(&self, rows: u64) -> Result<(), Failure> {
+        let Some(whole) = self.lock().take() else {
             return Ok(());
         };
         let name = whole.name().to_owned();
-        if rows == 0 || is_cut && !whole.cut()? {
+        if rows == 0 {
             eprintln!("{name}: not written, for there is no row");
             return Ok(());
         }
         whole.finish()?;
-        match rows {
-            _ if is_cut => eprintln!("{name}: the rows up to there are written"),
-            1 => eprintln!("{name}: 1 row"),
-            _ => eprintln!("{name}: {rows} rows"),
-        }
+        eprintln!("{name}: {rows} {}", if rows == 1 { "row" } else { "rows" });
         Ok(())
+    }
+
+    /// Gives the file its name as far as it is written; nothing more is, as long as what this gives is held.
+    pub fn cut_short(&self) -> MutexGuard<'_, Option<WholeFile>> {
+        let mut whole = self.lock();
+        if let Some(whole) = whole.take() {
+            let name = whole.name().to_owned();
+            let any = whole.cut();
+            match any.and_then(|any| any.then(|| whole.finish()).transpose()) {
+                Ok(Some(())) => eprintln!("{name}: the rows up to there are written"),
+                Ok(None) => eprintln!("{name}: not written, for there is no row"),
+                Err(fault) => eprintln!("error: {fault}"),
+            }
+        }
+        whole
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<WholeFile>> {
+        self.whole.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -84,22 +107,15 @@ fn stream(path: &Path) -> Result<File, OutputError> {
 struct UpToFault {
     file: File,
     name: String,
+    /// Nothing is written to it once it is cut short; a pipe, which may wait for its reader, is not.
+    out: Option<Out>,
     /// What the system said then.
     fault: Option<(io::ErrorKind, String)>,
 }
 
-impl UpToFault {
-    fn new(file: File, name: String) -> Self {
-        Self {
-            file,
-            name,
-            fault: None,
-        }
-    }
-}
-
 impl Write for UpToFault {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let _open = self.out.as_ref().map(Out::lock);
         let (kind, told) = match &self.fault {
             Some(fault) => fault.clone(),
             None => match self.file.write(bytes) {

@@ -9,6 +9,7 @@ use std::time::Duration;
 use antinode::Flags;
 
 use super::flagged::Flagged;
+use super::out::Out;
 use crate::failure::Failure;
 use crate::interrupt::on_interrupt;
 
@@ -24,14 +25,16 @@ pub(super) struct Stop {
 }
 
 impl Stop {
-    /// Waits for Ctrl-C; once in a process.
-    pub fn new() -> Result<Self, Failure> {
+    /// Waits for Ctrl-C, which cuts the rows' file short where the command does not end by itself; once in a process.
+    pub fn new(out: &Out) -> Result<Self, Failure> {
         let stop = Self::default();
         let asked = stop.clone();
+        let out = out.clone();
         on_interrupt(move || {
             asked.is_asked.store(true, Ordering::Relaxed);
             thread::sleep(GRACE);
             asked.tell();
+            let _closed = out.cut_short();
             let failure = Failure::Stopped;
             eprintln!("error: {failure}");
             process::exit(failure.code().into());

@@ -78,7 +78,8 @@ fn a_dash_is_standard_output() {
 #[cfg(unix)]
 mod unix {
     use std::os::unix::fs::PermissionsExt;
-    use std::process::{Command, Output};
+    use std::process::{Command, Output, Stdio};
+    use std::time::{Duration, Instant};
 
     use super::*;
 
@@ -112,6 +113,48 @@ mod unix {
             "{err}"
         );
         assert_eq!(fs::read_dir(here).unwrap().count(), 3, "{err}");
+    }
+
+    #[test]
+    fn an_interruption_leaves_the_rows_of_what_was_read() {
+        let directory = tempfile::tempdir().unwrap();
+        let here = directory.path();
+        recordings(here);
+        let all = run(here, "identify a.wav --output csv").out;
+        let mut child = Command::new(env!("CARGO_BIN_EXE_antinode"))
+            .current_dir(here)
+            .args(["identify", "a.wav", "-", "-o", "rows.csv"])
+            .stdin(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // Open until the command has ended.
+        let input = child.stdin.take();
+        // It has the rows of the first, and waits for the second.
+        let begun = Instant::now();
+        let written = || {
+            let mut files = fs::read_dir(here).unwrap().map(|file| file.unwrap());
+            files.any(|file| {
+                let is_new = file.file_name().to_string_lossy().starts_with(".antinode");
+                is_new && file.metadata().unwrap().len() == all.len() as u64
+            })
+        };
+        while !written() {
+            assert!(begun.elapsed() < Duration::from_secs(10));
+        }
+        let id = child.id().to_string();
+        let killed = Command::new("kill").args(["-INT", &id]).status();
+        assert!(killed.unwrap().success());
+        let output = child.wait_with_output().unwrap();
+        drop(input);
+        assert_eq!(output.status.code(), Some(130));
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            told.ends_with("rows.csv: the rows up to there are written\nerror: interrupted: the rows up to there are good\n"),
+            "{told}"
+        );
+        assert_eq!(read(here, "rows.csv"), all);
+        assert_eq!(fs::read_dir(here).unwrap().count(), 3);
     }
 
     #[test]

@@ -24,6 +24,7 @@ mod resonator;
 mod resonator_frequency;
 mod resonator_rows;
 mod resonator_splits;
+mod rows_digits;
 mod rows_file;
 mod rows_read;
 mod search;

@@ -35,7 +35,7 @@ fn a_time_has_no_digits_of_nothing() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let text = printed("time,C,D\n", &WAVE.codes(20_000), |k, [c, d]| {
-        format!("{:.5},{c},{d}", 2051.0 + k as f64 / RATE)
+        format!("{:.5},{c},{d}", 8051.37 + k as f64 / RATE)
     });
     fs::write(here.join("a.csv"), text).unwrap();
     for row in rows(here, "a.csv") {

@@ -3,6 +3,7 @@
 mod arguments;
 mod calibrate;
 mod canvas;
+mod completions;
 mod demonstration;
 #[cfg(test)]
 mod deviates;
@@ -46,6 +47,7 @@ fn main() -> ExitCode {
         Some(Command::Study(options)) => study::run(&options),
         Some(Command::Monitor(options)) => device::monitor::run(&options),
         Some(Command::Send(options)) => device::command::run(&options),
+        Some(Command::Completions(options)) => completions::run(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -4,6 +4,7 @@ use antinode::Calibration;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::calibrate::Calibrate;
+use crate::completions::Completions;
 use crate::device::{command, monitor};
 use crate::identify::Identify;
 use crate::plot::Plot;
@@ -92,11 +93,16 @@ pub enum Command {
     /// Shows what a device reports over its serial port, live: estimates as rows, all else on standard error.
     ///
     /// Damaged and missing reports are counted, and the counts are printed at the end. A device on a port is first asked for its configuration.
-    /// Ctrl-C ends the command.
+    /// Ctrl-C ends the command, a second one at once.
     Monitor(monitor::Monitor),
     /// Sends a command to a device over its serial port, and waits for its acknowledgement.
     #[command(name = "command")]
     Send(command::Options),
+    /// Prints a script that lets a shell complete the command line.
+    ///
+    /// bash: `antinode completions bash > ~/.local/share/bash-completion/completions/antinode`; zsh: into a file `_antinode` in a directory
+    /// of $fpath; fish: into ~/.config/fish/completions/antinode.fish.
+    Completions(Completions),
 }
 
 /// How the pick-offs differ from ideal ones.

@@ -126,3 +126,16 @@ fn options_that_make_no_sense_are_refused() {
     assert_eq!(run(here, "identify").code, 2);
     assert_eq!(run(here, "nonsense").code, 2);
 }
+
+#[test]
+fn shells_complete_every_command() {
+    let directory = tempfile::tempdir().unwrap();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let made = run(directory.path(), &format!("completions {shell}"));
+        assert_eq!(made.code, 0, "{}", made.err);
+        for word in ["identify", "resonator", "pick-off-angle"] {
+            assert!(made.out.contains(word), "{shell}: no {word}");
+        }
+    }
+    assert_eq!(run(directory.path(), "completions cmd").code, 2);
+}

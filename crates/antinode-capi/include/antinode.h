@@ -35,10 +35,10 @@
  *    _init and _reset an interrupt of the same core, whose samples are refused.
  *  - States are independent of each other.
  *
- * The interrupt's cost on a Cortex-M4: while a period is searched 230 to 600 instructions a sample pair, up to 850 over a half-buffer
+ * The interrupt's cost on a Cortex-M4: while a period is searched 200 to 460 instructions a sample pair, up to 600 over a half-buffer
  * of a signal that looks like a wave and is none, such as two tones; then 10 to 80, by _push 70 to 180. These are means: one _push may
- * take 2600 in the search, and then 1100 (fixed) or 2000 (float): half-buffers never take that a pair. Its stack there is up to
- * 0.9 KiB, by _push_block 1.1 KiB (fixed) or 1.4 KiB (float); on a Cortex-M3 or M0 up to 1.2 KiB, by _push_block 1.5 or 1.8 KiB.
+ * take 1900 in the search, and then 1100 (fixed) or 2000 (float): half-buffers never take that a pair. Its stack there is up to
+ * 0.8 KiB, by _push_block 1.0 KiB (fixed) or 1.3 KiB (float); on a Cortex-M3 or M0 up to 1.2 KiB, by _push_block 1.5 or 1.8 KiB.
  * The search uses floating-point registers, in fixed point too, where the core has them: what saves them for threads must save them
  * for this interrupt (lazy stacking; Zephyr: CONFIG_FPU_SHARING).
  *

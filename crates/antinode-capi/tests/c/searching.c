@@ -155,12 +155,17 @@ int main(void)
         }
     }
     print("wave");
-    /* Noise has trials that fail, wave and noise blocks that begin. */
+    /* Noise has trials that fail at once, another frequency in each pick-off such that fail late, and the wave blocks that begin. */
     CALL(init)(&gyro, &settings);
     for (at = 0; at < PAIRS; at++) {
+        const uint32_t kind = at / 1024 % 4, period = 5 + at / 4096 * 7;
         seed = seed * 1664525 + 1013904223;
         noise[0] = (seed >> 8 & 0xff) | (seed & 0xff0000);
-        take(at & PAIRS / 8 ? _binary_codes_bin_start + at % RING : noise, 1);
+        if (kind > 1) {
+            noise[0] = (uint16_t)(int16_t)(1500 * sine(at * (0xffffffffu / period)));
+            noise[0] |= (uint32_t)(uint16_t)(int16_t)(1500 * sine(at * (0xffffffffu / period / 10 * (kind * 4 + 1)))) << 16;
+        }
+        take(kind == 1 ? _binary_codes_bin_start + at % RING : noise, 1);
         is_told = 1; /* where noise has no wave, _solve tells */
         push(SINGLE, 1);
         while (CALL(solve)(&gyro, &estimate) == ANTINODE_ESTIMATE)

@@ -65,7 +65,9 @@ impl<S: Sample> Attempt<S> {
         let first = first.get(from / 2..self.seen / 2).unwrap_or(&[]);
         let last = last.get(..(self.length - from) / 2).unwrap_or(&[]);
         let ends = first.iter().zip(last.iter().rev());
-        let ends = ends.map(|(&a, &b)| [a.map(S::to_f32), b.map(S::to_f32)]);
+        // Not by `map`: compiled for size, it is a loop.
+        let long = |[c, d]: [S; 2]| [c.to_f32(), d.to_f32()];
+        let ends = ends.map(|(&a, &b)| [long(a), long(b)]);
         let Some(fitted) = &self.doubt else {
             if from == 0 {
                 self.trial.begin(self.period, self.length);

@@ -46,17 +46,26 @@ impl Sums {
         // The products of a row count for all its samples.
         let (all_c, all_us) = (rows * c, rows * us);
         let even = [all_c * c, all_c * us, all_us * us, all_c, all_us];
-        for (sum, value) in self.even.iter_mut().zip(even) {
-            *sum += value;
-        }
-        for ((gradient, sum), difference) in self.gradient.iter_mut().zip(sum).zip(difference) {
-            gradient[0] += c * sum;
-            gradient[1] += s * difference;
-            gradient[2] += uc * difference;
-            gradient[3] += us * sum;
-            gradient[4] += sum;
-        }
+        // Written out: compiled for size, loops over arrays would take twice as long.
+        self.even[0] += even[0];
+        self.even[1] += even[1];
+        self.even[2] += even[2];
+        self.even[3] += even[3];
+        self.even[4] += even[4];
+        let [of_c, of_d] = &mut self.gradient;
+        add(of_c, [c, s, uc, us], sum[0], difference[0]);
+        add(of_d, [c, s, uc, us], sum[1], difference[1]);
     }
+}
+
+/// Adds a row to the gradient of one pick-off.
+#[inline(always)]
+fn add(gradient: &mut [f32; 5], [c, s, uc, us]: [f32; 4], sum: f32, difference: f32) {
+    gradient[0] += c * sum;
+    gradient[1] += s * difference;
+    gradient[2] += uc * difference;
+    gradient[3] += us * sum;
+    gradient[4] += sum;
 }
 
 /// A symmetric 2×2 matrix made ready for solving.
@@ -185,9 +194,10 @@ impl Trial {
         for [a, b] in ends {
             let (sum, difference) = ([a[0] + b[0], a[1] + b[1]], [a[0] - b[0], a[1] - b[1]]);
             sums.add(2.0, sum, difference);
-            for value in [a[0], a[1], b[0], b[1]] {
-                sums.square += value * value;
-            }
+            sums.square += a[0] * a[0];
+            sums.square += a[1] * a[1];
+            sums.square += b[0] * b[0];
+            sums.square += b[1] * b[1];
         }
         self.sums = sums;
     }

@@ -128,6 +128,7 @@
 //! ## The signal
 //!
 //! - θ is known modulo π/2, and phase modulo 2π: θ is unwrapped only by continuity from window to window.
+//!   A pattern that turns by a quarter more or less in a gap, and as before at its end, shows nothing of it.
 //! - A period is 4 to 200 samples, and with [`Settings::frequency`] 2.5 to as many as a block holds.
 //! - Amplitudes must be 10⁻¹⁵ to 10¹⁷ input units, so that their squares fit in f32. Beyond that there may be no estimate, and no flag.
 //! - Sums of f32 are rounded: in noise below 2·10⁻⁴ of a_A an offset beyond twenty times a_A, at 140 samples a period or more, is a misfit.

@@ -200,3 +200,43 @@ fn an_exact_circle_has_a_frequency() {
         assert!((1e-5..1e-3).contains(&estimate.frequency_std));
     }
 }
+
+#[test]
+fn a_misfit_behind_a_circle_leaves_the_angle_that_the_wave_starts_at() {
+    for (start_angle, wanted) in [(core::f32::consts::FRAC_PI_4, 0.9), (100.0, 99.860)] {
+        let circle = Wave {
+            main_amplitude: 1.0,
+            quadrature_amplitude: 1.0,
+            angle: 0.9,
+            ..Wave::default()
+        };
+        let flat = Wave {
+            quadrature_amplitude: 0.2,
+            ..circle
+        };
+        let flaws = Flaws {
+            noise: 1e-3,
+            ..Flaws::default()
+        };
+        let settings = Settings {
+            start_angle,
+            frequency: Some(5332.0),
+            ..windows(10)
+        };
+        let found = identify_changed(circle, &flaws, settings, 4000, 1, |k, [c, d]| {
+            let t = k as f64 / RATE;
+            let ((round_c, round_d), (flat_c, flat_d)) = (circle.pick_offs(t), flat.pick_offs(t));
+            if k < 900 {
+                [c, d]
+            } else {
+                [c - round_c + flat_c, d - round_d + flat_d]
+            }
+        });
+        assert!(found[..4].iter().all(|e| e.flags.contains(Flags::CIRCULAR)));
+        let last = found.last().unwrap();
+        assert!(
+            last.flags.is_empty() && (last.angle - wanted).abs() < 0.01,
+            "{last:?}"
+        );
+    }
+}

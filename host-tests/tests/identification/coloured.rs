@@ -175,3 +175,33 @@ fn a_first_window_that_the_wave_begins_in_is_no_noise_to_those_after_it() {
         }
     }
 }
+
+#[test]
+fn noise_that_comes_and_goes_is_no_misfit() {
+    let wave = Wave {
+        main_amplitude: 1.0,
+        quadrature_amplitude: 0.1,
+        ..Wave::default()
+    };
+    let quiet = Flaws {
+        noise: 1e-3,
+        ..Flaws::default()
+    };
+    // Half of the windows have four times as much.
+    let found = identify_changed(wave, &quiet, windows(10), 400_000, 3, |k, [c, d]| {
+        let random = (k as u32 / 190 + 1).wrapping_mul(2_654_435_769);
+        let factor = if (random >> 16).count_ones() % 2 == 0 {
+            1.0
+        } else {
+            4.0
+        };
+        let (still_c, still_d) = wave.pick_offs(k as f64 / RATE);
+        [
+            still_c + factor * (c - still_c),
+            still_d + factor * (d - still_d),
+        ]
+    });
+    let misfits = found.iter().filter(|e| e.flags.contains(Flags::MISFIT));
+    let share = misfits.count() as f64 / found.len() as f64;
+    assert!(found.len() > 2000 && share < 0.02, "{share}");
+}

@@ -15,10 +15,10 @@ pub(super) struct Followed {
 }
 
 impl Followed {
-    pub(super) const NONE: Self = Self {
-        angle: Angle::ZERO,
-        middle: 0,
-    };
+    /// From the angle that a first window is nearest to: until a pattern has one, it is promised no rate, and any time will do.
+    pub(super) const fn begin(angle: Angle) -> Self {
+        Self { angle, middle: 0 }
+    }
 
     /// From a window whose angle is certain.
     pub(super) fn from(record: &Record) -> Self {

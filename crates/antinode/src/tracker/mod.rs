@@ -95,7 +95,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             before: None,
             offset_rates: [0.0; 2],
             angle: Angle::ZERO,
-            followed: Followed::NONE,
+            followed: Followed::begin(Angle::ZERO),
             lost: false,
             had_wave: false,
             wanted: 0,
@@ -334,6 +334,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.noise = Noise::NONE;
         self.trend.forget();
         self.before = None;
+        self.followed = Followed::begin(self.angle);
         self.offset_rates = [0.0; 2];
         self.lost = self.had_wave;
         self.failures = Failures::NONE;

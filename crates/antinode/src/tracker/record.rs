@@ -17,7 +17,7 @@ const UNKNOWN_TURN: f32 = 0.13;
 const OTHERWISE: f32 = 0.7;
 
 /// Deviations by which a rate is another one than was promised.
-const TOLD: f32 = 3.0;
+const TOLD: f32 = 4.0;
 
 /// Windows over whose gaps rates are averaged at most.
 const AVERAGED: f32 = 8.0;

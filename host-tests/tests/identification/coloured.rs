@@ -190,7 +190,7 @@ fn noise_that_comes_and_goes_is_no_misfit() {
     // Half of the windows have four times as much.
     let found = identify_changed(wave, &quiet, windows(10), 400_000, 3, |k, [c, d]| {
         let random = (k as u32 / 190 + 1).wrapping_mul(2_654_435_769);
-        let factor = if (random >> 16).count_ones() % 2 == 0 {
+        let factor = if (random >> 16).count_ones().is_multiple_of(2) {
             1.0
         } else {
             4.0

@@ -131,6 +131,24 @@ pub fn changed(
     identify_changed(wave, &flaws, windows(periods), samples, seed, change)
 }
 
+/// Runs a signal, of which each pick-off's is given at a time in s, in noise of so much through the core; gives the estimates.
+pub fn identify_signal(
+    noise: f64,
+    settings: Settings,
+    samples: usize,
+    seed: u64,
+    signal: impl Fn(f64) -> [f64; 2],
+) -> Vec<Estimate> {
+    let flaws = Flaws {
+        noise,
+        ..Flaws::default()
+    };
+    identify_changed(no_wave(), &flaws, settings, samples, seed, |k, [c, d]| {
+        let [of_c, of_d] = signal(k as f64 / RATE);
+        [c + of_c, d + of_d]
+    })
+}
+
 /// The windows that a stretch of samples touches by at least a block.
 pub fn touched(estimates: &[Estimate], from: usize, to: usize) -> Vec<&Estimate> {
     let block = 19;

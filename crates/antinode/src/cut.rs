@@ -42,6 +42,12 @@ impl Cut {
         self.fitting(window, length.max(1)).min(most).max(1)
     }
 
+    /// Periods of a window from which on its blocks have one each, a little less where that is no whole number of samples.
+    pub(crate) const fn least_periods(self) -> u16 {
+        let blocks = BLOCKS_A_WINDOW as u16;
+        if self.has_hop { 2 * blocks } else { blocks }
+    }
+
     /// The length from `length` down to half of it that brings whole blocks near enough to `window` samples.
     fn fitting(self, window: f32, mut length: u16) -> u16 {
         let most = self.periods.max(MOST_BLOCKS);

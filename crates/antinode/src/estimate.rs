@@ -27,10 +27,10 @@ impl Flags {
     /// 25 deviations of an amplitude half are flagged, and of 35 all. After a new search a dead one cannot be told from a pattern on the
     /// other's axis, and is not flagged.
     pub const DEAD_CHANNEL: Self = Self(1 << 6);
-    /// First window after the wave was lost, or after a gap or misfits in which the pattern may have turned by a quarter more or less: the angle is
-    /// known modulo π/2 only. Also the first window after a change of calibration or settings, unless it is the first of all, or `configure` began at the
-    /// start angle. It stands up to the first window
-    /// that is free of a misfit, and later windows continue that one's angle.
+    /// First window after the wave was lost, or after a gap or misfits in which the pattern may have turned by a quarter more or less: the
+    /// angle is known modulo π/2 only. Also the first window after a change of calibration or settings, unless it is the first of all, or
+    /// `configure` began at the start angle. It stands up to the first window that is free of a misfit, and later windows continue that
+    /// one's angle.
     pub const REACQUIRED: Self = Self(1 << 7);
     /// A sample is NaN or infinite, or so large that its square is.
     pub const NOT_FINITE: Self = Self(1 << 8);

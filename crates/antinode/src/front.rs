@@ -142,14 +142,17 @@ impl<S: Sample, const N: usize> Front<S, N> {
     ///
     /// Those of [`new`](Self::new).
     pub const fn check(settings: &Settings) -> Result<(), SettingsError> {
-        match settings.check(u16::MAX as usize) {
-            Ok(()) => Self::check_period(settings),
-            Err(error) => Err(error),
-        }
+        Self::check_with(settings, u16::MAX as usize)
     }
 
-    /// Refuses a known frequency of which no block holds a period.
-    pub(crate) const fn check_period(settings: &Settings) -> Result<(), SettingsError> {
+    /// The same, and for a ring of `blocks`.
+    pub(crate) const fn check_with(
+        settings: &Settings,
+        blocks: usize,
+    ) -> Result<(), SettingsError> {
+        if let Err(error) = settings.check(blocks) {
+            return Err(error);
+        }
         match (settings.frequency, settings.period()) {
             (Some(frequency), Some(period)) if !Self::holds(period) => {
                 Err(SettingsError::FrequencyTooLow {

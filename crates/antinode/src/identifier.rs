@@ -77,10 +77,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
     ///
     /// Those of [`new`](Self::new).
     pub const fn check(settings: &Settings) -> Result<(), SettingsError> {
-        match settings.check(BLOCKS) {
-            Ok(()) => Front::<S, N>::check_period(settings),
-            Err(error) => Err(error),
-        }
+        Front::<S, N>::check_with(settings, BLOCKS)
     }
 
     /// Begins anew from cold with other settings, in place. The count of sample pairs goes on.

@@ -120,8 +120,8 @@
 //!
 //! Stated standard deviations are within 5 % of the scatter. They include the rounding of f32, up to 10⁻⁷ of a_A, and with f32 samples up
 //! to 10⁻⁷ of the offsets: in long windows with so little noise they are larger than the scatter. `residual_rms` has up to 2·10⁻⁶ of a_A of
-//! it at 190 samples a period. The bound is that of seven constant
-//! parameters, offsets and frequency among them. All of this is asserted, with a margin, by the tests of `host-tests`.
+//! it at 190 samples a period. The bound is that of seven constant parameters, offsets and frequency among them. The errors and deviations
+//! are asserted, with a margin, by the tests of `host-tests`.
 //!
 //! # Limits
 //!

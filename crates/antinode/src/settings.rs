@@ -252,8 +252,8 @@ impl Settings {
         }
     }
 
-    /// Checks every value for a ring of `blocks`, the `BLOCKS` of a [`Tracker`](crate::Tracker), 11 to 65 535. Whether a block holds a period of a known
-    /// frequency is what [`Front::check`](crate::Front::check) asks.
+    /// Checks every value for a ring of `blocks`, the `BLOCKS` of a [`Tracker`](crate::Tracker), 11 to 65 535. Whether a block holds a period
+    /// of a known frequency is what [`Front::check`](crate::Front::check) asks.
     ///
     /// ```
     /// use antinode::Settings;
@@ -285,7 +285,7 @@ impl Settings {
             return Err(SettingsError::Hop);
         }
         // Blocks of less than a period have no offsets of their own.
-        let least = if self.hop.is_some() { 10 } else { 5 };
+        let least = self.cut().least_periods();
         if self.hum && self.periods < least {
             return Err(SettingsError::HumPeriods {
                 periods: self.periods,

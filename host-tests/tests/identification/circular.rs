@@ -2,7 +2,7 @@
 
 use antinode::{Calibration, Flags, Settings};
 use antinode_sim::{Flaws, Wave};
-use host_tests::{Core, RATE, identify, identify_changed, windows};
+use host_tests::{Core, RATE, identify, identify_changed, identify_signal, windows};
 
 #[test]
 fn a_pattern_is_circular_where_noise_or_rounding_hides_its_angle() {
@@ -214,23 +214,14 @@ fn a_misfit_behind_a_circle_leaves_the_angle_that_the_wave_starts_at() {
             quadrature_amplitude: 0.2,
             ..circle
         };
-        let flaws = Flaws {
-            noise: 1e-3,
-            ..Flaws::default()
-        };
         let settings = Settings {
             start_angle,
             frequency: Some(5332.0),
             ..windows(10)
         };
-        let found = identify_changed(circle, &flaws, settings, 4000, 1, |k, [c, d]| {
-            let t = k as f64 / RATE;
-            let ((round_c, round_d), (flat_c, flat_d)) = (circle.pick_offs(t), flat.pick_offs(t));
-            if k < 900 {
-                [c, d]
-            } else {
-                [c - round_c + flat_c, d - round_d + flat_d]
-            }
+        let found = identify_signal(1e-3, settings, 4000, 1, |t| {
+            let wave = if t < 900.0 / RATE { circle } else { flat };
+            wave.pick_offs(t).into()
         });
         assert!(found[..4].iter().all(|e| e.flags.contains(Flags::CIRCULAR)));
         let last = found.last().unwrap();

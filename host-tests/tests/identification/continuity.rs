@@ -3,7 +3,9 @@
 use antinode::{Flags, Settings, SettingsError};
 use antinode_sim::{Flaws, Wave};
 use host_tests::score::{errors, stated};
-use host_tests::{Core, RATE, angle_error, identify, identify_changed, stream, windows};
+use host_tests::{
+    Core, RATE, angle_error, identify, identify_changed, identify_signal, stream, windows,
+};
 
 #[test]
 fn the_angle_runs_on_over_many_turns() {
@@ -218,35 +220,22 @@ fn the_angle_is_followed_through_misfits_while_the_pattern_turns_otherwise() {
             quadrature_amplitude: 0.1,
             ..Wave::default()
         };
-        let flaws = Flaws {
-            noise: 1e-3,
-            ..Flaws::default()
-        };
         let (from, middle, to) = (0.3, 0.3 + 0.5 * seconds, 0.3 + seconds);
         let angle = |t: f64| 0.7 + before * t.min(middle) + after * (t - middle).max(0.0);
         let count = ((to + 0.3) * RATE) as usize;
-        let found = identify_changed(
-            wave,
-            &flaws,
-            windows(10),
-            count,
-            seed as u64,
-            |k, [c, d]| {
-                let t = k as f64 / RATE;
-                let (still_c, still_d) = wave.pick_offs(t);
-                let turned = Wave {
-                    angle: angle(t),
-                    ..wave
-                };
-                let hum = if (from..to).contains(&t) {
-                    0.1 * (314.0 * t).sin()
-                } else {
-                    0.0
-                };
-                let (turned_c, turned_d) = turned.pick_offs(t);
-                [c - still_c + turned_c + hum, d - still_d + turned_d + hum]
-            },
-        );
+        let found = identify_signal(1e-3, windows(10), count, seed as u64, |t| {
+            let turned = Wave {
+                angle: angle(t),
+                ..wave
+            };
+            let hum = if (from..to).contains(&t) {
+                0.1 * (314.0 * t).sin()
+            } else {
+                0.0
+            };
+            let (c, d) = turned.pick_offs(t);
+            [c + hum, d + hum]
+        });
         let clean: Vec<_> = found.iter().filter(|e| e.flags.is_empty()).collect();
         let misfits = found.iter().filter(|e| e.flags.contains(Flags::MISFIT));
         assert!(clean.len() > 250 && misfits.count() > 70);

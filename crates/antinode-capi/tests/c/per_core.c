@@ -88,33 +88,29 @@ static __attribute__((noinline)) void push(enum form form, const uint32_t *words
         stack_of_push[form] = taken;
 }
 
-/* The codes from pair `at` of the endless stream on, in turn. */
+/* The codes from pair `at` of the endless stream on, in every array. */
 static void fill(uint32_t at)
 {
     uint32_t i;
     for (i = 0; i < HALF_BUFFER; i++) {
         const uint32_t word = _binary_codes_bin_start[(at + i) % RING];
-        interleaved[2 * i] = (int16_t)(uint16_t)word;
-        interleaved[2 * i + 1] = (int16_t)(uint16_t)(word >> 16);
+        c[i] = interleaved[2 * i] = (int16_t)(uint16_t)word;
+        d[i] = interleaved[2 * i + 1] = (int16_t)(uint16_t)(word >> 16);
     }
 }
 
 /* Every way in, from cold to a full queue, with a search on the way; gives 1 where windows came of it. */
 static int push_by(enum form form, const antinode_settings_t *settings)
 {
-    uint32_t at, i, count, windows = 0;
+    uint32_t at, count, windows = 0;
     uint64_t ticks = 0;
 
     if (init(settings) != ANTINODE_OK)
         return 0;
     for (at = 0; at < PAIRS; at += count) {
-        const uint32_t *words = _binary_codes_bin_start + at % RING;
         count = next_pairs(at, UINT32_MAX);
-        for (i = 0; i < count; i++) {
-            c[i] = interleaved[2 * i] = (int16_t)(uint16_t)words[i];
-            d[i] = interleaved[2 * i + 1] = (int16_t)(uint16_t)(words[i] >> 16);
-        }
-        push(form, words, count);
+        fill(at);
+        push(form, _binary_codes_bin_start + at % RING, count);
         if (at < PAIRS / 2 && at + count >= PAIRS / 2)
             CALL(search)(&gyro);
         if (at < 3 * PAIRS / 4)

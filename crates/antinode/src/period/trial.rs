@@ -45,13 +45,12 @@ impl Sums {
         let [c, s, uc, us] = self.row.next();
         // The products of a row count for all its samples.
         let (all_c, all_us) = (rows * c, rows * us);
-        let even = [all_c * c, all_c * us, all_us * us, all_c, all_us];
         // Written out: compiled for size, loops over arrays would take twice as long.
-        self.even[0] += even[0];
-        self.even[1] += even[1];
-        self.even[2] += even[2];
-        self.even[3] += even[3];
-        self.even[4] += even[4];
+        self.even[0] += all_c * c;
+        self.even[1] += all_c * us;
+        self.even[2] += all_us * us;
+        self.even[3] += all_c;
+        self.even[4] += all_us;
         let [of_c, of_d] = &mut self.gradient;
         add(of_c, [c, s, uc, us], sum[0], difference[0]);
         add(of_d, [c, s, uc, us], sum[1], difference[1]);

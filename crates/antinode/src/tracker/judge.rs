@@ -19,10 +19,7 @@ const BROKEN: Flags = Flags::LOST
     .with(Flags::DEAD_CHANNEL);
 
 /// Flags of a window that has no angle of its own.
-const UNSEEN: Flags = Flags::LOST
-    .with(Flags::NOT_FINITE)
-    .with(Flags::DEAD_CHANNEL)
-    .with(Flags::CIRCULAR);
+const UNSEEN: Flags = BROKEN.without(Flags::MISFIT).with(Flags::CIRCULAR);
 
 impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Makes something of a fit's record and flags; nothing where there is no wave to be tracked.

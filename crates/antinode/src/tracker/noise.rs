@@ -98,16 +98,16 @@ impl Noise {
     #[inline(always)]
     pub(super) fn learn(&mut self, variance: f32, stated: f32, wide: f32, freedom: f32) {
         self.stated = stated;
+        // Noise that comes and goes is not to be forgotten whenever it goes: only one window's is asked less of.
+        let reach = if self.freedom > freedom {
+            REACH
+        } else {
+            REACH_ONCE
+        };
         // What is so much more than this was no noise, but a fault that a first window could not tell.
-        if self.variance > RISE * variance && {
-            // Noise that comes and goes is not to be forgotten whenever it goes: only one window's is asked less of.
-            let reach = if self.freedom > freedom {
-                REACH
-            } else {
-                REACH_ONCE
-            };
-            self.variance > limit_of(reach, self.freedom, freedom) * variance
-        } {
+        if self.variance > RISE * variance
+            && self.variance > limit_of(reach, self.freedom, freedom) * variance
+        {
             self.freedom = 0.0;
             self.stated = variance;
         }

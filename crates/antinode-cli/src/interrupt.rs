@@ -1,9 +1,43 @@
 //! Ctrl-C, or the system's wish that the command end.
 
+use std::io;
+
 use crate::failure::Failure;
 
 /// Lets `handler` be called when it comes; once in a process.
 pub fn on_interrupt(handler: impl FnMut() + Send + 'static) -> Result<(), Failure> {
-    ctrlc::set_handler(handler)
-        .map_err(|error| Failure::Recording(format!("Ctrl-C cannot be caught: {error}")))
+    catch(handler).map_err(|error| Failure::Recording(format!("Ctrl-C cannot be caught: {error}")))
+}
+
+#[cfg(unix)]
+fn catch(mut handler: impl FnMut() + Send + 'static) -> Result<(), io::Error> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+
+    let mut signals = Signals::new([SIGINT, SIGTERM])?;
+    // A command begun by `nohup` goes on when its terminal is closed.
+    if !is_ignored(SIGHUP) {
+        signals.add_signal(SIGHUP)?;
+    }
+    std::thread::spawn(move || signals.forever().for_each(|_| handler()));
+    Ok(())
+}
+
+/// True where the process was begun with this signal ignored, as far as the system tells.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    // Only Linux does; there is no safe way to ask others.
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mut ignored = status
+        .lines()
+        .filter_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored
+        .next()
+        .map(|mask| u64::from_str_radix(mask.trim(), 16));
+    ignored.is_some_and(|mask| mask.is_ok_and(|mask| mask >> (signal - 1) & 1 == 1))
+}
+
+#[cfg(windows)]
+fn catch(handler: impl FnMut() + Send + 'static) -> Result<(), io::Error> {
+    ctrlc::set_handler(handler).map_err(io::Error::other)
 }

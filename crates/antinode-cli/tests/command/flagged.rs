@@ -79,3 +79,38 @@ fn an_interruption_tells_them_too() {
         drop(input);
     }
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_command_begun_by_nohup_outlives_its_terminal() {
+    use std::io::{BufRead, BufReader, Read, Write};
+    use std::process::{Command, Stdio};
+
+    let command = format!(
+        "exec nohup {} identify - --output csv",
+        env!("CARGO_BIN_EXE_antinode")
+    );
+    let mut child = Command::new("sh")
+        .args(["-c", &command])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let (mut input, torn) = (child.stdin.take().unwrap(), torn());
+    input.write_all(&torn[..150_000]).unwrap();
+    let mut rows = BufReader::new(child.stdout.take().unwrap());
+    let mut text = String::new();
+    while !text.contains("\n0.3") {
+        assert_ne!(rows.read_line(&mut text).unwrap(), 0);
+    }
+    let id = child.id().to_string();
+    let sent = Command::new("kill").args(["-HUP", &id]).status();
+    assert!(sent.unwrap().success());
+    input.write_all(&torn[150_000..]).unwrap();
+    drop(input);
+    rows.read_to_string(&mut text).unwrap();
+    let whole = Row::all(&text);
+    assert!(whole.last().unwrap().number("time_s") > 0.59, "{text}");
+    assert_ne!(child.wait().unwrap().code(), Some(130));
+}

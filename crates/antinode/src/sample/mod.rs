@@ -67,6 +67,12 @@ pub enum Form {
 /// window's equations. Integers need no floating point at sample rate once the period is known.
 ///
 /// No other type can be one: what the core does with them has no public path.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no sample",
+    label = "not `f32`, `i16` or `i32`",
+    note = "unsigned codes of up to 15 bits are the same numbers as `i16`; those of 16 bits are taken as pairs `[u16; 2]` for `i32` or `f32`, or as \
+            words `u32`, each `^ 0x8000_8000`, for `i16`"
+)]
 pub trait Sample: Copy + Debug + Default + PartialEq + Send + Arithmetic + 'static {}
 
 impl Sample for f32 {}

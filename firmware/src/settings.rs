@@ -136,8 +136,8 @@ const _: () = {
         "LONGEST_PERIOD must be even, 8 or more"
     );
     assert!(
-        QUEUE >= 2 && REQUESTS >= 2,
-        "QUEUE and REQUESTS must be 2 or more"
+        QUEUE >= 2 && QUEUE.is_power_of_two() && REQUESTS >= 2,
+        "QUEUE must be a power of two, and REQUESTS 2 or more"
     );
     assert!(
         OUTBOX >= 6 * MAX_FRAME && OUTBOX < 1 << 16,

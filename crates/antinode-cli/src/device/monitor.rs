@@ -77,7 +77,7 @@ pub fn run(options: &Monitor) -> Result<(), Failure> {
     let remedy = if source.is_port {
         format!("check --baud (it was {}), the wiring", options.baud)
     } else {
-        "check that they are a device's, received at its speed (--baud is for ports only)"
+        "check that they are a device's, and no samples, which are for identify; that they were received at its speed (--baud is for ports only)"
             .to_owned()
     };
     Err(Failure::Recording(format!(

@@ -1,6 +1,36 @@
 //! Arguments as clap takes them.
 
 use std::ffi::OsString;
+use std::path::PathBuf;
+
+use glob::{MatchOptions, glob_with};
+
+/// The files that `*` and `?` stand for, in quotes too, as a name with spaces needs them; the argument itself where there is none.
+pub(crate) fn matches(argument: OsString) -> Vec<OsString> {
+    let files = argument.to_str().map_or_else(Vec::new, files);
+    if files.is_empty() {
+        return vec![argument];
+    }
+    files.into_iter().map(PathBuf::into_os_string).collect()
+}
+
+fn files(pattern: &str) -> Vec<PathBuf> {
+    if !pattern.contains(['*', '?']) {
+        return Vec::new();
+    }
+    // Brackets are part of a name: `ring[1].wav` is not `ring1.wav`.
+    let literal = |letter| match letter {
+        '[' | ']' => format!("[{letter}]"),
+        _ => String::from(letter),
+    };
+    let pattern: String = pattern.chars().map(literal).collect();
+    let options = MatchOptions {
+        case_sensitive: false,
+        require_literal_leading_dot: true,
+        ..MatchOptions::new()
+    };
+    glob_with(&pattern, options).map_or_else(|_| Vec::new(), |found| found.flatten().collect())
+}
 
 /// Writes out what clap would take for an option: `-9e-05`, as other programs print small numbers, and `-.5`.
 pub(crate) fn written_out(argument: OsString) -> OsString {
@@ -17,7 +47,35 @@ pub(crate) fn written_out(argument: OsString) -> OsString {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
+
+    #[test]
+    fn a_pattern_is_the_files_it_stands_for() {
+        let directory = tempfile::tempdir().unwrap();
+        let here = directory.path().join("both ways [2]");
+        fs::create_dir(&here).unwrap();
+        for name in ["b.WAV", "a.wav", "ring1.wav", "ring[1].wav", ".c.wav"] {
+            fs::write(here.join(name), "").unwrap();
+        }
+        for (pattern, wanted) in [
+            ("*.wav", &["a.wav", "b.WAV", "ring1.wav", "ring[1].wav"][..]),
+            ("?.wav", &["a.wav", "b.WAV"]),
+            ("ring[1].w*", &["ring[1].wav"]),
+            ("ring[1].wav", &["ring[1].wav"]),
+            ("ring[2].wav", &["ring[2].wav"]),
+            ("*.npy", &["*.npy"]),
+            ("a**.wav", &["a**.wav"]),
+        ] {
+            let found = matches(here.join(pattern).into_os_string());
+            let wanted: Vec<_> = wanted
+                .iter()
+                .map(|name| here.join(name).into_os_string())
+                .collect();
+            assert_eq!(found, wanted, "{pattern}");
+        }
+    }
 
     #[test]
     fn only_negative_numbers_are_written_out() {

@@ -29,14 +29,22 @@ mod serialized;
 mod simulate;
 mod study;
 
+use std::env;
 use std::process::ExitCode;
 
 use clap::Parser;
 use options::{Command, Options};
 
 fn main() -> ExitCode {
-    // Windows leaves it to the program what `*.wav` is.
-    let arguments = wild::args_os().map(arguments::written_out);
+    let arguments = env::args_os().flat_map(|argument| {
+        // Windows leaves it to the program what `*.wav` is.
+        if cfg!(windows) {
+            arguments::matches(argument)
+        } else {
+            vec![argument]
+        }
+    });
+    let arguments = arguments.map(arguments::written_out);
     let result = match Options::parse_from(arguments).command {
         None => demonstration::run(),
         Some(Command::Identify(options)) => identify::run(&options),

@@ -249,7 +249,8 @@ impl InputError {
     pub fn io(file: &str, fault: io::Error) -> Self {
         let file = file.to_owned();
         match fault.kind() {
-            io::ErrorKind::NotFound => Self::NotFound { file },
+            // On Windows, no file's name has a `*`.
+            io::ErrorKind::NotFound | io::ErrorKind::InvalidFilename => Self::NotFound { file },
             io::ErrorKind::PermissionDenied => Self::Permission { file },
             io::ErrorKind::IsADirectory => Self::Directory { file },
             _ => Self::Io { file, fault },

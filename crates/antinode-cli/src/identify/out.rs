@@ -77,9 +77,10 @@ impl Out {
 
 /// Refuses a recording that is to be read.
 pub(super) fn check_other(options: &Identify) -> Result<(), Failure> {
-    if let Some(Ok(path)) = options.file().map(fs::canonicalize)
+    if let Some(path) = options.file()
+        && let Ok(there) = fs::canonicalize(path)
         && let mut files = options.files.iter().flat_map(fs::canonicalize)
-        && files.any(|file| file == path)
+        && files.any(|file| file == there)
     {
         return Err(Failure::Usage(format!(
             "--out: {} is a recording to be read; give the rows another name",
@@ -94,12 +95,27 @@ fn is_stream(path: &Path) -> bool {
     let is_given = ["/dev/stderr", "/dev/fd", "/proc"]
         .iter()
         .any(|given| path.starts_with(given));
-    is_given || fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir())
+    is_given
+        || cfg!(windows) && is_device_of_windows(path)
+        || fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir())
+}
+
+/// True for the names that lead to no file, in whatever directory.
+fn is_device_of_windows(path: &Path) -> bool {
+    let names = ["NUL", "CON", r"\\.\NUL", r"\\.\CON"];
+    names
+        .iter()
+        .any(|name| path.as_os_str().eq_ignore_ascii_case(name))
 }
 
 /// Opens it behind what is in it already.
 fn stream(path: &Path) -> Result<File, OutputError> {
-    let file = File::options().append(true).open(path);
+    // The console of Windows has no end to write behind.
+    let file = if cfg!(windows) {
+        File::options().write(true).open(path)
+    } else {
+        File::options().append(true).open(path)
+    };
     file.map_err(|fault| OutputError::io(&path.display().to_string(), fault))
 }
 

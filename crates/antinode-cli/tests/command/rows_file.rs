@@ -75,6 +75,51 @@ fn a_dash_is_standard_output() {
     assert!(!here.join("-").exists());
 }
 
+#[cfg(windows)]
+mod windows {
+    use std::os::windows::fs::OpenOptionsExt;
+
+    use super::*;
+
+    #[test]
+    fn a_file_that_another_program_has_open_is_told_before_anything_is_read() {
+        let directory = tempfile::tempdir().unwrap();
+        let here = directory.path();
+        recordings(here);
+        fs::write(here.join("rows.csv"), "good").unwrap();
+        // To be read by others, and by a spreadsheet not even to be written.
+        for share in [1, 3] {
+            let mut options = fs::File::options();
+            let held = options.read(true).share_mode(share);
+            let held = held.open(here.join("rows.csv")).unwrap();
+            let refused = run(here, "identify a.wav -o rows.csv");
+            assert_eq!(
+                (refused.code, refused.err.as_str()),
+                (
+                    1,
+                    "error: rows.csv: another program has this file open; close it there, or give another name\n"
+                )
+            );
+            drop(held);
+            assert_eq!(read(here, "rows.csv"), "good");
+        }
+        assert_eq!(fs::read_dir(here).unwrap().count(), 3);
+        assert_eq!(run(here, "identify a.wav -o rows.csv").code, 0);
+    }
+
+    #[test]
+    fn rows_may_go_nowhere() {
+        let directory = tempfile::tempdir().unwrap();
+        let here = directory.path();
+        recordings(here);
+        for name in ["NUL", "nul", r"\\.\NUL"] {
+            let nowhere = run(here, &format!("identify a.wav -o {name}"));
+            assert_eq!((nowhere.code, nowhere.out.as_str()), (0, ""), "{name}");
+        }
+        assert_eq!(fs::read_dir(here).unwrap().count(), 2);
+    }
+}
+
 #[cfg(unix)]
 mod unix {
     use std::os::unix::fs::PermissionsExt;

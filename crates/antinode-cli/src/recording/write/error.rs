@@ -22,6 +22,19 @@ pub enum OutputError {
         "{file}: this file is read-only, and stays as it is; give another name, or make it writable"
     )]
     ReadOnly { file: String },
+    /// A file that stands in the way of the new one.
+    #[error("{file}: another program has this file open; close it there, or give another name")]
+    Held { file: String },
+    /// All is written, but not under this name.
+    #[error(
+        "{file}: cannot be given this name: {fault}; what was written stands beside it as `{kept}`: check what is there, and whether \
+         another program has it open"
+    )]
+    Unnamed {
+        file: String,
+        fault: io::Error,
+        kept: String,
+    },
     /// The directory that the file would stand in is not there.
     #[error("{file}: there is no directory `{directory}`; make it first, or correct the path")]
     NoDirectory { file: String, directory: String },

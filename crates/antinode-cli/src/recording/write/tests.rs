@@ -196,6 +196,25 @@ fn what_is_there_stays_until_the_new_file_is_whole() {
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
 }
 
+#[test]
+fn what_cannot_have_its_name_is_kept() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("a.csv");
+    let mut writer = RecordingWriter::create(&path, 1.0, SampleFormat::F64).unwrap();
+    writer.write([1.0, 2.0]).unwrap();
+    fs::create_dir(&path).unwrap();
+    fs::write(path.join("file"), "").unwrap();
+    let told = writer.finish().unwrap_err().to_string();
+    let (_, told) = told
+        .split_once("a.csv: cannot be given this name: ")
+        .unwrap();
+    let (_, told) = told.split_once("stands beside it as `").unwrap();
+    let (kept, _) = told.split_once('`').unwrap();
+    let kept = directory.path().join(kept);
+    assert_eq!(fs::read_to_string(kept).unwrap(), "time,c,d\n0.0,1.0,2.0\n");
+    assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 2);
+}
+
 #[cfg(unix)]
 #[test]
 fn a_link_keeps_leading_to_its_file() {

@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::TempPath;
+use tempfile::{PathPersistError, TempPath};
 
 use super::OutputError;
 
@@ -15,7 +15,7 @@ const LONGEST_LINE: u64 = 1 << 16;
 pub struct WholeFile {
     file: String,
     target: PathBuf,
-    /// Deleted unless it is given its name.
+    /// Deleted unless it is to be given its name.
     temporary: TempPath,
 }
 
@@ -29,6 +29,7 @@ impl WholeFile {
             Some(there) if there.permissions().readonly() => {
                 return Err(OutputError::ReadOnly { file });
             }
+            Some(_) if is_held(path) => return Err(OutputError::Held { file }),
             // A link keeps leading to the file it leads to.
             Some(_) => fs::canonicalize(path).map_err(|fault| OutputError::io(&file, fault))?,
             None => path.to_owned(),
@@ -73,7 +74,7 @@ impl WholeFile {
         }
     }
 
-    /// Gives the file its name; dropped without this, it leaves nothing behind.
+    /// Gives the file its name, or leaves it under its temporary one where it cannot have it; dropped without this, it leaves nothing behind.
     pub fn finish(self) -> Result<(), OutputError> {
         let Self {
             file,
@@ -84,8 +85,19 @@ impl WholeFile {
         let synced = File::options().write(true).open(&temporary);
         synced
             .and_then(|output| output.sync_all())
-            .and_then(|()| temporary.persist(target).map_err(|fault| fault.error))
-            .map_err(|fault| OutputError::io(&file, fault))
+            .map_err(|fault| OutputError::io(&file, fault))?;
+        let Err(PathPersistError { error, path }) = temporary.persist(target) else {
+            return Ok(());
+        };
+        // It may be the work of hours.
+        Err(match path.keep() {
+            Ok(kept) => OutputError::Unnamed {
+                file,
+                fault: error,
+                kept: kept.file_name().unwrap_or_default().display().to_string(),
+            },
+            Err(_) => OutputError::io(&file, error),
+        })
     }
 
     /// Leaves off what follows its last end of line, as of a disk that became full; false where no line is whole.
@@ -119,4 +131,21 @@ impl WholeFile {
     pub fn name(&self) -> &str {
         &self.file
     }
+}
+
+/// True where another program has the file open, and does not let it be replaced: that happens on Windows only.
+#[cfg(windows)]
+fn is_held(path: &Path) -> bool {
+    use std::os::windows::fs::OpenOptionsExt;
+    /// What a file is opened for to be replaced.
+    const DELETE: u32 = 0x0001_0000;
+    /// What the system says then.
+    const SHARING_VIOLATION: i32 = 32;
+    let opened = File::options().access_mode(DELETE).open(path);
+    opened.is_err_and(|fault| fault.raw_os_error() == Some(SHARING_VIOLATION))
+}
+
+#[cfg(not(windows))]
+fn is_held(_: &Path) -> bool {
+    false
 }

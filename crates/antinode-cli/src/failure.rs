@@ -6,6 +6,9 @@ use antinode::SettingsError;
 
 use crate::recording::{InputError, OutputError};
 
+/// What Windows says where no process is on the other end of a pipe, and the standard library has no kind for.
+const PIPE_NOT_CONNECTED: i32 = 233;
+
 /// A failure, and so an exit code: 1 for what was found in the data or the system, 2 for what was asked, 130 for an interruption.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
@@ -104,7 +107,8 @@ fn simulate_option(field: &str) -> String {
 
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
-        if error.kind() == io::ErrorKind::BrokenPipe {
+        let is_left = cfg!(windows) && error.raw_os_error() == Some(PIPE_NOT_CONNECTED);
+        if error.kind() == io::ErrorKind::BrokenPipe || is_left {
             Self::Closed
         } else {
             Self::Rows(error)

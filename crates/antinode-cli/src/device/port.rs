@@ -21,13 +21,17 @@ pub fn is_port(path: &Path) -> bool {
         fs::metadata(path).is_ok_and(|metadata| metadata.file_type().is_char_device())
     }
     #[cfg(not(unix))]
-    {
-        let name = path.to_string_lossy().to_uppercase();
-        name.starts_with(r"\\.\")
-            || name
-                .strip_prefix("COM")
-                .is_some_and(|number| number.parse::<u8>().is_ok())
-    }
+    is_port_of_windows(&path.to_string_lossy())
+}
+
+/// True for `COM1` to `COM256`, and for any device by its full name.
+#[cfg(any(not(unix), test))]
+fn is_port_of_windows(name: &str) -> bool {
+    let name = name.to_uppercase();
+    let number = name.strip_prefix("COM").unwrap_or_default();
+    let is_number = number.bytes().all(|byte| byte.is_ascii_digit());
+    let is_numbered = is_number && number.parse().is_ok_and(|number: u16| number <= 256);
+    is_numbered || name.starts_with(r"\\.\")
 }
 
 /// Opens a port: 8 data bits, no parity, 1 stop bit, for this program alone.
@@ -70,5 +74,22 @@ pub fn ports() -> String {
         "plug the device in: this computer has no serial port now".to_owned()
     } else {
         format!("this computer has: {}", names.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_counts_ports_to_256() {
+        for name in ["COM1", "com3", "COM10", "COM256", r"\\.\COM3"] {
+            assert!(is_port_of_windows(name), "{name}");
+        }
+        for name in [
+            "COM", "COM257", "COM+3", "COM3.bin", "3", r".\COM3", "a.bin",
+        ] {
+            assert!(!is_port_of_windows(name), "{name}");
+        }
     }
 }

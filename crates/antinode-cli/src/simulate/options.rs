@@ -1,10 +1,11 @@
 //! The command line of `antinode simulate`.
 
+use std::any::TypeId;
 use std::f64::consts::FRAC_PI_6;
 use std::path::PathBuf;
 
 use antinode_sim::{ClipSpan, Dropout, Flaws, Loss, Wave};
-use clap::Args;
+use clap::{Arg, Args};
 
 use super::fields::Parsed;
 use crate::failure::Failure;
@@ -13,16 +14,16 @@ use crate::recording::SampleFormat;
 
 /// `antinode simulate`.
 #[derive(Debug, Args)]
-#[command(allow_negative_numbers = true)]
+#[command(allow_negative_numbers = true, mut_args = told_as_number)]
 pub struct Simulate {
     /// The recording to write: .wav, .csv or .npy. The truth goes beside it, with .json appended to the name.
     #[arg(short = 'o', long, value_name = "FILE")]
     pub out: PathBuf,
     /// Length, s.
-    #[arg(long, default_value_t = 1.0, value_name = "S", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 1.0, value_name = "S")]
     pub seconds: f64,
     /// Sample rate, Hz.
-    #[arg(long, default_value_t = 100_000.0, value_name = "HZ", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 100_000.0, value_name = "HZ")]
     pub rate: f64,
     /// Seed of all noise.
     #[arg(long, default_value_t = 1, value_name = "SEED", value_parser = ranges::seed)]
@@ -42,40 +43,40 @@ pub struct Simulate {
 #[command(next_help_heading = "Wave")]
 struct WaveOptions {
     /// Main amplitude at the start; integer samples saturate at 1.
-    #[arg(long, default_value_t = 0.5, value_name = "LEVEL", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.5, value_name = "LEVEL")]
     main_amplitude: f64,
     /// Quadrature amplitude at the start, signed.
-    #[arg(long, default_value_t = 0.025, value_name = "LEVEL", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.025, value_name = "LEVEL")]
     quadrature_amplitude: f64,
     /// Pattern angle at the start, rad [default: π/6].
-    #[arg(long, default_value_t = FRAC_PI_6, hide_default_value = true, value_name = "RAD", value_parser = ranges::number)]
+    #[arg(long, default_value_t = FRAC_PI_6, hide_default_value = true, value_name = "RAD")]
     angle: f64,
     /// Phase at the start, rad [default: π/6].
-    #[arg(long, default_value_t = FRAC_PI_6, hide_default_value = true, value_name = "RAD", value_parser = ranges::number)]
+    #[arg(long, default_value_t = FRAC_PI_6, hide_default_value = true, value_name = "RAD")]
     phase: f64,
     /// Frequency at the start, Hz, below half of the rate.
-    #[arg(long, default_value_t = 5332.0, value_name = "HZ", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 5332.0, value_name = "HZ")]
     frequency: f64,
     /// Drift of the frequency, Hz/s.
-    #[arg(long, default_value_t = 0.0, value_name = "HZ/S", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "HZ/S")]
     frequency_rate: f64,
     /// Precession by rotation, rad/s.
-    #[arg(long, default_value_t = 0.0, value_name = "RAD/S", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "RAD/S")]
     angle_rate: f64,
     /// Decay of the amplitudes, 1/s; with a split, the mean of both modes.
-    #[arg(long, default_value_t = 0.0, value_name = "1/S", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "1/S")]
     decay_rate: f64,
     /// Difference between the decay rates of the two modes, 1/s.
-    #[arg(long, default_value_t = 0.0, value_name = "1/S", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "1/S")]
     damping_split: f64,
     /// Pattern angle at which damping is greatest, rad.
-    #[arg(long, default_value_t = 0.0, value_name = "RAD", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "RAD")]
     damping_angle: f64,
     /// Difference between the frequencies of the two modes, Hz; --frequency is their mean.
-    #[arg(long, default_value_t = 0.0, value_name = "HZ", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "HZ")]
     frequency_split: f64,
     /// Pattern angle at which the frequency is highest, rad.
-    #[arg(long, default_value_t = 0.0, value_name = "RAD", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "RAD")]
     frequency_angle: f64,
 }
 
@@ -84,34 +85,34 @@ struct WaveOptions {
 #[command(next_help_heading = "Flaws")]
 struct FlawOptions {
     /// White noise, rms per sample and channel, in the units of the amplitudes.
-    #[arg(long, default_value_t = 0.0, value_name = "RMS", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "RMS")]
     noise: f64,
     /// Offset of S_C, in the units of the amplitudes.
-    #[arg(long, default_value_t = 0.0, value_name = "LEVEL", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "LEVEL")]
     offset_c: f64,
     /// Offset of S_D, in the units of the amplitudes.
-    #[arg(long, default_value_t = 0.0, value_name = "LEVEL", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "LEVEL")]
     offset_d: f64,
     /// Amplitude of the mains hum on both pick-offs, in the units of the amplitudes.
-    #[arg(long, default_value_t = 0.0, value_name = "LEVEL", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "LEVEL")]
     hum: f64,
     /// Frequency of the hum, Hz.
-    #[arg(long, default_value_t = 50.0, value_name = "HZ", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 50.0, value_name = "HZ")]
     hum_frequency: f64,
     /// Gain of pick-off D over that of C.
-    #[arg(long, default_value_t = 1.0, value_name = "RATIO", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 1.0, value_name = "RATIO")]
     gain_ratio: f64,
     /// How much later pick-off D is sampled than C, ns.
-    #[arg(long, default_value_t = 0.0, value_name = "NS", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "NS")]
     skew_ns: f64,
     /// Pick-off D stands at 45° plus this angle from C, rad.
-    #[arg(long, default_value_t = 0.0, value_name = "RAD", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "RAD")]
     pick_off_angle: f64,
     /// Cubic nonlinearity: S becomes S + C·S³/a², a the main amplitude at the start.
-    #[arg(long, default_value_t = 0.0, value_name = "C", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "C")]
     cubic: f64,
     /// Level at which |S| is clipped.
-    #[arg(long, value_name = "LEVEL", value_parser = ranges::number)]
+    #[arg(long, value_name = "LEVEL")]
     clip: Option<f64>,
     /// Level at which |S| is clipped between two times, s; may be repeated.
     #[arg(long, value_name = "FROM:TO:LEVEL")]
@@ -120,10 +121,10 @@ struct FlawOptions {
     #[arg(long, value_name = "BITS")]
     bits: Option<u32>,
     /// Full scale of the converter set by --bits.
-    #[arg(long, default_value_t = 1.0, value_name = "LEVEL", requires = "bits", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 1.0, value_name = "LEVEL", requires = "bits")]
     full_scale: f64,
     /// Jitter of the sampling instants, rms, ns.
-    #[arg(long, default_value_t = 0.0, value_name = "NS", value_parser = ranges::number)]
+    #[arg(long, default_value_t = 0.0, value_name = "NS")]
     jitter_ns: f64,
     /// Sample pairs lost, COUNT of them from INDEX on (from 0); may be repeated.
     #[arg(long, value_name = "INDEX:COUNT")]
@@ -133,6 +134,15 @@ struct FlawOptions {
     /// KIND is zero, hold (the last sample) or noise (no wave); CHANNEL is c or d, or both if not given.
     #[arg(long, value_name = "FROM:TO:KIND[:CHANNEL]")]
     dropout: Vec<Parsed<Dropout>>,
+}
+
+/// An option whose value, if it is a number, is refused in words; clap's own are those of Rust's parser.
+fn told_as_number(option: Arg) -> Arg {
+    if option.get_value_parser().type_id() == TypeId::of::<f64>() {
+        option.value_parser(ranges::number)
+    } else {
+        option
+    }
 }
 
 impl Simulate {

@@ -9,7 +9,7 @@ use super::format::FormatParser;
 use crate::failure::Failure;
 use crate::options::{Corrected, Format};
 use crate::ranges;
-use crate::recording::{Columns, RawFormat};
+use crate::recording::{Columns, Kind};
 
 /// The most periods a window may have; the ring of blocks holds two more.
 pub const MOST_PERIODS: u16 = 1022;
@@ -39,7 +39,7 @@ pub struct Identify {
     /// Sample format of recordings without a header: little-endian, S_C and S_D interleaved, or two of the --channels.
     /// WAV and NPY are still read as such, and so are lines of numbers in a file named .csv, .tsv, .txt or .lvm.
     #[arg(long, value_enum, value_name = "FORMAT", help_heading = "Recording")]
-    pub raw: Option<RawFormat>,
+    pub raw: Option<Kind>,
     /// How many channels raw samples have, 2 to 64; if more than two, --columns picks S_C and S_D [default: 2].
     #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(2..=i64::from(MOST_CHANNELS)), help_heading = "Recording")]
     pub channels: Option<u8>,

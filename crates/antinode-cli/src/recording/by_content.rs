@@ -6,7 +6,8 @@ use super::columns::Columns;
 use super::content::Content;
 use super::error::InputError;
 use super::foreign::{Foreign, MAT};
-use super::raw::{self, RawFormat};
+use super::raw;
+use super::sample::Kind;
 use super::source::{Counted, Known, Opened, Stream, in_utf8};
 use super::{delimited, npy, wav};
 
@@ -14,7 +15,7 @@ use super::{delimited, npy, wav};
 #[derive(Debug, Clone, Default)]
 pub struct OpenOptions {
     /// The format of raw samples: of what is neither WAV nor NPY by its first bytes, nor text by both its name and its content.
-    pub raw: Option<RawFormat>,
+    pub raw: Option<Kind>,
     /// The number of interleaved channels of raw samples, 2 by default.
     pub channels: Option<usize>,
     /// The columns of a text recording, or the channels of another; by default, they are told from the header or their number.

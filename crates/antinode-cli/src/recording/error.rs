@@ -7,7 +7,7 @@ use std::io;
 
 pub use line::{LineFault, Place, Role, TimeFault};
 
-/// The command-line option that names a [`RawFormat`](super::RawFormat), as the remedies spell it.
+/// The command-line option that names a [`Kind`](super::Kind), as the remedies spell it.
 pub const RAW_OPTION: &str = "--raw";
 
 /// The command-line option that names the [`Columns`](super::Columns), as the remedies spell it.

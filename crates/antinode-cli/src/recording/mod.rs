@@ -41,7 +41,7 @@ pub use columns::Columns;
 pub use error::{Channel, InputError};
 pub use gaps::Gap;
 use not_finite::NotFinite;
-pub use raw::RawFormat;
+pub use sample::Kind;
 use sample::SampleCode;
 use source::{Known, Opened, Source, Stream};
 pub use source::{in_utf8, open_file};

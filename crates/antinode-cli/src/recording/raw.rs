@@ -3,8 +3,6 @@
 use std::io::{self, Read};
 use std::mem;
 
-use clap::ValueEnum;
-
 use super::error::InputError;
 use super::frame::Frame;
 use super::sample::{BadSample, Kind, SampleCode};
@@ -15,27 +13,6 @@ const CHUNK_BYTES: usize = 3 << 16;
 
 /// The name of a chunk and its size.
 const CHUNK_HEADER: usize = 8;
-
-/// The format of samples that come without a header: little-endian, the channels in turn.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub enum RawFormat {
-    /// 8-bit unsigned integers, mid-scale reads as 0 and full scale as 1.
-    U8,
-    /// 8-bit integers, full scale reads as 1.
-    I8,
-    /// 16-bit unsigned integers, mid-scale reads as 0 and full scale as 1; codes below 32768 may be read as i16 too.
-    U16,
-    /// 16-bit integers, full scale reads as 1.
-    I16,
-    /// 24-bit integers of three bytes, full scale reads as 1.
-    I24,
-    /// 32-bit integers, full scale reads as 1.
-    I32,
-    /// 32-bit floating point.
-    F32,
-    /// 64-bit floating point.
-    F64,
-}
 
 /// Reads interleaved samples as long as there are any.
 pub(super) struct Interleaved {
@@ -64,20 +41,11 @@ pub(super) struct Interleaved {
 pub(super) fn open(
     file: &str,
     stream: Stream,
-    format: RawFormat,
+    kind: Kind,
     options: &OpenOptions,
     length: Option<u64>,
 ) -> Result<Opened, InputError> {
-    let code = SampleCode::new(match format {
-        RawFormat::U8 => Kind::U8,
-        RawFormat::I8 => Kind::I8,
-        RawFormat::U16 => Kind::U16,
-        RawFormat::I16 => Kind::I16,
-        RawFormat::I24 => Kind::I24,
-        RawFormat::I32 => Kind::I32,
-        RawFormat::F32 => Kind::F32,
-        RawFormat::F64 => Kind::F64,
-    });
+    let code = SampleCode::new(kind);
     let source = Interleaved::new(file, stream, code, 0)
         .of(frame(file, options)?)
         .live(length.is_none());

@@ -1,19 +1,27 @@
 //! From the bytes of stored samples to pairs of numbers, many at a time.
 
+use clap::ValueEnum;
+
 use super::error::Channel;
 
-/// How one sample is stored.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// Unsigned, 128 is zero, as 8-bit WAV files have it.
+/// How one sample is stored: of raw ones little-endian, the channels in turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Kind {
+    /// 8-bit unsigned integers, mid-scale reads as 0 and full scale as 1.
     U8,
+    /// 8-bit integers, full scale reads as 1.
     I8,
-    /// Unsigned, 32768 is zero.
+    /// 16-bit unsigned integers, mid-scale reads as 0 and full scale as 1; codes below 32768 may be read as i16 too.
     U16,
+    /// 16-bit integers, full scale reads as 1.
     I16,
+    /// 24-bit integers of three bytes, full scale reads as 1.
     I24,
+    /// 32-bit integers, full scale reads as 1.
     I32,
+    /// 32-bit floating point.
     F32,
+    /// 64-bit floating point.
     F64,
 }
 

@@ -185,7 +185,7 @@ fn text_may_be_utf_16() {
     assert_eq!(Some(recording.bytes_read()), recording.bytes_total());
     // Raw samples may begin with any of them.
     let options = OpenOptions {
-        raw: Some(RawFormat::I16),
+        raw: Some(Kind::I16),
         ..OpenOptions::default()
     };
     let (pairs, fault) = read_with("a", b"\xff\xfe\0\x40", &options);
@@ -224,7 +224,7 @@ fn content_wins_over_the_extension() {
 #[test]
 fn a_raw_file_is_read_in_the_format_given() {
     let options = OpenOptions {
-        raw: Some(RawFormat::I16),
+        raw: Some(Kind::I16),
         ..OpenOptions::default()
     };
     let (_directory, path) = file("a.bin", &[0, 0x40, 0, 0xc0]);
@@ -245,7 +245,7 @@ fn a_raw_file_is_read_in_the_format_given() {
 #[test]
 fn the_format_given_wins_over_a_name_and_not_over_the_content() {
     let options = OpenOptions {
-        raw: Some(RawFormat::I16),
+        raw: Some(Kind::I16),
         ..OpenOptions::default()
     };
     for name in [
@@ -280,19 +280,15 @@ fn a_stream_needs_a_format_unless_it_is_a_file() {
         by_content::open("standard input", stream, Known::default(), &options)
             .map(|opened| opened.integers)
     };
-    assert!(open(b"abcd", Some(RawFormat::F32)).is_ok());
+    assert!(open(b"abcd", Some(Kind::F32)).is_ok());
     let fault = |bytes, raw| message(open(bytes, raw).err());
     assert!(
         fault(b"abcd", None).starts_with(
             "standard input: this is neither WAV, NPY nor CSV, and raw samples do not tell their format; "
         )
     );
-    assert!(
-        fault(b"", Some(RawFormat::I16)).starts_with("standard input: there is nothing in it;")
-    );
-    assert!(
-        fault(b"RIFF1234WAVE", Some(RawFormat::I16)).starts_with("standard input: WAV header: ")
-    );
+    assert!(fault(b"", Some(Kind::I16)).starts_with("standard input: there is nothing in it;"));
+    assert!(fault(b"RIFF1234WAVE", Some(Kind::I16)).starts_with("standard input: WAV header: "));
     assert!(fault(b"\x93NUMPY", None).starts_with("standard input: NPY header: "));
 }
 
@@ -338,7 +334,7 @@ proptest! {
         rest in prop_oneof![proptest::collection::vec(any::<u8>(), 0..300), text()],
     ) {
         bytes.extend_from_slice(&rest);
-        let options = OpenOptions { raw: Some(RawFormat::F32), ..OpenOptions::default() };
+        let options = OpenOptions { raw: Some(Kind::F32), ..OpenOptions::default() };
         let (pairs, fault) = read_with(name, &bytes, &options);
         prop_assert!(fault.is_some() || !pairs.is_empty());
     }

@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use super::super::columns::Columns;
 use super::super::tests::{message, read, read_with};
-use super::super::{OpenOptions, RawFormat, by_content, source::Known};
+use super::super::{Kind, OpenOptions, by_content, source::Known};
 use super::*;
 
 /// A file that begins as one of these does.
@@ -71,7 +71,7 @@ fn whatever_else_is_known_of_it() {
     assert!(fault.is_some_and(|fault| fault.contains("compressed by gzip")));
     // Raw samples may begin with any bytes.
     let raw = OpenOptions {
-        raw: Some(RawFormat::I16),
+        raw: Some(Kind::I16),
         ..OpenOptions::default()
     };
     assert_eq!(read_with("a.gz", &gzip[..4], &raw).0.len(), 1);

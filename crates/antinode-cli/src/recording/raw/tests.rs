@@ -1,10 +1,12 @@
 //! Streams of samples made by hand.
 
+use clap::ValueEnum;
+
 use super::super::tests::{Dribble, drain, file, message};
 use super::*;
 use crate::recording::{OpenOptions, Recording};
 
-fn raw(bytes: Vec<u8>, format: RawFormat) -> Recording {
+fn raw(bytes: Vec<u8>, format: Kind) -> Recording {
     let stream = Box::new(Dribble::new(bytes, 7));
     Recording::new(
         "standard input".to_owned(),
@@ -54,12 +56,12 @@ fn every_format_is_read_across_ragged_chunks() {
         .flat_map(|&value| f64::from(value).to_le_bytes())
         .collect();
     for (bytes, format) in [
-        (f64s, RawFormat::F64),
-        (u16s, RawFormat::U16),
-        (i24s, RawFormat::I24),
-        (i16s, RawFormat::I16),
-        (i32s, RawFormat::I32),
-        (f32s, RawFormat::F32),
+        (f64s, Kind::F64),
+        (u16s, Kind::U16),
+        (i24s, Kind::I24),
+        (i16s, Kind::I16),
+        (i32s, Kind::I32),
+        (f32s, Kind::F32),
     ] {
         let (read, fault) = drain(&mut raw(whole(bytes), format));
         assert_eq!(read, pairs);
@@ -70,8 +72,8 @@ fn every_format_is_read_across_ragged_chunks() {
 #[test]
 fn bytes_are_integers_with_or_without_sign() {
     for (format, expected) in [
-        (RawFormat::U8, [[-1.0, 0.0], [-0.5, 127.0 / 128.0]]),
-        (RawFormat::I8, [[0.0, -1.0], [0.5, -1.0 / 128.0]]),
+        (Kind::U8, [[-1.0, 0.0], [-0.5, 127.0 / 128.0]]),
+        (Kind::I8, [[0.0, -1.0], [0.5, -1.0 / 128.0]]),
     ] {
         let mut recording = raw(vec![0, 0x80, 0x40, 0xff], format);
         assert_eq!(recording.full_scale(), Some(127.0 / 128.0));
@@ -83,7 +85,7 @@ fn bytes_are_integers_with_or_without_sign() {
 
 #[test]
 fn messages_and_the_readme_name_every_format() {
-    let names = RawFormat::value_variants().iter();
+    let names = Kind::value_variants().iter();
     let names = names.filter_map(|format| Some(format.to_possible_value()?.get_name().to_owned()));
     let names: Vec<String> = names.collect();
     let (last, others) = names.split_last().expect("there are formats");
@@ -99,7 +101,7 @@ fn messages_and_the_readme_name_every_format() {
 
 #[test]
 fn half_a_pair_at_the_end_is_an_error_after_the_good_data() {
-    let (pairs, fault) = drain(&mut raw(vec![0, 0x40, 0, 0xc0, 1, 0], RawFormat::I16));
+    let (pairs, fault) = drain(&mut raw(vec![0, 0x40, 0, 0xc0, 1, 0], Kind::I16));
     assert_eq!(pairs, [[0.5, -0.5]]);
     assert!(
         message(fault).starts_with(
@@ -117,7 +119,7 @@ fn not_finite_samples_pass_and_are_told() {
         .iter()
         .flat_map(|value| value.to_le_bytes())
         .collect();
-    let mut recording = raw(bytes, RawFormat::F32);
+    let mut recording = raw(bytes, Kind::F32);
     let (pairs, fault) = drain(&mut recording);
     assert_eq!((pairs.len(), fault.is_none()), (20, true));
     assert_eq!(pairs[15], [f32::NEG_INFINITY, 0.5]);
@@ -129,7 +131,7 @@ fn not_finite_samples_pass_and_are_told() {
 
 #[test]
 fn a_live_stream_is_handed_over_as_it_comes() {
-    let mut recording = raw(vec![0; 64], RawFormat::I16);
+    let mut recording = raw(vec![0; 64], Kind::I16);
     assert_eq!(recording.read(&mut Vec::with_capacity(100)).ok(), Some(1));
 }
 
@@ -144,14 +146,7 @@ fn a_fault_of_the_pipe_comes_after_the_good_data() {
     let stream = Box::new(io::Cursor::new(vec![0; 8]).chain(Broken));
     let mut recording = Recording::new(
         "pipe".to_owned(),
-        open(
-            "pipe",
-            stream,
-            RawFormat::I16,
-            &OpenOptions::default(),
-            None,
-        )
-        .unwrap(),
+        open("pipe", stream, Kind::I16, &OpenOptions::default(), None).unwrap(),
         None,
     );
     let (pairs, fault) = drain(&mut recording);
@@ -162,7 +157,7 @@ fn a_fault_of_the_pipe_comes_after_the_good_data() {
 #[test]
 fn the_step_is_told_behind_a_silent_beginning() {
     let options = OpenOptions {
-        raw: Some(RawFormat::I16),
+        raw: Some(Kind::I16),
         ..OpenOptions::default()
     };
     // 12 bits in 16, behind silence with a code of noise.

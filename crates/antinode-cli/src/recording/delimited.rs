@@ -4,7 +4,7 @@ mod fields;
 mod rows;
 
 use super::columns::Columns;
-use super::error::{COLUMNS_OPTION, InputError, RATE_OPTION, TimeFault};
+use super::error::{InputError, TimeFault};
 use super::gaps::{Gap, Gaps};
 use super::not_finite::Written;
 use super::time::{Meaning, TimeAxis, are_paired, roundest, standstill};
@@ -190,23 +190,24 @@ impl Delimited {
     /// Warns of a time column that is read as what it hardly is.
     fn warning(&self, meaning: Meaning) -> Option<String> {
         let samples = self.rows.header.samples();
-        let ignored = format!("ignore it with {COLUMNS_OPTION} {samples} {RATE_OPTION} HZ");
+        let ignored = format!("ignore it with --columns {samples} --rate HZ");
         Some(match meaning {
             Meaning::Time => return None,
             Meaning::PerhapsIndex => format!(
                 "the time column goes up by 1 a line, and is read as seconds; if it is an index, {ignored}"
             ),
-            Meaning::Index => format!(
-                "the time column goes up by 1 a line, and is taken for an index because of {RATE_OPTION}: times of rows \
-                 are from the first sample on; if it is seconds, leave {RATE_OPTION} out"
-            ),
+            Meaning::Index => {
+                "the time column goes up by 1 a line, and is taken for an index because of --rate: times of rows \
+                 are from the first sample on; if it is seconds, leave --rate out"
+                    .to_owned()
+            }
             Meaning::OtherRate { own, asked } if self.axis.is_none() => format!(
-                "by its settings the sample rate is {own} Hz, but {RATE_OPTION} makes it {asked} Hz, and takes precedence; \
-                 leave {RATE_OPTION} out if the settings are right"
+                "by its settings the sample rate is {own} Hz, but --rate makes it {asked} Hz, and takes precedence; \
+                 leave --rate out if the settings are right"
             ),
             Meaning::OtherRate { own, asked } => format!(
-                "by the time column the sample rate is {own} Hz, but {RATE_OPTION} makes it {asked} Hz, and takes precedence; \
-                 leave {RATE_OPTION} out, or if the column is wrong, {ignored}"
+                "by the time column the sample rate is {own} Hz, but --rate makes it {asked} Hz, and takes precedence; \
+                 leave --rate out, or if the column is wrong, {ignored}"
             ),
         })
     }

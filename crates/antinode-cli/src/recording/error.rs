@@ -7,18 +7,6 @@ use std::io;
 
 pub use line::{LineFault, Place, Role, TimeFault};
 
-/// The command-line option that names a [`Kind`](super::Kind), as the remedies spell it.
-pub const RAW_OPTION: &str = "--raw";
-
-/// The command-line option that names the [`Columns`](super::Columns), as the remedies spell it.
-pub const COLUMNS_OPTION: &str = "--columns";
-
-/// The command-line option that says how many channels raw samples have, as the remedies spell it.
-pub const CHANNELS_OPTION: &str = "--channels";
-
-/// The command-line option that gives the sample rate, as the remedies spell it.
-pub const RATE_OPTION: &str = "--rate";
-
 /// One of the two pick-off signals of a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Channel {
@@ -39,10 +27,6 @@ impl fmt::Display for Channel {
 
 /// Why a recording cannot be opened, or cannot be read further.
 #[derive(Debug, thiserror::Error)]
-#[allow(
-    missing_docs,
-    reason = "the message above each variant says what its fields are"
-)]
 pub enum InputError {
     /// The path leads nowhere.
     #[error("{file}: there is no such file; check the path")]
@@ -67,8 +51,8 @@ pub enum InputError {
     /// Neither the content nor the extension is known.
     #[error(
         "{file}: neither its content nor its extension is known; give a .wav, .csv, .tsv, .txt, .lvm \
-         or .npy file, or the sample format of a raw one with {RAW_OPTION} u8, i8, u16, i16, i24, i32, \
-         f32 or f64, or the columns of a text with {COLUMNS_OPTION}"
+         or .npy file, or the sample format of a raw one with --raw u8, i8, u16, i16, i24, i32, \
+         f32 or f64, or the columns of a text with --columns"
     )]
     Unknown { file: String },
     /// What the content is, which is not read.
@@ -81,13 +65,13 @@ pub enum InputError {
     /// The content is not what the extension promises.
     #[error(
         "{file}: this is not {kind}, whatever its extension says; export it again, rename it to what it is, or give the sample format of a \
-         raw one with {RAW_OPTION}"
+         raw one with --raw"
     )]
     NotOfKind { file: String, kind: &'static str },
     /// Standard input without a sample format.
     #[error(
         "{file}: this is neither WAV, NPY nor CSV, and raw samples do not tell their format; give it \
-         with {RAW_OPTION} u8, i8, u16, i16, i24, i32, f32 or f64 (little-endian, S_C and S_D in turn)"
+         with --raw u8, i8, u16, i16, i24, i32, f32 or f64 (little-endian, S_C and S_D in turn)"
     )]
     RawFormatNeeded { file: String },
 
@@ -129,13 +113,13 @@ pub enum InputError {
     },
     /// More raw channels than two, and none chosen.
     #[error(
-        "{file}: of {channels} channels in turn ({CHANNELS_OPTION}) two are needed; give those of S_C and S_D, {COLUMNS_OPTION} 1,2"
+        "{file}: of {channels} channels in turn (--channels) two are needed; give those of S_C and S_D, --columns 1,2"
     )]
     RawChannels { file: String, channels: usize },
     /// Raw channels that do not exist as long as nobody says how many there are, or are not given by number.
     #[error(
-        "{file}: {COLUMNS_OPTION} {chosen}: raw samples have two channels unless {CHANNELS_OPTION} says how many there are; give the \
-         numbers of those of S_C and S_D, 1,2 or 2,1, or {CHANNELS_OPTION} too"
+        "{file}: --columns {chosen}: raw samples have two channels unless --channels says how many there are; give the \
+         numbers of those of S_C and S_D, 1,2 or 2,1, or --channels too"
     )]
     RawChoice { file: String, chosen: String },
     /// Bits below the valid ones are set.

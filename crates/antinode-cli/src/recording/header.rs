@@ -1,7 +1,7 @@
 //! What the first lines of a text recording tell: its columns, and the unit of its time.
 
 use super::columns::{Columns, FirstLine, Places, is_time};
-use super::error::{COLUMNS_OPTION, InputError, LineFault, RATE_OPTION, TimeFault};
+use super::error::{InputError, LineFault, TimeFault};
 use super::heading::is_header;
 use super::lines::{Beginning, Lines};
 use super::sequence::{Counted, Sequence, counted};
@@ -186,7 +186,7 @@ impl Header {
         let samples = self.samples();
         Some(format!(
             "the time column `{name}` is read as seconds, which its name does not tell; if it is something else, convert it to seconds, or \
-             ignore it with {COLUMNS_OPTION} {samples} {RATE_OPTION} HZ"
+             ignore it with --columns {samples} --rate HZ"
         ))
     }
 

@@ -2,7 +2,7 @@
 
 use std::io::{self, Read};
 
-use super::error::{InputError, RATE_OPTION};
+use super::error::InputError;
 use super::frame::Frame;
 use super::raw::Interleaved;
 use super::sample::{Kind, SampleCode};
@@ -70,8 +70,8 @@ pub(super) fn open(
 fn rate_warning(own: f64, asked: Option<f64>) -> Option<String> {
     match Meaning::of_rate(own, asked) {
         Meaning::OtherRate { own, asked } => Some(format!(
-            "by its header the sample rate is {own} Hz, but {RATE_OPTION} makes it {asked} Hz, and takes precedence; \
-             leave {RATE_OPTION} out if the header is right"
+            "by its header the sample rate is {own} Hz, but --rate makes it {asked} Hz, and takes precedence; \
+             leave --rate out if the header is right"
         )),
         _ => None,
     }

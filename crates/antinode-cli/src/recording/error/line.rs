@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{COLUMNS_OPTION, Channel, RATE_OPTION};
+use super::Channel;
 
 /// A line, and a column in it, both from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,10 +23,6 @@ impl fmt::Display for Place {
 
 /// Why a line of text cannot be taken for a pair of samples.
 #[derive(Debug, thiserror::Error)]
-#[allow(
-    missing_docs,
-    reason = "the message above each variant says what its fields are"
-)]
 pub enum LineFault {
     /// Not lines of text.
     #[error(
@@ -39,9 +35,9 @@ pub enum LineFault {
         if *.found == 1 { "column" } else { "columns" },
         if *.found == 1 {
             "give one sample pair a line: of two files `paste -d, c.csv d.csv`, of two variables in MATLAB or Octave \
-             `dlmwrite('both.csv', [c(:) d(:)], 'precision', 9)`".to_owned()
+             `dlmwrite('both.csv', [c(:) d(:)], 'precision', 9)`"
         } else {
-            format!("drop the others, or name the right ones with {COLUMNS_OPTION} TIME,C,D, or C,D where there is no time")
+            "drop the others, or name the right ones with --columns TIME,C,D, or C,D where there is no time"
         }
     )]
     ColumnCount { found: usize },
@@ -54,16 +50,16 @@ pub enum LineFault {
     /// One signal beside its time.
     #[error(
         "found the time and one signal, but both are needed, S_C and S_D: export both channels into one file, or put \
-         the files of both side by side, `paste -d, c.csv d.csv`, and name the columns with {COLUMNS_OPTION} TIME,C,D; if there \
-         are two signals and no time, {COLUMNS_OPTION} C,D"
+         the files of both side by side, `paste -d, c.csv d.csv`, and name the columns with --columns TIME,C,D; if there \
+         are two signals and no time, --columns C,D"
     )]
     OneSignal,
     /// A column asked for that is not there.
-    #[error("there is no column `{wanted}`; choose among {known} with {COLUMNS_OPTION}")]
+    #[error("there is no column `{wanted}`; choose among {known} with --columns")]
     ColumnUnknown { wanted: String, known: String },
     /// One column for two of the time and the signals.
     #[error(
-        "column {number} is chosen twice; choose one each of the time, S_C and S_D with {COLUMNS_OPTION}"
+        "column {number} is chosen twice; choose one each of the time, S_C and S_D with --columns"
     )]
     ColumnTwice { number: usize },
     /// A field too few.
@@ -84,21 +80,17 @@ pub enum LineFault {
     /// Signals that are none of the same.
     #[error(
         "S_C is in {} and S_D in {}, which have no common unit; record both alike, mend the units, or choose other columns \
-         with {COLUMNS_OPTION}",
+         with --columns",
         units[0], units[1]
     )]
     Units { units: [String; 2] },
     /// The time is at fault; the samples are in the columns named.
-    #[error("{fault}, or ignore the time column with {COLUMNS_OPTION} {samples} {RATE_OPTION} HZ")]
+    #[error("{fault}, or ignore the time column with --columns {samples} --rate HZ")]
     Time { fault: TimeFault, samples: String },
 }
 
 /// Why the time of a line cannot be taken.
 #[derive(Debug, thiserror::Error)]
-#[allow(
-    missing_docs,
-    reason = "the message above each variant says what its fields are"
-)]
 pub enum TimeFault {
     /// Time in something other than seconds.
     #[error("the time column `{name}` is not in s, ms, us or ns; convert it to seconds")]

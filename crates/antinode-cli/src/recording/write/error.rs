@@ -6,10 +6,6 @@ use crate::recording::Channel;
 
 /// Why a recording or a figure cannot be written.
 #[derive(Debug, thiserror::Error)]
-#[allow(
-    missing_docs,
-    reason = "the message above each variant says what its fields are"
-)]
 pub enum OutputError {
     /// The extension names no format that is written.
     #[error("{file}: the extension names no format; end the name in {endings}")]

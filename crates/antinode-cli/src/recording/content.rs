@@ -5,7 +5,7 @@ use std::io::{self, Cursor, Read};
 use super::Stream;
 use super::columns::is_known;
 use super::foreign::{FEW_BYTES, Foreign};
-use super::text::{MAX_LINE, fields, is_skipped, number, separator, without_mark};
+use super::text::{MAX_LINE, fields, is_number, is_skipped, separator, without_mark};
 
 /// Bytes read at a time while a text's first line is looked for.
 const PIECE: usize = 4096;
@@ -112,11 +112,8 @@ pub(super) fn has_control(bytes: &[u8]) -> bool {
 /// Whether a line holds two numbers or more, and no words.
 fn is_pair(line: &[u8]) -> bool {
     let separator = separator(line);
-    let fields = fields(line, separator).filter(|field| !field.is_empty());
-    let numbers: Vec<bool> = fields
-        .map(|field| number::<f64>(field, separator).is_some())
-        .collect();
-    numbers.len() >= 2 && !numbers.contains(&false)
+    let fields = || fields(line, separator).filter(|field| !field.is_empty());
+    fields().nth(1).is_some() && fields().all(|field| is_number(field, separator))
 }
 
 /// Whether a line is a CSV header, or numbers.
@@ -126,9 +123,6 @@ fn is_csv(line: &[u8]) -> bool {
     }
     let separator = separator(line);
     let found: Vec<&[u8]> = fields(line, separator).collect();
-    let numbers = found
-        .iter()
-        .filter(|field| number::<f64>(field, separator).is_some());
     // Words between blanks are any text: one of them must be a name that is known.
     let is_header = if separator == b' ' {
         found
@@ -137,7 +131,7 @@ fn is_csv(line: &[u8]) -> bool {
     } else {
         found.len() > 1
     };
-    is_header || numbers.count() == found.len()
+    is_header || found.iter().all(|field| is_number(field, separator))
 }
 
 #[cfg(test)]

@@ -6,9 +6,9 @@ use super::heading::is_header;
 use super::lines::{Beginning, Lines};
 use super::sequence::{Counted, Sequence, counted};
 use super::signal_units::{Together, together};
-use super::text::{fields, is_skipped, number};
+use super::text::{fields, is_skipped};
 use super::units::{
-    are_bracketed, bare, has_unknown_unit, is_bracketed, is_unit, of_name, time_exponent,
+    are_bracketed, are_units, bare, has_unknown_unit, is_bracketed, of_name, time_exponent,
 };
 
 /// The columns of a text recording.
@@ -232,7 +232,6 @@ impl Header {
             }
             found.truncate(counted.columns);
         }
-        let is_number = |field: &str| number::<f64>(field.as_bytes(), lines.separator).is_some();
         let are_bracketed = are_bracketed(&found);
         let time = match self.places[0] {
             Some(place) => found.get(place).filter(|unit| {
@@ -243,10 +242,9 @@ impl Header {
             })?,
             None => "",
         };
-        let are_units = are_bracketed
-            || found.iter().all(|unit| is_unit(unit) && !is_number(unit))
-                && found.iter().any(|unit| !unit.is_empty());
-        are_units.then(|| time.to_owned())
+        let are_units = are_units(&found, lines.separator);
+        (are_bracketed || are_units && found.iter().any(|unit| !unit.is_empty()))
+            .then(|| time.to_owned())
     }
 
     /// The columns of the samples, as they are asked for.
@@ -266,10 +264,10 @@ impl Header {
 fn units_below(next: &[u8], separator: u8) -> Vec<String> {
     let mut lines = next.split(|&byte| byte == b'\n');
     let line = lines.find(|line| !is_skipped(line)).unwrap_or_default();
-    let is_number = |field: &str| number::<f64>(field.as_bytes(), separator).is_some();
     let found: Vec<String> = fields(line, separator).map(lossy).collect();
-    let are_units = found.iter().all(|unit| is_unit(unit) && !is_number(unit));
-    if are_units { found } else { Vec::new() }
+    Some(found)
+        .filter(|found| are_units(found, separator))
+        .unwrap_or_default()
 }
 
 /// A field as text, whatever its code.

@@ -1,7 +1,7 @@
 //! Whether the first line of a text recording holds names or samples.
 
 use super::no_number::stand_in;
-use super::text::{fields, number};
+use super::text::{self, fields, number};
 
 /// Fewer lines than these do not tell whether a sample goes before them.
 const FEW: usize = 8;
@@ -14,10 +14,10 @@ pub(super) fn is_header(first: &[u8], next: &[u8], separator: u8) -> bool {
     let names: Vec<&[u8]> = fields(first, separator).collect();
     let rows: Vec<Vec<&[u8]>> = next
         .split(|&byte| byte == b'\n')
-        .filter(|line| !super::text::is_skipped(line))
+        .filter(|line| !text::is_skipped(line))
         .map(|line| fields(line, separator).collect())
         .collect();
-    let is_number = |field: &[u8]| number::<f64>(field, separator).is_some();
+    let is_number = |field: &[u8]| text::is_number(field, separator);
     if !names.iter().any(|name| is_number(name)) {
         // A recording may begin with samples that are out of range.
         return !names.iter().all(|name| stand_in(name).is_some());
@@ -62,7 +62,7 @@ fn are_counted(names: &[&[u8]]) -> bool {
 /// Whether the numbers in these columns are all written with a point or an exponent.
 fn are_written_otherwise(rows: &[Vec<&[u8]>], columns: &[usize], separator: u8) -> bool {
     let is_otherwise = |field: &[u8]| {
-        number::<f64>(field, separator).is_some() && field.iter().any(|byte| b".,eE".contains(byte))
+        text::is_number(field, separator) && field.iter().any(|byte| b".,eE".contains(byte))
     };
     columns.iter().all(|&place| {
         let below = || rows.iter().filter_map(|row| row.get(place));

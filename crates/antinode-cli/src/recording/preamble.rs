@@ -9,8 +9,8 @@ use super::header::lossy;
 use super::heading::is_header;
 use super::no_number::stand_in;
 use super::sequence::Sequence;
-use super::text::{fields, is_skipped, number, separator};
-use super::units::{bare, is_unit, time_exponent};
+use super::text::{fields, is_number, is_skipped, number, separator};
+use super::units::{self, bare, time_exponent};
 use super::{columns, signal_units};
 
 /// So many lines with numbers in the same columns are samples.
@@ -107,7 +107,7 @@ fn lead<'a>(line: &Line<'a>) -> Option<&'a [u8]> {
 
 /// Whether a field is a number, or stands for one that is missing.
 fn is_sample(field: &[u8], separator: u8) -> bool {
-    number::<f64>(field, separator).is_some() || stand_in(field).is_some()
+    is_number(field, separator) || stand_in(field).is_some()
 }
 
 /// Whether a line has samples in all of these columns, and a number in one.
@@ -117,7 +117,7 @@ fn has_samples(line: &Line, columns: &[usize], separator: u8) -> bool {
         .iter()
         .all(|column| field(column).is_some_and(|field| is_sample(field, separator)));
     let mut found = columns.iter().filter_map(field);
-    are_samples && found.any(|field| number::<f64>(field, separator).is_some())
+    are_samples && found.any(|field| is_number(field, separator))
 }
 
 /// The columns of the last lines that hold numbers, mostly, and what stands for one.
@@ -126,8 +126,8 @@ fn steady(lines: &[Line], separator: u8) -> Option<Vec<usize>> {
     let width = last.iter().map(|line| line.fields.len()).max()?;
     let is_steady = |&column: &usize| {
         let fields = || last.iter().map(|line| line.fields.get(column).copied());
-        let numbers = fields()
-            .filter(|field| field.is_some_and(|field| number::<f64>(field, separator).is_some()));
+        let numbers =
+            fields().filter(|field| field.is_some_and(|field| is_number(field, separator)));
         let mut all = fields();
         all.all(|field| field.is_some_and(|field| is_sample(field, separator)))
             && 2 * numbers.count() > last.len()
@@ -206,10 +206,10 @@ fn names(lines: &[Line], rows: usize, width: usize, separator: u8) -> usize {
         return rows;
     };
     let line = &lines[above];
-    let is_number = |field: &&[u8]| number::<f64>(field, separator).is_some();
     // Words that are too few are told of as a header, for they may be one over numbers that are cut in two.
     // Among labels it is one more of them.
     let is_label = line.fields.len() < width && are_labels(&lines[..rows]);
+    let is_number = |field: &&[u8]| is_number(field, separator);
     let are_words = line.fields.len() > 1 && !line.fields.iter().any(is_number) && !is_label;
     let mut words = line
         .text
@@ -258,8 +258,7 @@ fn are_units(line: &Line, width: usize, is_second: bool, separator: u8) -> bool 
         |text: &String| time_exponent(text).is_some() || signal_units::is_known(bare(text));
     // The second line of a text is one of units wherever it may be: its first would be lost.
     let is_wide = line.fields.len() >= width || is_second;
-    let is_number = |text: &String| number::<f64>(text.as_bytes(), separator).is_some();
-    texts.iter().all(|text| is_unit(text) && !is_number(text))
+    units::are_units(&texts, separator)
         && (texts.iter().any(is_surely) || is_wide && !has_role(line))
 }
 

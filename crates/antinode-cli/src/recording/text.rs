@@ -294,5 +294,10 @@ pub(super) fn number<T: FromStr>(field: &[u8], separator: u8) -> Option<T> {
     number.ok()
 }
 
+/// Whether a field holds a number, finite or not.
+pub(super) fn is_number(field: &[u8], separator: u8) -> bool {
+    number::<f64>(field, separator).is_some()
+}
+
 #[cfg(test)]
 mod tests;

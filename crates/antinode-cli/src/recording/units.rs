@@ -2,6 +2,7 @@
 
 use super::no_number::stand_in;
 use super::signal_units::is_known;
+use super::text::is_number;
 
 /// The power of ten that a unit of time makes of seconds: −3 for ms. `Some(None)` for times that are none, `None` for other units.
 pub(super) fn time_exponent(unit: &str) -> Option<Option<i32>> {
@@ -73,13 +74,19 @@ pub(super) fn are_bracketed(fields: &[String]) -> bool {
 }
 
 /// Whether a field may be a unit: a short word, or nothing.
-pub(super) fn is_unit(field: &str) -> bool {
+fn is_unit(field: &str) -> bool {
     let field = bare(field).to_lowercase();
     // What stands for a number that is missing is none.
     let is_missing = !field.is_empty() && stand_in(field.as_bytes()).is_some();
     let is_word = field.chars().any(|letter| !letter.is_ascii_digit());
     let is_short = field.chars().count() <= 8 || is_known(&field);
     !is_missing && is_short && (is_word || field.is_empty())
+}
+
+/// Whether fields may be units, all of them: short words, or nothing, and no numbers.
+pub(super) fn are_units(fields: &[String], separator: u8) -> bool {
+    let mut fields = fields.iter();
+    fields.all(|field| is_unit(field) && !is_number(field.as_bytes(), separator))
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! `antinode command`: one command to a device, and its answer.
 
-use std::fmt;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -126,32 +125,27 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         Ask::Restart => Command::Restart,
     };
     line.ask(command, false)?;
-    println!("{}: done", Words(&command));
+    println!("{}: done", words(&command));
     Ok(())
 }
 
 /// A command as the user would name it.
-struct Words<'a>(&'a Command);
-
-impl fmt::Display for Words<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Command::Get => write!(f, "get"),
-            Command::SetWindow { periods } => write!(f, "window of {periods} periods"),
-            Command::SetHop { blocks: None } => write!(f, "no hop"),
-            Command::SetHop {
-                blocks: Some(blocks),
-            } => write!(f, "hop of {}", told::blocks(*blocks)),
-            Command::SetCalibration(c) => write!(
-                f,
-                "calibration: gain ratio {}, skew {} ns, pick-off angle {} rad",
-                c.gain_ratio,
-                told::nanoseconds(c.skew),
-                c.pick_off_angle
-            ),
-            Command::SetMethods { on: true } => write!(f, "methods on"),
-            Command::SetMethods { on: false } => write!(f, "methods off"),
-            Command::Restart => write!(f, "restart"),
-        }
+fn words(command: &Command) -> String {
+    match command {
+        Command::Get => "get".to_owned(),
+        Command::SetWindow { periods } => format!("window of {periods} periods"),
+        Command::SetHop { blocks: None } => "no hop".to_owned(),
+        Command::SetHop {
+            blocks: Some(blocks),
+        } => format!("hop of {}", told::blocks(*blocks)),
+        Command::SetCalibration(c) => format!(
+            "calibration: gain ratio {}, skew {} ns, pick-off angle {} rad",
+            c.gain_ratio,
+            told::nanoseconds(c.skew),
+            c.pick_off_angle
+        ),
+        Command::SetMethods { on: true } => "methods on".to_owned(),
+        Command::SetMethods { on: false } => "methods off".to_owned(),
+        Command::Restart => "restart".to_owned(),
     }
 }

@@ -9,7 +9,7 @@ use antinode_sim::{Flaws, Gyro, Truth, Wave};
 
 use crate::digits::{heading, with_std_to, without_std};
 use crate::failure::Failure;
-use score::Score;
+use score::{NAMES, Score};
 
 /// Sample rate, Hz.
 const RATE: f64 = 100_000.0;
@@ -53,8 +53,8 @@ pub fn run() -> Result<(), Failure> {
          {} windows of 10 periods, {SHOWN} of them here: identified ± stated deviation, and the truth below.\n",
         estimates.len(),
     )?;
-    let names = ["main amplitude", "quadrature", "angle, °", "frequency, Hz"].map(heading);
-    writeln!(out, "{:>9} {}", "time, s", names.join(" "))?;
+    let names = NAMES.map(heading).join(" ");
+    writeln!(out, "{:>9} {names}", "time, s")?;
     for estimate in estimates.iter().step_by(estimates.len() / SHOWN + 1) {
         show(&mut out, estimate, &wave.at(estimate.time))?;
     }

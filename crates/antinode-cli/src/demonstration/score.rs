@@ -6,7 +6,7 @@ use antinode::Estimate;
 use antinode_sim::{Bound, Wave};
 
 /// What is scored.
-const NAMES: [&str; 4] = ["main amplitude", "quadrature", "angle, °", "frequency, Hz"];
+pub const NAMES: [&str; 4] = ["main amplitude", "quadrature", "angle, °", "frequency, Hz"];
 
 /// Sums of squared errors and of squared Cramér–Rao bounds.
 pub struct Score {

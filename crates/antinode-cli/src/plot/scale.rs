@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::values::to_marks;
+use crate::digits::fixed;
 
 /// A range holds what clean rows measured; flagged values and deviations widen it on either side by no more than so many spans of that.
 const BEYOND: f64 = 0.5;
@@ -132,15 +133,9 @@ pub fn decimals(step: f64) -> usize {
     (-(step * 1.000_001).log10().floor()).clamp(0.0, 15.0) as usize
 }
 
-/// A number with so many decimals.
+/// A number with so many decimals, and a minus as long as a digit.
 pub fn printed(number: f64, decimals: usize) -> String {
-    let text = format!("{number:.decimals$}");
-    // Rounding leaves the sign of a small number.
-    match text.strip_prefix('-') {
-        Some(zero) if zero.trim_matches(['0', '.']).is_empty() => zero.to_owned(),
-        Some(positive) => format!("−{positive}"),
-        None => text,
-    }
+    fixed(decimals, number).replace('-', "−")
 }
 
 /// What numbers of this size are multiplied by so that few digits tell them, and how a title says so.

@@ -42,7 +42,6 @@ pub use error::{Channel, InputError};
 pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use sample::Kind;
-use sample::SampleCode;
 use source::{Known, Opened, Source, Stream};
 pub use source::{in_utf8, open_file};
 pub use write::{OutputError, RecordingWriter, SampleFormat, WholeFile};
@@ -117,38 +116,30 @@ impl Recording {
         Ok(Self::new(name, opened, None))
     }
 
-    fn new(name: String, opened: Opened, bytes_total: Option<u64>) -> Self {
-        let largest = opened.integers.map(SampleCode::full_scale);
-        let lowest = largest.map(|largest| Lowest::new(unit(largest)));
+    fn new(name: String, mut opened: Opened, bytes_total: Option<u64>) -> Self {
+        let unit = opened.integers.map(|code| unit(code.full_scale()));
+        let (head, step, fault) = if bytes_total.is_some() {
+            // By the first samples that do not stand still: integers too may have come from a converter of fewer bits.
+            let (head, step, fault) = resolution::of_head(opened.source.as_mut());
+            let step = step.or_else(|| codes::of_integers(&head, unit?));
+            (head, step, fault)
+        } else {
+            // A pipe must not wait, and what has come by now is chance, but for what its source needs.
+            let step = resolution::resolution(opened.source.ahead());
+            (Vec::new(), step, None)
+        };
         Self {
             name,
             bytes_total,
             encoded: Rc::default(),
             opened,
-            head: Vec::new().into_iter(),
-            step: None,
-            lowest,
+            head: head.into_iter(),
+            step,
+            lowest: unit.map(Lowest::new),
             not_finite: NotFinite::default(),
-            fault: None,
+            fault,
             ended: false,
         }
-        .with_step()
-    }
-
-    /// Tells the step from the first samples that do not stand still: integers too may have come from a converter of fewer bits.
-    fn with_step(mut self) -> Self {
-        if self.bytes_total.is_some() {
-            let head;
-            (head, self.step, self.fault) = resolution::of_head(self.opened.source.as_mut());
-            let largest = self.opened.integers.map(SampleCode::full_scale);
-            let of_integers = || codes::of_integers(&head, unit(largest?));
-            self.step = self.step.or_else(of_integers);
-            self.head = head.into_iter();
-        } else {
-            // A pipe must not wait, and what has come by now is chance, but for what its source needs.
-            self.step = resolution::resolution(self.opened.source.ahead());
-        }
-        self
     }
 
     /// The path, or "standard input".

@@ -16,21 +16,20 @@ pub struct Columns {
     signals: [String; 2],
 }
 
-/// Why a choice of columns cannot be understood.
-#[derive(Debug, thiserror::Error)]
-#[error("give two (S_C, S_D) or three (time, S_C, S_D) names or numbers, separated by commas")]
-pub struct ColumnsError;
+/// What is told of a choice that cannot be understood.
+const WANTED: &str =
+    "give two (S_C, S_D) or three (time, S_C, S_D) names or numbers, separated by commas";
 
 impl FromStr for Columns {
-    type Err = ColumnsError;
+    type Err = &'static str;
 
-    fn from_str(text: &str) -> Result<Self, ColumnsError> {
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
         let names: Vec<String> = text.split(',').map(|name| name.trim().to_owned()).collect();
         let (time, signals) = match names.as_slice() {
-            _ if names.iter().any(String::is_empty) => return Err(ColumnsError),
+            _ if names.iter().any(String::is_empty) => return Err(WANTED),
             [c, d] => (None, [c.clone(), d.clone()]),
             [time, c, d] => (Some(time.clone()), [c.clone(), d.clone()]),
-            _ => return Err(ColumnsError),
+            _ => return Err(WANTED),
         };
         Ok(Self { time, signals })
     }

@@ -13,11 +13,8 @@ fn places(header: &str, chosen: Option<&str>) -> Result<Places, String> {
         width: names.len(),
         start: &Start::default(),
     };
-    let chosen = chosen.map(|text| {
-        text.parse()
-            .map_err(|fault: ColumnsError| fault.to_string())
-    });
-    line.places(chosen.transpose()?.as_ref())
+    let chosen = chosen.map(str::parse).transpose()?;
+    line.places(chosen.as_ref())
         .map_err(|fault| fault.to_string())
 }
 

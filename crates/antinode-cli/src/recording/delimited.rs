@@ -105,12 +105,12 @@ impl Delimited {
         let is_timed = self.rows.header.places[0].is_some();
         let head = if is_timed { HEAD_LINES } else { FEW_LINES };
         let (mut pairs, mut times, mut places) = (Vec::new(), Vec::new(), Vec::new());
-        while self.rows.read() < head && !self.rows.begin_garbled() && self.fault.is_none() {
+        while self.rows.read < head && !self.rows.begin_garbled() && self.fault.is_none() {
             match self.rows.next() {
                 Ok(Some(Row::LeftOut)) => self.left_out += 1,
                 Ok(Some(Row::Pair(time, pair))) => {
                     times.extend(time);
-                    places.push((self.rows.line(), std::mem::take(&mut self.left_out)));
+                    places.push((self.rows.lines.number(), std::mem::take(&mut self.left_out)));
                     pairs.push(pair);
                 }
                 Ok(None) => break,
@@ -229,7 +229,7 @@ impl Source for Delimited {
             };
             if let Row::Pair(Some(time), _) = row {
                 let left_out = std::mem::take(&mut self.left_out);
-                self.check(self.pairs, self.rows.line(), time, left_out)?;
+                self.check(self.pairs, self.rows.lines.number(), time, left_out)?;
             }
             if let Some((_, fault)) = self.rows.mostly_garbled() {
                 return Err(fault);
@@ -242,7 +242,7 @@ impl Source for Delimited {
                 }
             }
             // The next line may take its time.
-            if self.live && self.rows.is_drained() && !pairs.is_empty() {
+            if self.live && self.rows.lines.is_drained() && !pairs.is_empty() {
                 break;
             }
         }
@@ -250,7 +250,7 @@ impl Source for Delimited {
     }
 
     fn bytes_read(&self) -> u64 {
-        self.rows.bytes_read()
+        self.rows.lines.bytes_read()
     }
 
     fn ahead(&self) -> &[[f32; 2]] {
@@ -290,7 +290,7 @@ impl Source for Delimited {
     }
 
     fn not_finite(&self) -> Option<Written> {
-        self.rows.not_finite()
+        self.rows.not_finite.clone()
     }
 }
 

@@ -29,15 +29,15 @@ pub(super) enum Row {
 /// Reads lines of numbers.
 pub(super) struct Rows {
     file: String,
-    lines: Lines,
+    pub lines: Lines,
     pub header: Header,
     pub printed: Printed,
     /// The first sample that is not a finite number.
-    not_finite: Option<Written>,
+    pub not_finite: Option<Written>,
     /// The lines that are left out.
     pub left_out: LeftOut,
     /// The lines read, and the pairs among them.
-    read: u64,
+    pub read: u64,
     pairs: u64,
     /// Those lines with a field that is no number and stands for none, or with too many or too few.
     garbled: u64,
@@ -65,31 +65,6 @@ impl Rows {
             first_garbled: None,
             garbled_before: 0,
         })
-    }
-
-    /// The number of the line last read.
-    pub fn line(&self) -> u64 {
-        self.lines.number()
-    }
-
-    /// The bytes read so far.
-    pub fn bytes_read(&self) -> u64 {
-        self.lines.bytes_read()
-    }
-
-    /// True when no whole line is left of what has come.
-    pub fn is_drained(&self) -> bool {
-        self.lines.is_drained()
-    }
-
-    /// The first sample that is not a finite number.
-    pub fn not_finite(&self) -> Option<Written> {
-        self.not_finite.clone()
-    }
-
-    /// The lines read so far.
-    pub fn read(&self) -> u64 {
-        self.read
     }
 
     /// True where the first lines are garbled, and more of them than a glitch leaves.

@@ -96,15 +96,7 @@ pub(super) fn open(
         };
         (Box::new(planes), there)
     };
-    Ok(Opened {
-        format: format!("NPY of {}", code.words()),
-        source,
-        sample_rate: None,
-        start: 0.0,
-        warnings: Vec::new(),
-        pairs: Some(there),
-        integers: code.integers(),
-    })
+    Ok(Opened::of_samples("NPY of", code, source, Some(there)))
 }
 
 /// The header, once it is known to be harmless to its parser.

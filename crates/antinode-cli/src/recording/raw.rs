@@ -50,15 +50,8 @@ pub(super) fn open(
         .of(frame(file, options)?)
         .live(length.is_none());
     let frame_bytes = source.frame_bytes() as u64;
-    Ok(Opened {
-        format: format!("raw {}", code.words()),
-        source: Box::new(source),
-        sample_rate: None,
-        start: 0.0,
-        warnings: Vec::new(),
-        pairs: length.map(|length| length / frame_bytes),
-        integers: code.integers(),
-    })
+    let pairs = length.map(|length| length / frame_bytes);
+    Ok(Opened::of_samples("raw", code, Box::new(source), pairs))
 }
 
 /// The channels of raw samples, which do not tell themselves how many there are.

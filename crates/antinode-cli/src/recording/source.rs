@@ -117,3 +117,23 @@ pub(super) struct Opened {
     /// How integers are stored; none for floats and text.
     pub integers: Option<SampleCode>,
 }
+
+impl Opened {
+    /// Samples of so many pairs, where that is known, whose format does not tell their rate.
+    pub fn of_samples(
+        format: &str,
+        code: SampleCode,
+        source: Box<dyn Source>,
+        pairs: Option<u64>,
+    ) -> Self {
+        Self {
+            source,
+            format: format!("{format} {}", code.words()),
+            sample_rate: None,
+            start: 0.0,
+            warnings: Vec::new(),
+            pairs,
+            integers: code.integers(),
+        }
+    }
+}

@@ -52,17 +52,14 @@ pub(super) fn open(
     };
     let sample_rate = (format.rate > 0).then_some(f64::from(format.rate));
     let warning = sample_rate.and_then(|own| rate_warning(own, options.rate));
+    let pairs = bytes.map(|bytes| bytes / pair_bytes);
     Ok(Opened {
-        format: format!("WAV of {}", format.code.words()),
-        source: Box::new(source),
         sample_rate,
-        start: 0.0,
         warnings: warning
             .map(|told| format!("{file}: {told}"))
             .into_iter()
             .collect(),
-        pairs: bytes.map(|bytes| bytes / pair_bytes),
-        integers: format.code.integers(),
+        ..Opened::of_samples("WAV of", format.code, Box::new(source), pairs)
     })
 }
 

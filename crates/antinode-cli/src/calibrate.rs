@@ -48,9 +48,15 @@ pub enum Printed {
     Jsonl,
 }
 
-/// A quantity of CSV and JSON lines; the names are the columns.
-#[derive(Serialize)]
-struct Row {
+/// A quantity; CSV and JSON lines have what is not skipped, by these names.
+#[derive(Clone, Copy, Serialize)]
+struct Quantity {
+    /// In the report.
+    #[serde(skip)]
+    label: &'static str,
+    /// Of `antinode identify`.
+    #[serde(skip)]
+    option: &'static str,
     quantity: &'static str,
     value: f64,
     std: f64,
@@ -72,31 +78,29 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
         angle,
     } = found.pick_offs;
     let [of_gain, of_skew, of_angle] = found.deviations;
-    let quantity = |label, option, name, value, std| Quantity {
+    let of = |label, option, quantity, value, std| Quantity {
         label,
         option,
-        row: Row {
-            quantity: name,
-            value,
-            std,
-        },
+        quantity,
+        value,
+        std,
     };
     let quantities = [
-        quantity(
+        of(
             "gain ratio",
             "--gain-ratio",
             "gain_ratio",
             gain_ratio,
             of_gain,
         ),
-        quantity(
+        of(
             "skew, ns",
             "--skew-ns",
             "skew_ns",
             skew * 1e9,
             of_skew * 1e9,
         ),
-        quantity(
+        of(
             "pick-off angle, rad",
             "--pick-off-angle",
             "pick_off_angle_rad",
@@ -125,18 +129,18 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
 
 /// Prints the quantities.
 fn print(out: &mut impl Write, how: Printed, quantities: &[Quantity]) -> io::Result<()> {
-    let rows = quantities.iter().map(|Quantity { row, .. }| Row {
+    let rows = quantities.iter().map(|one| Quantity {
         // More would be digits of nothing.
-        value: significant(row.value, 12),
-        std: significant(row.std, 6),
-        ..*row
+        value: significant(one.value, 12),
+        std: significant(one.std, 6),
+        ..*one
     });
     match how {
         Printed::Options => {
             // One digit more than the report's two of the deviation.
-            let options = quantities.iter().map(|Quantity { option, row, .. }| {
-                let decimals = decimals(row.std) + 1;
-                format!("{option} {}", fixed(decimals, row.value))
+            let options = quantities.iter().map(|one| {
+                let decimals = decimals(one.std) + 1;
+                format!("{} {}", one.option, fixed(decimals, one.value))
             });
             let options: Vec<_> = options.collect();
             writeln!(out, "{}", options.join(" "))
@@ -144,13 +148,6 @@ fn print(out: &mut impl Write, how: Printed, quantities: &[Quantity]) -> io::Res
         Printed::Csv => serialized::csv(out, rows),
         Printed::Jsonl => serialized::jsonl(out, rows),
     }
-}
-
-/// A quantity by the names that it has in the report, as an option, and in CSV.
-struct Quantity {
-    label: &'static str,
-    option: &'static str,
-    row: Row,
 }
 
 /// Tells what was found, and how well.
@@ -177,9 +174,9 @@ fn tell(
         turns.join(" and ")
     )?;
     rows.tell_overlaps(out)?;
-    for Quantity { label, row, .. } in quantities {
-        let text = with_std(row.value, row.std);
-        writeln!(out, "{label:<20} {}", text.trim_end())?;
+    for one in quantities {
+        let text = with_std(one.value, one.std);
+        writeln!(out, "{:<20} {}", one.label, text.trim_end())?;
     }
     if !found.knows_splits {
         writeln!(

@@ -36,12 +36,12 @@ impl Ideal {
         }
     }
 
-    /// The neighbour that D is looked for beside.
-    fn side(&self) -> Side {
+    /// The neighbour that D is looked for beside, and the one that must do at an end.
+    fn sides(&self) -> [Side; 2] {
         if self.delay >= 0.0 {
-            Side::Before
+            [Side::Before, Side::After]
         } else {
-            Side::After
+            [Side::After, Side::Before]
         }
     }
 
@@ -62,15 +62,8 @@ impl Ideal {
             Side::Before => k.checked_sub(1).and_then(d),
             Side::After => d(k + 1),
         };
-        let near = self.side();
-        // At an end the other side must do.
-        let far = if near == Side::Before {
-            Side::After
-        } else {
-            Side::Before
-        };
         let earlier = |k: usize, own: f64| {
-            let mut sides = [near, far].into_iter();
+            let mut sides = self.sides().into_iter();
             let found = sides.find_map(|side| Some((self.shares(side), beside(k, side)?)));
             match found {
                 Some(([share, of_other], other)) if self.delay != 0.0 => {
@@ -91,7 +84,7 @@ impl Ideal {
     /// White noise of `variance` a sample in the raw pairs, as it is in the ideal ones; `lag` is that of the delayed sums.
     pub fn noise(&self, variance: f64, lag: u16) -> Noise {
         let [own, other] = self
-            .shares(self.side())
+            .shares(self.sides()[0])
             .map(|share| share / self.gain_ratio);
         let square = self.factor * self.factor;
         Noise {

@@ -88,7 +88,8 @@ pub fn fields(methods: Option<&Methods>) -> Vec<Field> {
         .map(|x| Field::Number(rounded(x))),
     );
     fields.push(Field::Text(by_rank(comparison)));
-    fields.push(Field::Text(flag(comparison).into()));
+    let flag = if comparison.disagree { "disagree" } else { "" };
+    fields.push(Field::Text(flag.to_owned()));
     fields
 }
 
@@ -123,11 +124,6 @@ fn by_rank(comparison: &Comparison) -> String {
         .map(|(_, i)| i.to_string())
         .collect::<Vec<_>>()
         .join(">")
-}
-
-/// The warning, or nothing.
-fn flag(comparison: &Comparison) -> &'static str {
-    if comparison.disagree { "disagree" } else { "" }
 }
 
 /// The columns as members of a JSON object.

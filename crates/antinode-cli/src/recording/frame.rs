@@ -23,16 +23,11 @@ impl Frame {
         channels: usize,
         columns: Option<&Columns>,
     ) -> Result<Self, InputError> {
-        let file = || file.to_owned();
+        let file = file.to_owned();
         let Some(columns) = columns else {
-            return if channels == 2 {
-                Ok(Self::PAIR)
-            } else {
-                let found = channels;
-                Err(InputError::Channels {
-                    file: file(),
-                    found,
-                })
+            return match channels {
+                2 => Ok(Self::PAIR),
+                found => Err(InputError::Channels { file, found }),
             };
         };
         let chosen = columns
@@ -44,7 +39,7 @@ impl Frame {
                 chosen: [c - 1, d - 1],
             }),
             None => Err(InputError::ChannelChoice {
-                file: file(),
+                file,
                 chosen: columns.to_string(),
                 channels,
             }),

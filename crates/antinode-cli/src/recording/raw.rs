@@ -173,10 +173,6 @@ impl Interleaved {
             _ => Ok(()),
         }
     }
-
-    fn bad(&self, bad: BadSample) -> InputError {
-        bad_sample(&self.file, self.code, self.pairs, bad)
-    }
 }
 
 /// The error for a sample that is `bad`, `pairs` pairs after the start.
@@ -214,7 +210,7 @@ impl Source for Interleaved {
             };
             self.code
                 .decode(bytes, pairs)
-                .map_err(|bad| self.bad(bad))?;
+                .map_err(|bad| bad_sample(&self.file, self.code, self.pairs, bad))?;
             self.pairs += (whole / self.frame_bytes()) as u64;
             self.chunk.copy_within(whole..there, 0);
             self.begun = there - whole;

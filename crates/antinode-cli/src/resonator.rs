@@ -8,7 +8,7 @@ mod frequency;
 mod informing;
 mod line;
 mod model;
-mod motion;
+pub mod motion;
 mod quantities;
 mod start;
 mod stretches;

@@ -3,88 +3,40 @@
 use super::*;
 use crate::calibrate::moments::Moment;
 use crate::deviates::Deviates;
+use crate::resonator::motion::Motion;
 
 /// Seconds of a run, and rows in it.
 const SECONDS: f64 = 20.0;
 const ROWS: usize = 2000;
 
-/// A resonator: 1/τ, the splits of damping and frequency (1/s, rad/s), each along cos and sin of 4θ.
-struct Resonator {
-    decay: f64,
-    damping: [f64; 2],
-    frequency: [f64; 2],
-}
+/// 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω and γ of a resonator, as [`Motion`] has them.
+type Resonator = [f64; 6];
 
-const ROUND: Resonator = Resonator {
-    decay: 0.02,
-    damping: [0.0; 2],
-    frequency: [0.0; 2],
-};
-
+const ROUND: Resonator = [0.02, 0.0, 0.0, 0.0, 0.0, 0.0];
 /// Splits that turn the pattern's quadrature by some per cent while it turns once.
-const SPLIT: Resonator = Resonator {
-    decay: 0.02,
-    damping: [0.004, -0.003],
-    frequency: [0.01, 0.006],
-};
+const SPLIT: Resonator = [0.02, 0.004, -0.003, 0.01, 0.006, 0.0];
 
-impl Resonator {
-    /// The rates of E, R, S and Q while the pattern turns at κ/2 rad/s.
-    fn rates(&self, [e, r, s, q]: [f64; 4], kappa: f64) -> [f64; 4] {
-        let [c_tau, s_tau] = self.damping;
-        let [c_omega, s_omega] = self.frequency;
+/// The phasors (1) to (3) of a free decay, row by row.
+fn decay(resonator: &Resonator, kappa: f64) -> Vec<[Complex<f64>; 2]> {
+    let [decay, dc, ds, wc, ws, gamma] = *resonator;
+    let mut motion = Motion::new(&[decay, dc, ds, wc, ws, gamma, kappa, 1.0, 0.03, 0.4]);
+    let row = |_| {
+        let [main, quadrature, angle] = motion.wave().into();
+        motion.advance(SECONDS / ROWS as f64);
+        let (sine, cosine) = (2.0 * angle).sin_cos();
         [
-            -2.0 * self.decay * e - c_tau * r - s_tau * s,
-            -2.0 * self.decay * r - c_tau * e + 2.0 * kappa * s - s_omega * q,
-            -2.0 * self.decay * s - s_tau * e - 2.0 * kappa * r + c_omega * q,
-            -2.0 * self.decay * q + s_omega * r - c_omega * s,
+            Complex::new(main * cosine, quadrature * sine),
+            Complex::new(main * sine, -quadrature * cosine),
         ]
-    }
-
-    /// The phasors of a free decay, row by row, by Runge and Kutta's fourth order.
-    fn decay(&self, kappa: f64) -> Vec<[Complex<f64>; 2]> {
-        let step = SECONDS / ROWS as f64;
-        let (main, quadrature, angle) = (1.0f64, 0.03f64, 0.4f64);
-        let apart = main * main - quadrature * quadrature;
-        let mut state = [
-            main * main + quadrature * quadrature,
-            apart * (4.0 * angle).cos(),
-            apart * (4.0 * angle).sin(),
-            2.0 * main * quadrature,
-        ];
-        (0..ROWS)
-            .map(|_| {
-                let now = state;
-                let along =
-                    |rates: [f64; 4], by: f64| std::array::from_fn(|i| state[i] + by * rates[i]);
-                let k1 = self.rates(state, kappa);
-                let k2 = self.rates(along(k1, 0.5 * step), kappa);
-                let k3 = self.rates(along(k2, 0.5 * step), kappa);
-                let k4 = self.rates(along(k3, step), kappa);
-                state = std::array::from_fn(|i| {
-                    state[i] + step / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i])
-                });
-                phasors(now)
-            })
-            .collect()
-    }
-}
-
-/// The phasors of E, R, S and Q, that of C real.
-fn phasors([e, r, s, q]: [f64; 4]) -> [Complex<f64>; 2] {
-    let c = (0.5 * (e + r)).max(1e-12).sqrt();
-    [
-        Complex::new(c, 0.0),
-        Complex::new(0.5 * s / c, -0.5 * q / c),
-    ]
+    };
+    (0..ROWS).map(row).collect()
 }
 
 /// A run as pick-offs show it; `kappa` turns the pattern by κ/2 rad/s backwards.
 fn run(resonator: &Resonator, kappa: f64, pick_offs: &PickOffs, noise: f64, seed: u64) -> Run {
     let mut random = Deviates(seed);
     let omega = std::f64::consts::TAU * 5332.0;
-    let moments = resonator
-        .decay(kappa)
+    let moments = decay(resonator, kappa)
         .into_iter()
         .enumerate()
         .map(|(index, ideal)| {

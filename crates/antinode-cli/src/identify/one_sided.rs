@@ -55,8 +55,7 @@ impl OneSided {
 
 #[cfg(test)]
 mod tests {
-    use antinode::Flags;
-
+    use super::super::scatter::tests::row;
     use super::*;
     use crate::deviates::Deviates;
 
@@ -66,26 +65,13 @@ mod tests {
         for index in 0..rows {
             let mut near = |value: f64, by: f64| value + by * deviates.draw();
             one_sided.see(&Estimate {
-                start: 200 * index,
-                samples: 200,
-                time: 2e-3 * index as f64,
                 main_amplitude: near(main, deviation) as f32,
                 quadrature_amplitude: near(quadrature, deviation) as f32,
                 angle: near(angle, 0.5 * deviation / main),
-                phase: 0.0,
-                frequency: 5332.0,
-                angle_rate: 0.0,
-                decay_rate: 0.0,
-                offsets: [0.0; 2],
                 main_amplitude_std: deviation as f32,
                 quadrature_amplitude_std: deviation as f32,
                 angle_std: (0.5 * deviation / main) as f32,
-                phase_std: 1e-3,
-                frequency_std: 0.1,
-                angle_rate_std: 0.1,
-                decay_rate_std: 0.1,
-                residual_rms: 1e-3,
-                flags: Flags::empty(),
+                ..row(index, 0.0, &mut Deviates(0))
             });
         }
         one_sided.told()

@@ -178,12 +178,12 @@ impl Scatter {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::deviates::Deviates;
 
     /// A row of a steady wave that scatters by so many of its deviations.
-    fn row(index: u64, times: f64, deviates: &mut Deviates) -> Estimate {
+    pub fn row(index: u64, times: f64, deviates: &mut Deviates) -> Estimate {
         let mut near = |value: f64, deviation: f64| value + times * deviation * deviates.draw();
         Estimate {
             start: 200 * index,

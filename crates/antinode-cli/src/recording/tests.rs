@@ -95,6 +95,14 @@ pub(super) fn without(directory: &Path, fault: &dyn std::error::Error) -> String
     fault.to_string().replace(&prefix, "")
 }
 
+/// What the user says of raw samples of this kind.
+pub(super) fn raw(kind: Kind) -> OpenOptions {
+    OpenOptions {
+        raw: Some(kind),
+        ..OpenOptions::default()
+    }
+}
+
 fn open_fault(path: &Path) -> String {
     message(Recording::open(path, &OpenOptions::default()).err())
 }
@@ -184,10 +192,7 @@ fn text_may_be_utf_16() {
     drain(&mut recording);
     assert_eq!(Some(recording.bytes_read()), recording.bytes_total());
     // Raw samples may begin with any of them.
-    let options = OpenOptions {
-        raw: Some(Kind::I16),
-        ..OpenOptions::default()
-    };
+    let options = raw(Kind::I16);
     let (pairs, fault) = read_with("a", b"\xff\xfe\0\x40", &options);
     assert_eq!((pairs, fault), (vec![[-257.0 / 32768.0, 0.5]], None));
     // A text by its extension is none of these.
@@ -223,10 +228,7 @@ fn content_wins_over_the_extension() {
 
 #[test]
 fn a_raw_file_is_read_in_the_format_given() {
-    let options = OpenOptions {
-        raw: Some(Kind::I16),
-        ..OpenOptions::default()
-    };
+    let options = raw(Kind::I16);
     let (_directory, path) = file("a.bin", &[0, 0x40, 0, 0xc0]);
     let mut recording = Recording::open(&path, &options).unwrap();
     assert_eq!(
@@ -244,10 +246,7 @@ fn a_raw_file_is_read_in_the_format_given() {
 
 #[test]
 fn the_format_given_wins_over_a_name_and_not_over_the_content() {
-    let options = OpenOptions {
-        raw: Some(Kind::I16),
-        ..OpenOptions::default()
-    };
+    let options = raw(Kind::I16);
     for name in [
         "a.wav", "a.wave", "a.npy", "a.csv", "a.txt", "a.mat", "a.bin",
     ] {
@@ -334,8 +333,7 @@ proptest! {
         rest in prop_oneof![proptest::collection::vec(any::<u8>(), 0..300), text()],
     ) {
         bytes.extend_from_slice(&rest);
-        let options = OpenOptions { raw: Some(Kind::F32), ..OpenOptions::default() };
-        let (pairs, fault) = read_with(name, &bytes, &options);
+        let (pairs, fault) = read_with(name, &bytes, &raw(Kind::F32));
         prop_assert!(fault.is_some() || !pairs.is_empty());
     }
 }

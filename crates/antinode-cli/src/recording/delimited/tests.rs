@@ -22,6 +22,16 @@ fn bad(text: &str) -> (usize, String) {
     (pairs.len(), fault.unwrap_or_default())
 }
 
+/// Checks how many pairs are good, and how what is said of what follows begins; gives all of it.
+fn check(text: &str, pairs: usize, expected: &str) -> String {
+    let (count, fault) = bad(text);
+    assert!(
+        fault.starts_with(expected) && count == pairs,
+        "{text}: {count}, {fault}"
+    );
+    fault
+}
+
 #[test]
 fn every_separator_is_understood() {
     for text in [
@@ -175,11 +185,7 @@ fn faults_in_a_line_are_named_by_line_and_column() {
             "a.csv:2:2: sample pair 1 (from 0), S_D (right): the value is `\\u{1b}[31m4`, not",
         ),
     ] {
-        let (count, fault) = bad(text);
-        assert!(
-            fault.starts_with(expected) && count == pairs,
-            "{text}: {count}, {fault}"
-        );
+        check(text, pairs, expected);
     }
 }
 

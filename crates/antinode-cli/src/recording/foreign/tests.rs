@@ -3,7 +3,7 @@
 use std::io::Cursor;
 
 use super::super::columns::Columns;
-use super::super::tests::{message, read, read_with};
+use super::super::tests::{message, raw, read, read_with};
 use super::super::{Kind, OpenOptions, by_content, source::Known};
 use super::*;
 
@@ -70,11 +70,8 @@ fn whatever_else_is_known_of_it() {
     let (_, fault) = read_with("a.gz", gzip, &columns);
     assert!(fault.is_some_and(|fault| fault.contains("compressed by gzip")));
     // Raw samples may begin with any bytes.
-    let raw = OpenOptions {
-        raw: Some(Kind::I16),
-        ..OpenOptions::default()
-    };
-    assert_eq!(read_with("a.gz", &gzip[..4], &raw).0.len(), 1);
+    let (pairs, _) = read_with("a.gz", &gzip[..4], &raw(Kind::I16));
+    assert_eq!(pairs.len(), 1);
     // By its name.
     let (_, fault) = read("a.mat", &[0; 20]);
     assert!(fault.is_some_and(|fault| fault.starts_with("a.mat: this is a MATLAB file, ")));

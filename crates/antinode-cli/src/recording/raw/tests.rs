@@ -2,24 +2,18 @@
 
 use clap::ValueEnum;
 
-use super::super::tests::{Dribble, drain, file, message};
+use super::super::tests::{self, Dribble, drain, file, message};
 use super::*;
 use crate::recording::{OpenOptions, Recording};
 
-fn raw(bytes: Vec<u8>, format: Kind) -> Recording {
-    let stream = Box::new(Dribble::new(bytes, 7));
-    Recording::new(
-        "standard input".to_owned(),
-        open(
-            "standard input",
-            stream,
-            format,
-            &OpenOptions::default(),
-            None,
-        )
-        .unwrap(),
-        None,
-    )
+fn raw(bytes: Vec<u8>, kind: Kind) -> Recording {
+    of_stream(Box::new(Dribble::new(bytes, 7)), kind)
+}
+
+fn of_stream(stream: Stream, kind: Kind) -> Recording {
+    let name = "standard input";
+    let opened = open(name, stream, kind, &OpenOptions::default(), None);
+    Recording::new(name.to_owned(), opened.unwrap(), None)
 }
 
 #[test]
@@ -144,22 +138,14 @@ fn a_fault_of_the_pipe_comes_after_the_good_data() {
         }
     }
     let stream = Box::new(io::Cursor::new(vec![0; 8]).chain(Broken));
-    let mut recording = Recording::new(
-        "pipe".to_owned(),
-        open("pipe", stream, Kind::I16, &OpenOptions::default(), None).unwrap(),
-        None,
-    );
-    let (pairs, fault) = drain(&mut recording);
+    let (pairs, fault) = drain(&mut of_stream(stream, Kind::I16));
     assert_eq!(pairs.len(), 2);
-    assert!(message(fault).starts_with("pipe: cannot be read: cable pulled; "));
+    assert!(message(fault).starts_with("standard input: cannot be read: cable pulled; "));
 }
 
 #[test]
 fn the_step_is_told_behind_a_silent_beginning() {
-    let options = OpenOptions {
-        raw: Some(Kind::I16),
-        ..OpenOptions::default()
-    };
+    let options = tests::raw(Kind::I16);
     // 12 bits in 16, behind silence with a code of noise.
     let code = |k: usize, silent: usize| match k {
         _ if k < silent => [16 * i16::from(k.is_multiple_of(5)), 0],

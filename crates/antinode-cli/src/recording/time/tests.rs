@@ -48,12 +48,6 @@ fn times(count: usize, rate: f64, start: f64, print: impl Fn(f64) -> String) -> 
     (0..count).map(|k| print(start + k as f64 / rate)).collect()
 }
 
-/// `%.6g` and the like: so many digits, none of them trailing zeros.
-fn digits(value: f64, digits: usize) -> String {
-    let round: f64 = format!("{:.*e}", digits - 1, value).parse().unwrap();
-    format!("{round}")
-}
-
 const HEAD: usize = 1 << 16;
 
 #[test]
@@ -76,7 +70,8 @@ fn rounded_times_give_the_rate() {
                 .unwrap()
                 .unwrap();
             assert!((exponent - rate).abs() < 1.0, "{rate} {start}: {exponent}");
-            run(&times(80_000, rate, start, |t| digits(t, 10)), HEAD).unwrap();
+            let ten = times(80_000, rate, start, |t| significant(t, 10).to_string());
+            run(&ten, HEAD).unwrap();
         }
     }
 }
@@ -195,7 +190,8 @@ fn time_printed_too_coarsely_is_named() {
         );
     }
     // Five digits are enough for the first second only.
-    let (index, fault) = run(&times(200_000, 100_000.0, 0.0, |t| digits(t, 5)), HEAD).unwrap_err();
+    let five = times(200_000, 100_000.0, 0.0, |t| significant(t, 5).to_string());
+    let (index, fault) = run(&five, HEAD).unwrap_err();
     assert!(fault.contains("time is told to 1e-"), "{index}: {fault}");
 }
 

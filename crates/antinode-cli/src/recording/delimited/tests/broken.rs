@@ -2,7 +2,7 @@
 
 use super::super::super::tests::{drain, file};
 use super::super::super::{OpenOptions, Recording};
-use super::bad;
+use super::check;
 
 #[test]
 fn a_line_without_a_known_time_is_left_out() {
@@ -64,11 +64,7 @@ fn a_line_without_a_known_time_is_left_out() {
             "a.csv:1:1: the time is `-`, not a finite number: the line is left out; rows",
         ),
     ] {
-        let (count, fault) = bad(text);
-        assert!(
-            fault.starts_with(expected) && count == pairs,
-            "{text}: {count}, {fault}"
-        );
+        check(text, pairs, expected);
     }
 }
 
@@ -157,11 +153,7 @@ fn text_that_is_mostly_broken_is_refused() {
             "a.csv:3:2: S_C is missing here; complete",
         ),
     ] {
-        let (count, fault) = bad(text);
-        assert!(
-            fault.starts_with(expected) && count == pairs,
-            "{text}: {count}, {fault}"
-        );
+        check(text, pairs, expected);
         // It is told once.
         let (_directory, path) = file("a.csv", text.as_bytes());
         if let Ok(mut recording) = Recording::open(&path, &OpenOptions::default()) {

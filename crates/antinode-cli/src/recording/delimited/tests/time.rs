@@ -2,7 +2,7 @@
 
 use super::super::super::tests::file;
 use super::super::super::{OpenOptions, Recording};
-use super::bad;
+use super::{bad, check};
 
 fn rate(text: &str) -> Option<f64> {
     let (_directory, path) = file("a.csv", text.as_bytes());
@@ -86,11 +86,7 @@ fn faults_in_time_are_named_by_line() {
             "a.csv:2: time is told to 1e0 s only, too coarse for samples ",
         ),
     ] {
-        let (count, fault) = bad(text);
-        assert!(
-            fault.starts_with(expected) && count == pairs,
-            "{text}: {count}, {fault}"
-        );
+        let fault = check(text, pairs, expected);
         let remedy = ", or ignore the time column with --columns 2,3 --rate HZ";
         assert!(fault.ends_with(remedy), "{fault}");
     }

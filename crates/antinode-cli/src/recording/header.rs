@@ -31,6 +31,16 @@ pub(super) struct Header {
     cut: Option<usize>,
 }
 
+/// What names and a line of units below them told.
+#[derive(Default)]
+struct Told {
+    /// The unit of the time.
+    has_unit: bool,
+    /// The line that the signals' units stand in, and whether they are surely units.
+    line: u64,
+    are_signals: bool,
+}
+
 impl Header {
     /// Reads the names and the units, where there are any; what begins the text is still to be read.
     pub fn read(
@@ -79,65 +89,77 @@ impl Header {
             counted,
             cut: start.cut,
         };
-        let fault =
-            |header: &Self, line, fault| InputError::line(file, line, header.time_fault(fault));
-        // Where the samples tell the unit of their time, settings may be about the screen's.
-        let among_settings = start.unit.as_ref().filter(|(unit, _)| {
-            places[0].is_some() && time_exponent(unit).is_some_and(|own| own != Some(0))
-        });
-        let untold = |header: &Self| {
-            among_settings.map_or(Ok(()), |(unit, line)| {
+        let told = match names {
+            Some(names) => header.read_units(file, lines, names)?,
+            None => {
+                lines.back();
+                Told::default()
+            }
+        };
+        if !told.has_unit {
+            // Where the samples tell the unit of their time, settings may be about the screen's.
+            let is_other = |unit: &str| time_exponent(unit).is_some_and(|own| own != Some(0));
+            if let Some((unit, line)) = &start.unit
+                && places[0].is_some()
+                && is_other(unit)
+            {
                 let unit = unit.clone();
-                Err(fault(header, *line as u64, TimeFault::UnitUnsure { unit }))
-            })
-        };
-        let Some(names) = names else {
-            lines.back();
-            untold(&header)?;
-            return Ok(header);
-        };
-        let mut has_unit = false;
-        if let Some(time) = places[0] {
-            let name = &names[time];
-            match header.set_unit(of_name(name), name) {
-                Ok(is_told) => has_unit = is_told,
-                Err(unit) => return Err(fault(&header, lines.number(), unit)),
+                return Err(header.of_time(file, *line as u64, TimeFault::UnitUnsure { unit }));
             }
-        }
-        let signals = [1, 2].map(|role| places[role].map_or("", |place| &names[place]));
-        header.units = (signals.map(|name| of_name(name).to_owned()), Together::Same);
-        let mut line = lines.number();
-        // Behind another mark than a bracket, a name may end in a label.
-        let mut are_told = signals.iter().all(|name| is_bracketed(name));
-        if lines.advance()? {
-            match header.units(lines) {
-                None => lines.back(),
-                Some(unit) => {
-                    match header.set_unit(&unit, &unit) {
-                        // Brackets hold a unit, which is not that of seconds where it is none known.
-                        Ok(false) if is_bracketed(&unit) => {
-                            let unknown = TimeFault::Unit { name: unit };
-                            return Err(fault(&header, lines.number(), unknown));
-                        }
-                        Ok(is_told) => has_unit |= is_told,
-                        Err(unit) => return Err(fault(&header, lines.number(), unit)),
-                    }
-                    let own = [1, 2].map(|role| header.field(lines, role));
-                    if own.iter().any(|unit| !unit.is_empty()) {
-                        (header.units.0, line, are_told) = (own, lines.number(), true);
-                    }
-                }
-            }
-        }
-        if !has_unit {
-            untold(&header)?;
-            let name = places[0].map(|time| &names[time]);
+            let name = names.and_then(|names| Some(&names[places[0]?]));
             header.unknown = name.filter(|name| has_unknown_unit(name)).cloned();
         }
         header
-            .bring_together(are_told)
-            .map_err(|fault| InputError::line(file, line, fault))?;
+            .bring_together(told.are_signals)
+            .map_err(|fault| InputError::line(file, told.line, fault))?;
         Ok(header)
+    }
+
+    /// Takes the units in the names, and in the line below these, if it is one of units; else it is still to be read.
+    fn read_units(
+        &mut self,
+        file: &str,
+        lines: &mut Lines,
+        names: &[String],
+    ) -> Result<Told, InputError> {
+        let name = |role: usize| self.places[role].map_or("", |place| &names[place]);
+        let (time, signals) = (name(0), [name(1), name(2)]);
+        let mut told = Told {
+            has_unit: false,
+            line: lines.number(),
+            // Behind another mark than a bracket, a name may end in a label.
+            are_signals: signals.iter().all(|name| is_bracketed(name)),
+        };
+        self.units.0 = signals.map(|name| of_name(name).to_owned());
+        told.has_unit = self
+            .set_unit(of_name(time), time)
+            .map_err(|fault| self.of_time(file, told.line, fault))?;
+        if !lines.advance()? {
+            return Ok(told);
+        }
+        let Some(unit) = self.units(lines) else {
+            lines.back();
+            return Ok(told);
+        };
+        let line = lines.number();
+        match self.set_unit(&unit, &unit) {
+            // Brackets hold a unit, which is not that of seconds where it is none known.
+            Ok(false) if is_bracketed(&unit) => {
+                return Err(self.of_time(file, line, TimeFault::Unit { name: unit }));
+            }
+            Ok(is_told) => told.has_unit |= is_told,
+            Err(fault) => return Err(self.of_time(file, line, fault)),
+        }
+        let own = [1, 2].map(|role| self.field(lines, role));
+        if own.iter().any(|unit| !unit.is_empty()) {
+            (self.units.0, told.line, told.are_signals) = (own, line, true);
+        }
+        Ok(told)
+    }
+
+    /// A fault of the time in this line.
+    fn of_time(&self, file: &str, line: u64, fault: TimeFault) -> InputError {
+        InputError::line(file, line, self.time_fault(fault))
     }
 
     /// The unit in this line of the column of this `role`.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::{Core, RATE, identify_changed, no_wave, stream, windows};
+use host_tests::{Core, RATE, identify_changed, identify_signal, no_wave, stream, windows};
 
 fn noisy(wave: &Wave, noise: f64) -> Flaws {
     Flaws {
@@ -228,6 +228,70 @@ fn a_shock_that_rings_at_another_frequency_leaves_the_wave_to_be_found_again() {
                     "{ratio} times the frequency, hum {hum}, seed {seed}: {estimate:?}"
                 );
             }
+        }
+    }
+}
+
+#[test]
+fn a_pattern_that_turns_far_while_a_pick_off_is_dead_keeps_its_angle() {
+    // By more than half the ambiguity, through the axis on which the dead pick-off shows nothing anyway.
+    for (seed, angle_rate) in (0..20).zip([4.0, -4.0, 8.0, -8.0].into_iter().cycle()) {
+        let (dead, middle) = (0.43 / f64::abs(angle_rate), 0.2);
+        let wave = Wave {
+            angle: 0.01 * seed as f64 - angle_rate * middle,
+            angle_rate,
+            ..Wave::default()
+        };
+        let flaws = Flaws {
+            noise: 1e-3,
+            ..Flaws::default()
+        };
+        let [from, to] = [middle - dead, middle + dead].map(|t| (t * RATE) as usize);
+        let found = identify_changed(wave, &flaws, windows(10), to + 5000, seed, |k, [c, d]| {
+            [c, if (from..to).contains(&k) { 0.0 } else { d }]
+        });
+        let start = found[0].angle - wave.at(found[0].time).angle;
+        let mut after = found.iter().filter(|e| e.start >= to as u64);
+        assert!(after.clone().count() > 20);
+        let is_right = |e: &Estimate| {
+            let off = e.angle - wave.at(e.time).angle - start;
+            e.flags.is_empty() && off.abs() < 0.01
+        };
+        assert!(after.all(is_right), "{angle_rate} rad/s, seed {seed}");
+    }
+}
+
+#[test]
+fn a_fault_that_seems_to_turn_the_pattern_does_not_take_its_angle_along() {
+    // A tone makes misfits of four windows, in which the pattern seems to turn twice by a third of the way to the next angle that looks alike.
+    let settings = Settings {
+        frequency: Some(5332.0),
+        ..windows(10)
+    };
+    for seed in 0..20 {
+        let wave = random_wave(seed, 5332.0, 0.3);
+        let way = if seed % 2 == 0 { 0.5 } else { -0.5 };
+        let noise = 1e-3 * wave.main_amplitude;
+        let found = identify_signal(noise, settings, 9500, seed, |t| {
+            let window = (t * RATE).round() as usize / 190;
+            let (turned, tone) = match window {
+                30 | 31 => (way, 0.2),
+                32 | 33 => (2.0 * way, 0.2),
+                _ => (0.0, 0.0),
+            };
+            let angle = wave.angle + turned;
+            let tone = tone * wave.main_amplitude * (12_000.0 * t).sin();
+            let (c, d) = Wave { angle, ..wave }.pick_offs(t);
+            [c + tone, d + tone]
+        });
+        let is_misfit = |e: &Estimate| e.flags.contains(Flags::MISFIT);
+        assert!(found.len() == 50 && found[30..34].iter().all(is_misfit));
+        for estimate in &found[34..] {
+            let off = estimate.angle - found[0].angle;
+            assert!(
+                estimate.flags.is_empty() && off.abs() < 0.02,
+                "seed {seed}: {estimate:?}"
+            );
         }
     }
 }

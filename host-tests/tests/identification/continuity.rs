@@ -180,6 +180,8 @@ fn a_search_or_a_change_of_settings_continues_the_angle() {
             2 => core.change(windows(20)).unwrap(),
             _ => {}
         }
+        // Other settings leave the wave where it is.
+        assert_eq!(core.has_wave(), part == 2);
         assert!(core.is_searching());
         core.extend(half_buffer, |estimate| found.push((part, estimate)));
         assert!(core.has_wave() && !core.is_searching());

@@ -112,3 +112,22 @@ fn a_front_takes_periods_up_to_its_capacity_and_none_beyond() {
         }
     }
 }
+
+#[test]
+fn a_count_of_lost_pairs_that_no_stream_lasts_leaves_indices_that_can_be_doubled() {
+    let pairs = stream(Wave::default(), Flaws::default(), 6000, 1);
+    for lost in [1 << 62, 3 << 61, u64::MAX - 2000] {
+        let mut core = Core::new(windows(5)).unwrap();
+        core.extend(&pairs[..3000], |_| ());
+        core.skip(lost);
+        let index = lost.wrapping_add(3000) % (1 << 62);
+        assert_eq!(core.index(), index);
+        let mut count = 0;
+        core.extend(&pairs[3000..], |estimate| {
+            count += 1;
+            let middle = estimate.start as f64 + 0.5 * f64::from(estimate.samples - 1);
+            assert!(estimate.start >= index && (estimate.time * RATE / middle - 1.0).abs() < 1e-12);
+        });
+        assert!(count > 20, "{lost}: {count}");
+    }
+}

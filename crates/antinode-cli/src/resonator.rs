@@ -174,7 +174,7 @@ fn tell(
         )?;
     }
     let why = "the wave is still driven in some rows (see --from), the damping changes meanwhile, or with the amplitude, the pick-offs are \
-               not calibrated, or a pick-off or the converter is nonlinear";
+               not calibrated, a gain or the wave jumped by too little to be flagged, or a pick-off or the converter is nonlinear";
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,

@@ -168,7 +168,7 @@
 //!   an angle of 22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.
 //! - Jitter of the sampling, common to both pick-offs, makes f and phase scatter by 1.8 of their deviations, θ and a_B by a fifth,
 //!   if it is white. A sampling clock that wanders moves phase and frequency: 1/f jitter of 0.1 to 3 ns by up to 78 and 37 of their
-//!   deviations in windows of up to 1000 periods, and hardly anything is flagged.
+//!   deviations in windows of up to 1000 periods, and one row in twenty is flagged.
 //!
 //! ## What raises no flag
 //!

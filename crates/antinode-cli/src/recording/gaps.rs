@@ -4,6 +4,9 @@ use std::collections::VecDeque;
 
 use super::error::TimeFault;
 
+/// Gaps as far apart from each other as the next are no chance, if they are so many.
+const REGULAR: u64 = 5;
+
 /// Samples that are missing between two pairs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Gap {
@@ -23,6 +26,9 @@ pub(super) struct Gaps {
     count: u64,
     /// The pairs missing in all of them.
     lost: u64,
+    /// Pairs before the last one, and from each to the next where these are as many for all of them.
+    last: u64,
+    every: Option<u64>,
 }
 
 /// A gap, and its times.
@@ -58,6 +64,13 @@ impl Gaps {
     pub fn pass(&mut self, is_told: bool) {
         let passed = self.ahead.pop_front();
         if let Some(found) = passed.filter(|found| is_told && !found.is_explained) {
+            let since = found.gap.before - self.last;
+            match self.count {
+                0 => {}
+                1 => self.every = Some(since),
+                _ => self.every = self.every.filter(|&every| every == since),
+            }
+            self.last = found.gap.before;
             self.count += 1;
             self.lost += found.gap.lost;
             self.first.get_or_insert(found);
@@ -78,6 +91,7 @@ impl Gaps {
             to: first.to,
             gaps: self.count,
             all: self.lost,
+            every: self.every.filter(|_| self.count >= REGULAR),
         };
         Some((first.line, fault))
     }

@@ -124,10 +124,13 @@ pub enum TimeFault {
     Paired,
     /// A gap of whole samples, the first of so many gaps with so many samples in all: told once all is read.
     #[error(
-        "{lost} {} lost before this line (time goes from {from} s to {to} s){}; rows of windows with a gap are missing, the \
+        "{lost} {} lost before this line (time goes from {from} s to {to} s){}{}; rows of windows with a gap are missing, the \
          others are good: record it again without loss",
         if *.lost == 1 { "sample is" } else { "samples are" },
-        if *.gaps == 1 { String::new() } else { format!(", the first of {gaps} gaps with {all} samples") }
+        if *.gaps == 1 { String::new() } else { format!(", the first of {gaps} gaps with {all} samples") },
+        every.map_or_else(String::new, |every| format!(
+            ", one every {every} samples, as where packets have times of their own and nothing is lost"
+        ))
     )]
     Gap {
         lost: u64,
@@ -135,6 +138,8 @@ pub enum TimeFault {
         to: f64,
         gaps: u64,
         all: u64,
+        /// Pairs from each to the next, where that are as many.
+        every: Option<u64>,
     },
     /// A step that is no whole number of samples.
     #[error(

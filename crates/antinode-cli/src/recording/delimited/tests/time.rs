@@ -48,6 +48,39 @@ fn the_time_may_have_a_unit() {
 }
 
 #[test]
+fn gaps_as_regular_as_packets_are_told_as_such() {
+    // Packets of so many pairs, told to take longer than their pairs do.
+    let told = |packets: &[usize]| {
+        let mut text = String::new();
+        let mut time = 0.0;
+        for &pairs in packets {
+            for _ in 0..pairs {
+                text += &format!("{time:.6},1,2\n");
+                time += 1e-5;
+            }
+            time += 3e-5;
+        }
+        check(
+            &text,
+            packets.iter().sum(),
+            "a.csv:51: 3 samples are lost before this line",
+        )
+    };
+    let regular = told(&[50; 7]);
+    assert!(
+        regular.contains(", one every 50 samples, as where packets have times of their own"),
+        "{regular}"
+    );
+    for packets in [[50; 5].as_slice(), &[50, 50, 50, 50, 51, 50, 50]] {
+        let seldom = told(packets);
+        assert!(
+            seldom.contains(" others are good: record it again"),
+            "{seldom}"
+        );
+    }
+}
+
+#[test]
 fn faults_in_time_are_named_by_line() {
     for (text, pairs, expected) in [
         (

@@ -313,10 +313,9 @@ impl<S: Sample, const N: usize> Front<S, N> {
         for (taken, &pair) in (1..).zip(searched) {
             if let Some(period) = self.detector.push(pair) {
                 self.index += taken as u64;
+                // Of one that is too long the search goes on.
                 if Self::holds(period) {
                     self.stage = Stage::Found(period);
-                } else {
-                    self.detector.restart();
                 }
                 return taken;
             }

@@ -235,7 +235,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             // It has neither an angle nor a phase of its own, and of its two waves one knows the frequency.
             before.drift = drift;
             before.angle = angle;
-            (before.turning, before.turning_variance) = (0.0, 0.0);
             // The last angle may have turned on since then; where none was, it is not known by how much.
             (before.promised, before.promised_variance) = (0.0, f32::INFINITY);
             if let Some(last) = last {

@@ -178,3 +178,27 @@ impl<S: Sample> Default for DifferenceDetector<S> {
         Self::new()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::phase::PhaseStep;
+
+    #[test]
+    fn looks_are_left_out_after_two_tones_were_refused() {
+        let tones = [18.75, 11.3].map(PhaseStep::from_period);
+        let mut detector = DifferenceDetector::<f32>::new();
+        let (mut on_trial, pairs) = (0, 20_000);
+        for k in 0..pairs {
+            let [one, two] = tones.map(|step| step.after_half_samples(2 * k).unit());
+            let pair = [one.re + two.re, one.im + two.im];
+            assert!(detector.push(pair).is_none());
+            on_trial += i64::from(detector.candidate.is_open);
+        }
+        // It would be for a third of the time if no look were left out.
+        assert!(
+            on_trial > 0 && 4 * on_trial < pairs,
+            "{on_trial} of {pairs}"
+        );
+    }
+}

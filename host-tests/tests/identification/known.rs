@@ -320,3 +320,39 @@ fn a_frequency_of_which_no_block_holds_a_period_is_refused() {
     assert!(Front::<f32, 40>::new(told(10, 2000.0, 0.0)).is_err());
     assert!(Front::<f32, 40>::new(told(10, 2600.0, 0.0)).is_ok());
 }
+
+#[test]
+fn a_wave_near_three_times_the_known_frequency_gives_no_row() {
+    for (seed, off) in (0..).zip([0.0, 5e-4, 1e-3, 2e-3]) {
+        for periods in [5, 10, 50] {
+            let wave = random_wave(seed, 3.0 * 5332.0 * (1.0 + off), 0.3);
+            let flaws = Flaws {
+                noise: 1e-3 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let found = identify(wave, &flaws, told(periods, 5332.0, 0.0), 20_000, seed);
+            assert!(found.is_empty(), "{off}, {periods} periods: {:?}", found[0]);
+        }
+    }
+}
+
+#[test]
+fn a_wave_that_sinks_below_the_noise_that_was_there_before_is_not_searched() {
+    let wave = Wave {
+        main_amplitude: 1.2,
+        decay_rate: 0.6,
+        ..Wave::default()
+    };
+    let flaws = Flaws {
+        noise: 0.9,
+        ..Flaws::default()
+    };
+    let settings = told(200, wave.frequency, 0.0);
+    let found = identify(wave, &flaws, settings, 200_000, 3);
+    assert!(found.len() > 50 && wave.at(2.0).main_amplitude < 0.4);
+    for pair in found.windows(2) {
+        assert_eq!(pair[0].end(), pair[1].start, "{:?}", pair[1]);
+        assert!(pair[1].flags.is_empty(), "{:?}", pair[1]);
+    }
+    assert!(found.last().is_some_and(|last| last.end() > 195_000));
+}

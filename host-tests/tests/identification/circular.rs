@@ -231,3 +231,39 @@ fn a_misfit_behind_a_circle_leaves_the_angle_that_the_wave_starts_at() {
         );
     }
 }
+
+#[test]
+fn the_first_angle_after_a_single_circle_is_told_to_be_unsure() {
+    let full = Wave {
+        main_amplitude: 1.0,
+        quadrature_amplitude: 1.0,
+        ..Wave::default()
+    };
+    let settings = Settings {
+        frequency: Some(full.frequency as f32),
+        ..windows(10)
+    };
+    let flaws = Flaws {
+        noise: 0.002,
+        ..Flaws::default()
+    };
+    let circle = identify(full, &flaws, settings, 2000, 1);
+    let end = circle[1].start as usize;
+    let wave = Wave {
+        quadrature_amplitude: 0.04,
+        ..full
+    };
+    let found = identify_changed(full, &flaws, settings, 4000, 1, |k, [c, d]| {
+        let time = k as f64 / RATE;
+        let ((of_c, of_d), (c_before, d_before)) = (wave.pick_offs(time), full.pick_offs(time));
+        if k < end {
+            [c, d]
+        } else {
+            [c + of_c - c_before, d + of_d - d_before]
+        }
+    });
+    let first = found.iter().find(|e| e.start == end as u64).unwrap();
+    assert_eq!(found[0].flags, Flags::CIRCULAR);
+    assert_eq!(first.flags.without(Flags::STEP), Flags::REACQUIRED);
+    assert!(found[2..].iter().all(|e| e.flags.is_empty()));
+}

@@ -252,3 +252,34 @@ fn the_angle_is_followed_through_misfits_while_the_pattern_turns_otherwise() {
     }
     assert!(reacquired >= 4, "{reacquired}");
 }
+
+#[test]
+fn an_angle_that_was_followed_to_another_quarter_than_promised_is_told_to_be_unsure() {
+    // It turns, stands still in hum, and turns on: by its rate it would be a quarter turn ahead.
+    let (from, to, rate) = (0.1, 0.5, 4.0);
+    let still = |t: f64| (t - from).clamp(0.0, to - from);
+    let settings = windows(10);
+    let found = identify_signal(1e-4, settings, 70_000, 1, |t| {
+        let wave = Wave {
+            main_amplitude: 1.0,
+            quadrature_amplitude: 0.1,
+            angle: 0.1 + rate * (t - still(t)),
+            ..Wave::default()
+        };
+        let (c, d) = wave.pick_offs(t);
+        let hum = if (from..to).contains(&t) {
+            0.1 * (314.0 * t).sin()
+        } else {
+            0.0
+        };
+        [c + hum, d + hum]
+    });
+    let first = found
+        .iter()
+        .find(|e| e.start as f64 >= to * RATE && !e.flags.contains(Flags::MISFIT))
+        .unwrap();
+    let turned = rate * (first.time - (to - from));
+    assert_eq!(first.flags, Flags::REACQUIRED);
+    assert!((first.angle - found[0].angle - turned).abs() < 0.05);
+    assert!(found.iter().rev().take(20).all(|e| e.flags.is_empty()));
+}

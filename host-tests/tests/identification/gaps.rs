@@ -435,3 +435,32 @@ fn a_rate_that_changes_in_a_gap_leaves_no_angle_that_is_wrong_and_unflagged() {
         );
     }
 }
+
+#[test]
+fn a_quarter_turn_that_began_in_a_gap_is_no_jump_of_the_phase() {
+    for seed in 0..20 {
+        let (at, gap, rate) = (5000, 4000, 30.0);
+        let wave = random_wave(seed, 5332.0, 0.1);
+        // It goes on to turn as fast as it must have done in the gap.
+        let end = (at + gap) as f64 / RATE;
+        let turned = Wave {
+            angle: wave.angle + std::f64::consts::FRAC_PI_2 - rate * end,
+            angle_rate: rate,
+            ..wave
+        };
+        let flaws = Flaws {
+            noise: 1e-3 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let [before, after] =
+            [wave, turned].map(|wave| stream(wave, flaws.clone(), at + gap + 1000, seed));
+        let mut core = Core::new(windows(10)).unwrap();
+        core.extend(&before[..at], |_| {});
+        core.skip(gap as u64);
+        let mut first = None;
+        core.extend(&after[at + gap..], |estimate| {
+            first.get_or_insert(estimate.flags);
+        });
+        assert_eq!(first, Some(Flags::REACQUIRED), "seed {seed}");
+    }
+}

@@ -386,3 +386,43 @@ fn a_step_of_the_angle_does_not_spoil_the_frequencies_after_it() {
         assert!((0.85..1.2).contains(&ratio), "{turn} rad: {ratio}");
     }
 }
+
+#[test]
+fn how_an_offset_wandered_before_a_search_excuses_no_step_after_it() {
+    for seed in 0..5 {
+        let wave = random_wave(seed, 5332.0, 0.3);
+        let a = wave.main_amplitude;
+        let settings = Settings {
+            frequency: Some(5332.0),
+            ..windows(10)
+        };
+        let flaws = Flaws {
+            noise: 0.01 * a,
+            ..Flaws::default()
+        };
+        let pairs = stream(wave, flaws, 12_000, seed);
+        let mut core = Core::new(settings).unwrap();
+        let length = pairs.iter().find_map(|&pair| core.push(pair)).unwrap();
+        let length = length.samples as usize;
+        // To the search by so much a window, then once by as much between two windows.
+        let (search, moved) = (50 * length, 0.02 * a);
+        let offset = |k: usize| {
+            let wandered = k.min(search) as f64 / length as f64;
+            let stepped = if k < search + length { 0.0 } else { 1.0 };
+            moved * (wandered + stepped)
+        };
+        let mut core = Core::new(settings).unwrap();
+        let mut found = Vec::new();
+        for (k, [c, d]) in pairs.into_iter().enumerate() {
+            if k == search {
+                core.search();
+            }
+            found.extend(core.push([c + offset(k) as f32, d]));
+        }
+        let before = found.iter().take(50);
+        assert!(before.skip(2).all(|e| e.flags.is_empty()), "{seed}");
+        let at = (search + length) as u64;
+        let after = found.iter().find(|e| e.start == at).unwrap();
+        assert_eq!(after.flags, Flags::STEP, "{seed}");
+    }
+}

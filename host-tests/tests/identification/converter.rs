@@ -204,3 +204,35 @@ fn crests_of_few_steps_are_not_clipped() {
         }
     }
 }
+
+#[test]
+fn steps_of_the_weaker_pick_off_are_stated_whichever_it_is() {
+    for period in [18.75, 20.0, 37.5] {
+        let wave = Wave {
+            main_amplitude: 1.0,
+            quadrature_amplitude: 0.01,
+            angle: 0.03,
+            frequency: RATE / period,
+            ..Wave::default()
+        };
+        let step = 0.02;
+        let settings = Settings {
+            resolution: Some(step as f32),
+            ..windows(50)
+        };
+        let flaws = Flaws {
+            noise: 1e-4,
+            ..Flaws::default()
+        };
+        let [first, second] = [false, true].map(|is_swapped| {
+            let found = identify_changed(wave, &flaws, settings, 10_000, 1, |_, pair| {
+                let [c, d] = pair.map(|x| (x / step).round() * step);
+                if is_swapped { [d, c] } else { [c, d] }
+            });
+            found.last().unwrap().main_amplitude_std
+        });
+        let ratio = first / second;
+        println!("period {period}: {first:.2e} and {second:.2e}");
+        assert!((0.95..1.05).contains(&ratio), "{period}: {ratio}");
+    }
+}

@@ -327,3 +327,32 @@ fn a_pick_off_in_a_node_does_not_die_of_a_fault_of_the_other() {
         );
     }
 }
+
+#[test]
+fn a_harmonic_that_electronics_may_have_is_no_limiter_where_its_image_lies_beside_it() {
+    // 0.085 % of a_A, of the 0.1 % that are flagged; of a steady wave, and of one that rings down.
+    for period in [5.97, 6.02, 6.05, 7.96, 8.03] {
+        for decay_rate in [0.0, 30.0] {
+            let wave = Wave {
+                main_amplitude: 1.0,
+                quadrature_amplitude: 0.1,
+                angle: 0.1,
+                frequency: RATE / period,
+                decay_rate,
+                ..Wave::default()
+            };
+            let flaws = Flaws {
+                noise: 1e-5,
+                ..Flaws::default()
+            };
+            let found = identify_changed(wave, &flaws, windows(50), 3000, 1, |_, pair| {
+                pair.map(|x| x - 3.4e-3 * x * x * x)
+            });
+            assert!(found.len() > 4);
+            for estimate in found {
+                let clipped = estimate.flags.contains(Flags::CLIPPED);
+                assert!(!clipped, "{period}, {decay_rate}: {estimate:?}");
+            }
+        }
+    }
+}

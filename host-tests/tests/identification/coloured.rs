@@ -227,3 +227,30 @@ fn a_burst_in_the_first_window_is_no_noise_to_those_after_it() {
     }
     assert!(widened < 3, "{widened} of 40");
 }
+
+#[test]
+fn noise_that_grows_about_the_wave_alone_is_told_with_the_setting() {
+    let (mut told, mut rows) = (0, 0);
+    for seed in 0..30 {
+        let wave = random_wave(seed, 5332.0, 0.5);
+        let white = Flaws {
+            noise: 0.01 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        // Six times the noise variance for a fifth of the time; the third harmonic's neighbourhood has hardly more.
+        let grown = noise(TUNED, 0.027 * wave.main_amplitude, seed + 100);
+        let is_grown = |k: usize| k % 4000 >= 3200;
+        let settings = settings(20, true);
+        let found = identify_changed(wave, &white, settings, SAMPLES, seed, |k, [c, d]| {
+            let [of_c, of_d] = if is_grown(k) { grown[k] } else { [0.0; 2] };
+            [c + of_c, d + of_d]
+        });
+        let is_within = |e: &&Estimate| is_grown(e.start as usize) && is_grown(e.end() as usize);
+        for estimate in found.iter().filter(is_within) {
+            rows += 1;
+            told += usize::from(estimate.flags.contains(Flags::MISFIT));
+        }
+    }
+    println!("{told} of {rows} told");
+    assert!(rows > 250 && 5 * told > 3 * rows, "{told} of {rows}");
+}

@@ -1,6 +1,7 @@
 //! Samples that a recording's own time shows to be missing: they are left out of the rows, and told at the end.
 
 use std::collections::VecDeque;
+use std::num::NonZeroU64;
 
 use super::error::TimeFault;
 
@@ -28,7 +29,7 @@ pub(super) struct Gaps {
     lost: u64,
     /// Pairs before the last one, and from each to the next where these are as many for all of them.
     last: u64,
-    every: Option<u64>,
+    every: Option<NonZeroU64>,
 }
 
 /// A gap, and its times.
@@ -67,8 +68,8 @@ impl Gaps {
             let since = found.gap.before - self.last;
             match self.count {
                 0 => {}
-                1 => self.every = Some(since),
-                _ => self.every = self.every.filter(|&every| every == since),
+                1 => self.every = NonZeroU64::new(since),
+                _ => self.every = self.every.filter(|every| every.get() == since),
             }
             self.last = found.gap.before;
             self.count += 1;

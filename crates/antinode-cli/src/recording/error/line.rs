@@ -1,6 +1,7 @@
 //! What can be wrong with a line of text.
 
 use std::fmt;
+use std::num::NonZeroU64;
 
 use super::Channel;
 
@@ -139,7 +140,7 @@ pub enum TimeFault {
         gaps: u64,
         all: u64,
         /// Pairs from each to the next, where that are as many.
-        every: Option<u64>,
+        every: Option<NonZeroU64>,
     },
     /// A step that is no whole number of samples.
     #[error(

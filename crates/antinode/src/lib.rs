@@ -7,9 +7,9 @@
 //! S_C = A cos 2θ − B sin 2θ + noise,   S_D = A sin 2θ + B cos 2θ + noise      (2), (3)
 //! ```
 //!
-//! An [`Estimate`] has a_A, a_B, θ, ω and α of one window, with their rates and standard deviations, and [`Flags`] for whatever the model
-//! does not explain. Numbers in parentheses are formulas of R. I. Mingazov, K. V. Shishakov, DOI 10.22213/2410-9304-2021-3-12-24, whose
-//! four algorithms are in [`methods`]; the identification itself is the exact counterpart of the fourth.
+//! An [`Estimate`] has a_A, a_B, θ, ω and α of one window, the rates of θ and a_A, a standard deviation of each, and [`Flags`] for whatever
+//! the model does not explain. Numbers in parentheses are formulas of R. I. Mingazov, K. V. Shishakov, DOI 10.22213/2410-9304-2021-3-12-24,
+//! whose four algorithms are in [`methods`]; the identification itself is the exact counterpart of the fourth.
 //!
 //! | step | at | by |
 //! |---|---|---|
@@ -81,10 +81,10 @@
 //! 1. the main loop calls [`Tracker::configure`],
 //! 2. sends the settings to the interrupt, by a queue say,
 //! 3. and only then stores [`Tracker::wanted_search`];
-//! 4. the interrupt gives settings that have come to [`Front::configure`] before it calls [`Front::search_if_wanted`].
+//! 4. the interrupt passes any settings received to [`Front::configure`], and only then calls [`Front::search_if_wanted`].
 //!
-//! Blocks of the old settings then bear an old number, and the tracker leaves them out. In another order some of them bear the new one, and
-//! give windows of a wrong frequency or length without a flag. Report samples that the interrupt missed to [`Front::skip`].
+//! Blocks of the old settings then bear an old search number, and the tracker leaves them out. In any other order some of them bear the new
+//! number, and give windows of a wrong frequency or length without a flag. Report samples that the interrupt missed to [`Front::skip`].
 //!
 //! | bytes of RAM on a 32-bit core | `i16` | `f32` | `i32` |
 //! |---|---|---|---|
@@ -92,13 +92,13 @@
 //! | [`Block`], each in the queue | 72 | 128 | 128 |
 //! | [`Tracker`], with `BLOCKS` the length of its ring | 696 + 68 `BLOCKS` | the same | the same |
 //!
-//! [`Front::UNSET`], [`Tracker::UNSET`] and [`Identifier::UNSET`] are all zeros: statics initialised with them, in a `ConstStaticCell` of
-//! the crate `static_cell` say, take neither flash nor stack; call `configure` before use. What [`Identifier::new`] gives is
-//! copied: one of 5 KB takes 12 KB of stack, and 1 KB more of flash.
+//! [`Front::UNSET`], [`Tracker::UNSET`] and [`Identifier::UNSET`] are all zeros: statics initialised with them, for example in a
+//! `ConstStaticCell` of the crate `static_cell`, take neither flash nor stack; call `configure` before use. The result of
+//! [`Identifier::new`] is copied: an identifier of 5 KB takes 12 KB of stack, and 1 KB more flash.
 //!
-//! `opt-level = 2` is as fast as 3 and smaller. On a Cortex-M4 give rustc `-Ctarget-cpu=cortex-m4`: without it rustc mistakes three-cycle
-//! multiply-accumulates for single-cycle ones. With it the core is 2 KB larger. Cargo takes such flags from no dependency: they belong in
-//! your own `.cargo/config.toml`.
+//! `opt-level = 2` is as fast as 3 and smaller. On a Cortex-M4 give rustc `-Ctarget-cpu=cortex-m4`, without which it mistakes three-cycle
+//! multiply-accumulates for single-cycle ones; the core is then 2 KB larger. Cargo does not take such flags from a dependency: they belong
+//! in your own `.cargo/config.toml`.
 //!
 //! # Features
 //!
@@ -121,67 +121,68 @@
 //! | turning at 6 rad/s, decaying with τ = 0.3 s, drifting 2 Hz/s, 0.2 % noise, 10 periods | rms 1.00 to 1.07 of the bound |
 //!
 //! Stated standard deviations are within 5 % of the scatter. They include the rounding of f32, up to 10⁻⁷ of a_A, and with f32 samples up
-//! to 10⁻⁷ of the offsets: in long windows with so little noise they are larger than the scatter. `residual_rms` has up to 2·10⁻⁶ of a_A of
-//! it at 190 samples a period. The bound is that of seven constant parameters, offsets and frequency among them. The errors and deviations
-//! are asserted, with a margin, by the tests of `host-tests`.
+//! to 10⁻⁷ of the offsets: in long windows with as little noise as that, they exceed the scatter. Rounding adds up to 2·10⁻⁶ of a_A to
+//! `residual_rms` at 190 samples a period. The bound is that of seven constant parameters, offsets and frequency among them. The errors and
+//! deviations are asserted, with a margin, by the tests of `host-tests`.
 //!
 //! # Limits
 //!
 //! ## The signal
 //!
-//! - θ is known modulo π/2, and phase modulo 2π: θ is unwrapped only by continuity from window to window.
-//!   A pattern that turns by a quarter more or less in a gap, and as before at its end, shows nothing of it.
-//! - A period is 4 to 200 samples, and with [`Settings::frequency`] 2.5 to as many as a block holds.
+//! - θ is known modulo π/2, and phase modulo 2π: θ is unwrapped only by continuity from window to window. If a pattern turns by a quarter
+//!   turn more or less during a gap than its rate predicts, and has its old rate again after the gap, nothing shows this.
+//! - A period must have 4 to 200 samples, or, with [`Settings::frequency`], 2.5 to as many as a block holds.
 //! - Amplitudes must be 10⁻¹⁵ to 10¹⁷ input units, so that their squares fit in f32. Beyond that there may be no estimate, and no flag.
-//! - Sums of f32 are rounded: in noise below 2·10⁻⁴ of a_A an offset beyond twenty times a_A, at 140 samples a period or more, is a misfit.
-//!   With codes it is not, nor with f32 samples whose offset is subtracted first.
+//! - Sums of f32 are rounded: at 140 samples a period or more, in noise below 2·10⁻⁴ of a_A, an offset beyond twenty times a_A is flagged
+//!   as a misfit. With codes it is not, nor with f32 samples whose offset is subtracted first.
 //!
 //! ## Waves that change
 //!
-//! - Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: 260 rad/s and 480 1/s in ten periods of 5332
-//!   Hz, 2.6 rad/s and 4.8 1/s in a thousand. If it turns by more than about 0.6 rad, amplitudes are some per cent off; windows of more
-//!   than ten periods flag this as a misfit, shorter ones may not.
+//! - Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: that is 260 rad/s and 480 1/s in ten periods
+//!   of 5332 Hz, 2.6 rad/s and 4.8 1/s in a thousand. If the pattern turns by more than about 0.6 rad, amplitudes are some per cent off;
+//!   windows of more than ten periods flag this as a misfit, shorter ones may not.
 //! - A frequency that drifts or depends on the amplitude bends the phase within a window; splits of damping and frequency bend amplitudes
-//!   and θ too. If this is well above the noise (2 Hz/s in a window of 60 ms, say), or above 2·10⁻⁴ of a_A if that is more, it is flagged
-//!   as a misfit. Below that, nothing is flagged, and values are off by up to 6 of their deviations in windows of 10 periods, and 30 in
-//!   those of 100 or more: 6·10⁻⁵ rad of phase in noise of 10⁻⁴ of a_A, 4·10⁻⁴ rad in noise of 10⁻³. Use shorter windows.
+//!   and θ too. If this is well above both the noise (2 Hz/s in a window of 60 ms, say) and 2·10⁻⁴ of a_A, it is flagged as a misfit. If
+//!   not, nothing is flagged, and values are off by up to 6 of their deviations in windows of 10 periods, and by up to 30 in those of 100
+//!   or more: the phase by 6·10⁻⁵ rad in noise of 10⁻⁴ of a_A, and by 4·10⁻⁴ rad in noise of 10⁻³. Use shorter windows.
 //! - A turning pattern looks like a frequency off by 2 a_A a_B θ̇/(π(a_A² + a_B²)), which is corrected with the θ̇ of the windows before.
 //!   If θ̇ jumps, as splits make it do near a circle, f may be off, by 20 deviations at |a_B| of 0.94 a_A in windows of 100 periods. If the
-//!   pattern vibrates, deviations of f grow with it from some ten windows on, or forty where a hop leaves gaps. Before that the pattern is
-//!   taken to turn steadily: where it speeds up by 0.01 rad from window to window, f is off in the second and third window, by up to 7 and
-//!   14 deviations at |a_B| of 0.9 a_A, and by up to 21 in those of the same time where windows overlap; where it swings in gaps, by up to
-//!   8, 18 and 45 at 0.5, 0.75 and 0.9 a_A.
+//!   pattern vibrates, the deviations of f allow for it after some ten windows, or forty if a hop leaves gaps. Until then the pattern is
+//!   taken to turn steadily. If its turn per window grows by 0.01 rad from window to window, f is off in the second and third window by up
+//!   to 7 and 14 deviations at |a_B| of 0.9 a_A, or, if windows overlap, by up to 21 in those of the same time. If a pattern swings to and
+//!   fro during the gaps, f is off by up to 8, 18 and 45 deviations at 0.5, 0.75 and 0.9 a_A.
 //! - Splits of 2 Hz and more make a pattern near a circle turn and slip in phase within a window or two: there one window in ninety is
-//!   flagged as a phase jump, with no sample missing, and the angle may go on by a quarter turn beside such windows and misfits.
+//!   flagged as a phase jump though no sample is missing, and at such windows, as at misfits, the continued angle may come to be a quarter
+//!   turn off.
 //!
 //! ## Noise
 //!
-//! - Mains hum is a misfit too, unless [`Settings::hum`] takes it out. Of hum with fewer than 13 blocks a period, such as 150 Hz beside a wave
-//!   of 2 kHz, part counts as noise.
-//! - Deviations and flags take noise to be white; [`Settings::coloured`] is for noise that is not. With it errors are 0.8 to 1.1 of their
-//!   deviations behind a low-pass or a high-pass, or in noise of 1/f²; behind a band-pass about the wave, in windows of ten periods or more,
-//!   they are 1.1 with a quality of 1, 1.5 with 3, and 2 to 3 with 10, or 1.2, 1.8 and 3 to 3.7 where a hop makes blocks shorter; in
-//!   windows of 3 to 5 periods up to 1.8, 3.3 and 7. With noise that grows with frequency, some windows remain misfits, and so do a fifth
-//!   of long ones with a hop behind a quality of 10.
+//! - Mains hum is flagged as a misfit unless [`Settings::hum`] takes it out. If fewer than 13 blocks fit in a period of the hum, as at 150
+//!   Hz beside a wave of 2 kHz, part of it counts as noise.
+//! - Deviations and flags take noise to be white; [`Settings::coloured`] is for noise that is not. With it, errors are 0.8 to 1.1 of their
+//!   deviations behind a low-pass or a high-pass, or in noise of 1/f². Behind a band-pass about the wave with a quality of 1, 3 and 10 they
+//!   are 1.1, 1.5 and 2 to 3 of their deviations in windows of ten periods or more; 1.2, 1.8 and 3 to 3.7 if a hop makes blocks shorter;
+//!   and up to 1.8, 3.3 and 7 in windows of 3 to 5 periods. If noise grows with frequency, some windows remain misfits, as does a fifth of
+//!   long windows with a hop behind a band-pass with a quality of 10.
 //! - Deviations and flags also assume noise that is independent and equal in both pick-offs. If one has ten times as much, about one window
-//!   in ten thousand is flagged. If both have the share r of its variance in common, deviations are up to √(1 + r) times too small: at
-//!   an angle of 22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.
-//! - Jitter of the sampling, common to both pick-offs, makes f and phase scatter by 1.8 of their deviations, θ and a_B by a fifth,
-//!   if it is white. A sampling clock that wanders moves phase and frequency: 1/f jitter of 0.1 to 3 ns by up to 78 and 37 of their
-//!   deviations in windows of up to 1000 periods, and one row in twenty is flagged.
+//!   in ten thousand is flagged. If a share r of the variance is common to both, deviations are up to √(1 + r) times too small: at an angle
+//!   of 22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.
+//! - White jitter of the sampling, common to both pick-offs, makes f and phase scatter by 1.8 of their deviations, but θ and a_B by only a
+//!   fifth of theirs. A sampling clock that wanders moves phase and frequency: 1/f jitter of 0.1 to 3 ns moves them by up to 78 and 37 of
+//!   their deviations in windows of up to 1000 periods, and one row in twenty is flagged.
 //!
 //! ## What raises no flag
 //!
 //! - Deviations cover noise and the converter's steps, assumed equal in size. They do not cover nonlinearity of pick-offs and converter,
-//!   and a third harmonic below 10⁻³ of a_A raises no flag: a cubic of that size may move a_A by 0.4 %, θ by 5·10⁻⁴ rad and, with
-//!   |a_B| of 0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. In windows of 5 periods at fewer than 5 samples a period a third harmonic
-//!   of several per cent may raise none, where noise is added after a limiter. A second harmonic of 10⁻² of a_A raises none either if
-//!   a period is not a whole number of samples, and leaks up to 7·10⁻² of itself into a_A, a_B, θ and phase in windows of 10 periods,
-//!   1.6·10⁻² in those of 50; if it is a whole number, 1.6·10⁻³.
+//!   and a third harmonic below 10⁻³ of a_A raises no flag: a cubic of that size may move a_A by 0.4 %, θ by 5·10⁻⁴ rad and, with |a_B| of
+//!   0.4 a_A, a_B by 10⁻³ of a_A and phase by 7·10⁻⁴ rad. In windows of 5 periods at fewer than 5 samples a period, a third harmonic of
+//!   several per cent may raise none, if noise is added after a limiter. A second harmonic of 10⁻² of a_A raises none either if a period is
+//!   not a whole number of samples, and leaks up to 7·10⁻² of itself into a_A, a_B, θ and phase in windows of 10 periods, 1.6·10⁻² in those
+//!   of 50. If a period is a whole number of samples, 1.6·10⁻³ of it leaks.
 //! - A fault that repeats with the wave, such as a stuck bit of the converter, is flagged where it begins, but may soon be taken for a new
 //!   noise level: with a bit worth a twelfth of a_A, two in three or more of the windows of 10 periods that follow have no flag, and a_A is
 //!   up to 1.7 % off, 12 of its deviations. With a sixth of a_A it is one in three, 4.4 %, 21 deviations; with a third, one in ten, 7.5 %,
-//!   36; with 0.6, none.
+//!   36; with 0.6, every window is flagged.
 //! - Blocks of two periods hardly see a tone at half an odd multiple of f: 3·10⁻³ of a_A at f/2, in noise of 10⁻⁴, moved a_A and phase by 4
 //!   deviations, rms, without a flag.
 #![no_std]

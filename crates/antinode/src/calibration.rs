@@ -14,8 +14,8 @@ use crate::phase::Phase;
 pub struct Calibration {
     /// g, gain of channel D over that of channel C. 0.1 to 10; 1 is ideal.
     pub gain_ratio: f32,
-    /// Δ in seconds: how much later than C channel D is sampled. Within ±1 ms; 0 is ideal. Where it is more than a tenth of a
-    /// window, the uncertainty of the frequency adds to those of a_B and the angle, and is not in the stated deviations.
+    /// Δ in seconds: how much later than C channel D is sampled. Within ±1 ms; 0 is ideal. If it is more than a tenth of a window, the
+    /// uncertainty of the frequency adds to those of a_B and the angle, and the stated deviations do not include it.
     pub skew: f32,
     /// ε in radians: pick-off D stands at 45° + ε from pick-off C. Within ±0.3; 0 is ideal.
     pub pick_off_angle: f32,

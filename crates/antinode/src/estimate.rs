@@ -12,27 +12,27 @@ impl Flags {
     pub const CLIPPED: Self = Self(1);
     /// No significant wave: the other numbers mean nothing.
     pub const LOST: Self = Self(1 << 1);
-    /// The phase does not continue that of the last window that was free of a misfit: samples are missing between or within them.
+    /// The phase does not continue that of the last window without a misfit: samples are missing between the two windows or within one.
     pub const PHASE_JUMP: Self = Self(1 << 2);
-    /// Amplitude, angle or offset stepped between the window before and this one. Beyond 0.2 % of a_A or 2 mrad, half of the steps of 20
-    /// deviations that the window states are flagged, and all of 30; in the middle of a window, where [`MISFIT`](Self::MISFIT) may stand
-    /// instead, those of an amplitude from 25 and 45 deviations on, and of the angle, which may be a turn, from 60 and 85. An offset that
-    /// moves on as it did from window to window before wanders, and does not step.
+    /// Amplitude, angle or offset stepped between the window before and this one. Half of the steps that exceed 0.2 % of a_A or 2 mrad by
+    /// 20 of the deviations stated are flagged, and all that exceed it by 30. In the middle of a window, where [`MISFIT`](Self::MISFIT) may
+    /// stand instead, these limits are 25 and 45 deviations for an amplitude, and 60 and 85 for the angle, where a step looks like a turn.
+    /// An offset that goes on moving as it did over the windows before wanders, and does not step.
     pub const STEP: Self = Self(1 << 3);
     /// |a_B| ≈ a_A: the pattern is circular, and the angle has no meaning.
     pub const CIRCULAR: Self = Self(1 << 4);
     /// The samples are not one wave with steady rates plus noise: a step, a dropout, a second tone within the window.
     pub const MISFIT: Self = Self(1 << 5);
-    /// One pick-off gave one and the same value for the whole window, or lost its wave while the other kept it: of pick-offs that had shown
-    /// 25 deviations of an amplitude half are flagged, and of 35 all. After a new search a dead one cannot be told from a pattern on the
-    /// other's axis, and is not flagged.
+    /// One pick-off gave one and the same value for the whole window, or lost its wave while the other kept it. Half of such losses are
+    /// flagged if the wave lost was 25 deviations of an amplitude, and all if it was 35. After a new search a dead pick-off looks like a
+    /// pattern on the other's axis, and is not flagged.
     pub const DEAD_CHANNEL: Self = Self(1 << 6);
-    /// First window after the wave was lost, or after a gap or misfits in which the pattern may have turned by a quarter more or less: the
-    /// angle is known modulo π/2 only. Also the first window after a change of calibration or settings, unless it is the first of all, or
-    /// `configure` began at the start angle. It stands up to the first window that is free of a misfit, and later windows continue that
-    /// one's angle.
+    /// First window after the wave was lost, or after a gap or misfits in which the pattern may have turned by a quarter turn more or less:
+    /// the angle is known modulo π/2 only. Also the first window after a change of calibration or settings, unless it is the first of all,
+    /// or the change was by `configure`, which begins at the start angle. The flag stands up to and in the first window without a misfit,
+    /// whose angle later windows continue.
     pub const REACQUIRED: Self = Self(1 << 7);
-    /// A sample is NaN or infinite, or so large that its square is.
+    /// A sample is NaN or infinite, or so large that its square is infinite.
     pub const NOT_FINITE: Self = Self(1 << 8);
 
     const NAMES: [&'static str; 9] = [
@@ -73,7 +73,7 @@ impl Flags {
         Self(self.0 | other.0)
     }
 
-    /// This set but for the flags of `other`.
+    /// This set without the flags of `other`.
     #[must_use]
     pub const fn without(self, other: Self) -> Self {
         Self(self.0 & !other.0)
@@ -84,7 +84,7 @@ impl Flags {
         if condition { self.with(other) } else { self }
     }
 
-    /// The names of the flags that stand, in the order of the constants: each its constant's in small letters, such as `phase_jump`.
+    /// The names of the flags that stand, in the order of the constants: each is its constant's in small letters, such as `phase_jump`.
     pub fn names(self) -> impl Iterator<Item = &'static str> {
         let names = Self::NAMES.into_iter().enumerate();
         names.filter_map(move |(bit, name)| (self.0 >> bit & 1 == 1).then_some(name))
@@ -172,10 +172,10 @@ impl defmt::Format for Flags {
 
 /// The wave over one window, at the window's middle. Amplitudes, offsets and residual are in input units.
 ///
-/// Each `_std` is one standard deviation, from what the window's samples tell of the value and from their noise. The noise is that of the
-/// window's own residual and of the clean windows before: together these count up to twice as much as the window itself (more where it
-/// has few samples), and less where they do not agree with it. Where noise halves suddenly, the first two windows state a third too much;
-/// where it grows they state a tenth too little.
+/// Each `_std` is one standard deviation, from how well the window's samples determine the value and from their noise. The noise is taken
+/// from the window's own residual and from the clean windows before, which together count up to twice as much as the window itself (more if
+/// it has few samples), and less if they do not agree with it. When noise suddenly halves, the first two windows state a third too much;
+/// when it grows, they state a tenth too little.
 ///
 /// Of a window without a wave, [`Flags::LOST`], no number means anything, and some may be NaN or infinite.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -186,13 +186,13 @@ pub struct Estimate {
     pub start: u64,
     /// Sample pairs in the window.
     pub samples: u32,
-    /// Time of the window's middle, s from the stream's first sample: as if every pair had come at the present sample rate.
+    /// Time of the window's middle, s from the stream's first sample, as if every pair had come at the present sample rate.
     pub time: f64,
     /// a_A, amplitude of the main standing wave, > 0.
     pub main_amplitude: f32,
     /// a_B, amplitude of the quadrature wave, signed, |a_B| ≤ a_A.
     pub quadrature_amplitude: f32,
-    /// θ_A, pattern angle in rad, continuous from window to window from the chosen start.
+    /// θ_A, pattern angle in rad: it begins at the value nearest to the start angle, and is continued from window to window.
     pub angle: f64,
     /// α in rad, (−π, π]: the main wave is a_A cos(2πf·(t − `time`) − α).
     pub phase: f32,
@@ -202,7 +202,8 @@ pub struct Estimate {
     pub angle_rate: f32,
     /// −ȧ_A/a_A in 1/s: positive while the wave decays.
     pub decay_rate: f32,
-    /// Offset of S_C and of S_D, as they came; in white noise known to `residual_rms`/√`samples`, in the shortest windows to 15 % more.
+    /// Offsets of the raw S_C and S_D; in white noise their deviation is `residual_rms`/√`samples`, and up to 15 % more in the shortest
+    /// windows.
     pub offsets: [f32; 2],
     /// Standard deviation of a_A.
     pub main_amplitude_std: f32,
@@ -212,14 +213,15 @@ pub struct Estimate {
     pub angle_std: f32,
     /// Standard deviation of α, rad.
     pub phase_std: f32,
-    /// Standard deviation of f, Hz. In a wave's first window, which must take its pattern to stand still, the error may be up to twice this
-    /// where a wave with a quadrature of up to 0.7 a_A turns, and six times at 0.95 a_A.
+    /// Standard deviation of f, Hz. A wave's first window must take the pattern to stand still: if it turns, the error may be up to twice
+    /// this with a quadrature of up to 0.7 a_A, and six times at 0.95 a_A.
     pub frequency_std: f32,
     /// Standard deviation of θ̇, rad/s.
     pub angle_rate_std: f32,
     /// Standard deviation of the decay rate, 1/s.
     pub decay_rate_std: f32,
-    /// Rms of what the wave does not explain, a sample and channel, seen about the wave's frequency: the noise when it is white.
+    /// Rms of what the wave does not explain, per sample and channel, as seen about the wave's frequency: it equals the noise if that is
+    /// white.
     pub residual_rms: f32,
     /// What is wrong; empty when clean.
     pub flags: Flags,

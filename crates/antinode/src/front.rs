@@ -58,9 +58,9 @@ enum Stage {
 /// The sample-rate half of an identification on samples of type `S`, for blocks of up to `N` sample pairs:
 /// [its place in firmware](crate#on-a-microcontroller).
 ///
-/// `N` is even, 2 to 65 534, and is the longest period too: 200 for every wave that can be searched, 40 where a period has no more than 40
-/// samples, more for a slower wave whose frequency is known. Where two periods are more than `N` pairs a block is shorter than that, and
-/// a window may be up to a tenth off the length asked.
+/// `N` is even, 2 to 65 534, and is the longest period too: 200 is enough for every wave that can be searched for, 40 if a period has no
+/// more than 40 samples; a slower wave whose frequency is known needs more. If two periods are more than `N` pairs, a block is shorter than
+/// two periods, and a window may be up to a tenth off the length asked for.
 #[derive(Debug, Clone)]
 pub struct Front<S: Sample, const N: usize> {
     cut: Cut,
@@ -78,7 +78,7 @@ pub struct Front<S: Sample, const N: usize> {
 impl<S: Sample, const N: usize> Front<S, N> {
     /// A front without settings: it counts its pairs, and finds nothing until [`configure`](Self::configure) gives it some.
     ///
-    /// It is all zeros: as a static it takes no flash and is never on the stack, as what [`new`](Self::new) gives would be.
+    /// It is all zeros: as a static it takes no flash and is never on the stack, unlike the result of [`new`](Self::new).
     pub const UNSET: Self = Self::unset();
 
     /// In code, where the constant would be copied from flash.
@@ -94,20 +94,20 @@ impl<S: Sample, const N: usize> Front<S, N> {
         }
     }
 
-    /// A front that searches for a period, with the settings that its [`Tracker`](crate::Tracker) has.
+    /// A front that searches for a period, with the same settings as its [`Tracker`](crate::Tracker).
     ///
     /// # Errors
     ///
-    /// Those of [`Settings::check`], except too many periods for the ring, which is the tracker's; and a known frequency whose period
-    /// `N` pairs do not hold.
+    /// Those of [`Settings::check`], except too many periods for the ring, which the tracker reports; and a known frequency whose period is
+    /// longer than `N` pairs.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
         let mut front = Self::unset();
         front.configure(settings)?;
         Ok(front)
     }
 
-    /// Searches anew with other settings, in place: a new front in this one's place would take its size in stack. The count of
-    /// sample pairs goes on. Where a tracker is configured too, [the order of both matters](crate#on-a-microcontroller).
+    /// Searches anew with other settings, in place: to assign a new front would take its size in stack. The count of sample pairs goes on.
+    /// If a tracker is configured too, [the order of the two matters](crate#on-a-microcontroller).
     ///
     /// # Errors
     ///
@@ -175,10 +175,10 @@ impl<S: Sample, const N: usize> Front<S, N> {
         self.detector = Detector::new(detection);
     }
 
-    /// Searches anew where another search is wanted than the last: `wanted` is [`Tracker::wanted_search`](crate::Tracker::wanted_search),
-    /// and becomes the number of the blocks found. Gives true where it begins.
+    /// Searches anew if `wanted`, from [`Tracker::wanted_search`](crate::Tracker::wanted_search), is not the number of the last search; the
+    /// blocks then found bear this number. Gives true if a search begins.
     ///
-    /// Call it before every slice of pairs: where nothing is wanted it costs a comparison.
+    /// Call it before every slice of pairs: if no new search is wanted it costs a comparison.
     #[inline]
     pub fn search_if_wanted(&mut self, wanted: u32) -> bool {
         let is_wanted = wanted != self.search_number();
@@ -195,13 +195,13 @@ impl<S: Sample, const N: usize> Front<S, N> {
         self.search();
     }
 
-    /// Number of the last search that was wanted, which blocks bear: 0 at first.
+    /// Number of the last search that was wanted, which the blocks bear; 0 at first.
     #[inline]
     pub fn search_number(&self) -> u32 {
         self.demodulator.search()
     }
 
-    /// Drops the period and searches anew, whatever is wanted; a known one is not searched, but blocks begin anew.
+    /// Drops the period and searches anew, whatever is wanted. A known period is not searched for, but blocks begin anew.
     pub fn search(&mut self) {
         if !matches!(self.stage, Stage::Unset) {
             self.start();
@@ -215,8 +215,8 @@ impl<S: Sample, const N: usize> Front<S, N> {
         self.stage = self.known.map_or(Stage::Searching, Stage::Found);
     }
 
-    /// True while a period is searched: never where the frequency is known. For ever, where it has fewer than 4 samples, or more than 200 or
-    /// `N`.
+    /// True while a period is searched for: never if the frequency is known; for ever if the period has fewer than 4 samples, or more than
+    /// 200 or `N`.
     pub fn is_searching(&self) -> bool {
         matches!(self.stage, Stage::Searching)
     }
@@ -226,8 +226,8 @@ impl<S: Sample, const N: usize> Front<S, N> {
         self.index
     }
 
-    /// Tells that `count` sample pairs were lost before the next one: the block that they would have been part of is dropped.
-    /// An index that this takes to 2⁶² begins again at 0: no stream is as long.
+    /// Tells that `count` sample pairs were lost before the next one: the block that they would have been part of is dropped. An index that
+    /// this takes to 2⁶² begins again at 0: no stream is that long.
     pub fn skip(&mut self, count: u64) {
         if count == 0 {
             return;
@@ -241,7 +241,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
         }
     }
 
-    /// Takes one sample pair; gives the block that it finished.
+    /// Takes one sample pair; gives the block, if this finished one.
     ///
     /// [`extend`](Self::extend) costs far less a pair.
     #[must_use = "the next pair overwrites the block"]
@@ -255,7 +255,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
         self.demodulator.push(pair)
     }
 
-    /// Takes pairs from the start of a slice up to the end of a block; gives how many it took and the block if one is finished.
+    /// Takes pairs from the start of a slice up to the end of a block; gives how many it took, and the block if one is finished.
     ///
     /// Call it again with the rest until it has taken all: results are the same to the bit however a stream is cut.
     #[must_use = "it stops at the end of a block: call it again with the rest, and hand the block on"]

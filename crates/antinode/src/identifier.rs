@@ -9,12 +9,13 @@ use crate::tracker::Tracker;
 
 /// Identifies the wave in a stream of sample pairs: a [`Front`] and a [`Tracker`] in one thread.
 ///
-/// `S` is the type of its samples, `f32`, `i16` or `i32`. `N` is the most sample pairs a block may have, and so the longest period,
-/// as of a [`Front`]. `BLOCKS` is the length of the ring, as of a [`Tracker`]: two more than the periods of a window, and 11 at least.
+/// `S` is the type of its samples, `f32`, `i16` or `i32`. `N` is the most sample pairs that a block may have, and so the longest period, as
+/// in a [`Front`]. `BLOCKS` is the length of the ring, as in a [`Tracker`]: at least two more than the periods of a window, and at least
+/// 11.
 ///
 /// # Example
 ///
-/// Codes of which some were lost, with a frequency that is known:
+/// A known frequency, and codes of which some were lost:
 ///
 /// ```
 /// use antinode::{Identifier, Settings};
@@ -64,7 +65,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         })
     }
 
-    /// Checks settings as [`new`](Self::new) does, in a constant too: those that a [`Front`] and a [`Tracker`] of these sizes both take.
+    /// Checks settings as [`new`](Self::new) does, in a constant too: a [`Front`] and a [`Tracker`] of these sizes must both take them.
     ///
     /// ```
     /// use antinode::{Identifier, Settings};
@@ -98,8 +99,8 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         self.tracker.settings()
     }
 
-    /// Changes the settings, all but the start angle, and searches anew: the first window from then on is flagged
-    /// [`Flags::REACQUIRED`](crate::Flags::REACQUIRED), its angle continued. [`configure`](Self::configure) begins with the start angle
+    /// Changes all settings but the start angle, and searches anew: the first window from then on is flagged
+    /// [`Flags::REACQUIRED`](crate::Flags::REACQUIRED) and continues the angle. [`configure`](Self::configure) begins with the start angle
     /// instead.
     ///
     /// # Errors
@@ -178,8 +179,9 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         self.front.search_if_wanted(self.tracker.wanted_search());
     }
 
-    /// Drops the wave and searches anew, as is done by itself where a wave is lost: the first window from then on is flagged
-    /// [`Flags::REACQUIRED`](crate::Flags::REACQUIRED), its angle continued. A known frequency is not searched, but windows begin anew.
+    /// Drops the wave and searches anew, as happens by itself when a wave is lost: the first window from then on is flagged
+    /// [`Flags::REACQUIRED`](crate::Flags::REACQUIRED) and continues the angle. A known frequency is not searched for, but windows begin
+    /// anew.
     pub fn search(&mut self) {
         self.tracker.search();
         self.search_if_wanted();
@@ -190,7 +192,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         self.front.skip(count);
     }
 
-    /// True while a period is searched: at the start, and from the loss of a wave on; never where the frequency is known.
+    /// True while a period is searched for: at the start, and after a wave is lost; never if the frequency is known.
     pub fn is_searching(&self) -> bool {
         self.front.is_searching()
     }
@@ -200,7 +202,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         self.tracker.has_wave()
     }
 
-    /// Sample pairs taken so far, lost ones among them.
+    /// Sample pairs taken so far, including lost ones.
     pub fn index(&self) -> u64 {
         self.front.index()
     }

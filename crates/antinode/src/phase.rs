@@ -1,4 +1,4 @@
-//! Phase as a wrapping integer, and the one sine and cosine of the core, and arc tangent.
+//! Phase as a wrapping integer, and the core's only sine, cosine and arc tangent.
 
 use core::f32::consts::{FRAC_PI_4, TAU};
 
@@ -16,7 +16,7 @@ pub struct Phase(pub u32);
 
 /// A frequency as an advance of phase a sample, in units of 2⁻³² turn a sample.
 ///
-/// Valid below half a turn a sample; 100 kS/s makes the unit 23 µHz.
+/// Valid below half a turn a sample; at 100 kS/s the unit is 23 µHz.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct PhaseStep(pub u32);
 

@@ -12,16 +12,16 @@ use crate::double::to_single;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Detection {
-    /// Formula (10): about three periods, offsets of up to 100 a_A, 20 % noise and more.
+    /// Formula (10): takes about three periods; offsets may be up to 100 a_A, and noise 20 % of a_A and more.
     #[default]
     Difference,
-    /// Formula (9), of the feature `mean-return`: about eleven periods, for signals with little noise.
+    /// Formula (9), with the feature `mean-return`: takes about eleven periods; for signals with little noise.
     #[cfg(feature = "mean-return")]
     MeanReturn,
 }
 
 /// Settings of an identification. Start from [`Settings::new`] and change what differs; later versions may have more of them. With the
-/// feature `serde`, what stored settings lack, but for the sample rate, is as `new` has it.
+/// feature `serde`, any field that stored settings lack, except the sample rate, is read as `new` sets it.
 ///
 /// # Example
 ///
@@ -53,43 +53,45 @@ pub enum Detection {
 pub struct Settings {
     /// Sample rate in Hz, 10⁻³ to 10¹².
     pub sample_rate: f64,
-    /// Length of a window in periods, from 2 to the ring's blocks less 2, 60 000 at most; 10 unless changed. A window is a whole number of blocks,
-    /// up to a tenth off this length, and of 6 sample pairs at least: a block has up to two periods, or a fifth of the window where that is less.
+    /// Length of a window in periods: from 2 to two fewer than the ring's blocks, and at most 60 000; 10 unless changed. A window is a
+    /// whole number of blocks, so its length may be up to a tenth off, and has at least 6 sample pairs. A block has up to two periods, or a
+    /// fifth of the window if that is less.
     #[cfg_attr(feature = "serde", serde(default = "crate::serial::periods"))]
     pub periods: u16,
-    /// Blocks from the start of one window to the start of the next, 1 or more. Blocks are then half as long, so that windows move
-    /// in finer steps: about a period, or a tenth of a window of fewer than ten periods. A hop beyond the window leaves gaps. `None`: windows follow each other without gap or overlap.
+    /// Blocks from the start of one window to the start of the next, 1 or more. With a hop, blocks are half as long, about a period, or a
+    /// tenth of a window of fewer than ten periods, so that windows move in finer steps. A hop longer than the window leaves gaps. `None`:
+    /// windows follow each other without gap or overlap.
     pub hop: Option<u16>,
-    /// Where the pattern stands at first, rad, within ±10⁴: the angle is known modulo π/2, and the first window takes the one nearest to
-    /// this. With π/4, the default, that lies in 0…π/2.
+    /// Where the pattern stands at first, rad, within ±10⁴. The angle is known modulo π/2 only: the first window takes the value nearest to
+    /// this. With π/4, the default, the first angle lies in 0…π/2.
     #[cfg_attr(feature = "serde", serde(default = "crate::serial::start_angle"))]
     pub start_angle: f32,
-    /// The least and the greatest sample that the converter gives, input units: at or beyond them a window is flagged as clipped.
-    /// `None` where they are not known. A signed converter of 12 bits, taken as codes, has −2048 and 2047.
+    /// The least and the greatest sample that the converter gives, input units: a window with a sample at or beyond either is flagged as
+    /// clipped. `None` if they are not known. A signed converter of 12 bits, taken as codes, has −2048 and 2047.
     pub rails: Option<[f32; 2]>,
-    /// Step between neighbouring codes of the converter, input units, > 0, where it is known: 1 of codes. With less noise
-    /// than a step, errors repeat with the signal and do not average: where the step is given, deviations count them. A wave of
-    /// about a step or less is not found.
+    /// Step between neighbouring codes of the converter, input units, > 0; 1 if samples are codes, `None` if it is not known. With less
+    /// noise than a step, rounding errors repeat with the signal and do not average out: deviations include them only if the step is given.
+    /// A wave of about a step or less is not found.
     pub resolution: Option<f32>,
-    /// The wave's frequency in Hz, where it is known within 5 %: no period is searched, and the first window begins with the first
-    /// sample, even in noise nearly as large as the wave. It may have 2.5 samples a period or more, and no more than a block holds, `N`.
-    /// Where the wave is elsewhere there is no window, or a flagged one. `None`: the period is found as `detection` says.
+    /// The wave's frequency in Hz, if it is known within 5 %: no period is searched for, and the first window begins with the first sample,
+    /// even in noise nearly as large as the wave. A period may then have 2.5 samples to as many as a block holds, `N`. If the wave is at
+    /// another frequency there is no window, or a flagged one. `None`: the period is found as `detection` says.
     pub frequency: Option<f32>,
     /// How the period is found from cold.
     #[cfg_attr(feature = "serde", serde(default))]
     pub detection: Detection,
-    /// True, unless changed, where the third harmonic and the extremes of the samples are watched: [`Flags::CLIPPED`](crate::Flags::CLIPPED)
-    /// needs it, a second tone or a wave elsewhere is hardly a [`Flags::MISFIT`](crate::Flags::MISFIT) without, and other faults are found
-    /// earlier with it. It about doubles the work at sample rate.
+    /// True, unless changed, to watch the third harmonic and the extremes of the samples. [`Flags::CLIPPED`](crate::Flags::CLIPPED) needs
+    /// it; without it, a second tone or a wave at another frequency is hardly ever flagged as a [`Flags::MISFIT`](crate::Flags::MISFIT),
+    /// and other faults are found later. It about doubles the work at sample rate.
     #[cfg_attr(feature = "serde", serde(default = "crate::serial::watch"))]
     pub watch: bool,
-    /// True where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
-    /// only moves an offset is neither noise nor a fault. Windows must have 5 periods for it, or 10 with a hop.
+    /// True if the signals carry hum or another slow wander: each block, of a period or more, then has an offset of its own, and what only
+    /// moves an offset is neither noise nor a fault. Windows must have at least 5 periods for it, or 10 with a hop.
     #[cfg_attr(feature = "serde", serde(default))]
     pub hum: bool,
-    /// True where the noise is not white: a tuned front end, or a filter that cuts off below three times the frequency, leaves less than a
-    /// sixteenth of its power there. That is no fault then, and blocks have offsets of their own as with `hum`. In return what is in every
-    /// window is not flagged: a second tone counts as noise, and so does a fault in the first window.
+    /// True if the noise is not white. Behind a tuned front end, or a filter that cuts off below three times the frequency, noise there has
+    /// less than a sixteenth of its power about the wave: with this setting that is no fault, and blocks have offsets of their own as with
+    /// `hum`. In return, what is in every window is not flagged: a second tone counts as noise, and so does a fault in the first window.
     #[cfg_attr(feature = "serde", serde(default))]
     pub coloured: bool,
     /// How the pick-offs differ from ideal ones.
@@ -252,8 +254,8 @@ impl Settings {
         }
     }
 
-    /// Checks every value for a ring of `blocks`, the `BLOCKS` of a [`Tracker`](crate::Tracker), 11 to 65 535. Whether a block holds a period
-    /// of a known frequency is what [`Front::check`](crate::Front::check) asks.
+    /// Checks every value for a ring of `blocks`, the `BLOCKS` of a [`Tracker`](crate::Tracker), 11 to 65 535. Whether a block holds a
+    /// period of a known frequency is checked by [`Front::check`](crate::Front::check).
     ///
     /// ```
     /// use antinode::Settings;
@@ -265,7 +267,7 @@ impl Settings {
     ///
     /// # Errors
     ///
-    /// The first value that cannot be; its message says what could.
+    /// The first value that is not allowed; its message says what is.
     pub const fn check(&self, blocks: usize) -> Result<(), SettingsError> {
         let most = blocks.saturating_sub(2);
         let most = if most < 60_000 { most as u16 } else { 60_000 };

@@ -1,8 +1,8 @@
 //! Samples become block sums: the only work done at sample rate while a wave is tracked, formulas (7) and (24).
 //!
 //! A block is a fixed count of sample pairs, up to about two periods. Its reference starts anew at every block, centred on the block's
-//! middle, so there is no oscillator to run: the phase of the block is applied to its sums later, at block rate. Blocks need not
-//! fit the period, nor weights be exact: the window's solution takes exact sums of the weights as they are.
+//! middle, so there is no oscillator to run: the phase of the block is applied to its sums later, at block rate. Blocks need not fit the
+//! period, and weights need not be exact: the window's solution uses exact sums of the weights as they are.
 
 mod layout;
 mod runs;
@@ -24,13 +24,14 @@ pub type Pair = [f32; 2];
 pub struct Block<S: Sample> {
     /// Index in the stream of the block's first sample pair.
     pub start: u64,
-    /// Number of the search that found its wave, as [`Front::search_if_wanted`](crate::Front::search_if_wanted) was given it; 0 before.
+    /// Number of the search that found its wave, as given to [`Front::search_if_wanted`](crate::Front::search_if_wanted); 0 before the
+    /// first.
     pub search: u32,
     /// Reference frequency, length and scale.
     pub layout: Layout,
     /// Sums of S_C and of S_D.
     pub sums: [ChannelSums<S>; 2],
-    /// What was watched of S_C and of S_D, where it was.
+    /// What was watched of S_C and of S_D; `None` without the watch.
     pub watch: Option<[ChannelWatch<S>; 2]>,
 }
 
@@ -87,7 +88,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         }
     }
 
-    /// A demodulator for blocks of `length` pairs about the frequency `step`, which watches the samples or does not.
+    /// A demodulator for blocks of `length` pairs about the frequency `step`, which watches the samples if `watch` is true.
     ///
     /// Its first block starts at sample pair `start` of the stream. A length outside 1…`N` is clamped.
     pub fn new(step: PhaseStep, length: u16, start: u64, watch: bool) -> Self {
@@ -102,7 +103,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         self.summing.block.layout
     }
 
-    /// Takes one sample pair; gives the block that it finished.
+    /// Takes one sample pair; gives the block, if this finished one.
     #[must_use = "the next pair overwrites the block"]
     #[inline]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<&Block<S>> {

@@ -59,14 +59,14 @@ pub enum Form {
 /// | type | for | sums of a block |
 /// |---|---|---|
 /// | `f32` | any input unit | f32 |
-/// | `i16` | signed codes of up to 16 bits | i32, reference weights as large as cannot overflow |
+/// | `i16` | signed codes of up to 16 bits | i32, with the largest reference weights that cannot overflow |
 /// | `i32` | signed codes of up to 32 bits | i64 |
 ///
-/// With integers the input unit is the code; 24 bits in the upper ones of 32, as audio converters send them, are codes in steps of 256,
-/// which [`Settings::resolution`](crate::Settings::resolution) tells. All three reach the same accuracy: the reference's own rounding is part of the
-/// window's equations. Integers need no floating point at sample rate once the period is known.
+/// With integers the input unit is the code. Codes of 24 bits in the upper bits of 32, as audio converters send them, are in steps of 256:
+/// set [`Settings::resolution`](crate::Settings::resolution) to this. All three reach the same accuracy: the reference's own rounding is
+/// part of the window's equations. Integers need no floating point at sample rate once the period is known.
 ///
-/// No other type can be one: what the core does with them has no public path.
+/// No other type can be a sample: what the core does with samples has no public path.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no sample",
     label = "not `f32`, `i16` or `i32`",
@@ -90,17 +90,17 @@ impl Sample for i32 {}
 /// A `u32` is what a [`Packed`] holds: a DMA's buffer of words is taken as it is. A buffer of samples in turn, C, D, C, D, becomes pairs by
 /// `as_chunks::<2>().0`.
 ///
-/// No other type can be one. `I1F15` and `I1F31` are those of the crate `fixed`, with the feature of that name; a unit of the estimates
+/// No other type can be a pair. `I1F15` and `I1F31` are those of the crate `fixed`, with the feature of that name; a unit of the estimates
 /// is then 2⁻¹⁵ or 2⁻³¹.
 ///
 /// | there are | take |
 /// |---|---|
 /// | unsigned codes of up to 15 bits, as of a 12-bit converter | them as `i16`: the same numbers; in a DMA's buffer, as words `u32` |
 /// | unsigned codes of 16 bits | words `u32`, each `^ 0x8000_8000`, or `[u16; 2]` for `i32` and `f32` |
-/// | codes of 24 bits | `[i32; 2]`, with the sign carried to the upper bits, or left where they are in the upper ones of 32 |
+/// | codes of 24 bits | `[i32; 2]`, with the sign carried to the upper bits, or left as they are if in the upper bits of 32 |
 /// | a slice of S_C and one of S_D | [`Front::extend_separate`](crate::Front::extend_separate) |
 ///
-/// On a Cortex-M4F slices of `[i16; 2]` are read as words, aligned or not: where `CCR.UNALIGN_TRP` makes that a fault, take `Packed`, or align
+/// On a Cortex-M4F slices of `[i16; 2]` are read as words, aligned or not: if `CCR.UNALIGN_TRP` makes that a fault, take `Packed`, or align
 /// the buffer to 4 bytes.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no pair of samples `{S}`",
@@ -115,10 +115,10 @@ pub trait SamplePair<S>: Copy + sealed::Pair {
 
 /// A pair of 16-bit codes in one word, S_C in its low half: as a dual converter's DMA leaves it.
 ///
-/// Where a converter on SPI sends S_C first, in the high half of a word, turn that round: `Packed(word.rotate_left(16))`.
+/// If a converter on SPI sends S_C first, in the high half of a word, swap the halves: `Packed(word.rotate_left(16))`.
 ///
-/// The codes are signed. Unsigned ones of up to 15 bits are the same; of 16 bits, `word ^ 0x8000_8000` makes them signed, and the
-/// offsets of the estimates are then less by 32 768.
+/// The codes are signed. Unsigned codes of up to 15 bits are the same numbers; those of 16 bits are made signed by `word ^ 0x8000_8000`,
+/// and the offsets of the estimates are then less by 32 768.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(transparent)]
 pub struct Packed(pub u32);

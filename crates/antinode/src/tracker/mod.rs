@@ -31,7 +31,7 @@ const DETECTOR_UNCERTAINTY: f32 = 0.05;
 
 /// Cuts the stream of blocks into windows and tracks the wave over them. Holds up to `BLOCKS` blocks, 11 to 65 535.
 ///
-/// A window has as many blocks as periods at most, or 11 where that is more; `BLOCKS` is two more than the periods.
+/// A window has at most as many blocks as periods, or 11 if that is more; `BLOCKS` must be at least two more than the periods.
 ///
 /// It works at block rate and may run in thread context while blocks are gathered in an interrupt:
 /// [its place in firmware](crate#on-a-microcontroller).
@@ -72,7 +72,7 @@ pub struct Tracker<const BLOCKS: usize> {
 impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// A tracker without settings: it finds nothing until [`configure`](Self::configure) gives it some.
     ///
-    /// It is all zeros: as a static it takes no flash and is never on the stack, as what [`new`](Self::new) gives would be.
+    /// It is all zeros: as a static it takes no flash and is never on the stack, unlike the result of [`new`](Self::new).
     pub const UNSET: Self = Self::unset();
 
     /// In code, where the constant would be copied from flash.
@@ -105,7 +105,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
     }
 
-    /// A tracker that waits for its first block, with the settings that its [`Front`](crate::Front) has.
+    /// A tracker that waits for its first block, with the same settings as its [`Front`](crate::Front).
     ///
     /// # Errors
     ///
@@ -116,8 +116,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         Ok(tracker)
     }
 
-    /// Waits for its first block anew with other settings, in place: a new tracker in this one's place would take its size in stack. Where
-    /// it had settings before, it [wants](Self::wanted_search) a new search, and blocks from before are left out, if the front is
+    /// Waits for its first block anew with other settings, in place: to assign a new tracker would take its size in stack. If it had
+    /// settings before, it [wants](Self::wanted_search) a new search, and blocks from before are left out, provided that the front is
     /// configured [in the right order](crate#on-a-microcontroller). The angle begins at the start angle, without a flag.
     ///
     /// # Errors
@@ -253,26 +253,26 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Number of the search whose blocks it takes, for [`Front::search_if_wanted`](crate::Front::search_if_wanted): 0 at first. It counts
-    /// up, and wraps, where a new period must be searched: the first window showed no wave, or two in a row were [`Flags::LOST`] or did
-    /// not settle, or eight in a row held little of the wave beside all else, or samples in every block that lie further beyond the wave
-    /// than it is large. Windows that overlap count by the blocks they move on.
+    /// up, and wraps, when a new period must be searched for: when the first window showed no wave, or two in a row were [`Flags::LOST`] or
+    /// did not settle, or eight in a row held little of the wave beside all else, or had samples in every block that lie beyond the wave by
+    /// more than its amplitude. Overlapping windows count by the blocks they move on.
     ///
-    /// Hand it on after every block, for a first window without a wave gives no estimate, and after [`configure`](Self::configure) and
+    /// Hand it on after every block, as a first window without a wave gives no estimate, and also after [`configure`](Self::configure) and
     /// [`search`](Self::search).
     #[must_use = "a lost wave is found again only by a search"]
     pub fn wanted_search(&self) -> u32 {
         self.wanted
     }
 
-    /// Drops the wave and the blocks gathered, but not the angle, and wants a new search, as is done by itself where the wave is lost: the
-    /// angle found there is the one nearest to the last.
+    /// Drops the wave and the blocks gathered, but not the angle, and wants a new search, as the tracker does by itself when the wave is
+    /// lost: the angle found then is the one nearest to the last.
     pub fn search(&mut self) {
         self.forget();
         self.wanted = self.wanted.wrapping_add(1);
     }
 
-    /// True from the first window that shows a wave to the first that shows none. Where a frequency is known and the wave is elsewhere, or
-    /// there is none, no estimate, flag or search tells: this stays false.
+    /// True from the first window that shows a wave to the first that shows none. If the frequency is known, but the wave is at another or
+    /// there is none, no estimate, flag or search tells of it; only this stays false.
     pub fn has_wave(&self) -> bool {
         self.found
     }
@@ -284,8 +284,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.found = false;
     }
 
-    /// Changes the calibration: the next block starts a new first window, flagged [`Flags::REACQUIRED`], its angle continued. The front
-    /// goes on as it is.
+    /// Changes the calibration: the next block starts a new first window, which is flagged [`Flags::REACQUIRED`] and continues the angle.
+    /// The front goes on as it is.
     ///
     /// # Errors
     ///
@@ -297,10 +297,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         })
     }
 
-    /// Changes the settings, all but the start angle: the next block starts a new first window, flagged [`Flags::REACQUIRED`], its angle
-    /// continued. [`configure`](Self::configure) begins with the start angle instead, and comes first: where it did not, the angle begins at 0.
+    /// Changes all settings but the start angle: the next block starts a new first window, which is flagged [`Flags::REACQUIRED`] and
+    /// continues the angle. [`configure`](Self::configure) begins with the start angle instead, and must come first: otherwise the angle
+    /// begins at 0.
     ///
-    /// The front needs the same `sample_rate`, `frequency`, `periods`, `hop`, `detection` and `watch`; where it is configured anew,
+    /// The front needs the same `sample_rate`, `frequency`, `periods`, `hop`, `detection` and `watch`; if it is configured anew, call
     /// [`search`](Self::search) here too, [in the right order](crate#on-a-microcontroller), so that blocks from before are left out.
     ///
     /// # Errors

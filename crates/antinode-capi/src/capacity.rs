@@ -5,18 +5,18 @@ use core::mem::{align_of, size_of};
 
 use crate::state::State;
 
-/// The shortest period that is searched, sample pairs. Where no frequency is known, a wave outside this and ANTINODE_LONGEST_PERIOD
-/// is not found, unless sampling folds it to a period within: no estimate, no flag and no status tells, only `has_wave` of
-/// antinode_health_t, which stays 0. Watch it.
+/// The shortest period that is searched for, sample pairs. If no frequency is given, a wave whose period is not between this and
+/// ANTINODE_LONGEST_PERIOD is not found, unless sampling folds it to one that is: no estimate, no flag and no status tells, only `has_wave`
+/// of antinode_health_t, which stays 0. Watch it.
 pub const ANTINODE_SHORTEST_PERIOD: usize = 4;
 /// The longest period, sample pairs.
 pub const ANTINODE_LONGEST_PERIOD: usize = 200;
 /// The most periods a window may have.
 pub const ANTINODE_MOST_PERIODS: usize = 50;
-/// Finished blocks that the queue holds, the one being solved among them. A block is two periods, or a fifth of a window where that is
-/// less; where there is a hop, half of it; at most ANTINODE_LONGEST_PERIOD sample pairs; or a little less, so that whole blocks fit a
-/// window. No more than 15 blocks should be finished between two calls of a `_solve` function, nor by one call of a `_push_block`
-/// function: of 18.75 samples a period 540 pairs in windows of ten periods and more, but 90 in windows of two.
+/// Finished blocks that the queue holds, including the one being solved. A block is two periods, or a fifth of a window if that is less;
+/// half of this with a hop; at most ANTINODE_LONGEST_PERIOD sample pairs; and perhaps a little less, so that whole blocks fit a window. No
+/// more than 15 blocks should be finished between two calls of a `_solve` function, nor by one call of a `_push_block` function: at 18.75
+/// samples a period these are 540 pairs in windows of ten periods and more, but 90 in windows of two.
 pub const ANTINODE_QUEUE_BLOCKS: usize = 16;
 
 /// Blocks of the ring that windows are cut from: a little more than the periods of a window.

@@ -4,11 +4,11 @@ use antinode::Flags;
 
 // With the type at the number: the header's constants are then unsigned, and `flags & ~ANTINODE_FLAG_…` is too.
 
-/// Samples at the converter's rail, or the third harmonic that a limiter leaves: amplitudes are wrong.
+/// Samples at the converter's rail, or flattened crests, or the third harmonic that a limiter leaves: amplitudes are wrong.
 pub const ANTINODE_FLAG_CLIPPED: u32 = 0x001_u32;
 /// No significant wave: no number of the estimate means anything, and some may be NaN or infinite.
 pub const ANTINODE_FLAG_LOST: u32 = 0x002_u32;
-/// The phase does not continue that of the last window without a misfit: samples are missing between or within them.
+/// The phase does not continue that of the last window without a misfit: samples are missing between the two windows or within one.
 pub const ANTINODE_FLAG_PHASE_JUMP: u32 = 0x004_u32;
 /// Amplitude, angle or offset stepped between the window before and this one.
 pub const ANTINODE_FLAG_STEP: u32 = 0x008_u32;
@@ -16,15 +16,15 @@ pub const ANTINODE_FLAG_STEP: u32 = 0x008_u32;
 pub const ANTINODE_FLAG_CIRCULAR: u32 = 0x010_u32;
 /// The samples are not one wave with steady rates plus noise: a step, a dropout, a second tone within the window.
 pub const ANTINODE_FLAG_MISFIT: u32 = 0x020_u32;
-/// A pick-off gave one and the same value, or lost its wave while the other kept it: half of those that showed 25 deviations of an
-/// amplitude are seen, and all of 35. After a new search a dead one cannot be told from a pattern on the other's axis, and is not
-/// flagged.
+/// A pick-off gave one and the same value, or lost its wave while the other kept it. Half of such losses are seen if the wave lost was 25
+/// deviations of an amplitude, and all if it was 35. After a new search a dead pick-off looks like a pattern on the other's axis, and is
+/// not flagged.
 pub const ANTINODE_FLAG_DEAD_CHANNEL: u32 = 0x040_u32;
-/// First window after the wave was lost, or after a gap in which the pattern may have turned unseen: the angle is known modulo π/2
-/// only. Also the first window after a new calibration, unless it is the first of all. It stands up to the first window without a misfit,
-/// and later windows continue that one's angle.
+/// First window after the wave was lost, or after a gap or misfits in which the pattern may have turned unseen: the angle is known modulo
+/// π/2 only. Also the first window after a new calibration, unless it is the first of all. The flag stands up to and in the first window
+/// without a misfit, whose angle later windows continue.
 pub const ANTINODE_FLAG_REACQUIRED: u32 = 0x080_u32;
-/// A sample that is no finite number, or one so large that its sums are none.
+/// A sample is NaN or infinite, or so large that its sums are not finite.
 pub const ANTINODE_FLAG_NOT_FINITE: u32 = 0x100_u32;
 
 /// The bits that the header names are those of the core, and all of them.
@@ -57,7 +57,7 @@ pub struct Estimate {
     pub start: u64,
     /// Time of the window's middle, s from the stream's first sample.
     pub time_s: f64,
-    /// Pattern angle θ, rad, continuous from window to window from the chosen start.
+    /// Pattern angle θ, rad: it begins near the start angle, and is continued from window to window.
     pub angle_rad: f64,
     /// Resonant frequency f, Hz.
     pub frequency_hz: f64,
@@ -93,8 +93,8 @@ pub struct Estimate {
     pub angle_rate_std_rad_s: f32,
     /// Standard deviation of the decay rate, 1/s.
     pub decay_rate_std_s: f32,
-    /// Rms of what the wave does not explain, a sample and channel, input units: the noise when it is white. Of S_D as it came: before
-    /// `gain_ratio` is applied.
+    /// Rms of what the wave does not explain, per sample and channel, input units: it equals the noise if that is white. S_D counts as it
+    /// came: before `gain_ratio` is applied.
     pub residual_rms: f32,
     /// Always 0: the struct ends at a multiple of eight bytes on every machine.
     pub reserved: u32,

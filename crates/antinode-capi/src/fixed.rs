@@ -16,10 +16,10 @@ use crate::settings::{Calibration, Settings};
 use crate::state::Health;
 use crate::status::Status;
 
-/// Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised.
-/// Before anything else; neither side may run, but an interrupt of the same core may break in: ANTINODE_ERROR_NOT_INITIALISED tells
-/// it that its pairs were not taken. To go on with other settings make it ready anew, with `start_angle_rad` the last angle and
-/// `frequency_hz` the last frequency: no search is needed then; times begin at 0 again.
+/// Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised. Call it before
+/// anything else, and while neither side runs; only an interrupt of the same core may break in: ANTINODE_ERROR_NOT_INITIALISED tells it
+/// that its pairs were not taken. To go on with other settings call it again, with `start_angle_rad` the last angle and `frequency_hz` the
+/// last frequency: no search is needed then; times begin at 0 again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_init(
     state: *mut Fixed,
@@ -28,7 +28,7 @@ pub unsafe extern "C" fn antinode_fixed_init(
     boundary::init::<i16, _>(state, settings)
 }
 
-/// Makes a state as it was after its initialisation, with its present calibration. Otherwise as the initialisation.
+/// Makes a state as it was after its initialisation, but with its present calibration. When it may be called is as for the initialisation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_reset(state: *mut Fixed) -> Status {
     boundary::reset::<i16, _>(state)
@@ -53,8 +53,8 @@ pub unsafe extern "C" fn antinode_fixed_push_block(
 }
 
 /// Interrupt side. Takes `count` sample pairs from one array of 2 × `count` samples, C and D in turn, converter codes. Answers as
-/// antinode_fixed_push(). Pairs are read as words: where the core traps unaligned ones (CCR.UNALIGN_TRP), `samples` must begin at a
-/// multiple of four bytes.
+/// antinode_fixed_push(). Pairs are read as words: if the core traps unaligned words (CCR.UNALIGN_TRP), `samples` must begin at a multiple
+/// of four bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_push_block_interleaved(
     state: *mut Fixed,
@@ -76,16 +76,16 @@ pub unsafe extern "C" fn antinode_fixed_push_block_packed(
     boundary::push_words(state, words, count)
 }
 
-/// Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is
-/// dropped, and time goes on. After a gap so long that the turning of the pattern is known no better than to 0.13 rad, one standard deviation, the
+/// Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is dropped,
+/// and time goes on. After a gap so long that the turning of the pattern is known no better than to 0.13 rad (one standard deviation), the
 /// angle is known modulo π/2 only: ANTINODE_FLAG_REACQUIRED says so.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_skip(state: *mut Fixed, count: u32) -> Status {
     boundary::skip::<i16, _>(state, count)
 }
 
-/// Thread side. Solves finished blocks up to the next estimate: ANTINODE_ESTIMATE when one was written, and then there may be
-/// more; ANTINODE_OK when no block is left, and then `estimate` is as it was. A lost wave is searched anew by itself.
+/// Thread side. Solves finished blocks up to the next estimate: ANTINODE_ESTIMATE when one was written, and then there may be more;
+/// ANTINODE_OK when no block is left, and then `estimate` is unchanged. A lost wave is searched for anew without a call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_solve(
     state: *mut Fixed,
@@ -116,9 +116,9 @@ pub unsafe extern "C" fn antinode_fixed_health(state: *const Fixed, health: *mut
     boundary::health::<i16, _>(state, health)
 }
 
-/// Both sides in one call, where there is no interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a
-/// window, and writes how many to `taken`. ANTINODE_ESTIMATE when a window ended and its estimate was written; ANTINODE_OK when all
-/// `count` pairs were taken without one. Call it again with the rest. `samples` as for antinode_fixed_push_block_interleaved().
+/// Both sides in one call, for use without an interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a window, and
+/// writes how many to `taken`. ANTINODE_ESTIMATE when a window ended and its estimate was written; ANTINODE_OK when all `count` pairs were
+/// taken without one. Call it again with the rest. `samples` as for antinode_fixed_push_block_interleaved().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_identify(
     state: *mut Fixed,

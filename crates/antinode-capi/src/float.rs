@@ -16,10 +16,10 @@ use crate::settings::{Calibration, Settings};
 use crate::state::Health;
 use crate::status::Status;
 
-/// Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised.
-/// Before anything else; neither side may run, but an interrupt of the same core may break in: ANTINODE_ERROR_NOT_INITIALISED tells
-/// it that its pairs were not taken. To go on with other settings make it ready anew, with `start_angle_rad` the last angle and
-/// `frequency_hz` the last frequency: no search is needed then; times begin at 0 again.
+/// Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised. Call it before
+/// anything else, and while neither side runs; only an interrupt of the same core may break in: ANTINODE_ERROR_NOT_INITIALISED tells it
+/// that its pairs were not taken. To go on with other settings call it again, with `start_angle_rad` the last angle and `frequency_hz` the
+/// last frequency: no search is needed then; times begin at 0 again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_float_init(
     state: *mut Float,
@@ -28,7 +28,7 @@ pub unsafe extern "C" fn antinode_float_init(
     boundary::init::<f32, _>(state, settings)
 }
 
-/// Makes a state as it was after its initialisation, with its present calibration. Otherwise as the initialisation.
+/// Makes a state as it was after its initialisation, but with its present calibration. When it may be called is as for the initialisation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_float_reset(state: *mut Float) -> Status {
     boundary::reset::<f32, _>(state)
@@ -75,16 +75,16 @@ pub unsafe extern "C" fn antinode_float_push_block_packed(
     boundary::push_pairs::<f32, _, _>(state, words.cast::<antinode::Packed>(), count)
 }
 
-/// Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is
-/// dropped, and time goes on. After a gap so long that the turning of the pattern is known no better than to 0.13 rad, one standard deviation, the
+/// Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is dropped,
+/// and time goes on. After a gap so long that the turning of the pattern is known no better than to 0.13 rad (one standard deviation), the
 /// angle is known modulo π/2 only: ANTINODE_FLAG_REACQUIRED says so.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_float_skip(state: *mut Float, count: u32) -> Status {
     boundary::skip::<f32, _>(state, count)
 }
 
-/// Thread side. Solves finished blocks up to the next estimate: ANTINODE_ESTIMATE when one was written, and then there may be
-/// more; ANTINODE_OK when no block is left, and then `estimate` is as it was. A lost wave is searched anew by itself.
+/// Thread side. Solves finished blocks up to the next estimate: ANTINODE_ESTIMATE when one was written, and then there may be more;
+/// ANTINODE_OK when no block is left, and then `estimate` is unchanged. A lost wave is searched for anew without a call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_float_solve(
     state: *mut Float,
@@ -115,9 +115,9 @@ pub unsafe extern "C" fn antinode_float_health(state: *const Float, health: *mut
     boundary::health::<f32, _>(state, health)
 }
 
-/// Both sides in one call, where there is no interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a
-/// window, and writes how many to `taken`. ANTINODE_ESTIMATE when a window ended and its estimate was written; ANTINODE_OK when all
-/// `count` pairs were taken without one. Call it again with the rest.
+/// Both sides in one call, for use without an interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a window, and
+/// writes how many to `taken`. ANTINODE_ESTIMATE when a window ended and its estimate was written; ANTINODE_OK when all `count` pairs were
+/// taken without one. Call it again with the rest.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_float_identify(
     state: *mut Float,

@@ -8,8 +8,8 @@
 //! A state holds a [`Front`](antinode::Front) for the interrupt, a [`Tracker`](antinode::Tracker) for the thread, and between
 //! them a queue of finished blocks that needs no lock. Memory is the caller's; nothing here allocates, calls back, or keeps a global.
 //!
-//! Where this is built with `panic = "abort"` (always on bare metal, and in the profile `capi` on a PC) it is `no_std` and holds
-//! no panic: nothing in it can reach the handler below, and `check` looks whether the linker agrees.
+//! Built with `panic = "abort"` (always on bare metal, and in the profile `capi` on a PC), it is `no_std` and holds no panic: nothing in it
+//! can reach the handler below, and `check` makes sure that the linker agrees.
 #![cfg_attr(any(target_os = "none", panic = "abort"), no_std)]
 
 mod boundary;

@@ -5,7 +5,8 @@ use core_crate::Calibration as CoreCalibration;
 
 use crate::status::Status;
 
-/// The period is found by the squared difference, in about three periods, at offsets of up to 100 amplitudes, at 20 % noise and more.
+/// The period is found by the squared difference, in about three periods, with offsets of up to 100 amplitudes, and with noise of 20 % and
+/// more.
 pub const ANTINODE_DETECTION_DIFFERENCE: u32 = 0_u32;
 /// The period is found by the return of the running sum, in about eleven periods, for signals with little noise.
 pub const ANTINODE_DETECTION_MEAN_RETURN: u32 = 1_u32;
@@ -16,8 +17,8 @@ pub const ANTINODE_DETECTION_MEAN_RETURN: u32 = 1_u32;
 pub struct Calibration {
     /// Gain of channel D over that of channel C. 0.1 to 10; 1 is ideal.
     pub gain_ratio: f32,
-    /// How much later than C channel D is sampled, s. Within ±0.001; 0 is ideal. Beyond a tenth of a window what the uncertain
-    /// frequency makes of it is not in the stated deviations.
+    /// How much later than C channel D is sampled, s. Within ±0.001; 0 is ideal. If it is more than a tenth of a window, the uncertainty of
+    /// the frequency adds to those of a_B and the angle, and the stated deviations do not include it.
     pub skew_s: f32,
     /// Pick-off D stands at 45° plus this angle from C, rad. Within ±0.3; 0 is ideal.
     pub pick_off_angle_rad: f32,
@@ -29,41 +30,43 @@ pub struct Calibration {
 pub struct Settings {
     /// Sample rate, Hz. 1 to 1e10.
     pub sample_rate_hz: f64,
-    /// Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10. Of whole blocks, which are of whole samples: up to a tenth off,
-    /// and more for a known frequency of few samples a period, such as 2.31 periods for 2 of 2.6 samples.
+    /// Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10. A window is a whole number of blocks, and a block of samples,
+    /// so its length may be up to a tenth off, and more if a known frequency has few samples a period: 2 periods of 2.6 samples become
+    /// 2.31.
     pub periods: u32,
     /// Blocks from the start of one window to the start of the next; a block is then about a period, or a tenth of a window of less than
-    /// ten periods, rounded to whole samples: of short periods 0.9 to 1.25. 1 to 65535; 0, the default, and not the number of periods,
-    /// makes windows follow each other without gap or overlap.
+    /// ten periods, rounded to whole samples: 0.9 to 1.25 periods if these are short. 1 to 65535. For windows that follow each other
+    /// without gap or overlap give 0, the default, not the number of periods.
     pub hop_blocks: u32,
     /// The first window's angle is chosen within π/4 of this one, rad. Within ±10000, so take whole turns off a greater one; default π/4,
-    /// which puts it in 0…π/2.
+    /// which puts the first angle in 0…π/2.
     pub start_angle_rad: f32,
     /// The least sample that the converter gives, input units: at or below it a window is flagged as clipped. Default 0,
     /// which is that of a converter with unsigned codes.
     pub rail_low: f32,
     /// The greatest sample that the converter gives, input units, above `rail_low`: 4095 for 12 bits. Both 0, the default: not known.
     pub rail_high: f32,
-    /// Step between neighbouring codes of the converter, input units, > 0: its share counts in the standard deviations. 0, the
-    /// default: not known.
+    /// Step between neighbouring codes of the converter, input units, > 0: standard deviations then include its share. 0, the default: not
+    /// known.
     pub resolution: f32,
-    /// The wave's frequency, Hz, within 5 % all the time, where it is known: it is then not searched, at first or later, and the first window
-    /// begins with the first sample. `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5; 0, the default: the period is found as `detection` says.
+    /// The wave's frequency, Hz, if it is known, and stays so, within 5 %: it is then never searched for, and the first window begins with
+    /// the first sample. `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5; 0, the default: the period is found as `detection` says.
     pub frequency_hz: f32,
     /// How the period is found: ANTINODE_DETECTION_DIFFERENCE, the default, or ANTINODE_DETECTION_MEAN_RETURN.
     pub detection: u32,
-    /// 1, the default: the third harmonic and the extremes of the samples are watched: without, ANTINODE_FLAG_CLIPPED is never set,
-    /// ANTINODE_FLAG_DEAD_CHANNEL only where a wave goes, and ANTINODE_FLAG_MISFIT of a second tone or a wave elsewhere hardly
-    /// ever. 0: not, which about halves the work at sample rate.
+    /// 1, the default: the third harmonic and the extremes of the samples are watched. 0: not, which about halves the work at sample rate;
+    /// ANTINODE_FLAG_CLIPPED is then never set, ANTINODE_FLAG_DEAD_CHANNEL only when a wave is lost, and ANTINODE_FLAG_MISFIT hardly ever
+    /// for a second tone or a wave at another frequency.
     pub watch: u32,
     /// How the pick-offs differ from ideal ones. Default: not at all.
     pub calibration: Calibration,
-    /// 1 where the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what
-    /// only moves an offset is neither noise nor a fault. Windows must have 5 periods for it, or 10 with a hop. 0, the default: not.
+    /// 1 if the signals carry hum or another slow wander: each block, of a period or more, then has an offset of its own, and what only
+    /// moves an offset is neither noise nor a fault. Windows must have at least 5 periods for it, or 10 with a hop. 0, the default: not.
     pub hum: u32,
-    /// 1 where the noise is not white: a tuned front end, or a filter that ends below three times the frequency, leaves less than a
-    /// sixteenth of its power there. That is no fault then, and blocks have offsets of their own as with `hum`. Of what is in every window
-    /// nothing is told: a second tone counts as noise, and so does a fault in the first window. 0, the default: not.
+    /// 1 if the noise is not white. Behind a tuned front end, or a filter that ends below three times the frequency, noise there has less
+    /// than a sixteenth of its power about the wave: with this setting that is no fault, and blocks have offsets of their own as with
+    /// `hum`. In return, what is in every window is not flagged: a second tone counts as noise, and so does a fault in the first window. 0,
+    /// the default: not.
     pub coloured: u32,
 }
 

@@ -59,10 +59,10 @@ pub(crate) struct Thread {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(C)]
 pub struct Health {
-    /// 1 while a period is searched, 0 while blocks are gathered; always 0 where `frequency_hz` is known.
+    /// 1 while a period is searched for, 0 while blocks are gathered; always 0 if `frequency_hz` is given.
     pub searching: u32,
-    /// 1 from the first window that shows a wave, when it is solved, to the first that shows none. Where it stays 0 there is no wave, or
-    /// none within the periods that are searched, or none at the frequency that is known: nothing else tells.
+    /// 1 from the moment that the first window that shows a wave is solved, to the first that shows none. If it stays 0 there is no wave,
+    /// or none within the periods that are searched for, or none at the frequency given: nothing else tells.
     pub has_wave: u32,
     /// Finished blocks that wait to be solved, 0 to ANTINODE_QUEUE_BLOCKS.
     pub waiting: u32,

@@ -9,7 +9,7 @@ use crate::capacity::ANTINODE_MOST_PERIODS;
 // The text of ErrorPeriods has the number.
 const _: () = assert!(ANTINODE_MOST_PERIODS == 50);
 
-/// What a function answers: from zero on it was done, below zero nothing was.
+/// What a function answers: zero or above, it was done; below zero, nothing was.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(i32)]
 pub enum Status {
@@ -19,14 +19,14 @@ pub enum Status {
     Ready = 1,
     /// Done, and an estimate was written.
     Estimate = 2,
-    /// Done, and blocks wait as after ANTINODE_READY; but the queue was full and at least one finished block was dropped, a gap as by a
-    /// `_skip` function: call `_solve` more often, or push fewer pairs at once, see ANTINODE_QUEUE_BLOCKS.
+    /// Done, and blocks wait as after ANTINODE_READY; but the queue was full and at least one finished block was dropped, which leaves a
+    /// gap as a `_skip` function does: call `_solve` more often, or push fewer pairs at once, see ANTINODE_QUEUE_BLOCKS.
     Dropped = 3,
     /// A pointer is NULL.
     ErrorNull = -1,
     /// A pointer is not aligned as its type demands.
     ErrorAlignment = -2,
-    /// The state was never initialised, its last `_init` failed, or it is one of the other arithmetic.
+    /// The state was never initialised, its last `_init` failed, or it is a state of the other arithmetic.
     ErrorNotInitialised = -3,
     /// An array would be larger than the address space.
     ErrorCount = -4,
@@ -162,8 +162,8 @@ pub extern "C" fn antinode_status_string(status: i32) -> *const c_char {
 /// The version of this header: major × 65536 + minor × 256 + patch.
 pub const ANTINODE_VERSION: u32 = 0x00_0100_u32;
 
-/// The version of the library that is linked: must equal ANTINODE_VERSION, or header and library are not of one kind and sizes
-/// may differ. May be called from anywhere.
+/// The version of the library that is linked. It must equal ANTINODE_VERSION: otherwise header and library do not belong together, and
+/// sizes may differ. May be called from anywhere.
 #[allow(unsafe_code, reason = "`no_mangle` is an unsafe attribute")]
 #[unsafe(no_mangle)]
 pub extern "C" fn antinode_version() -> u32 {

@@ -71,8 +71,9 @@ pub enum Command {
     /// pattern. Give ring-downs that turn both ways: if all turn one way, flaws that a calibration leaves look like splits.
     ///
     /// If a shell's stiffness depends on the amplitude, its pattern turns in proportion to a_A·a_B and its frequency moves with a_A² +
-    /// a_B²: both are printed if they exceed their noise, the former by three deviations, per input unit squared. The latter allows for a drift with time, as with temperature,
-    /// unless none is seen and the turning agrees; if it may be a drift, a line says so instead.
+    /// a_B²: both are printed, per input unit squared, if they exceed their noise, the former by three deviations. The deviation of the
+    /// latter allows for a drift with time, as with temperature, unless none is seen and the turning agrees; if the latter may be a drift,
+    /// a line says so instead.
     ///
     /// Deviations are those of noise. They do not include nonlinearity of pick-offs or converter, which looks like damping that depends on
     /// the amplitude: a cubic part of 1e-4 S³ shortens the decay time of a wave of a_A = 0.8 by 2e-5 of itself in a recording of four decay

@@ -64,8 +64,8 @@ Quantities of CSV and JSON lines, their units, and those of their deviations:
   highest_at_rad               rad
   turning_by_amplitudes_rad_s  rad/s, at a_A·a_B of one unit of the samples squared
 
-What is of one run has its number in `run`, its recording in `file`, and the times of its rows in `from_s` and `to_s`. Residuals near 1
-are noise, 1.01 in windows of ten periods, whose deviations are estimates too; where one is larger, something else moves in that run.";
+Quantities of one run have its number in `run`, its recording in `file`, and the times of its rows in `from_s` and `to_s`. Residuals
+near 1 (1.01 in windows of ten periods, whose deviations are estimates too) are noise; if one is larger, something else moves in that run.";
 
 /// A quantity of the resonator, or of one run.
 pub struct Quantity {

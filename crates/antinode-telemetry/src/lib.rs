@@ -24,7 +24,7 @@
 //! * The device sends [`Report::Hello`] at its start as number 0, on [`Command::Get`], and after each change of its configuration.
 //! * The device answers every command with [`Report::Acknowledgement`] and the command's id: after the Hello if it sends one, before it
 //!   restarts if it is to restart.
-//! * All else is sent when it happens; [`Report::Counters`] about once a second, and soon where blocks or pairs were lost.
+//! * All else is sent when it happens; [`Report::Counters`] about once a second, and soon after blocks or pairs were lost.
 //!
 //! # Example
 //!

@@ -1,8 +1,8 @@
 //! Re-gridding: a stream is low-passed and resampled to a grid that fits the wave's period, as the paper advises after (10).
 //!
-//! On the new grid a window of whole periods is a whole number of samples, so condition (8) holds, and where their number a period
-//! divides by 4 the quarter-period delay of algorithm 2 is one too. It stands in front of any method; the
-//! [`Tracker`](crate::Tracker), whose sums are exact on any grid, needs it only for the filter.
+//! On the new grid a window of whole periods is a whole number of samples, so condition (8) holds, and if the number of samples a period
+//! divides by 4, so is the quarter-period delay of algorithm 2. It stands in front of any method; the [`Tracker`](crate::Tracker), whose
+//! sums are exact on any grid, needs it only for the filter.
 //!
 //! Each output is one product with a row of filter taps, a windowed sinc whose response at the wave's own frequency is made exactly 1;
 //! rows stand at 64 places between two samples, with straight lines between them. The wave itself passes with an error below
@@ -98,7 +98,7 @@ impl<const TAPS: usize> Regrid<TAPS> {
     ///
     /// # Errors
     ///
-    /// The first value, or `TAPS`, that cannot be.
+    /// The first value, or `TAPS`, that is not allowed.
     pub fn new(period: f32, per_period: u16, cut_off: f32) -> Result<Self, RegridError> {
         let step = Self::step_of(period, per_period)?;
         // Above half of either rate there is nothing to pass.

@@ -70,8 +70,8 @@ const AXES: usize = 2;
 pub struct Sums {
     /// Second moments.
     pub moments: Moments,
-    /// Delayed products, as many as the window has pairs: the first of them reach back to the pairs before it. The conditions (17) and
-    /// (20) fail without reason where they are of other pairs.
+    /// Delayed products, as many as the window has pairs: the first of them reach back to the pairs before it. If they are of other pairs,
+    /// the conditions (17) and (20) fail without reason.
     pub delayed: Delayed,
     /// Products with the reference, at the wave's frequency.
     pub products: Products,

@@ -1,7 +1,7 @@
 //! The paper's four methods, each a pure function of a window's sums, and what they share.
 //!
-//! The paper advises running all four side by side, ranked, and showing the operator all of them, as they treat noise differently.
-//! Where they part company beyond noise, something is wrong. This module is for that, and for its study. The identification itself,
+//! The paper advises running all four side by side, ranked, and showing the operator all of them, as they treat noise differently. Where
+//! they part company beyond noise, something is wrong. This module is for that, and for the paper's study. The identification itself,
 //! [`Tracker`](crate::Tracker), needs none of it.
 //!
 //! | sums of a window | gathered by | a sample costs | used by |

@@ -55,7 +55,7 @@ impl Moments {
 /// | `S` | a pair costs | |
 /// |---|---|---|
 /// | `f32` | 3 multiplications, 14 additions | \|sample\| up to 10¹⁵ over 10⁶ pairs stays in range |
-/// | `i16` | 3 multiply-accumulates | exact, but for offsets, which are rounded to whole codes within −32 768 to 32 767, as samples less offsets are: what is left of them adds at most ¼ code² to a mean, where the converter's own steps add 1/12; up to 2³² pairs a window |
+/// | `i16` | 3 multiply-accumulates | exact, except that offsets are rounded to whole codes; they, and samples less offsets, are limited to −32 768 to 32 767. What is left of the offsets adds at most ¼ code² to a mean, where the converter's own steps add 1/12; up to 2³² pairs a window |
 /// | `i32` | as `f32` | codes are rounded to 24 bits |
 #[derive(Debug, Clone)]
 pub struct MomentSums<S: Sample = f32> {

@@ -8,7 +8,7 @@ use crate::estimate::Estimate;
 pub struct Noise {
     /// ⟨n_C²⟩, ⟨n_D²⟩ and ⟨n_C n_D⟩.
     pub moments: [f64; 3],
-    /// ⟨n_D(t) n_D(t − t₃)⟩: 0, but where S_D was made from samples that lie t₃ apart.
+    /// ⟨n_D(t) n_D(t − t₃)⟩: 0, unless S_D was made from samples that lie t₃ apart.
     pub delayed: f64,
 }
 

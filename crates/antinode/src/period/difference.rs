@@ -49,14 +49,14 @@ impl<S: Sample> Candidate<S> {
 
 /// The streaming detector of formula (10): periods of 4 to 200 samples, from cold, with offsets of up to 100 a_A.
 ///
-/// Work a sample: ten lags of an octave, on average of two octaves, and a few samples of a trial while there is a candidate; it is
-/// done in integers on codes, but for the trial. White noise is taken for a wave with a chance of 3·10⁻⁸ a frame, and codes are never
-/// taken to leave less than their own rounding. In steps, in f32 or of several codes, noise of less than half a step has but a few
-/// values: it is taken for one some 3·10⁻⁶ times a pair, and the first window tells that it is none. A wave of a dozen codes is found a
-/// third of a period later than a greater one; one of four may not be found at all, nor one of eight in i32. A wave in 20 % noise is
-/// found within three periods on average and 6.5 at the latest, one with a tone of 20 % beside it within five, and never at a fraction or
-/// a multiple of its period. What looks like a wave for ever and is none, as two tones do, is looked at less often after five trials: it
-/// takes at most 2.4 times the work of a wave, and one that begins then is found as soon but for a fraction of a period.
+/// Work a sample: ten lags in each of two octaves on average, and a few samples of a trial while there is a candidate; on codes all but the
+/// trial is done in integers. White noise is taken for a wave with a chance of 3·10⁻⁸ a frame, and codes are never taken to leave less than
+/// their own rounding. If samples come in steps, in f32 or of several codes, noise of less than half a step has but a few values: it is
+/// taken for a wave some 3·10⁻⁶ times a pair, and the first window tells that it is none. A wave of a dozen codes is found a third of a
+/// period later than a greater one; one of four may not be found at all, nor one of eight in i32. A wave in 20 % noise is found within
+/// three periods on average and 6.5 at the latest, one with a tone of 20 % beside it within five, and never at a fraction or a multiple of
+/// its period. A signal that looks like a wave for ever but is none, such as two tones, is looked at less often after five trials: it takes
+/// at most 2.4 times the work of a wave, and a wave that begins then is found at most a fraction of a period later.
 #[derive(Debug, Clone)]
 pub struct DifferenceDetector<S: Sample> {
     octaves: [Octave<S>; OCTAVES],

@@ -1,4 +1,4 @@
-//! The period of a wave from cold, formulas (9) and (10): what a [`Front`](crate::Front) searches with, to be used by itself too.
+//! The period of a wave from cold, formulas (9) and (10): what a [`Front`](crate::Front) searches with; it can be used by itself too.
 //!
 //! # Example
 //!

@@ -1,5 +1,5 @@
-//! Everything that an owner of another gyro may want to change, in one place, with units. What cannot be does not compile, and the
-//! compiler says what could.
+//! Everything that an owner of another gyro may want to change, in one place, with units. Values that are not allowed do not compile, and
+//! the compiler says what is.
 
 use antinode::{Calibration, Settings, SettingsError};
 use antinode_telemetry::{Configuration, FrontEnd, MAX_FRAME};
@@ -21,7 +21,7 @@ pub const SAMPLE_RATE: u32 = 100_000;
 pub const PERIODS: u16 = 10;
 /// Blocks from window to window at the start; `None`: windows follow each other.
 pub const HOP: Option<u16> = None;
-/// The wave's frequency, Hz, within 5 %, where it need not be searched; `None`: it is.
+/// The wave's frequency, Hz, if it is known within 5 %, so that it need not be searched for; `None`: it is searched for.
 pub const FREQUENCY: Option<f32> = None;
 /// Whether the signals carry mains hum, or an offset that wanders.
 pub const HUM: bool = false;
@@ -36,15 +36,16 @@ pub const HALF: usize = 128;
 pub const LONGEST_PERIOD: usize = 200;
 /// Blocks that the tracker holds: two more than the periods of the longest window.
 pub const RING: usize = 24;
-/// Blocks that may wait for the main loop, and one more; 72 bytes each. A power of two: the interrupt divides by it. It hands over those of
-/// `HALF` pairs at once, of 2 pairs each at the shortest; of 1, with a hop within windows of 2 periods of fewer than 7.5 samples, one of
-/// 128 is dropped. Those of 6 pairs and more outlast the 5 ms that methods take of the main loop. What is dropped is counted.
+/// Blocks that may wait for the main loop, and one more; 72 bytes each. A power of two: the interrupt divides by it. It hands over the
+/// blocks of `HALF` pairs at once, for which there is room if a block has 2 pairs or more; if it has 1, as with a hop in windows of 2
+/// periods of fewer than 7.5 samples, one block of 128 is dropped. Blocks of 6 pairs and more may wait out the 5 ms that methods take of
+/// the main loop. What is dropped is counted.
 pub const QUEUE: usize = 128;
 /// Requests that may wait for the interrupt, and one more.
 pub const REQUESTS: usize = 4;
-/// Bytes that may wait for the line: a dozen estimates of 110 bytes, 14 ms, and what goes before them. Six frames and more.
+/// Bytes that may wait for the line: a dozen estimates of 110 bytes, 14 ms, and what goes before them. At least six frames.
 pub const OUTBOX: usize = 2048;
-/// Bytes that may wait for the main loop, and one more: two frames, 2.8 ms. A frame and more.
+/// Bytes that may wait for the main loop, and one more: two frames, 2.8 ms. At least a frame.
 pub const INBOX: usize = 256;
 
 /// The serial line's rate, baud, 8N1. Every estimate takes 1100 bits: 921 600 baud carry 800 a second, and what is too much is left out
@@ -62,7 +63,7 @@ pub const WATCHDOG_MS: u32 = 250;
 pub const RESTART_MS: u32 = restart_ms(OUTBOX, BAUD);
 /// From one report of the counters to the next, ms.
 pub const COUNTERS_MS: u32 = 1000;
-/// The same, at least, where they tell that something went wrong, ms.
+/// The same, at least, if they tell that something went wrong, ms.
 pub const SOONEST_MS: u32 = 50;
 
 /// What an image is set to at its start, by its front end and the least and greatest code of its converters.

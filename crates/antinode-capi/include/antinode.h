@@ -229,8 +229,8 @@ typedef struct {
     uint32_t watch;
     // How the pick-offs differ from ideal ones. Default: not at all.
     antinode_calibration_t calibration;
-    // 1 if the signals carry hum or another slow wander: each block, of a period or more, then has an offset of its own, and what only
-    // moves an offset is neither noise nor a fault. Windows must have at least 5 periods for it, or 10 with a hop. 0, the default: not.
+    // 1 if the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what only moves
+    // an offset is neither noise nor a fault. Windows must have at least 5 periods for it, or 10 with a hop. 0, the default: not.
     uint32_t hum;
     // 1 if the noise is not white. Behind a tuned front end, or a filter that ends below three times the frequency, noise there has less
     // than a sixteenth of its power about the wave: with this setting that is no fault, and blocks have offsets of their own as with

@@ -60,8 +60,8 @@ pub struct Settings {
     pub watch: u32,
     /// How the pick-offs differ from ideal ones. Default: not at all.
     pub calibration: Calibration,
-    /// 1 if the signals carry hum or another slow wander: each block, of a period or more, then has an offset of its own, and what only
-    /// moves an offset is neither noise nor a fault. Windows must have at least 5 periods for it, or 10 with a hop. 0, the default: not.
+    /// 1 if the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what only moves
+    /// an offset is neither noise nor a fault. Windows must have at least 5 periods for it, or 10 with a hop. 0, the default: not.
     pub hum: u32,
     /// 1 if the noise is not white. Behind a tuned front end, or a filter that ends below three times the frequency, noise there has less
     /// than a sixteenth of its power about the wave: with this setting that is no fault, and blocks have offsets of their own as with

@@ -85,7 +85,7 @@ pub struct Settings {
     /// and other faults are found later. It about doubles the work at sample rate.
     #[cfg_attr(feature = "serde", serde(default = "crate::serial::watch"))]
     pub watch: bool,
-    /// True if the signals carry hum or another slow wander: each block, of a period or more, then has an offset of its own, and what only
+    /// True if the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what only
     /// moves an offset is neither noise nor a fault. Windows must have at least 5 periods for it, or 10 with a hop.
     #[cfg_attr(feature = "serde", serde(default))]
     pub hum: bool,

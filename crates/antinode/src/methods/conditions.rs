@@ -17,8 +17,8 @@ pub const CONDITION: f64 = 3.0;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Conditions {
     /// (8), asked of all: the window fits the period so well that the leakage |⟨e^{2jωt}⟩| is below two deviations of a_A, as a share of
-    /// a_A, or below one of θ, rad. Half of it, as a share of a_A, is the error of a_A in algorithms 1 to 3, and all of it that in 4; the
-    /// error of θ, rad, is a_B/a_A times as much.
+    /// a_A, or below one of θ, rad. Half of it leaks into the a_A of algorithms 1 to 3, as a share of a_A, and all of it into that of 4;
+    /// a_B/a_A times as much leaks into θ, rad.
     pub window: bool,
     /// (12), asked of algorithm 1: |a_B| is below two of its deviations.
     pub no_quadrature: bool,

@@ -199,9 +199,9 @@ typedef struct {
 typedef struct {
     // Sample rate, Hz. 1 to 1e10.
     double sample_rate_hz;
-    // Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10. A window is a whole number of blocks, and a block of samples,
-    // so its length may be up to a tenth off, and more if a known frequency has few samples a period: 2 periods of 2.6 samples become
-    // 2.31.
+    // Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10. A window is a whole number of blocks, a block a whole number of
+    // samples, so its length may be up to a tenth off, and more if a known frequency has few samples a period: 2 periods of 2.6 samples
+    // become 2.31.
     uint32_t periods;
     // Blocks from the start of one window to the start of the next; a block is then about a period, or a tenth of a window of less than
     // ten periods, rounded to whole samples: 0.9 to 1.25 periods if these are short. 1 to 65535. For windows that follow each other

@@ -30,9 +30,9 @@ pub struct Calibration {
 pub struct Settings {
     /// Sample rate, Hz. 1 to 1e10.
     pub sample_rate_hz: f64,
-    /// Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10. A window is a whole number of blocks, and a block of samples,
-    /// so its length may be up to a tenth off, and more if a known frequency has few samples a period: 2 periods of 2.6 samples become
-    /// 2.31.
+    /// Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10. A window is a whole number of blocks, a block a whole number of
+    /// samples, so its length may be up to a tenth off, and more if a known frequency has few samples a period: 2 periods of 2.6 samples
+    /// become 2.31.
     pub periods: u32,
     /// Blocks from the start of one window to the start of the next; a block is then about a period, or a tenth of a window of less than
     /// ten periods, rounded to whole samples: 0.9 to 1.25 periods if these are short. 1 to 65535. For windows that follow each other

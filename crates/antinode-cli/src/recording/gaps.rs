@@ -1,12 +1,12 @@
 //! Samples that a recording's own time shows to be missing: they are left out of the rows, and told at the end.
 
 use std::collections::VecDeque;
-use std::num::NonZeroU64;
+use std::num::NonZeroU32;
 
 use super::error::TimeFault;
 
 /// Gaps as far apart from each other as the next are no chance, if they are so many.
-const REGULAR: u64 = 5;
+const REGULAR: u32 = 5;
 
 /// Samples that are missing between two pairs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,12 +24,12 @@ pub(super) struct Gaps {
     ahead: VecDeque<Found>,
     /// The first of those to be told.
     first: Option<Found>,
-    count: u64,
+    count: u32,
     /// The pairs missing in all of them.
     lost: u64,
     /// Pairs before the last one, and from each to the next where these are as many for all of them.
     last: u64,
-    every: Option<NonZeroU64>,
+    every: Option<NonZeroU32>,
 }
 
 /// A gap, and its times.
@@ -68,11 +68,11 @@ impl Gaps {
             let since = found.gap.before - self.last;
             match self.count {
                 0 => {}
-                1 => self.every = NonZeroU64::new(since),
-                _ => self.every = self.every.filter(|every| every.get() == since),
+                1 => self.every = u32::try_from(since).ok().and_then(NonZeroU32::new),
+                _ => self.every = self.every.filter(|every| u64::from(every.get()) == since),
             }
             self.last = found.gap.before;
-            self.count += 1;
+            self.count = self.count.saturating_add(1);
             self.lost += found.gap.lost;
             self.first.get_or_insert(found);
         }

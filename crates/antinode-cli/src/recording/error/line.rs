@@ -1,7 +1,7 @@
 //! What can be wrong with a line of text.
 
 use std::fmt;
-use std::num::NonZeroU64;
+use std::num::NonZeroU32;
 
 use super::Channel;
 
@@ -137,10 +137,10 @@ pub enum TimeFault {
         lost: u64,
         from: f64,
         to: f64,
-        gaps: u64,
+        gaps: u32,
         all: u64,
         /// Pairs from each to the next, where that are as many.
-        every: Option<NonZeroU64>,
+        every: Option<NonZeroU32>,
     },
     /// A step that is no whole number of samples.
     #[error(

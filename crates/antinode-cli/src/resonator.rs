@@ -1,6 +1,7 @@
 //! `antinode resonator`: rows of ring-downs in, quality factor and splits out.
 
 mod by_energy;
+mod chords;
 mod drift;
 mod fit;
 mod found;

@@ -7,6 +7,7 @@
 
 use nalgebra::{Cholesky, Complex, DMatrix, DVector, Dyn, RowSVector, SMatrix, SVector};
 
+use super::chords;
 use super::found::{Found, OfRun, TOGETHER};
 use super::model::{Model, Term};
 use super::motion::PARAMETERS;
@@ -70,6 +71,7 @@ fn steady(runs: &[Run]) -> Result<Found, Unsettled> {
 
 /// Where patterns are turned as it happens.
 fn turned(runs: &[Run]) -> Result<Found, Unsettled> {
+    let runs = &chords::through(runs);
     let each = found(runs, Model::EachTurned);
     let shared = found(runs, Model::SharedTurned);
     match shared {

@@ -97,10 +97,7 @@ mod tests {
                 (before / expected - 1.0).abs() < 0.05,
                 "{before} {expected}"
             );
-            assert!(
-                after < 0.1 * before,
-                "{apart}, {seconds}: {after} {before}"
-            );
+            assert!(after < 0.1 * before, "{apart}, {seconds}: {after} {before}");
             for index in [0, 29, 30, 58] {
                 assert_eq!(straight.rows[index].angle, run.rows[index].angle);
             }

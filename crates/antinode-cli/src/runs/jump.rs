@@ -9,8 +9,9 @@ const FEWEST: usize = 5;
 /// Rows that tell the course it takes: through fewer a parabola may go by chance.
 const KNOWN: usize = 20;
 /// Distances of rows across which that parabola goes on.
-const NEAR: f64 = 3.5;
-/// So many times what is between the parabola and a cubic the wave may lie beside it: what swings takes neither course for long.
+const NEAR: f64 = 8.5;
+/// So many times what is between the parabola and a cubic the wave may lie beside it, three distances on: what swings takes neither course
+/// for long.
 const APART: f64 = 3.0;
 /// So many times as fast as the fastest of the known changes the wave may go on, further than that.
 const FASTER: f64 = 3.0;
@@ -97,7 +98,9 @@ impl Course {
             beside = turn(beside);
         }
         let deviation = (1.0 / weight + parabola.variance).sqrt() * parabola.misfit.max(1.0);
-        let likely = APART * (cubic.next - parabola.next).abs();
+        let span = -self.known[self.known.len() - 1][0];
+        let distances = self.next[0] / span * (self.known.len() - 1) as f64;
+        let likely = APART.max(1.3 * distances) * (cubic.next - parabola.next).abs();
         beside.abs() > likely + SIGMAS * deviation
     }
 
@@ -174,7 +177,16 @@ mod tests {
 
     #[test]
     fn what_swings_is_hardly_ever_a_jump() {
-        for (count, missing) in [(5, 1), (19, 2), (20, 1), (40, 1), (40, 2), (40, 20)] {
+        for (count, missing) in [
+            (5, 1),
+            (19, 2),
+            (20, 1),
+            (40, 1),
+            (40, 2),
+            (40, 5),
+            (40, 10),
+            (40, 20),
+        ] {
             let [mut jumps, mut trials] = [0, 0];
             for (index, period) in (0..180).map(|k| (k as usize % 3, 3.0 * 1.08f64.powi(k / 3))) {
                 for size in [1e-3, 1e-2, 0.1] {

@@ -6,6 +6,11 @@ use super::jump::jumps;
 use super::row::Row;
 use super::{LEAST_ROWS, Run, turn};
 
+/// A row whose deviations are so many times those of another is known worse.
+const WORSE: f64 = 2.0;
+/// Such rows in a row are no fault's any more.
+const VAGUE: usize = 20;
+
 /// A recording whose rows are read.
 pub(super) struct Recording {
     /// As its rows name it.
@@ -14,8 +19,8 @@ pub(super) struct Recording {
     pub runs: Vec<Run>,
     /// The one that has not.
     run: Run,
-    /// True where rows were left out that hold more than a circle.
-    is_torn: bool,
+    /// Rows of the run before others that were left out and hold more than a circle, until one behind these is known as well.
+    torn: Option<usize>,
 }
 
 /// What becomes of a row.
@@ -35,7 +40,7 @@ impl Recording {
             file: file.to_owned(),
             runs: Vec::new(),
             run: Run::default(),
-            is_torn: false,
+            torn: None,
         }
     }
 
@@ -44,7 +49,9 @@ impl Recording {
         if flags.intersects(breaks) {
             self.end();
         }
-        self.is_torn |= flags != Flags::CIRCULAR;
+        if flags != Flags::CIRCULAR {
+            self.torn.get_or_insert(self.run.rows.len());
+        }
     }
 
     /// Takes the next row; a run ends where the pattern turns by more than so much, rad.
@@ -56,15 +63,31 @@ impl Recording {
             } else if self.run.overlaps(&row) {
                 return Taken::Overlaps;
             }
-            let is_moved = self.is_torn && jumps(&self.run.rows, &row);
             let is_turned = turn(row.angle - last.angle).abs() > most_turn;
-            if taken == Taken::Backward || is_moved || is_turned {
+            let before = self
+                .torn
+                .filter(|&torn| jumps(&self.run.rows[..torn], &row));
+            if let Some(before) = before {
+                // Rows between may be of either side.
+                self.run.rows.truncate(before);
+            }
+            if taken == Taken::Backward || before.is_some() || is_turned {
                 self.end();
             }
         }
-        self.is_torn = false;
+        self.torn = self.torn.filter(|&torn| self.is_vague(torn, &row));
         self.run.rows.push(row);
         taken
+    }
+
+    /// True where a row does not tell whether the wave behind so many rows is still the same, for it is known worse than these; not for long.
+    fn is_vague(&self, torn: usize, row: &Row) -> bool {
+        let rows = &self.run.rows;
+        let last = rows.get(torn.wrapping_sub(1));
+        last.is_some_and(|last| {
+            let worse = |i: usize| row.deviations[i] > WORSE * last.deviations[i];
+            rows.len() < torn + VAGUE && (0..3).any(worse)
+        })
     }
 
     /// Keeps the run if it is long enough, and begins another.

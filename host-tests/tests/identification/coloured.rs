@@ -147,18 +147,24 @@ fn faults_are_told_in_coloured_noise() {
     }
 }
 
+/// A wave, and settings that know its frequency nearly: the first window begins with the first sample.
+fn nearly_known() -> (Wave, Settings) {
+    let wave = Wave {
+        main_amplitude: 1.0,
+        quadrature_amplitude: 0.1,
+        ..Wave::default()
+    };
+    let settings = Settings {
+        frequency: Some(5350.0),
+        ..settings(10, true)
+    };
+    (wave, settings)
+}
+
 #[test]
 fn a_first_window_that_the_wave_begins_in_is_no_noise_to_those_after_it() {
     for begin in [20, 50, 80, 110, 140] {
-        let wave = Wave {
-            main_amplitude: 1.0,
-            quadrature_amplitude: 0.1,
-            ..Wave::default()
-        };
-        let settings = Settings {
-            frequency: Some(5350.0),
-            ..settings(10, true)
-        };
+        let (wave, settings) = nearly_known();
         let found = identify_signal(1e-3, settings, 20_000, 1, |t| {
             if t < f64::from(begin) / RATE {
                 [0.0; 2]
@@ -205,15 +211,7 @@ fn noise_that_comes_and_goes_is_no_misfit() {
 fn a_burst_in_the_first_window_is_no_noise_to_those_after_it() {
     let mut widened = 0;
     for seed in 0..40 {
-        let wave = Wave {
-            main_amplitude: 1.0,
-            quadrature_amplitude: 0.1,
-            ..Wave::default()
-        };
-        let settings = Settings {
-            frequency: Some(5350.0),
-            ..settings(10, true)
-        };
+        let (wave, settings) = nearly_known();
         // Of four samples, a hundred times the noise.
         let burst = 20 + 3 * seed..24 + 3 * seed;
         let found = identify_signal(1e-3, settings, 20_000, seed, |t| {

@@ -30,7 +30,10 @@ fn is_port_of_windows(name: &str) -> bool {
     let name = name.to_uppercase();
     let number = name.strip_prefix("COM").unwrap_or_default();
     let is_number = number.bytes().all(|byte| byte.is_ascii_digit());
-    let is_numbered = is_number && number.parse().is_ok_and(|number: u16| number <= 256);
+    let is_numbered = is_number
+        && number
+            .parse()
+            .is_ok_and(|number: u16| (1..=256).contains(&number));
     is_numbered || name.starts_with(r"\\.\")
 }
 
@@ -87,7 +90,7 @@ mod tests {
             assert!(is_port_of_windows(name), "{name}");
         }
         for name in [
-            "COM", "COM257", "COM+3", "COM3.bin", "3", r".\COM3", "a.bin",
+            "COM", "COM0", "COM257", "COM+3", "COM3.bin", "3", r".\COM3", "a.bin",
         ] {
             assert!(!is_port_of_windows(name), "{name}");
         }

@@ -22,8 +22,7 @@ fn straightened(run: &Run) -> Run {
             let beside = [index.checked_sub(1), Some(index + 1)].map(bend_at);
             let [before, after] = beside.map(|bend| bend.unwrap_or(own));
             // The one between the others: where a table stops at once, only one row sees a bend, and there is none on the way.
-            let bend = own.clamp(before.min(after), before.max(after));
-            row.angle -= bend;
+            row.angle -= own.max(before.min(after)).min(before.max(after));
         }
         row
     };
@@ -61,17 +60,10 @@ mod tests {
         for (apart, seconds) in [(0.1, 0.1), (0.1, 0.04), (0.05, 0.0)] {
             let row = |k: usize| {
                 let time = apart * k as f64;
+                let angle = mean(time - 0.5 * seconds - 1e-6, time + 0.5 * seconds + 1e-6);
                 Row {
-                    time,
-                    main: 1.0,
-                    quadrature: 0.0,
-                    angle: mean(time - 0.5 * seconds - 1e-6, time + 0.5 * seconds + 1e-6),
-                    phase: None,
-                    phase_deviation: f64::INFINITY,
-                    frequency: 5332.0,
-                    frequency_deviation: 1e-3,
-                    deviations: [1e-4; 3],
                     seconds,
+                    ..Row::of(time, [1.0, 0.0, angle], [1e-4; 3])
                 }
             };
             let mut run = Run {

@@ -10,9 +10,10 @@ const FEWEST: usize = 5;
 const KNOWN: usize = 20;
 /// Distances of rows across which that parabola goes on.
 const NEAR: f64 = 8.5;
-/// So many times what is between the parabola and a cubic the wave may lie beside it, three distances on: what swings takes neither course
-/// for long.
+/// So many times what is between the parabola and a cubic the wave may lie beside it, at the least and per distance: what swings takes
+/// neither course for long.
 const APART: f64 = 3.0;
+const PER_DISTANCE: f64 = 1.3;
 /// So many times as fast as the fastest of the last changes the wave may go on.
 const FASTER: f64 = 3.0;
 /// Deviations that a change may be beyond what is expected.
@@ -22,18 +23,11 @@ const SIGMAS: f64 = 8.0;
 /// the run is too short to tell.
 pub fn jumps(rows: &[Row], next: &Row) -> bool {
     let known = &rows[rows.len().saturating_sub(KNOWN)..];
-    let [first, .., last] = known else {
-        return false;
-    };
-    if known.len() < FEWEST {
-        return false;
-    }
-    let apart = (last.time - first.time) / (known.len() - 1) as f64;
-    let is_near = known.len() == KNOWN && next.time - last.time < NEAR * apart;
-    (0..3).any(|index| {
-        let course = Course::of(known, next, index);
-        course.leaves_rates() || is_near && course.leaves_curve()
-    })
+    known.len() >= FEWEST
+        && (0..3).any(|index| {
+            let course = Course::of(known, next, index);
+            course.leaves_rates() || course.leaves_curve()
+        })
 }
 
 /// A polynomial at the next time, its variance there, and what it leaves of the known values over their variance.
@@ -83,8 +77,17 @@ impl Course {
         }
     }
 
-    /// True where the next value lies beside the parabola through the known ones: the further, the worse that fits these.
+    /// How far the next value is, in mean distances of the known ones.
+    fn distances(&self) -> f64 {
+        let [first, ..] = self.known[self.known.len() - 1];
+        self.next[0] / -first * (self.known.len() - 1) as f64
+    }
+
+    /// True where the next value is near and lies beside the parabola through the known ones: the further, the worse that fits these.
     fn leaves_curve(&self) -> bool {
+        if self.known.len() < KNOWN || self.distances() >= NEAR {
+            return false;
+        }
         let (Some(parabola), Some(cubic)) = (self.curve(2), self.curve(3)) else {
             return false;
         };
@@ -94,9 +97,8 @@ impl Course {
             beside = turn(beside);
         }
         let deviation = (1.0 / weight + parabola.variance).sqrt() * parabola.misfit.max(1.0);
-        let span = -self.known[self.known.len() - 1][0];
-        let distances = self.next[0] / span * (self.known.len() - 1) as f64;
-        let likely = APART.max(1.3 * distances) * (cubic.next - parabola.next).abs();
+        let likely =
+            APART.max(PER_DISTANCE * self.distances()) * (cubic.next - parabola.next).abs();
         beside.abs() > likely + SIGMAS * deviation
     }
 
@@ -149,18 +151,9 @@ mod tests {
         let mut values = [0.0; 3];
         values[index] = value;
         let main = (values[0] - 0.02 * time).exp();
-        Row {
-            time,
-            main,
-            quadrature: values[1] * main,
-            angle: values[2],
-            phase: None,
-            phase_deviation: f64::INFINITY,
-            frequency: 5332.0,
-            frequency_deviation: f64::INFINITY,
-            deviations: [deviation * main, deviation * main, deviation],
-            seconds: 1.0,
-        }
+        let of_amplitude = deviation * main;
+        let deviations = [of_amplitude, of_amplitude, deviation];
+        Row::of(time, [main, values[1] * main, values[2]], deviations)
     }
 
     /// Whether the course of quantity `index` jumps where `missing` rows are left out behind `count`.

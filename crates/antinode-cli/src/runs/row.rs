@@ -88,6 +88,25 @@ fn longer(travelling: f64, of_main: f64) -> f64 {
     }
 }
 
+#[cfg(test)]
+impl Row {
+    /// A row of these a_A, a_B and θ with their deviations; what else it has is of no use.
+    pub fn of(time: f64, [main, quadrature, angle]: [f64; 3], deviations: [f64; 3]) -> Self {
+        Self {
+            time,
+            main,
+            quadrature,
+            angle,
+            phase: None,
+            phase_deviation: f64::INFINITY,
+            frequency: 5332.0,
+            frequency_deviation: 1e-3,
+            deviations,
+            seconds: 0.0,
+        }
+    }
+}
+
 impl Row {
     /// None where a number is missing or not finite.
     pub fn parse(record: &StringRecord, places: &Places) -> Option<Self> {

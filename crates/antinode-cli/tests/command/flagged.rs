@@ -1,7 +1,14 @@
 //! `antinode identify` tells once a recording how many of its rows are flagged, and by what.
 
 use std::fs;
+#[cfg(unix)]
+use std::{
+    io::{BufRead, BufReader, Read, Write},
+    process::{Child, ChildStdin, ChildStdout, Command, Stdio},
+};
 
+#[cfg(unix)]
+use crate::common::send;
 use crate::common::{Row, WAVE, beside_flagged, run, wav};
 
 /// A wave with a hole in it.
@@ -36,14 +43,23 @@ fn flagged_rows_are_told_in_every_format() {
     assert!(others[1].starts_with("error: none.wav: "));
 }
 
+/// A command that identifies from a pipe, and has printed rows of the wave behind the hole.
 #[cfg(unix)]
-#[test]
-fn an_interruption_tells_them_too() {
-    use std::io::{BufRead, BufReader, Write};
-    use std::process::{Command, Stdio};
+struct Begun {
+    child: Child,
+    input: ChildStdin,
+    rows: BufReader<ChildStdout>,
+    /// What it has printed.
+    text: String,
+}
 
-    for (signal, goes_on) in [("-INT", false), ("-TERM", true)] {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_antinode"))
+#[cfg(unix)]
+impl Begun {
+    /// The bytes that it has been given.
+    const GIVEN: usize = 150_000;
+
+    fn new(command: &mut Command) -> Self {
+        let mut child = command
             .args(["identify", "-", "--output", "csv"])
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -51,66 +67,54 @@ fn an_interruption_tells_them_too() {
             .spawn()
             .unwrap();
         let mut input = child.stdin.take().unwrap();
-        input.write_all(&torn()[..150_000]).unwrap();
-        let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+        input.write_all(&torn()[..Self::GIVEN]).unwrap();
+        let mut rows = BufReader::new(child.stdout.take().unwrap());
         let mut text = String::new();
         // The wave comes again at 0.3 s.
         while !text.contains("\n0.3") {
-            text += &(lines.next().unwrap().unwrap() + "\n");
+            assert_ne!(rows.read_line(&mut text).unwrap(), 0);
         }
-        let id = child.id().to_string();
-        let sent = Command::new("kill").args([signal, &id]).status();
-        assert!(sent.unwrap().success());
+        Self {
+            child,
+            input,
+            rows,
+            text,
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interruption_tells_them_too() {
+    for (signal, goes_on) in [("-INT", false), ("-TERM", true)] {
+        let mut begun = Begun::new(&mut Command::new(env!("CARGO_BIN_EXE_antinode")));
+        send(signal, &begun.child);
         if goes_on {
             // What comes meanwhile is not identified.
-            let _ = input.write_all(&torn()[150_000..]);
+            let _ = begun.input.write_all(&torn()[Begun::GIVEN..]);
         }
-        let output = child.wait_with_output().unwrap();
+        let output = begun.child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(130), "{signal}");
-        for line in lines {
-            text += &(line.unwrap() + "\n");
-        }
+        begun.rows.read_to_string(&mut begun.text).unwrap();
         let told = String::from_utf8(output.stderr).unwrap();
-        let others = beside_flagged(&Row::all(&text), &told);
+        let others = beside_flagged(&Row::all(&begun.text), &told);
         assert_eq!(
             others,
             ["error: interrupted: the rows up to there are good"]
         );
-        drop(input);
+        drop(begun.input);
     }
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn a_command_begun_by_nohup_outlives_its_terminal() {
-    use std::io::{BufRead, BufReader, Read, Write};
-    use std::process::{Command, Stdio};
-
-    let command = format!(
-        "exec nohup {} identify - --output csv",
-        env!("CARGO_BIN_EXE_antinode")
-    );
-    let mut child = Command::new("sh")
-        .args(["-c", &command])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    let (mut input, torn) = (child.stdin.take().unwrap(), torn());
-    input.write_all(&torn[..150_000]).unwrap();
-    let mut rows = BufReader::new(child.stdout.take().unwrap());
-    let mut text = String::new();
-    while !text.contains("\n0.3") {
-        assert_ne!(rows.read_line(&mut text).unwrap(), 0);
-    }
-    let id = child.id().to_string();
-    let sent = Command::new("kill").args(["-HUP", &id]).status();
-    assert!(sent.unwrap().success());
-    input.write_all(&torn[150_000..]).unwrap();
-    drop(input);
-    rows.read_to_string(&mut text).unwrap();
-    let whole = Row::all(&text);
-    assert!(whole.last().unwrap().number("time_s") > 0.59, "{text}");
-    assert_ne!(child.wait().unwrap().code(), Some(130));
+    let mut begun = Begun::new(Command::new("nohup").arg(env!("CARGO_BIN_EXE_antinode")));
+    send("-HUP", &begun.child);
+    begun.input.write_all(&torn()[Begun::GIVEN..]).unwrap();
+    drop(begun.input);
+    begun.rows.read_to_string(&mut begun.text).unwrap();
+    let last = Row::all(&begun.text).pop().unwrap();
+    assert!(last.number("time_s") > 0.59, "{}", begun.text);
+    assert_ne!(begun.child.wait().unwrap().code(), Some(130));
 }

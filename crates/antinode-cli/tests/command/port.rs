@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::common::run;
+use crate::common::{run, send};
 use antinode::{Estimate, Identifier, Settings};
 use antinode_telemetry::{
     Acknowledgement, Cause, Command as Asked, CommandError, CommandFrame, Configuration, Decoder,
@@ -283,14 +283,6 @@ fn monitor(path: &str) -> Child {
         .unwrap()
 }
 
-/// Ctrl-C.
-fn interrupt(child: &Child) {
-    let interrupted = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(interrupted.unwrap().success());
-}
-
 /// What a command that has ended, or is about to, says.
 fn told(child: &mut Child) -> String {
     let mut told = String::new();
@@ -324,7 +316,7 @@ fn a_monitor_on_a_port_shows_what_comes_until_it_is_interrupted() {
     let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
     assert!(lines.next().unwrap().unwrap().starts_with("time_s,"));
     assert!(lines.next().unwrap().unwrap().ends_with(&device.path));
-    interrupt(&child);
+    send("-INT", &child);
     assert_eq!(child.wait().unwrap().code(), Some(0));
     let told = told(&mut child);
     assert!(
@@ -356,7 +348,7 @@ fn frames_that_a_monitor_begins_or_ends_within_are_not_damaged() {
     let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
     assert!(lines.next().unwrap().unwrap().starts_with("time_s,"));
     assert!(lines.next().is_some());
-    interrupt(&child);
+    send("-INT", &child);
     assert_eq!(child.wait().unwrap().code(), Some(0));
     let told = told(&mut child);
     let summary = format!("{path}: 1 estimates and 0 other reports; 0 lost, 0 damaged; ");
@@ -376,7 +368,7 @@ fn a_silent_port_is_told_of_while_it_is_waited_for() {
     port.write_all(frame.unwrap()).unwrap();
     let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
     assert!(lines.nth(1).is_some());
-    interrupt(&child);
+    send("-INT", &child);
     assert_eq!(child.wait().unwrap().code(), Some(0));
     let last = err.next().unwrap().unwrap();
     assert!(last.contains(": 1 estimates"), "{last}");
@@ -395,7 +387,7 @@ fn a_monitor_of_a_pipe_that_nobody_writes_into_is_interrupted() {
     );
     let mut child = monitor(pipe.to_str().unwrap());
     thread::sleep(Duration::from_millis(300));
-    interrupt(&child);
+    send("-INT", &child);
     assert!(ends(&mut child));
 }
 
@@ -413,10 +405,10 @@ fn a_monitor_whose_rows_nobody_reads_ends_at_the_second_interrupt() {
         device.reports.send(estimate.into()).unwrap();
     }
     thread::sleep(Duration::from_secs(2));
-    interrupt(&child);
+    send("-INT", &child);
     thread::sleep(Duration::from_millis(200));
     assert_eq!(child.try_wait().unwrap(), None);
-    interrupt(&child);
+    send("-INT", &child);
     assert!(ends(&mut child));
     assert_eq!(child.wait().unwrap().code(), Some(130));
 }

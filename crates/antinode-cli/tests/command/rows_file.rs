@@ -127,6 +127,7 @@ mod unix {
     use std::time::{Duration, Instant};
 
     use super::*;
+    use crate::common::send;
 
     /// Runs a line of shell in a directory, where `$antinode` is the command.
     fn shell(here: &Path, line: &str) -> Output {
@@ -187,9 +188,7 @@ mod unix {
         while !written() {
             assert!(begun.elapsed() < Duration::from_secs(10));
         }
-        let id = child.id().to_string();
-        let killed = Command::new("kill").args(["-INT", &id]).status();
-        assert!(killed.unwrap().success());
+        send("-INT", &child);
         let output = child.wait_with_output().unwrap();
         drop(input);
         assert_eq!(output.status.code(), Some(130));

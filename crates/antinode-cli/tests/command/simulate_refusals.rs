@@ -176,6 +176,8 @@ fn an_interruption_leaves_nothing_behind() {
     use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
 
+    use crate::common::send;
+
     for signal in ["-INT", "-TERM"] {
         let directory = tempfile::tempdir().unwrap();
         let here = directory.path();
@@ -192,14 +194,7 @@ fn an_interruption_leaves_nothing_behind() {
         while fs::read_dir(here).unwrap().count() < 4 {
             assert!(begun.elapsed() < Duration::from_secs(10));
         }
-        let id = child.id().to_string();
-        assert!(
-            Command::new("kill")
-                .args([signal, &id])
-                .status()
-                .unwrap()
-                .success()
-        );
+        send(signal, &child);
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(130), "{signal}");
         let told = String::from_utf8(output.stderr).unwrap();

@@ -66,18 +66,10 @@ fn run_turned(
             let quadrature = 0.5 * (plus.norm() - minus.norm());
             // The bounds of a window: θ: σ√(E/2n)/|D|, amplitudes: σ√(2/n).
             let of_angle = 0.5 * noise * main.hypot(quadrature) / (plus.norm() * minus.norm());
-            Row {
-                time: 7.0 + step * index as f64,
-                main,
-                quadrature,
-                angle: 0.25 * (plus * minus.conj()).arg(),
-                phase: None,
-                phase_deviation: f64::INFINITY,
-                frequency: 5332.0,
-                frequency_deviation: 1e-3,
-                deviations: [noise, noise, of_angle].map(|std| std.max(1e-9)),
-                seconds: 0.0,
-            }
+            let angle = 0.25 * (plus * minus.conj()).arg();
+            let deviations = [noise, noise, of_angle].map(|std| std.max(1e-9));
+            let time = 7.0 + step * index as f64;
+            Row::of(time, [main, quadrature, angle], deviations)
         })
         .collect();
     Run {

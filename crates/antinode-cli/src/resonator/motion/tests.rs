@@ -25,18 +25,10 @@ impl Motion {
 }
 
 /// A row of this a_A, a_B and θ, whose window lasted so many seconds.
-fn row([main, quadrature, angle]: [f64; 3], seconds: f64) -> Row {
+fn row(values: [f64; 3], seconds: f64) -> Row {
     Row {
-        time: 0.0,
-        main,
-        quadrature,
-        angle,
-        phase: None,
-        phase_deviation: f64::INFINITY,
-        frequency: 5332.0,
-        frequency_deviation: 1e-3,
-        deviations: [1e-6; 3],
         seconds,
+        ..Row::of(0.0, values, [1e-6; 3])
     }
 }
 

@@ -6,6 +6,8 @@ pub mod svg;
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
+#[cfg(unix)]
+use std::process::{self, Child};
 
 use assert_cmd::Command;
 
@@ -25,6 +27,15 @@ pub struct Run {
 /// Runs the command in a directory.
 pub fn run(directory: &Path, arguments: &str) -> Run {
     run_with(directory, arguments, Vec::new())
+}
+
+/// Sends a signal, such as `-INT`, which is Ctrl-C, to a command that runs.
+#[cfg(unix)]
+pub fn send(signal: &str, child: &Child) {
+    let sent = process::Command::new("kill")
+        .args([signal, &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
 }
 
 /// The root of the mean square.

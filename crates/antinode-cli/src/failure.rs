@@ -20,7 +20,7 @@ pub enum Failure {
     Output(#[from] OutputError),
     /// Anything else that is wrong with a file, a port or the system: the message names it and the remedy.
     #[error("{0}")]
-    Recording(String),
+    Fault(String),
     /// What was asked makes no sense.
     #[error("{0}")]
     Usage(String),

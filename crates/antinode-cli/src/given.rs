@@ -32,7 +32,7 @@ impl Given {
 
 /// The failure where none of the rows has one of these times, but only some from a first one to a last one, s.
 pub fn none_within(names: &str, [first, last]: [f64; 2]) -> Failure {
-    Failure::Recording(format!(
+    Failure::Fault(format!(
         "{names}: no row lies within --from and --to: their times go from {first} s to {last} s"
     ))
 }

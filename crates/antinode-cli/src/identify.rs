@@ -191,10 +191,10 @@ fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, 
     match (asked, own) {
         (Some(rate), _) => Ok(rate),
         (None, Some(rate)) if (1.0..=1e10).contains(&rate) => Ok(rate),
-        (None, Some(rate)) => Err(Failure::Recording(format!(
+        (None, Some(rate)) => Err(Failure::Fault(format!(
             "{name}: its own sample rate of {rate} Hz is absurd; give the true one as --rate HZ"
         ))),
-        (None, None) => Err(Failure::Recording(format!(
+        (None, None) => Err(Failure::Fault(format!(
             "{name}: the sample rate is not known: the recording does not say it; give --rate HZ"
         ))),
     }

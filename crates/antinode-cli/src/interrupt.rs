@@ -6,7 +6,7 @@ use crate::failure::Failure;
 
 /// Lets `handler` be called when it comes; once in a process.
 pub fn on_interrupt(handler: impl FnMut() + Send + 'static) -> Result<(), Failure> {
-    catch(handler).map_err(|error| Failure::Recording(format!("Ctrl-C cannot be caught: {error}")))
+    catch(handler).map_err(|error| Failure::Fault(format!("Ctrl-C cannot be caught: {error}")))
 }
 
 #[cfg(unix)]

@@ -51,10 +51,10 @@ pub fn run(options: &Plot) -> Result<(), Failure> {
     let Some(figure) = figure(&traces, draw::COLUMNS, options.log) else {
         return Err(match (count, span) {
             (0, Some(span)) => none_within(&inputs, span),
-            (0, None) => Failure::Recording(format!(
+            (0, None) => Failure::Fault(format!(
                 "{inputs}: there is no row; identify a recording of more windows"
             )),
-            _ => Failure::Recording(format!(
+            _ => Failure::Fault(format!(
                 "{inputs}: not one of {count} rows has a wave; see their flags"
             )),
         });

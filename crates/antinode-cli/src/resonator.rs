@@ -66,7 +66,7 @@ pub struct Resonator {
 pub fn run(options: &Resonator) -> Result<(), Failure> {
     let (rows, name) = Runs::open(&options.given, MOST_TURN, BREAKS)?;
     let found = fit(&rows.runs).map_err(|_| {
-        Failure::Recording(format!(
+        Failure::Fault(format!(
             "{name}: no resonator explains the rows: see that nothing drives the gyro while it rings down, \
              and leave out rows that lie far off all others"
         ))

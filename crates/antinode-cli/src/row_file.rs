@@ -79,7 +79,7 @@ impl<R: Read> RowFile<R> {
             (Records::Fields(Box::new(reader)), header)
         };
         if header.is_empty() {
-            return Err(Failure::Recording(format!(
+            return Err(Failure::Fault(format!(
                 "{name}: there is nothing in it, not even a header: see what the command that should have written rows has to say"
             )));
         }
@@ -106,7 +106,7 @@ impl<R: Read> RowFile<R> {
     pub fn needed(&self, column: &str) -> Result<usize, Failure> {
         self.place(column).ok_or_else(|| {
             let name = &self.name;
-            Failure::Recording(if self.is_table {
+            Failure::Fault(if self.is_table {
                 format!(
                     "{name}: this is the table to read; add --output csv to the command that prints it"
                 )
@@ -146,7 +146,7 @@ impl<R: Read> RowFile<R> {
 
     /// What is told where the last row cannot be used.
     pub fn fault(&self, what: &str) -> Failure {
-        Failure::Recording(format!(
+        Failure::Fault(format!(
             "{}, line {}: {what}; leave the line out",
             self.name,
             self.lines().number
@@ -215,7 +215,7 @@ pub fn flags(column: &str) -> Flags {
 
 /// What is told where there are no rows, or a line is none.
 fn unreadable(name: &str, line: u64, error: &csv::Error) -> Failure {
-    Failure::Recording(match error.kind() {
+    Failure::Fault(match error.kind() {
         // Of the header there is no other line to leave out.
         ErrorKind::Utf8 { .. } if line <= 1 => {
             format!("{name}: this is no text; {REMEDY}")
@@ -245,7 +245,7 @@ fn is_unfinished(error: &csv::Error) -> bool {
 
 /// What is told where a line is no JSON object.
 fn no_object(name: &str, line: u64, fault: &io::Error) -> Failure {
-    Failure::Recording(format!(
+    Failure::Fault(format!(
         "{name}, line {line}: this is no JSON object: {fault}; leave the line out"
     ))
 }

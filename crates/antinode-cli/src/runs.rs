@@ -89,14 +89,14 @@ impl Runs {
 
     /// Why nothing can be found in the rows, if so.
     fn fault(&self, name: &str) -> Option<Failure> {
-        let recording = |why: String| Some(Failure::Recording(format!("{name}: {why}")));
+        let fault = |why: String| Some(Failure::Fault(format!("{name}: {why}")));
         if self.runs.is_empty() {
             if let (0, Some(span)) = (self.rows, self.span) {
                 return Some(none_within(name, span));
             }
             // Else rows that are out of order are seen as runs of a few.
             if 3 * self.backward > self.rows {
-                return recording(format!(
+                return fault(format!(
                     "time does not go on from row to row, {} times in {} rows; give each recording's rows once and in the order of their time",
                     self.backward, self.rows
                 ));
@@ -107,11 +107,11 @@ impl Runs {
                     1 => "there is only 1".to_owned(),
                     rows => format!("there are only {rows}"),
                 };
-                return recording(format!(
+                return fault(format!(
                     "no run of {LEAST_ROWS} clean rows, for {only}: shorten the windows, or record longer"
                 ));
             }
-            return recording(format!(
+            return fault(format!(
                 "no run of {LEAST_ROWS} clean rows in which the pattern turns by less than {:.1}° from row to row; see their flags, and \
                  shorten the windows if it turns faster",
                 self.most_turn.to_degrees()
@@ -263,7 +263,7 @@ impl Run {
 
 /// What is told of rows that come twice.
 fn given_twice(what: &str) -> Failure {
-    Failure::Recording(format!(
+    Failure::Fault(format!(
         "{what} is given twice: its noise would seem to be less than it is; give it once"
     ))
 }

@@ -50,7 +50,7 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     let beside = PathBuf::from(beside);
     // What was simulated can be simulated again; a recording cannot be recorded again.
     if options.out.is_file() && !beside.exists() {
-        return Err(Failure::Recording(format!(
+        return Err(Failure::Fault(format!(
             "{}: this is there, and was not simulated, for no truth is beside it; give another name, or delete it first",
             options.out.display()
         )));

@@ -114,7 +114,7 @@ pub enum Fault {
 impl Fault {
     /// The failure of a file.
     pub fn of(&self, name: &str) -> Failure {
-        Failure::Recording(match self {
+        Failure::Fault(match self {
             Self::Still(turned) => format!(
                 "{name}: the pattern turns by only {:.1}°, but must turn by 90° or more: turn the gyro while it rings down; where it does, shorten \
                  the windows, for it must turn by less than {:.1}° from row to row",

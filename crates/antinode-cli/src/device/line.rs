@@ -69,7 +69,7 @@ impl Line {
     /// Who the device is.
     pub fn hello(&mut self) -> Result<Hello, Failure> {
         self.ask(Command::Get, true)?.ok_or_else(|| {
-            Failure::Recording(format!(
+            Failure::Fault(format!(
                 "{}: the device acknowledged, but its configuration did not arrive; try again",
                 self.name
             ))
@@ -85,7 +85,7 @@ impl Line {
         };
         let mut buffer = [0; MAX_FRAME];
         let request = frame(&asked, &mut buffer)
-            .map_err(|error| Failure::Recording(format!("{}: {error}", self.name)))?;
+            .map_err(|error| Failure::Fault(format!("{}: {error}", self.name)))?;
         let sends = if command == Command::Restart {
             1
         } else {
@@ -119,7 +119,7 @@ impl Line {
     }
 
     fn refused(&self, error: CommandError) -> Failure {
-        Failure::Recording(format!("{}: refused: {error}", self.name))
+        Failure::Fault(format!("{}: refused: {error}", self.name))
     }
 
     /// The reports that have come, after waiting a little where none have.
@@ -143,7 +143,7 @@ impl Line {
     }
 
     fn gone(&self, error: &io::Error) -> Failure {
-        Failure::Recording(format!(
+        Failure::Fault(format!(
             "{}: the port fails: {error}; check that the device is plugged in",
             self.name
         ))
@@ -164,7 +164,7 @@ impl Line {
                 "{reports} reports came: check the line from this computer to the device, or wait longer with --timeout"
             )
         };
-        Failure::Recording(format!(
+        Failure::Fault(format!(
             "{}: no acknowledgement within {} s{}; {why}",
             self.name,
             self.patience.as_secs_f64(),

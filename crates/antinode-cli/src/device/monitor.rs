@@ -70,7 +70,7 @@ pub fn run(options: &Monitor) -> Result<(), Failure> {
     }
     let Screen { name, bytes, .. } = screen;
     if bytes == 0 {
-        return Err(Failure::Recording(format!(
+        return Err(Failure::Fault(format!(
             "{name}: not one byte came; check that the device runs and is wired, or that its bytes were saved or sent"
         )));
     }
@@ -80,7 +80,7 @@ pub fn run(options: &Monitor) -> Result<(), Failure> {
         "check that they are a device's, and no samples, which are for identify; that they were received at its speed (--baud is for ports only)"
             .to_owned()
     };
-    Err(Failure::Recording(format!(
+    Err(Failure::Fault(format!(
         "{name}: no telemetry in {bytes} bytes; {remedy}, and that firmware and command speak the same protocol version"
     )))
 }
@@ -99,7 +99,7 @@ fn follow(source: &Source, screen: &mut Screen<impl Write>) -> Result<(), Failur
             Input::Interrupted => break,
             Input::Fault(error) => {
                 screen.finish();
-                return Err(Failure::Recording(format!(
+                return Err(Failure::Fault(format!(
                     "{}: it cannot be read any more: {error}; check that the device is plugged in",
                     screen.name
                 )));

@@ -63,7 +63,7 @@ pub fn open(path: &Path, baud: u32) -> Result<Box<dyn SerialPort>, Failure> {
             "it does not open at {baud} baud: {told}; check that it is a serial port, and --baud",
         ),
     };
-    Err(Failure::Recording(format!("{name}: {what}")))
+    Err(Failure::Fault(format!("{name}: {what}")))
 }
 
 /// The ports of this computer, as a remedy.

@@ -51,7 +51,7 @@ impl Source {
             } else if path.exists() {
                 (name, Box::new(open_file(path)?))
             } else {
-                return Err(Failure::Recording(format!(
+                return Err(Failure::Fault(format!(
                     "{name}: there is neither such a port nor such a file; {}",
                     port::ports()
                 )));

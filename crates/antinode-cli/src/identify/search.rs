@@ -68,7 +68,7 @@ impl Search {
             } else {
                 "wave"
             };
-            return Failure::Recording(format!(
+            return Failure::Fault(format!(
                 "{name}: no {what} found in {pairs} sample pairs ({seconds:.4} s): {told}"
             ));
         }
@@ -86,7 +86,7 @@ impl Search {
         let near = options
             .frequency
             .filter(|&frequency| pairs as f64 > longest(frequency));
-        Failure::Recording(if let Some(frequency) = near {
+        Failure::Fault(if let Some(frequency) = near {
             format!(
                 "{name}: no window of {periods} periods in {pairs} sample pairs ({seconds:.4} s) is mostly one wave within 5 % of \
                  {frequency} Hz: check --frequency and the sample rate, or leave --frequency out, and the period is searched; a wave that \

@@ -144,7 +144,7 @@ impl Span {
             }
             _ => return None,
         };
-        Some(Failure::Recording(format!("{name}: {told}")))
+        Some(Failure::Fault(format!("{name}: {told}")))
     }
 
     /// What to tell where the recording has a part of the span.

@@ -190,7 +190,7 @@ impl<'a> Windows<'a> {
     fn begin(&mut self, pairs: &[[f32; 2]]) -> Result<(), Failure> {
         let name = self.name;
         if let Some(channel) = straight(pairs) {
-            return Err(Failure::Recording(format!(
+            return Err(Failure::Fault(format!(
                 "{name}: {channel} goes up in equal steps, as a time or a counter does: give the two signals alone"
             )));
         }

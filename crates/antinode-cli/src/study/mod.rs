@@ -50,7 +50,7 @@ const RATE: f64 = 100_000.0;
 pub fn run(options: &Study) -> Result<(), Failure> {
     // Before the work, not after it.
     fs::create_dir_all(&options.out).map_err(|error| {
-        Failure::Recording(format!(
+        Failure::Fault(format!(
             "{}: this folder cannot be made: {error}; give another --out",
             options.out.display()
         ))

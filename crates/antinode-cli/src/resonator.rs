@@ -110,6 +110,26 @@ fn tell(
     found: &Found,
     frequency: &Frequency,
 ) -> io::Result<()> {
+    tell_of_runs(out, rows, listed, found)?;
+    tell_of_splits(out, rows, listed, found, frequency)?;
+    tell_of_frequency(out, frequency)?;
+    if found.is_turned() {
+        writeln!(
+            out,
+            "the rotation is not steady: the angles of the patterns are taken from the rows as they are, and tell nothing of the splits by \
+             their drift"
+        )?;
+    }
+    tell_of_misfit(out, found)
+}
+
+/// Tells which runs are not listed, and which do not decay.
+fn tell_of_runs(
+    out: &mut impl Write,
+    rows: &Runs,
+    listed: &[usize],
+    found: &Found,
+) -> io::Result<()> {
     rows.tell_overlaps(out)?;
     let others = rows.runs.len() - listed.len();
     if others > 0 {
@@ -132,6 +152,17 @@ fn tell(
         };
         writeln!(out, "warning: the wave of run {} {what}", index + 1)?;
     }
+    Ok(())
+}
+
+/// Tells where splits are not known, or flaws of the pick-offs look like them.
+fn tell_of_splits(
+    out: &mut impl Write,
+    rows: &Runs,
+    listed: &[usize],
+    found: &Found,
+    frequency: &Frequency,
+) -> io::Result<()> {
     if found.resonator().is_none() {
         writeln!(
             out,
@@ -148,6 +179,11 @@ fn tell(
             4e-8 * rate * frequency
         )?;
     }
+    Ok(())
+}
+
+/// Tells where the frequency moves, and what the rows know of why.
+fn tell_of_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<()> {
     if let Some(moves) = frequency.moves {
         let with = match frequency.by_energy {
             ByEnergy::Chance => String::new(),
@@ -167,13 +203,11 @@ fn tell(
              the mean frequency is wider by that{with}"
         )?;
     }
-    if found.is_turned() {
-        writeln!(
-            out,
-            "the rotation is not steady: the angles of the patterns are taken from the rows as they are, and tell nothing of the splits by \
-             their drift"
-        )?;
-    }
+    Ok(())
+}
+
+/// Tells where the rows differ from the resonator's motion by more than noise.
+fn tell_of_misfit(out: &mut impl Write, found: &Found) -> io::Result<()> {
     let why = "the wave is still driven in some rows (see --from), the damping changes meanwhile, or with the amplitude, the pick-offs are \
                not calibrated, a gain or the wave jumped by too little to be flagged, or a pick-off or the converter is nonlinear";
     if found.residual > BEYOND_NOISE {

@@ -1,9 +1,10 @@
 //! The images: `replay` in QEMU against the same pipeline on the host, and what the others are made of.
 //!
-//! All but those of `line`, `recovery` and `steered` need the ARM target and QEMU, and so are run by name:
+//! All but those of `line`, `priorities`, `recovery` and `steered` need the ARM target and QEMU, and so are run by name:
 //! `cargo test --release -p host-tests --test firmware -- --ignored`.
 #![cfg(unix)] // the emulator's serial line is a Unix socket
 
+mod board;
 mod commands;
 mod emulator;
 mod faults;
@@ -11,6 +12,7 @@ mod image;
 mod line;
 mod methods;
 mod mirror;
+mod priorities;
 mod recordings;
 mod recovery;
 mod run;

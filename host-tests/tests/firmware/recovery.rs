@@ -9,8 +9,8 @@ use firmware::pipeline::{Places, Queues};
 use firmware::sampling::{DUAL_ADC_RAILS, Lapse, Ready, Source, both};
 use firmware::settings::{HALF, QUEUE, REQUESTS, SAMPLE_RATE, SOONEST_MS, STALL_MS, WATCHDOG_MS};
 
+use crate::board::{BYTES, Losing, Wire, hop_of};
 use crate::emulator::bytes;
-use crate::line::{BYTES, Losing, Wire, hop_of};
 use crate::mirror::{MISSED, Recorded, reports_of};
 use crate::recordings;
 use crate::same::estimates;

@@ -1,8 +1,8 @@
 //! A wave's first window, which has no noise of others to be compared with.
 
 use antinode::{Flags, Settings};
-use antinode_sim::{Flaws, random_wave};
-use host_tests::{identify_changed, windows};
+use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::{Core, RATE, identify_changed, stream, windows};
 
 #[test]
 fn a_spike_or_a_small_step_in_the_first_window_is_flagged() {
@@ -35,5 +35,123 @@ fn a_spike_or_a_small_step_in_the_first_window_is_flagged() {
         }
         println!("{periods} periods, spike of {spike}, step of {step}: {told} of 100 told");
         assert!(told >= least, "{periods} periods, {spike}, {step}: {told}");
+    }
+}
+
+#[test]
+fn a_step_within_a_long_first_window_is_flagged() {
+    for (periods, noise) in [(50, 0.002), (50, 0.02)] {
+        for seed in 0..10 {
+            let wave = random_wave(seed, 5332.0, 0.3);
+            let flaws = Flaws {
+                noise: noise * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let louder = Wave {
+                main_amplitude: 1.5 * wave.main_amplitude,
+                quadrature_amplitude: 1.5 * wave.quadrature_amplitude,
+                ..wave
+            };
+            let turned = Wave {
+                angle: wave.angle + 0.3,
+                ..wave
+            };
+            let window = 19 * usize::from(periods);
+            for (to, name) in [(louder, "louder"), (turned, "turned")] {
+                for part in [3, 5, 7] {
+                    let at = 50 + window * part / 10;
+                    let one = stream(wave, flaws.clone(), at, seed);
+                    let two = stream(to, flaws.clone(), 4 * window, seed);
+                    let mut core = Core::new(windows(periods)).unwrap();
+                    let mut found = Vec::new();
+                    core.extend(&one, |e| found.push(e));
+                    core.extend(&two[at..], |e| found.push(e));
+                    let first = &found[0];
+                    assert!(first.start < 70);
+                    assert!(
+                        first.flags.contains(Flags::MISFIT),
+                        "{periods} periods, noise {noise}, {name} at {part}, seed {seed}: {}",
+                        first.flags
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_step_within_the_first_window_is_flagged() {
+    for periods in [10, 20] {
+        for (noise, factor) in [
+            (1e-4, 0.9),
+            (0.002, 0.9),
+            (0.002, 0.5),
+            (0.02, 0.5),
+            (0.002, 0.0),
+        ] {
+            let mut rows = 0;
+            for seed in 0..100u64 {
+                let wave = random_wave(seed, 5332.0, 0.3);
+                let flaws = Flaws {
+                    noise: noise * wave.main_amplitude,
+                    ..Flaws::default()
+                };
+                let settings = Settings {
+                    frequency: Some(5332.0),
+                    ..windows(periods)
+                };
+                let length = (RATE / 5332.0 * f64::from(periods)) as usize;
+                // Anywhere but in the first and the last block, which others may make up for.
+                let at =
+                    length / 5 + (0.6 * length as f64 * (0.618 * seed as f64).fract()) as usize;
+                let found =
+                    identify_changed(wave, &flaws, settings, length + 20, seed, |k, pair| {
+                        if k < at {
+                            pair
+                        } else {
+                            pair.map(|value| factor * value)
+                        }
+                    });
+                // Where too little of the wave is left there is no window.
+                rows += found.len();
+                for estimate in found {
+                    assert!(
+                        estimate.flags.contains(Flags::MISFIT),
+                        "{periods} periods, noise {noise}, {factor} times the wave from pair {at} on: {}",
+                        estimate.flags
+                    );
+                }
+            }
+            let least = if factor > 0.0 { 100 } else { 40 };
+            assert!(
+                rows >= least,
+                "{periods} periods, {factor} times the wave: {rows}"
+            );
+        }
+    }
+}
+
+#[test]
+fn no_first_window_of_a_steady_wave_is_flagged() {
+    for periods in [2, 4, 10, 50] {
+        for seed in 0..4000 {
+            let wave = random_wave(seed, 5332.0, 0.3);
+            let noise = [1e-4, 0.002, 0.02, 0.1][seed as usize % 4];
+            let flaws = Flaws {
+                noise: noise * wave.main_amplitude,
+                offset_c: 0.2 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let length = (RATE / 5332.0 * (f64::from(periods) + 8.0)) as usize;
+            let found =
+                identify_changed(wave, &flaws, windows(periods), length, seed, |_, pair| pair);
+            assert!(!found.is_empty());
+            // In ten per cent two periods may look like a circle.
+            let fault = found[0].flags.without(Flags::CIRCULAR);
+            assert!(
+                fault.is_empty(),
+                "{periods} periods, noise {noise}: {fault}"
+            );
+        }
     }
 }

@@ -17,6 +17,7 @@ mod exact;
 mod faults;
 mod first;
 mod flash;
+mod gap_rates;
 mod gaps;
 mod hum;
 mod known;

@@ -19,6 +19,7 @@ mod plot;
 mod plot_axes;
 mod plot_refusals;
 mod port;
+mod port_monitor;
 mod reading;
 mod resonator;
 mod resonator_frequency;

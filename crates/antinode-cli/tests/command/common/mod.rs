@@ -1,5 +1,7 @@
 //! What the tests of the command share: runs of it, its rows, and a wave made without the project's own code.
 
+#[cfg(unix)]
+pub mod device;
 pub mod ring_downs;
 pub mod svg;
 

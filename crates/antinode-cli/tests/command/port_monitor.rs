@@ -1,0 +1,161 @@
+//! `antinode monitor` on a port, or on a pipe.
+#![cfg(unix)]
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::Duration;
+
+use crate::common::device::{Device, pair};
+use crate::common::send;
+use antinode::{Estimate, Identifier, Settings};
+use antinode_telemetry::{Command as Asked, MAX_FRAME, Reporter};
+
+/// An estimate of a noise-free wave.
+fn estimate() -> Estimate {
+    let mut identifier = Identifier::<f32, 200, 16>::new(Settings::new(1e5)).unwrap();
+    let pair = |k: u32| [(f64::from(k) * 0.335).cos() as f32, 0.0];
+    (0..2000)
+        .find_map(|k| identifier.push(pair(k)))
+        .expect("a window")
+}
+
+/// A monitor on this port, or on anything else that comes to it.
+fn monitor(path: &str) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_antinode"))
+        .args(["monitor", path, "--format", "csv"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+/// What a command that has ended, or is about to, says.
+fn told(child: &mut Child) -> String {
+    let mut told = String::new();
+    let mut err = child.stderr.take().unwrap();
+    err.read_to_string(&mut told).unwrap();
+    told
+}
+
+/// True where a command ends within 10 s; it is gone then in any case.
+fn ends(child: &mut Child) -> bool {
+    for _ in 0..500 {
+        if child.try_wait().unwrap().is_some() {
+            return true;
+        }
+        thread::sleep(Duration::from_millis(20));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    false
+}
+
+#[test]
+fn a_monitor_on_a_port_shows_what_comes_until_it_is_interrupted() {
+    let device = Device::start(false);
+    let mut child = monitor(&device.path);
+    assert_eq!(
+        device.asked.recv_timeout(Duration::from_secs(10)),
+        Ok(Asked::Get)
+    );
+    device.reports.send(estimate().into()).unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    assert!(lines.next().unwrap().unwrap().starts_with("time_s,"));
+    assert!(lines.next().unwrap().unwrap().ends_with(&device.path));
+    send("-INT", &child);
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    let told = told(&mut child);
+    assert!(
+        told.starts_with("device: firmware 1.2.3, protocol 7"),
+        "{told}"
+    );
+    assert!(
+        told.contains(": 1 estimates and 2 other reports; 0 lost, 0 damaged"),
+        "{told}"
+    );
+}
+
+#[test]
+fn frames_that_a_monitor_begins_or_ends_within_are_not_damaged() {
+    let (mut port, path) = pair();
+    let mut child = monitor(&path);
+    // Its greeting: it listens.
+    while port.read(&mut [0; 64]).is_err() {
+        thread::sleep(Duration::from_millis(2));
+    }
+    let (mut reporter, mut buffer) = (Reporter::new(), [0; MAX_FRAME]);
+    let mut frame = || {
+        let frame = reporter.frame(&estimate().into(), &mut buffer);
+        frame.unwrap().to_vec()
+    };
+    port.write_all(&frame()[40..]).unwrap();
+    port.write_all(&frame()).unwrap();
+    port.write_all(&frame()[..40]).unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    assert!(lines.next().unwrap().unwrap().starts_with("time_s,"));
+    assert!(lines.next().is_some());
+    send("-INT", &child);
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    let told = told(&mut child);
+    let summary = format!("{path}: 1 estimates and 0 other reports; 0 lost, 0 damaged; ");
+    assert!(told.starts_with(&summary), "{told}");
+}
+
+#[test]
+fn a_silent_port_is_told_of_while_it_is_waited_for() {
+    let (mut port, path) = pair();
+    let mut child = monitor(&path);
+    let mut err = BufReader::new(child.stderr.take().unwrap()).lines();
+    let told = err.next().unwrap().unwrap();
+    let expected = format!("silent: nothing has come from {path} yet; check ");
+    assert!(told.starts_with(&expected), "{told}");
+    let mut buffer = [0; MAX_FRAME];
+    let frame = Reporter::new().frame(&estimate().into(), &mut buffer);
+    port.write_all(frame.unwrap()).unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    assert!(lines.nth(1).is_some());
+    send("-INT", &child);
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    let last = err.next().unwrap().unwrap();
+    assert!(last.contains(": 1 estimates"), "{last}");
+}
+
+#[test]
+fn a_monitor_of_a_pipe_that_nobody_writes_into_is_interrupted() {
+    let directory = tempfile::tempdir().unwrap();
+    let pipe = directory.path().join("pipe");
+    assert!(
+        Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    let mut child = monitor(pipe.to_str().unwrap());
+    thread::sleep(Duration::from_millis(300));
+    send("-INT", &child);
+    assert!(ends(&mut child));
+}
+
+#[test]
+fn a_monitor_whose_rows_nobody_reads_ends_at_the_second_interrupt() {
+    let device = Device::start(false);
+    let mut child = monitor(&device.path);
+    assert_eq!(
+        device.asked.recv_timeout(Duration::from_secs(10)),
+        Ok(Asked::Get)
+    );
+    // More rows than a pipe holds.
+    let estimate = estimate();
+    for _ in 0..2000 {
+        device.reports.send(estimate.into()).unwrap();
+    }
+    thread::sleep(Duration::from_secs(2));
+    send("-INT", &child);
+    thread::sleep(Duration::from_millis(200));
+    assert_eq!(child.try_wait().unwrap(), None);
+    send("-INT", &child);
+    assert!(ends(&mut child));
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+}

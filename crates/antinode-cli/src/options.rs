@@ -84,8 +84,9 @@ pub enum Command {
     /// Draws rows over time: both amplitudes, pattern angle, frequency and residual, with their deviations and flags.
     ///
     /// Bands extend one standard deviation to either side; red marks at the bottom of a panel are flagged rows. A line ends where rows are
-    /// missing or flagged `lost`. Axes fit the unflagged rows with at most three times the median deviation; an arrow at a panel's edge
-    /// marks what lies far beyond, such as the last rows of a ring-down.
+    /// missing or flagged `lost`. Axes fit the unflagged rows with at most three times the median deviation, and, if only a few rows are
+    /// such, all but the outermost; an arrow at a panel's edge marks what lies far beyond, such as the last rows of a ring-down. Of more
+    /// than six recordings the colours follow their order.
     Plot(Plot),
     /// Writes a simulated recording, and the truth beside it as JSON.
     Simulate(Box<Simulate>),

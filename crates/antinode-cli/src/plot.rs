@@ -2,12 +2,14 @@
 
 mod axis;
 mod draw;
+mod extent;
 mod figure;
 mod legend;
+mod numbers;
 mod panel;
 mod reduce;
 mod rows;
-mod scale;
+
 mod values;
 
 use std::io::{self, Write};

@@ -6,7 +6,6 @@ use std::path::Path;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::axis::Axis;
 use super::figure::Figure;
 use super::legend::Legend;
 use super::panel::Panel;
@@ -151,9 +150,12 @@ where
     B::ErrorType: 'static,
 {
     let units = medium.units;
-    let Axis { title, range, .. } = &panel.axis;
     let place = ((LEFT * units) as i32, ((TITLE - TEXT - 4) * units) as i32);
-    area.draw(&Text::new(title.as_str(), place, (FONT, units * TEXT)))?;
+    area.draw(&Text::new(
+        panel.axis.title.as_str(),
+        place,
+        (FONT, units * TEXT),
+    ))?;
     let mut chart = ChartBuilder::on(area)
         .margin_top(units * TITLE)
         .margin_right(units * RIGHT)
@@ -180,11 +182,26 @@ where
     // From the last recording to the first, which is drawn on top.
     for (index, pieces) in panel.curves.iter().enumerate().rev() {
         let colour = legend.colour(index);
+        let band = colour.mix(legend.band_opacity());
         for piece in pieces {
-            draw_piece(plane, piece, colour, medium)?;
+            draw_piece(plane, piece, (colour, band), medium)?;
         }
     }
-    let (_, height) = plane.dim_in_pixel();
+    draw_marks(plane, figure, panel, units)
+}
+
+/// Draws the foot of a panel, the marks of flagged rows on it, and the arrows to values beyond.
+fn draw_marks<B: DrawingBackend>(
+    plane: &DrawingArea<B, Cartesian2d<Values, Values>>,
+    figure: &Figure,
+    panel: &Panel,
+    units: u32,
+) -> Result<(), Box<dyn Error>>
+where
+    B::ErrorType: 'static,
+{
+    let range = &panel.axis.range;
+    let (width, height) = plane.dim_in_pixel();
     let foot = range.start;
     let ends = [
         (figure.time.range.start, foot),
@@ -200,7 +217,6 @@ where
         plane.draw(&mark)?;
     }
     let time = &figure.time.range;
-    let (width, height) = plane.dim_in_pixel();
     let unit = |length: f64, pixels: u32| length * f64::from(units) / f64::from(pixels);
     let half = unit(time.end - time.start, width) * f64::from(ARROW) / 2.0;
     for &(at, is_above) in &panel.beyond {
@@ -220,7 +236,7 @@ where
 fn draw_piece<B: DrawingBackend>(
     plane: &DrawingArea<B, Cartesian2d<Values, Values>>,
     piece: &Piece,
-    colour: RGBColor,
+    (colour, band): (RGBColor, RGBAColor),
     Medium { units, joins }: Medium,
 ) -> Result<(), Box<dyn Error>>
 where
@@ -243,7 +259,7 @@ where
     }
     if has_band {
         let around: Vec<_> = edge(0).chain(edge(1).rev()).collect();
-        plane.draw(&Polygon::new(around, colour.mix(0.25)))?;
+        plane.draw(&Polygon::new(around, band))?;
     }
     for steps in line.windows(if joins { line.len() } else { 2 }) {
         plane.draw(&PathElement::new(steps, stroke))?;

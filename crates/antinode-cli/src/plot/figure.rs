@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use super::axis::{Axis, Scale};
+use super::extent::Extent;
 use super::panel::{Panel, panel};
 use super::reduce::column;
 use super::rows::{COLUMNS, Row, Trace, Trust};
-use super::scale::Extent;
 
 /// The time axis of one row, s.
 const LONE: f64 = 1.0;

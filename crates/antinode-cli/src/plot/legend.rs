@@ -9,7 +9,7 @@ use super::draw::{ARROW, BEYOND, FLAGGED, TEXT, WIDTH};
 use super::figure::Figure;
 use crate::canvas::{self, FONT};
 
-/// Colours of the first recordings; the others share grey.
+/// Colours of a few recordings.
 const COLOURS: [RGBColor; 6] = [
     canvas::BLUE,
     canvas::VERMILLION,
@@ -18,6 +18,18 @@ const COLOURS: [RGBColor; 6] = [
     canvas::ORANGE,
     canvas::SKY_BLUE,
 ];
+/// Colours of more recordings, in their order, pass from one of these to the next: as they grow lighter too, colour-blind readers see it as
+/// well (stops of matplotlib's plasma).
+const RAMP: [RGBColor; 4] = [
+    RGBColor(13, 8, 135),
+    RGBColor(126, 3, 168),
+    RGBColor(204, 71, 120),
+    RGBColor(248, 149, 64),
+];
+/// Opacity of the bands of a few recordings.
+const BAND_OPACITY: f64 = 0.25;
+/// Recordings that are named, at the most: of more those are, evenly, whose colours the others' lie between.
+const MOST_NAMED: usize = 24;
 /// Most characters of a name that are shown: the last ones, as its end tells more than its folder.
 const MOST_CHARACTERS: usize = 70;
 /// All in pixels: from a line to the next, the margin, a key before its text, and the gap behind that.
@@ -49,18 +61,22 @@ struct Entry {
 pub struct Legend {
     entries: Vec<Entry>,
     height: u32,
+    /// One a recording.
+    colours: Vec<RGBColor>,
 }
 
 impl Legend {
     /// Names recordings, and explains what the figure has.
     pub fn new(figure: &Figure, names: &[&str]) -> Result<Self, Box<dyn Error>> {
-        let mut texts: Vec<_> = names
-            .iter()
-            .zip(COLOURS)
-            .map(|(name, colour)| (Key::Colour(colour), shortened(name)))
+        let colours = colours(names.len());
+        let named = names.len().min(MOST_NAMED);
+        let mut texts: Vec<_> = (0..named)
+            .map(|place| place * (names.len() - 1) / (named - 1).max(1))
+            .map(|index| (Key::Colour(colours[index]), shortened(names[index])))
             .collect();
-        if let Some(others @ 1..) = names.len().checked_sub(COLOURS.len()) {
-            texts.push((Key::Colour(canvas::GREY), format!("{others} more")));
+        if let Some(others @ 1..) = names.len().checked_sub(MOST_NAMED) {
+            let told = format!("{others} more, of colours between these");
+            texts.push((Key::Colour(canvas::GREY), told));
         }
         let curves = figure.panels.iter().flat_map(|panel| &panel.curves);
         let mut edges = curves.flatten().flat_map(|piece| &piece.band);
@@ -84,7 +100,11 @@ impl Legend {
             x += KEY + width + GAP;
         }
         let height = y + LINE;
-        Ok(Self { entries, height })
+        Ok(Self {
+            entries,
+            height,
+            colours,
+        })
     }
 
     /// Pixels.
@@ -94,7 +114,13 @@ impl Legend {
 
     /// The colour of a recording.
     pub fn colour(&self, index: usize) -> RGBColor {
-        COLOURS.get(index).copied().unwrap_or(canvas::GREY)
+        self.colours[index]
+    }
+
+    /// The opacity of bands: of many, which overlap, each is fainter.
+    pub fn band_opacity(&self) -> f64 {
+        let few = COLOURS.len();
+        BAND_OPACITY * few as f64 / self.colours.len().max(few) as f64
     }
 
     /// Draws it, with so many units a pixel.
@@ -134,6 +160,31 @@ impl Legend {
     }
 }
 
+/// The colours of so many recordings.
+fn colours(count: usize) -> Vec<RGBColor> {
+    if count <= COLOURS.len() {
+        return COLOURS[..count].to_vec();
+    }
+    let steps = (RAMP.len() - 1) as f64;
+    let shares = (0..count).map(|index| index as f64 / (count - 1) as f64);
+    shares.map(|share| on_ramp(share * steps)).collect()
+}
+
+/// The colour at a place of the ramp, from 0 to the number of its last stop.
+fn on_ramp(place: f64) -> RGBColor {
+    let stop = (place as usize).min(RAMP.len() - 2);
+    let (one, next) = (RAMP[stop], RAMP[stop + 1]);
+    let share = place - stop as f64;
+    let between = |one: u8, next: u8| {
+        (f64::from(one) * (1.0 - share) + f64::from(next) * share).round() as u8
+    };
+    RGBColor(
+        between(one.0, next.0),
+        between(one.1, next.1),
+        between(one.2, next.2),
+    )
+}
+
 /// A name short enough to fit, without control characters.
 fn shortened(name: &str) -> String {
     let count = name.chars().count();
@@ -143,4 +194,24 @@ fn shortened(name: &str) -> String {
     }
     let end = name.chars().skip(count - MOST_CHARACTERS).map(plain);
     std::iter::once('…').chain(end).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_recording_has_a_colour_of_its_own() {
+        for count in [1, 6, 7, 20, 100] {
+            let mut colours: Vec<_> = colours(count).iter().map(|c| (c.0, c.1, c.2)).collect();
+            colours.sort_unstable();
+            colours.dedup();
+            assert_eq!(colours.len(), count);
+        }
+        let of_many = colours(7);
+        assert_eq!(
+            [of_many[0], of_many[2], of_many[6]],
+            [RAMP[0], RAMP[1], RAMP[3]]
+        );
+    }
 }

@@ -4,9 +4,10 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use super::axis::{Axis, Scale};
+use super::extent::{Extent, Measured};
+use super::numbers::{decimals, drawable, factor, frequency_unit};
 use super::reduce::{Piece, Sample, column, reduce};
 use super::rows::{COLUMNS, Row, Trace, Trust, median};
-use super::scale::{Extent, decimals, drawable, factor, frequency_unit};
 
 /// Titles of the panels, in the order of [`COLUMNS`].
 const TITLES: [&str; COLUMNS.len()] = [
@@ -28,10 +29,6 @@ const LEAST_OF_RESIDUAL: f64 = 0.02;
 const LEAST_OF_FREQUENCY: f64 = 1e-11;
 /// Margins above and below all values, as a share of their span.
 const ABOVE: f64 = 0.08;
-/// Rows whose deviation is so many times the median have no say in the range of an axis, as those at the end of a ring-down.
-const UNCERTAIN: f64 = 3.0;
-/// They have one as long as their deviation is less than this share of what the others span.
-const SEEN: f64 = 0.05;
 /// Arrows to values beyond a panel are no closer than so many columns.
 const APART: usize = 8;
 
@@ -62,29 +59,7 @@ pub fn panel(
     (span, time, columns): (&Range<f64>, Scale, usize),
 ) -> Panel {
     let is_log = is_log && !matches!(quantity, ANGLE | FREQUENCY);
-    let extent = extent(traces, quantity, is_log);
-    let (range, (scale, title)) = if is_log {
-        let range = extent.log_range().unwrap_or(0.1..1.0);
-        let title = match quantity {
-            QUADRATURE => format!("|{}|", TITLES[quantity]),
-            _ => TITLES[quantity].to_owned(),
-        };
-        (range, (Scale::LOG, title))
-    } else {
-        let least = match (quantity, extent.size()) {
-            // The deviations of zeros span something.
-            (_, 0.0) if extent.has_deviation() => 0.0,
-            (_, 0.0) => 1.0,
-            (FREQUENCY, size) => LEAST_OF_FREQUENCY * size,
-            (RESIDUAL, size) => LEAST_OF_RESIDUAL * size,
-            (_, size) => LEAST_SHARE * size,
-        };
-        // A quantity without a number has an empty panel.
-        let range = extent.range(least, ABOVE).unwrap_or(0.0..1.0);
-        let scale = scale(traces, quantity, &range, extent.size());
-        (range, scale)
-    };
-    let axis = scale.axis(title, &range);
+    let (axis, range, scale) = axis(traces, quantity, is_log);
     let mut beyond = vec![[false; 2]; columns.div_ceil(APART)];
     let curves = traces
         .iter()
@@ -110,48 +85,73 @@ pub fn panel(
             pieces
         })
         .collect();
+    Panel {
+        axis,
+        curves,
+        beyond: beyond_at(&beyond, span, time, columns),
+    }
+}
+
+/// A quantity's axis, the range of its numbers, and what these become on it.
+fn axis(traces: &[Trace], quantity: usize, is_log: bool) -> (Axis, Range<f64>, Scale) {
+    let extent = extent(traces, quantity, is_log);
+    if is_log {
+        let range = extent.log_range().unwrap_or(0.1..1.0);
+        let title = match quantity {
+            QUADRATURE => format!("|{}|", TITLES[quantity]),
+            _ => TITLES[quantity].to_owned(),
+        };
+        return (Scale::LOG.axis(title, &range), range, Scale::LOG);
+    }
+    let least = match (quantity, extent.size()) {
+        // The deviations of zeros span something.
+        (_, 0.0) if extent.has_deviation() => 0.0,
+        (_, 0.0) => 1.0,
+        (FREQUENCY, size) => LEAST_OF_FREQUENCY * size,
+        (RESIDUAL, size) => LEAST_OF_RESIDUAL * size,
+        (_, size) => LEAST_SHARE * size,
+    };
+    // A quantity without a number has an empty panel.
+    let range = extent.range(least, ABOVE).unwrap_or(0.0..1.0);
+    let (scale, title) = scale(traces, quantity, &range, extent.size());
+    (scale.axis(title, &range), range, scale)
+}
+
+/// Where the arrows are of those places that have values below or above the panel, and whether above.
+fn beyond_at(
+    places: &[[bool; 2]],
+    span: &Range<f64>,
+    time: Scale,
+    columns: usize,
+) -> Vec<(f64, bool)> {
     let middle = |place: usize| {
         let share = (place as f64 + 0.5) * APART as f64 / columns as f64;
         time.of(span.start + (span.end - span.start) * share)
     };
-    let places = beyond.iter().enumerate();
-    let beyond = places
+    let places = places.iter().enumerate();
+    places
         .flat_map(|(place, sides)| [(place, sides[0], false), (place, sides[1], true)])
         .filter(|&(_, is_beyond, _)| is_beyond)
         .map(|(place, _, is_above)| (middle(place), is_above))
-        .collect();
-    Panel {
-        axis,
-        curves,
-        beyond,
-    }
+        .collect()
 }
 
-/// What a quantity's axis is to hold: rows that are far less certain than the others are taken for flagged ones.
+/// What a quantity's axis is to hold.
 fn extent(traces: &[Trace], quantity: usize, is_log: bool) -> Extent {
-    let drawn: Vec<(f64, f64, bool)> = traces
-        .iter()
-        .flat_map(|trace| &trace.rows)
+    let rows = traces.iter().flat_map(|trace| &trace.rows);
+    let drawn: Vec<_> = rows
         .filter_map(|row| {
             let (value, deviation) = sample(row, quantity, is_log)?;
             // 0 has no logarithm.
             let is_drawn = !is_log || value > 0.0;
-            is_drawn.then_some((value, deviation, row.trust == Trust::Clean))
+            is_drawn.then_some(Measured {
+                value,
+                deviation,
+                is_clean: row.trust == Trust::Clean,
+            })
         })
         .collect();
-    let clean = || drawn.iter().filter(|(_, _, is_clean)| *is_clean);
-    let mut deviations: Vec<f64> = clean().map(|row| row.1).filter(|&std| std > 0.0).collect();
-    let usual = median(&mut deviations).map_or(f64::INFINITY, |median| UNCERTAIN * median);
-    let certain = clean().filter(|row| row.1 <= usual).map(|row| row.0);
-    let [least, greatest] = certain.fold([f64::INFINITY, f64::NEG_INFINITY], |ends, value| {
-        [ends[0].min(value), ends[1].max(value)]
-    });
-    let most = usual.max(SEEN * (greatest - least));
-    let mut extent = Extent::new();
-    for &(value, deviation, is_clean) in &drawn {
-        extent.add(value, deviation, is_clean && deviation <= most);
-    }
-    extent
+    Extent::of(&drawn)
 }
 
 /// How a quantity is told, and the title that says so.
@@ -179,19 +179,25 @@ fn scale(traces: &[Trace], quantity: usize, range: &Range<f64>, size: f64) -> (S
     }
 }
 
-/// That of the clean rows, or else of all.
+/// That of the clean rows where most are, or else of all.
 fn median_frequency(traces: &[Trace]) -> f64 {
-    let of = |is_used: fn(Trust) -> bool| {
-        let rows = traces.iter().flat_map(|trace| &trace.rows);
-        let mut numbers: Vec<_> = rows
-            .filter(|row| is_used(row.trust))
-            .filter_map(|row| Some(sample(row, FREQUENCY, false)?.0))
-            .collect();
-        median(&mut numbers)
+    let rows = traces.iter().flat_map(|trace| &trace.rows);
+    let (mut all, mut clean) = (Vec::new(), Vec::new());
+    for row in rows {
+        let Some((frequency, _)) = sample(row, FREQUENCY, false) else {
+            continue;
+        };
+        all.push(frequency);
+        if row.trust == Trust::Clean {
+            clean.push(frequency);
+        }
+    }
+    let most = if 2 * clean.len() > all.len() {
+        &mut clean
+    } else {
+        &mut all
     };
-    of(|trust| trust == Trust::Clean)
-        .or_else(|| of(|_| true))
-        .unwrap_or(0.0)
+    median(most).unwrap_or(0.0)
 }
 
 /// Brings a piece to the axes' scales; what lies beyond the panel is held at its edge.

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use antinode::Flags;
 use csv::StringRecord;
 
-use super::scale::drawable;
+use super::numbers::drawable;
 use crate::failure::Failure;
 use crate::row_file::{self, RowFile, number};
 

@@ -5,7 +5,7 @@ use std::ops::Range;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 
-use super::scale::{decimals, printed};
+use super::numbers::{decimals, printed};
 
 /// Numbers along a vertical axis, at the most.
 pub const MOST: usize = 6;

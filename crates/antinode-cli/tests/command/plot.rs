@@ -1,5 +1,6 @@
 //! `antinode plot`: what is in the rows is in the figure.
 
+use std::collections::HashSet;
 use std::fs;
 use std::path::Path;
 
@@ -182,20 +183,43 @@ fn recordings_have_colours_and_names() {
             assert_eq!(svg.lines(&panel, colour).len(), 1, "{colour}");
         }
     }
-    // One recording in several files of rows, and more than there are colours for.
+}
+
+#[test]
+fn many_recordings_are_named_and_told_apart() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let of = |file: &str| -> String {
+        let rows = (0..3).map(|k| format!("{k},{k},0.1,0.1,{k},5332,0.1,,{file}\n"));
+        rows.collect()
+    };
+    // One recording in several files of rows.
     for file in ["one.csv", "two.csv"] {
         fs::write(here.join(file), HEADER.to_owned() + &of("same")).unwrap();
     }
-    let others: String = (0..7).map(|k| of(&format!("other{k}"))).collect();
-    fs::write(here.join("others.csv"), HEADER.to_owned() + &others).unwrap();
-    let made = run(here, "plot one.csv two.csv others.csv -o it.svg");
-    assert_eq!((made.code, made.err.as_str()), (0, ""));
-    let svg = Svg::open(&here.join("it.svg"));
-    let texts = svg.texts();
-    for text in ["one.csv: same", "two.csv: same", "other3", "3 more"] {
-        assert!(texts.contains(&text), "{text}: {texts:?}");
+    for (others, more) in [(18, None), (48, Some("26 more, of colours between these"))] {
+        let rows: String = (0..others).map(|k| of(&format!("other{k}"))).collect();
+        fs::write(here.join("others.csv"), HEADER.to_owned() + &rows).unwrap();
+        let made = run(here, "plot one.csv two.csv others.csv -o it.svg");
+        assert_eq!((made.code, made.err.as_str()), (0, ""));
+        let svg = Svg::open(&here.join("it.svg"));
+        let texts = svg.texts();
+        let last = format!("other{}", others - 1);
+        for text in ["one.csv: same", last.as_str()].into_iter().chain(more) {
+            assert!(texts.contains(&text), "{text}: {texts:?}");
+        }
+        let named = texts.iter().filter(|text| text.starts_with("other"));
+        let is_told = texts.iter().any(|text| text.contains(" more"));
+        assert_eq!(
+            (named.count(), is_told),
+            (others.min(22) + usize::from(more.is_some()), more.is_some())
+        );
+        // Axes and grid have one each.
+        let strokes = svg.0.lines().filter(|line| line.starts_with("<polyline "));
+        let strokes = strokes.filter_map(|line| line.split("stroke=").nth(1)?.split(' ').next());
+        let colours: HashSet<_> = strokes.collect();
+        assert!(colours.len() >= others + 2, "{colours:?}");
     }
-    assert!(!texts.contains(&"other4"));
 }
 
 #[test]

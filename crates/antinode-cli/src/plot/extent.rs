@@ -1,33 +1,41 @@
-//! Axes: what range they span, what their numbers are multiplied by, and how these are printed.
+//! What range an axis spans.
 
 use std::ops::Range;
 
+use super::rows::median;
 use super::values::to_marks;
-use crate::digits::fixed;
 
-/// A range holds what clean rows measured; flagged values and deviations widen it on either side by no more than so many spans of that.
+/// Other values than those a range holds, and deviations, widen it on either side by no more than so many spans of that.
 const BEYOND: f64 = 0.5;
+/// A range holds what clean rows measured, and all values but the outermost on either side: one of so many, or one for so many clean
+/// rows if these are more.
+const OUTERMOST: usize = 20;
+const CLEAN: usize = 4;
+/// Rows whose deviation is so many times the median have no say in a range, as those at the end of a ring-down.
+const UNCERTAIN: f64 = 3.0;
+/// They have one as long as their deviation is less than this share of what the others span.
+const SEEN: f64 = 0.05;
 /// A range's least span in deviations.
 const DEVIATIONS: f64 = 4.0;
 /// The least of an axis of logarithms, as a share of the least deviation, and of the largest value where none is known: what is less is
 /// a passage through zero.
 const SHARE_OF_DEVIATION: f64 = 0.3;
 const LEAST_OF_LOG: f64 = 1e-9;
-/// Numbers from this size on cannot be drawn, and up to this one they are 0.
-const GREATEST: f64 = 1e290;
-const LEAST: f64 = 1e-280;
 
-/// A number as an axis can hold it: the steps of one that is too large or too small are none.
-pub fn drawable(number: f64) -> Option<f64> {
-    let size = number.abs();
-    (size < GREATEST).then_some(if size > LEAST { number } else { 0.0 })
+/// What was measured of a quantity.
+#[derive(Debug, Clone, Copy)]
+pub struct Measured {
+    pub value: f64,
+    /// One standard deviation; 0 where there is none.
+    pub deviation: f64,
+    pub is_clean: bool,
 }
 
 /// Gathers the values that a range is to hold.
 #[derive(Debug)]
 pub struct Extent {
-    clean: [f64; 2],
-    /// With flagged values, and the clean ones' deviations.
+    held: [f64; 2],
+    /// With values that need not be held, and the clean ones' deviations.
     all: [f64; 2],
     least_deviation: f64,
 }
@@ -36,17 +44,35 @@ impl Extent {
     /// Of nothing yet.
     pub fn new() -> Self {
         Self {
-            clean: [f64::INFINITY, f64::NEG_INFINITY],
+            held: [f64::INFINITY, f64::NEG_INFINITY],
             all: [f64::INFINITY, f64::NEG_INFINITY],
             least_deviation: f64::INFINITY,
         }
     }
 
-    /// Adds a value with its deviation.
-    pub fn add(&mut self, value: f64, deviation: f64, is_clean: bool) {
+    /// Of what rows measured: those far less certain than the others are taken for flagged ones, and these are held where they are many.
+    pub fn of(rows: &[Measured]) -> Self {
+        let deviations = rows.iter().map(|row| row.deviation);
+        let mut deviations: Vec<f64> = deviations.filter(|&deviation| deviation > 0.0).collect();
+        let usual = median(&mut deviations).map_or(f64::INFINITY, |median| UNCERTAIN * median);
+        let seen = held(rows, usual).map_or(0.0, |[from, to]| SEEN * (to - from));
+        let most = usual.max(seen);
+        let mut extent = Self::new();
+        for row in rows {
+            let is_held = row.is_clean && row.deviation <= most;
+            extent.add(row.value, row.deviation, is_held);
+        }
+        for end in held(rows, most).into_iter().flatten() {
+            extent.hold(end);
+        }
+        extent
+    }
+
+    /// Adds a value with its deviation, to be held or not.
+    pub fn add(&mut self, value: f64, deviation: f64, is_held: bool) {
         let mut about = 0.0;
-        if is_clean {
-            self.clean = [self.clean[0].min(value), self.clean[1].max(value)];
+        if is_held {
+            self.hold(value);
             self.least_deviation = self.least_deviation.min(deviation);
             about = deviation;
         }
@@ -56,35 +82,39 @@ impl Extent {
         ];
     }
 
+    fn hold(&mut self, value: f64) {
+        self.held = [self.held[0].min(value), self.held[1].max(value)];
+    }
+
     /// True where each clean value has a deviation.
     pub fn has_deviation(&self) -> bool {
         self.least_deviation > 0.0 && self.least_deviation.is_finite()
     }
 
-    /// True where any value is a clean row's.
-    fn is_clean(&self) -> bool {
-        self.clean[0] <= self.clean[1]
+    /// True where any value is to be held.
+    fn is_held(&self) -> bool {
+        self.held[0] <= self.held[1]
     }
 
-    /// The least and the greatest of the clean values, or else of all.
+    /// The least and the greatest of the values that are to be held, or else of all.
     fn measured(&self) -> [f64; 2] {
-        if self.is_clean() {
-            self.clean
-        } else {
-            self.all
-        }
+        if self.is_held() { self.held } else { self.all }
     }
 
     /// The range to draw, of so wide a span at the least and with a margin of such a share of it; none of no value.
     pub fn range(&self, least_span: f64, margin: f64) -> Option<Range<f64>> {
-        let is_clean = self.is_clean();
         let [mut from, mut to] = self.measured();
         if from > to {
             return None;
         }
-        if is_clean {
+        if self.is_held() {
             // A few that are wild would leave nothing to be seen of the others.
-            let most = BEYOND * (to - from).max(DEVIATIONS * self.least_deviation);
+            let least = if self.has_deviation() {
+                DEVIATIONS * self.least_deviation
+            } else {
+                0.0
+            };
+            let most = BEYOND * (to - from).max(least);
             from = self.all[0].max(from - most);
             to = self.all[1].min(to + most);
         }
@@ -105,7 +135,7 @@ impl Extent {
             LEAST_OF_LOG * to
         };
         from = from.max(least);
-        if self.is_clean() {
+        if self.is_held() {
             let most = (to / from).powf(BEYOND);
             (from, to) = (
                 self.all[0].max(least).max(from / most).min(from),
@@ -127,42 +157,20 @@ impl Extent {
     }
 }
 
-/// The decimals that tell steps of this size apart.
-pub fn decimals(step: f64) -> usize {
-    // A step of 0.2 has one, and what is a little less by rounding too.
-    (-(step * 1.000_001).log10().floor()).clamp(0.0, 15.0) as usize
-}
-
-/// A number with so many decimals, and a minus as long as a digit.
-pub fn printed(number: f64, decimals: usize) -> String {
-    fixed(decimals, number).replace('-', "−")
-}
-
-/// What numbers of this size are multiplied by so that few digits tell them, and how a title says so.
-pub fn factor(size: f64) -> (f64, String) {
-    if size == 0.0 || (1e-3..1e6).contains(&size) {
-        return (1.0, String::new());
-    }
-    let power = -3 * (size.log10() / 3.0).floor() as i32;
-    // The font has no raised minus.
-    let sign = if power > 0 { '×' } else { '÷' };
-    let raised: String = power
-        .unsigned_abs()
-        .to_string()
-        .bytes()
-        .map(|digit| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][usize::from(digit - b'0')])
-        .collect();
-    (10f64.powi(power), format!(" {sign} 10{raised}"))
-}
-
-/// The unit of frequency that leaves a difference of this size 1 to 1000, and how many of it are 1 Hz.
-pub fn frequency_unit(size: f64) -> (&'static str, f64) {
-    match size {
-        1.0.. => ("Hz", 1.0),
-        1e-3.. => ("mHz", 1e3),
-        1e-6.. => ("µHz", 1e6),
-        _ => ("nHz", 1e9),
-    }
+/// The least and the greatest value of rows with no more than this deviation: of the clean ones, and of all but the outermost.
+fn held(rows: &[Measured], most: f64) -> Option<[f64; 2]> {
+    let certain = || rows.iter().filter(|row| row.deviation <= most);
+    let clean = certain().filter(|row| row.is_clean).map(|row| row.value);
+    let mut values: Vec<f64> = certain().map(|row| row.value).collect();
+    values.sort_unstable_by(f64::total_cmp);
+    let outermost = (values.len() / OUTERMOST).max(clean.clone().count().div_ceil(CLEAN));
+    let last = values.len().saturating_sub(outermost);
+    let middle = values.get(outermost..last).unwrap_or_default();
+    let ends = middle.first().into_iter().chain(middle.last()).copied();
+    clean
+        .chain(ends)
+        .map(|value| [value; 2])
+        .reduce(|[least, greatest], [value, _]| [least.min(value), greatest.max(value)])
 }
 
 #[cfg(test)]
@@ -195,6 +203,55 @@ mod tests {
             Some(2.0..9.0)
         );
         assert_eq!(range(&[], 1.0), None);
+    }
+
+    /// What rows measured, whose values are these, of which some are clean.
+    fn of(values: impl Iterator<Item = f64>, is_clean: impl Fn(usize) -> bool) -> Range<f64> {
+        let rows = values.enumerate().map(|(k, value)| Measured {
+            value,
+            deviation: 0.0,
+            is_clean: is_clean(k),
+        });
+        Extent::of(&rows.collect::<Vec<_>>())
+            .range(0.0, 0.0)
+            .unwrap()
+    }
+
+    #[test]
+    fn flagged_rows_have_a_say_where_few_are_clean() {
+        let decay = || (0..1000).map(|k| (-0.005 * f64::from(k)).exp());
+        let all = decay().next_back().unwrap()..1.0;
+        for is_clean in [
+            |k: usize| (500..503).contains(&k),
+            |k| k < 300,
+            |k| k % 3 == 0,
+            |_| false,
+        ] {
+            assert_eq!(of(decay(), is_clean), all);
+            // A few that are absurd do not.
+            let wild = decay().enumerate().map(|(k, value)| match k {
+                700..730 => 1e6,
+                _ => value,
+            });
+            let range = of(wild, |k| is_clean(k) && !(700..730).contains(&k));
+            assert!(range.start == all.start && range.end < 1.6, "{range:?}");
+        }
+        // Where most are clean, as many as a fifth do not.
+        let wild = decay().enumerate();
+        let wild = wild.map(|(k, value)| if k % 5 == 0 { 1e6 } else { value });
+        assert!(of(wild, |k| k % 5 != 0).end < 1.6);
+    }
+
+    #[test]
+    fn rows_less_certain_than_most_have_no_say() {
+        let rows: Vec<_> = (0..100)
+            .map(|k| Measured {
+                value: f64::from(k % 10) + if k < 60 { 0.0 } else { 1e3 },
+                deviation: if k < 60 { 0.1 } else { 100.0 },
+                is_clean: k == 0,
+            })
+            .collect();
+        assert_eq!(Extent::of(&rows).range(0.0, 0.0), Some(-0.1..13.5));
     }
 
     #[test]
@@ -234,17 +291,5 @@ mod tests {
     fn a_constant_has_a_range_too() {
         assert_eq!(range(&[(5.0, 0.0, true)], 1.0), Some(4.5..5.5));
         assert_eq!(range(&[(5.0, 0.25, true)], 0.0), Some(4.75..5.25));
-    }
-
-    #[test]
-    fn numbers_have_the_digits_that_tell_them_apart() {
-        assert_eq!([20.0, 1.0, 0.5, 0.2, 0.01].map(decimals), [0, 0, 1, 1, 2]);
-        assert_eq!(decimals(0.3 - 0.2), 1);
-        assert_eq!(factor(0.05), (1.0, String::new()));
-        assert_eq!(factor(4.2e-6).1, " × 10⁶");
-        let (by, told) = factor(4.2e7);
-        assert_eq!(told, " ÷ 10⁶");
-        assert!((1e6 * by - 1.0).abs() < 1e-12);
-        assert_eq!(frequency_unit(0.02), ("mHz", 1e3));
     }
 }

@@ -1,0 +1,68 @@
+//! Numbers of an axis: which can be drawn, what they are multiplied by, and how they are printed.
+
+use crate::digits::fixed;
+
+/// Numbers from this size on cannot be drawn, and up to this one they are 0.
+const GREATEST: f64 = 1e290;
+const LEAST: f64 = 1e-280;
+
+/// A number as an axis can hold it: the steps of one that is too large or too small are none.
+pub fn drawable(number: f64) -> Option<f64> {
+    let size = number.abs();
+    (size < GREATEST).then_some(if size > LEAST { number } else { 0.0 })
+}
+
+/// The decimals that tell steps of this size apart.
+pub fn decimals(step: f64) -> usize {
+    // A step of 0.2 has one, and what is a little less by rounding too.
+    (-(step * 1.000_001).log10().floor()).clamp(0.0, 15.0) as usize
+}
+
+/// A number with so many decimals, and a minus as long as a digit.
+pub fn printed(number: f64, decimals: usize) -> String {
+    fixed(decimals, number).replace('-', "−")
+}
+
+/// What numbers of this size are multiplied by so that few digits tell them, and how a title says so.
+pub fn factor(size: f64) -> (f64, String) {
+    if size == 0.0 || (1e-3..1e6).contains(&size) {
+        return (1.0, String::new());
+    }
+    let power = -3 * (size.log10() / 3.0).floor() as i32;
+    // The font has no raised minus.
+    let sign = if power > 0 { '×' } else { '÷' };
+    let raised: String = power
+        .unsigned_abs()
+        .to_string()
+        .bytes()
+        .map(|digit| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][usize::from(digit - b'0')])
+        .collect();
+    (10f64.powi(power), format!(" {sign} 10{raised}"))
+}
+
+/// The unit of frequency that leaves a difference of this size 1 to 1000, and how many of it are 1 Hz.
+pub fn frequency_unit(size: f64) -> (&'static str, f64) {
+    match size {
+        1.0.. => ("Hz", 1.0),
+        1e-3.. => ("mHz", 1e3),
+        1e-6.. => ("µHz", 1e6),
+        _ => ("nHz", 1e9),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_that_tell_them_apart() {
+        assert_eq!([20.0, 1.0, 0.5, 0.2, 0.01].map(decimals), [0, 0, 1, 1, 2]);
+        assert_eq!(decimals(0.3 - 0.2), 1);
+        assert_eq!(factor(0.05), (1.0, String::new()));
+        assert_eq!(factor(4.2e-6).1, " × 10⁶");
+        let (by, told) = factor(4.2e7);
+        assert_eq!(told, " ÷ 10⁶");
+        assert!((1e6 * by - 1.0).abs() < 1e-12);
+        assert_eq!(frequency_unit(0.02), ("mHz", 1e3));
+    }
+}

@@ -79,7 +79,8 @@ pub enum Command {
     /// the amplitude: a cubic part of 1e-4 S³ shortens the decay time of a wave of a_A = 0.8 by 2e-5 of itself in a recording of four decay
     /// times, and by 5e-5 in one of a third of a decay time.
     ///
-    /// A run ends where the wave is lost or jumps: one recording may hold several ring-downs, and missing samples do not bias the rates.
+    /// A run ends where the wave is lost or jumps: one recording may hold several ring-downs, and missing samples do not bias the rates. Runs
+    /// in which the wave grows or is held, while it decays in others, are left out, which is told.
     Resonator(Resonator),
     /// Draws rows over time: both amplitudes, pattern angle, frequency and residual, with their deviations and flags.
     ///

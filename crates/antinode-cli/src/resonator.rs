@@ -3,6 +3,7 @@
 mod by_energy;
 mod chords;
 mod drift;
+mod driven;
 mod fit;
 mod found;
 mod frequency;
@@ -26,6 +27,7 @@ use crate::options::Format;
 use crate::runs::{BEYOND_NOISE, Run, Runs};
 use crate::serialized;
 use by_energy::ByEnergy;
+use driven::take_driven;
 use fit::fit;
 use found::Found;
 use frequency::{Frequency, frequency};
@@ -64,7 +66,8 @@ pub struct Resonator {
 
 /// Finds the resonator and prints it.
 pub fn run(options: &Resonator) -> Result<(), Failure> {
-    let (rows, name) = Runs::open(&options.given, MOST_TURN, BREAKS)?;
+    let (mut rows, name) = Runs::open(&options.given, MOST_TURN, BREAKS)?;
+    let driven = take_driven(&mut rows);
     let found = fit(&rows.runs).map_err(|_| {
         Failure::Fault(format!(
             "{name}: no resonator explains the rows: see that nothing drives the gyro while it rings down, \
@@ -82,8 +85,24 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
         Format::Jsonl => serialized::jsonl(&mut out, rows_of())?,
     }
     // The result is printed: standard error may be closed.
-    let _ = tell(&mut io::stderr().lock(), &rows, &listed, &found, &frequency);
+    let mut err = io::stderr().lock();
+    let _ = tell_driven(&mut err, &driven)
+        .and_then(|()| tell(&mut err, &rows, &listed, &found, &frequency));
     Ok(())
+}
+
+/// Tells which runs were left out, as something drives them.
+fn tell_driven(out: &mut impl Write, driven: &[Run]) -> io::Result<()> {
+    let count = match driven.len() {
+        0 => return Ok(()),
+        1 => "1 run".to_owned(),
+        runs => format!("{runs} runs"),
+    };
+    writeln!(
+        out,
+        "warning: left out: {count} in which the wave does not decay, as it does in others, so that something drives it: {}",
+        driven::names(driven)
+    )
 }
 
 /// How fast the patterns turn, rad/s, where all that turn do so one way, and too few stand still.

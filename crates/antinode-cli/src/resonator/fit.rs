@@ -81,7 +81,7 @@ fn turned(runs: &[Run]) -> Result<Found, Unsettled> {
 }
 
 /// What a model finds.
-fn found(runs: &[Run], model: Model) -> Result<Found, Unsettled> {
+pub fn found(runs: &[Run], model: Model) -> Result<Found, Unsettled> {
     let values = start(runs, model).ok_or(Unsettled)?;
     settle(runs, model, values)
 }

@@ -22,6 +22,7 @@ mod port;
 mod port_monitor;
 mod reading;
 mod resonator;
+mod resonator_driven;
 mod resonator_frequency;
 mod resonator_rows;
 mod resonator_splits;

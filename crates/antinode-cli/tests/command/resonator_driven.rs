@@ -1,0 +1,99 @@
+//! `antinode resonator`: runs in which something drives the wave, between the ring-downs of one recording.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::ring_downs::{of_resonator, of_run};
+use crate::common::{Run, run, run_with};
+
+/// What is found in one recording of these waves, each of 3 s.
+fn found_in(here: &Path, waves: &[String]) -> Run {
+    let mut recording = Vec::new();
+    for wave in waves {
+        let made = run(
+            here,
+            &format!("simulate -o it.wav --seconds 3 --noise 0.002 {wave}"),
+        );
+        assert_eq!(made.code, 0, "{}", made.err);
+        // Behind the header.
+        recording.extend(fs::read(here.join("it.wav")).unwrap().split_off(44));
+    }
+    let rows = run_with(
+        here,
+        "identify - --raw i16 --rate 100000 --periods 50 --output csv",
+        recording,
+    );
+    assert_eq!(rows.code, 0, "{}", rows.err);
+    run_with(here, "resonator - --output csv", rows.out.into())
+}
+
+#[test]
+fn runs_that_are_driven_are_left_out_of_the_resonator() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let splits = "--damping-split 0.01 --damping-angle 0.5";
+    // It is excited, or held, at the angle where it then rings down.
+    for driven in ["--decay-rate -0.3", "--decay-rate 0"] {
+        let waves: Vec<_> = ["0.3", "0.7", "1.1"]
+            .iter()
+            .flat_map(|angle| {
+                [
+                    format!("{driven} --angle {angle} --main-amplitude 0.3"),
+                    format!("--decay-rate 0.1 {splits} --angle {angle} --phase 2"),
+                ]
+            })
+            .collect();
+        let found = found_in(here, &waves);
+        assert_eq!(found.code, 0, "{}", found.err);
+        let (time, std) = of_resonator(&found.out, "decay_time_s");
+        assert!(
+            (time - 10.0).abs() < 4.0 * std && std < 0.02,
+            "{driven}: {}",
+            found.out
+        );
+        let (split, std) = of_resonator(&found.out, "damping_split_s");
+        assert!(
+            (split - 0.01).abs() < 4.0 * std && std < 4e-4,
+            "{driven}: {}",
+            found.out
+        );
+        let told = "warning: left out: 3 runs in which the wave does not decay, as it does in others, so that something drives it: standard \
+                    input, 3.0 s from 0.0 s on; standard input, 3.0 s from 6.0 s on; standard input, 3.0 s from 12.0 s on\n";
+        assert_eq!(found.err, told, "{driven}");
+        assert!(!found.out.contains("\n4,"), "{}", found.out);
+    }
+}
+
+#[test]
+fn a_slow_ring_down_beside_fast_ones_is_not_left_out() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // As of a resonator that is damped before it is excited anew.
+    let waves = ["0.05", "1", "0.05", "1"]
+        .map(|rate| format!("--decay-rate {rate} --angle 0.3 --phase {rate}"));
+    let found = found_in(here, &waves);
+    assert!(!found.err.contains("left out"), "{}", found.err);
+    for (run, time) in [("1", 20.0), ("2", 1.0), ("3", 20.0), ("4", 1.0)] {
+        let (value, std) = of_run(&found.out, run, "decay_time_s");
+        assert!((value - time).abs() < 4.0 * std, "{}", found.out);
+    }
+}
+
+#[test]
+fn a_wave_that_only_seems_to_grow_while_it_turns_is_not_left_out() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // Pick-offs that are not calibrated: two of them seem to grow, one to decay.
+    let waves = [
+        "--angle 0.1 --angle-rate 0.15",
+        "--angle 0.1 --angle-rate -0.15",
+        "--angle 0.9 --angle-rate 0.15",
+    ]
+    .map(|turn| format!("--decay-rate 0.001 --gain-ratio 1.05 {turn}"));
+    let found = found_in(here, &waves);
+    assert!(
+        !found.err.contains("left out") && found.err.contains("times their noise"),
+        "{}",
+        found.err
+    );
+}

@@ -57,7 +57,8 @@ pub(super) fn examine(
 ) {
     let is_watched = blocks.first().is_some_and(|block| block.watched.is_some());
     let mut thirds = Thirds::of(Line::Third);
-    let mut views = Views::new(model);
+    let mut image = image::of(model).map(Thirds::of);
+    let mut views = Views::new();
     let mut hum = Hum::new(&mut remains.wander);
     for (chunk, run) in blocks.chunks(CHUNK).enumerate() {
         let index = chunk * CHUNK;
@@ -79,13 +80,17 @@ pub(super) fn examine(
         );
         views.take(model, index, &left, run.len());
         if is_watched {
-            thirds.add(model, waves, offsets, &prediction.factors, run, &course);
+            let factors = &prediction.factors;
+            thirds.add(model, waves, offsets, factors, run, &course);
+            if let Some(image) = &mut image {
+                image.add(model, waves, offsets, factors, run, &course);
+            }
         }
     }
     views.conclude(model, remains);
     thirds.conclude(model, remains);
-    if is_watched && let Some(line) = image::of(model) {
-        image::take_out(line, &thirds, model, blocks, waves, offsets, remains);
+    if let Some(image) = &image {
+        image.take_out(&thirds, model, remains);
     }
 }
 
@@ -164,18 +169,21 @@ struct Views {
     /// The sum of the residuals up to a block, squared, and what noise would make it: where it is most beyond.
     run: f32,
     room: f32,
-    /// Σu² over the window, u being the blocks' middles.
-    spread: f32,
     time: f32,
 }
 
 impl Views {
-    fn new(model: &Model) -> Self {
+    fn new() -> Self {
         Self {
             room: 1.0,
-            spread: (1.0 / 3.0) * (f32::from(model.blocks) - 0.5 * model.advance),
             ..Self::default()
         }
+    }
+
+    /// Σu² over the window, u being the blocks' middles.
+    #[inline]
+    fn spread(model: &Model) -> f32 {
+        (1.0 / 3.0) * (f32::from(model.blocks) - 0.5 * model.advance)
     }
 
     /// Takes what `count` blocks from block `index` on leave.
@@ -183,7 +191,8 @@ impl Views {
     fn take(&mut self, model: &Model, index: usize, left: &LeftOfBlocks, count: usize) {
         let mut views = Self { ..*self };
         let mut u = model.time(index as u16);
-        let least = 0.2 * views.spread;
+        let spread = Self::spread(model);
+        let least = 0.2 * spread;
         for (&power, &run) in left.power.iter().zip(&left.run).take(count) {
             views.residual += power;
             views.worst_block = greater(power, views.worst_block);
@@ -191,7 +200,7 @@ impl Views {
             u += model.advance;
             // A step is known by what of it is neither constant nor slope. After n blocks of N it is n − n²/N that is not constant: the
             // sum of their times, but for the sign.
-            let room = -views.time * (views.spread + views.time);
+            let room = -views.time * (spread + views.time);
             if room > least && run * views.room > views.run * room {
                 (views.run, views.room) = (run, room);
             }
@@ -212,6 +221,7 @@ impl Views {
         remains.freedom = model.freedom();
         remains.worst_block = self.worst_block;
         // No step takes off more than there is, but what rounding left of the gradients may seem to.
-        remains.step = lesser(self.run * self.spread / (weight * self.room), self.residual);
+        let step = self.run * Self::spread(model) / (weight * self.room);
+        remains.step = lesser(step, self.residual);
     }
 }

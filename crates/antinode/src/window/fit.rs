@@ -70,7 +70,9 @@ impl Model {
         let mut parameters = Parameters::default();
         fit.offsets = [0.0; 2];
         self.step(&gradients, &mut parameters, fit);
-        for pass in 0..STEPS {
+        // With offsets of their own the linear solution does not know what the waves put into the blocks' means.
+        let mut knows_offset = self.shared > 0.0;
+        for _ in 0..STEPS {
             fit.waves.take_course();
             examine(
                 self,
@@ -80,8 +82,6 @@ impl Model {
                 &mut fit.remains,
                 &mut gradients,
             );
-            // With offsets of their own the linear solution does not know what the waves put into the blocks' means.
-            let knows_offset = pass > 0 || self.shared > 0.0;
             if knows_offset && self.is_futile(&gradients, fit) {
                 fit.settled = true;
                 break;
@@ -89,6 +89,7 @@ impl Model {
             if self.step(&gradients, &mut parameters, fit) && knows_offset {
                 break;
             }
+            knows_offset = true;
         }
         let Parameters { z, slope, .. } = &parameters;
         fit.power = z.map(|z| z.norm_sqr());

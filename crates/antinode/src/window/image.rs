@@ -3,17 +3,14 @@
 
 use num_complex::Complex32;
 
-use super::course::{CHUNK, bend, course};
 use super::examine::Remains;
 use super::model::Model;
-use super::prediction::Prediction;
-use super::seen::Seen;
 use super::third::{Line, Thirds};
-use super::waves::Waves;
+use crate::phase::PhaseStep;
 use crate::scalar::greater;
 
-/// No image is slow at more samples a period.
-const FEW: f32 = 10.5;
+/// No image is slow at a lower frequency: at more than 10.5 samples a period.
+const LEAST: PhaseStep = PhaseStep((4_294_967_296.0 / 10.5) as u32);
 /// Where an image answers in a block with less than one over this, it is left among what looks like noise.
 const SLOW: f32 = 6.0;
 /// The same of the second harmonic, which common electronics have: where it is nearer than that, nothing is told from it.
@@ -26,7 +23,7 @@ const APART: f32 = 0.02;
 /// The image that a window would take for noise.
 #[inline]
 pub(super) fn of(model: &Model) -> Option<Line> {
-    if model.layout.step.period() > FEW {
+    if model.layout.step.0 < LEAST.0 {
         return None;
     }
     slow(model)
@@ -48,48 +45,34 @@ fn slow(model: &Model) -> Option<Line> {
     (nearest * samples < SLOW && second * samples > SECOND).then_some(line)
 }
 
-/// Takes the image of a line out of what looks like noise about the third harmonic, and into the latter's amplitudes: of a limiter both are
-/// about as large.
-#[cold]
-#[inline(never)]
-pub(super) fn take_out(
-    line: Line,
-    thirds: &Thirds,
-    model: &Model,
-    blocks: &[Seen],
-    waves: &Waves,
-    offsets: &[f32; 2],
-    remains: &mut Remains,
-) {
-    let mut image = Thirds::of(line);
-    let factors = Prediction::of_c(model, waves, offsets).factors;
-    for (chunk, blocks) in blocks.chunks(CHUNK).enumerate() {
-        let index = chunk * CHUNK;
-        let mut course = course(model, waves, index);
-        bend(&mut course, model, waves, index, blocks.len());
-        image.add(model, waves, offsets, &factors, blocks, &course);
+impl Thirds {
+    /// Takes this image out of what looks like noise about the third harmonic, and into the latter's amplitudes: of a limiter both are about
+    /// as large.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn take_out(&self, thirds: &Thirds, model: &Model, remains: &mut Remains) {
+        // Both lines, block for block before the last one, one against the other.
+        let against = Line::Third.turn(model.turn) * self.line.turn(model.turn).conj();
+        let (mut mixed, mut unit) = (Complex32::ZERO, Complex32::ONE);
+        for _ in 0..thirds.watched {
+            mixed += unit;
+            unit *= against;
+        }
+        let count = f32::from(thirds.watched);
+        let apart = count * count - mixed.norm_sqr();
+        if thirds.watched < LEAST_BLOCKS || apart < APART * count * count {
+            return;
+        }
+        let (amplitude, power) = thirds.scales(model);
+        let mut left = thirds.power;
+        let sums = thirds.sum.iter().zip(&self.sum);
+        for (third, (sum, other)) in remains.third.iter_mut().zip(sums) {
+            // What is left of the other sum when the line is taken out, and of the unit that it answers to.
+            let rest = other - sum * mixed.conj() / count;
+            let explained = sum.norm_sqr() / count + rest.norm_sqr() * count / apart;
+            left -= explained;
+            *third = 0.5 * explained * amplitude * amplitude / count;
+        }
+        remains.third_alone = greater(left, 0.0) * power / (remains.third_freedom - 4.0);
     }
-    // Both lines, block for block before the last one, one against the other.
-    let against = Line::Third.turn(model.turn) * line.turn(model.turn).conj();
-    let (mut mixed, mut unit) = (Complex32::ZERO, Complex32::ONE);
-    for _ in 0..thirds.watched {
-        mixed += unit;
-        unit *= against;
-    }
-    let count = f32::from(thirds.watched);
-    let apart = count * count - mixed.norm_sqr();
-    if thirds.watched < LEAST_BLOCKS || apart < APART * count * count {
-        return;
-    }
-    let (amplitude, power) = thirds.scales(model);
-    let mut left = thirds.power;
-    let sums = thirds.sum.iter().zip(&image.sum);
-    for (third, (sum, other)) in remains.third.iter_mut().zip(sums) {
-        // What is left of the other sum when the line is taken out, and of the unit that it answers to.
-        let rest = other - sum * mixed.conj() / count;
-        let explained = sum.norm_sqr() / count + rest.norm_sqr() * count / apart;
-        left -= explained;
-        *third = 0.5 * explained * amplitude * amplitude / count;
-    }
-    remains.third_alone = greater(left, 0.0) * power / (remains.third_freedom - 4.0);
 }

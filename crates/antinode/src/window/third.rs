@@ -44,7 +44,7 @@ pub(super) struct Thirds {
     /// The most of it in a block.
     most: f32,
     pub watched: u16,
-    line: Line,
+    pub line: Line,
 }
 
 impl Thirds {

@@ -105,7 +105,7 @@ impl Waves {
 
     /// Tells which changes are exponential: one of a little more than the wave is, for the carrier follows the greater wave, and the lesser
     /// turns by twice as much beside it; of one as small as noise, of half of it.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn take_course(&mut self) {
         let small = 0.0001 * self.power();
         for w in 0..2 {

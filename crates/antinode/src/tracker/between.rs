@@ -48,12 +48,12 @@ pub(super) fn flags(
         ANGLE_FLOOR,
     );
     let offset_variance = now.offset_variance + before.offset_variance;
-    let mut step = 0.0;
+    let (mut step, per_sample) = (0.0, 1.0 / interval.samples);
     for (i, rate) in offset_rates.iter_mut().enumerate() {
         let moved = now.offsets[i] - before.offsets[i];
         // One that goes on as it went before wanders, and does not step.
         let beside = moved - *rate * interval.samples;
-        *rate = moved / interval.samples;
+        *rate = moved * per_sample;
         step = greater(lesser(moved.abs(), beside.abs()), step);
     }
     let offsets = beyond(step, offset_variance, amplitude_floor);

@@ -2,7 +2,7 @@
 //!
 //! Every threshold is a false-alarm rate below 10⁻⁹ a window for white noise, plus a floor under which a deviation is no fault.
 
-use super::noise::{Noise, REACH, REACH_ONCE, RISE, is_beyond_chance, is_louder, limit_of};
+use super::noise::{Noise, REACH, REACH_ONCE, RISE, is_louder, limit_of};
 use super::standing::Standing;
 use crate::arch::square_root;
 use crate::estimate::Flags;
@@ -120,15 +120,14 @@ pub(crate) fn within(
             || is_louder(wide - floor, noise.wide, wide_freedom, noise.freedom));
     // A part of the residual beside the noise of the windows before, or beside the rest where that is known better.
     let stands_out = |part: f32, degrees: f32, floor: f32| {
-        let rest = remains.freedom - degrees;
-        let (level, freedom) = if noise.freedom > rest && !louder {
-            (noise.variance, noise.freedom)
+        let (rest, beyond) = (remains.freedom - degrees, part - floor);
+        if noise.freedom > rest && !louder {
+            is_louder(beyond, degrees * noise.variance, degrees, noise.freedom)
         } else {
-            (greater(remains.residual - part, 0.0) / rest, rest)
-        };
-        // Of so few degrees the limit is more than that.
-        let (part, level) = (part - floor, degrees * level);
-        part > RISE * level && is_beyond_chance(part, level, degrees, freedom)
+            let others = greater(remains.residual - part, 0.0);
+            // Both sides times the degrees of freedom: a product is less than a division.
+            is_louder(beyond * rest, degrees * others, degrees, rest)
+        }
     };
     // One block out of line with all others: a step, a spike or a short dropout.
     // Of both pick-offs' sums of a block, those that its own offsets leave.

@@ -135,7 +135,7 @@ pub(super) fn is_louder(variance: f32, level: f32, freedom: f32, other: f32) -> 
 /// True when a variance of `freedom` degrees exceeds a level of `other` by more than chance explains.
 #[cold]
 #[inline(never)]
-pub(super) fn is_beyond_chance(variance: f32, level: f32, freedom: f32, other: f32) -> bool {
+fn is_beyond_chance(variance: f32, level: f32, freedom: f32, other: f32) -> bool {
     variance > limit(freedom, other) * level
 }
 

@@ -212,24 +212,21 @@ impl Trend {
         let mut variance = level * own * per_determinant;
         // Of a pattern that vibrates a curve through the angles is off by this, where those of the windows before were beside theirs by one.
         let of_others = 1.0 - rate * per_determinant;
-        let off = if used >= ENOUGH && of_others > LEAST {
+        let (off, share) = if used >= ENOUGH && of_others > LEAST {
             // The angle of the curve at the window, in which the others have this share: what is left is its distance from the others' curve.
             let at_window = (rate * level_value - mixed * rate_value) * per_determinant;
-            let per_others = 1.0 / of_others;
-            let (expected, distance) = (own * per_others, at_window * per_others);
-            // The square over what is expected of it.
+            // The square of that over what is expected of it.
             let most = MOST * (1.0 + greater(self.beside, 0.0));
-            let square = lesser(distance * distance, most * expected);
-            let change = square / expected - 1.0 - self.beside;
-            self.learned = self.beside + change * (1.0 / AVERAGED);
-            OF_CUBIC * OF_CUBIC * expected
+            let square = lesser(at_window * at_window / (own * of_others), most);
+            self.learned = self.beside + (square - 1.0 - self.beside) * (1.0 / AVERAGED);
+            (OF_CUBIC * OF_CUBIC, of_others)
         } else {
             self.learned = self.beside;
-            OF_LINE * own
+            (OF_LINE, 1.0)
         };
         let bias = self.learned - BY_CHANCE;
         if bias > 0.0 {
-            variance += off * bias / (nearest * nearest);
+            variance += off * own * bias / (share * nearest * nearest);
         }
         Rate {
             value: (level * rate_value - mixed * level_value) * per_determinant * per_sample,

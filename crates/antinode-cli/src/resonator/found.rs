@@ -193,8 +193,11 @@ impl Found {
         list
     }
 
-    /// A sum over both parts of the damping's split and both of the frequency's.
+    /// A sum over both parts of the damping's split and both of the frequency's; nothing where they are not told.
     pub fn splits(&self, by: &[f64; 4]) -> Measured {
+        if !self.model.is_shared() {
+            return (0.0, 0.0);
+        }
         let terms = by.iter().enumerate();
         let terms: Vec<_> = terms.map(|(i, &by)| (Model::DAMPING + i, by)).collect();
         self.sum(&terms)

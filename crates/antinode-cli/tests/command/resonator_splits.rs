@@ -1,10 +1,13 @@
 //! `antinode resonator`: splits of damping and frequency, and what looks like one or does not.
 
 use std::f64::consts::TAU;
+use std::fs;
 use std::path::Path;
 
-use crate::common::ring_downs::{four_seconds, identified, is_one_way, numbers, record, resonator};
-use crate::common::{rms, run};
+use crate::common::ring_downs::{
+    four_seconds, identified, is_one_way, numbers, of_run, record, resonator,
+};
+use crate::common::{WAVE, rms, run, wav};
 
 #[test]
 fn a_split_of_frequency_is_told_by_three_angles() {
@@ -203,4 +206,27 @@ fn what_amplitudes_turn_a_pattern_by_is_told_and_moves_no_split() {
         let (value, std) = numbers[&(String::new(), split.to_owned())];
         assert!(value < 4.0 * std.unwrap(), "{}", found.out);
     }
+}
+
+#[test]
+fn one_pattern_that_rocks_a_little_tells_its_decay() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // By ±1.1°: no steady rotation, and too little for the splits.
+    let codes = WAVE.codes_as(300_000, |time| {
+        (0.4 + 0.02 * (8.0 * time).sin(), WAVE.decay(time))
+    });
+    fs::write(here.join("rocks.wav"), wav(&codes)).unwrap();
+    let found = resonator(here, &identified(here, "rocks.wav"), "--output csv");
+    assert!(
+        found.code == 0 && found.err.contains("the rotation is not steady: "),
+        "{}",
+        found.err
+    );
+    let (time, std) = of_run(&found.out, "1", "decay_time_s");
+    assert!(
+        (time - 1.0 / WAVE.decay_rate).abs() < 4.0 * std && std < 1e-2,
+        "{}",
+        found.out
+    );
 }

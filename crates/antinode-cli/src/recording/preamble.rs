@@ -18,6 +18,9 @@ pub(super) const STEADY_LINES: usize = 16;
 
 /// No preamble is longer.
 const MOST_LINES: usize = 256;
+/// Nor with blank lines and comments: all of it is looked at again when more is read.
+const MOST_IN_ALL: usize = 4096;
+const MOST_BYTES: usize = 4 << 20;
 
 /// So many settings without names below them are surely no samples.
 const FEWEST_LABELS: usize = 4;
@@ -70,9 +73,15 @@ pub(super) fn find(text: &[u8], is_all: bool) -> Option<Start> {
         cut::start(&lines, &numbers, separator).or_else(|| start(&lines, numbers, separator))
     });
     match found {
-        None if begins_with_word && !is_all && lines.len() < MOST_LINES => None,
+        None if begins_with_word && !is_all && lines.len() < MOST_LINES && is_short(text) => None,
         found => Some(found.flatten().unwrap_or_default()),
     }
+}
+
+/// Whether text may still be above samples.
+fn is_short(text: &[u8]) -> bool {
+    let ends = text.iter().filter(|&&byte| byte == b'\n');
+    text.len() < MOST_BYTES && ends.count() < MOST_IN_ALL
 }
 
 /// What separates the fields of the samples: they come last.

@@ -74,6 +74,18 @@ fn more_lines_are_asked_for_until_samples_are_seen() {
         find("Model,X\n".repeat(300).as_bytes(), false),
         Some(Start::default())
     );
+    // Blank lines and comments are no more than that either.
+    for above in ["\n", "# a comment\n", "%\n"] {
+        let text = |count| "Model,X\n".to_owned() + &above.repeat(count);
+        assert_eq!(find(text(4000).as_bytes(), false), None, "{above}");
+        assert_eq!(
+            find(text(4096).as_bytes(), false),
+            Some(Start::default()),
+            "{above}"
+        );
+    }
+    let long = "Model,X\n".to_owned() + &("#".repeat(60_000) + "\n").repeat(70);
+    assert_eq!(find(long.as_bytes(), false), Some(Start::default()));
     // Numbers at the front are samples: a pipe does not wait for more.
     assert_eq!(
         find("1,x\n".repeat(3).as_bytes(), false),

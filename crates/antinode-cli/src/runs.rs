@@ -200,7 +200,8 @@ impl Runs {
             // Only here: a flagged row need not have numbers.
             let Some(row) = Row::parse(record, &places) else {
                 return Err(rows.fault(
-                    "a time, amplitude, angle, frequency or deviation is no number, or an amplitude or a deviation not above 0",
+                    "a time, amplitude, angle, frequency or deviation is no number of single precision, an amplitude or a deviation is not above 0, \
+                     or a_B exceeds a_A",
                 ));
             };
             match recordings[present].take(row, self.most_turn) {

@@ -76,6 +76,11 @@ impl Places {
     }
 }
 
+/// Whether a number is finite in single precision, as rows have it.
+fn is_finite(number: f64) -> bool {
+    (number as f32).is_finite()
+}
+
 /// By how much noise makes the amplitude of a travelling wave longer on average, as it does any vector: its parts have twice the variance
 /// of a_A. It is a small part of a deviation, but the same in all rows.
 fn longer(travelling: f64, of_main: f64) -> f64 {
@@ -108,9 +113,10 @@ impl Row {
 }
 
 impl Row {
-    /// None where a number is missing or not finite.
+    /// None where a number is missing or not finite, or none that rows in single precision have.
     pub fn parse(record: &StringRecord, places: &Places) -> Option<Self> {
-        let finite = |place| number(record, place).filter(|number: &f64| number.is_finite());
+        // Squares of other numbers may be 0 or infinite.
+        let finite = |place| number(record, place).filter(|number: &f64| is_finite(*number));
         let [
             Some(time),
             Some(main),
@@ -135,7 +141,9 @@ impl Row {
             .chain([main, of_frequency, of_rate, of_phase]);
         // The phase is that of the time before it was rounded: doubles as large as a date, in s since 1970, are 0.2 µs apart.
         let rounded = TAU * frequency * (time.abs().next_up() - time.abs()) / 12f64.sqrt();
-        let is_usable = positive.all(|number| number > 0.0);
+        // Rounded digits may make a_B the greater one, by little.
+        let is_usable =
+            positive.all(|number| number as f32 > 0.0) && quadrature.abs() < 1.01 * main;
         let [more, less] = [1.0, -1.0].map(|sign| longer(main + sign * quadrature, of_main));
         is_usable.then_some(Self {
             time,

@@ -193,3 +193,33 @@ fn rows_of_several_recordings_may_be_sorted_by_time() {
         assert_eq!(of_sorted, of_others);
     }
 }
+
+#[test]
+fn numbers_beyond_those_of_rows_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    rows(here, "--decay-rate 0.5 --noise 0.002", "--periods 50");
+    let text = fs::read_to_string(here.join("rows.csv")).unwrap();
+    let place = |column| text.split(',').position(|name| name == column).unwrap();
+    for (column, value) in [
+        ("frequency_std_hz", "1e-300"),
+        ("frequency_hz", "1e300"),
+        ("main_amplitude", "1e-60"),
+        ("quadrature_amplitude", "4e9"),
+    ] {
+        let mut lines: Vec<_> = text.lines().map(str::to_owned).collect();
+        let mut fields: Vec<_> = lines[20].split(',').collect();
+        fields[place(column)] = value;
+        lines[20] = fields.join(",");
+        fs::write(here.join("beyond.csv"), lines.join("\n")).unwrap();
+        for command in ["resonator", "calibrate"] {
+            let found = run(here, &format!("{command} beyond.csv"));
+            assert!(
+                found.code == 1 && found.err.contains("beyond.csv, line 21: "),
+                "{command} {column}: {}{}",
+                found.out,
+                found.err
+            );
+        }
+    }
+}

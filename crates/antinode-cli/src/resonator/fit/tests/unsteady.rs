@@ -65,3 +65,13 @@ fn a_steady_rotation_is_not_given_up() {
         assert!(!fit(&turned).unwrap().is_turned());
     }
 }
+
+#[test]
+fn one_pattern_that_hardly_swings_tells_no_splits() {
+    let swing = |time: f64| 0.02 * (3.0 * time).sin();
+    let run = run_turned(&RESONATOR, swing, [1.0, 0.03, 0.2], 30, 0.2, NOISE, 1);
+    let found = fit(&[run]).unwrap();
+    assert!(found.is_turned() && found.resonator().is_none());
+    // Nor do they move its frequency.
+    assert_eq!(found.splits(&[1.0; 4]), (0.0, 0.0));
+}

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::is_alike;
 use super::model::Model;
-use crate::runs::Run;
+use crate::runs::{BEYOND_NOISE, Run};
 
 /// Of fewer deviations than this, what amplitudes turn patterns by is taken to be nothing: more would be missed than it spares.
 const NONLINEAR_SEEN: f64 = 2.0;
@@ -70,7 +70,8 @@ pub struct Resonator {
     pub frequency_split: [Measured; 2],
     /// What rotation turns the pattern of each run by, rad/s.
     pub rotations: Vec<Measured>,
-    /// What a_A a_B of one input unit squared turns a pattern by, rad/s, where that is seen.
+    /// What a_A a_B of one input unit squared turns a pattern by, rad/s, where that is seen and nothing else moves: flaws of pick-offs
+    /// look like it.
     pub turning_by_amplitudes: Option<Measured>,
 }
 
@@ -111,9 +112,9 @@ impl Found {
             rotations: (0..self.of_runs.len())
                 .map(|run| self.rotation(run))
                 .collect(),
-            turning_by_amplitudes: self
-                .turning_by_amplitudes()
-                .filter(|(turning, std)| turning.abs() > NONLINEAR_TOLD * std),
+            turning_by_amplitudes: self.turning_by_amplitudes().filter(|(turning, std)| {
+                turning.abs() > NONLINEAR_TOLD * std && !self.is_beyond_noise()
+            }),
         })
     }
 
@@ -149,6 +150,11 @@ impl Found {
         is_alike(self.alike, self.count)
     }
 
+    /// True where it is told that more than noise is left.
+    pub fn is_beyond_noise(&self) -> bool {
+        self.residual > BEYOND_NOISE || self.is_alike()
+    }
+
     /// True where it leaves less than another, and not by chance.
     pub fn explains_more(&self, other: &Self) -> bool {
         let less = (other.residual / self.residual).powi(2) - 1.0;
@@ -162,7 +168,7 @@ impl Found {
     }
 
     /// True where amplitudes are seen to turn patterns.
-    pub(super) fn is_nonlinear(&self) -> bool {
+    pub fn is_nonlinear(&self) -> bool {
         self.turning_by_amplitudes()
             .is_some_and(|(turning, std)| turning.abs() > NONLINEAR_SEEN * std)
     }

@@ -363,3 +363,22 @@ fn stiffness_that_depends_on_the_amplitude_is_told_beside_the_splits() {
         }
     }
 }
+
+#[test]
+fn what_amplitudes_turn_is_not_told_beside_what_is_not_noise() {
+    // Pick-offs whose gains differ by 1 %.
+    let runs = [0.3, -0.3].map(|kappa| {
+        let mut run = run(&RESONATOR, kappa, [1.0, 0.1, 0.3], 400, 0.1, NOISE, 1);
+        for row in &mut run.rows {
+            let sine = (2.0 * row.angle).sin();
+            row.main *= 1.0 + 0.01 * sine * sine;
+            row.angle += 0.0025 * (4.0 * row.angle).sin();
+        }
+        run
+    });
+    let found = fit(&runs).unwrap();
+    assert!(found.is_beyond_noise(), "{}", found.residual);
+    let (turning, std) = found.turning_by_amplitudes().unwrap();
+    assert!(turning.abs() > 3.0 * std, "{turning} {std}");
+    assert_eq!(found.resonator().unwrap().turning_by_amplitudes, None);
+}

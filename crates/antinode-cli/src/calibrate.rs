@@ -173,7 +173,7 @@ fn tell(
         rows.rows,
         turns.join(" and ")
     )?;
-    rows.tell_overlaps(out)?;
+    rows.tell(out)?;
     for one in quantities {
         let text = with_std(one.value, one.std);
         writeln!(out, "{:<20} {}", one.label, text.trim_end())?;

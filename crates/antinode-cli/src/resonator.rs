@@ -149,7 +149,7 @@ fn tell_of_runs(
     listed: &[usize],
     found: &Found,
 ) -> io::Result<()> {
-    rows.tell_overlaps(out)?;
+    rows.tell(out)?;
     let others = rows.runs.len() - listed.len();
     if others > 0 {
         let of_listed: usize = listed.iter().map(|&run| rows.runs[run].rows.len()).sum();

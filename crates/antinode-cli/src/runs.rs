@@ -4,6 +4,7 @@ mod again;
 mod jump;
 mod recording;
 mod row;
+mod step;
 
 use std::f64::consts::FRAC_PI_2;
 use std::io::{self, Read, Write};
@@ -46,6 +47,8 @@ pub struct Runs {
     pub overlapping: usize,
     /// Clean rows of a recording that are not later than the one before.
     backward: usize,
+    /// Recordings and times, s, at which a step between clean rows ends a run.
+    steps: Vec<(String, f64)>,
     /// By how much the pattern turns from row to row at most, rad.
     most_turn: f64,
     /// Flags of rows that the next one does not continue.
@@ -54,7 +57,7 @@ pub struct Runs {
 
 impl Runs {
     /// Reads the rows given; gives the names of their files too. A run ends where the pattern turns by more than `most_turn` rad
-    /// from row to row, where the wave jumps across rows left out, and at a row that has one of the flags `breaks`.
+    /// from row to row, where the wave jumps across rows left out or steps between clean ones, and at a row that has one of the flags `breaks`.
     pub fn open(given: &Given, most_turn: f64, breaks: Flags) -> Result<(Self, String), Failure> {
         let paths = &given.rows;
         let mut runs = Self::new(given.times()?, most_turn, breaks);
@@ -82,6 +85,7 @@ impl Runs {
             asked,
             overlapping: 0,
             backward: 0,
+            steps: Vec::new(),
             most_turn,
             breaks,
         }
@@ -142,13 +146,29 @@ impl Runs {
         self.runs.iter().map(|run| run.rows.len()).sum()
     }
 
-    /// Tells what was left out, and what comes twice.
-    pub fn tell_overlaps(&self, out: &mut impl Write) -> io::Result<()> {
+    /// Tells what was left out, where a run ends at a step, and what comes twice.
+    pub fn tell(&self, out: &mut impl Write) -> io::Result<()> {
         if self.overlapping > 0 {
             writeln!(
                 out,
                 "{} rows are left out whose windows overlap the one before: they tell the same noise again",
                 self.overlapping
+            )?;
+        }
+        if let Some((file, time)) = self.steps.first() {
+            let of = if file.is_empty() {
+                String::new()
+            } else {
+                format!(" of {file}")
+            };
+            let more = match self.steps.len() - 1 {
+                0 => String::new(),
+                1 => ", and at another time".to_owned(),
+                more => format!(", and at {more} more times"),
+            };
+            writeln!(
+                out,
+                "a gain or the wave steps at {time:.2} s{of}{more}: a run ends there, and another begins"
             )?;
         }
         let again = self.runs.iter().enumerate().find(|(index, run)| {
@@ -213,6 +233,9 @@ impl Runs {
         for mut recording in recordings {
             recording.end();
             self.runs.append(&mut recording.runs);
+            let steps = recording.steps.into_iter();
+            self.steps
+                .extend(steps.map(|time| (recording.file.clone(), time)));
         }
         Ok(())
     }

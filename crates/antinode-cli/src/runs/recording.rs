@@ -4,6 +4,7 @@ use antinode::Flags;
 
 use super::jump::jumps;
 use super::row::Row;
+use super::step::steps;
 use super::{LEAST_ROWS, Run, turn};
 
 /// A row whose deviations are so many times those of another is known worse.
@@ -17,10 +18,14 @@ pub(super) struct Recording {
     pub file: String,
     /// The runs that have ended.
     pub runs: Vec<Run>,
+    /// When runs ended at a step between clean rows, s.
+    pub steps: Vec<f64>,
     /// The one that has not.
     run: Run,
     /// Rows of the run before others that were left out and hold more than a circle, until one behind these is known as well.
     torn: Option<usize>,
+    /// Rows of the run before circles that were left out.
+    circles: Vec<usize>,
 }
 
 /// What becomes of a row.
@@ -39,8 +44,10 @@ impl Recording {
         Self {
             file: file.to_owned(),
             runs: Vec::new(),
+            steps: Vec::new(),
             run: Run::default(),
             torn: None,
+            circles: Vec::new(),
         }
     }
 
@@ -49,7 +56,9 @@ impl Recording {
         if flags.intersects(breaks) {
             self.end();
         }
-        if flags != Flags::CIRCULAR {
+        if flags == Flags::CIRCULAR {
+            self.circles.push(self.run.rows.len());
+        } else {
             self.torn.get_or_insert(self.run.rows.len());
         }
     }
@@ -90,13 +99,21 @@ impl Recording {
         })
     }
 
-    /// Keeps the run if it is long enough, and begins another.
+    /// Keeps the run, or what is between steps of it, if it is long enough, and begins another.
     pub fn end(&mut self) {
         self.torn = None;
         let rows = std::mem::take(&mut self.run.rows);
-        if rows.len() >= LEAST_ROWS {
-            let file = self.file.clone();
-            self.runs.push(Run { rows, file });
+        let mut from = 0;
+        let steps = steps(&rows, &std::mem::take(&mut self.circles));
+        self.steps.extend(steps.iter().map(|&step| rows[step].time));
+        for until in steps.into_iter().chain([rows.len()]) {
+            if until - from >= LEAST_ROWS {
+                let file = self.file.clone();
+                let rows = rows[from..until].to_vec();
+                self.runs.push(Run { rows, file });
+            }
+            // The row about which it steps may hold both.
+            from = until + 1;
         }
     }
 }

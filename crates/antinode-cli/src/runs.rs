@@ -163,8 +163,7 @@ impl Runs {
             };
             let more = match self.steps.len() - 1 {
                 0 => String::new(),
-                1 => ", and at another time".to_owned(),
-                more => format!(", and at {more} more times"),
+                more => format!(", and at {more} more"),
             };
             writeln!(
                 out,

@@ -19,6 +19,9 @@ use crate::scalar::lesser;
 pub(crate) const CARRIER_REACH: f32 = 0.05;
 /// Beyond this phase the wave is nowhere near the carrier.
 const FARTHEST: f32 = 1.5;
+/// The highest carrier: 0.45 turns a sample. A known frequency is at most 0.42, and near half a turn both quadratures are one. Below zero
+/// the step is above this, too.
+const HIGHEST: u32 = 1_932_735_283;
 /// A fit that still moves by more than this share of the wave has found nothing.
 const NEAR: f32 = 0.01;
 /// Below this share of the wave the next step is rounding. One of 10⁻⁶ that is not looked at stands out of the noise of 10⁵ samples.
@@ -47,10 +50,11 @@ pub(crate) struct Fit {
 }
 
 impl Model {
-    /// The carrier moved by `drift` rad a half window; none where that is too far.
+    /// The carrier moved by `drift` rad a half window; none where that is too far, or no frequency that samples can tell.
     #[inline(never)]
     fn moved(&self, drift: f32) -> Option<PhaseStep> {
-        (drift.abs() <= FARTHEST).then(|| self.carrier.shifted(drift * self.per_half))
+        let moved = (drift.abs() <= FARTHEST).then(|| self.carrier.shifted(drift * self.per_half));
+        moved.filter(|carrier| carrier.0 <= HIGHEST)
     }
 
     /// How many blocks of `count` a carrier is good for that a fit of `span` of them found.
@@ -204,6 +208,24 @@ mod tests {
         let model = Model::new(layout, carrier, 11, Calibration::IDEAL, 1e5, false);
         for (step, blocks) in [(0, 11), (1, 11), (1 << 18, 11), (carrier.0, 7)] {
             assert_eq!(reach(&model, 11, PhaseStep(step), 0.3), blocks, "{step}");
+        }
+    }
+
+    #[test]
+    fn a_carrier_is_moved_to_no_frequency_that_samples_cannot_tell() {
+        // A window of six samples: 1.4 rad a half of it are 0.074 turns a sample.
+        for (period, drift, is_moved) in [
+            (2.5, 0.6, true),
+            (2.5, 1.4, false),
+            (2.5, -1.4, true),
+            (50.0, 1.4, true),
+            (50.0, -1.4, false),
+        ] {
+            let carrier = PhaseStep::from_period(period);
+            let layout = Layout::unrounded(carrier, 1);
+            let model = Model::new(layout, carrier, 6, Calibration::IDEAL, 1e5, false);
+            let moved = model.moved(drift);
+            assert_eq!(moved.is_some(), is_moved, "{period}, {drift}: {moved:?}");
         }
     }
 

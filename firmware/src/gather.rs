@@ -11,7 +11,7 @@ use heapless::spsc::{Consumer, Producer};
 use crate::counts::Counts;
 use crate::methods::{Extra, Gathering, Tuning};
 use crate::sampling::{Lapse, Ready, Source};
-use crate::settings::{LONGEST_PERIOD, QUEUE, REQUESTS};
+use crate::settings::LONGEST_PERIOD;
 
 /// What the interrupt hands to the main loop.
 #[derive(Debug, Clone, Copy)]
@@ -39,7 +39,7 @@ pub enum Request {
 
 /// The queue to the main loop.
 struct Outlet<'q, S: Sample> {
-    items: Producer<'q, Item<S>, QUEUE>,
+    items: Producer<'q, Item<S>>,
     counts: &'q Counts,
     /// What found no room in the queue yet: it goes before any block.
     lapse: Option<Lapse>,
@@ -135,7 +135,7 @@ impl<S: Sample> Outlet<'_, S> {
 pub struct Gatherer<'q, S: Sample> {
     front: &'q mut Front<S, LONGEST_PERIOD>,
     methods: Gathering<S>,
-    requests: Consumer<'q, Request, REQUESTS>,
+    requests: Consumer<'q, Request>,
     outlet: Outlet<'q, S>,
 }
 
@@ -147,8 +147,8 @@ impl<'q, S: Sample> Gatherer<'q, S> {
     pub fn make(
         place: &'q mut MaybeUninit<Self>,
         front: &'q mut Front<S, LONGEST_PERIOD>,
-        items: Producer<'q, Item<S>, QUEUE>,
-        requests: Consumer<'q, Request, REQUESTS>,
+        items: Producer<'q, Item<S>>,
+        requests: Consumer<'q, Request>,
         counts: &'q Counts,
     ) -> &'q mut Self {
         place.write(Self {

@@ -16,7 +16,7 @@ use crate::gather::{Item, Request};
 use crate::link::Link;
 use crate::methods::{AVAILABLE, History, Tuning};
 use crate::sampling::Lapse;
-use crate::settings::{COUNTERS_MS, OUTBOX, QUEUE, REQUESTS, RESTART_MS, RING, SOONEST_MS};
+use crate::settings::{COUNTERS_MS, OUTBOX, QUEUE, RESTART_MS, RING, SOONEST_MS};
 use crate::supervision::Liveness;
 
 /// What is worth a line in the log.
@@ -38,8 +38,8 @@ pub enum Event {
 /// Solves, tracks and reports.
 pub struct Instrument<'q, S: Sample> {
     tracker: &'q mut Tracker<RING>,
-    items: Consumer<'q, Item<S>, QUEUE>,
-    requests: Producer<'q, Request, REQUESTS>,
+    items: Consumer<'q, Item<S>>,
+    requests: Producer<'q, Request>,
     counts: &'q Counts,
     link: Link<'q>,
     configuration: Configuration,
@@ -68,8 +68,8 @@ impl<'q, S: Sample> Instrument<'q, S> {
     pub fn make(
         place: &'q mut MaybeUninit<Self>,
         (tracker, configuration): (&'q mut Tracker<RING>, Configuration),
-        items: Consumer<'q, Item<S>, QUEUE>,
-        requests: Producer<'q, Request, REQUESTS>,
+        items: Consumer<'q, Item<S>>,
+        requests: Producer<'q, Request>,
         counts: &'q Counts,
         link: Link<'q>,
         cause: Cause,

@@ -20,7 +20,7 @@ use crate::marks::{leave, mark_begin, mark_end};
 use crate::methods::AVAILABLE;
 use crate::pipeline::{Places, Queues};
 use crate::sampling::{DUAL_ADC_RAILS, Lapse, Ready, Source, both, is_at_rail_12};
-use crate::settings::{Arithmetic, HALF, configuration};
+use crate::settings::{Arithmetic, HALF, QUEUE, REQUESTS, configuration};
 
 /// Pairs in the ring of codes.
 const RING: usize = 1406;
@@ -103,7 +103,8 @@ fn measure(name: &'static str, state: usize, mut half: impl FnMut() -> usize) ->
 /// The interrupt, and a main loop that only takes the blocks from the queue.
 pub fn interrupt_alone(name: &'static str) -> ! {
     let mut source = Endless::new();
-    let (mut items, mut requests, counts) = (Queue::new(), Queue::new(), Counts::new());
+    let (mut items, mut requests) = (Queue::<_, QUEUE>::new(), Queue::<_, REQUESTS>::new());
+    let counts = Counts::new();
     let (sender, mut blocks) = items.split();
     let (_, asked) = requests.split();
     let settings = configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS).settings;

@@ -29,7 +29,7 @@ const LEAST_OF_RESIDUAL: f64 = 0.02;
 const LEAST_OF_FREQUENCY: f64 = 1e-11;
 /// Margins above and below all values, as a share of their span.
 const ABOVE: f64 = 0.08;
-/// Arrows to values beyond a panel are no closer than so many columns.
+/// So many columns have one arrow to values beyond a panel.
 const APART: usize = 8;
 
 /// A quantity.
@@ -60,7 +60,7 @@ pub fn panel(
 ) -> Panel {
     let is_log = is_log && !matches!(quantity, ANGLE | FREQUENCY);
     let (axis, range, scale) = axis(traces, quantity, is_log);
-    let mut beyond = vec![[false; 2]; columns.div_ceil(APART)];
+    let mut beyond = vec![[None; 2]; columns.div_ceil(APART)];
     let curves = traces
         .iter()
         .map(|trace| {
@@ -77,8 +77,15 @@ pub fn panel(
             for piece in &mut pieces {
                 for &(at, value) in &piece.line {
                     let sides = &mut beyond[column(at, span, columns) / APART];
-                    sides[0] |= value < range.start;
-                    sides[1] |= value > range.end;
+                    for (side, is_beyond) in sides
+                        .iter_mut()
+                        .zip([value < range.start, value > range.end])
+                    {
+                        if is_beyond {
+                            let (first, last) = side.unwrap_or((at, at));
+                            *side = Some((at.min(first), at.max(last)));
+                        }
+                    }
                 }
                 on_axes(piece, time, scale, &axis.range);
             }
@@ -88,7 +95,7 @@ pub fn panel(
     Panel {
         axis,
         curves,
-        beyond: beyond_at(&beyond, span, time, columns),
+        beyond: beyond_at(&beyond, time),
     }
 }
 
@@ -117,22 +124,16 @@ fn axis(traces: &[Trace], quantity: usize, is_log: bool) -> (Axis, Range<f64>, S
     (scale.axis(title, &range), range, scale)
 }
 
-/// Where the arrows are of those places that have values below or above the panel, and whether above.
-fn beyond_at(
-    places: &[[bool; 2]],
-    span: &Range<f64>,
-    time: Scale,
-    columns: usize,
-) -> Vec<(f64, bool)> {
-    let middle = |place: usize| {
-        let share = (place as f64 + 0.5) * APART as f64 / columns as f64;
-        time.of(span.start + (span.end - span.start) * share)
-    };
-    let places = places.iter().enumerate();
-    places
-        .flat_map(|(place, sides)| [(place, sides[0], false), (place, sides[1], true)])
-        .filter(|&(_, is_beyond, _)| is_beyond)
-        .map(|(place, _, is_above)| (middle(place), is_above))
+/// Where the arrows are: in the middle of a place's values below or above the panel, from the first to the last; and whether above.
+fn beyond_at(places: &[[Option<(f64, f64)>; 2]], time: Scale) -> Vec<(f64, bool)> {
+    let sides = places
+        .iter()
+        .flat_map(|&[below, above]| [(below, false), (above, true)]);
+    sides
+        .filter_map(|(times, is_above)| {
+            let (first, last) = times?;
+            Some((time.of(0.5 * (first + last)), is_above))
+        })
         .collect()
 }
 
@@ -249,7 +250,7 @@ mod tests {
                 let line = &curves[0][0].line;
                 assert_eq!(line[2].1, edge, "{wild}: {}", axis.title);
                 assert_eq!(beyond.len(), 1, "{beyond:?}");
-                assert!((beyond[0].0 - 2.0).abs() < 0.1 && beyond[0].1 != wild.starts_with('-'));
+                assert_eq!(beyond[0], (line[2].0, !wild.starts_with('-')));
                 assert!(line.iter().all(|(_, value)| (start..=end).contains(value)));
             }
         }

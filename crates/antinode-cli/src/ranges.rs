@@ -27,6 +27,26 @@ pub fn rate(text: &str) -> Result<f64, String> {
     within(text, 1.0, 1e10, " Hz, 100000 for 100 kS/s")
 }
 
+/// A sample rate of the study, Hz: 5 to 190 samples a period.
+pub fn rate_of_study(text: &str) -> Result<f64, String> {
+    within(text, 27_000.0, 1e6, " Hz")
+}
+
+/// A quadrature amplitude beside a main amplitude of 2.
+pub fn quadrature_beside_two(text: &str) -> Result<f64, String> {
+    within(text, -1.9, 1.9, ", less than the main amplitude of 2")
+}
+
+/// An angle or a phase, rad.
+pub fn angle(text: &str) -> Result<f64, String> {
+    within(text, -10.0, 10.0, " rad")
+}
+
+/// A noise above none, %.
+pub fn percent(text: &str) -> Result<f64, String> {
+    within(text, 1e-3, 100.0, " %")
+}
+
 /// How long to wait, s.
 pub fn seconds(text: &str) -> Result<f64, String> {
     within(text, 0.01, 3600.0, " s")

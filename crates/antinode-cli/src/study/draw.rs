@@ -9,8 +9,9 @@ use plotters::coord::Shift;
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
 
-use super::figure::{Figure, Name, Panel};
+use super::figure::{Curve, Figure, Name, Panel};
 use crate::canvas::{self, FONT};
+use crate::digits::significant;
 use crate::recording::OutputError;
 
 /// Width and height, pixels.
@@ -58,9 +59,8 @@ where
         panel
             .curves
             .iter()
-            .flat_map(|curve| &curve.y)
-            .copied()
-            .filter(|y| y.is_finite())
+            .flat_map(|curve| points(figure, panel, curve))
+            .map(|(_, y)| y)
     };
     let greatest = values().fold(f64::MIN_POSITIVE, f64::max);
     let least = values().filter(|&y| y > 0.0).fold(greatest, f64::min);
@@ -85,8 +85,20 @@ where
         fill(chart, figure, panel, &|y| format!("{y:.0e}"))
     } else {
         let chart = builder.build_cartesian_2d(across, 0.0..1.05 * greatest)?;
-        fill(chart, figure, panel, &|y| format!("{y}"))
+        fill(chart, figure, panel, &|&y| told(y))
     }
+}
+
+/// A number at an axis, without the rounding of the steps that led to it.
+fn told(x: f64) -> String {
+    significant(x, 9).to_string()
+}
+
+/// The points of a curve that are drawn. Without noise the bound has no logarithm, and figures 1 and 2 show the errors.
+fn points(figure: &Figure, panel: &Panel, curve: &Curve) -> Vec<(f64, f64)> {
+    let all = figure.x.iter().copied().zip(curve.y.iter().copied());
+    all.filter(|&(x, y)| y.is_finite() && !(panel.logarithmic && x == 0.0))
+        .collect()
 }
 
 fn fill<'a, B, Y>(
@@ -111,18 +123,12 @@ where
         .x_labels(11)
         .x_max_light_lines(0)
         .y_max_light_lines(if panel.logarithmic { 1 } else { 0 })
-        .x_label_formatter(&|x| format!("{x}"))
+        .x_label_formatter(&|&x| told(x))
         .y_label_formatter(&|y| label(y))
         .draw()?;
     for curve in &panel.curves {
         let (color, width) = style(curve.name);
-        let points: Vec<(f64, f64)> = figure
-            .x
-            .iter()
-            .copied()
-            .zip(curve.y.iter().copied())
-            .filter(|(_, y)| y.is_finite())
-            .collect();
+        let points = points(figure, panel, curve);
         let line = color.stroke_width(width);
         if curve.name.is_bound() {
             chart.draw_series(DashedLineSeries::new(points, DASH.0, DASH.1, line))?;

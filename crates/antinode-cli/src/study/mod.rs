@@ -8,6 +8,7 @@ mod noise_free;
 mod noisy;
 mod period;
 mod samples;
+mod simulated;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -16,17 +17,21 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use antinode_sim::Wave;
 use clap::Args;
 
 use crate::failure::Failure;
+use crate::ranges;
 use crate::recording::OutputError;
+use simulated::Simulated;
 
 /// Under the help of the study.
 const FILES: &str = "\
 Files in the folder:
   figure-1a.svg, .png ...  1: against periods, 2: against samples a period, 3: against noise
-  figure-1.csv ...         every point of every curve; value_is and x_is give the units";
+  figure-1.csv ...         every point of every curve; value_is and x_is give the units
+
+Without options that say otherwise the wave, the rate, and the noise and windows of figure 3 are the
+paper's. Its conclusions are checked only then. The same options give the same numbers.";
 
 /// `antinode study`.
 #[derive(Debug, Args)]
@@ -39,12 +44,15 @@ pub struct Study {
     #[arg(long, default_value_t = 10_000, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     runs: u32,
     /// Seed of all noise.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_name = "SEED", value_parser = ranges::seed)]
     seed: u64,
+
+    #[command(flatten)]
+    simulated: Simulated,
 }
 
-/// Sample rate of figures 1 and 3, and a step of figure 2's, Hz.
-const RATE: f64 = 100_000.0;
+/// The paper's sample rate, Hz, at which its conclusions are checked.
+const RATE: f64 = Simulated::PAPER.rate;
 
 /// Computes, draws, and tells what is confirmed.
 pub fn run(options: &Study) -> Result<(), Failure> {
@@ -55,10 +63,10 @@ pub fn run(options: &Study) -> Result<(), Failure> {
             options.out.display()
         ))
     })?;
-    let wave = Wave::default();
-    let first = noise_free::against_periods(&wave);
-    let second = noise_free::against_samples(&wave);
-    let third = noisy::against_noise(&wave, options.runs, options.seed);
+    let simulated = &options.simulated;
+    let first = noise_free::against_periods(simulated);
+    let second = noise_free::against_samples(simulated);
+    let third = noisy::against_noise(simulated, options.runs, options.seed);
 
     for figure in [&first, &second, &third] {
         let path = options.out.join(format!("figure-{}.csv", figure.number));
@@ -79,12 +87,19 @@ pub fn run(options: &Study) -> Result<(), Failure> {
         .sum();
     writeln!(
         out,
-        "{panels} panels as SVG and PNG, and 3 tables as CSV, are in {}; {} runs a point in figure 3, seed {}.\n",
+        "{panels} panels as SVG and PNG, and 3 tables as CSV, are in {}; {} runs a point in figure 3, seed {}.\n{simulated}\n",
         options.out.display(),
         options.runs,
         options.seed,
     )?;
-    for conclusion in conclusions::check(&wave, &first, &second, &third, options) {
+    if *simulated != Simulated::PAPER {
+        writeln!(
+            out,
+            "The paper's conclusions are not checked: they are about what it simulated, without options."
+        )?;
+        return Ok(());
+    }
+    for conclusion in conclusions::check(&simulated.wave(), &first, &second, &third, options) {
         let verdict = conclusion.verdict.text();
         writeln!(out, "{verdict:>13}  {}", conclusion.claim)?;
         for line in conclusion.found.lines() {

@@ -2,27 +2,29 @@
 
 use antinode_sim::Wave;
 
-use super::RATE;
 use super::evaluate::{CURVES, errors};
 use super::figure::{Curve, Figure, Name, Panel};
 use super::samples::Samples;
+use super::simulated::Simulated;
 
 /// Noise of the bound drawn beside errors without noise, as a share of a_A: 80 dB.
 const BOUND_NOISE: f64 = 1e-4;
 /// Below this an error is drawn here: rounding of samples to f32 is about as large.
 const FLOOR: f64 = 1e-9;
 
-/// Figure 1: windows of 1 to 10 periods at 100 kS/s.
-pub fn against_periods(wave: &Wave) -> Figure {
-    let windows = (1..=10).map(|periods| Samples::simulate(wave, periods, RATE, 0.0, 0));
+/// Figure 1: windows of 1 to 10 periods.
+pub fn against_periods(simulated: &Simulated) -> Figure {
+    let wave = &simulated.wave();
+    let windows = (1..=10).map(|periods| Samples::simulate(wave, periods, simulated.rate, 0.0, 0));
     let x = (1..=10).map(f64::from).collect();
     figure(1, "periods in the window", x, windows, wave)
 }
 
-/// Figure 2: one period, at 1 to 10 times 100 kS/s.
-pub fn against_samples(wave: &Wave) -> Figure {
+/// Figure 2: one period, at 1 to 10 times the rate.
+pub fn against_samples(simulated: &Simulated) -> Figure {
+    let wave = &simulated.wave();
     let windows: Vec<Samples> = (1..=10)
-        .map(|times| Samples::simulate(wave, 1, RATE * f64::from(times), 0.0, 0))
+        .map(|times| Samples::simulate(wave, 1, simulated.rate * f64::from(times), 0.0, 0))
         .collect();
     let x = windows.iter().map(|window| window.count as f64).collect();
     figure(
@@ -41,15 +43,17 @@ fn figure(
     windows: impl Iterator<Item = Samples>,
     wave: &Wave,
 ) -> Figure {
+    let (a, b) = (wave.main_amplitude, wave.quadrature_amplitude);
+    let units = "absolute error, input units";
     let kinds = [
-        ('a', "main amplitude a_A = 2", "absolute error, input units"),
+        ('a', format!("main amplitude a_A = {a}"), units),
+        ('b', format!("quadrature amplitude a_B = {b}"), units),
         (
-            'b',
-            "quadrature amplitude a_B = 0.1",
-            "absolute error, input units",
+            'c',
+            "angle of the standing wave".into(),
+            "absolute error, degrees",
         ),
-        ('c', "angle of the standing wave", "absolute error, degrees"),
-        ('d', "frequency", "absolute error, Hz"),
+        ('d', "frequency".into(), "absolute error, Hz"),
     ];
     let mut panels: Vec<Panel> = kinds
         .map(|(letter, title, axis)| Panel {

@@ -1,34 +1,31 @@
-//! Figure 3: rms errors on one period against noise.
+//! Figure 3: rms errors in windows of one length against noise.
 
-use antinode_sim::Wave;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
-use super::RATE;
 use super::evaluate::{CURVES, errors};
 use super::figure::{Curve, Figure, Name, Panel};
 use super::samples::Samples;
+use super::simulated::{STEPS, Simulated};
 
-/// Noise levels, % of a_A.
-const LEVELS: std::ops::RangeInclusive<u32> = 0..=20;
 /// Runs that one core takes at a time. Sums over them are joined in order: results do not depend on the cores.
 const CHUNK: u32 = 250;
 
-/// Mean square errors of every curve in windows of `periods` at a noise level in % of a_A.
-fn mean_squares(
-    wave: &Wave,
-    periods: u32,
-    level: u32,
+/// Summed square errors of every curve at a step of the noise.
+fn squares(
+    simulated: &Simulated,
+    step: u32,
     runs: std::ops::Range<u32>,
     seed: u64,
 ) -> [[f64; 4]; 8] {
     let mut sums = [[0.0; 4]; 8];
-    let noise = 0.01 * f64::from(level) * wave.main_amplitude;
+    let wave = &simulated.wave();
+    let noise = 0.01 * simulated.percent(step) * wave.main_amplitude;
     for run in runs {
-        // A run of a level has a seed of its own.
+        // A run of a step has a seed of its own.
         let seed =
-            seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (u64::from(level) << 32 | u64::from(run));
-        let samples = Samples::simulate(wave, periods, RATE, noise, seed);
+            seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (u64::from(step) << 32 | u64::from(run));
+        let samples = Samples::simulate(wave, simulated.periods, simulated.rate, noise, seed);
         for (sums, errors) in sums.iter_mut().zip(errors(&samples, wave)) {
             for (sum, error) in sums.iter_mut().zip(errors) {
                 *sum += error * error;
@@ -38,9 +35,9 @@ fn mean_squares(
     sums
 }
 
-/// Rms errors of every curve, a_A, a_B in input units, θ in degrees, f in Hz, for each level; over all cores.
-pub fn rms(wave: &Wave, periods: u32, levels: &[u32], runs: u32, seed: u64) -> Vec<[[f64; 4]; 8]> {
-    let chunks: Vec<(usize, u32)> = (0..levels.len())
+/// Rms errors of every curve, a_A, a_B in input units, θ in degrees, f in Hz, for each step of the noise; over all cores.
+pub fn rms(simulated: &Simulated, steps: &[u32], runs: u32, seed: u64) -> Vec<[[f64; 4]; 8]> {
+    let chunks: Vec<(usize, u32)> = (0..steps.len())
         .flat_map(|i| (0..runs.div_ceil(CHUNK)).map(move |chunk| (i, chunk * CHUNK)))
         .collect();
     let style = ProgressStyle::with_template("figure 3: {wide_bar} {percent} % {eta}");
@@ -49,19 +46,13 @@ pub fn rms(wave: &Wave, periods: u32, levels: &[u32], runs: u32, seed: u64) -> V
     let parts: Vec<_> = chunks
         .par_iter()
         .map(|&(i, start)| {
-            let part = mean_squares(
-                wave,
-                periods,
-                levels[i],
-                start..(start + CHUNK).min(runs),
-                seed,
-            );
+            let part = squares(simulated, steps[i], start..(start + CHUNK).min(runs), seed);
             bar.inc(1);
             part
         })
         .collect();
     bar.finish_and_clear();
-    let mut totals = vec![[[0.0; 4]; 8]; levels.len()];
+    let mut totals = vec![[[0.0; 4]; 8]; steps.len()];
     for ((i, _), part) in chunks.iter().zip(parts) {
         for (total, part) in totals[*i].iter_mut().flatten().zip(part.iter().flatten()) {
             *total += part;
@@ -73,12 +64,17 @@ pub fn rms(wave: &Wave, periods: u32, levels: &[u32], runs: u32, seed: u64) -> V
     totals
 }
 
-/// Figure 3: one period, noise of 0 to 20 % of a_A.
-pub fn against_noise(wave: &Wave, runs: u32, seed: u64) -> Figure {
-    let levels: Vec<u32> = LEVELS.collect();
-    let rms = rms(wave, 1, &levels, runs, seed);
+/// How many times the least error the greatest may be, at the greatest noise, for an axis to be linear, as the paper's are.
+const LINEAR: f64 = 20.0;
+
+/// Figure 3: windows of one length against noise.
+pub fn against_noise(simulated: &Simulated, runs: u32, seed: u64) -> Figure {
+    let wave = &simulated.wave();
+    let steps: Vec<u32> = (0..=STEPS).collect();
+    let rms = rms(simulated, &steps, runs, seed);
     let percent = 100.0 / wave.main_amplitude;
-    let [bound, centred] = Samples::simulate(wave, 1, RATE, 0.0, seed).bounds(wave);
+    let [bound, centred] =
+        Samples::simulate(wave, simulated.periods, simulated.rate, 0.0, seed).bounds(wave);
     let bounds = [(Name::Bound, bound), (Name::CentredBound, centred)];
     let kinds = [
         ('a', "main amplitude", "rms error, % of a_A", percent),
@@ -95,32 +91,37 @@ pub fn against_noise(wave: &Wave, runs: u32, seed: u64) -> Figure {
                 .enumerate()
                 .map(|(c, name)| Curve {
                     name,
-                    y: rms.iter().map(|level| level[c][i] * scale).collect(),
+                    y: rms.iter().map(|step| step[c][i] * scale).collect(),
                 })
                 .filter(|curve| curve.y.iter().any(|y| y.is_finite()))
                 .collect();
-            let noise = |level: &u32| 0.01 * f64::from(*level) * wave.main_amplitude;
+            let noise = |&step: &u32| 0.01 * simulated.percent(step) * wave.main_amplitude;
             for (name, bound) in bounds {
                 curves.push(Curve {
                     name,
-                    y: levels
+                    y: steps
                         .iter()
-                        .map(|level| bound[i] * noise(level) * scale)
+                        .map(|step| bound[i] * noise(step) * scale)
                         .collect(),
                 });
             }
+            let last = |curve: &Curve| curve.y.last().copied().unwrap_or(0.0);
+            let [least, greatest] = [f64::min, f64::max].map(|pick| {
+                let values = curves.iter().map(last).filter(|y| *y > 0.0);
+                values.reduce(pick).unwrap_or(1.0)
+            });
             Panel {
                 letter,
-                title: format!("{title}, one period"),
+                title: format!("{title}, {}", simulated.window()),
                 axis,
-                logarithmic: false,
+                logarithmic: greatest > LINEAR * least,
                 curves,
             }
         });
     Figure {
         number: 3,
         axis: "noise, % of a_A, rms a sample",
-        x: levels.iter().map(|&level| f64::from(level)).collect(),
+        x: steps.iter().map(|&step| simulated.percent(step)).collect(),
         panels: panels.collect(),
     }
 }

@@ -6,13 +6,12 @@ use super::*;
 
 #[test]
 fn seeded_whatever_the_cores() {
-    let wave = Wave::default();
     let with = |threads: usize, seed: u64| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .expect("a pool of threads");
-        pool.install(|| noisy::rms(&wave, 1, &[0, 10], 600, seed))
+        pool.install(|| noisy::rms(&Simulated::PAPER, &[0, 10], 600, seed))
     };
     let text = |seed, threads| format!("{:?}", with(threads, seed));
     assert_eq!(text(1, 1), text(1, 3));
@@ -21,8 +20,7 @@ fn seeded_whatever_the_cores() {
 
 #[test]
 fn the_exact_solution_reaches_the_bound() {
-    let wave = Wave::default();
-    let figure = noisy::against_noise(&wave, 2000, 1);
+    let figure = noisy::against_noise(&Simulated::PAPER, 2000, 1);
     for letter in ['a', 'b', 'c', 'd'] {
         let (exact, bound) = (
             figure.curve(letter, Name::Exact),
@@ -44,17 +42,18 @@ fn the_exact_solution_reaches_the_bound() {
 
 #[test]
 fn conclusions_and_files_are_those_of_the_documentation() {
-    let wave = Wave::default();
+    let wave = Simulated::PAPER.wave();
     let folder = tempfile::tempdir().expect("a folder");
     let options = Study {
         out: folder.path().join("new"),
         runs: 500,
         seed: 1,
+        simulated: Simulated::PAPER,
     };
     run(&options).expect("a study");
-    let first = noise_free::against_periods(&wave);
-    let second = noise_free::against_samples(&wave);
-    let third = noisy::against_noise(&wave, 500, 1);
+    let first = noise_free::against_periods(&Simulated::PAPER);
+    let second = noise_free::against_samples(&Simulated::PAPER);
+    let third = noisy::against_noise(&Simulated::PAPER, 500, 1);
     let found = conclusions::check(&wave, &first, &second, &third, &options);
     let verdicts: Vec<Verdict> = found.iter().map(|conclusion| conclusion.verdict).collect();
     let mut expected = [Verdict::Confirmed; 14];

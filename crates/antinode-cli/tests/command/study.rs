@@ -1,6 +1,7 @@
 //! `antinode study`: its files as they are seen, and what is told where they cannot be.
 
 use std::fs;
+use std::path::Path;
 
 use crate::common::run;
 
@@ -37,4 +38,66 @@ fn captions_fit_and_what_cannot_be_written_is_named() {
         let letters = "Figure ".len() + caption.chars().count();
         assert!(size * LETTER * (letters as f64) < WIDTH, "{name}: {size}");
     }
+}
+
+/// The values of a curve of a study's panel, by what they stand over.
+fn curve(here: &Path, table: &str, panel: &str, curve: &str) -> Vec<(f64, f64)> {
+    let rows = fs::read_to_string(here.join(table)).unwrap();
+    let fields = rows.lines().map(|row| row.split(',').collect::<Vec<_>>());
+    // A title may have commas within quotation marks: the curve and all behind it are counted from the end.
+    fields
+        .filter(|row| row[1] == panel && row.contains(&curve))
+        .map(|row| {
+            let [x, y] = [2, 1].map(|back| row[row.len() - back].parse().unwrap());
+            (x, y)
+        })
+        .collect()
+}
+
+#[test]
+fn another_wave_is_studied_and_told_and_the_papers_conclusions_are_not() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let made = run(
+        here,
+        "study --out it --runs 400 --quadrature-amplitude -0.3 --angle 0.2 --phase 1 --rate 140000 --periods 10 --noise 0.5",
+    );
+    assert_eq!((made.code, made.err.as_str()), (0, ""));
+    for told in [
+        "a_B = -0.3, angle 0.2000 rad, phase 1.0000 rad",
+        "5332 Hz sampled at 140000 Hz",
+        "windows of 10 periods, white noise of 0 to 0.5 %",
+        "conclusions are not checked",
+    ] {
+        assert!(made.out.contains(told), "{}", made.out);
+    }
+    assert!(!made.out.contains("onfirmed") && !made.out.contains("CONFIRMED"));
+
+    // An implementation of its own, in double precision, has these.
+    for (table, panel, name, x, value) in [
+        ("figure-1.csv", "a", "1: algorithm 1", 10.0, 2.151378e-2),
+        ("figure-1.csv", "b", "2: algorithm 2", 10.0, 7.683052e-2),
+        ("figure-1.csv", "c", "4: algorithm 4", 10.0, 1.238611e-2),
+        ("figure-2.csv", "a", "3: algorithm 3", 263.0, 7.076813e-4),
+    ] {
+        let table = format!("it/{table}");
+        let points = curve(here, &table, panel, name);
+        let found = points.iter().find(|point| point.0 == x).unwrap().1;
+        assert!((found / value - 1.0).abs() < 1e-3, "{name}: {found}");
+    }
+    // 10 periods of 26.26 samples: a_A at the bound of noise of 0.5 %.
+    let noise = curve(here, "it/figure-3.csv", "a", "exact solution");
+    let (greatest, rms) = noise[20];
+    assert_eq!(noise.len(), 21);
+    assert!((greatest - 0.5).abs() < 1e-12);
+    assert!(
+        (rms / (0.5 * (2.0f64 / 263.0).sqrt()) - 1.0).abs() < 0.15,
+        "{rms}"
+    );
+    // Labels have no digits of rounding, though the noise's steps are of 0.025 %.
+    let svg = fs::read_to_string(here.join("it/figure-3b.svg")).unwrap();
+    assert!(
+        !svg.contains("0000000") && !svg.contains("9999999"),
+        "{svg}"
+    );
 }

@@ -8,17 +8,20 @@ use antinode_sim::Wave;
 use super::{Conclusion, FOUR, Verdict, at, phases, place};
 use crate::study::figure::{Figure, Name};
 use crate::study::samples::Samples;
+use crate::study::simulated::Simulated;
 use crate::study::{RATE, Study, noisy};
 
 /// Windows whose length need not be whole periods.
 const PERIODS: [u32; 6] = [1, 2, 5, 10, 50, 100];
 
-pub fn noise(wave: &Wave, third: &Figure, options: &Study) -> Conclusion {
+pub fn noise(third: &Figure, options: &Study) -> Conclusion {
     let level = 10;
     let one = |name| at(third, 'c', name, level);
     let ten = noisy::rms(
-        wave,
-        10,
+        &Simulated {
+            periods: 10,
+            ..options.simulated
+        },
         &[level as u32],
         (options.runs / 5).max(1),
         options.seed,

@@ -85,7 +85,7 @@ pub fn check(
         frequency::alike(first),
         frequency::grid(wave, first),
         frequency::absolutes(wave),
-        length::noise(wave, third, options),
+        length::noise(third, options),
         length::long(first),
         length::long_with_a_whole_delay(first),
         length::whole_periods(wave),

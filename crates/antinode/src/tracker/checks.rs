@@ -144,8 +144,11 @@ pub(crate) fn within(
         && has_harmonic(model, remains, wave, coding, third_noise);
     flags = flags.with_if(harmonic, Flags::CLIPPED);
 
-    let round = wave.lesser * wave.lesser < SIGNIFICANT * wave.lesser_variance
-        || wave.lesser < ROUND * wave.record.main.value;
+    let (main, quadrature) = (&wave.record.main, &wave.record.quadrature);
+    // The lesser of the travelling waves; the variance is the mean of both of theirs.
+    let size = main.value - quadrature.value.abs();
+    let round = size * size < SIGNIFICANT * (main.variance + quadrature.variance)
+        || size < ROUND * main.value;
     flags = flags.with_if(round && significant, Flags::CIRCULAR);
 
     if flags.with(Flags::CIRCULAR) == Flags::CIRCULAR {
@@ -185,4 +188,81 @@ fn has_harmonic(
                 square > limit * limit
             }
         })
+}
+
+#[cfg(test)]
+mod tests {
+    use num_complex::Complex32;
+
+    use super::*;
+    use crate::block::Layout;
+    use crate::calibration::Calibration;
+    use crate::phase::PhaseStep;
+
+    const BLOCKS: u16 = 5;
+
+    /// The fit of a window of a steady wave, in noise of such variances about the carrier and about its third harmonic.
+    fn fit([own, third]: [f32; 2]) -> Fit {
+        let mut fit = Fit {
+            settled: true,
+            ..Fit::default()
+        };
+        fit.waves.value = [Complex32::ONE; 2];
+        fit.remains = Remains {
+            residual: 20.0 * own,
+            freedom: 20.0,
+            worst_block: 4.0 * own,
+            step: 4.0 * own,
+            third_noise: third,
+            third_freedom: 16.0,
+            third_spared: third,
+            third_alone: third,
+            ..Remains::default()
+        };
+        fit
+    }
+
+    fn flags(fit: &Fit, noise: &mut Noise) -> Flags {
+        let carrier = PhaseStep::from_period(18.75);
+        let layout = Layout::unrounded(carrier, 37);
+        let model = Model::new(layout, carrier, BLOCKS, Calibration::IDEAL, 1e5, false);
+        let own = fit.remains.variance();
+        let levels = Levels {
+            own,
+            stated: own,
+            coding: 0.0,
+            colour: COLOUR,
+        };
+        let wave = Standing::new(&model, fit, [own, 1.0], own, 0);
+        within(&model, fit, &wave, levels, noise, BLOCKS)
+    }
+
+    #[test]
+    fn a_fit_that_does_not_settle_is_a_misfit() {
+        let mut noise = Noise::NONE;
+        for _ in 0..3 {
+            let mut fit = fit([1e-4; 2]);
+            assert_eq!(flags(&fit, &mut noise), Flags::empty());
+            fit.settled = false;
+            assert_eq!(flags(&fit, &mut noise), Flags::MISFIT);
+        }
+    }
+
+    #[test]
+    fn only_white_noise_is_a_new_level() {
+        let mut noise = Noise::NONE;
+        for _ in 0..20 {
+            assert_eq!(flags(&fit([1e-4; 2]), &mut noise), Flags::empty());
+        }
+        // A tone near the wave, which is not about its third harmonic.
+        for _ in 0..10 {
+            assert_eq!(flags(&fit([1e-2, 1e-4]), &mut noise), Flags::MISFIT);
+        }
+        assert!(noise.freedom > 0.0);
+        for i in 0..6 {
+            let is_new = i < Noise::NEW_LEVEL;
+            let expected = Flags::empty().with_if(is_new, Flags::MISFIT);
+            assert_eq!(flags(&fit([1e-2; 2]), &mut noise), expected, "{i}");
+        }
+    }
 }

@@ -34,7 +34,7 @@ impl Noise {
     };
     /// Windows that raise their residual together are a new level of noise, if the third harmonic's neighbourhood agrees. So many that do
     /// not overlap: a fault is in all that overlap it.
-    const NEW_LEVEL: u32 = 3;
+    pub(super) const NEW_LEVEL: u32 = 3;
     /// Degrees of freedom remembered, in windows.
     const MEMORY: f32 = 16.0;
     /// How much more the windows before may weigh than one window, which knows its noise by few degrees of freedom.

@@ -11,7 +11,7 @@ use super::angle::Angle;
 use super::record::{Amplitude, Record};
 use crate::arch::square_root;
 use crate::phase::argument;
-use crate::scalar::{greater, lesser};
+use crate::scalar::greater;
 use crate::window::{Covariance, Fit, Model};
 
 /// The standing wave at the middle of a window, with variances for the fit's own noise, and what only its own window asks.
@@ -21,9 +21,6 @@ pub(crate) struct Standing {
     pub record: Record,
     /// The noise variance a sample that all variances are for.
     pub noise: f32,
-    /// The smaller of |z₊|, |z₋|, with its variance.
-    pub lesser: f32,
-    pub lesser_variance: f32,
     /// Covariance of drift and turning, per half window: with quadrature, a turning pattern looks like another frequency.
     pub drift_turning: f32,
     /// The product of both variances less the square of that.
@@ -195,8 +192,6 @@ impl Standing {
                 },
             },
             noise,
-            lesser: lesser(p, m),
-            lesser_variance: if p < m { size.plus } else { size.minus },
             drift_turning: 0.125 * (turn.plus - turn.minus),
             turn_determinant: 0.0625 * (turn.plus * turn.minus - turn.both * turn.both),
         }

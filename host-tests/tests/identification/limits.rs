@@ -1,6 +1,6 @@
-//! Settings at the ends of what is allowed work, and what lies just beyond them is refused.
+//! Settings at the ends of what is allowed work, and what lies just beyond them is refused; and what no row may state.
 
-use antinode::{Identifier, Settings, Tracker};
+use antinode::{Flags, Identifier, Settings, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::errors;
 use host_tests::{Core, RATE, calibrated, identify, stream, windows};
@@ -130,4 +130,46 @@ fn a_count_of_lost_pairs_that_no_stream_lasts_leaves_indices_that_can_be_doubled
         });
         assert!(count > 20, "{lost}: {count}");
     }
+}
+
+#[test]
+fn a_row_that_is_not_lost_states_a_frequency_and_deviations() {
+    let mut seed = 1u32;
+    let mut random = || {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (seed >> 8) as f32 / 8_388_608.0 - 1.0
+    };
+    let mut rows = 0;
+    // Noise, and both pick-offs' wires at a voltage that noise is on.
+    for (level, noise) in [(0.0, 1.0), (1.0, 1e-3), (1.0, 0.1)] {
+        let pairs: Vec<[f32; 2]> = (0..40_000)
+            .map(|_| [level, -0.03 * level].map(|level| level + noise * random()))
+            .collect();
+        for (period, periods) in [(2.5, 2), (2.6, 3), (3.5, 2), (18.75, 2)] {
+            for watch in [true, false] {
+                let settings = Settings {
+                    watch,
+                    frequency: Some((RATE / period) as f32),
+                    ..windows(periods)
+                };
+                let mut core = Core::new(settings).unwrap();
+                core.extend(&pairs, |e| {
+                    let stated = [
+                        e.main_amplitude_std,
+                        e.quadrature_amplitude_std,
+                        e.angle_std,
+                        e.phase_std,
+                        e.frequency_std,
+                        e.angle_rate_std,
+                        e.decay_rate_std,
+                    ];
+                    let is_stated = stated.iter().all(|&std| std > 0.0 && std.is_finite());
+                    let is_sound = e.frequency > 0.0 && is_stated;
+                    assert!(is_sound || e.flags.contains(Flags::LOST), "{e:?}");
+                    rows += 1;
+                });
+            }
+        }
+    }
+    assert!(rows > 100, "{rows}");
 }

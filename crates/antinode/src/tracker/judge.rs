@@ -21,6 +21,9 @@ const BROKEN: Flags = Flags::LOST
 /// Flags of a window that has no angle of its own.
 const UNSEEN: Flags = BROKEN.without(Flags::MISFIT).with(Flags::CIRCULAR);
 
+/// A frequency of half a turn a sample or more, which is 3.14 rad, would be stated as one below zero.
+const HIGHEST: f32 = 3.1;
+
 impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Makes something of a fit's record and flags; nothing where there is no wave to be tracked.
     #[inline(always)]
@@ -138,6 +141,12 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             }
         }
         let record = &wave.record;
+
+        // What is at no frequency is no wave.
+        let turned = model.carrier.radians() + record.drift;
+        if turned <= 0.0 || turned > HIGHEST {
+            flags = flags.with(Flags::LOST);
+        }
 
         let left = |before: &Record| record.main.value < LEFT * before.main.value;
         let is_left = self.before.as_ref().is_some_and(left);

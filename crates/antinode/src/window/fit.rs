@@ -22,6 +22,8 @@ const FARTHEST: f32 = 1.5;
 /// The highest carrier: 0.45 turns a sample. A known frequency is at most 0.42, and near half a turn both quadratures are one. Below zero
 /// the step is above this, too.
 const HIGHEST: u32 = 1_932_735_283;
+/// The lowest carrier is that of the blocks over this: of two periods half a one is left, which is hardly to be told from an offset.
+const LOWEST: u32 = 4;
 /// A fit that still moves by more than this share of the wave has found nothing.
 const NEAR: f32 = 0.01;
 /// Below this share of the wave the next step is rounding. One of 10⁻⁶ that is not looked at stands out of the noise of 10⁵ samples.
@@ -54,7 +56,7 @@ impl Model {
     #[inline(never)]
     fn moved(&self, drift: f32) -> Option<PhaseStep> {
         let moved = (drift.abs() <= FARTHEST).then(|| self.carrier.shifted(drift * self.per_half));
-        moved.filter(|carrier| carrier.0 <= HIGHEST)
+        moved.filter(|carrier| (self.layout.step.0 / LOWEST..=HIGHEST).contains(&carrier.0))
     }
 
     /// How many blocks of `count` a carrier is good for that a fit of `span` of them found.
@@ -218,6 +220,8 @@ mod tests {
             (2.5, 0.6, true),
             (2.5, 1.4, false),
             (2.5, -1.4, true),
+            (12.0, -1.0, true),
+            (12.0, -1.4, false),
             (50.0, 1.4, true),
             (50.0, -1.4, false),
         ] {

@@ -48,10 +48,14 @@ impl RowFile<Box<dyn Read>> {
             if io::stdin().is_terminal() {
                 eprintln!("reading rows from standard input; Ctrl-D ends them");
             }
-            return Self::new(STANDARD_INPUT, Box::new(in_utf8(io::stdin())));
+            let text = in_utf8(io::stdin());
+            let text = text.map_err(|fault| unreadable(STANDARD_INPUT, 1, &fault.into()))?;
+            return Self::new(STANDARD_INPUT, Box::new(text));
         }
         let name = path.display().to_string();
-        Self::new(&name, Box::new(in_utf8(open_file(path)?)))
+        let text = in_utf8(open_file(path)?);
+        let text = text.map_err(|fault| unreadable(&name, 1, &fault.into()))?;
+        Self::new(&name, Box::new(text))
     }
 }
 

@@ -41,7 +41,9 @@ pub(super) fn open(
     // Raw samples may begin as UTF-16 does.
     if content == Content::Utf16 && (is_named_text || options.raw.is_none()) {
         let count = Rc::clone(&known.encoded);
-        (content, stream) = look(Box::new(in_utf8(Counted { stream, count })))?;
+        let decoded = in_utf8(Counted { stream, count });
+        let decoded = decoded.map_err(|fault| InputError::io(name, fault))?;
+        (content, stream) = look(Box::new(decoded))?;
         // Decoded, they are no samples any more.
         is_text |= is_named_text;
     }

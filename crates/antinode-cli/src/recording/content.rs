@@ -5,6 +5,7 @@ use std::io::{self, Cursor, Read};
 use super::Stream;
 use super::columns::is_known;
 use super::foreign::{FEW_BYTES, Foreign};
+use super::source::unmarked_utf_16;
 use super::text::{MAX_LINE, fields, is_number, is_skipped, separator, without_mark};
 
 /// Bytes read at a time while a text's first line is looked for.
@@ -57,6 +58,7 @@ impl Content {
             ] => Self::Wav,
             [0x93, b'N', b'U', b'M', b'P', b'Y', ..] => Self::Npy,
             [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Self::Utf16,
+            _ if unmarked_utf_16(head).is_some() => Self::Utf16,
             _ => Foreign::find(head).map_or(Self::Other, Self::Foreign),
         }
     }

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 use std::fs::{self, File};
-use std::io::{self, Read};
+use std::io::{self, Cursor, Read};
 use std::path::Path;
 use std::rc::Rc;
 
@@ -12,6 +12,9 @@ use super::error::InputError;
 use super::gaps::Gap;
 use super::not_finite::Written;
 use super::sample::SampleCode;
+
+/// As long as the shortest recording, `1,2` and an end of line in UTF-16.
+const UNMARKED_BYTES: usize = 8;
 
 /// Where the bytes come from.
 pub(super) type Stream = Box<dyn Read>;
@@ -27,12 +30,33 @@ pub fn open_file(path: &Path) -> Result<File, InputError> {
     }
 }
 
-/// Text in UTF-8, whatever its byte order mark says it is: Windows writes UTF-16, PowerShell by `>` too.
-pub fn in_utf8(text: impl Read) -> impl Read {
-    DecodeReaderBytesBuilder::new()
+/// Text in UTF-8, whatever its byte order mark, or a zero in every other byte, says it is: Windows writes UTF-16, PowerShell by `>` too.
+pub fn in_utf8(mut text: impl Read) -> io::Result<impl Read> {
+    let mut head = Vec::new();
+    text.by_ref()
+        .take(UNMARKED_BYTES as u64)
+        .read_to_end(&mut head)?;
+    let mark = unmarked_utf_16(&head).unwrap_or_default();
+    let text = Cursor::new(mark).chain(Cursor::new(head)).chain(text);
+    Ok(DecodeReaderBytesBuilder::new()
         .utf8_passthru(true)
         .strip_bom(true)
-        .build(text)
+        .build(text))
+}
+
+/// The byte order mark that UTF-16 of ASCII lacks, told from its first bytes.
+pub(super) fn unmarked_utf_16(head: &[u8]) -> Option<&'static [u8]> {
+    let is_ascii = |byte: u8| byte.is_ascii_graphic() || byte.is_ascii_whitespace();
+    let (units, _) = head.get(..UNMARKED_BYTES)?.as_chunks();
+    let all = |is: fn(&[u8; 2]) -> (u8, u8)| {
+        let mut units = units.iter().map(is);
+        units.all(|(zero, byte)| zero == 0 && is_ascii(byte))
+    };
+    if all(|&[low, high]| (high, low)) {
+        Some(b"\xff\xfe")
+    } else {
+        all(|&[high, low]| (high, low)).then_some(b"\xfe\xff")
+    }
 }
 
 /// A stream that counts the bytes read from it.

@@ -180,6 +180,17 @@ fn text_may_be_utf_16() {
             assert!(fault.as_ref().unwrap().starts_with(&expected), "{fault:?}");
         }
     }
+    // A zero in every other byte tells without the mark.
+    let little = "1,2\n".encode_utf16().flat_map(u16::to_le_bytes);
+    let big = "1,2\n".encode_utf16().flat_map(u16::to_be_bytes);
+    for bytes in [little.collect::<Vec<u8>>(), big.collect()] {
+        for name in ["a.csv", "a.dat"] {
+            assert_eq!(read(name, &bytes), (vec![[1.0, 2.0]], None));
+        }
+        // Such are raw samples, too.
+        let (pairs, _) = read_with("a", &bytes, &raw(Kind::I16));
+        assert_eq!(pairs.len(), 2);
+    }
     // All of it is read, by the bytes that are in the file.
     let (_directory, path) = file(
         "a.csv",

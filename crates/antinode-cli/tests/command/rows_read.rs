@@ -40,11 +40,13 @@ fn rows_of_other_programs_are_the_same_rows() {
         .encode_utf16()
         .flat_map(u16::to_le_bytes)
         .collect();
+    let unmarked = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
     for other in [
         text.replace('\n', "\r\n").into_bytes(),
         text.replace('\n', "\r").into_bytes(),
         tabs.into_bytes(),
         utf_16,
+        unmarked,
         format!("sep=;\n{decimal_commas}").into_bytes(),
         format!("sep=,\r\n{header}\r\n{commas}\r\n{lines}{commas}\n\n").into_bytes(),
         format!("# of today\n{header}\n# the first\n{first}\n{others}").into_bytes(),

@@ -1,52 +1,50 @@
-/*
- * antinode: the standing wave of a hemispherical resonator gyro, window by window, from its two pick-offs sampled together.
- * Apache-2.0 or MIT. Made by cbindgen from crates/antinode-capi; do not edit.
- *
- *     static antinode_fixed_t gyro;                                     // 8832 bytes; antinode_float_t has 10816
- *
- *     antinode_settings_t settings = antinode_settings_default(100e3);  // before the interrupt is enabled
- *     antinode_status_t status = antinode_fixed_init(&gyro, &settings); // below 0: antinode_status_string(status)
- *
- *     antinode_fixed_push_block_packed(&gyro, half_buffer, 128);        // in the interrupt of the converter's DMA
- *
- *     antinode_estimate_t estimate;                                     // in the thread, again and again
- *     while (antinode_fixed_solve(&gyro, &estimate) == ANTINODE_ESTIMATE)
- *         use(&estimate);
- *
- * Samples: S_C and S_D of pick-offs 45 degrees apart; the unit of amplitudes, offsets and residuals is that of the samples. The model
- * for ideal pick-offs without offset, which gives the signs of angle, quadrature, phase and pick-off angle, is
- *     S_C = A cos 2theta - B sin 2theta,   A = a_A cos tau,   tau = omega t - alpha, omega = 2pi f,
- *     S_D = A sin 2theta + B cos 2theta,   B = a_B sin tau,   t = 0 at the window's middle.
- * Codes are two's complement of 16 bits. Unsigned codes of up to 15 bits (a 12-bit converter, aligned to the right) are the same
- * numbers: the offset is found. Unsigned codes of 16 bits, oversampled or aligned to the left, would wrap around at half scale, and
- * with `watch` 0 no flag tells: invert the highest bits, word ^ 0x80008000, which takes 32768 from the offsets and from the rails.
- *
- * Memory: a state is the caller's, static or on a stack; there is no heap, no global and no callback. Zeroed memory is not an
- * initialised state. A state may be copied or moved while nobody uses it.
- *
- * Concurrency, without a lock:
- *  - Interrupt side: _push, _push_block*, _skip. One of them at a time: interrupts that call them must have the same priority. They
- *    put finished blocks in a queue inside the state.
- *  - Thread side: _solve, _search, _set_calibration. One of them at a time. They take blocks from the queue.
- *  - One call of each side may be under way at once: the interrupt may break into the thread anywhere, or run on another core that
- *    shares coherent memory.
- *  - _health may be called from anywhere at any time except during _init and _reset; the functions without a state at any time.
- *  - _init, _reset and _identify use both sides: no other call on that state may be under way, except _health during _identify, and,
- *    during _init and _reset, those of an interrupt of the same core, whose samples are refused.
- *  - States are independent of each other.
- *
- * The interrupt's cost on a Cortex-M4: during the search for a period 200 to 460 instructions a sample pair, up to 600 over a
- * half-buffer of a signal that looks like a wave but is not, such as two tones; afterwards 10 to 80, or 70 to 180 with _push. These
- * are means: a single _push may take 1900 during the search, and 1100 (fixed) or 2000 (float) afterwards; half-buffers never take
- * that many a pair. The interrupt's stack on a Cortex-M4 is up to 0.8 KiB, or 1.0 KiB (fixed) or 1.3 KiB (float) with _push_block; on
- * a Cortex-M3 or M0 up to 1.2 KiB, or 1.5 or 1.8 KiB with _push_block. The search uses floating-point registers, even in fixed point,
- * if the core has them: what saves them for threads must save them for this interrupt too (lazy stacking; Zephyr: CONFIG_FPU_SHARING).
- *
- * Errors: a NULL or misaligned pointer, a state that was not initialised and a value out of range give a status below 0, and
- * nothing is done; but a state whose _init failed is no longer initialised. A pointer that is neither NULL nor misaligned must point
- * to what its type says; a state must be changed by these functions only. Any sample is valid, NaN too. No function panics, aborts or
- * blocks.
- */
+// antinode: the standing wave of a hemispherical resonator gyro, window by window, from its two pick-offs sampled together.
+// Apache-2.0 or MIT. Made by cbindgen from crates/antinode-capi; do not edit.
+//
+//     static antinode_fixed_t gyro;                                     // 8832 bytes; antinode_float_t has 10816
+//
+//     antinode_settings_t settings = antinode_settings_default(100e3);  // before the interrupt is enabled
+//     antinode_status_t status = antinode_fixed_init(&gyro, &settings); // below 0: antinode_status_string(status)
+//
+//     antinode_fixed_push_block_packed(&gyro, half_buffer, 128);        // in the interrupt of the converter's DMA
+//
+//     antinode_estimate_t estimate;                                     // in the thread, again and again
+//     while (antinode_fixed_solve(&gyro, &estimate) == ANTINODE_ESTIMATE)
+//         use(&estimate);
+//
+// Samples: S_C and S_D of pick-offs 45 degrees apart; the unit of amplitudes, offsets and residuals is that of the samples. The model
+// for ideal pick-offs without offset, which gives the signs of angle, quadrature, phase and pick-off angle, is
+//     S_C = A cos 2theta - B sin 2theta,   A = a_A cos tau,   tau = omega t - alpha, omega = 2pi f,
+//     S_D = A sin 2theta + B cos 2theta,   B = a_B sin tau,   t = 0 at the window's middle.
+// Codes are two's complement of 16 bits. Unsigned codes of up to 15 bits (a 12-bit converter, aligned to the right) are the same
+// numbers: the offset is found. Unsigned codes of 16 bits, oversampled or aligned to the left, would wrap around at half scale, and
+// with `watch` 0 no flag tells: invert the highest bits, word ^ 0x80008000, which takes 32768 from the offsets and from the rails.
+//
+// Memory: a state is the caller's, static or on a stack; there is no heap, no global and no callback. Zeroed memory is not an
+// initialised state. A state may be copied or moved while nobody uses it.
+//
+// Concurrency, without a lock:
+//  - Interrupt side: _push, _push_block*, _skip. One of them at a time: interrupts that call them must have the same priority. They
+//    put finished blocks in a queue inside the state.
+//  - Thread side: _solve, _search, _set_calibration. One of them at a time. They take blocks from the queue.
+//  - One call of each side may be under way at once: the interrupt may break into the thread anywhere, or run on another core that
+//    shares coherent memory.
+//  - _health may be called from anywhere at any time except during _init and _reset; the functions without a state at any time.
+//  - _init, _reset and _identify use both sides: no other call on that state may be under way, except _health during _identify, and,
+//    during _init and _reset, those of an interrupt of the same core, whose samples are refused.
+//  - States are independent of each other.
+//
+// The interrupt's cost on a Cortex-M4: during the search for a period 200 to 460 instructions a sample pair, up to 600 over a
+// half-buffer of a signal that looks like a wave but is not, such as two tones; afterwards 10 to 80, or 70 to 180 with _push. These
+// are means: a single _push may take 1900 during the search, and 1100 (fixed) or 2000 (float) afterwards; half-buffers never take
+// that many a pair. The interrupt's stack on a Cortex-M4 is up to 0.8 KiB, or 1.0 KiB (fixed) or 1.3 KiB (float) with _push_block; on
+// a Cortex-M3 or M0 up to 1.2 KiB, or 1.5 or 1.8 KiB with _push_block. The search uses floating-point registers, even in fixed point,
+// if the core has them: what saves them for threads must save them for this interrupt too (lazy stacking; Zephyr: CONFIG_FPU_SHARING).
+//
+// Errors: a NULL or misaligned pointer, a state that was not initialised and a value out of range give a status below 0, and
+// nothing is done; but a state whose _init failed is no longer initialised. A pointer that is neither NULL nor misaligned must point
+// to what its type says; a state must be changed by these functions only. Any sample is valid, NaN too. No function panics, aborts or
+// blocks.
 
 
 #ifndef ANTINODE_H

@@ -26,6 +26,19 @@ fn the_committed_header_is_that_of_the_sources() {
     );
 }
 
+/// MISRA C, rule 3.1.
+#[test]
+fn no_comment_holds_the_mark_of_another() {
+    let text = include_str!("../include/antinode.h");
+    for line in text.lines() {
+        let marks = ["/*", "//"].map(|mark| line.matches(mark).count());
+        // `//` within such a comment is allowed.
+        let is_comment = line.trim_start().starts_with("//") && marks[0] == 0;
+        let is_one = marks[0] + marks[1] <= 1 && line.matches("*/").count() == marks[0];
+        assert!(is_comment || is_one, "{line}");
+    }
+}
+
 /// Constants by their names in C, and letters that every C compiler reads.
 fn in_c(text: String) -> String {
     let spellings = [

@@ -19,11 +19,10 @@ use crate::scalar::lesser;
 pub(crate) const CARRIER_REACH: f32 = 0.05;
 /// Beyond this phase the wave is nowhere near the carrier.
 const FARTHEST: f32 = 1.5;
-/// The highest carrier: 0.45 turns a sample. A known frequency is at most 0.42, and near half a turn both quadratures are one. Below zero
-/// the step is above this, too.
+/// The highest carrier: 0.45 turns a sample. A known frequency is at most 0.42, and near half a turn both quadratures are one.
 const HIGHEST: u32 = 1_932_735_283;
-/// The lowest carrier is that of the blocks over this: of two periods half a one is left, which is hardly to be told from an offset.
-const LOWEST: u32 = 4;
+/// The lowest carrier is that of the blocks over this: in a window of two periods an offset that wanders would be a wave of next to none.
+const LOWEST: u32 = 2;
 /// A fit that still moves by more than this share of the wave has found nothing.
 const NEAR: f32 = 0.01;
 /// Below this share of the wave the next step is rounding. One of 10⁻⁶ that is not looked at stands out of the noise of 10⁵ samples.
@@ -220,8 +219,8 @@ mod tests {
             (2.5, 0.6, true),
             (2.5, 1.4, false),
             (2.5, -1.4, true),
-            (12.0, -1.0, true),
-            (12.0, -1.4, false),
+            (10.0, -0.9, true),
+            (10.0, -1.1, false),
             (50.0, 1.4, true),
             (50.0, -1.4, false),
         ] {

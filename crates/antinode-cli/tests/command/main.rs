@@ -21,6 +21,8 @@ mod plot_refusals;
 mod port;
 mod port_monitor;
 mod reading;
+#[cfg(unix)]
+mod readme;
 mod resonator;
 mod resonator_driven;
 mod resonator_frequency;

@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::common::ring_downs::{
     four_seconds, identified, is_one_way, numbers, of_run, record, resonator,
 };
-use crate::common::{README, WAVE, rms, run, wav};
+use crate::common::{WAVE, rms, run, wav};
 
 #[test]
 fn a_split_of_frequency_is_told_by_three_angles() {
@@ -229,35 +229,4 @@ fn one_pattern_that_rocks_a_little_tells_its_decay() {
         "{}",
         found.out
     );
-}
-
-/// What a block of the README holds, of such a language, the first one behind a heading.
-#[cfg(unix)]
-fn block<'r>(heading: &str, language: &str) -> &'r str {
-    let (_, behind) = README.split_once(heading).unwrap();
-    let (_, block) = behind.split_once(&format!("```{language}\n")).unwrap();
-    block.split_once("```").unwrap().0
-}
-
-#[cfg(unix)]
-#[test]
-fn the_readme_shows_the_resonator_as_it_is() {
-    let directory = tempfile::tempdir().unwrap();
-    let command = Path::new(env!("CARGO_BIN_EXE_antinode"));
-    let path = std::env::var("PATH").unwrap();
-    let printed = std::process::Command::new("sh")
-        .args(["-ec", block("### The resonator", "sh")])
-        .env(
-            "PATH",
-            format!("{}:{path}", command.parent().unwrap().display()),
-        )
-        .current_dir(directory.path())
-        .output()
-        .unwrap();
-    let told = [printed.stdout, printed.stderr].map(|told| String::from_utf8(told).unwrap());
-    let mut told = told.iter().flat_map(|told| told.lines());
-    let shown = block("### The resonator", "text").lines();
-    for line in shown.filter(|&line| line != "…") {
-        assert!(told.any(|other| other == line), "{line}");
-    }
 }

@@ -2,6 +2,7 @@
 
 mod moments;
 mod solve;
+mod undriven;
 
 use std::io::{self, Write};
 
@@ -13,10 +14,11 @@ use crate::digits::{decimals, fixed, significant, with_std};
 use crate::failure::Failure;
 use crate::given::Given;
 use crate::options::Corrected;
+use crate::runs::driven;
 use crate::runs::{BEYOND_NOISE, Runs};
 use crate::serialized;
-use moments::Run;
 use solve::{Found, PickOffs, solve};
+use undriven::{moments, without_driven};
 
 /// A flaw of fewer deviations than this is none.
 const SEEN: f64 = 3.0;
@@ -65,13 +67,15 @@ struct Quantity {
 /// Finds the calibration and prints it as options.
 pub fn run(options: &Calibrate) -> Result<(), Failure> {
     let corrected = PickOffs::from(&options.corrected);
-    let (rows, name) = Runs::open(&options.given, MOST_TURN, Flags::REACQUIRED)?;
-    let runs: Vec<_> = rows
-        .runs
-        .iter()
-        .map(|run| Run::new(run, &corrected))
-        .collect();
-    let found = solve(&runs, corrected).map_err(|fault| fault.of(&name))?;
+    let (mut rows, name) = Runs::open(&options.given, MOST_TURN, Flags::REACQUIRED)?;
+    let found = solve(&moments(&rows.runs, &corrected), corrected);
+    let mut found = found.map_err(|fault| fault.of(&name))?;
+    let mut driven = Vec::new();
+    if found.residual > BEYOND_NOISE
+        && let Some((others, [runs, left_out])) = without_driven(&rows.runs, &corrected, &found)
+    {
+        (found, rows.runs, driven) = (others, runs, left_out);
+    }
     let PickOffs {
         gain_ratio,
         skew,
@@ -110,7 +114,8 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
     ];
     let mut report = io::stderr().lock();
     // The result goes to the other stream: standard error may be closed.
-    let _ = tell(&mut report, &name, &rows, &found, &quantities);
+    let _ = driven::tell(&mut report, &driven)
+        .and_then(|()| tell(&mut report, &name, &rows, &found, &quantities));
     let apart = found.deviations.map(|std| SEEN * std);
     if corrected == PickOffs::IDEAL {
         let look = if found.pick_offs.are_ideal_to(apart) {
@@ -188,8 +193,8 @@ fn tell(
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,
-            "warning: rows differ from the calibrated wave by {:.1} times their noise: the wave is still driven in some rows (see --from), something \
-             else moves with the angle, or a pick-off or the converter is nonlinear; the deviations above are wider by that, and the values may \
+            "warning: rows differ from the calibrated wave by {:.1} times their noise: the wave is still driven in some rows (identify each \
+             ring-down by itself with --from and --to), something else moves with the angle, or a pick-off or the converter is nonlinear; the deviations above are wider by that, and the values may \
              be further off than these",
             found.residual
         )?;

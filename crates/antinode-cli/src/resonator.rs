@@ -3,7 +3,6 @@
 mod by_energy;
 mod chords;
 mod drift;
-mod driven;
 mod fit;
 mod found;
 mod frequency;
@@ -24,10 +23,10 @@ use clap::Args;
 use crate::failure::Failure;
 use crate::given::Given;
 use crate::options::Format;
+use crate::runs::driven::{self, undriven};
 use crate::runs::{BEYOND_NOISE, Run, Runs};
 use crate::serialized;
 use by_energy::ByEnergy;
-use driven::take_driven;
 use fit::fit;
 use found::Found;
 use frequency::{Frequency, frequency};
@@ -44,6 +43,8 @@ const DECAY_SEEN: f64 = 3.0;
 const TURNS: f64 = PI / 8.0;
 /// Runs that stand still tell the splits without them, from two on.
 const ENOUGH_STILL: usize = 2;
+/// A gain ratio that is 15 % off changes an amplitude by this share per radian that the pattern turns, while nothing drives it.
+const BY_FLAWS: f64 = 0.3;
 /// Residuals of neighbouring rows correlate by up to this where windows overlap unseen, and by so many deviations more by chance.
 const ALIKE: f64 = 0.03;
 const ALIKE_SEEN: f64 = 5.0;
@@ -67,7 +68,9 @@ pub struct Resonator {
 /// Finds the resonator and prints it.
 pub fn run(options: &Resonator) -> Result<(), Failure> {
     let (mut rows, name) = Runs::open(&options.given, MOST_TURN, BREAKS)?;
-    let driven = take_driven(&mut rows);
+    let energies: Vec<_> = rows.runs.iter().map(Run::energies).collect();
+    let [runs, driven] = undriven(&rows.runs, &energies, BY_FLAWS);
+    rows.runs = runs;
     let found = fit(&rows.runs).map_err(|_| {
         Failure::Fault(format!(
             "{name}: no resonator explains the rows: see that nothing drives the gyro while it rings down, \
@@ -86,23 +89,9 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
     }
     // The result is printed: standard error may be closed.
     let mut err = io::stderr().lock();
-    let _ = tell_driven(&mut err, &driven)
+    let _ = driven::tell(&mut err, &driven)
         .and_then(|()| tell(&mut err, &rows, &listed, &found, &frequency));
     Ok(())
-}
-
-/// Tells which runs were left out, as something drives them.
-fn tell_driven(out: &mut impl Write, driven: &[Run]) -> io::Result<()> {
-    let count = match driven.len() {
-        0 => return Ok(()),
-        1 => "1 run".to_owned(),
-        runs => format!("{runs} runs"),
-    };
-    writeln!(
-        out,
-        "warning: left out: {count} in which the wave does not decay, as it does in others, so that something drives it: {}",
-        driven::names(driven)
-    )
 }
 
 /// How fast the patterns turn, rad/s, where all that turn do so one way, and too few stand still.

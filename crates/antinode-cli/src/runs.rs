@@ -1,6 +1,7 @@
 //! Rows that `antinode identify` printed become runs: spans of time in which the pattern moves without a break.
 
 mod again;
+pub mod driven;
 mod jump;
 mod recording;
 mod row;
@@ -22,7 +23,7 @@ pub use row::Row;
 /// From this rms residual over the rows' own deviations on, it is told that something else moves.
 pub const BEYOND_NOISE: f64 = 2.0;
 /// The least rows of a run: four unknowns are its own.
-const LEAST_ROWS: usize = 12;
+pub const LEAST_ROWS: usize = 12;
 /// Windows overlap where one follows another by less than this share of its length, which is known to a few per cent.
 const APART: f64 = 0.97;
 
@@ -274,13 +275,6 @@ impl Run {
         let apart = 0.5 * APART * row.seconds;
         let last = self.rows.last();
         last.is_some_and(|last| row.time - last.time < 0.5 * APART * last.seconds + apart)
-    }
-
-    /// True when both have the same rows, as far as the shorter one goes.
-    fn is_copy(&self, other: &Self) -> bool {
-        let numbers = |row: &Row| [row.time, row.main, row.quadrature, row.angle];
-        let mut pairs = self.rows.iter().zip(&other.rows);
-        pairs.all(|(one, other)| numbers(one) == numbers(other))
     }
 }
 

@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 
-use super::solve::PickOffs;
-use crate::runs::{self, Row, turn};
+use super::solve::{PickOffs, shares, variances};
+use crate::runs::driven::Energy;
+use crate::runs::{self, LEAST_ROWS, Row, turn};
 
 /// A window's wave as the pick-offs show it.
 #[derive(Debug, Clone, Copy)]
@@ -40,6 +41,33 @@ impl Run {
             moments: moments.collect(),
             turns: run.turns(),
         }
+    }
+
+    /// The run in so many parts of as many moments each, of a pattern that turns as far.
+    pub fn parts(&self, count: usize) -> impl Iterator<Item = Self> {
+        let parts = self
+            .moments
+            .chunks_exact((self.moments.len() / count).max(LEAST_ROWS));
+        parts.map(|moments| Self {
+            moments: moments.to_vec(),
+            turns: self.turns,
+        })
+    }
+
+    /// What they tell of the wave's energy, through these pick-offs.
+    pub fn energies(&self, pick_offs: &PickOffs) -> Vec<Energy> {
+        let moments = self.moments.iter().zip(self.ideal(pick_offs));
+        let energies = moments.map(|(moment, ideal)| {
+            let [energy, ..] = shares(ideal);
+            let [variance, _] = variances(ideal, pick_offs);
+            Energy {
+                time: moment.time,
+                log: 0.5 * energy.ln(),
+                deviation: 0.5 * (variance * moment.variance).sqrt(),
+                angle: moment.angle(pick_offs),
+            }
+        });
+        energies.collect()
     }
 
     /// Phasors of ideal pick-offs in the middle of each window, where the true ones are these.

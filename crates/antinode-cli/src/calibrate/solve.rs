@@ -245,7 +245,7 @@ impl Normal {
 }
 
 /// E, and R/E, S/E and Q/E, of the phasors of ideal pick-offs; Q is −2 a_A a_B here.
-fn shares([c, d]: [Complex<f64>; 2]) -> [f64; 4] {
+pub fn shares([c, d]: [Complex<f64>; 2]) -> [f64; 4] {
     let [of_c, of_d] = [c.norm_sqr(), d.norm_sqr()];
     let energy = of_c + of_d;
     let product = c.conj() * d;
@@ -258,7 +258,7 @@ fn shares([c, d]: [Complex<f64>; 2]) -> [f64; 4] {
 }
 
 /// The variances of ln E and Q/E of the phasors of ideal pick-offs, where noise of variance one is on the raw ones of these.
-fn variances([c, d]: [Complex<f64>; 2], pick_offs: &PickOffs) -> [f64; 2] {
+pub fn variances([c, d]: [Complex<f64>; 2], pick_offs: &PickOffs) -> [f64; 2] {
     let [d_on_d, c_on_d] = pick_offs.noise_gains();
     let [energy, _, _, q] = shares([c, d]);
     // What noise of each raw phasor moves, of which the real parts of the products count.

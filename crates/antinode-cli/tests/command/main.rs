@@ -2,6 +2,7 @@
 
 mod asked;
 mod calibrate;
+mod calibrate_driven;
 mod channels;
 mod codes;
 mod coloured;

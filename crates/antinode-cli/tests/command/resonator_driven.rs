@@ -65,6 +65,39 @@ fn runs_that_are_driven_are_left_out_of_the_resonator() {
 }
 
 #[test]
+fn a_drive_that_is_switched_off_without_a_jump_is_left_out_too() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let splits = "--damping-split 0.01 --damping-angle 0.5";
+    // Amplitude, angle and phase go on, as 3 s are whole periods.
+    let waves: Vec<_> = ["0.3", "0.7", "1.1"]
+        .iter()
+        .flat_map(|angle| {
+            [
+                "--decay-rate 0".to_owned(),
+                format!("--decay-rate 0.1 {splits}"),
+            ]
+            .map(|wave| format!("{wave} --frequency 5332 --angle {angle}"))
+        })
+        .collect();
+    let found = found_in(here, &waves);
+    assert_eq!(found.code, 0, "{}", found.err);
+    for (quantity, truth, most) in [
+        ("decay_time_s", 10.0, 0.02),
+        ("damping_split_s", 0.01, 4e-4),
+    ] {
+        let (value, std) = of_resonator(&found.out, quantity);
+        let is_found = (value - truth).abs() < 4.0 * std && std < most;
+        assert!(is_found, "{}", found.out);
+    }
+    assert!(
+        found.err.starts_with("warning: left out: 3 runs") && found.err.lines().count() == 1,
+        "{}",
+        found.err
+    );
+}
+
+#[test]
 fn a_slow_ring_down_beside_fast_ones_is_not_left_out() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

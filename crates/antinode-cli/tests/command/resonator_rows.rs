@@ -58,9 +58,10 @@ fn a_wild_row_and_rows_given_twice_are_refused() {
     );
     let text = fs::read_to_string(here.join("rows.csv")).unwrap();
     let mut lines: Vec<_> = text.lines().map(str::to_owned).collect();
-    let mut fields: Vec<_> = lines[20].split(',').map(str::to_owned).collect();
+    // So near to the beginning that it cannot be a step.
+    let mut fields: Vec<_> = lines[5].split(',').map(str::to_owned).collect();
     fields[2] += "e6";
-    lines[20] = fields.join(",");
+    lines[5] = fields.join(",");
     fs::write(here.join("wild.csv"), lines.join("\n")).unwrap();
     let found = run(here, "resonator wild.csv");
     assert_eq!(found.code, 1);

@@ -1,0 +1,296 @@
+//! What drives the wave: a recording of several ring-downs also holds what excites them.
+
+use std::io::{self, Write};
+
+use super::{LEAST_ROWS, Row, Run, turn};
+
+/// Deviations by which a decay is one, or is none.
+const SURE: f64 = 10.0;
+/// Of this share of the least decay that is one, it is none: two modes of one resonator are never that far apart.
+const LITTLE: f64 = 0.1;
+/// A corner is sought at so many places at a time.
+const PLACES: usize = 32;
+/// No row is known better by more than this than the one before.
+const LEAST_KNOWN: f64 = 0.5;
+/// So many are named.
+const NAMED: usize = 5;
+
+/// What a row tells of the wave's energy: that of a pattern at any angle decays evenly, circular or not.
+#[derive(Debug, Clone, Copy)]
+pub struct Energy {
+    /// s.
+    pub time: f64,
+    /// Half the logarithm of E, which decays as an amplitude does, and its standard deviation.
+    pub log: f64,
+    pub deviation: f64,
+    /// The pattern's angle, rad, modulo π/2.
+    pub angle: f64,
+}
+
+impl Run {
+    /// What the rows tell of the wave's energy.
+    pub fn energies(&self) -> Vec<Energy> {
+        let energy = |row: &Row| {
+            let [of_main, of_quadrature, _] = row.deviations;
+            let energy = row.main.powi(2) + row.quadrature.powi(2);
+            Energy {
+                time: row.time,
+                log: 0.5 * energy.ln(),
+                deviation: (row.main * of_main).hypot(row.quadrature * of_quadrature) / energy,
+                angle: row.angle,
+            }
+        };
+        let mut energies: Vec<_> = self.rows.iter().map(energy).collect();
+        temper(&mut energies);
+        energies
+    }
+}
+
+/// A wild row, whose deviation seems to be nothing beside its value, is taken to be known about as well as the row before it.
+fn temper(energies: &mut [Energy]) {
+    for index in 1..energies.len() {
+        let least = LEAST_KNOWN * energies[index - 1].deviation;
+        energies[index].deviation = energies[index].deviation.max(least);
+    }
+}
+
+/// A line through energies.
+#[derive(Debug, Clone, Copy)]
+struct Line {
+    /// 1/s, and what noise and flaws of the pick-offs may add to it.
+    decay: f64,
+    noise: f64,
+    flaws: f64,
+    /// The weighted squares of what it leaves, and these per degree of freedom.
+    squares: f64,
+    misfit: f64,
+}
+
+impl Line {
+    /// Flaws of the pick-offs change an amplitude by this share per radian that the pattern turns.
+    fn through(energies: &[Energy], by_flaws: f64) -> Self {
+        let weighted = |of: &dyn Fn(&Energy) -> f64| {
+            let each = energies.iter();
+            each.map(|one| of(one) / (one.deviation * one.deviation))
+                .sum::<f64>()
+        };
+        let weight = weighted(&|_| 1.0);
+        let time = weighted(&|one| one.time) / weight;
+        let log = weighted(&|one| one.log) / weight;
+        let along = weighted(&|one| (one.time - time).powi(2));
+        let slope = weighted(&|one| (one.time - time) * (one.log - log)) / along;
+        let squares = weighted(&|one| (one.log - log - slope * (one.time - time)).powi(2));
+        let misfit = squares / energies.len().saturating_sub(2).max(1) as f64;
+        let (mut angle, mut least, mut most) = (0.0, 0f64, 0f64);
+        for pair in energies.windows(2) {
+            angle += turn(pair[1].angle - pair[0].angle);
+            (least, most) = (least.min(angle), most.max(angle));
+        }
+        let seconds = energies[energies.len() - 1].time - energies[0].time;
+        Self {
+            decay: -slope,
+            noise: SURE * (misfit.max(1.0) / along).sqrt(),
+            flaws: by_flaws * (most - least) / seconds,
+            squares,
+            misfit,
+        }
+    }
+
+    /// True where there is no decay, beside one of so much.
+    fn is_driven_beside(&self, least: f64) -> bool {
+        self.decay + self.noise + self.flaws < LITTLE * least
+    }
+
+    /// True where there is no decay, but surely one on the other side of a bend.
+    fn is_driven_unlike(&self, other: &Self) -> bool {
+        self.is_driven_beside(other.decay - other.noise - other.flaws) && other.is_decay()
+    }
+
+    /// True where there is a decay.
+    fn is_decay(&self) -> bool {
+        self.decay > self.noise
+    }
+}
+
+/// The squares of what a line through energies leaves, over their own deviations: 1 where there is nothing but noise.
+pub fn unevenness(energies: &[Energy]) -> f64 {
+    Line::through(energies, 0.0).misfit
+}
+
+/// Where energies, some that are driven and some that decay, bend from the one to the other, if they do.
+fn bend(energies: &[Energy], by_flaws: f64) -> Option<usize> {
+    let mut side = LEAST_ROWS;
+    loop {
+        // The bend itself is somewhere between both sides.
+        let apart = (side / 8).max(1);
+        let whole = 2 * (side + apart);
+        if whole > energies.len() {
+            return None;
+        }
+        for from in (0..=energies.len() - whole).step_by(apart) {
+            let about = &energies[from..from + whole];
+            let before = Line::through(&about[..side], by_flaws);
+            let after = Line::through(&about[whole - side..], by_flaws);
+            if before.is_driven_unlike(&after) || after.is_driven_unlike(&before) {
+                return Some(from + corner(about, side / 2));
+            }
+        }
+        side *= 2;
+    }
+}
+
+/// Where two lines through energies meet, this far from either end or further.
+fn corner(energies: &[Energy], end: usize) -> usize {
+    let squares = |at: usize| {
+        let sides = [&energies[..at], &energies[at + 1..]];
+        sides
+            .map(|side| Line::through(side, 0.0).squares)
+            .iter()
+            .sum()
+    };
+    let mut places = end..energies.len() - end;
+    loop {
+        let apart = (places.len() / PLACES).max(1);
+        let sums = places.clone().step_by(apart).map(|at| (at, squares(at)));
+        let best = sums.min_by(|(_, one): &(_, f64), (_, other)| one.total_cmp(other));
+        let (at, _) = best.unwrap_or((end, 0.0));
+        if apart == 1 {
+            return at;
+        }
+        places = places.start.max(at - apart)..places.end.min(at + apart + 1);
+    }
+}
+
+/// The runs without what is driven in them, if something else decays, and what is.
+pub fn undriven(runs: &[Run], energies: &[Vec<Energy>], by_flaws: f64) -> [Vec<Run>; 2] {
+    let mut parts = Vec::new();
+    for (run, energies) in runs.iter().zip(energies) {
+        let mut left: Vec<_> = std::iter::once(0..run.rows.len()).collect();
+        while let Some(range) = left.pop() {
+            match bend(&energies[range.clone()], by_flaws) {
+                // The row at the bend may hold both.
+                Some(at) => left.extend([
+                    range.start + at + 1..range.end,
+                    range.start..range.start + at,
+                ]),
+                None if range.len() >= LEAST_ROWS => parts.push((run, energies, range)),
+                None => {}
+            }
+        }
+    }
+    let lines = parts
+        .iter()
+        .map(|(_, energies, range)| Line::through(&energies[range.clone()], by_flaws));
+    let lines: Vec<_> = lines.collect();
+    let decays = lines.iter().filter(|line| line.is_decay());
+    let least = decays.map(|line| line.decay).fold(f64::INFINITY, f64::min);
+    let is_driven = |line: &Line| least.is_finite() && line.is_driven_beside(least);
+    if !lines.iter().any(is_driven) {
+        return [runs.to_vec(), Vec::new()];
+    }
+    let mut found = [Vec::new(), Vec::new()];
+    for ((run, _, range), line) in parts.into_iter().zip(&lines) {
+        found[usize::from(is_driven(line))].push(Run {
+            rows: run.rows[range].to_vec(),
+            file: run.file.clone(),
+        });
+    }
+    found
+}
+
+/// Tells which runs were left out, as something drives them.
+pub fn tell(out: &mut impl Write, driven: &[Run]) -> io::Result<()> {
+    let count = match driven.len() {
+        0 => return Ok(()),
+        1 => "1 run".to_owned(),
+        runs => format!("{runs} runs"),
+    };
+    writeln!(
+        out,
+        "warning: left out: {count} in which the wave does not decay, as it does in others, so that something drives it: {}",
+        names(driven)
+    )
+}
+
+/// Which they are.
+fn names(driven: &[Run]) -> String {
+    let name = |run: &Run| {
+        let file = if run.file.is_empty() {
+            String::new()
+        } else {
+            format!("{}, ", run.file)
+        };
+        let (seconds, from) = (run.seconds(), run.rows[0].time);
+        format!("{file}{seconds:.1} s from {from:.1} s on")
+    };
+    let mut names: Vec<_> = driven.iter().take(NAMED).map(name).collect();
+    if driven.len() > NAMED {
+        names.push(format!("and {} more", driven.len() - NAMED));
+    }
+    names.join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+    use crate::deviates::Deviates;
+
+    /// Energies a second apart, of half a logarithm and an angle at a time, with noise of 10⁻⁴.
+    fn energies(count: usize, seed: u64, wave: impl Fn(f64) -> [f64; 2]) -> Vec<Energy> {
+        let mut random = Deviates(seed);
+        let energy = |k: usize| {
+            let time = k as f64;
+            let [log, angle] = wave(time);
+            Energy {
+                time,
+                log: log + 1e-4 * random.draw(),
+                deviation: 1e-4,
+                angle,
+            }
+        };
+        (0..count).map(energy).collect()
+    }
+
+    #[test]
+    fn where_a_drive_ends_or_begins_is_seen() {
+        for seed in 0..60 {
+            let at = 40.0 + 1.7 * seed as f64;
+            // It holds the wave, or lets it grow, until then or from then on.
+            for [before, after] in [[0.0, -2e-3], [3e-3, -2e-3], [-2e-3, 0.0], [-2e-3, 3e-3]] {
+                let found = energies(200, seed, |time| {
+                    let later = time - at;
+                    [before * later.min(0.0) + after * later.max(0.0), 0.3]
+                });
+                let bend = bend(&found, 0.3).unwrap() as f64;
+                assert!((bend - at).abs() < 3.0, "{before}, {after}, {at}: {bend}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_decay_swings_and_tables_that_stop_and_go_have_no_bends() {
+        for seed in 0..100 {
+            let begins = 20.0 + f64::from(seed);
+            let rate = 0.01 * f64::from(seed % 10);
+            let period = 10.0 * 1.04f64.powi(seed);
+            // Gains that differ by 10 %, or damping that falls to a third.
+            let flaw = 0.05 * f64::from(seed % 3 - 1);
+            let found = energies(300, seed as u64, |time| {
+                let later = (time - begins).max(0.0);
+                let angle = match seed % 4 {
+                    0 => 0.0,
+                    1 => 0.3 * (TAU * time / period).sin(),
+                    _ => rate * later,
+                };
+                let damped = if seed % 4 == 0 { 2e-3 * later } else { 0.0 };
+                [
+                    flaw * (2.0 * angle).sin().powi(2) - 3e-3 * time + damped,
+                    angle,
+                ]
+            });
+            assert_eq!(bend(&found, 0.3), None, "{seed}");
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! `antinode calibrate`: what drives the wave between the ring-downs of one recording.
+
+use std::fs;
+
+use crate::common::{run, run_with};
+
+#[test]
+fn rows_that_are_driven_are_left_out_of_the_calibration() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let mut recording = Vec::new();
+    for (seed, rate) in [(1, "0.7"), (2, "-0.6")] {
+        // Amplitude, angle and phase go on, as 2 s are whole periods.
+        for wave in [
+            "--seconds 2 --decay-rate 0".to_owned(),
+            format!("--seconds 3 --decay-rate 0.1 --angle-rate {rate}"),
+        ] {
+            let made = run(
+                here,
+                &format!(
+                    "simulate -o it.wav --noise 0.002 --frequency 5332 --gain-ratio 1.03 --angle 0.3 --seed {seed} {wave}"
+                ),
+            );
+            assert_eq!(made.code, 0, "{}", made.err);
+            // Behind the header.
+            recording.extend(fs::read(here.join("it.wav")).unwrap().split_off(44));
+        }
+    }
+    let rows = run_with(
+        here,
+        "identify - --raw i16 --rate 100000 --periods 50 --output csv",
+        recording,
+    );
+    let found = run_with(here, "calibrate - --output csv", rows.out.into());
+    assert_eq!(found.code, 0, "{}", found.err);
+    for (line, (quantity, truth, most)) in found.out.lines().skip(1).zip([
+        ("gain_ratio", 1.03, 1e-4),
+        ("skew_ns", 0.0, 2.0),
+        ("pick_off_angle_rad", 0.0, 5e-5),
+    ]) {
+        let fields: Vec<_> = line.split(',').collect();
+        let [value, std] = [1, 2].map(|i: usize| fields[i].parse::<f64>().unwrap());
+        assert_eq!(fields[0], quantity);
+        assert!((value - truth).abs() < 4.0 * std && std < most, "{line}");
+    }
+    assert!(
+        found.err.starts_with("warning: left out: 2 runs")
+            && found.err.matches("warning").count() == 1,
+        "{}",
+        found.err
+    );
+}

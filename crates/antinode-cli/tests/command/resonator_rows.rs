@@ -48,7 +48,7 @@ fn rows_that_overlap_do_not_make_it_seem_better_known() {
 }
 
 #[test]
-fn a_wild_row_and_rows_given_twice_are_refused() {
+fn a_wild_row_is_left_out_or_refused_and_rows_given_twice_are_refused() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     rows(
@@ -57,15 +57,37 @@ fn a_wild_row_and_rows_given_twice_are_refused() {
         "--periods 200",
     );
     let text = fs::read_to_string(here.join("rows.csv")).unwrap();
-    let mut lines: Vec<_> = text.lines().map(str::to_owned).collect();
+    let with_wild = |index: usize| {
+        let mut lines: Vec<_> = text.lines().map(str::to_owned).collect();
+        let mut fields: Vec<_> = lines[index].split(',').map(str::to_owned).collect();
+        fields[2] += "e6";
+        lines[index] = fields.join(",");
+        run_with(
+            here,
+            "resonator - --output csv",
+            lines.join("\n").into_bytes(),
+        )
+    };
     // So near to the beginning that it cannot be a step.
-    let mut fields: Vec<_> = lines[5].split(',').map(str::to_owned).collect();
-    fields[2] += "e6";
-    lines[5] = fields.join(",");
-    fs::write(here.join("wild.csv"), lines.join("\n")).unwrap();
-    let found = run(here, "resonator wild.csv");
+    let found = with_wild(5);
     assert_eq!(found.code, 1);
     assert!(found.err.contains("far off all others"), "{}", found.err);
+    // Among others it is one, and in no run.
+    let found = with_wild(20);
+    assert_eq!(found.code, 0, "{}", found.err);
+    assert!(
+        found.err.contains("a gain or the wave steps at 0."),
+        "{}",
+        found.err
+    );
+    for run in ["1", "2"] {
+        let (value, std) = of_run(&found.out, run, "decay_time_s");
+        assert!(
+            (value - 2.0).abs() < 4.0 * std && std < 2e-3,
+            "{}",
+            found.out
+        );
+    }
     let found = run(here, "resonator rows.csv rows.csv");
     assert_eq!(found.code, 1);
     assert!(

@@ -194,8 +194,8 @@ fn tell(
         writeln!(
             out,
             "warning: rows differ from the calibrated wave by {:.1} times their noise: the wave is still driven in some rows (identify each \
-             ring-down by itself with --from and --to), something else moves with the angle, or a pick-off or the converter is nonlinear; the deviations above are wider by that, and the values may \
-             be further off than these",
+             ring-down by itself with --from and --to), something else moves with the angle, or a pick-off or the converter is nonlinear; the \
+             deviations above are wider by that, and the values may be further off than these",
             found.residual
         )?;
     }

@@ -43,8 +43,8 @@ const DECAY_SEEN: f64 = 3.0;
 const TURNS: f64 = PI / 8.0;
 /// Runs that stand still tell the splits without them, from two on.
 const ENOUGH_STILL: usize = 2;
-/// A gain ratio that is 15 % off changes an amplitude by this share per radian that the pattern turns, while nothing drives it.
-const BY_FLAWS: f64 = 0.3;
+/// A gain ratio that is 30 % off changes an amplitude by this share per radian that the pattern turns, while nothing drives it.
+const BY_FLAWS: f64 = 0.6;
 /// Residuals of neighbouring rows correlate by up to this where windows overlap unseen, and by so many deviations more by chance.
 const ALIKE: f64 = 0.03;
 const ALIKE_SEEN: f64 = 5.0;

@@ -116,17 +116,21 @@ fn a_slow_ring_down_beside_fast_ones_is_not_left_out() {
 fn a_wave_that_only_seems_to_grow_while_it_turns_is_not_left_out() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // Pick-offs that are not calibrated: two of them seem to grow, one to decay.
-    let waves = [
+    // Pick-offs that are not calibrated: two runs seem to grow, one to decay; or each does both, in turn.
+    let slowly = [
         "--angle 0.1 --angle-rate 0.15",
         "--angle 0.1 --angle-rate -0.15",
         "--angle 0.9 --angle-rate 0.15",
     ]
     .map(|turn| format!("--decay-rate 0.001 --gain-ratio 1.05 {turn}"));
-    let found = found_in(here, &waves);
-    assert!(
-        !found.err.contains("left out") && found.err.contains("times their noise"),
-        "{}",
-        found.err
-    );
+    let fast = ["--angle-rate 0.8", "--angle-rate -0.8"]
+        .map(|turn| format!("--decay-rate 0.01 --gain-ratio 1.25 --angle 0.1 {turn}"));
+    for waves in [&slowly[..], &fast[..]] {
+        let found = found_in(here, waves);
+        assert!(
+            !found.err.contains("left out") && found.err.contains("times their noise"),
+            "{}",
+            found.err
+        );
+    }
 }

@@ -1,37 +1,23 @@
 //! `antinode calibrate`: what drives the wave between the ring-downs of one recording.
 
-use std::fs;
-
-use crate::common::{run, run_with};
+use crate::common::ring_downs::in_one;
+use crate::common::run_with;
 
 #[test]
 fn rows_that_are_driven_are_left_out_of_the_calibration() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    let mut recording = Vec::new();
-    for (seed, rate) in [(1, "0.7"), (2, "-0.6")] {
-        // Amplitude, angle and phase go on, as 2 s are whole periods.
-        for wave in [
+    // Amplitude, angle and phase go on, as 2 s are whole periods.
+    let waves = [(1, "0.7"), (2, "-0.6")].into_iter().flat_map(|(seed, rate)| {
+        [
             "--seconds 2 --decay-rate 0".to_owned(),
             format!("--seconds 3 --decay-rate 0.1 --angle-rate {rate}"),
-        ] {
-            let made = run(
-                here,
-                &format!(
-                    "simulate -o it.wav --noise 0.002 --frequency 5332 --gain-ratio 1.03 --angle 0.3 --seed {seed} {wave}"
-                ),
-            );
-            assert_eq!(made.code, 0, "{}", made.err);
-            // Behind the header.
-            recording.extend(fs::read(here.join("it.wav")).unwrap().split_off(44));
-        }
-    }
-    let rows = run_with(
-        here,
-        "identify - --raw i16 --rate 100000 --periods 50 --output csv",
-        recording,
-    );
-    let found = run_with(here, "calibrate - --output csv", rows.out.into());
+        ]
+        .map(|wave| {
+            format!("{wave} --noise 0.002 --frequency 5332 --gain-ratio 1.03 --angle 0.3 --seed {seed}")
+        })
+    });
+    let found = run_with(here, "calibrate - --output csv", in_one(here, waves));
     assert_eq!(found.code, 0, "{}", found.err);
     for (line, (quantity, truth, most)) in found.out.lines().skip(1).zip([
         ("gain_ratio", 1.03, 1e-4),

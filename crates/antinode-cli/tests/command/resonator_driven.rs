@@ -1,30 +1,16 @@
 //! `antinode resonator`: runs in which something drives the wave, between the ring-downs of one recording.
 
-use std::fs;
 use std::path::Path;
 
-use crate::common::ring_downs::{of_resonator, of_run};
-use crate::common::{Run, run, run_with};
+use crate::common::ring_downs::{in_one, of_resonator, of_run};
+use crate::common::{Run, run_with};
 
 /// What is found in one recording of these waves, each of 3 s.
 fn found_in(here: &Path, waves: &[String]) -> Run {
-    let mut recording = Vec::new();
-    for wave in waves {
-        let made = run(
-            here,
-            &format!("simulate -o it.wav --seconds 3 --noise 0.002 {wave}"),
-        );
-        assert_eq!(made.code, 0, "{}", made.err);
-        // Behind the header.
-        recording.extend(fs::read(here.join("it.wav")).unwrap().split_off(44));
-    }
-    let rows = run_with(
-        here,
-        "identify - --raw i16 --rate 100000 --periods 50 --output csv",
-        recording,
-    );
-    assert_eq!(rows.code, 0, "{}", rows.err);
-    run_with(here, "resonator - --output csv", rows.out.into())
+    let waves = waves
+        .iter()
+        .map(|wave| format!("--seconds 3 --noise 0.002 {wave}"));
+    run_with(here, "resonator - --output csv", in_one(here, waves))
 }
 
 #[test]

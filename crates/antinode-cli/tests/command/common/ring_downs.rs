@@ -43,6 +43,21 @@ pub fn joined(
     all
 }
 
+/// Rows of one recording, whose waves follow each other.
+pub fn in_one(here: &Path, simulated: impl IntoIterator<Item = String>) -> Vec<u8> {
+    let mut recording = Vec::new();
+    for simulated in simulated {
+        let made = run(here, &format!("simulate -o it.wav {simulated}"));
+        assert_eq!(made.code, 0, "{}", made.err);
+        // Behind the header.
+        recording.extend(fs::read(here.join("it.wav")).unwrap().split_off(44));
+    }
+    let identify = "identify - --raw i16 --rate 100000 --periods 50 --output csv";
+    let rows = run_with(here, identify, recording);
+    assert_eq!(rows.code, 0, "{}", rows.err);
+    rows.out.into()
+}
+
 /// A recording of 4 s.
 pub fn record(here: &Path, name: &str, wave: &str) {
     let made = run(

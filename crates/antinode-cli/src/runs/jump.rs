@@ -50,17 +50,15 @@ impl Course {
     /// That of the logarithm of a_A, of a_B over a_A, or of θ: a decay alone bends none of them.
     fn of(rows: &[Row], next: &Row, index: usize) -> Self {
         let last = rows.last().unwrap_or(next);
-        let start = last.quadrature / last.main;
+        let (start, _) = last.ratio();
         let point = |row: &Row, turned: f64| {
-            let [of_main, of_quadrature, of_angle] = row.deviations;
-            let ratio = row.quadrature / row.main;
             let (value, deviation) = match index {
-                0 => ((row.main / last.main).ln(), of_main / row.main),
-                1 => (
-                    ratio - start,
-                    of_quadrature.hypot(ratio * of_main) / row.main,
-                ),
-                _ => (turned, of_angle),
+                0 => row.log_beside(last),
+                1 => {
+                    let (ratio, deviation) = row.ratio();
+                    (ratio - start, deviation)
+                }
+                _ => (turned, row.deviations[2]),
             };
             [row.time - last.time, value, deviation.powi(-2)]
         };

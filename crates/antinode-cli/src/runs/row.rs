@@ -113,6 +113,21 @@ impl Row {
 }
 
 impl Row {
+    /// The logarithm of a_A over another row's, and its deviation: a decay alone does not bend it.
+    pub fn log_beside(&self, other: &Self) -> (f64, f64) {
+        (
+            (self.main / other.main).ln(),
+            self.deviations[0] / self.main,
+        )
+    }
+
+    /// a_B over a_A, and its deviation: a decay alone does not change it.
+    pub fn ratio(&self) -> (f64, f64) {
+        let [of_main, of_quadrature, _] = self.deviations;
+        let ratio = self.quadrature / self.main;
+        (ratio, of_quadrature.hypot(ratio * of_main) / self.main)
+    }
+
     /// None where a number is missing or not finite, or none that rows in single precision have.
     pub fn parse(record: &StringRecord, places: &Places) -> Option<Self> {
         // Squares of other numbers may be 0 or infinite.

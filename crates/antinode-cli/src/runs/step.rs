@@ -56,14 +56,8 @@ fn beyond(rows: &[Row]) -> f64 {
         return 0.0;
     };
     let middle = rows[SIDE];
-    let of_main = times.course(rows, |row| {
-        ((row.main / middle.main).ln(), row.deviations[0] / row.main)
-    });
-    let of_ratio = times.course(rows, |row| {
-        let ratio = row.quadrature / row.main;
-        let deviation = row.deviations[1].hypot(ratio * row.deviations[0]);
-        (ratio, deviation / row.main)
-    });
+    let of_main = times.course(rows, |row| row.log_beside(&middle));
+    let of_ratio = times.course(rows, Row::ratio);
     let courses = [of_main, of_ratio].map(|course| course.unwrap_or_default());
     let most = |more: f64| {
         let beyond = courses.map(|course| course.step.abs() / (course.likely + more));

@@ -38,7 +38,7 @@ paper's. Its conclusions are checked only then. The same options give the same n
 #[command(after_help = FILES)]
 pub struct Study {
     /// The folder for figures and tables; it is created if missing. Files of an earlier study are overwritten.
-    #[arg(long, default_value = "study", value_name = "DIR")]
+    #[arg(short = 'o', long, default_value = "study", value_name = "DIR")]
     out: PathBuf,
     /// Runs for each point of figure 3, at least 1.
     #[arg(long, default_value_t = 10_000, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]

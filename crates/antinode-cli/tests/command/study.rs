@@ -60,7 +60,7 @@ fn another_wave_is_studied_and_told_and_the_papers_conclusions_are_not() {
     let here = directory.path();
     let made = run(
         here,
-        "study --out it --runs 400 --quadrature-amplitude -0.3 --angle 0.2 --phase 1 --rate 140000 --periods 10 --noise 0.5",
+        "study -o it --runs 400 --quadrature-amplitude -0.3 --angle 0.2 --phase 1 --rate 140000 --periods 10 --noise 0.5",
     );
     assert_eq!((made.code, made.err.as_str()), (0, ""));
     for told in [

@@ -14,8 +14,7 @@ use crate::digits::{decimals, fixed, significant, with_std};
 use crate::failure::Failure;
 use crate::given::Given;
 use crate::options::Corrected;
-use crate::runs::driven;
-use crate::runs::{BEYOND_NOISE, Runs};
+use crate::runs::{BEYOND_NOISE, Runs, driven};
 use crate::serialized;
 use solve::{Found, PickOffs, solve};
 use undriven::{moments, without_driven};
@@ -68,11 +67,12 @@ struct Quantity {
 pub fn run(options: &Calibrate) -> Result<(), Failure> {
     let corrected = PickOffs::from(&options.corrected);
     let (mut rows, name) = Runs::open(&options.given, MOST_TURN, Flags::REACQUIRED)?;
-    let found = solve(&moments(&rows.runs, &corrected), corrected);
-    let mut found = found.map_err(|fault| fault.of(&name))?;
+    let every = moments(&rows.runs, &corrected);
+    let mut found = solve(&every, corrected).map_err(|fault| fault.of(&name))?;
     let mut driven = Vec::new();
     if found.residual > BEYOND_NOISE
-        && let Some((others, [runs, left_out])) = without_driven(&rows.runs, &corrected, &found)
+        && let Some((others, [runs, left_out])) =
+            without_driven(&rows.runs, &every, &corrected, &found)
     {
         (found, rows.runs, driven) = (others, runs, left_out);
     }

@@ -19,13 +19,14 @@ pub fn moments(runs: &[runs::Run], corrected: &PickOffs) -> Vec<Run> {
     each.collect()
 }
 
-/// What is found where the runs are left out in which something drives the wave, these runs, and those; none if it explains no more.
+/// What is found where of runs, with the moments of every one, those are left out in which something drives the wave; the others, and those.
+/// None if it explains no more.
 pub fn without_driven(
     runs: &[runs::Run],
+    every: &[Run],
     corrected: &PickOffs,
     all: &Found,
 ) -> Option<(Found, [Vec<runs::Run>; 2])> {
-    let every = moments(runs, corrected);
     let without = |pick_offs: &PickOffs| {
         let energies: Vec<_> = every.iter().map(|run| run.energies(pick_offs)).collect();
         let parts = undriven(runs, &energies, 0.0);

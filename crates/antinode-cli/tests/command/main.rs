@@ -22,7 +22,6 @@ mod plot_refusals;
 mod port;
 mod port_monitor;
 mod reading;
-#[cfg(unix)]
 mod readme;
 mod resonator;
 mod resonator_driven;

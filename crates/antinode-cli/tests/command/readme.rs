@@ -1,10 +1,13 @@
 //! What the README shows is what its commands print and draw.
 
+#[cfg(unix)]
 use std::fs;
+#[cfg(unix)]
 use std::path::Path;
+#[cfg(unix)]
 use std::process::{Command, Output};
 
-use crate::common::README;
+use crate::common::{README, run};
 
 /// What the first block of such a language behind a heading holds.
 fn block(heading: &str, language: &str) -> &'static str {
@@ -13,8 +16,18 @@ fn block(heading: &str, language: &str) -> &'static str {
     block.split_once("```").unwrap().0
 }
 
+/// Each line that it shows behind a heading is printed, in their order.
+fn is_printed(heading: &str, printed: &str) {
+    let mut printed = printed.lines();
+    let shown = block(heading, "text").lines();
+    for line in shown.filter(|&line| line != "…") {
+        assert!(printed.any(|other| other == line), "{line}");
+    }
+}
+
 /// Runs the commands behind a heading.
-fn run(heading: &str, here: &Path) -> Output {
+#[cfg(unix)]
+fn run_commands(heading: &str, here: &Path) -> Output {
     let command = Path::new(env!("CARGO_BIN_EXE_antinode"));
     let path = std::env::var("PATH").unwrap();
     let path = format!("{}:{path}", command.parent().unwrap().display());
@@ -27,21 +40,25 @@ fn run(heading: &str, here: &Path) -> Output {
 }
 
 #[test]
-fn it_shows_the_resonator_as_it_is_printed() {
+fn it_shows_the_demonstration_as_it_is() {
     let directory = tempfile::tempdir().unwrap();
-    let printed = run("### The resonator", directory.path());
-    let told = [printed.stdout, printed.stderr].map(|told| String::from_utf8(told).unwrap());
-    let mut told = told.iter().flat_map(|told| told.lines());
-    let shown = block("### The resonator", "text").lines();
-    for line in shown.filter(|&line| line != "…") {
-        assert!(told.any(|other| other == line), "{line}");
-    }
+    is_printed("# antinode", &run(directory.path(), "").out);
 }
 
+#[cfg(unix)]
+#[test]
+fn it_shows_the_resonator_as_it_is_printed() {
+    let directory = tempfile::tempdir().unwrap();
+    let printed = run_commands("### The resonator", directory.path());
+    let told = [printed.stdout, printed.stderr].concat();
+    is_printed("### The resonator", &String::from_utf8(told).unwrap());
+}
+
+#[cfg(unix)]
 #[test]
 fn it_shows_a_ring_down_as_it_is_drawn() {
     let directory = tempfile::tempdir().unwrap();
-    run("### Plots", directory.path());
+    run_commands("### Plots", directory.path());
     let drawn = fs::read_to_string(directory.path().join("ring.svg")).unwrap();
     let shown = include_str!("../../docs/ring.svg");
     assert!(drawn == shown, "copy the ring.svg drawn now");

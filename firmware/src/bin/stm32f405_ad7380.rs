@@ -23,7 +23,7 @@ mod app {
     use firmware::pipeline::{Places, Queues};
     use firmware::sampling::AD7380_RAILS;
     use firmware::settings::{Arithmetic, HALF, configuration};
-    use stm32f4xx_hal::gpio::Speed;
+    use stm32f4xx_hal::gpio::{PinState, Speed};
     use stm32f4xx_hal::prelude::*;
 
     #[shared]
@@ -69,7 +69,11 @@ mod app {
             pins.pa6.into_alternate::<5>(),
             pins.pa7.into_alternate::<5>().speed(Speed::High),
         );
-        let cs = pins.pa8.into_push_pull_output().speed(Speed::VeryHigh);
+        // High from the first: as an output the pin would otherwise be low until the SPI is set up, and start a conversion.
+        let cs = pins
+            .pa8
+            .into_push_pull_output_in_state(PinState::High)
+            .speed(Speed::VeryHigh);
 
         let settings = configuration(FrontEnd::Spi, AD7380_RAILS);
         let Ok(parts) = c.local.queues.split(c.local.places, settings, cause) else {

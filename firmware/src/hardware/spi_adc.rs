@@ -60,7 +60,7 @@ pub struct SpiAdc {
 pub type StartError = ad7380::Error<ErrorKind>;
 
 impl SpiAdc {
-    /// Configures the chip and starts sampling into `memory`.
+    /// Configures the chip and starts sampling into `memory`; CS must be high.
     ///
     /// # Errors
     ///
@@ -83,7 +83,6 @@ impl SpiAdc {
         // CMPCR.CMP_PD: on, so that fast pins make less noise on the supply (RM0090, 9.1).
         // SAFETY: a register whose bit 0 is to be written, which the crate's description of the chip has left out.
         unsafe { system.cmpcr().as_ptr().write_volatile(1) };
-        cs.set_high();
         // CR1: master, CPOL 1 and CPHA 0 (the chip's mode 2), BR 2: APB2 over 8. SSM, SSI: CS is ours. DFF 0: bytes.
         spi.cr1().write(|w| {
             w.mstr().set_bit();

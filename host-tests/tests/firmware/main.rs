@@ -15,6 +15,7 @@ mod mirror;
 mod priorities;
 mod recordings;
 mod recovery;
+mod registers;
 mod run;
 mod same;
 mod stack;

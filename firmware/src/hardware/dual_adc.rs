@@ -92,9 +92,11 @@ impl DualAdc {
         // SAFETY: each value is one that RM0090 lists for its field.
         unsafe {
             // CCR.ADCPRE 1: APB2 over 4. Between two triggers: the clock of what they start must not change under them (RM0090, 18.3.15).
+            // MULTI 0: each by itself while it is set up.
             self.wait();
-            self.common.ccr().modify(|_, w| w.adcpre().bits(0b01));
-            // CR2.ADON: on, and three microseconds to settle. EOCS: without it, or CR2.DMA, an overrun raises no flag.
+            self.common.ccr().write(|w| w.adcpre().bits(0b01));
+            // CR2.ADON: on, and three microseconds to settle. EOCS: without it, or CR2.DMA, an overrun raises no flag; ST's example
+            // ADC_DualModeInterleaved for the STM32F407 sets it in both, too.
             for control in [self.first.cr2(), self.second.cr2()] {
                 control.write(|w| w.adon().set_bit().eocs().set_bit());
             }

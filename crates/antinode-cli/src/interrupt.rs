@@ -14,6 +14,7 @@ fn catch(mut handler: impl FnMut() + Send + 'static) -> Result<(), io::Error> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
 
+    // SIGINT even where it was ignored, as in a shell script's background: `kill -INT` ends a recorder there, and on Windows too.
     let mut signals = Signals::new([SIGINT, SIGTERM])?;
     // A command begun by `nohup` goes on when its terminal is closed.
     if !is_ignored(SIGHUP) {

@@ -99,10 +99,14 @@ fn follow(source: &Source, screen: &mut Screen<impl Write>) -> Result<(), Failur
             Input::Interrupted => break,
             Input::Fault(error) => {
                 screen.finish();
-                return Err(Failure::Fault(format!(
-                    "{}: it cannot be read any more: {error}; check that the device is plugged in",
-                    screen.name
-                )));
+                let Screen { name, bytes, .. } = screen;
+                return Err(Failure::Fault(if *bytes == 0 && !source.is_port {
+                    format!("{name}: cannot be read: {error}")
+                } else {
+                    format!(
+                        "{name}: it cannot be read any more: {error}; check that the device is plugged in"
+                    )
+                }));
             }
         }
     }

@@ -1,8 +1,9 @@
 //! Where the device's bytes come from: a port, a file, or standard input, read beside the thread that prints.
 
+use std::fs::File;
 use std::io::{self, Read};
 use std::mem;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
@@ -38,7 +39,6 @@ impl Source {
     /// Opens a port, a file, or standard input where the path is `-`; to a port it sends `greeting` first.
     pub fn open(path: &Path, baud: u32, greeting: &[u8]) -> Result<Self, Failure> {
         let is_port = path != Path::new("-") && port::is_port(path);
-        // Before Ctrl-C is caught: a pipe opens once somebody writes into it.
         let (name, from): (String, Box<dyn Read + Send>) = if path == Path::new("-") {
             ("standard input".to_owned(), Box::new(io::stdin()))
         } else {
@@ -48,8 +48,10 @@ impl Source {
                 // A line that only receives is good enough to listen.
                 let _ = port.write_all(greeting);
                 (name, Box::new(port))
-            } else if path.exists() {
+            } else if path.is_file() || path.is_dir() {
                 (name, Box::new(open_file(path)?))
+            } else if path.exists() {
+                (name, Box::new(Pipe::Named(path.to_owned())))
             } else {
                 return Err(Failure::Fault(format!(
                     "{name}: there is neither such a port nor such a file; {}",
@@ -66,6 +68,24 @@ impl Source {
             is_port,
             input,
         })
+    }
+}
+
+/// A named pipe, which opens once somebody writes into it: whoever reads first waits for that, and whoever opens it need not.
+enum Pipe {
+    Named(PathBuf),
+    Open(File),
+}
+
+impl Read for Pipe {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        if let Self::Named(path) = self {
+            *self = Self::Open(File::open(path)?);
+        }
+        match self {
+            Self::Named(_) => Ok(0),
+            Self::Open(file) => file.read(bytes),
+        }
     }
 }
 

@@ -132,10 +132,19 @@ fn a_monitor_of_a_pipe_that_nobody_writes_into_is_interrupted() {
             .unwrap()
             .success()
     );
-    let mut child = monitor(pipe.to_str().unwrap());
+    // As a shell script begins what it runs in the background.
+    let mut child = Command::new("sh")
+        .args(["-c", "trap '' INT; exec \"$0\" monitor \"$1\""])
+        .arg(env!("CARGO_BIN_EXE_antinode"))
+        .arg(&pipe)
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
     thread::sleep(Duration::from_millis(300));
     send("-INT", &child);
     assert!(ends(&mut child));
+    let told = told(&mut child);
+    assert!(told.contains("not one byte came"), "{told}");
 }
 
 #[test]

@@ -232,7 +232,7 @@ fn tell_of_misfit(out: &mut impl Write, found: &Found) -> io::Result<()> {
              further off than the deviations above"
         )?;
     }
-    if found.is_beyond_noise() && found.is_nonlinear() {
+    if found.withholds_turning() {
         writeln!(
             out,
             "what amplitudes turn the pattern by is not told: flaws of pick-offs that are not calibrated look like it"

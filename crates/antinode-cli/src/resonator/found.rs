@@ -112,9 +112,9 @@ impl Found {
             rotations: (0..self.of_runs.len())
                 .map(|run| self.rotation(run))
                 .collect(),
-            turning_by_amplitudes: self.turning_by_amplitudes().filter(|(turning, std)| {
-                turning.abs() > NONLINEAR_TOLD * std && !self.is_beyond_noise()
-            }),
+            turning_by_amplitudes: self
+                .turning_beyond_noise()
+                .filter(|_| !self.is_beyond_noise()),
         })
     }
 
@@ -165,6 +165,17 @@ impl Found {
     /// What a_A a_B of one input unit squared turns a pattern by, rad/s, where it is an unknown.
     pub(super) fn turning_by_amplitudes(&self) -> Option<Measured> {
         (self.model == Model::Nonlinear).then(|| self.sum(&[(Model::GAMMA, -1.0)]))
+    }
+
+    /// The same where it would be told if nothing else moved.
+    fn turning_beyond_noise(&self) -> Option<Measured> {
+        self.turning_by_amplitudes()
+            .filter(|(turning, std)| turning.abs() > NONLINEAR_TOLD * std)
+    }
+
+    /// True where what amplitudes turn patterns by is not told for what else moves alone.
+    pub fn withholds_turning(&self) -> bool {
+        self.is_beyond_noise() && self.turning_beyond_noise().is_some()
     }
 
     /// True where amplitudes are seen to turn patterns.

@@ -376,9 +376,13 @@ fn what_amplitudes_turn_is_not_told_beside_what_is_not_noise() {
         }
         run
     });
-    let found = fit(&runs).unwrap();
+    let mut found = fit(&runs).unwrap();
     assert!(found.is_beyond_noise(), "{}", found.residual);
     let (turning, std) = found.turning_by_amplitudes().unwrap();
     assert!(turning.abs() > 3.0 * std, "{turning} {std}");
     assert_eq!(found.resonator().unwrap().turning_by_amplitudes, None);
+    assert!(found.withholds_turning());
+    // Of fewer deviations nothing would be told in any case.
+    found.covariance *= (turning.abs() / std / 2.9).powi(2);
+    assert!(found.is_nonlinear() && !found.withholds_turning());
 }

@@ -7,7 +7,20 @@ pub struct Figure {
     /// What runs along the horizontal axis, with its unit.
     pub axis: &'static str,
     pub x: Vec<f64>,
+    /// What was simulated for each `x`.
+    pub points: Vec<Point>,
+    /// Runs a point, and the seed of their noise; none without noise.
+    pub runs: Option<(u32, u64)>,
     pub panels: Vec<Panel>,
+}
+
+/// What was simulated for a point beside the wave.
+#[derive(Debug, Clone, Copy)]
+pub struct Point {
+    /// Periods in a window.
+    pub periods: u32,
+    /// Sample rate, Hz.
+    pub rate: f64,
 }
 
 /// One sub-figure.

@@ -27,10 +27,11 @@ use simulated::Simulated;
 /// Under the help of the study.
 const FILES: &str = "\
 Files in the folder:
-  figure-1a.svg, .png ...  1: against periods, 2: against samples a period, 3: against noise
-  figure-1.csv ...         every point of every curve; value_is and x_is give the units
+  figure-1a.svg, .png ...  1: over periods, 2: over samples a period, 3: noise
+  figure-1.csv ...         every point of every curve, and what was simulated;
+                           value_is and x_is give the units
 
-Without options that say otherwise the wave, the rate, and the noise and windows of figure 3 are the
+Without options that say otherwise the wave, the rate, and the noise and windows of figure 3 are the \
 paper's. Its conclusions are checked only then. The same options give the same numbers.";
 
 /// `antinode study`.
@@ -70,7 +71,7 @@ pub fn run(options: &Study) -> Result<(), Failure> {
 
     for figure in [&first, &second, &third] {
         let path = options.out.join(format!("figure-{}.csv", figure.number));
-        table::write(&path, figure)
+        table::write(&path, figure, &simulated.wave())
             .map_err(|error| OutputError::io(&path.display().to_string(), error.into()))?;
         for panel in &figure.panels {
             let path = options

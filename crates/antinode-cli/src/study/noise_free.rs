@@ -3,7 +3,7 @@
 use antinode_sim::Wave;
 
 use super::evaluate::{CURVES, errors};
-use super::figure::{Curve, Figure, Name, Panel};
+use super::figure::{Curve, Figure, Name, Panel, Point};
 use super::samples::Samples;
 use super::simulated::Simulated;
 
@@ -71,7 +71,7 @@ fn figure(
                 .collect(),
         })
         .into();
-    let mut deviation = Vec::new();
+    let (mut deviation, mut points) = (Vec::new(), Vec::new());
     for window in windows {
         let noise = BOUND_NOISE * wave.main_amplitude;
         let bounds = window.bounds(wave).map(|bound| bound.map(|x| x * noise));
@@ -86,6 +86,10 @@ fn figure(
             }
         }
         deviation.push(window.deviation().abs());
+        points.push(Point {
+            periods: window.periods,
+            rate: window.rate,
+        });
     }
     for panel in &mut panels {
         // f64::max takes no part in a missing value.
@@ -110,6 +114,8 @@ fn figure(
         number,
         axis,
         x,
+        points,
+        runs: None,
         panels,
     }
 }

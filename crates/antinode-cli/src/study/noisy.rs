@@ -4,7 +4,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
 use super::evaluate::{CURVES, errors};
-use super::figure::{Curve, Figure, Name, Panel};
+use super::figure::{Curve, Figure, Name, Panel, Point};
 use super::samples::Samples;
 use super::simulated::{STEPS, Simulated};
 
@@ -118,10 +118,16 @@ pub fn against_noise(simulated: &Simulated, runs: u32, seed: u64) -> Figure {
                 curves,
             }
         });
+    let point = Point {
+        periods: simulated.periods,
+        rate: simulated.rate,
+    };
     Figure {
         number: 3,
         axis: "noise, % of a_A, rms a sample",
         x: steps.iter().map(|&step| simulated.percent(step)).collect(),
+        points: vec![point; steps.len()],
+        runs: Some((runs, seed)),
         panels: panels.collect(),
     }
 }

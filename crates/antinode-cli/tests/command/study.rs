@@ -85,6 +85,26 @@ fn another_wave_is_studied_and_told_and_the_papers_conclusions_are_not() {
         let found = points.iter().find(|point| point.0 == x).unwrap().1;
         assert!((found / value - 1.0).abs() < 1e-3, "{name}: {found}");
     }
+    // What they were made with is in the files themselves.
+    for (table, made_with) in [
+        ("it/figure-2.csv", ["1400000", "1", "", ""]),
+        ("it/figure-3.csv", ["140000", "10", "400", "1"]),
+    ] {
+        let mut table = csv::Reader::from_path(here.join(table)).unwrap();
+        let names = table.headers().unwrap().clone();
+        let row = table.records().last().unwrap().unwrap();
+        let of = |name| &row[names.iter().position(|column| column == name).unwrap()];
+        let wave = [
+            "main_amplitude",
+            "quadrature_amplitude",
+            "angle_rad",
+            "phase_rad",
+            "frequency_hz",
+        ];
+        assert_eq!(wave.map(of), ["2", "-0.3", "0.2", "1", "5332"]);
+        let beside = ["sample_rate_hz", "periods", "runs", "seed"];
+        assert_eq!(beside.map(of), made_with);
+    }
     // 10 periods of 26.26 samples: a_A at the bound of noise of 0.5 %.
     let noise = curve(here, "it/figure-3.csv", "a", "exact solution");
     let (greatest, rms) = noise[20];

@@ -13,7 +13,7 @@ use crate::resonator::Resonator;
 use crate::simulate::Simulate;
 use crate::study::Study;
 
-/// Under the help of the whole.
+/// Under the help of the whole; lists fit 80 columns, and a paragraph is one line, which the terminal's width wraps.
 const EXAMPLES: &str = "\
 Examples:
   antinode                                              the demonstration
@@ -21,14 +21,14 @@ Examples:
   antinode identify --output csv a.wav b.npy > rows.csv
   antinode identify --rate 100000 --columns t,C,D log.csv
   recorder | antinode identify --raw i16 --rate 100000 -
-  antinode identify --output csv one_way.wav other_way.wav | antinode calibrate -
+  antinode identify --output csv cw.wav ccw.wav | antinode calibrate -
   antinode identify --output csv --periods 1000 long.wav | antinode resonator -
   antinode plot rows.csv -o ring.svg
   antinode simulate -o ring.wav --noise 0.005 --decay-rate 0.5
   antinode monitor /dev/ttyACM0 --output csv > rows.csv
   antinode command /dev/ttyACM0 window 20
 
-The exit code is 0 if all went well, 1 if something is wrong with a file, a port or the system, 2 if something is wrong with the
+The exit code is 0 if all went well, 1 if something is wrong with a file, a port or the system, 2 if something is wrong with the \
 command line, and 130 after Ctrl-C.";
 
 /// Identifies the standing wave of a hemispherical resonator gyro, window by window, in recordings of its two pick-offs.
@@ -165,3 +165,6 @@ impl Corrected {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

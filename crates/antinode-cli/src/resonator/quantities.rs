@@ -54,17 +54,17 @@ Quantities of CSV and JSON lines, their units, and those of their deviations:
   decay_time_s                 s      of amplitudes, to 1/e
   quality_factor               none
   rotation_rad_s               rad/s
-  frequency_drift_hz_s         Hz/s, of a straight line through the run's frequencies
+  frequency_drift_hz_s         Hz/s, of a straight line through the frequencies
   frequency_hz                 Hz
-  frequency_by_energy_hz       Hz, at a_A² + a_B² of one unit of the samples squared
+  frequency_by_energy_hz       Hz, at a_A² + a_B² of one input unit squared
   residual_over_noise          none
   damping_split_s              1/s, like decay_rate_s of the rows; not a time
   most_damped_at_rad           rad
   frequency_split_hz           Hz
   highest_at_rad               rad
-  turning_by_amplitudes_rad_s  rad/s, at a_A·a_B of one unit of the samples squared
+  turning_by_amplitudes_rad_s  rad/s, at a_A·a_B of one input unit squared
 
-Quantities of one run have its number in `run`, its recording in `file`, and the times of its rows in `from_s` and `to_s`. Residuals
+Quantities of one run have its number in `run`, its recording in `file`, and the times of its rows in `from_s` and `to_s`. Residuals \
 near 1 (1.01 in windows of ten periods, whose deviations are estimates too) are noise; if one is larger, something else moves in that run.";
 
 /// A quantity of the resonator, or of one run.

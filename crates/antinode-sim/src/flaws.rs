@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 /// 2. the pick-offs see the wave there (`skew`, `pick_off_angle`);
 /// 3. they bend it (`cubic`);
 /// 4. gain, offset and hum (`gain_ratio`, `offset_c`, `offset_d`, `hum`);
-/// 5. noise is added (`noise`);
+/// 5. noise is added (`noise`, `coloured_noise`);
 /// 6. a channel drops out (`dropouts`);
 /// 7. the signal is clipped (`clip`, `clip_spans`);
 /// 8. the ADC quantises, and saturates (`bits`, `full_scale`);
@@ -25,6 +25,11 @@ use serde::{Deserialize, Serialize};
 pub struct Flaws {
     /// Rms of the noise of (2): white, Gaussian, independent in the two channels. Input units, 0 or more.
     pub noise: f64,
+    /// Rms of noise beside it that is not white but that behind a low-pass of first order: white below `coloured_corner`, 1/f^2 in power
+    /// above. Gaussian, independent in the two channels, of the same rms from the first sample on. Input units, 0 or more.
+    pub coloured_noise: f64,
+    /// Corner of that low-pass, Hz, above 0: some Hz for an offset that wanders, some kHz for a front end.
+    pub coloured_corner: f64,
     /// Offset of channel C, input units.
     pub offset_c: f64,
     /// Offset of channel D, input units.
@@ -70,10 +75,12 @@ pub struct Flaws {
 }
 
 impl Default for Flaws {
-    /// No flaws; 50 Hz for a hum.
+    /// No flaws; 50 Hz for a hum, and 1 kHz for coloured noise.
     fn default() -> Self {
         Flaws {
             noise: 0.0,
+            coloured_noise: 0.0,
+            coloured_corner: 1000.0,
             offset_c: 0.0,
             offset_d: 0.0,
             hum: 0.0,
@@ -113,7 +120,11 @@ impl Flaws {
         ] {
             finite(what, value)?;
         }
-        for (what, value) in [("noise", self.noise), ("jitter", self.jitter)] {
+        for (what, value) in [
+            ("noise", self.noise),
+            ("coloured_noise", self.coloured_noise),
+            ("jitter", self.jitter),
+        ] {
             require(
                 what,
                 value,
@@ -121,6 +132,7 @@ impl Flaws {
                 "finite and 0 or more",
             )?;
         }
+        positive("coloured_corner", self.coloured_corner)?;
         positive("gain_ratio", self.gain_ratio)?;
         if let Some(clip) = self.clip {
             positive("clip", clip)?;
@@ -137,144 +149,4 @@ impl Flaws {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_number_has_its_range() {
-        let none = Flaws::default;
-        assert_eq!(none().check(), Ok(()));
-        for (flaws, field) in [
-            (
-                Flaws {
-                    noise: -1e-9,
-                    ..none()
-                },
-                "noise",
-            ),
-            (
-                Flaws {
-                    jitter: f64::NAN,
-                    ..none()
-                },
-                "jitter",
-            ),
-            (
-                Flaws {
-                    offset_c: f64::INFINITY,
-                    ..none()
-                },
-                "offset_c",
-            ),
-            (
-                Flaws {
-                    offset_d: f64::NAN,
-                    ..none()
-                },
-                "offset_d",
-            ),
-            (
-                Flaws {
-                    hum: f64::NAN,
-                    ..none()
-                },
-                "hum",
-            ),
-            (
-                Flaws {
-                    hum_frequency: f64::INFINITY,
-                    ..none()
-                },
-                "hum_frequency",
-            ),
-            (
-                Flaws {
-                    skew: f64::NAN,
-                    ..none()
-                },
-                "skew",
-            ),
-            (
-                Flaws {
-                    pick_off_angle: f64::NAN,
-                    ..none()
-                },
-                "pick_off_angle",
-            ),
-            (
-                Flaws {
-                    cubic: f64::NAN,
-                    ..none()
-                },
-                "cubic",
-            ),
-            (
-                Flaws {
-                    gain_ratio: 0.0,
-                    ..none()
-                },
-                "gain_ratio",
-            ),
-            (
-                Flaws {
-                    clip: Some(0.0),
-                    ..none()
-                },
-                "clip",
-            ),
-            (
-                Flaws {
-                    clip_spans: vec![ClipSpan {
-                        from: 0.0,
-                        to: 1.0,
-                        level: -1.0,
-                    }],
-                    ..none()
-                },
-                "level of clip_spans",
-            ),
-            (
-                Flaws {
-                    bits: Some(16),
-                    ..none()
-                },
-                "full_scale",
-            ),
-            (
-                Flaws {
-                    bits: Some(33),
-                    full_scale: 1.0,
-                    ..none()
-                },
-                "bits",
-            ),
-            (
-                Flaws {
-                    bits: Some(1),
-                    full_scale: 1.0,
-                    ..none()
-                },
-                "bits",
-            ),
-        ] {
-            match flaws.check() {
-                Err(Error::OutOfRange { what, .. }) => assert_eq!(what, field),
-                other => panic!("{field}: {other:?}"),
-            }
-        }
-    }
-
-    #[test]
-    fn the_step_of_the_adc() {
-        assert_eq!(
-            Flaws {
-                bits: Some(16),
-                full_scale: 2.0,
-                ..Flaws::default()
-            }
-            .lsb(),
-            Some(2.0 / 32768.0)
-        );
-        assert_eq!(Flaws::default().lsb(), None);
-    }
-}
+mod tests;

@@ -25,7 +25,7 @@ pub struct Pair {
 /// A synthetic gyro: an endless iterator of its samples.
 ///
 /// Sample `k` of true time is at `k` / sample rate s. It is a function of the arguments of [`Gyro::new`] and `k` alone:
-/// [`Iterator::nth`] and [`Iterator::skip`] jump at no cost, and lost samples change none of the others.
+/// [`Iterator::nth`] and [`Iterator::skip`] jump at no cost, but that coloured noise is computed all the way, and lost samples change none of the others.
 #[derive(Debug, Clone)]
 pub struct Gyro {
     wave: Wave,

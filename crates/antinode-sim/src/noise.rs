@@ -1,6 +1,6 @@
 //! Random numbers that are the same everywhere: PCG64-DXSM, and Box & Muller's normals over `libm`.
 
-use libm::{log, sincos, sqrt};
+use libm::{exp, expm1, log, sincos, sqrt};
 use rand_pcg::Pcg64Dxsm;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use std::f64::consts::TAU;
@@ -14,6 +14,7 @@ pub(crate) enum Stream {
     Noise = 1,
     Jitter = 2,
     Wave = 3,
+    Coloured = 4,
 }
 
 /// Uniform numbers.
@@ -67,6 +68,48 @@ impl Normals {
     }
 }
 
+/// Pairs of independent numbers of unit variance behind a low-pass of first order. Each follows from those before it: a jump costs as many
+/// steps as it is far, and one backwards as many as its end is from the first.
+#[derive(Debug, Clone)]
+pub(crate) struct Coloured {
+    normals: Normals,
+    /// What stays of a number in the next one, and what is new in that.
+    shares: (f64, f64),
+    now: (f64, f64),
+    next: u64,
+}
+
+impl Coloured {
+    pub fn new(seed: u64, corner: f64, sample_rate: f64) -> Coloured {
+        let decay = TAU * corner / sample_rate;
+        Coloured {
+            normals: Normals::new(seed, Stream::Coloured),
+            shares: (exp(-decay), sqrt(-expm1(-2.0 * decay))),
+            now: (0.0, 0.0),
+            next: 0,
+        }
+    }
+
+    pub fn pair(&mut self, index: u64) -> (f64, f64) {
+        if index.saturating_add(1) < self.next {
+            self.next = 0;
+        }
+        while self.next <= index {
+            let new = self.normals.pair(self.next);
+            // The first is as large as all others.
+            let (stays, adds) = if self.next == 0 {
+                (0.0, 1.0)
+            } else {
+                self.shares
+            };
+            self.now.0 = stays * self.now.0 + adds * new.0;
+            self.now.1 = stays * self.now.1 + adds * new.1;
+            self.next += 1;
+        }
+        self.now
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -113,6 +156,34 @@ mod tests {
             .filter(|x| x.abs() > 4.0)
             .count();
         assert!((80..180).contains(&far), "{far} beyond 4 sigma");
+    }
+
+    #[test]
+    fn coloured_pairs_are_those_of_a_low_pass() {
+        let mut coloured = Coloured::new(7, 2000.0, 100_000.0);
+        let n = 1_000_000u64;
+        let pairs: Vec<_> = (0..n).map(|k| coloured.pair(k)).collect();
+        let mean = |lag: usize, of: fn((f64, f64), (f64, f64)) -> f64| {
+            let products = pairs.iter().zip(&pairs[lag..]);
+            products.map(|(&now, &later)| of(now, later)).sum::<f64>() / (n as f64 - lag as f64)
+        };
+        for lag in [0, 1, 5, 10, 100] {
+            let kept = (-TAU * 0.02 * lag as f64).exp();
+            for (found, expected) in [
+                (mean(lag, |now, later| now.0 * later.0), kept),
+                (mean(lag, |now, later| now.1 * later.1), kept),
+                (mean(lag, |now, later| now.0 * later.1), 0.0),
+            ] {
+                // Four to five standard errors, of n / 8 pairs that tell something by themselves.
+                assert!((found - expected).abs() < 0.015, "{lag}: {found}");
+            }
+        }
+        let starts = (0..4000).map(|seed| Coloured::new(seed, 1.0, 1e5).pair(0).0);
+        let variance = starts.map(|x| x * x).sum::<f64>() / 4000.0;
+        assert!((variance - 1.0).abs() < 0.1, "{variance}");
+        for k in [99, 3, 4, 50, 0, 0, 1] {
+            assert_eq!(coloured.pair(k), pairs[k as usize]);
+        }
     }
 
     #[test]

@@ -15,6 +15,8 @@ fn hash(gyro: Gyro, samples: usize) -> u64 {
 fn everything() -> Flaws {
     Flaws {
         noise: 0.05,
+        coloured_noise: 0.0,
+        coloured_corner: 1000.0,
         offset_c: 0.01,
         hum: 0.0,
         hum_frequency: 50.0,

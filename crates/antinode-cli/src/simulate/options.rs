@@ -87,6 +87,13 @@ struct FlawOptions {
     /// White noise, rms per sample and channel, in the units of the amplitudes.
     #[arg(long, default_value_t = 0.0, value_name = "RMS")]
     noise: f64,
+    /// Noise beside it behind a low-pass of first order, rms per sample and channel, in the units of the amplitudes.
+    #[arg(long, default_value_t = 0.0, value_name = "RMS")]
+    coloured_noise: f64,
+    /// Corner of that low-pass, Hz: noise is white below and 1/f² in power above; some Hz for an offset that wanders, some kHz for a front
+    /// end.
+    #[arg(long, default_value_t = 1000.0, value_name = "HZ")]
+    coloured_corner: f64,
     /// Offset of S_C, in the units of the amplitudes.
     #[arg(long, default_value_t = 0.0, value_name = "LEVEL")]
     offset_c: f64,
@@ -220,6 +227,8 @@ impl Simulate {
     pub fn flaws(&self) -> Flaws {
         Flaws {
             noise: self.flaws.noise,
+            coloured_noise: self.flaws.coloured_noise,
+            coloured_corner: self.flaws.coloured_corner,
             offset_c: self.flaws.offset_c,
             offset_d: self.flaws.offset_d,
             hum: self.flaws.hum,

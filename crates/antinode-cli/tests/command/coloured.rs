@@ -136,3 +136,22 @@ fn of_white_noise_and_of_too_few_rows_nothing_is_told() {
         assert_eq!(told.err, "", "{arguments}");
     }
 }
+
+#[test]
+fn coloured_noise_is_simulated() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let made = run(
+        here,
+        "simulate -o a.wav --seconds 4 --noise 0.002 --coloured-noise 0.01 --coloured-corner 300",
+    );
+    assert_eq!((made.code, made.err.as_str()), (0, ""));
+    let truth = fs::read_to_string(here.join("a.wav.json")).unwrap();
+    for told in ["\"coloured_noise\": 0.01,", "\"coloured_corner\": 300.0,"] {
+        assert!(truth.contains(told), "{truth}");
+    }
+    let (plain, _) = identified(here, "");
+    assert!(plain.err.contains("--hum"), "{}", plain.err);
+    let (told, _) = identified(here, "--coloured");
+    assert_eq!(told.err, "");
+}

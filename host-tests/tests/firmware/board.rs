@@ -4,6 +4,7 @@ use std::mem;
 
 use antinode::Packed;
 use antinode_telemetry::{Cause, Command, Configuration, Counters, FrontEnd, Receiver, Report};
+use firmware::gather::Gatherer;
 use firmware::inbox::Inbox;
 use firmware::instrument::Instrument;
 use firmware::link::{Outgoing, Run};
@@ -14,6 +15,7 @@ use firmware::settings::{BAUD, HALF, SAMPLE_RATE, configuration};
 use crate::emulator::bytes;
 use crate::mirror::Recorded;
 use crate::recordings;
+use crate::told::{acknowledgements, counters};
 
 /// A DMA that sends run after run at the line's rate.
 pub struct Wire<'q> {
@@ -64,20 +66,15 @@ impl<'q> Wire<'q> {
 
     /// The counters that came.
     pub fn counters(&self) -> Vec<Counters> {
-        let counters = |report: &Report| match report {
-            Report::Counters(counters) => Some(*counters),
-            _ => None,
-        };
-        self.reports.iter().filter_map(counters).collect()
+        counters(&self.reports)
     }
 
     /// The acknowledgements that came.
     pub fn acknowledged(&self) -> Vec<u16> {
-        let id = |report: &Report| match report {
-            Report::Acknowledgement(acknowledgement) => Some(acknowledgement.id),
-            _ => None,
-        };
-        self.reports.iter().filter_map(id).collect()
+        acknowledgements(&self.reports)
+            .iter()
+            .map(|acknowledgement| acknowledgement.id)
+            .collect()
     }
 }
 
@@ -110,6 +107,29 @@ pub struct Board<'q> {
     pub missed: usize,
 }
 
+impl Board<'static> {
+    /// A board at rest with what its converter's interrupt serves. It is never freed: a test has few.
+    pub fn new(configuration: Configuration) -> (&'static mut Gatherer<'static, i16>, Self) {
+        let queues = Box::leak(Box::new(Queues::new()));
+        let parts = queues
+            .split(
+                Box::leak(Box::new(Places::new())),
+                configuration,
+                Cause::Unknown,
+            )
+            .expect("the settings can be");
+        let board = Self {
+            instrument: parts.instrument,
+            inbox: parts.inbox,
+            wire: Wire::new(parts.out),
+            half: 0,
+            now: 0,
+            missed: 0,
+        };
+        (parts.gatherer, board)
+    }
+}
+
 impl Board<'_> {
     pub fn command(&self, id: u16, command: Command) {
         for byte in bytes(id, command) {
@@ -130,22 +150,11 @@ pub fn board_on(
     configuration: Configuration,
     mut go_on: impl FnMut(&mut Board<'_>) -> bool,
 ) {
-    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
-    let parts = queues
-        .split(&mut places, configuration, Cause::Unknown)
-        .expect("the settings can be");
-    let mut board = Board {
-        instrument: parts.instrument,
-        inbox: parts.inbox,
-        wire: Wire::new(parts.out),
-        half: 0,
-        now: 0,
-        missed: 0,
-    };
+    let (gatherer, mut board) = Board::new(configuration);
     let mut source = Recorded::new(recording);
     while go_on(&mut board) {
         for _ in 0..=mem::take(&mut board.missed) {
-            parts.gatherer.serve(&mut source);
+            gatherer.serve(&mut source);
             board.half += 1;
         }
         board.now = (board.half * HALF * 1000 / SAMPLE_RATE as usize) as u32;

@@ -5,16 +5,9 @@ use antinode_telemetry::{Acknowledgement, Cause, Command, CommandError, Report, 
 use firmware::settings::RING;
 
 use crate::emulator::{Device, bytes};
-use crate::same::{estimates, timeless};
+use crate::same::timeless;
+use crate::told::{acknowledgements, counters, estimates};
 use crate::{mirror, recordings};
-
-fn acknowledgements(reports: &[Report]) -> Vec<Acknowledgement> {
-    let found = |report: &Report| match report {
-        Report::Acknowledgement(acknowledgement) => Some(*acknowledgement),
-        _ => None,
-    };
-    reports.iter().filter_map(found).collect()
-}
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
@@ -117,10 +110,7 @@ fn windows_of_two_periods_lose_no_block() {
     device.command(1, Command::SetWindow { periods: 2 });
     let (reports, lost, _) = device.finish();
     assert_eq!(lost, 0);
-    let dropped = reports.iter().filter_map(|report| match report {
-        Report::Counters(counters) => Some(counters.blocks_dropped),
-        _ => None,
-    });
+    let dropped = counters(&reports).into_iter().map(|c| c.blocks_dropped);
     assert_eq!(dropped.max(), Some(0));
     assert!(estimates(&reports).len() > 2500);
 }

@@ -8,7 +8,7 @@ use firmware::settings::QUEUE;
 
 use crate::emulator::Device;
 use crate::image::output;
-use crate::same::estimates;
+use crate::told::estimates;
 use crate::{mirror, recordings};
 
 fn steady(pairs: usize) -> Vec<Packed> {

@@ -2,12 +2,11 @@
 
 use std::sync::atomic::Ordering;
 
-use antinode_telemetry::{Cause, Command};
+use antinode_telemetry::Command;
 use firmware::instrument::Event;
-use firmware::pipeline::{Places, Queues};
 use firmware::settings::{INBOX, QUEUE, RESTART_MS};
 
-use crate::board::{BYTES, Losing, board, hop_of};
+use crate::board::{BYTES, Board, Losing, board, hop_of};
 use crate::emulator::bytes;
 
 #[test]
@@ -94,19 +93,16 @@ fn a_dma_fills_the_inbox_round_and_round() {
 
 #[test]
 fn a_queue_that_never_empties_does_not_hold_the_main_loop_up() {
-    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
-    let parts = queues
-        .split(&mut places, hop_of(1), Cause::Unknown)
-        .expect("the settings can be");
-    parts.gatherer.serve(&mut Losing(1));
+    let (gatherer, board) = Board::new(hop_of(1));
+    gatherer.serve(&mut Losing(1));
     for now in 0..3 {
         let mut taken = 0;
         // The interrupt comes again whenever an item is taken.
-        parts.instrument.poll(now, |event| {
+        board.instrument.poll(now, |event| {
             if matches!(event, Event::Lapse(_)) {
                 taken += 1;
                 assert!(taken < QUEUE, "it takes what has come meanwhile");
-                parts.gatherer.serve(&mut Losing(1));
+                gatherer.serve(&mut Losing(1));
             }
         });
         assert_eq!(taken, QUEUE - 1);

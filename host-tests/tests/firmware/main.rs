@@ -20,3 +20,4 @@ mod run;
 mod same;
 mod stack;
 mod steered;
+mod told;

@@ -3,7 +3,7 @@
 use antinode_telemetry::{Command, Methods, Report};
 
 use crate::emulator::{Device, bytes};
-use crate::same::estimates;
+use crate::told::estimates;
 use crate::{mirror, recordings};
 
 fn methods(reports: &[Report]) -> Vec<Methods> {

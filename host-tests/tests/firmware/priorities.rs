@@ -6,7 +6,7 @@ use firmware::settings::{COUNTERS_MS, HALF, SAMPLE_RATE, SOONEST_MS};
 
 use crate::board::{BYTES, Board, board, board_on, windows_of};
 use crate::recordings;
-use crate::same::estimates;
+use crate::told::estimates;
 
 #[test]
 fn counters_come_every_second_however_busy_the_line() {

@@ -4,17 +4,15 @@ use antinode::{Calibration, Flags, Packed};
 use antinode_sim::Wave;
 use antinode_telemetry::{Cause, Command, CommandError, Report, State};
 use firmware::gather::Gatherer;
-use firmware::instrument::{Event, Instrument};
-use firmware::pipeline::{Places, Queues};
+use firmware::instrument::Event;
 use firmware::sampling::{DUAL_ADC_RAILS, Lapse, Ready, Source, both};
 use firmware::settings::{HALF, QUEUE, REQUESTS, SAMPLE_RATE, SOONEST_MS, STALL_MS, WATCHDOG_MS};
 
-use crate::board::{BYTES, Losing, Wire, hop_of};
+use crate::board::{BYTES, Board, Losing, hop_of};
 use crate::emulator::bytes;
 use crate::mirror::{MISSED, Recorded, reports_of};
 use crate::recordings;
-use crate::same::estimates;
-use crate::steered::counters;
+use crate::told::{acknowledgements, estimates, last_counters};
 
 /// A converter that can stand still until it has been started anew so often; its triggers go on.
 struct Halting<'a> {
@@ -43,23 +41,22 @@ impl<'a> Halting<'a> {
         &mut self,
         still: u32,
         gatherer: &mut Gatherer<'_, i16>,
-        instrument: &mut Instrument<'_, i16>,
-        wire: &mut Wire<'_>,
-        put: impl Fn(usize),
+        board: &mut Board<'_>,
+        put: impl Fn(&Board<'_>, usize),
     ) {
         for half in 1..=400 {
             self.triggered += HALF;
             if half == 200 {
                 self.still = still;
             }
-            put(half);
+            put(board, half);
             // While it stands still no interrupt of its own comes.
-            if self.still == 0 || instrument.asks_for_source() {
+            if self.still == 0 || board.instrument.asks_for_source() {
                 gatherer.serve(self);
             }
             let now = half * HALF * 1000 / SAMPLE_RATE as usize;
-            instrument.poll(now as u32, |_| {});
-            wire.pass(4 * BYTES);
+            board.instrument.poll(now as u32, |_| {});
+            board.wire.pass(4 * BYTES);
         }
     }
 }
@@ -108,17 +105,13 @@ fn a_converter_that_stands_still_is_started_anew() {
     };
     let codes = recordings::codes(wave, recordings::quiet(), 60_000);
     for still in [1, 3] {
-        let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
-        let parts = queues
-            .split(&mut places, hop_of(5), Cause::Unknown)
-            .expect("the settings can be");
-        let mut wire = Wire::new(parts.out);
+        let (gatherer, mut board) = Board::new(hop_of(5));
         let mut source = Halting::new(&codes);
-        source.stand_still(still, parts.gatherer, parts.instrument, &mut wire, |_| {});
-        let told = counters(&wire.reports);
-        parts.instrument.report_counters();
-        wire.pass(100 * BYTES);
-        let counters = counters(&wire.reports);
+        source.stand_still(still, gatherer, &mut board, |_, _| {});
+        let told = last_counters(&board.wire.reports);
+        board.instrument.report_counters();
+        board.wire.pass(100 * BYTES);
+        let counters = last_counters(&board.wire.reports);
         assert_eq!((counters.restarts, counters.overruns), (still, 0));
         assert_eq!(counters.pairs + counters.pairs_lost, source.taken as u64);
         let least = u64::from(still * STALL_MS * SAMPLE_RATE / 1000);
@@ -129,10 +122,10 @@ fn a_converter_that_stands_still_is_started_anew() {
         assert!(told.restarts > 0 && told.uptime_ms < 400, "{told:?}");
         let is_told =
             |r: &&Report| **r == Report::State(State::SamplingRestarted(Cause::Converter));
-        let restarts = wire.reports.iter().filter(is_told).count();
+        let restarts = board.wire.reports.iter().filter(is_told).count();
         assert_eq!(restarts, still as usize);
         // Time goes on over the hole.
-        let estimates = estimates(&wire.reports);
+        let estimates = estimates(&board.wire.reports);
         assert!(estimates.last().is_some_and(|last| last.time > 0.5));
         for estimate in estimates {
             let off = estimate.angle - wave.angle - wave.angle_rate * estimate.time;
@@ -144,19 +137,12 @@ fn a_converter_that_stands_still_is_started_anew() {
 #[test]
 fn requests_that_wait_do_not_keep_a_converter_from_being_started_anew() {
     let codes = recordings::codes(recordings::WAVE, recordings::quiet(), 60_000);
-    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
-    let parts = queues
-        .split(&mut places, hop_of(5), Cause::Unknown)
-        .expect("the settings can be");
-    let mut wire = Wire::new(parts.out);
+    let (gatherer, mut board) = Board::new(hop_of(5));
     let mut source = Halting::new(&codes);
-    let inbox = parts.inbox;
-    source.stand_still(1, parts.gatherer, parts.instrument, &mut wire, |half| {
+    source.stand_still(1, gatherer, &mut board, |board, half| {
         if (200..200 + 2 * REQUESTS).contains(&half) {
             // No interrupt comes that would take it from the queue.
-            bytes(half as u16, Command::SetWindow { periods: 12 })
-                .iter()
-                .for_each(|&byte| inbox.put(byte));
+            board.command(half as u16, Command::SetWindow { periods: 12 });
         }
     });
     assert_eq!(source.still, 0);
@@ -164,42 +150,29 @@ fn requests_that_wait_do_not_keep_a_converter_from_being_started_anew() {
 
 #[test]
 fn a_device_that_does_not_sample_obeys_all_the_same() {
-    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
-    let parts = queues
-        .split(&mut places, hop_of(5), Cause::Unknown)
-        .expect("the settings can be");
-    let mut wire = Wire::new(parts.out);
+    let (_, mut board) = Board::new(hop_of(5));
     let fault = State::Fault(Cause::Clock);
-    parts.instrument.fault(Cause::Clock, |_| {});
+    board.instrument.fault(Cause::Clock, |_| {});
     // As long as the watchdog lets it, and with more commands than requests may wait.
     for now in 0..WATCHDOG_MS {
         if now % STALL_MS == STALL_MS / 2 {
-            bytes(1, Command::SetWindow { periods: 12 })
-                .iter()
-                .for_each(|&byte| parts.inbox.put(byte));
+            board.command(1, Command::SetWindow { periods: 12 });
         }
-        parts.instrument.poll(now, |_| {});
-        wire.pass(BYTES);
+        board.instrument.poll(now, |_| {});
+        board.wire.pass(BYTES);
     }
-    let result = |report: &Report| match report {
-        Report::Acknowledgement(acknowledgement) => Some(acknowledgement.result),
-        _ => None,
-    };
-    let results: Vec<_> = wire.reports.iter().filter_map(result).collect();
-    assert!(results.len() > 2 * REQUESTS, "{results:?}");
-    assert!(results.iter().all(Result::is_ok), "{results:?}");
+    let answers = acknowledgements(&board.wire.reports);
+    assert!(answers.len() > 2 * REQUESTS, "{answers:?}");
+    assert!(answers.iter().all(|a| a.result.is_ok()), "{answers:?}");
     // It goes on saying that it does not.
     let is_state = |report: &&Report| matches!(report, Report::State(_));
-    let last = wire.reports.iter().rfind(is_state);
+    let last = board.wire.reports.iter().rfind(is_state);
     assert_eq!(last, Some(&Report::State(fault)));
 }
 
 #[test]
 fn what_is_lost_while_the_queue_is_full_adds_up() {
-    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
-    let parts = queues
-        .split(&mut places, hop_of(5), Cause::Unknown)
-        .expect("the settings can be");
+    let (gatherer, board) = Board::new(hop_of(5));
     let (mut told, mut count) = (0, 0);
     let mut tell = |event| {
         if let Event::Lapse(lapse) = event {
@@ -207,28 +180,24 @@ fn what_is_lost_while_the_queue_is_full_adds_up() {
         }
     };
     for _ in 0..QUEUE + 10 {
-        parts.gatherer.serve(&mut Losing(7));
+        gatherer.serve(&mut Losing(7));
     }
-    parts.instrument.poll(0, &mut tell);
-    parts.gatherer.serve(&mut Losing(7));
-    parts.instrument.poll(1, &mut tell);
+    board.instrument.poll(0, &mut tell);
+    gatherer.serve(&mut Losing(7));
+    board.instrument.poll(1, &mut tell);
     assert_eq!((told, count), (7 * (QUEUE as u32 + 11), QUEUE));
 }
 
 #[test]
 fn counts_and_time_go_on_beyond_32_bits() {
-    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
-    let parts = queues
-        .split(&mut places, hop_of(5), Cause::Unknown)
-        .expect("the settings can be");
-    let mut wire = Wire::new(parts.out);
+    let (gatherer, mut board) = Board::new(hop_of(5));
     // 25 days each.
     for now in [1 << 31, u32::MAX, 999] {
-        parts.gatherer.serve(&mut Losing(1_000_000_000));
-        parts.instrument.poll(now, |_| {});
-        wire.pass(10 * BYTES);
+        gatherer.serve(&mut Losing(1_000_000_000));
+        board.instrument.poll(now, |_| {});
+        board.wire.pass(10 * BYTES);
     }
-    let counters = counters(&wire.reports);
+    let counters = last_counters(&board.wire.reports);
     assert_eq!(counters.uptime_ms, (1 << 32) + 999);
     // The second and the third time sampling is started anew first.
     assert_eq!(counters.pairs_lost, 5_000_000_000);
@@ -236,20 +205,23 @@ fn counts_and_time_go_on_beyond_32_bits() {
 
 #[test]
 fn what_goes_wrong_right_after_a_report_is_told_soon() {
-    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
-    let parts = queues
-        .split(&mut places, hop_of(5), Cause::Unknown)
-        .expect("the settings can be");
-    let mut wire = Wire::new(parts.out);
+    let (gatherer, mut board) = Board::new(hop_of(5));
     let mut told = Vec::new();
     for now in 0..200 {
         if now == 10 || now == 20 {
-            parts.gatherer.serve(&mut Losing(7));
+            gatherer.serve(&mut Losing(7));
         }
-        parts.instrument.poll(now, |_| {});
-        wire.pass(BYTES);
+        board.instrument.poll(now, |_| {});
+        board.wire.pass(BYTES);
         let is_counters = |report: &Report| matches!(report, Report::Counters(_));
-        told.extend(wire.reports.drain(..).filter(is_counters).map(|_| now));
+        told.extend(
+            board
+                .wire
+                .reports
+                .drain(..)
+                .filter(is_counters)
+                .map(|_| now),
+        );
     }
     let expected = [10, 10 + SOONEST_MS];
     let late = told.iter().zip(expected).map(|(told, at)| told - at);
@@ -259,11 +231,7 @@ fn what_goes_wrong_right_after_a_report_is_told_soon() {
 #[test]
 fn blocks_before_the_last_answer_are_of_no_use() {
     let codes = recordings::codes(recordings::WAVE, recordings::quiet(), 60_000);
-    let (mut queues, mut places) = (Queues::<i16>::new(), Places::new());
-    let parts = queues
-        .split(&mut places, hop_of(5), Cause::Unknown)
-        .expect("the settings can be");
-    let mut wire = Wire::new(parts.out);
+    let (gatherer, mut board) = Board::new(hop_of(5));
     let mut source = Recorded::new(&codes);
     let mut asked = 0;
     for round in 0..40 {
@@ -273,21 +241,24 @@ fn blocks_before_the_last_answer_are_of_no_use() {
             let hop = Command::SetHop {
                 blocks: Some(round as u16 - 17),
             };
-            bytes(round as u16, hop)
-                .iter()
-                .for_each(|&byte| parts.inbox.put(byte));
+            board.command(round as u16, hop);
         }
-        parts.instrument.poll(0, |_| {});
-        wire.pass(40 * BYTES);
+        board.instrument.poll(0, |_| {});
+        board.wire.pass(40 * BYTES);
         for _ in 0..10 {
-            parts.gatherer.serve(&mut source);
+            gatherer.serve(&mut source);
         }
     }
     let is_last = |report: &Report| matches!(report, Report::Acknowledgement(a) if a.id == 21);
-    let at = wire.reports.iter().position(is_last).expect("it answers");
+    let at = board
+        .wire
+        .reports
+        .iter()
+        .position(is_last)
+        .expect("it answers");
     let (before, after) = (
-        estimates(&wire.reports[..at]),
-        estimates(&wire.reports[at..]),
+        estimates(&board.wire.reports[..at]),
+        estimates(&board.wire.reports[at..]),
     );
     assert!(before.len() > 50 && after.len() > 50);
     assert!(
@@ -342,10 +313,7 @@ fn methods_and_a_calibration_exclude_each_other() {
         .flat_map(|(id, (command, _))| bytes(id, command))
         .collect();
     let reports = reports_of::<i16>(Recorded::new(&codes), (0, &commands), 1);
-    let result = |report: &Report| match report {
-        Report::Acknowledgement(acknowledgement) => Some(acknowledgement.result),
-        _ => None,
-    };
-    let results: Vec<_> = reports.iter().filter_map(result).collect();
+    let answers = acknowledgements(&reports);
+    let results: Vec<_> = answers.iter().map(|answer| answer.result).collect();
     assert_eq!(results, script.map(|(_, result)| result));
 }

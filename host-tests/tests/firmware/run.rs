@@ -9,7 +9,7 @@ use antinode_telemetry::{Receiver, Report};
 
 use crate::emulator::{folder, images};
 use crate::recordings;
-use crate::same::estimates;
+use crate::told::estimates;
 
 /// A file of this test's own.
 fn file(name: &str, bytes: &[u8]) -> PathBuf {

@@ -6,6 +6,7 @@ use firmware::sampling::{DUAL_ADC_RAILS, is_at_rail_12};
 use firmware::settings::{RING, configuration};
 
 use crate::emulator::Device;
+use crate::told::estimates;
 use crate::{mirror, recordings};
 
 /// All but the counters, whose time is that of the emulator, as bits.
@@ -20,12 +21,6 @@ pub fn timeless(reports: &[Report]) -> Vec<Vec<u8>> {
             frame.expect("it fits").to_vec()
         })
         .collect()
-}
-
-/// The estimates among reports.
-pub fn estimates(reports: &[Report]) -> Vec<Estimate> {
-    let found = |report: &Report| Estimate::try_from(report.clone()).ok();
-    reports.iter().filter_map(found).collect()
 }
 
 #[test]

@@ -2,13 +2,13 @@
 
 use antinode::{Calibration, Flags};
 use antinode_sim::Wave;
-use antinode_telemetry::{Command, Counters, Report, State};
+use antinode_telemetry::{Command, Report, State};
 use firmware::settings::HALF;
 
 use crate::emulator::bytes;
 use crate::mirror::{MISSED, Recorded, reports_of};
 use crate::recordings;
-use crate::same::estimates;
+use crate::told::{estimates, last_counters};
 
 /// In which round the command comes.
 const ROUND: usize = 200;
@@ -49,15 +49,6 @@ fn a_command_leaves_the_angle_continued_or_flagged() {
     }
 }
 
-/// The last counters among reports.
-pub fn counters(reports: &[Report]) -> Counters {
-    let counters = reports.iter().rev().find_map(|report| match report {
-        Report::Counters(counters) => Some(*counters),
-        _ => None,
-    });
-    counters.expect("there are some")
-}
-
 #[test]
 fn every_pair_of_a_torn_half_is_taken_or_lost() {
     let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 40_000);
@@ -65,7 +56,7 @@ fn every_pair_of_a_torn_half_is_taken_or_lost() {
     for half in (1..4).chain(100..130) {
         let source = Recorded::torn(&recording, half);
         let reports = reports_of::<i16>(source, (0, &[]), 1);
-        let counters = counters(&reports);
+        let counters = last_counters(&reports);
         assert_eq!(counters.overruns, 1);
         assert!(counters.pairs_lost >= u64::from(MISSED));
         let announced = (half * HALF) as u64 + u64::from(MISSED);
@@ -84,7 +75,7 @@ fn rails_before_a_block_begins_are_of_none() {
     let mut recording = recordings::codes(recordings::WAVE, recordings::quiet(), 40_000);
     recording[..500].fill(antinode::Packed(0));
     let reports = reports_of::<i16>(Recorded::torn(&recording, 300), (0, &[]), 1);
-    let counters = counters(&reports);
+    let counters = last_counters(&reports);
     assert_eq!(
         (counters.saturated_pairs, counters.saturated_blocks),
         (500, 0)

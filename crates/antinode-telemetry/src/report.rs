@@ -34,18 +34,6 @@ impl From<Estimate> for Report {
     }
 }
 
-impl TryFrom<Report> for Estimate {
-    type Error = Report;
-
-    /// The estimate; the report itself where it is another one.
-    fn try_from(report: Report) -> Result<Self, Report> {
-        match report {
-            Report::Estimate(estimate) => Ok(estimate),
-            other => Err(other),
-        }
-    }
-}
-
 /// Most bytes of the firmware's version in a [`Hello`].
 pub const FIRMWARE_BYTES: usize = 24;
 

@@ -13,14 +13,13 @@ use cortex_m::peripheral::SYST;
 use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m_rt::entry;
 use cortex_m_semihosting::hprintln;
-use firmware::{codes::Codes, marks};
+use firmware::codes::{Codes, HALF_BUFFER, RING};
+use firmware::marks;
 use heapless::spsc::Queue;
 
-/// Pairs of the ring, before the measurement, of it, and of a half-buffer.
-const RING: usize = 1406;
+/// Pairs before the measurement, and of it.
 const FIRST: usize = 2_000;
 const PAIRS: usize = 16_384;
-const HALF_BUFFER: usize = 128;
 
 /// The interrupt's work: samples become queued blocks.
 #[inline(never)]

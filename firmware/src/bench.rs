@@ -9,9 +9,9 @@ use antinode::block::Demodulator;
 use antinode::phase::PhaseStep;
 use antinode::{Front, Identifier, Packed, Sample, SamplePair, Settings, Tracker};
 
-use crate::codes::{Codes, Flaw, PERIOD};
+use crate::codes::{Codes, Flaw, HALF_BUFFER, PERIOD};
 use crate::gauge::{Gauge, apart};
-use crate::marks::{leave, mark_begin, mark_end};
+use crate::marks::leave;
 
 /// Sample pairs that a bench works through.
 pub const PAIRS: usize = 16_384;
@@ -19,8 +19,6 @@ pub const PAIRS: usize = 16_384;
 const LONGEST_OF: usize = 2_000;
 /// Periods in 1406 pairs of those waves: 4.3 to 176 samples a period.
 const WAVES: RangeInclusive<u64> = 8..=327;
-/// Pairs of a half-buffer.
-pub(crate) const HALF_BUFFER: usize = 128;
 
 pub(crate) fn demodulator<S: Sample>(watch: bool) -> Demodulator<S, 200> {
     // Two periods, as those of a window of 10.
@@ -50,9 +48,7 @@ where
     // The first block makes the table.
     run(0, 100);
     gauge.start();
-    mark_begin();
     apart(|| run(100, 100 + PAIRS));
-    mark_end();
     gauge.finish()
 }
 
@@ -78,9 +74,7 @@ where
     let mut gauge = Gauge::new(name, PAIRS, size_of::<Demodulator<S, 200>>());
     run(0, 100);
     gauge.start();
-    mark_begin();
     apart(|| run(100, 100 + PAIRS));
-    mark_end();
     gauge.finish()
 }
 
@@ -125,9 +119,7 @@ where
     // From cold to a tracked wave before the marks.
     run(0, 2_000);
     gauge.start();
-    mark_begin();
     apart(|| run(2_000, 2_000 + PAIRS));
-    mark_end();
     gauge.finish()
 }
 
@@ -159,13 +151,11 @@ where
     // One by one into this frame: what gathers an array would be deeper than the tracker.
     let blocks = [next(), next(), next(), next(), next()];
     gauge.start();
-    mark_begin();
     apart(|| {
         for block in &blocks {
             black_box(&tracker.push(block));
         }
     });
-    mark_end();
     gauge.finish()
 }
 
@@ -181,7 +171,6 @@ where
     let mut gauge = Gauge::new(name, PAIRS, size_of::<Front<S, 200>>());
     let mut at = 0;
     gauge.start();
-    mark_begin();
     apart(|| {
         while at < PAIRS {
             let pairs = codes.slice(at, HALF_BUFFER.min(PAIRS - at));
@@ -195,7 +184,6 @@ where
             }
         }
     });
-    mark_end();
     gauge.finish()
 }
 
@@ -263,9 +251,7 @@ where
     }
     let [pair] = *codes.slice(at, 1) else { leave() };
     gauge.start();
-    mark_begin();
     push_front(&mut front, pair);
-    mark_end();
     gauge.finish()
 }
 

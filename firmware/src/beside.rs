@@ -7,10 +7,9 @@ use antinode::methods::{DelayedSums, MomentSums};
 use antinode::{Packed, Sample, SamplePair};
 use idsp::{Accu, cossin};
 
-use crate::bench::{HALF_BUFFER, PAIRS, demodulator};
-use crate::codes::{Codes, PERIOD};
+use crate::bench::{PAIRS, demodulator};
+use crate::codes::{Codes, HALF_BUFFER, PERIOD};
 use crate::gauge::{Gauge, apart};
-use crate::marks::{mark_begin, mark_end};
 
 /// The four sums of (24) as one would write them with idsp: a phase accumulator, `cossin`, and products added in 64 bits.
 struct IdspSums {
@@ -47,12 +46,10 @@ pub fn idsp_sums(name: &'static str) -> ! {
     };
     let mut gauge = Gauge::new(name, PAIRS, size_of::<IdspSums>());
     gauge.start();
-    mark_begin();
     apart(|| {
         half_buffers(&codes, |pairs| kernel.extend(pairs));
         black_box(&kernel.sums);
     });
-    mark_end();
     gauge.finish()
 }
 
@@ -94,9 +91,7 @@ where
     // The first block makes the table.
     run(codes.slice(0, 100));
     gauge.start();
-    mark_begin();
     apart(|| half_buffers(&codes, run));
-    mark_end();
     gauge.finish()
 }
 
@@ -105,9 +100,7 @@ pub fn nothing(name: &'static str) -> ! {
     let codes = Codes::new();
     let mut gauge = Gauge::new(name, PAIRS, 0);
     gauge.start();
-    mark_begin();
     apart(|| half_buffers(&codes, |pairs| _ = black_box(pairs)));
-    mark_end();
     gauge.finish()
 }
 

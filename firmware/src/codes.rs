@@ -3,9 +3,12 @@
 use antinode::Packed;
 
 /// Length of the ring, in pairs: 75 periods in 1406 pairs are 18.747 samples a period, close to 5332 Hz at 100 kS/s.
-const RING: usize = 1406;
+pub const RING: usize = 1406;
 /// Periods in the ring.
 const PERIODS: u64 = 75;
+
+/// Pairs of a half-buffer.
+pub const HALF_BUFFER: usize = 128;
 
 /// Period of the wave, in samples.
 pub const PERIOD: f32 = RING as f32 / PERIODS as f32;
@@ -68,7 +71,7 @@ impl Codes {
                 Flaw::Noise => (c, d) = (noise[0] - 1024, noise[1] - 1024),
             }
             if !matches!(flaw, Flaw::Held) || k % 2 == 0 {
-                last = Packed(u32::from(c as u16) | u32::from(d as u16) << 16);
+                last = Packed::from([c, d]);
             }
             *pair = last;
         }

@@ -15,7 +15,7 @@ use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m::peripheral::{DWT, SYST};
 use cortex_m::register::msp;
 
-use crate::marks::leave;
+use crate::marks::{leave, mark_begin, mark_end};
 use crate::text::TextLine;
 
 /// What no frame is likely to leave in a word.
@@ -67,7 +67,7 @@ impl Gauge {
         }
     }
 
-    /// Begins to count: to be followed by `mark_begin`.
+    /// Begins to count, and marks where.
     #[inline(always)]
     pub fn start(&mut self) {
         if let Some(peripherals) = &mut self.peripherals {
@@ -75,6 +75,7 @@ impl Gauge {
             peripherals.SYST.has_wrapped();
         }
         self.began = self.count();
+        mark_begin();
     }
 
     /// How long `work` takes, in counts of whatever counts: to be compared with another.
@@ -90,9 +91,10 @@ impl Gauge {
         }
     }
 
-    /// Prints what was measured, after `mark_end`, and leaves.
+    /// Marks the end, prints what was measured, and leaves.
     #[inline(always)]
     pub fn finish(self) -> ! {
+        mark_end();
         let ended = self.count();
         // Before any larger frame, such as that of the report, spoils the paint.
         let depth = self.base.saturating_sub(deepest(self.base));

@@ -11,19 +11,16 @@ use heapless::spsc::Queue;
 use stm32f4xx_hal::pac::Peripherals;
 
 use crate::bench::PAIRS;
-use crate::codes::Codes;
+use crate::codes::{Codes, RING};
 use crate::counts::Counts;
 use crate::gather::Gatherer;
 use crate::gauge::Gauge;
 use crate::hardware::line::{By, Line};
-use crate::marks::{leave, mark_begin, mark_end};
+use crate::marks::leave;
 use crate::methods::AVAILABLE;
 use crate::pipeline::{Places, Queues};
 use crate::sampling::{DUAL_ADC_RAILS, Lapse, Ready, Source, both, is_at_rail_12};
 use crate::settings::{Arithmetic, HALF, QUEUE, REQUESTS, configuration};
-
-/// Pairs in the ring of codes.
-const RING: usize = 1406;
 
 /// Codes without end, half a ring of the DMA at a time.
 struct Endless {
@@ -94,9 +91,7 @@ fn measure(name: &'static str, state: usize, mut half: impl FnMut() -> usize) ->
     let mut gauge = Gauge::new(name, PAIRS, state);
     while half() < 10_000 {}
     gauge.start();
-    mark_begin();
     while half() < 10_000 + PAIRS {}
-    mark_end();
     gauge.finish()
 }
 

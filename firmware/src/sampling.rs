@@ -1,6 +1,6 @@
 //! The seam between converters and the pipeline: embedded-hal 1.0 has no trait for a converter, so this one is ours.
 
-use antinode::Packed;
+use antinode::{Packed, SamplePair};
 use antinode_telemetry::Cause;
 
 use crate::settings::HALF;
@@ -66,7 +66,7 @@ pub const fn has_slipped(triggers: u32, pairs: u32) -> bool {
 
 /// The pairs with one code on both channels, of each code.
 pub fn both([low, high]: [i16; 2]) -> [Packed; 2] {
-    [low, high].map(|code| Packed(u32::from(code as u16) * 0x0001_0001))
+    [low, high].map(|code| Packed::from([code; 2]))
 }
 
 /// Least and greatest code of the STM32F405's 12-bit converters.
@@ -85,9 +85,8 @@ pub fn is_at_rail_12(pair: Packed) -> bool {
 /// True for a pair with a code of [`AD7380_RAILS`].
 #[inline]
 pub fn is_at_rail_16(pair: Packed) -> bool {
-    [pair.0 as i16, (pair.0 >> 16) as i16]
-        .iter()
-        .any(|&code| code == i16::MIN || code == i16::MAX)
+    let codes: [i16; 2] = pair.pair();
+    codes.iter().any(|code| AD7380_RAILS.contains(code))
 }
 
 #[cfg(test)]

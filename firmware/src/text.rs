@@ -19,11 +19,13 @@ impl TextLine {
 
     /// Adds text.
     pub fn text(&mut self, text: &str) {
-        for &byte in text.as_bytes() {
-            if let Some(place) = self.bytes.get_mut(self.length) {
-                *place = byte;
-                self.length += 1;
-            }
+        text.bytes().for_each(|byte| self.byte(byte));
+    }
+
+    fn byte(&mut self, byte: u8) {
+        if let Some(place) = self.bytes.get_mut(self.length) {
+            *place = byte;
+            self.length += 1;
         }
     }
 
@@ -32,11 +34,7 @@ impl TextLine {
         if number >= 10 {
             self.number(number / 10);
         }
-        let digit = b'0' + (number % 10) as u8;
-        if let Some(place) = self.bytes.get_mut(self.length) {
-            *place = digit;
-            self.length += 1;
-        }
+        self.byte(b'0' + (number % 10) as u8);
     }
 
     /// Adds ` name=number`.

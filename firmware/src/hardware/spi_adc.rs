@@ -56,9 +56,6 @@ pub struct SpiAdc {
     timer: TIM1,
 }
 
-/// The AD7380 does not answer, or not as it was told.
-pub type StartError = ad7380::Error<ErrorKind>;
-
 impl SpiAdc {
     /// Configures the chip and starts sampling into `memory`; CS must be high.
     ///
@@ -74,7 +71,7 @@ impl SpiAdc {
         _: Pins,
         mut cs: PA8<Output>,
         (rcc, system): (&RCC, &SYSCFG),
-    ) -> Result<Sampler<Self>, StartError> {
+    ) -> Result<Sampler<Self>, ad7380::Error<ErrorKind>> {
         // AHB1ENR, APB2ENR: the clocks of all of them.
         rcc.ahb1enr().modify(|_, w| w.dma2en().set_bit());
         rcc.apb2enr()

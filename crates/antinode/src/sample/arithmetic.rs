@@ -56,10 +56,14 @@ pub trait Arithmetic: Zero {
         index: u16,
     ) where
         Self: Sample;
-    /// The longest runs at the extremes, low and high: 1 where they are not counted.
-    fn runs(watch: &ChannelWatch<Self>) -> [u16; 2]
+    /// The longest runs at the extremes, low and high: 1 where they are not counted, as of codes.
+    #[inline(always)]
+    fn runs(_: &ChannelWatch<Self>) -> [u16; 2]
     where
-        Self: Sample;
+        Self: Sample,
+    {
+        [1; 2]
+    }
 
     /// Offsets in input units, to be taken off by [`centred`](Self::centred).
     fn offsets(offsets: [f32; 2]) -> Self::Centred;

@@ -1,7 +1,7 @@
 //! Arithmetic at sample rate on 16-bit codes: two products an instruction where the core has them, sums in 32 bits.
 
 use super::codes;
-use super::{Arithmetic, Form, SamplePair};
+use super::{Arithmetic, Form, Packed, SamplePair};
 use crate::arch;
 use crate::block::{ChannelSums, ChannelWatch, Reference};
 use crate::period::Lags;
@@ -9,13 +9,7 @@ use crate::period::Lags;
 /// Two 16-bit halves as a word.
 #[inline(always)]
 fn word(pair: [i16; 2]) -> u32 {
-    u32::from(pair[0] as u16) | u32::from(pair[1] as u16) << 16
-}
-
-/// The pair of a word.
-#[inline(always)]
-fn pair(word: u32) -> [i16; 2] {
-    [word as i16, (word >> 16) as i16]
+    Packed::from(pair).0
 }
 
 /// Puts the weights of sample `index` into a table: cosines of two samples in the even places, their sines in the odd ones.
@@ -24,7 +18,7 @@ fn set_weight(table: &mut [u32], index: usize, weight: [f32; 2]) {
     let [cosine, sine] = weight.map(|value| value as i16);
     if let Some([cosines, sines, ..]) = table.get_mut(index & !1..) {
         let set = |two: u32, value: i16| {
-            let [low, high] = pair(two);
+            let [low, high] = two.pair();
             if index.is_multiple_of(2) {
                 word([value, high])
             } else {
@@ -58,11 +52,6 @@ impl Arithmetic for i16 {
     #[inline(always)]
     fn sum_to_f32(sum: i32) -> f32 {
         sum as f32
-    }
-
-    #[inline(always)]
-    fn runs(_: &ChannelWatch<Self>) -> [u16; 2] {
-        [1; 2]
     }
 
     fn scale(length: u16) -> u16 {
@@ -132,7 +121,7 @@ impl Arithmetic for i16 {
 
     #[inline(always)]
     fn mean(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
-        pair(arch::half_sum(word(a), word(b)))
+        arch::half_sum(word(a), word(b)).pair()
     }
 
     #[inline(always)]

@@ -36,11 +36,6 @@ impl Arithmetic for i32 {
         sum as f32
     }
 
-    #[inline(always)]
-    fn runs(_: &ChannelWatch<Self>) -> [u16; 2] {
-        [1; 2]
-    }
-
     fn scale(_: u16) -> u16 {
         i16::MAX as u16
     }

@@ -125,6 +125,7 @@ pub struct Packed(pub u32);
 
 impl From<[i16; 2]> for Packed {
     /// S_C and S_D in one word.
+    #[inline(always)]
     fn from([c, d]: [i16; 2]) -> Self {
         Self(u32::from(c as u16) | u32::from(d as u16) << 16)
     }

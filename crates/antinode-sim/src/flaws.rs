@@ -149,4 +149,61 @@ impl Flaws {
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_number_has_its_range() {
+        assert_eq!(Flaws::default().check(), Ok(()));
+        let wrong: [(fn(&mut Flaws), _); 17] = [
+            (|f| f.noise = -1e-9, "noise"),
+            (|f| f.coloured_noise = -1e-9, "coloured_noise"),
+            (|f| f.coloured_corner = 0.0, "coloured_corner"),
+            (|f| f.jitter = f64::NAN, "jitter"),
+            (|f| f.offset_c = f64::INFINITY, "offset_c"),
+            (|f| f.offset_d = f64::NAN, "offset_d"),
+            (|f| f.hum = f64::NAN, "hum"),
+            (|f| f.hum_frequency = f64::INFINITY, "hum_frequency"),
+            (|f| f.skew = f64::NAN, "skew"),
+            (|f| f.pick_off_angle = f64::NAN, "pick_off_angle"),
+            (|f| f.cubic = f64::NAN, "cubic"),
+            (|f| f.gain_ratio = 0.0, "gain_ratio"),
+            (|f| f.clip = Some(0.0), "clip"),
+            (
+                |f| {
+                    f.clip_spans = vec![ClipSpan {
+                        from: 0.0,
+                        to: 1.0,
+                        level: -1.0,
+                    }];
+                },
+                "level of clip_spans",
+            ),
+            (|f| f.bits = Some(16), "full_scale"),
+            (|f| (f.bits, f.full_scale) = (Some(33), 1.0), "bits"),
+            (|f| (f.bits, f.full_scale) = (Some(1), 1.0), "bits"),
+        ];
+        for (set, field) in wrong {
+            let mut flaws = Flaws::default();
+            set(&mut flaws);
+            match flaws.check() {
+                Err(Error::OutOfRange { what, .. }) => assert_eq!(what, field),
+                other => panic!("{field}: {other:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn the_step_of_the_adc() {
+        assert_eq!(
+            Flaws {
+                bits: Some(16),
+                full_scale: 2.0,
+                ..Flaws::default()
+            }
+            .lsb(),
+            Some(2.0 / 32768.0)
+        );
+        assert_eq!(Flaws::default().lsb(), None);
+    }
+}

@@ -260,66 +260,35 @@ mod tests {
 
     #[test]
     fn what_is_no_wave_is_refused() {
-        let check = |wave: Wave| wave.check();
-        assert!(
-            check(Wave {
-                main_amplitude: 0.0,
-                ..Wave::default()
-            })
-            .is_err()
-        );
-        assert!(
-            check(Wave {
-                frequency: f64::NAN,
-                ..Wave::default()
-            })
-            .is_err()
-        );
-        assert!(
-            check(Wave {
-                angle_rate: f64::INFINITY,
-                ..Wave::default()
-            })
-            .is_err()
-        );
-        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let set: [fn(&mut Wave, f64); 4] = [
-                |wave, value| wave.damping_split = value,
-                |wave, value| wave.damping_angle = value,
-                |wave, value| wave.frequency_split = value,
-                |wave, value| wave.frequency_angle = value,
-            ];
-            for set in set {
-                let mut wave = Wave::default();
-                set(&mut wave, value);
-                assert!(wave.check().is_err(), "{wave:?}");
+        let check = |set: fn(&mut Wave, f64), value| {
+            let mut wave = Wave::default();
+            set(&mut wave, value);
+            wave.check()
+        };
+        assert!(check(|wave, value| wave.main_amplitude = value, 0.0).is_err());
+        let any: [fn(&mut Wave, f64); 6] = [
+            |wave, value| wave.frequency = value,
+            |wave, value| wave.angle_rate = value,
+            |wave, value| wave.damping_split = value,
+            |wave, value| wave.damping_angle = value,
+            |wave, value| wave.frequency_split = value,
+            |wave, value| wave.frequency_angle = value,
+        ];
+        for (i, set) in any.into_iter().enumerate() {
+            for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                assert!(check(set, value).is_err(), "{i}: {value}");
             }
         }
-        for (split, is_right) in [
-            (533.0, true),
-            (-533.0, true),
-            (534.0, false),
-            (-534.0, false),
-        ] {
-            let wave = Wave {
-                frequency_split: split,
-                ..Wave::default()
-            };
-            assert_eq!(wave.check().is_ok(), is_right, "{split}");
+        // Within a tenth of the frequency, and no larger than the main wave.
+        for (split, is_right) in [(533.0, true), (534.0, false)] {
+            for split in [split, -split] {
+                let checked = check(|wave, value| wave.frequency_split = value, split);
+                assert_eq!(checked.is_ok(), is_right, "{split}");
+            }
         }
-        assert!(
-            check(Wave {
-                quadrature_amplitude: -2.1,
-                ..Wave::default()
-            })
-            .is_err()
-        );
-        assert!(
-            check(Wave {
-                quadrature_amplitude: -2.0,
-                ..Wave::default()
-            })
-            .is_ok()
-        );
+        for (quadrature, is_right) in [(-2.0, true), (-2.1, false)] {
+            let checked = check(|wave, value| wave.quadrature_amplitude = value, quadrature);
+            assert_eq!(checked.is_ok(), is_right, "{quadrature}");
+        }
     }
 }

@@ -260,54 +260,35 @@ fn what_cannot_be_is_refused() {
     assert_eq!(new(two(None, Some(Channel::D)), RATE), overlap);
     assert_eq!(new(two(Some(Channel::C), Some(Channel::C)), RATE), overlap);
     assert_eq!(new(two(Some(Channel::C), Some(Channel::D)), RATE), None);
+    let no_wave = Wave {
+        main_amplitude: -1.0,
+        ..Wave::default()
+    };
     assert!(matches!(
-        Gyro::new(
-            Wave {
-                main_amplitude: -1.0,
-                ..Wave::default()
-            },
-            Flaws::default(),
-            RATE,
-            0
-        ),
+        Gyro::new(no_wave, Flaws::default(), RATE, 0),
         Err(Error::OutOfRange {
             what: "main_amplitude",
             ..
         })
     ));
-    let two = [(0.0, 2.0), (1.0, 3.0)].map(|(from, to)| ClipSpan {
-        from,
-        to,
-        level: 1.0,
-    });
+    let clipped = |spans: &[(f64, f64)]| Flaws {
+        clip_spans: spans
+            .iter()
+            .map(|&(from, to)| ClipSpan {
+                from,
+                to,
+                level: 1.0,
+            })
+            .collect(),
+        ..Flaws::default()
+    };
+    let overlap = Error::Overlap {
+        what: "clip_spans",
+        index: 100_000,
+    };
+    assert_eq!(new(clipped(&[(0.0, 2.0), (1.0, 3.0)]), RATE), Some(overlap));
     assert_eq!(
-        new(
-            Flaws {
-                clip_spans: two.to_vec(),
-                ..Flaws::default()
-            },
-            RATE
-        ),
-        Some(Error::Overlap {
-            what: "clip_spans",
-            index: 100_000
-        })
-    );
-    let spans = vec![ClipSpan {
-        from: 1.0,
-        to: 1.0,
-        level: 1.0,
-    }];
-    let error = new(
-        Flaws {
-            clip_spans: spans,
-            ..Flaws::default()
-        },
-        RATE,
-    )
-    .unwrap();
-    assert_eq!(
-        error.to_string(),
+        new(clipped(&[(1.0, 1.0)]), RATE).unwrap().to_string(),
         "one of clip_spans goes from 1 s to 1 s: it must end after it begins, and both ends must be finite"
     );
 }

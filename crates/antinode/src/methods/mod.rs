@@ -77,6 +77,6 @@ mod wave;
 
 pub use delayed::{Delayed, DelayedSums};
 pub use moments::{MomentSums, Moments};
-pub use products::{Products, mean_harmonic};
+pub use products::Products;
 pub use ratio::Ratio;
 pub use wave::{Shape, Wave};

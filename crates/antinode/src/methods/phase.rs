@@ -20,7 +20,7 @@ pub fn align(shape: &Shape, products: &Products) -> Wave {
 }
 
 /// Of α and α + π the one that makes the main wave a_A cos(ωt − α) with a_A > 0, (5): the one of smaller J.
-pub fn resolve_half_period(wave: Wave, products: &Products) -> Wave {
+pub(super) fn resolve_half_period(wave: Wave, products: &Products) -> Wave {
     let (s2, c2) = libm::sincos(2.0 * wave.shape.angle);
     let (cosine, sine) = products.along(c2, s2);
     let (s, c) = libm::sincos(wave.phase);

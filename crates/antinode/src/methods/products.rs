@@ -157,7 +157,7 @@ impl Weights {
 }
 
 /// ⟨e^{−jmωt}⟩ over `count` samples from t = 0, ω in rad a sample: the Dirichlet sum whose smallness for m = 2 is condition (8).
-pub fn mean_harmonic(m: u32, omega: f64, count: u32) -> Complex64 {
+pub(super) fn mean_harmonic(m: u32, omega: f64, count: u32) -> Complex64 {
     let half = 0.5 * f64::from(m) * omega;
     let n = f64::from(count);
     let below = libm::sin(half);

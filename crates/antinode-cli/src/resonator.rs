@@ -201,6 +201,10 @@ fn tell_of_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<
             ByEnergy::Beside(_) => {
                 "; the deviation of what goes with a_A² + a_B² allows for a drift with time".to_owned()
             }
+            ByEnergy::Denied => {
+                "; what goes with a_A² + a_B² is not told: if the shell's stiffness made it, a_A·a_B would turn the patterns otherwise than it does"
+                    .to_owned()
+            }
             ByEnergy::Untold => {
                 "; the rows do not tell what goes with a_A² + a_B² from a drift with time: let the wave ring down further".to_owned()
             }

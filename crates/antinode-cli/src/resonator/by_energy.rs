@@ -2,7 +2,8 @@
 //!
 //! So each run gets powers of time of its own, and the energy what these leave: a straight line where no drift is seen, for a slow one would
 //! not be, and as many powers as are seen where one is, two at least. What powers beyond those would still take off is not noise, and
-//! widens the deviation. Only where the turning of patterns by their amplitudes says the same, all that goes with the energy is the energy's.
+//! widens the deviation. Only where the turning of patterns by their amplitudes says the same, all that goes with the energy is the energy's;
+//! where it says another, or that there is none, the energy's part is not told: a temperature that settles may fall just as the energy does.
 
 use super::ALIKE_SEEN;
 use super::found::Measured;
@@ -12,7 +13,7 @@ const UNSEEN_POWER: usize = 1;
 const LEAST_POWER: usize = 2;
 const MOST_POWER: usize = 6;
 const POWERS: usize = 8;
-/// Deviations by which it may differ from what the turning says.
+/// Deviations by which it may differ from what the turning says, seen or not.
 const AGREES: f64 = 3.0;
 /// Deviations by which the squares that terms take off are more than chance makes them.
 const SEEN: f64 = 2.0;
@@ -41,6 +42,8 @@ pub enum ByEnergy {
     Beside(Measured),
     /// It may be a drift.
     Untold,
+    /// It is one, or of another cause: by the turning of patterns it would be another.
+    Denied,
 }
 
 impl ByEnergy {
@@ -48,7 +51,7 @@ impl ByEnergy {
     pub fn told(self) -> Option<Measured> {
         match self {
             Self::Alone(by, _) | Self::Beside(by) => Some(by),
-            Self::Chance | Self::Untold => None,
+            Self::Chance | Self::Untold | Self::Denied => None,
         }
     }
 }
@@ -74,8 +77,11 @@ pub fn by_energy(
     };
     let is_drift = is_more(&alone, LEAST_POWER, (LEAST_POWER + 1) * count - 1);
     let (value, std) = alone.measured(scatter(&alone, 2));
-    let agrees = |(said, of_said): Measured| (value - said).abs() < AGREES * std.hypot(of_said);
-    if !is_drift && by_turning.is_some_and(agrees) {
+    let is_turned = by_turning.is_some_and(|(said, of_said)| said.abs() > SEEN * of_said);
+    let is_denied = |(value, std): Measured| {
+        by_turning.is_some_and(|(said, of_said)| (value - said).abs() > AGREES * std.hypot(of_said))
+    };
+    if !is_drift && is_turned && !is_denied((value, std)) {
         return ByEnergy::Alone((value, std), std / of_drift.abs());
     }
     let mut powers = LEAST_POWER..=MOST_POWER;
@@ -87,7 +93,12 @@ pub fn by_energy(
     let slow = slow / ((POWERS - power) * count) as f64;
     let widened = scatter(&beside[power], (power + 1) * count + 1).max(slow);
     if beside[power].is_seen(widened) {
-        ByEnergy::Beside(beside[power].measured(widened))
+        let by_energy = beside[power].measured(widened);
+        if is_denied(by_energy) {
+            ByEnergy::Denied
+        } else {
+            ByEnergy::Beside(by_energy)
+        }
     } else {
         ByEnergy::Untold
     }

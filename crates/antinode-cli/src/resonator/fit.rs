@@ -65,8 +65,11 @@ fn steady(runs: &[Run]) -> Result<Found, Unsettled> {
         is_told(&shared.covariance, &shared, each.as_ref().ok()).then_some(shared)
     };
     // As an unknown that is nothing it would leave less known of all others: of rotation above all, which quadrature that stays is like.
-    let nonlinear = told(Model::Nonlinear).filter(Found::is_nonlinear);
-    nonlinear.or_else(|| told(Model::Shared)).map_or(each, Ok)
+    let nonlinear = told(Model::Nonlinear);
+    let turning = nonlinear.as_ref().and_then(Found::turning_by_amplitudes);
+    let linear = || told(Model::Shared).map(|shared| shared.with_unseen(turning));
+    let nonlinear = nonlinear.filter(Found::is_nonlinear);
+    nonlinear.or_else(linear).map_or(each, Ok)
 }
 
 /// Where patterns are turned as it happens.
@@ -276,6 +279,7 @@ impl Normal {
             values,
             count: self.count,
             of_runs: self.of_runs,
+            unseen_turning: None,
         })
     }
 }

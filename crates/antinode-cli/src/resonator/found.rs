@@ -32,6 +32,8 @@ pub struct Found {
     /// Numbers of the rows that are explained: a_A and a_B, and θ but where patterns are turned as it happens.
     pub count: f64,
     pub(super) of_runs: Vec<OfRun>,
+    /// What a_A a_B turns a pattern by, as it would be an unknown, where it is none for it is not seen.
+    pub(super) unseen_turning: Option<Measured>,
 }
 
 /// What was found of a run.
@@ -55,6 +57,8 @@ pub type Measured = (f64, f64);
 pub struct Moved {
     /// What the splits add to it, rad/s, as [`Found::splits`] takes it; nothing where they are not told.
     pub by_splits: [f64; 4],
+    /// The same, on average since the row before, by Simpson's rule.
+    pub by_splits_since: [f64; 4],
     /// By how much what the turning of the pattern makes of it differs from what it made of the row before, rad/s.
     pub change: f64,
 }
@@ -162,9 +166,19 @@ impl Found {
         less > chance || other.is_alike() && !self.is_alike()
     }
 
-    /// What a_A a_B of one input unit squared turns a pattern by, rad/s, where it is an unknown.
+    /// What a_A a_B of one input unit squared turns a pattern by, rad/s, seen or not, where the rows tell it.
     pub(super) fn turning_by_amplitudes(&self) -> Option<Measured> {
-        (self.model == Model::Nonlinear).then(|| self.sum(&[(Model::GAMMA, -1.0)]))
+        if self.model == Model::Nonlinear {
+            Some(self.sum(&[(Model::GAMMA, -1.0)]))
+        } else {
+            self.unseen_turning
+        }
+    }
+
+    /// With what amplitudes would turn a pattern by, where that is not seen.
+    pub(super) fn with_unseen(mut self, turning: Option<Measured>) -> Self {
+        self.unseen_turning = turning;
+        self
     }
 
     /// The same where it would be told if nothing else moved.
@@ -192,17 +206,21 @@ impl Found {
             let mut motion = self.model.motion(run, &terms, &self.values);
             let mut last = &run.rows[0];
             let mut before = motion.frequency_by_turning();
+            let mut by_splits_before = motion.frequency_by_splits(0.0);
             for row in &run.rows {
                 self.model.advance(&mut motion, last, row);
+                let half_back = 0.5 * (last.time - row.time);
                 last = row;
                 let by_turning = motion.frequency_by_turning();
-                let by_splits = if self.model.is_shared() {
-                    motion.frequency_by_splits()
-                } else {
-                    [0.0; 4]
-                };
+                let by_splits = motion.frequency_by_splits(0.0);
+                let between = motion.frequency_by_splits(half_back);
+                let by_splits_since = std::array::from_fn(|i| {
+                    (by_splits_before[i] + 4.0 * between[i] + by_splits[i]) / 6.0
+                });
+                by_splits_before = by_splits;
                 list.push(Moved {
                     by_splits,
+                    by_splits_since,
                     change: by_turning - std::mem::replace(&mut before, by_turning),
                 });
             }

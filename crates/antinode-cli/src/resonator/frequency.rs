@@ -40,6 +40,7 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
         let told = Told {
             row,
             by_splits: found.splits(&moved.by_splits).0 / TAU,
+            by_splits_since: found.splits(&moved.by_splits_since).0 / TAU,
             weight: if is_told {
                 row.frequency_deviation.hypot(moved.change / TAU).powi(-2)
             } else {
@@ -98,7 +99,9 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
         drifts: drifts.iter().map(|drift| drift.slope).collect(),
         by_energy: if is_along {
             // θ turns by −γ a_A a_B, and the frequency rises by 3γ (a_A² + a_B²) rad/s.
+            // Flaws of pick-offs look like it, and differ from the motion beyond noise.
             let by_turning = found.turning_by_amplitudes();
+            let by_turning = by_turning.filter(|_| !found.is_beyond_noise());
             let by_turning =
                 by_turning.map(|(turning, std)| (-3.0 * turning / TAU, 3.0 * std / TAU));
             by_energy(&runs, beside, is_told, by_turning)

@@ -222,10 +222,11 @@ impl Motion {
         [state[1] / state[0], state[2] / state[0]]
     }
 
-    /// What one rad/s of δ c_τ, δ s_τ, Δω c_ω and Δω s_ω adds to the frequency now, rad/s:
+    /// What one rad/s of δ c_τ, δ s_τ, Δω c_ω and Δω s_ω adds to the frequency in so many seconds, rad/s:
     /// it is ½ Δω cos 4(θ−θ_ω) E/D − ½ δ sin 4(θ−θ_τ) Q/D.
-    pub fn frequency_by_splits(&self) -> [f64; 4] {
-        let [e, r, s, q] = self.columns.column(0).into_owned().into();
+    pub fn frequency_by_splits(&self, seconds: f64) -> [f64; 4] {
+        let now = self.columns.column(0).into_owned();
+        let [e, r, s, q] = self.moved(now, seconds, |state| self.slope(state)).into();
         let apart = r * r + s * s;
         [-q * s, q * r, e * r, e * s]
             .map(|product: f64| 0.5 * product / apart.max(f64::MIN_POSITIVE))

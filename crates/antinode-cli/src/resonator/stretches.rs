@@ -15,6 +15,8 @@ pub struct Told<'a> {
     pub row: &'a Row,
     /// What splits make of it, Hz.
     pub by_splits: f64,
+    /// The same, on average since the row before.
+    pub by_splits_since: f64,
     /// One over the variance of the frequency, 1/Hz².
     pub weight: f64,
 }
@@ -80,7 +82,7 @@ impl<'a> Stretch<'a> {
         let since = mean(|told| told.row.time) - first.row.time;
         let [all, energy, time] = self.run[self.run.len() - 1];
         self.run.push([
-            all + turns - mean(|told| told.by_splits) * seconds,
+            all + turns - next.by_splits_since * seconds,
             energy + mean(|told| told.energy()) * seconds,
             time + since * seconds,
         ]);
@@ -168,6 +170,7 @@ mod tests {
         let told = rows.iter().map(|row| Told {
             row,
             by_splits: 0.02,
+            by_splits_since: 0.02,
             weight,
         });
         told.collect()

@@ -89,9 +89,20 @@ fn what_the_turning_of_patterns_says_leaves_no_drift_but_one_that_is_seen() {
     };
     assert!(((moved - value).abs() / std - 1.0).abs() < 1e-6);
     assert!((1e-7..1e-5).contains(&hidden), "{hidden}");
-    for (drift, said) in [(0.0, 0.34), (1e-4, 0.3)] {
-        assert!(matches!(of(drift, said), ByEnergy::Beside(_)), "{drift}");
-    }
+    assert!(matches!(of(1e-4, 0.3), ByEnergy::Beside(_)));
+    assert_eq!(of(0.0, 0.34), ByEnergy::Denied);
+}
+
+#[test]
+fn a_temperature_that_settles_as_the_energy_falls_is_not_taken_for_the_energy_where_patterns_do_not_turn()
+ {
+    let settling = |_, time: f64| 0.02 * (-time / 10.0).exp();
+    let runs = runs(0.05, 0.0, settling, 3);
+    let of = |by_turning| found(&runs, true, by_turning);
+    // Nothing else tells them apart.
+    assert!(matches!(of(None), ByEnergy::Beside(_)));
+    assert!(matches!(of(Some((0.01, 0.5))), ByEnergy::Beside(_)));
+    assert_eq!(of(Some((1e-3, 1e-3))), ByEnergy::Denied);
 }
 
 #[test]

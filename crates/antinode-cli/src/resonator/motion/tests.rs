@@ -242,7 +242,7 @@ fn the_splits_move_the_frequency_as_they_turn_the_phase() {
         (of(slope) / of(wave)).im
     };
     let expected = 0.5 * (rate(1.0) + rate(-1.0));
-    let by = motion.frequency_by_splits();
+    let by = motion.frequency_by_splits(0.0);
     let found: f64 = by
         .iter()
         .zip([dc, ds, wc, ws])

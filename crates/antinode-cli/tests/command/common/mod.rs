@@ -34,8 +34,9 @@ pub fn run(directory: &Path, arguments: &str) -> Run {
 /// Sends a signal, such as `-INT`, which is Ctrl-C, to a command that runs.
 #[cfg(unix)]
 pub fn send(signal: &str, child: &Child) {
-    let sent = process::Command::new("kill")
-        .args([signal, &child.id().to_string()])
+    // The shell's own: a minimal system has no program of that name.
+    let sent = process::Command::new("sh")
+        .args(["-c", "kill \"$0\" \"$1\"", signal, &child.id().to_string()])
         .status();
     assert!(sent.unwrap().success());
 }

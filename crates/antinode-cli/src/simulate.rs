@@ -69,7 +69,8 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     // Written before the samples: what cannot be is found at once, and not after a long recording.
     let beside_whole = WholeFile::text(&beside, &(text + "\n"))?;
     let mut beyond = 0u64;
-    for pair in gyro.take(pairs as usize) {
+    // Counted in 64 bits: a processor of 32 bits can write as many.
+    for (_, pair) in (0..pairs).zip(gyro) {
         if interrupted.load(Ordering::Relaxed) {
             let file = options.out.display().to_string();
             return Err(Failure::Interrupted { file });

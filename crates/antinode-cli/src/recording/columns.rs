@@ -239,7 +239,9 @@ fn role(name: &str) -> Option<Role> {
         .collect();
     match bare.as_str() {
         "t" | "time" | "times" | "ts" | "s" | "sec" | "second" | "seconds" | "timestamp"
-        | "timems" | "timeus" | "timens" | "tms" | "tus" | "tns" => Some(Role::Time),
+        | "timems" | "timeus" | "timens" | "tms" | "tus" | "tns" | "millis" | "micros" => {
+            Some(Role::Time)
+        }
         "c" | "sc" | "left" => Some(Role::ALL[1]),
         "d" | "sd" | "right" => Some(Role::ALL[2]),
         _ => None,

@@ -3,13 +3,17 @@
 //! Settings are skipped only where no number can be lost: lines of numbers in the same columns follow, and no line that is skipped has
 //! numbers in all of these, or begins with one. A first line that lacks its beginning is skipped too, and told.
 
+mod clock;
 mod cut;
+mod titles;
+
+use clock::{UNBENT, UNEVEN, is_clock};
 
 use super::header::lossy;
 use super::heading::is_header;
 use super::no_number::stand_in;
 use super::sequence::Sequence;
-use super::text::{fields, is_number, is_skipped, number, separator};
+use super::text::{fields, is_number, is_skipped, separator};
 use super::units::{self, bare, time_exponent};
 use super::{columns, signal_units};
 
@@ -24,12 +28,6 @@ const MOST_BYTES: usize = 4 << 20;
 
 /// So many settings without names below them are surely no samples.
 const FEWEST_LABELS: usize = 4;
-
-/// How far the longest step of a time may exceed the shortest, which rounding makes uneven.
-const UNEVEN: f64 = 1.5;
-
-/// The same where nothing else speaks for a time: a wave bends more within these lines, at 1024 samples a period too.
-const UNBENT: f64 = 1.0001;
 
 /// Where to read from, and what was seen on the way.
 #[derive(Debug, Default, PartialEq)]
@@ -173,16 +171,17 @@ fn start(lines: &[Line], numbers: Vec<usize>, separator: u8) -> Option<Start> {
     let (settings, rest) = lines.split_at(first);
     let header = &rest[..rows - first];
     let are_surely = are_labels(settings);
+    let is_title = |line: &Line| titles::is_title(line, &lines[rows..], separator);
     // A first line that may be the names stays it.
     let is_header_lost = settings.first().is_some_and(|line| {
-        let is_other = are_surely || header.first().is_some_and(has_role);
+        let is_other = are_surely || is_title(line) || header.first().is_some_and(has_role);
         line.fields.len() >= width && (has_role(line) || !is_other)
     });
     // Names over all of these columns divide settings from samples, of which neither is the other then.
     let is_divided = header.first().is_some_and(is_named);
     let is_safe = |line: &Line| lead(line).is_none_or(is_word) && (is_divided || !is_row(line));
-    let are_safe =
-        settings.iter().all(is_safe) && (settings.is_empty() || !header.is_empty() || are_surely);
+    let are_told = !header.is_empty() || are_surely || settings.iter().all(is_title);
+    let are_safe = settings.iter().all(is_safe) && (settings.is_empty() || are_told);
     let fields: Vec<&[&[u8]]> = lines[..rows].iter().map(|line| &line.fields[..]).collect();
     (are_safe && !is_header_lost).then(|| Start {
         lines: lines[first].before,
@@ -218,15 +217,18 @@ fn names(lines: &[Line], rows: usize, width: usize, separator: u8) -> usize {
     // Words that are too few are told of as a header, for they may be one over numbers that are cut in two.
     // Among labels it is one more of them.
     let is_label = line.fields.len() < width && are_labels(&lines[..rows]);
+    let is_title = |line: &Line| titles::is_title(line, &lines[rows..], separator);
     let is_number = |field: &&[u8]| is_number(field, separator);
     let are_words = line.fields.len() > 1 && !line.fields.iter().any(is_number) && !is_label;
     let mut words = line
         .text
         .split(|byte| b",;\t ".contains(byte))
         .filter_map(|word| str::from_utf8(word.trim_ascii()).ok());
-    // Names between other marks than the numbers are no title.
+    // Names between other marks than the numbers are no title, but those in a sentence are: `Length processed: 4000 samples 0.04 seconds.`
     let are_names = if line.fields.len() == 1 {
-        words.any(columns::is_known)
+        words.any(columns::is_known) && !line.text.trim_ascii_end().ends_with(b".")
+    } else if is_title(line) {
+        false
     } else {
         // A first line is what it always was.
         above == 0 || are_words || line.fields.len() >= width && has_role(line)
@@ -238,6 +240,7 @@ fn names(lines: &[Line], rows: usize, width: usize, separator: u8) -> usize {
             .collect();
         let over = &lines[above - 1];
         over.fields.len() >= width
+            && !is_title(over)
             && is_header(over.text, &below, separator)
             && are_units(line, width, above == 1, separator)
     };
@@ -269,19 +272,6 @@ fn are_units(line: &Line, width: usize, is_second: bool, separator: u8) -> bool 
     let is_wide = line.fields.len() >= width || is_second;
     units::are_units(&texts, separator)
         && (texts.iter().any(is_surely) || is_wide && !has_role(line))
-}
-
-/// Whether a column goes up by the same step from each of these lines to the next.
-fn is_clock(rows: &[Line], column: usize, separator: u8, uneven: f64) -> bool {
-    let time = |line: &Line| number::<f64>(line.fields.get(column)?, separator);
-    let times: Option<Vec<f64>> = rows.iter().map(time).collect();
-    let Some(times) = times else { return false };
-    let steps = || times.windows(2).map(|pair| pair[1] - pair[0]);
-    let (least, most) = (
-        steps().fold(f64::INFINITY, f64::min),
-        steps().fold(0.0, f64::max),
-    );
-    least > 0.0 && most <= uneven * least
 }
 
 /// The unit that a line of settings tells of the time.

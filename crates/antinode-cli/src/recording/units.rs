@@ -9,11 +9,10 @@ pub(super) fn time_exponent(unit: &str) -> Option<Option<i32>> {
     match bare(unit).to_lowercase().as_str() {
         "s" | "sec" | "secs" | "second" | "seconds" | "sekunde" | "sekunden" | "с" | "сек"
         | "秒" => Some(Some(0)),
-        "ms" | "timems" | "tms" | "msec" | "millisecond" | "milliseconds" | "мс" | "毫秒" => {
-            Some(Some(-3))
-        }
+        "ms" | "timems" | "tms" | "msec" | "millis" | "millisecond" | "milliseconds" | "мс"
+        | "毫秒" => Some(Some(-3)),
         // Both letters of Unicode, and what is left of a µ in an older code.
-        "us" | "µs" | "μs" | "\u{fffd}s" | "timeus" | "tus" | "usec" | "microsecond"
+        "us" | "µs" | "μs" | "\u{fffd}s" | "timeus" | "tus" | "usec" | "micros" | "microsecond"
         | "microseconds" | "мкс" | "微秒" => Some(Some(-6)),
         "ns" | "timens" | "tns" | "nsec" | "nanosecond" | "nanoseconds" | "нс" | "纳秒" => {
             Some(Some(-9))
@@ -103,6 +102,8 @@ mod tests {
             ("us", Some(Some(-6))),
             ("NS", Some(Some(-9))),
             ("毫秒", Some(Some(-3))),
+            ("millis", Some(Some(-3))),
+            ("micros", Some(Some(-6))),
             ("min", Some(None)),
             ("Minuten", Some(None)),
             ("V", None),

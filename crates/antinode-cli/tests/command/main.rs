@@ -46,5 +46,6 @@ mod text_preambles;
 mod text_rigol;
 mod text_scopes;
 mod text_time;
+mod text_titles;
 mod text_units;
 mod watched;

@@ -219,6 +219,7 @@ impl FirstLine<'_> {
             _ if self.are_rows() => Err(LineFault::Rows),
             _ => Err(LineFault::ColumnCount {
                 found: columns.len(),
+                are_words: self.names.is_some() && self.start.numbers.is_empty(),
             }),
         }
     }

@@ -71,7 +71,8 @@ impl Header {
         };
         let places = if counted.is_some() && !is_timed && chosen.is_none() && columns != 2 {
             // None of these is a time.
-            Err(LineFault::ColumnCount { found: columns })
+            let (found, are_words) = (columns, false);
+            Err(LineFault::ColumnCount { found, are_words })
         } else {
             line.places(chosen)
         };

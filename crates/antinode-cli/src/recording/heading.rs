@@ -1,5 +1,6 @@
 //! Whether the first line of a text recording holds names or samples.
 
+use super::forms::are_alike;
 use super::no_number::stand_in;
 use super::text::{self, fields, number};
 
@@ -19,8 +20,13 @@ pub(super) fn is_header(first: &[u8], next: &[u8], separator: u8) -> bool {
         .collect();
     let is_number = |field: &[u8]| text::is_number(field, separator);
     if !names.iter().any(|name| is_number(name)) {
-        // A recording may begin with samples that are out of range.
-        return !names.iter().all(|name| stand_in(name).is_some());
+        // A recording may begin with samples that are out of range, and nothing is named as a sample is written.
+        let is_sample = |(place, name): (usize, &&[u8])| {
+            let below = rows.first().and_then(|row| row.get(place));
+            below.is_some_and(|below| !is_number(below) && are_alike(name, below))
+        };
+        return !names.iter().all(|name| stand_in(name).is_some())
+            && !names.iter().enumerate().any(is_sample);
     }
     let is_above_numbers = |place: usize| {
         let mut below = rows.iter().filter_map(|row| row.get(place));
@@ -121,6 +127,9 @@ mod tests {
         for (first, next, expected) in [
             ("c,d", "1,2\n", true),
             ("OVER,OVER", "1,2\n", false),
+            ("c:1,d:2", "c:3,d:-4\n", false),
+            ("0x1F,0x2A", "0x20,0x7\n", false),
+            ("CH1,CH2", "1,2\n", true),
             (",c,d", "0,1,2\n", true),
             ("Time,1,2", "0,1,2\n", true),
             ("x-axis,1,2", "second,Volt,Volt\n0,1,2\n", true),

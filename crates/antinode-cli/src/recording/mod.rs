@@ -7,6 +7,7 @@ mod content;
 mod delimited;
 mod error;
 mod foreign;
+mod forms;
 mod frame;
 mod gaps;
 mod header;

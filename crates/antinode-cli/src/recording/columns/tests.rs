@@ -32,6 +32,10 @@ fn names_decide_and_else_the_order() {
         Ok([Some(2), Some(1), Some(0)])
     );
     assert_eq!(places("x,time,y", None), Ok([Some(1), Some(0), Some(2)]));
+    assert_eq!(
+        places("micros,heat,c,d", None),
+        Ok([Some(0), Some(2), Some(3)])
+    );
     for count in ["index", "k", "Point", "#"] {
         let header = format!("{count},c,d");
         assert_eq!(places(&header, None), Ok([None, Some(1), Some(2)]));
@@ -122,10 +126,12 @@ fn no_column_is_chosen_twice() {
 
 #[test]
 fn errors_name_the_columns() {
+    let many = ["a"; 4000].join(",");
     let fault = |header, chosen| places(header, chosen).unwrap_err();
     assert!(fault("a", None).starts_with("found 1 column, but two"));
     assert!(fault("time,x", None).starts_with("found the time and one signal, but both"));
     assert!(fault("a,b,x,y", None).starts_with("found 4 columns, but two"));
+    assert!(fault(&many, None).contains("of a line for each channel in Python"));
     assert!(fault("a,b", Some("a,e")).starts_with("there is no column `e`; choose among `a`, `b`"));
     assert!(fault("a,b", Some("0,1")).starts_with("there is no column `0`"));
     assert!(fault("a,b", Some("a")).starts_with("give two"));

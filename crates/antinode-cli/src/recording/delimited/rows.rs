@@ -3,6 +3,7 @@
 use super::super::Stream;
 use super::super::columns::Columns;
 use super::super::error::{InputError, LineFault, Place, Role, TimeFault};
+use super::super::forms::remedy;
 use super::super::header::{Header, lossy};
 use super::super::left_out::LeftOut;
 use super::super::lines::Lines;
@@ -174,7 +175,9 @@ impl Rows {
         }
         let text = shown(text);
         let fault = match Role::ALL[role] {
-            Role::Time => self.header.time_fault(TimeFault::Number { text }),
+            Role::Time if remedy(&text).is_none() => {
+                self.header.time_fault(TimeFault::Number { text })
+            }
             role => LineFault::Number { role, text },
         };
         InputError::Line {

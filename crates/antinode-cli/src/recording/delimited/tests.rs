@@ -135,6 +135,45 @@ fn faults_in_a_line_are_named_by_line_and_column() {
             "a.csv:1:1: S_C is `1x`, not a number; ",
         ),
         ("1,x\n", 0, "a.csv:1:2: S_D is `x`, not a number; "),
+        // Every line as the first, which is no name.
+        (
+            "0x0CEC,0x07F1\n0x0CED,0x07F0\n",
+            0,
+            "a.csv:1:1: S_C is `0x0CEC`, not a number; write hexadecimal codes in decimal digits",
+        ),
+        (
+            "[3300, 2033]\n[3301, 2032]\n",
+            0,
+            "a.csv:1:1: S_C is `[3300`, not a number; take the brackets away, `tr -d",
+        ),
+        (
+            "C:512,D:498\nC:513,D:497\nC:514,D:-6\n",
+            0,
+            "a.csv:1:1: S_C is `C:512`, not a number; take the labels away, `sed",
+        ),
+        (
+            "t=0.1,512,498\nt=0.2,513,497\n",
+            0,
+            "a.csv:1:1: the time is `t=0.1`, not a number; take the labels away, `sed",
+        ),
+        (
+            "12:34:56.789 -> 512,498\n12:34:56.790 -> 513,497\n",
+            0,
+            "a.csv:1:1: S_C is `12:34:56.789 -> 512`, not a number; switch the terminal's time stamps off",
+        ),
+        (
+            "a b\n\"1\" 0.5 0.4\n\"2\" 0.3 0.2\n",
+            0,
+            "a.csv:2: found 3 fields where the first line has 2; use another separator than the decimal mark, and the same one in \
+             every line, and write no row names (in R `row.names = FALSE`)",
+        ),
+        (
+            "ready\n1,2\n3,4\n",
+            0,
+            "a.csv:1: found 1 column, but two (S_C, S_D) or three (time in s, S_C, S_D) are needed; give one sample pair a line: of \
+             two files `paste -d, c.csv d.csv`, of two variables in MATLAB or Octave `dlmwrite('both.csv', [c(:) d(:)], 'precision', 9)`; \
+             if this line is a title, delete it or begin it with #",
+        ),
         ("s,V,V\n0,1\n", 0, "a.csv:2:3: S_D is missing here; "),
         (
             "time,c,d\nx,V,V\n",

@@ -4,6 +4,7 @@ use std::fmt;
 use std::num::NonZeroU32;
 
 use super::Channel;
+use crate::recording::forms::remedy;
 
 /// A line, and a column in it, both from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,6 +23,9 @@ impl fmt::Display for Place {
     }
 }
 
+/// From so many columns on, they are hardly channels.
+const MANY_COLUMNS: usize = 100;
+
 /// Why a line of text cannot be taken for a pair of samples.
 #[derive(Debug, thiserror::Error)]
 pub enum LineFault {
@@ -32,16 +36,19 @@ pub enum LineFault {
     LineTooLong { limit: usize },
     /// More or fewer columns than can be understood.
     #[error(
-        "found {found} {}, but two (S_C, S_D) or three (time in s, S_C, S_D) are needed; {}",
+        "found {found} {}, but two (S_C, S_D) or three (time in s, S_C, S_D) are needed; {}{}",
         if *.found == 1 { "column" } else { "columns" },
-        if *.found == 1 {
-            "give one sample pair a line: of two files `paste -d, c.csv d.csv`, of two variables in MATLAB or Octave \
-             `dlmwrite('both.csv', [c(:) d(:)], 'precision', 9)`"
-        } else {
-            "drop the others, or name the right ones with --columns TIME,C,D, or C,D where there is no time"
-        }
+        match *.found {
+            1 => "give one sample pair a line: of two files `paste -d, c.csv d.csv`, of two variables in MATLAB or Octave \
+                  `dlmwrite('both.csv', [c(:) d(:)], 'precision', 9)`",
+            MANY_COLUMNS.. => "give one sample pair a line: of a line for each channel in Python `import numpy; \
+                  numpy.savetxt('both.csv', numpy.loadtxt('FILE', delimiter=',').T, delimiter=',')`, with the file's own delimiter in \
+                  `loadtxt`",
+            _ => "drop the others, or name the right ones with --columns TIME,C,D, or C,D where there is no time",
+        },
+        if *.are_words { "; if this line is a title, delete it or begin it with #" } else { "" }
     )]
-    ColumnCount { found: usize },
+    ColumnCount { found: usize, are_words: bool },
     /// What was identified already.
     #[error(
         "these are rows as this program prints them, no samples; give the recording, or the rows to `antinode plot`, `resonator` \
@@ -69,13 +76,14 @@ pub enum LineFault {
     /// A field too many.
     #[error(
         "found {found} fields where the first line has {expected}; use another separator \
-         than the decimal mark, and the same one in every line"
+         than the decimal mark, and the same one in every line{}",
+        if *.found == expected + 1 { ", and write no row names (in R `row.names = FALSE`)" } else { "" }
     )]
     FieldCount { found: usize, expected: usize },
     /// A field that is no number.
     #[error(
-        "{role} is `{text}`, not a number; correct or delete the line, or \
-         begin it with # if it is a comment"
+        "{role} is `{text}`, not a number; {}",
+        remedy(text).unwrap_or("correct or delete the line, or begin it with # if it is a comment")
     )]
     Number { role: Role, text: String },
     /// Signals that are none of the same.

@@ -1,0 +1,125 @@
+//! Fields that hold a number and are none: behind a label or a time stamp, in brackets, in hexadecimal digits.
+
+use super::text::is_number;
+
+/// Whether two fields hold numbers in the same text: names do not, over samples.
+pub(super) fn are_alike(one: &[u8], other: &[u8]) -> bool {
+    let one = form(one);
+    one.contains(&b'#') && one == form(other)
+}
+
+/// A field with `#` for each of its numbers and the sign before it.
+fn form(field: &[u8]) -> Vec<u8> {
+    let (mut form, mut is_number) = (Vec::new(), false);
+    for &byte in field {
+        let goes_on = is_number && (byte.is_ascii_hexdigit() || b".xX".contains(&byte));
+        if byte.is_ascii_digit() && !is_number {
+            form.pop_if(|last| b"+-".contains(last));
+            form.push(b'#');
+        } else if !goes_on {
+            form.push(byte);
+        }
+        is_number = byte.is_ascii_digit() || goes_on;
+    }
+    form
+}
+
+/// How lines with such a field become lines of numbers; none where its form is none that is known.
+pub(super) fn remedy(text: &str) -> Option<&'static str> {
+    let is_stamp = |word: &str| {
+        let mut parts = word.trim_start_matches('[').split(':');
+        word.contains(':')
+            && parts.all(|part| part.starts_with(|letter: char| letter.is_ascii_digit()))
+    };
+    let mut words = text.split_ascii_whitespace().rev();
+    // A time alone has no number behind it.
+    let has_number = words
+        .next()
+        .is_some_and(|last| is_number(last.as_bytes(), b','));
+    let is_stamped = words.any(is_stamp) && (has_number || text.contains("->"));
+    let label = text.split([':', '=']).next().unwrap_or_default().trim_end();
+    let is_label = label.len() < text.len()
+        && label.starts_with(|letter: char| letter.is_ascii_alphabetic() || letter == '_')
+        && label
+            .chars()
+            .all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+    let is_hexadecimal = text.starts_with(|letter: char| letter.is_ascii_digit())
+        && text
+            .trim_start_matches("0x")
+            .trim_start_matches("0X")
+            .chars()
+            .all(|letter| letter.is_ascii_hexdigit());
+    Some(if is_stamped {
+        r"switch the terminal's time stamps off, or take them away, `sed -E 's/^.*[0-9]:[0-9.]+( ->|\])?[[:blank:]]*//' FILE | antinode identify -`"
+    } else if text.starts_with("b'") {
+        r#"write text, not bytes, in Python `line.decode()`; of this file `sed -E "s/^b'|(\\\\[rn])+'$//g" FILE | antinode identify -`"#
+    } else if text.starts_with("{\"") {
+        "write CSV of JSON lines, `jq -r '[.c,.d]|@csv' FILE | antinode identify -`, with the names of your two signals for c and d"
+    } else if text.starts_with(['[', '(', '{']) || text.ends_with([']', ')', '}']) {
+        "take the brackets away, `tr -d '[](){}' < FILE | antinode identify -`"
+    } else if is_label {
+        "take the labels away, `sed -E 's/[A-Za-z_][A-Za-z_0-9]* *[:=]//g' FILE | antinode identify -`"
+    } else if is_hexadecimal {
+        r"write hexadecimal codes in decimal digits; those that are not signed by `perl -pe 's/\b(0x)?([0-9a-f]+)\b/hex $2/gie' FILE | antinode identify -`"
+    } else {
+        return None;
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_same_text_about_other_numbers_is_alike() {
+        for (one, other, expected) in [
+            ("C:691", "C:-12", true),
+            ("[3300", "[-0.5", true),
+            ("0x0ACC", "0x12", true),
+            ("12:34:56.000 -> 755", "12:34:57.001 -> -7", true),
+            ("C:691", "D:691", false),
+            ("c", "c", false),
+            ("CH1", "7", false),
+        ] {
+            assert_eq!(
+                are_alike(one.as_bytes(), other.as_bytes()),
+                expected,
+                "{one} {other}"
+            );
+        }
+    }
+
+    #[test]
+    fn each_form_has_its_remedy() {
+        for (text, expected) in [
+            ("12:34:56.000 -> 755", Some("switch")),
+            ("[2024-05-01 12:34:56.000] 755", Some("switch")),
+            ("2024-05-01 12:34:56.000 755", Some("switch")),
+            ("[12:34:56.000] -755", Some("switch")),
+            ("12:34:56.000 -> C:691", Some("switch")),
+            ("5/1/2024 12:34:56 PM", None),
+            ("{\"c\": 2945", Some("write CSV")),
+            ("b'2945", Some("write text")),
+            ("[3300", Some("take the brackets")),
+            ("2033)", Some("take the brackets")),
+            ("C:691", Some("take the labels")),
+            ("adc_0 = 5", Some("take the labels")),
+            ("0x0ACC", Some("write hex")),
+            ("0ACC", Some("write hex")),
+            ("2024-05-01 12:34:56.000", None),
+            ("12:34:56", None),
+            ("1x", None),
+            ("x", None),
+            ("low", None),
+            ("0.398V", None),
+            ("", None),
+        ] {
+            let found = remedy(text);
+            let is_expected = match expected {
+                Some(expected) => found.is_some_and(|found| found.starts_with(expected)),
+                None => found.is_none(),
+            };
+            assert!(is_expected, "{text}: {found:?}");
+        }
+    }
+}

@@ -2,14 +2,14 @@
 
 use super::{Line, has_role};
 use crate::recording::header::lossy;
+use crate::recording::signal_units::is_known;
 use crate::recording::units::time_exponent;
 
 /// Whether a line above these rows is a title, and nothing that tells their columns: of another number of words than they have fields, or of
 /// one field.
 pub(super) fn is_title(line: &Line, rows: &[Line], separator: u8) -> bool {
-    // A unit may be that of a time.
     let has_time = rows.iter().any(|row| row.fields.len() > 2);
-    if has_time && tells_time_unit(line) {
+    if has_time && tells_time_unit(line) || tells_signal_units(line) {
         return false;
     }
     match separator {
@@ -24,9 +24,23 @@ pub(super) fn is_title(line: &Line, rows: &[Line], separator: u8) -> bool {
 
 /// Whether a word is a unit of time other than seconds.
 fn tells_time_unit(line: &Line) -> bool {
+    let is_unit = |word: &String| time_exponent(word).is_some_and(|exponent| exponent != Some(0));
+    words(line).iter().any(is_unit)
+}
+
+/// Whether there are two units of signals that differ.
+fn tells_signal_units(line: &Line) -> bool {
+    let words = words(line);
+    let mut units = words.iter().filter(|word| is_known(word));
+    units
+        .next()
+        .is_some_and(|first| units.any(|unit| unit != first))
+}
+
+fn words(line: &Line) -> Vec<String> {
     let text = lossy(line.text);
-    let mut words = text.split(|letter: char| !letter.is_alphanumeric() && letter != '\u{fffd}');
-    words.any(|word| time_exponent(word).is_some_and(|exponent| exponent != Some(0)))
+    let words = text.split(|letter: char| !letter.is_alphanumeric() && letter != '\u{fffd}');
+    words.map(str::to_owned).collect()
 }
 
 /// Whether no comma in these rows is a decimal one: behind each place of one, some row has a sign or a point.
@@ -82,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn a_unit_of_time_in_a_title_is_not_lost() {
+    fn units_in_a_title_are_not_lost() {
         for mark in ["\t", " ", ","] {
             let timed = |k: usize| format!("0.{k:02}{mark}0.{k}{mark}-0.{k}");
             for (above, expected) in [
@@ -93,7 +107,8 @@ mod tests {
                 assert_eq!(skipped(above, timed), Some(expected), "{above}{mark}");
             }
             let row = |k: usize| format!("0.{k}{mark}-0.{k}");
-            assert_eq!(skipped("ADC every 10 us\n", row), Some(1), "{mark}");
+            assert_eq!(skipped("ADC every 10 us at 5 V\n", row), Some(1), "{mark}");
+            assert_eq!(skipped("U1 [V] U2 [mV]\n", row), Some(0), "{mark}");
         }
     }
 

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use antinode_sim::{ClipSpan, Dropout, Flaws, Loss, Wave};
 use clap::{Arg, Args};
 
-use super::fields::Parsed;
+use super::fields;
 use crate::failure::Failure;
 use crate::ranges;
 use crate::recording::SampleFormat;
@@ -122,8 +122,8 @@ struct FlawOptions {
     #[arg(long, value_name = "LEVEL")]
     clip: Option<f64>,
     /// Level at which |S| is clipped between two times, s; may be repeated.
-    #[arg(long, value_name = "FROM:TO:LEVEL")]
-    clip_span: Vec<Parsed<ClipSpan>>,
+    #[arg(long, value_name = "FROM:TO:LEVEL", value_parser = fields::clip_span)]
+    clip_span: Vec<ClipSpan>,
     /// Bits of the converter, 2 to 32 [default: no converter; only the file's own steps].
     #[arg(long, value_name = "BITS")]
     bits: Option<u32>,
@@ -134,13 +134,13 @@ struct FlawOptions {
     #[arg(long, default_value_t = 0.0, value_name = "NS")]
     jitter_ns: f64,
     /// Sample pairs lost, COUNT of them from INDEX on (from 0); may be repeated.
-    #[arg(long, value_name = "INDEX:COUNT")]
-    lost: Vec<Parsed<Loss>>,
+    #[arg(long, value_name = "INDEX:COUNT", value_parser = fields::loss)]
+    lost: Vec<Loss>,
     /// A dropout between two times, s; may be repeated.
     ///
     /// KIND is zero, hold (the last sample) or noise (no wave); CHANNEL is c or d, or both if not given.
-    #[arg(long, value_name = "FROM:TO:KIND[:CHANNEL]")]
-    dropout: Vec<Parsed<Dropout>>,
+    #[arg(long, value_name = "FROM:TO:KIND[:CHANNEL]", value_parser = fields::dropout)]
+    dropout: Vec<Dropout>,
 }
 
 /// An option whose value, if it is a number, is refused in words; clap's own are those of Rust's parser.
@@ -211,11 +211,8 @@ impl Simulate {
             .lost
             .iter()
             .map(|loss| ("--lost", loss.at as f64 / self.rate, end(loss.at)));
-        match clips
-            .chain(dropouts)
-            .chain(losses)
-            .find(|&(_, from, end)| from >= end)
-        {
+        let mut places = clips.chain(dropouts).chain(losses);
+        match places.find(|&(_, from, end)| from >= end) {
             Some((option, from, end)) => Err(Failure::Usage(format!(
                 "{option}: it begins at {from} s, but the recording ends at {end} s; give more --seconds"
             ))),
@@ -238,12 +235,12 @@ impl Simulate {
             pick_off_angle: self.flaws.pick_off_angle,
             cubic: self.flaws.cubic,
             clip: self.flaws.clip,
-            clip_spans: self.flaws.clip_span.iter().map(|span| span.0).collect(),
+            clip_spans: self.flaws.clip_span.clone(),
             bits: self.flaws.bits,
             full_scale: self.flaws.full_scale,
             jitter: self.flaws.jitter_ns * 1e-9,
-            lost: self.flaws.lost.iter().map(|loss| loss.0).collect(),
-            dropouts: self.flaws.dropout.iter().map(|dropout| dropout.0).collect(),
+            lost: self.flaws.lost.clone(),
+            dropouts: self.flaws.dropout.clone(),
         }
     }
 }

@@ -1,5 +1,9 @@
 //! The four methods beside the exact solution, for `identify --methods all`.
 
+mod ideal;
+pub mod rows;
+pub mod table;
+
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
@@ -10,8 +14,8 @@ use antinode::methods::{
 };
 use antinode::{Calibration, Estimate, Flags, Pair, Settings};
 
-use crate::ideal::Ideal;
 use crate::recording::BLOCK_PAIRS;
+use ideal::Ideal;
 
 /// A window's methods.
 #[derive(Debug, Clone, Copy)]

@@ -9,7 +9,6 @@ mod numbers;
 mod panel;
 mod reduce;
 mod rows;
-
 mod values;
 
 use std::io::{self, Write};

@@ -6,9 +6,8 @@ use antinode::Estimate;
 use serde::Serialize;
 
 use crate::digits::{fixed, heading, significant, with_std};
-use crate::method_rows::{self, Columns};
-use crate::method_table;
-use crate::methods::Methods;
+use crate::methods::rows::{self as of_methods, Columns};
+use crate::methods::{Methods, table as method_table};
 use crate::options::Format;
 
 /// The heading of a table's first quantity, which no other format has.
@@ -76,13 +75,13 @@ impl<'a> Row<'a> {
     }
 }
 
-/// A row with the methods' columns after its own.
+/// A row of JSON lines, with the methods' columns after its own where they were asked for.
 #[derive(Serialize)]
-struct Wide<'a> {
+struct Object<'a> {
     #[serde(flatten)]
     row: Row<'a>,
     #[serde(flatten)]
-    methods: Columns<'a>,
+    methods: Option<Columns<'a>>,
 }
 
 /// Where rows go.
@@ -169,24 +168,15 @@ impl<W: Write> Rows<W> {
             Sink::Csv(out) if self.wide => {
                 if !std::mem::replace(&mut self.headed, true) {
                     let own = header(&row)?;
-                    out.write_record(own.iter().map(String::from).chain(method_rows::names()))?;
+                    out.write_record(own.iter().map(String::from).chain(of_methods::names()))?;
                 }
-                out.serialize((row, method_rows::fields(methods)))
+                out.serialize((row, of_methods::fields(methods)))
                     .map_err(io::Error::from)
             }
             Sink::Csv(out) => out.serialize(row).map_err(io::Error::from),
             Sink::Jsonl(out) => {
-                if self.wide {
-                    serde_json::to_writer(
-                        &mut *out,
-                        &Wide {
-                            row,
-                            methods: Columns(methods),
-                        },
-                    )?;
-                } else {
-                    serde_json::to_writer(&mut *out, &row)?;
-                }
+                let methods = self.wide.then_some(Columns(methods));
+                serde_json::to_writer(&mut *out, &Object { row, methods })?;
                 writeln!(out)
             }
         }

@@ -4,7 +4,7 @@ use antinode::Detection;
 use antinode_telemetry::{Configuration, Counters, FrontEnd, Hello, Methods};
 
 use crate::digits::significant;
-use crate::method_table::DISAGREE;
+use crate::methods::table::DISAGREE;
 
 /// Who the device is and what it is set to, in one line.
 pub fn hello(hello: &Hello) -> String {

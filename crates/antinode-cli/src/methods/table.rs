@@ -5,9 +5,9 @@ use std::io::{self, Write};
 use antinode::Estimate;
 use antinode::methods::comparison::DISAGREEMENT;
 
+use super::Methods;
+use super::rows::worst;
 use crate::digits::with_sigmas;
-use crate::method_rows::worst;
-use crate::methods::Methods;
 
 /// What to tell where the methods disagree.
 pub const DISAGREE: &str =

@@ -3,8 +3,8 @@
 use antinode::methods::comparison::{Comparison, Method};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
+use super::Methods;
 use crate::digits::significant;
-use crate::methods::Methods;
 
 /// A value of a column.
 #[derive(Debug, Clone, serde::Serialize)]
@@ -100,30 +100,16 @@ fn rounded(x: f64) -> f64 {
 
 /// The largest difference from the exact solution that leakage and noise do not explain, in what they may leave.
 pub fn worst(method: &Method) -> f64 {
-    let sizes = method.unexplained.map(f64::abs);
-    // Not a number is worst of all; `max` would pass it over.
-    let nan = sizes.iter().any(|size| size.is_nan());
-    if nan {
-        f64::NAN
-    } else {
-        sizes.into_iter().fold(0.0, f64::max)
-    }
+    // Not a number is worst of all, and the greatest in this order.
+    let sizes = method.unexplained.map(f64::abs).into_iter();
+    sizes.max_by(f64::total_cmp).unwrap_or(0.0)
 }
 
 /// The methods from the most trusted to the least: `4>3>2>1`.
 fn by_rank(comparison: &Comparison) -> String {
-    let mut order: Vec<(u8, usize)> = comparison
-        .methods
-        .iter()
-        .zip(1..)
-        .map(|(m, i)| (m.rank, i))
-        .collect();
-    order.sort_unstable();
-    order
-        .iter()
-        .map(|(_, i)| i.to_string())
-        .collect::<Vec<_>>()
-        .join(">")
+    let mut order = [1, 2, 3, 4];
+    order.sort_by_key(|i| comparison.methods[i - 1].rank);
+    order.map(|i| i.to_string()).join(">")
 }
 
 /// The columns as members of a JSON object.

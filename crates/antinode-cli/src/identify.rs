@@ -2,7 +2,6 @@
 
 mod coarse;
 mod copied;
-mod early;
 mod few;
 mod first;
 mod flagged;
@@ -66,11 +65,9 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     let (out, to) = Out::open(options)?;
     let mut rows = Rows::new(to, format, options.methods == Methods::All);
     let stop = Stop::new(&out)?;
-    let several = options.files.len() > 1;
     let mut failure = None;
     for path in &options.files {
-        let is_titled = several && format == Format::Table;
-        let result = identify(path, options, [several, is_titled], &stop, &mut rows);
+        let result = identify(path, options, format, &stop, &mut rows);
         // Rows found before a fault are printed before the fault is told.
         let flushed = rows.flush().map_err(Failure::from);
         let error = match flushed.and(result) {
@@ -106,53 +103,33 @@ fn warn_of_twins(files: &[PathBuf]) {
     }
 }
 
-/// Identifies one recording; of `several` rows have titles, which are printed where they are `told`.
+/// Identifies one recording.
 fn identify(
     path: &Path,
     options: &Identify,
-    [several, is_told]: [bool; 2],
+    format: Format,
     stop: &Stop,
     rows: &mut Rows<impl Write>,
 ) -> Result<(), Failure> {
-    let open = OpenOptions {
-        raw: options.raw,
-        channels: options.channels.map(usize::from),
-        columns: options.columns.clone(),
-        rate: options.rate,
-    };
-    let mut recording = Recording::open(path, &open)?;
+    let (mut recording, rate) = open(path, options)?;
     let name = recording.name().to_owned();
-    let mut buffer = Vec::with_capacity(BLOCK_PAIRS);
-    // What comes by a pipe comes in its own time.
-    let is_pipe = recording.bytes_total().is_none();
-    if options.rate.or(recording.sample_rate()).is_none() && !is_pipe {
-        // A fault in the first lines may be why the rate is not known: one block, and what ended it.
-        for _ in 0..2 {
-            recording.read(&mut buffer)?;
-        }
-    }
-    let rate = sample_rate(&name, options.rate, recording.sample_rate())?;
-    let rails = options.full_scale;
-    if let Some(warning) = rails.and_then(|rails| recording.rails_warning(rails)) {
-        eprintln!("warning: {name}: {warning}");
-    }
-    for warning in recording.warnings() {
-        eprintln!("warning: {warning}");
-    }
     let mut windows = Windows::new(&name, options, &recording, rate, stop)?;
     stop.begin(&name, Flagged::new(options.hum, options.coloured));
-    let is_shown = options.file().is_none() && io::stdout().is_terminal();
-    let bar = progress(&recording, is_shown);
-    let length = recording
-        .pairs()
-        .map_or(String::new(), |pairs| format!(", {pairs} sample pairs"));
+    let pairs = recording.pairs();
+    let length = pairs.map_or(String::new(), |pairs| format!(", {pairs} sample pairs"));
     let title = format!("{name}: {}{length} at {rate} Hz", recording.format());
-    let is_watched = !is_told && io::stderr().is_terminal();
+    // One of several tables stands under its title.
+    let several = options.files.len() > 1;
+    let is_watched = io::stderr().is_terminal() && !(several && format == Format::Table);
     if is_watched {
         eprintln!("{title}");
     }
     rows.begin(several.then_some(title));
 
+    let is_shown = options.file().is_none() && io::stdout().is_terminal();
+    let is_pipe = is_pipe(&recording);
+    let bar = progress(&recording, is_shown);
+    let mut buffer = Vec::with_capacity(BLOCK_PAIRS);
     let fault = loop {
         if stop.is_asked() {
             break Some(Failure::Stopped);
@@ -180,10 +157,43 @@ fn identify(
         bar.set_position(recording.bytes_read());
     };
     bar.finish_and_clear();
-    if is_watched && recording.pairs().is_none() {
+    if is_watched && pairs.is_none() {
         eprintln!("{name}: {} sample pairs", windows.pairs());
     }
     windows.conclude(&recording, fault, rows)
+}
+
+/// Opens a recording, and tells what is to be known before its rows; gives its sample rate too.
+fn open(path: &Path, options: &Identify) -> Result<(Recording, f64), Failure> {
+    let open = OpenOptions {
+        raw: options.raw,
+        channels: options.channels.map(usize::from),
+        columns: options.columns.clone(),
+        rate: options.rate,
+    };
+    let mut recording = Recording::open(path, &open)?;
+    if options.rate.or(recording.sample_rate()).is_none() && !is_pipe(&recording) {
+        // A fault in the first lines may be why the rate is not known: one block, and what ended it.
+        let mut buffer = Vec::with_capacity(BLOCK_PAIRS);
+        for _ in 0..2 {
+            recording.read(&mut buffer)?;
+        }
+    }
+    let name = recording.name();
+    let rate = sample_rate(name, options.rate, recording.sample_rate())?;
+    let rails = options.full_scale;
+    if let Some(warning) = rails.and_then(|rails| recording.rails_warning(rails)) {
+        eprintln!("warning: {name}: {warning}");
+    }
+    for warning in recording.warnings() {
+        eprintln!("warning: {warning}");
+    }
+    Ok((recording, rate))
+}
+
+/// True for what comes in its own time, and may never end.
+fn is_pipe(recording: &Recording) -> bool {
+    recording.bytes_total().is_none()
 }
 
 /// The rate that was asked for, or else the recording's own.

@@ -60,37 +60,27 @@ impl Search {
         options: &Identify,
         held: &Held,
     ) -> Failure {
-        let (pairs, seconds) = (core.index(), core.index() as f64 / rate);
-        let standing = held.told();
-        if let Some(told) = standing.as_ref().filter(|_| held.are_both()) {
-            let what = if core.is_searching() {
-                "period"
-            } else {
-                "wave"
-            };
-            return Failure::Fault(format!(
-                "{name}: no {what} found in {pairs} sample pairs ({seconds:.4} s): {told}"
-            ));
-        }
+        let pairs = core.index();
+        let all = format!("{pairs} sample pairs ({:.4} s)", pairs as f64 / rate);
         let periods = options.periods;
-        let offset = self.offset.map(|[mean, rms]| {
-            format!(
-                "the samples lie about an offset of {mean:.4e} and only {rms:.1e} rms off it, too little for single precision: \
-                 take the offset off"
-            )
-        });
-        let amiss = self.scale().or(standing).or(offset);
-        let amiss = amiss.map_or(String::new(), |told| format!("; {told}"));
         // A window may be so much longer than asked.
         let longest = |frequency: f32| 1.1 * f64::from(periods) * rate / f64::from(frequency);
         let near = options
             .frequency
             .filter(|&frequency| pairs as f64 > longest(frequency));
-        Failure::Fault(if let Some(frequency) = near {
+        let amiss = self.amiss(held);
+        let told = if let Some(told) = held.told().filter(|_| held.are_both()) {
+            let what = if core.is_searching() {
+                "period"
+            } else {
+                "wave"
+            };
+            format!("no {what} found in {all}: {told}")
+        } else if let Some(frequency) = near {
             format!(
-                "{name}: no window of {periods} periods in {pairs} sample pairs ({seconds:.4} s) is mostly one wave within 5 % of \
-                 {frequency} Hz: check --frequency and the sample rate, or leave --frequency out, and the period is searched; a wave that \
-                 changes fast wants shorter windows, --periods{amiss}"
+                "no window of {periods} periods in {all} is mostly one wave within 5 % of {frequency} Hz: check --frequency and the \
+                 sample rate, or leave --frequency out, and the period is searched; a wave that changes fast wants shorter windows, \
+                 --periods{amiss}"
             )
         } else if self.refused > 0 {
             let hum = if options.hum {
@@ -99,15 +89,14 @@ impl Search {
                 "; or hum is as large as the wave: give --hum"
             };
             format!(
-                "{name}: a period was found, but no window of {periods} periods in {pairs} sample pairs ({seconds:.4} s) is mostly \
-                 one wave; the wave may have fewer than 4 samples a period: check the sample rate; or look for a second tone{hum}; \
-                 or the wave changes too fast: give a smaller --periods; and check the scale of the samples, --full-scale and \
-                 --resolution{amiss}"
+                "a period was found, but no window of {periods} periods in {all} is mostly one wave; the wave may have fewer than 4 \
+                 samples a period: check the sample rate; or look for a second tone{hum}; or the wave changes too fast: give a smaller \
+                 --periods; and check the scale of the samples, --full-scale and --resolution{amiss}"
             )
         } else if core.is_searching() && pairs < FEW_PAIRS {
             format!(
-                "{name}: no period found in only {pairs} sample pairs ({seconds:.4} s): a search takes 3 periods, in noise 7; record longer, or give \
-                 --frequency where it is known{amiss}"
+                "no period found in only {all}: a search takes 3 periods, in noise 7; record longer, or give --frequency where it is \
+                 known{amiss}"
             )
         } else if core.is_searching() {
             let other = match options.detector {
@@ -115,21 +104,33 @@ impl Search {
                 Detector::MeanReturn => "difference",
             };
             format!(
-                "{name}: no period found in {pairs} sample pairs ({seconds:.4} s): no wave of 4 to 200 samples a period \
-                 stands out of the noise; check the sample rate, the channels and the signal; try --detector {other}, \
-                 as a second tone may hide the period, or give --frequency where it is known, from 2.5 to 1024 samples a period{amiss}"
+                "no period found in {all}: no wave of 4 to 200 samples a period stands out of the noise; check the sample rate, the \
+                 channels and the signal; try --detector {other}, as a second tone may hide the period, or give --frequency where it is \
+                 known, from 2.5 to 1024 samples a period{amiss}"
             )
         } else {
-            let found = if options.frequency.is_some() {
-                ""
-            } else {
-                "a period was found, but "
+            let found = match options.frequency {
+                Some(_) => "",
+                None => "a period was found, but ",
             };
             format!(
-                "{name}: {found}{pairs} sample pairs ({seconds:.4} s) hold no window of {periods} periods; \
-                 record longer or give a smaller --periods"
+                "{found}{all} hold no window of {periods} periods; record longer or give a smaller --periods"
             )
-        })
+        };
+        Failure::Fault(format!("{name}: {told}"))
+    }
+
+    /// What is wrong with the samples themselves, after a semicolon; nothing where they look well.
+    fn amiss(&self, held: &Held) -> String {
+        let offset = || {
+            let [mean, rms] = self.offset?;
+            Some(format!(
+                "the samples lie about an offset of {mean:.4e} and only {rms:.1e} rms off it, too little for single precision: \
+                 take the offset off"
+            ))
+        };
+        let told = self.scale().or_else(|| held.told()).or_else(offset);
+        told.map_or(String::new(), |told| format!("; {told}"))
     }
 }
 

@@ -6,7 +6,6 @@ use antinode::{Estimate, Flags, SettingsError};
 
 use super::coarse::Coarse;
 use super::copied::Copied;
-use super::early::Early;
 use super::few::Few;
 use super::first::First;
 use super::held::Held;
@@ -20,7 +19,7 @@ use super::silence::Silence;
 use super::span::{Span, Step};
 use super::stop::Stop;
 use super::topped::Topped;
-use super::{Core, LONGEST};
+use super::{Core, LONGEST, is_pipe};
 use crate::failure::Failure;
 use crate::methods::History;
 use crate::recording::Recording;
@@ -31,6 +30,9 @@ const SEARCHED: usize = 200;
 
 /// Pairs between two looks at the search: no period is found and refused in fewer.
 const GLANCE: usize = 8;
+
+/// Pairs of a pipe that are few, and those that are enough however short they last.
+const EARLY: [f64; 2] = [64.0, 1e6];
 
 /// The identification of one recording.
 pub(super) struct Windows<'a> {
@@ -48,7 +50,8 @@ pub(super) struct Windows<'a> {
     held: Held,
     copied: Copied,
     one_sided: OneSided,
-    early: Early,
+    /// From this pair on, after a second, a pipe is told of what a file is at its end: a pipe's may never come.
+    early: Option<u64>,
     coarse: Coarse,
     few: Few,
     topped: Topped,
@@ -96,7 +99,7 @@ impl<'a> Windows<'a> {
             held: Held::default(),
             copied: Copied::default(),
             one_sided: OneSided::default(),
-            early: Early::new(recording.bytes_total().is_none(), rate),
+            early: is_pipe(recording).then(|| rate.clamp(EARLY[0], EARLY[1]) as u64),
             coarse: Coarse::new(
                 recording
                     .resolution()
@@ -162,13 +165,14 @@ impl<'a> Windows<'a> {
                 self.print(&estimate, rows)?;
             }
         }
-        if self.early.is_due(self.core.index()) {
+        let pairs = self.core.index();
+        if self.early.take_if(|due| pairs >= *due).is_some() {
             self.tell_early(recording, rows)?;
         }
         Ok(true)
     }
 
-    /// Tells of a pipe what will not be otherwise any more.
+    /// Tells of a pipe what a file is told at its end.
     fn tell_early(
         &mut self,
         recording: &Recording,
@@ -243,6 +247,7 @@ impl<'a> Windows<'a> {
         if let Some(warning) = recording.late_warning() {
             eprintln!("warning: {warning}");
         }
+        let is_told_early = is_pipe(recording) && self.early.is_none();
         let seconds = self.core.index() as f64 / self.rate;
         let warnings = [
             self.span.warning().filter(|_| fault.is_none()),
@@ -257,7 +262,7 @@ impl<'a> Windows<'a> {
             self.one_sided.told(),
             self.copied
                 .told()
-                .filter(|_| !self.held.are_both() && self.early != Early::Passed),
+                .filter(|_| !self.held.are_both() && !is_told_early),
             self.search.scale().filter(|_| rows.count() > 0),
         ];
         for warning in warnings.into_iter().flatten() {

@@ -1,14 +1,8 @@
 //! `antinode identify` where what was asked cannot be.
 
 use std::fs;
-use std::path::Path;
 
-use crate::common::{RATE, WAVE, npy, raw, rows, run, wav};
-
-/// Runs `identify`, which must exit 1 without a row, with one message that holds all of these.
-fn fault(directory: &Path, arguments: &str, input: Vec<u8>, told: &[&str]) {
-    assert_eq!(crate::common::fault(directory, arguments, input, told), []);
-}
+use crate::common::{RATE, WAVE, no_rows as fault, npy, raw, rows, run, wav};
 
 #[test]
 fn a_rate_that_cannot_be_is_told() {

@@ -1,6 +1,7 @@
 //! Recordings of more channels than two, and WAV files that go on behind the end that their header tells.
 
 use std::fs;
+use std::path::Path;
 
 use crate::common::{WAVE, fault, npy, raw, rows, run, wav};
 
@@ -34,15 +35,24 @@ fn bytes(codes: impl Iterator<Item = i16>) -> Vec<u8> {
     codes.flat_map(i16::to_le_bytes).collect()
 }
 
+/// One channel before S_C, and one between it and S_D.
+fn frames(codes: &[[i16; 2]]) -> impl Iterator<Item = [i16; 4]> {
+    codes.iter().zip(0i16..).map(|(&[c, d], k)| [k, c, 77, d])
+}
+
+/// The rows without the names of their files.
+fn numbers(here: &Path, options: &str) -> Vec<Vec<String>> {
+    let rows = rows(here, options);
+    rows.iter().map(|row| row.unnamed().to_vec()).collect()
+}
+
 #[test]
 fn two_of_many_channels_are_chosen_by_their_numbers() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let codes = WAVE.codes(20_000);
-    // One channel before S_C, and one between it and S_D.
-    let frames = || codes.iter().zip(0i16..).map(|(&[c, d], k)| [k, c, 77, d]);
-    let interleaved = bytes(frames().flatten());
-    let planes = bytes((0..4).flat_map(|place| frames().map(move |frame| frame[place])));
+    let interleaved = bytes(frames(&codes).flatten());
+    let planes = bytes((0..4).flat_map(|place| frames(&codes).map(move |frame| frame[place])));
     for (name, file) in [
         ("two.wav", wav(&codes)),
         ("two.npy", npy(&codes)),
@@ -55,11 +65,7 @@ fn two_of_many_channels_are_chosen_by_their_numbers() {
     }
     let expected = rows(here, "two.wav");
     assert!(expected.len() > 90);
-    let numbers = |options: &str| {
-        let rows = rows(here, options);
-        let rows = rows.iter().map(|row| row.unnamed().to_vec());
-        rows.collect::<Vec<_>>()
-    };
+    let numbers = |options: &str| numbers(here, options);
     let of_two = numbers("two.wav");
     for options in [
         "four.wav --columns 2,4",
@@ -130,20 +136,11 @@ fn two_of_many_raw_channels_are_chosen_by_their_numbers() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let codes = WAVE.codes(20_000);
-    let four = bytes(
-        codes
-            .iter()
-            .zip(0i16..)
-            .flat_map(|(&[c, d], k)| [k, c, 77, d]),
-    );
+    let four = bytes(frames(&codes).flatten());
     fs::write(here.join("four.raw"), &four).unwrap();
     fs::write(here.join("two.raw"), raw(&codes)).unwrap();
     fs::write(here.join("two.wav"), wav(&codes)).unwrap();
-    let numbers = |options: &str| {
-        let rows = rows(here, options);
-        let rows = rows.iter().map(|row| row.unnamed().to_vec());
-        rows.collect::<Vec<_>>()
-    };
+    let numbers = |options: &str| numbers(here, options);
     let raw = "--raw i16 --rate 100000";
     let expected = numbers("two.wav");
     assert!(expected.len() > 90);

@@ -3,21 +3,15 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{RATE, Row, Run, WAVE, Wave, run, wav};
+use crate::common::{RATE, WAVE, Wave, identified, run, silence, wav};
 
 /// A quiet wave, and noise of both pick-offs through a recursive filter: y = Σ a_i·y_i + x, plus `plain` of x.
 fn record(directory: &Path, feedback: [f64; 2], plain: f64, rms: f64) {
     let quiet = Wave { noise: 0.0, ..WAVE };
     let pairs = 200_000;
-    let white = Wave {
-        main: 0.0,
-        quadrature: 0.0,
-        noise: 0.05,
-        ..WAVE
-    };
     let mut past = [[0.0; 2]; 2];
     let mut squares = 0.0;
-    let noise: Vec<[f64; 2]> = white
+    let noise: Vec<[f64; 2]> = silence(0.05)
         .codes(pairs)
         .iter()
         .map(|pair| {
@@ -42,21 +36,6 @@ fn record(directory: &Path, feedback: [f64; 2], plain: f64, rms: f64) {
     fs::write(directory.join("a.wav"), wav(&codes)).unwrap();
 }
 
-fn identified(directory: &Path, arguments: &str) -> (Run, [usize; 2]) {
-    let run = run(
-        directory,
-        &format!("identify --output csv {arguments} a.wav"),
-    );
-    assert_eq!(run.code, 0, "{}", run.err);
-    let rows = Row::all(&run.out);
-    let flagged = rows
-        .iter()
-        .filter(|row| !row.text("flags").is_empty())
-        .count();
-    let count = rows.len();
-    (run, [count, flagged])
-}
-
 /// A pole pair at the wave's frequency: a front end tuned to it.
 fn tuned(radius: f64) -> [f64; 2] {
     let turn = std::f64::consts::TAU * WAVE.frequency / RATE;
@@ -68,14 +47,14 @@ fn noise_of_a_tuned_front_end_is_named_and_no_misfit_with_its_option() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     record(here, tuned(0.95), 0.0, 0.005);
-    let (plain, [count, flagged]) = identified(here, "--periods 50");
-    assert!(count > 200 && flagged > count / 2, "{flagged} of {count}");
+    let (plain, rows, flagged) = identified(here, "--periods 50");
+    assert!(rows.len() > 200 && flagged > rows.len() / 2, "{flagged}");
     assert!(
         plain.err.starts_with("warning: a.wav: ") && plain.err.contains("give --coloured"),
         "{}",
         plain.err
     );
-    let (told, [_, flagged]) = identified(here, "--periods 50 --coloured");
+    let (told, _, flagged) = identified(here, "--periods 50 --coloured");
     assert_eq!(flagged, 0);
     assert!(!told.err.contains("--coloured"), "{}", told.err);
 }
@@ -85,8 +64,8 @@ fn rows_that_scatter_more_than_they_state_are_told() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     record(here, tuned(0.95), 8.0, 0.005);
-    let (plain, [count, flagged]) = identified(here, "");
-    assert!(count > 1000 && flagged < 10, "{flagged} of {count}");
+    let (plain, rows, flagged) = identified(here, "");
+    assert!(rows.len() > 1000 && flagged < 10, "{flagged}");
     for part in [
         "warning: a.wav: rows scatter by more",
         "angle 1.",
@@ -95,13 +74,13 @@ fn rows_that_scatter_more_than_they_state_are_told() {
         assert!(plain.err.contains(part), "{}", plain.err);
     }
     // Rows that overlap scatter together: of every tenth the same is told.
-    let (overlapping, _) = identified(here, "--hop 1");
+    let (overlapping, ..) = identified(here, "--hop 1");
     assert!(
         overlapping.err.contains("rows scatter by more"),
         "{}",
         overlapping.err
     );
-    let (told, _) = identified(here, "--coloured");
+    let (told, ..) = identified(here, "--coloured");
     assert_eq!(told.err, "");
 }
 
@@ -110,12 +89,12 @@ fn rows_that_scatter_less_than_they_state_are_told() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     record(here, [0.98, 0.0], 5.0, 0.01);
-    let (plain, [count, flagged]) = identified(here, "");
-    assert!(count > 1000 && flagged < 10, "{flagged} of {count}");
+    let (plain, rows, flagged) = identified(here, "");
+    assert!(rows.len() > 1000 && flagged < 10, "{flagged}");
     for part in ["warning: a.wav: rows scatter by only 0.", "--hum"] {
         assert!(plain.err.contains(part), "{}", plain.err);
     }
-    let (told, _) = identified(here, "--hum");
+    let (told, ..) = identified(here, "--hum");
     assert_eq!(told.err, "");
 }
 
@@ -132,7 +111,7 @@ fn of_white_noise_and_of_too_few_rows_nothing_is_told() {
         (tuned(0.9), "--periods 100"),
     ] {
         record(here, feedback, 5.0, 0.005);
-        let (told, _) = identified(here, arguments);
+        let (told, ..) = identified(here, arguments);
         assert_eq!(told.err, "", "{arguments}");
     }
 }
@@ -150,8 +129,8 @@ fn coloured_noise_is_simulated() {
     for told in ["\"coloured_noise\": 0.01,", "\"coloured_corner\": 300.0,"] {
         assert!(truth.contains(told), "{truth}");
     }
-    let (plain, _) = identified(here, "");
+    let (plain, ..) = identified(here, "");
     assert!(plain.err.contains("--hum"), "{}", plain.err);
-    let (told, _) = identified(here, "--coloured");
+    let (told, ..) = identified(here, "--coloured");
     assert_eq!(told.err, "");
 }

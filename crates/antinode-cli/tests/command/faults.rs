@@ -170,34 +170,6 @@ fn a_bad_file_does_not_keep_the_good_ones_from_being_read() {
 }
 
 #[test]
-fn no_period_is_told() {
-    let directory = tempfile::tempdir().unwrap();
-    let here = directory.path();
-    let silence = crate::common::Wave {
-        main: 0.0,
-        quadrature: 0.0,
-        ..WAVE
-    };
-    fs::write(here.join("noise.wav"), wav(&silence.codes(50_000))).unwrap();
-    fs::write(here.join("flat.wav"), wav(&[[100, -100]; 50_000])).unwrap();
-    for (name, remedy) in [
-        ("noise.wav", "check the sample rate"),
-        ("flat.wav", "one and the same value all the time"),
-    ] {
-        let none = "no period found in 50000 sample pairs (0.5000 s)";
-        let told = [name, none, remedy];
-        assert!(fault(here, name, Vec::new(), &told).is_empty());
-    }
-    fs::write(here.join("short.wav"), wav(&WAVE.codes(500))).unwrap();
-    let told = [
-        "short.wav: ",
-        "hold no window of 100 periods",
-        "smaller --periods",
-    ];
-    assert!(fault(here, "short.wav --periods 100", Vec::new(), &told).is_empty());
-}
-
-#[test]
 fn a_reader_that_goes_ends_the_command_quietly() {
     let directory = tempfile::tempdir().unwrap();
     // More rows than a pipe holds.
@@ -207,7 +179,7 @@ fn a_reader_that_goes_ends_the_command_quietly() {
         &["identify", "a.wav", "--output", "jsonl"],
         &["identify", "a.wav", "--output", "table"],
     ] {
-        let mut child = Command::new(assert_cmd::cargo::cargo_bin("antinode"))
+        let mut child = Command::new(env!("CARGO_BIN_EXE_antinode"))
             .args(arguments)
             .current_dir(directory.path())
             .stdout(Stdio::piped())

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fs;
 
-use crate::common::{RATE, README, Row, WAVE, npy, raw, rows, run, run_with, text, wav};
+use crate::common::{RATE, README, Row, WAVE, names, npy, raw, rows, run, run_with, text, wav};
 
 /// What the rows must begin with.
 const COLUMNS: &str = "time_s,samples,main_amplitude,quadrature_amplitude,angle_rad,phase_rad,\
@@ -339,10 +339,5 @@ fn rows_go_to_a_file_in_the_format_of_its_name() {
         over.err
     );
     assert_eq!(run(here, "identify a.wav").code, 0);
-    let mut files: Vec<_> = fs::read_dir(here)
-        .unwrap()
-        .map(|file| file.unwrap().file_name())
-        .collect();
-    files.sort();
-    assert_eq!(files, ["a.wav", "rows.csv", "short.wav"]);
+    assert_eq!(names(here), ["a.wav", "rows.csv", "short.wav"]);
 }

@@ -12,7 +12,7 @@ use crate::common::{WAVE, raw};
 const PATIENCE: Duration = Duration::from_secs(60);
 
 fn start() -> Child {
-    Command::new(assert_cmd::cargo::cargo_bin("antinode"))
+    Command::new(env!("CARGO_BIN_EXE_antinode"))
         .args(["identify", "-", "--raw", "i16", "--rate", "1e5"])
         .stdin(Stdio::piped())
         .stdout(Stdio::null())

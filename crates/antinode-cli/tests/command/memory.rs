@@ -35,7 +35,7 @@ fn a_long_recording_takes_little_memory() {
     }
     file.into_inner().unwrap();
     let rows = directory.path().join("rows.csv");
-    let mut child = Command::new(assert_cmd::cargo::cargo_bin("antinode"))
+    let mut child = Command::new(env!("CARGO_BIN_EXE_antinode"))
         .args(["identify", "--output", "csv"])
         .arg(&path)
         .stdout(Stdio::from(File::create(&rows).unwrap()))

@@ -312,17 +312,3 @@ fn a_window_without_a_wave_has_no_methods() {
         "{table}"
     );
 }
-
-#[test]
-fn a_study_that_cannot_be_is_refused_before_the_work() {
-    let directory = tempfile::tempdir().unwrap();
-    std::fs::write(directory.path().join("taken"), "").unwrap();
-    let run = |arguments: &str| run(directory.path(), arguments);
-    let taken = run("study --out taken --runs 10000000");
-    assert_eq!((taken.code, taken.out.as_str()), (1, ""));
-    assert!(taken.err.contains("taken: ") && taken.err.contains("--out"));
-    assert_eq!(run("study --runs 0").code, 2);
-    let made = run("study --out a/b --runs 20");
-    assert_eq!((made.code, made.err.as_str()), (0, ""));
-    assert!(directory.path().join("a/b/figure-3.csv").is_file());
-}

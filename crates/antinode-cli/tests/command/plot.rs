@@ -4,8 +4,8 @@ use std::collections::HashSet;
 use std::fs;
 use std::path::Path;
 
-use crate::common::svg::{FIRST, HEADER, SECOND, Svg, TITLES, drawn, names};
-use crate::common::{Row, beside_flagged, run, run_with};
+use crate::common::svg::{FIRST, HEADER, SECOND, Svg, TITLES, drawn};
+use crate::common::{Row, beside_flagged, names, run, run_with};
 
 /// Rows of a ring-down that precesses and is interrupted twice.
 fn ring_down(here: &Path) -> String {

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::svg::{HEADER, drawn, names};
-use crate::common::{Run, run_with};
+use crate::common::svg::{HEADER, drawn};
+use crate::common::{Run, names, run_with};
 
 /// A run that fails, with one message.
 fn refused(here: &Path, arguments: &str, rows: &str, code: i32, told: &[&str]) {

@@ -133,7 +133,7 @@ mod unix {
     fn shell(here: &Path, line: &str) -> Output {
         Command::new("sh")
             .args(["-c", line])
-            .env("antinode", assert_cmd::cargo::cargo_bin("antinode"))
+            .env("antinode", env!("CARGO_BIN_EXE_antinode"))
             .current_dir(here)
             .output()
             .unwrap()

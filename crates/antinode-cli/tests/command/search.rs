@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
-use crate::common::{RATE, Row, Run, WAVE, rows, run, wav};
+use crate::common::{RATE, Row, WAVE, Wave, no_rows, rows, run, silence, wav};
 
 /// A 16-bit WAV file of tones, each a frequency and an amplitude.
 fn tones(path: &Path, tones: &[(f64, f64)]) {
@@ -23,12 +23,7 @@ fn tones(path: &Path, tones: &[(f64, f64)]) {
 
 /// Runs `identify`, which must exit 1 without a row, with one message that holds all of these.
 fn fault(directory: &Path, arguments: &str, told: &[&str]) {
-    let Run { code, out, err } = run(directory, &format!("identify {arguments}"));
-    assert_eq!((code, out.as_str()), (1, ""), "{arguments}: {err}");
-    assert_eq!(err.lines().count(), 1, "{err}");
-    for part in told {
-        assert!(err.contains(part), "{arguments}: `{part}` is not in {err}");
-    }
+    no_rows(directory, arguments, Vec::new(), told);
 }
 
 #[test]
@@ -57,12 +52,17 @@ fn windows_that_are_no_wave_are_told_from_too_few_samples() {
     fs::write(here.join("tiny.csv"), tiny).unwrap();
     fault(here, "tiny.csv --rate 1e5", &[refused, "scale"]);
     let short = "hold no window of 1022 periods; record longer or give a smaller --periods";
-    fs::write(
-        here.join("short.wav"),
-        wav(&crate::common::WAVE.codes(5000)),
-    )
-    .unwrap();
+    fs::write(here.join("short.wav"), wav(&WAVE.codes(5000))).unwrap();
     fault(here, "short.wav --periods 1022", &[short]);
+}
+
+#[test]
+fn noise_alone_has_no_period() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::write(here.join("noise.wav"), wav(&silence(0.005).codes(50_000))).unwrap();
+    let none = "noise.wav: no period found in 50000 sample pairs (0.5000 s)";
+    fault(here, "noise.wav", &[none, "check the sample rate"]);
 }
 
 #[test]
@@ -160,10 +160,10 @@ fn a_known_frequency_is_not_searched() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     // Nearly as much noise as there is wave: the search finds nothing in it.
-    let loud = crate::common::Wave {
+    let loud = Wave {
         main: 0.2,
         noise: 0.18,
-        ..crate::common::WAVE
+        ..WAVE
     };
     fs::write(here.join("loud.wav"), wav(&loud.codes(100_000))).unwrap();
     let options = "loud.wav --periods 100";
@@ -175,11 +175,7 @@ fn a_known_frequency_is_not_searched() {
         assert!((row.number("frequency_hz") - 5321.7).abs() < 5.0);
     }
     // From the first sample on: the middle of ten periods.
-    fs::write(
-        here.join("clear.wav"),
-        wav(&crate::common::WAVE.codes(5000)),
-    )
-    .unwrap();
+    fs::write(here.join("clear.wav"), wav(&WAVE.codes(5000))).unwrap();
     let first = &rows(here, "clear.wav --frequency 5200")[0];
     let middle = first.number("samples") / 2.0 / RATE;
     assert!((first.number("time_s") - middle).abs() < 1e-5, "{middle}");
@@ -256,13 +252,11 @@ fn samples_that_hold_one_value_are_told() {
         assert!(!found.err.contains("--detector"), "{}", found.err);
     }
     // One without a wave beside one that is dead.
-    let noise = crate::common::Wave {
-        main: 0.0,
-        quadrature: 0.0,
-        noise: 0.1,
-        ..crate::common::WAVE
-    };
-    let codes: Vec<[i16; 2]> = noise.codes(5000).iter().map(|&[c, _]| [c, 9]).collect();
+    let codes: Vec<[i16; 2]> = silence(0.1)
+        .codes(5000)
+        .iter()
+        .map(|&[c, _]| [c, 9])
+        .collect();
     fs::write(here.join("dead.wav"), wav(&codes)).unwrap();
     let dead = "S_D holds one and the same value all the time, 0.00027";
     fault(here, "dead.wav", &["no period found", dead]);

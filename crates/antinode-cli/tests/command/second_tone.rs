@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
-use crate::common::{RATE, Row, Run, WAVE, Wave, run, wav};
+use crate::common::{RATE, WAVE, Wave, identified, wav};
 
 /// A steady wave.
 const STEADY: Wave = Wave {
@@ -28,19 +28,6 @@ fn record_at(frequency: f64, directory: &Path, pairs: usize, noise: f64, share: 
         pair[1] += (0.6 * tone).round() as i16;
     }
     fs::write(directory.join("a.wav"), wav(&codes)).unwrap();
-}
-
-/// What a run told, its rows, and how many of them are flagged.
-fn identified(directory: &Path, arguments: &str) -> (Run, Vec<Row>, usize) {
-    let run = run(
-        directory,
-        &format!("identify --output csv {arguments} a.wav"),
-    );
-    assert_eq!(run.code, 0, "{}", run.err);
-    let rows = Row::all(&run.out);
-    let flagged = rows.iter().filter(|row| !row.text("flags").is_empty());
-    let count = flagged.count();
-    (run, rows, count)
 }
 
 #[test]

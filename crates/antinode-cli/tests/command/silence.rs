@@ -3,18 +3,12 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{Row, WAVE, beside_flagged, run, wav};
+use crate::common::{Row, WAVE, beside_flagged, run, silence, wav};
 
 /// A recording that is silent but for a little noise outside of these pairs.
 fn ringing(pairs: usize, rings: impl Fn(usize) -> bool) -> Vec<u8> {
-    let silence = crate::common::Wave {
-        main: 0.0,
-        quadrature: 0.0,
-        noise: 1e-4,
-        ..WAVE
-    };
     let mut codes = WAVE.codes(pairs);
-    for (k, code) in silence.codes(pairs).into_iter().enumerate() {
+    for (k, code) in silence(1e-4).codes(pairs).into_iter().enumerate() {
         if !rings(k) {
             codes[k] = code;
         }

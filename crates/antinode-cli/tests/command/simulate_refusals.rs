@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::common::run;
+use crate::common::{names, run};
 
 #[test]
 fn what_makes_no_sense_is_refused() {
@@ -106,14 +106,6 @@ fn what_makes_no_sense_is_refused() {
 fn files_are_replaced_only_when_whole() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    let names = |directory: &std::path::Path| {
-        let mut names: Vec<_> = fs::read_dir(directory)
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name())
-            .collect();
-        names.sort();
-        names
-    };
     fs::write(here.join("a.npy"), "good").unwrap();
     fs::write(here.join("a.npy.json"), "true").unwrap();
     // The noise leaves single precision after some samples.

@@ -5,18 +5,17 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::common::{RATE, Row, WAVE, fault, npy, raw, rows, run, run_with, same_later, wav};
+use crate::common::{
+    RATE, Row, WAVE, fault, npy, printed, raw, rows, run, run_with, same_later, wav,
+};
 
 const PAIRS: usize = 20_000;
 
 /// Text whose time begins at this one, s; as many lines as there are codes.
 fn timed(codes: &[[i16; 2]], start: f64) -> String {
-    let mut text = "time,c,d\n".to_owned();
-    for (k, pair) in codes.iter().enumerate() {
-        let [c, d] = pair.map(|code| f64::from(code) / 32_768.0);
-        text += &format!("{:.5},{c},{d}\n", start + k as f64 / RATE);
-    }
-    text
+    printed("time,c,d\n", codes, |k, [c, d]| {
+        format!("{:.5},{c},{d}", start + k as f64 / RATE)
+    })
 }
 
 /// The rows of a stream, of which nothing is said.

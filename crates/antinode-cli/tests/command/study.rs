@@ -60,7 +60,7 @@ fn another_wave_is_studied_and_told_and_the_papers_conclusions_are_not() {
     let here = directory.path();
     let made = run(
         here,
-        "study -o it --runs 400 --quadrature-amplitude -0.3 --angle 0.2 --phase 1 --rate 140000 --periods 10 --noise 0.5",
+        "study -o new/it --runs 400 --quadrature-amplitude -0.3 --angle 0.2 --phase 1 --rate 140000 --periods 10 --noise 0.5",
     );
     assert_eq!((made.code, made.err.as_str()), (0, ""));
     for told in [
@@ -80,15 +80,15 @@ fn another_wave_is_studied_and_told_and_the_papers_conclusions_are_not() {
         ("figure-1.csv", "c", "4: algorithm 4", 10.0, 1.238611e-2),
         ("figure-2.csv", "a", "3: algorithm 3", 263.0, 7.076813e-4),
     ] {
-        let table = format!("it/{table}");
+        let table = format!("new/it/{table}");
         let points = curve(here, &table, panel, name);
         let found = points.iter().find(|point| point.0 == x).unwrap().1;
         assert!((found / value - 1.0).abs() < 1e-3, "{name}: {found}");
     }
     // What they were made with is in the files themselves.
     for (table, made_with) in [
-        ("it/figure-2.csv", ["1400000", "1", "", ""]),
-        ("it/figure-3.csv", ["140000", "10", "400", "1"]),
+        ("new/it/figure-2.csv", ["1400000", "1", "", ""]),
+        ("new/it/figure-3.csv", ["140000", "10", "400", "1"]),
     ] {
         let mut table = csv::Reader::from_path(here.join(table)).unwrap();
         let names = table.headers().unwrap().clone();
@@ -106,7 +106,7 @@ fn another_wave_is_studied_and_told_and_the_papers_conclusions_are_not() {
         assert_eq!(beside.map(of), made_with);
     }
     // 10 periods of 26.26 samples: a_A at the bound of noise of 0.5 %.
-    let noise = curve(here, "it/figure-3.csv", "a", "exact solution");
+    let noise = curve(here, "new/it/figure-3.csv", "a", "exact solution");
     let (greatest, rms) = noise[20];
     assert_eq!(noise.len(), 21);
     assert!((greatest - 0.5).abs() < 1e-12);
@@ -115,9 +115,20 @@ fn another_wave_is_studied_and_told_and_the_papers_conclusions_are_not() {
         "{rms}"
     );
     // Labels have no digits of rounding, though the noise's steps are of 0.025 %.
-    let svg = fs::read_to_string(here.join("it/figure-3b.svg")).unwrap();
+    let svg = fs::read_to_string(here.join("new/it/figure-3b.svg")).unwrap();
     assert!(
         !svg.contains("0000000") && !svg.contains("9999999"),
         "{svg}"
     );
+}
+
+#[test]
+fn a_study_that_cannot_be_is_refused_before_the_work() {
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("taken"), "").unwrap();
+    let run = |arguments: &str| run(directory.path(), arguments);
+    let taken = run("study --out taken --runs 10000000");
+    assert_eq!((taken.code, taken.out.as_str()), (1, ""));
+    assert!(taken.err.contains("taken: ") && taken.err.contains("--out"));
+    assert_eq!(run("study --runs 0").code, 2);
 }

@@ -15,7 +15,7 @@ fn shown(directory: &Path, arguments: &[&str]) -> String {
     let (mut terminal, end) = TTYPort::pair().unwrap();
     terminal.set_timeout(Duration::from_millis(200)).unwrap();
     let error = File::options().write(true).open(end.name().unwrap());
-    let run = Command::new(assert_cmd::cargo::cargo_bin("antinode"))
+    let run = Command::new(env!("CARGO_BIN_EXE_antinode"))
         .args(["identify", "--output", "csv"])
         .args(arguments)
         .current_dir(directory)

@@ -41,6 +41,16 @@ pub fn send(signal: &str, child: &Child) {
     assert!(sent.unwrap().success());
 }
 
+/// Files in a directory.
+pub fn names(here: &Path) -> Vec<String> {
+    let entries = fs::read_dir(here).unwrap();
+    let mut names: Vec<_> = entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
 /// The root of the mean square.
 pub fn rms(errors: &[f64]) -> f64 {
     (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt()
@@ -48,8 +58,7 @@ pub fn rms(errors: &[f64]) -> f64 {
 
 /// Runs the command in a directory, with bytes on standard input.
 pub fn run_with(directory: &Path, arguments: &str, input: Vec<u8>) -> Run {
-    let output = Command::cargo_bin("antinode")
-        .unwrap()
+    let output = Command::new(env!("CARGO_BIN_EXE_antinode"))
         .current_dir(directory)
         .args(arguments.split_whitespace())
         .write_stdin(input)
@@ -72,6 +81,19 @@ pub fn rows(directory: &Path, arguments: &str) -> Vec<Row> {
         "{arguments}"
     );
     rows
+}
+
+/// What a run on `a.wav` told, its rows, and how many of them are flagged.
+pub fn identified(directory: &Path, arguments: &str) -> (Run, Vec<Row>, usize) {
+    let run = run(
+        directory,
+        &format!("identify --output csv {arguments} a.wav"),
+    );
+    assert_eq!(run.code, 0, "{}", run.err);
+    let rows = Row::all(&run.out);
+    let flagged = rows.iter().filter(|row| !row.text("flags").is_empty());
+    let count = flagged.count();
+    (run, rows, count)
 }
 
 /// What is told beside the flags of these rows, which must be told in one line a recording.
@@ -150,6 +172,11 @@ pub fn fault(directory: &Path, arguments: &str, input: Vec<u8>, told: &[&str]) -
     rows
 }
 
+/// The same without a row.
+pub fn no_rows(directory: &Path, arguments: &str, input: Vec<u8>, told: &[&str]) {
+    assert_eq!(fault(directory, arguments, input, told), [], "{arguments}");
+}
+
 /// One row of CSV.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
@@ -217,6 +244,16 @@ pub const WAVE: Wave = Wave {
     decay_rate: 0.3,
     noise: 0.005,
 };
+
+/// Noise alone, of this rms.
+pub const fn silence(noise: f64) -> Wave {
+    Wave {
+        main: 0.0,
+        quadrature: 0.0,
+        noise,
+        ..WAVE
+    }
+}
 
 impl Wave {
     /// Both amplitudes' decay until a time.

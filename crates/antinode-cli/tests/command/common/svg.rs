@@ -118,16 +118,6 @@ fn attribute<'a>(line: &'a str, name: &str) -> &'a str {
     rest.split_once('"').unwrap().0
 }
 
-/// Files in a directory.
-pub fn names(here: &Path) -> Vec<String> {
-    let entries = fs::read_dir(here).unwrap();
-    let mut names: Vec<_> = entries
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
-}
-
 /// Draws rows from standard input as `it.svg`, and tells so.
 pub fn drawn(here: &Path, rows: &str, told: &str) -> Svg {
     let made = run_with(here, "plot - -o it.svg", rows.as_bytes().into());

@@ -36,13 +36,8 @@ pub fn against_samples(simulated: &Simulated) -> Figure {
     )
 }
 
-fn figure(
-    number: u8,
-    axis: &'static str,
-    x: Vec<f64>,
-    windows: impl Iterator<Item = Samples>,
-    wave: &Wave,
-) -> Figure {
+/// The panels of the errors, whose curves have no point yet.
+fn error_panels(wave: &Wave) -> Vec<Panel> {
     let (a, b) = (wave.main_amplitude, wave.quadrature_amplitude);
     let units = "absolute error, input units";
     let kinds = [
@@ -55,7 +50,7 @@ fn figure(
         ),
         ('d', "frequency".into(), "absolute error, Hz"),
     ];
-    let mut panels: Vec<Panel> = kinds
+    kinds
         .map(|(letter, title, axis)| Panel {
             letter,
             title: format!("{title}, without noise (bounds: noise of 0.01 %)"),
@@ -70,7 +65,17 @@ fn figure(
                 })
                 .collect(),
         })
-        .into();
+        .into()
+}
+
+fn figure(
+    number: u8,
+    axis: &'static str,
+    x: Vec<f64>,
+    windows: impl Iterator<Item = Samples>,
+    wave: &Wave,
+) -> Figure {
+    let mut panels = error_panels(wave);
     let (mut deviation, mut points) = (Vec::new(), Vec::new());
     for window in windows {
         let noise = BOUND_NOISE * wave.main_amplitude;

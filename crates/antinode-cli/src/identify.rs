@@ -8,7 +8,6 @@ mod flagged;
 mod format;
 mod held;
 mod in_turn;
-mod mistaken;
 mod one_sided;
 mod options;
 mod out;

@@ -1,9 +1,9 @@
 //! A few values over and over, where no step is known: a converter's may make them so, and deviations do not allow for it.
 
-/// As many values are few, in so many pairs: noise of a step shows more.
+/// The most values that are few, and in how many pairs: noise of a step shows more.
 const MOST: usize = 128;
 const ENOUGH: usize = 1 << 16;
-/// Pairs for each value that repeat them.
+/// So many pairs for each value show that they repeat.
 const REPEATED: usize = 4;
 
 /// The values of the first pairs.

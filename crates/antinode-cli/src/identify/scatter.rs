@@ -19,7 +19,7 @@ const LESS: f64 = 0.75;
 const CHANCE: f64 = 3.5;
 /// Residual, as a share of a_A, below which rounding is most of it.
 const LEAST: f32 = 1e-5;
-/// The same of harmonics and the converter: what they leave may be less in rows than it looks.
+/// The same of harmonics and the converter's steps: such a residual need not scatter in rows.
 const LEAST_NOISE: f32 = 1e-4;
 /// Residual, in steps of the converter, below which there is less noise than rounding: that alone has 0.29.
 const COARSE: f32 = 0.5;

@@ -1,18 +1,10 @@
 //! What becomes of the search for a period, and why there is no row where it comes to nothing.
 
-use antinode::period::DifferenceDetector;
-
 use super::Core;
+use super::first::{amplitude_beyond, large_offset};
 use super::held::Held;
-use super::mistaken::amplitude_beyond;
 use super::options::{Detector, Identify};
 use crate::failure::Failure;
-
-/// An offset this many times the rms about it leaves single precision too few digits for a wave.
-const LARGE_OFFSET: f64 = 300.0;
-
-/// A known frequency may be 5 % off, and so may one that was found.
-const APART: f64 = 0.1;
 
 /// Three of the longest periods that are searched: with fewer pairs none may be found for want of them.
 const FEW_PAIRS: u64 = 600;
@@ -132,34 +124,4 @@ impl Search {
         let told = self.scale().or_else(|| held.told()).or_else(offset);
         told.map_or(String::new(), |told| format!("; {told}"))
     }
-}
-
-/// What to tell where the first pairs hold a wave elsewhere than where one is said to be: its rows may look well.
-pub(super) fn elsewhere(pairs: &[[f32; 2]], rate: f64, frequency: f32) -> Option<String> {
-    let mut detector = Box::new(DifferenceDetector::<f32>::new());
-    let period = pairs.iter().find_map(|&pair| detector.push(pair))?;
-    let found = rate / f64::from(period);
-    let apart = found / f64::from(frequency) - 1.0;
-    (apart.abs() > APART).then(|| {
-        format!(
-            "a search finds a wave of {found:.0} Hz, where --frequency says {frequency} Hz: unless both are there, rows mean nothing"
-        )
-    })
-}
-
-/// The mean of samples and their rms about it, both pick-offs together, where the mean is too large for a wave about it.
-fn large_offset(pairs: &[[f32; 2]]) -> Option<[f64; 2]> {
-    let finite = || {
-        let pairs = pairs.iter().map(|pair| pair.map(f64::from));
-        pairs.filter(|pair| pair.iter().all(|value| value.is_finite()))
-    };
-    let count = finite().count() as f64;
-    let mean = [0, 1].map(|channel| finite().map(|pair| pair[channel]).sum::<f64>() / count);
-    let squares = finite().map(|pair| (pair[0] - mean[0]).powi(2) + (pair[1] - mean[1]).powi(2));
-    let (mean, rms) = (
-        mean[0].hypot(mean[1]),
-        (squares.sum::<f64>() / count).sqrt(),
-    );
-    // What stands still is no wave, and not for its offset.
-    (rms > 0.0 && mean > LARGE_OFFSET * rms).then_some([mean, rms])
 }

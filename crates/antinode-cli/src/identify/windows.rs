@@ -7,14 +7,13 @@ use antinode::{Estimate, Flags, SettingsError};
 use super::coarse::Coarse;
 use super::copied::Copied;
 use super::few::Few;
-use super::first::First;
+use super::first::{First, elsewhere, straight};
 use super::held::Held;
 use super::in_turn::InTurn;
-use super::mistaken::straight;
 use super::one_sided::OneSided;
 use super::options::{Identify, Methods};
 use super::scatter::Scatter;
-use super::search::{Search, elsewhere};
+use super::search::Search;
 use super::silence::Silence;
 use super::span::{Span, Step};
 use super::stop::Stop;
@@ -31,7 +30,7 @@ const SEARCHED: usize = 200;
 /// Pairs between two looks at the search: no period is found and refused in fewer.
 const GLANCE: usize = 8;
 
-/// Pairs of a pipe that are few, and those that are enough however short they last.
+/// The least and the most pairs before a pipe is told of something early: fewer may be alike by chance, and more need no second.
 const EARLY: [f64; 2] = [64.0, 1e6];
 
 /// The identification of one recording.
@@ -50,7 +49,7 @@ pub(super) struct Windows<'a> {
     held: Held,
     copied: Copied,
     one_sided: OneSided,
-    /// From this pair on, after a second, a pipe is told of what a file is at its end: a pipe's may never come.
+    /// From this pair on, after a second, a pipe is told what a file is told at its end, which a pipe may not have.
     early: Option<u64>,
     coarse: Coarse,
     few: Few,

@@ -67,6 +67,8 @@ pub(super) struct FirstLine<'a> {
     pub width: usize,
     /// What was seen of the lines about it.
     pub start: &'a Start,
+    /// True for the first line that `antinode identify` prints, as CSV or as JSON lines.
+    pub is_of_rows: bool,
 }
 
 impl FirstLine<'_> {
@@ -170,12 +172,6 @@ impl FirstLine<'_> {
         }
     }
 
-    /// True where the names are those of the rows that `antinode identify` prints, as CSV or as JSON lines.
-    fn are_rows(&self) -> bool {
-        let is_of_rows = |name: &String| name.contains("quadrature_amplitude");
-        self.names.is_some_and(|names| names.iter().any(is_of_rows))
-    }
-
     /// The places that the names of these columns, or how many they are, suggest.
     fn among(&self, columns: &[usize]) -> Result<Places, LineFault> {
         let role = |place: usize| self.names.and_then(|names| role(&names[place]));
@@ -216,7 +212,7 @@ impl FirstLine<'_> {
         match (signals.next(), signals.next(), signals.next()) {
             (Some(c), Some(d), None) => Ok([time, Some(c), Some(d)]),
             (Some(_), None, None) if time.is_some() => Err(LineFault::OneSignal),
-            _ if self.are_rows() => Err(LineFault::Rows),
+            _ if self.is_of_rows => Err(LineFault::Rows),
             _ => Err(LineFault::ColumnCount {
                 found: columns.len(),
                 are_words: self.names.is_some() && self.start.numbers.is_empty(),

@@ -53,6 +53,9 @@ impl Header {
         let Beginning { first, next, start } = beginning;
         let mut names: Vec<String> = fields(first, separator).map(lossy).collect();
         let width = names.len();
+        let is_of_rows = names
+            .iter()
+            .any(|name| name.contains("quadrature_amplitude"));
         let counted = counted(&names);
         let has_numbers = counted.is_some_and(|counted| counted.has_numbers);
         let is_timed = has_numbers || names.first().is_some_and(|name| is_time(name));
@@ -68,6 +71,7 @@ impl Header {
             units: &units,
             width: columns,
             start,
+            is_of_rows,
         };
         let places = if counted.is_some() && !is_timed && chosen.is_none() && columns != 2 {
             // None of these is a time.

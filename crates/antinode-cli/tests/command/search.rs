@@ -251,6 +251,15 @@ fn samples_that_hold_one_value_are_told() {
         let found = run(here, &format!("identify {options}"));
         assert!(!found.err.contains("--detector"), "{}", found.err);
     }
+    // A wave beside one that is dead.
+    let codes: Vec<[i16; 2]> = (0..5000)
+        .map(|k| [(9000.0 * (0.335 * f64::from(k)).sin()) as i16, 9])
+        .collect();
+    fs::write(here.join("one.wav"), wav(&codes)).unwrap();
+    let found = run(here, "identify one.wav");
+    assert_eq!(found.code, 0, "{}", found.err);
+    let dead = "warning: one.wav: S_D holds one and the same value all the time, 0.00027";
+    assert!(found.err.contains(dead), "{}", found.err);
     // One without a wave beside one that is dead.
     let codes: Vec<[i16; 2]> = silence(0.1)
         .codes(5000)

@@ -12,6 +12,7 @@ fn places(header: &str, chosen: Option<&str>) -> Result<Places, String> {
         units: &[],
         width: names.len(),
         start: &Start::default(),
+        is_of_rows: false,
     };
     let chosen = chosen.map(str::parse).transpose()?;
     line.places(chosen.as_ref())

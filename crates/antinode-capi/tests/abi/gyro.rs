@@ -1,6 +1,7 @@
 //! A state of the C ABI in either arithmetic, behind functions that are safe to call.
 #![allow(unsafe_code, reason = "the functions of a C ABI")]
 
+use std::cell::UnsafeCell;
 use std::mem::MaybeUninit;
 
 use antinode::{Packed, Sample};
@@ -92,7 +93,8 @@ pub const UNWRITTEN: u32 = 77;
 
 /// A state that this thread alone uses.
 pub struct Gyro<S: Arithmetic> {
-    state: Box<S::State>,
+    /// As in C, where a pointer to what is constant keeps nobody else from writing.
+    state: Box<UnsafeCell<S::State>>,
 }
 
 // SAFETY, of every call here: the state and all that is pointed to are there, and `&mut` says that nobody else uses them.
@@ -100,15 +102,15 @@ impl<S: Arithmetic> Gyro<S> {
     /// Zeroed memory.
     pub fn cold() -> Self {
         Self {
-            state: Box::new(S::COLD),
+            state: Box::new(UnsafeCell::new(S::COLD)),
         }
     }
 
     /// Memory as a stack leaves it.
     pub fn filled(byte: u8) -> Self {
-        let mut gyro = Self::cold();
+        let gyro = Self::cold();
         // SAFETY: a state is numbers, whatever they are.
-        unsafe { (&raw mut *gyro.state).write_bytes(byte, 1) };
+        unsafe { gyro.state.get().write_bytes(byte, 1) };
         gyro
     }
 
@@ -120,32 +122,32 @@ impl<S: Arithmetic> Gyro<S> {
 
     /// The same state at another address.
     pub fn copy(&self) -> Self {
-        let mut copy = Self::cold();
+        let copy = Self::cold();
         // SAFETY: two states of the same type.
-        unsafe { std::ptr::copy_nonoverlapping(&raw const *self.state, &raw mut *copy.state, 1) };
+        unsafe { std::ptr::copy_nonoverlapping(self.state.get(), copy.state.get(), 1) };
         copy
     }
 
     /// For what only pointers can do.
     pub fn pointer(&mut self) -> *mut S::State {
-        &mut *self.state
+        self.state.get()
     }
 
     /// With NULL where there are no settings.
     pub fn init(&mut self, settings: Option<&Settings>) -> Status {
         let settings = settings.map_or(std::ptr::null(), |settings| &raw const *settings);
         // SAFETY: see above.
-        unsafe { (S::ABI.init)(&mut *self.state, settings) }
+        unsafe { (S::ABI.init)(self.state.get(), settings) }
     }
 
     pub fn reset(&mut self) -> Status {
         // SAFETY: see above.
-        unsafe { (S::ABI.reset)(&mut *self.state) }
+        unsafe { (S::ABI.reset)(self.state.get()) }
     }
 
     /// Pairs by one call, or one by one: then the answer is the gravest.
     pub fn push(&mut self, way: Way, codes: &[[i16; 2]]) -> Status {
-        let state = &raw mut *self.state;
+        let state = self.state.get();
         let samples: Vec<[S; 2]> = codes.iter().map(|pair| pair.map(S::from)).collect();
         let part = |part: usize| samples.iter().map(|pair| pair[part]).collect::<Vec<S>>();
         let words: Vec<u32> = codes.iter().map(|&pair| Packed::from(pair).0).collect();
@@ -169,24 +171,24 @@ impl<S: Arithmetic> Gyro<S> {
 
     pub fn skip(&mut self, count: u32) -> Status {
         // SAFETY: see above.
-        unsafe { (S::ABI.skip)(&mut *self.state, count) }
+        unsafe { (S::ABI.skip)(self.state.get(), count) }
     }
 
     pub fn search(&mut self) -> Status {
         // SAFETY: see above.
-        unsafe { (S::ABI.search)(&mut *self.state) }
+        unsafe { (S::ABI.search)(self.state.get()) }
     }
 
     pub fn set_calibration(&mut self, calibration: Calibration) -> Status {
         // SAFETY: see above.
-        unsafe { (S::ABI.set_calibration)(&mut *self.state, &calibration) }
+        unsafe { (S::ABI.set_calibration)(self.state.get(), &calibration) }
     }
 
     /// What it answered and what the estimate holds then.
     pub fn solve(&mut self) -> (Status, Estimate) {
         let mut estimate = unwritten();
         // SAFETY: see above.
-        let status = unsafe { (S::ABI.solve)(&mut *self.state, &mut estimate) };
+        let status = unsafe { (S::ABI.solve)(self.state.get(), &mut estimate) };
         (status, estimate)
     }
 
@@ -218,7 +220,7 @@ impl<S: Arithmetic> Gyro<S> {
         let mut health = MaybeUninit::zeroed();
         // SAFETY: see above; all zeros are a health.
         unsafe {
-            let status = (S::ABI.health)(&*self.state, health.as_mut_ptr());
+            let status = (S::ABI.health)(self.state.get(), health.as_mut_ptr());
             (status, health.assume_init())
         }
     }
@@ -237,7 +239,7 @@ impl<S: Arithmetic> Gyro<S> {
         let status = unsafe {
             let first = samples.as_ptr().cast();
             (S::ABI.identify)(
-                &mut *self.state,
+                self.state.get(),
                 first,
                 samples.len(),
                 &mut taken,

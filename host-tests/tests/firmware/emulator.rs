@@ -68,9 +68,37 @@ pub fn images() -> &'static Path {
     })
 }
 
+/// QEMU, which ends with whoever has begun it.
+pub struct Emulator(Child);
+
+impl Emulator {
+    /// How it runs `image`, without a window and a monitor.
+    pub fn of(image: &str) -> Command {
+        let mut command = Command::new("qemu-system-arm");
+        command
+            .args(["-machine", "netduinoplus2", "-display", "none"])
+            .args(["-monitor", "none", "-kernel"])
+            .arg(images().join(image))
+            .stdin(Stdio::null());
+        command
+    }
+
+    /// Begins it.
+    pub fn begin(command: &mut Command) -> Self {
+        Self(command.spawn().expect("qemu-system-arm must be installed"))
+    }
+}
+
+impl Drop for Emulator {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
 /// A running image.
 pub struct Device {
-    child: Child,
+    emulator: Emulator,
     line: UnixStream,
     receiver: Receiver,
     began: Instant,
@@ -97,34 +125,23 @@ impl Device {
             .chain(options.split_ascii_whitespace())
             .map(|word| format!(",arg={word}"))
             .collect();
-        let child = Command::new("qemu-system-arm")
-            .current_dir(&folder)
-            .args([
-                "-machine",
-                "netduinoplus2",
-                "-display",
-                "none",
-                "-monitor",
-                "none",
-            ])
-            .args(["-serial", &format!("unix:{}", socket.display())])
-            .args([
-                "-semihosting-config",
-                &format!("enable=on,target=native{args}"),
-            ])
-            .arg("-kernel")
-            .arg(images().join(image))
-            .stdin(Stdio::null())
-            // Where semihosting writes the log.
-            .stdout(fs::File::create(&log).expect("it can be written"))
-            .spawn()
-            .expect("qemu-system-arm must be installed");
+        let emulator = Emulator::begin(
+            Emulator::of(image)
+                .current_dir(&folder)
+                .args(["-serial", &format!("unix:{}", socket.display())])
+                .args([
+                    "-semihosting-config",
+                    &format!("enable=on,target=native{args}"),
+                ])
+                // Where semihosting writes the log.
+                .stdout(fs::File::create(&log).expect("it can be written")),
+        );
         let (line, _) = listener.accept().expect("QEMU opens the line");
         fs::remove_file(&socket).expect("it is there");
         line.set_read_timeout(Some(Duration::from_millis(50)))
             .expect("a socket has a timeout");
         let mut device = Self {
-            child,
+            emulator,
             line,
             receiver: Receiver::new(),
             began: Instant::now(),
@@ -172,7 +189,7 @@ impl Device {
     /// Reads to the end; gives all reports, how many are missing, and the seconds that it took.
     pub fn finish(mut self) -> (Vec<Report>, u64, f64) {
         self.read_until(|_| false);
-        let status = self.child.wait().expect("it was started");
+        let status = self.emulator.0.wait().expect("it was started");
         assert!(status.success(), "QEMU says {status}");
         assert_eq!(self.receiver.damaged(), 0);
         let took = self.began.elapsed().as_secs_f64();
@@ -181,13 +198,6 @@ impl Device {
             self.receiver.lost(),
             took,
         )
-    }
-}
-
-impl Drop for Device {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
     }
 }
 

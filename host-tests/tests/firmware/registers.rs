@@ -2,12 +2,11 @@
 //!
 //! Its crystal is dead, so they get as far as the line. A register that it lacks reads as 0, so each change shows its own bits alone.
 
-use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 use std::{fs, thread};
 
-use crate::emulator::{folder, images};
+use crate::emulator::{Emulator, folder};
 
 /// Offsets in a port: MODER, OSPEEDR, PUPDR, BSRR, AFRL, AFRH.
 const MODE: u32 = 0x00;
@@ -18,16 +17,6 @@ const LOW: u32 = 0x20;
 const HIGH: u32 = 0x24;
 /// Offset in DMA2 of what belongs to its stream 5, and of CR, NDTR, PAR, M0AR within.
 const STREAM_5: u32 = 0x10 + 5 * 0x18;
-
-/// A process that ends with its test.
-struct Emulator(Child);
-
-impl Drop for Emulator {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
 
 /// Offset and value of each write to a device, in order.
 fn writes(log: &str, device: &str) -> Vec<(u32, u32)> {
@@ -48,16 +37,10 @@ fn start(image: &str) -> [Vec<(u32, u32)>; 2] {
     let number = NEXT.fetch_add(1, Ordering::Relaxed);
     let log = folder().join(format!("{number}.registers"));
     let _ = fs::remove_file(&log);
-    let _emulator = Emulator(
-        Command::new("qemu-system-arm")
-            .args(["-machine", "netduinoplus2", "-display", "none"])
-            .args(["-monitor", "none", "-serial", "null", "-d", "unimp", "-D"])
-            .arg(&log)
-            .arg("-kernel")
-            .arg(images().join(image))
-            .stdin(Stdio::null())
-            .spawn()
-            .expect("qemu-system-arm must be installed"),
+    let _emulator = Emulator::begin(
+        Emulator::of(image)
+            .args(["-serial", "null", "-d", "unimp", "-D"])
+            .arg(&log),
     );
     let began = Instant::now();
     loop {

@@ -247,8 +247,6 @@ impl<'a> Windows<'a> {
             eprintln!("warning: {warning}");
         }
         let is_told_early = is_pipe(recording) && self.early.is_none();
-        let held = self.held.told().filter(|_| rows.count() > 0);
-        let is_held = held.is_some();
         let seconds = self.core.index() as f64 / self.rate;
         let warnings = [
             self.span.warning().filter(|_| fault.is_none()),
@@ -260,8 +258,10 @@ impl<'a> Windows<'a> {
             self.topped.told(self.residual),
             self.scatter.told(self.options.hum || self.options.coloured),
             self.in_turn.told(),
-            held,
-            self.one_sided.told().filter(|_| !is_held),
+            self.held
+                .told()
+                .filter(|_| rows.count() > 0)
+                .or_else(|| self.one_sided.told()),
             self.copied
                 .told()
                 .filter(|_| !self.held.are_both() && !is_told_early),

@@ -67,7 +67,13 @@ fn steady(runs: &[Run]) -> Result<Found, Unsettled> {
     // As an unknown that is nothing it would leave less known of all others: of rotation above all, which quadrature that stays is like.
     let nonlinear = told(Model::Nonlinear);
     let turning = nonlinear.as_ref().and_then(Found::turning_by_amplitudes);
-    let linear = || told(Model::Shared).map(|shared| shared.with_unseen(turning));
+    let linear = || {
+        let shared = told(Model::Shared)?;
+        Some(Found {
+            unseen_turning: turning,
+            ..shared
+        })
+    };
     let nonlinear = nonlinear.filter(Found::is_nonlinear);
     nonlinear.or_else(linear).map_or(each, Ok)
 }

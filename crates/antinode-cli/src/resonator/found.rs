@@ -55,7 +55,7 @@ pub type Measured = (f64, f64);
 
 /// What moves the frequency of a row.
 pub struct Moved {
-    /// What the splits add to it, rad/s, as [`Found::splits`] takes it; nothing where they are not told.
+    /// What the splits add to it, rad/s, as [`Found::splits`] takes it.
     pub by_splits: [f64; 4],
     /// The same, on average since the row before, by Simpson's rule.
     pub by_splits_since: [f64; 4],
@@ -173,12 +173,6 @@ impl Found {
         } else {
             self.unseen_turning
         }
-    }
-
-    /// With what amplitudes would turn a pattern by, where that is not seen.
-    pub(super) fn with_unseen(mut self, turning: Option<Measured>) -> Self {
-        self.unseen_turning = turning;
-        self
     }
 
     /// The same where it would be told if nothing else moved.

@@ -1,5 +1,6 @@
 //! Rows made from the averaged equations of a resonator, with noise.
 
+mod frequency;
 mod unsteady;
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -15,35 +16,6 @@ const RESONATOR: [f64; 6] = [0.05, 0.006, -0.008, 0.03, 0.04, 0.0];
 const ROUND: [f64; 6] = [0.05, 0.0, 0.0, 0.0, 0.0, 0.0];
 /// A row's standard deviation of an amplitude.
 const NOISE: f64 = 1e-4;
-
-#[test]
-fn what_splits_add_to_the_frequency_is_averaged_across_rows_left_out() {
-    // A period of the splits has 157 rows, of which 20 are left out.
-    let resonator = [0.05, 0.006, -0.008, 1.2, 1.6, 0.0];
-    let whole = run(&resonator, 0.0, [0.8, 0.1, 0.3], 620, 0.02, 1e-9, 1);
-    let mut few = whole.clone();
-    few.rows = (0..620)
-        .filter(|k| *k == 0 || k % 157 > 20)
-        .map(|k| whole.rows[k])
-        .collect();
-    // What they add to the phase, rad: so averaged, and as the rows alone would have it.
-    let phases = |run: Run| {
-        let runs = [run];
-        let found = found(&runs, Model::Shared).unwrap();
-        let moved = found.frequency_moved(&runs);
-        let mut phases = [0.0; 2];
-        for (pair, moved) in runs[0].rows.windows(2).zip(moved.windows(2)) {
-            let seconds = pair[1].time - pair[0].time;
-            let of = |by: &[f64; 4]| found.splits(by).0 * seconds;
-            phases[0] += of(&moved[1].by_splits_since);
-            phases[1] += 0.5 * (of(&moved[0].by_splits) + of(&moved[1].by_splits));
-        }
-        phases
-    };
-    let ([whole, _], [averaged, of_rows]) = (phases(whole), phases(few));
-    assert!((averaged - whole).abs() < 1e-3, "{averaged} {whole}");
-    assert!((of_rows - whole).abs() > 1e-2, "{of_rows} {whole}");
-}
 
 /// A run of `count` rows, `step` s apart.
 fn run(

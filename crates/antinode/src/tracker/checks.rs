@@ -111,7 +111,8 @@ pub(crate) fn within(
         && beyond > limit_of(reach, remains.freedom, remains.third_freedom) * about_third;
     // What is white is seen better in both together.
     let both = remains.freedom + remains.third_freedom;
-    let over_both = |third: f32| (remains.residual + third * remains.third_freedom) / both;
+    let per_both = 1.0 / both;
+    let over_both = |third: f32| (remains.residual + third * remains.third_freedom) * per_both;
     let wide = over_both(remains.third_noise);
     // Blocks of a few samples have more sums than samples: no more is known than these tell, less ten unknowns.
     let wide_freedom = lesser(both, 4.0 * model.half - 10.0);

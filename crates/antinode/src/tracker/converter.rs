@@ -104,10 +104,10 @@ pub(super) fn sample_flags(
 ) -> Flags {
     let broken = !wave.record.main.value.is_finite();
     let flags = Flags::empty().with_if(broken, Flags::NOT_FINITE.with(Flags::LOST));
-    let range = Range::of(blocks);
-    if range.longest == 0 {
+    if !blocks.first().is_some_and(Seen::is_watched) {
         return flags;
     }
+    let range = Range::of(blocks);
     let (main, deviation) = (wave.record.main.value, square_root(noise));
     let fine = main > 100.0 * settings.resolution.unwrap_or(0.0);
     let at_rail = settings.rails.is_some_and(|[least, most]| {

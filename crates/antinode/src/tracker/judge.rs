@@ -55,13 +55,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     #[inline(always)]
     fn judge(&mut self, fit: &Fit, coding: f32, stated: f32, wave: &mut Standing) -> Option<Flags> {
         let model = self.model.as_ref()?;
-        let is_no_wave = checks::is_no_wave(model, fit, wave);
-        if self.before.is_none() && is_no_wave {
-            // The detector was deceived: nothing is reported, and the search goes on.
-            self.failures = Failures::ENOUGH;
-            return None;
-        }
-
         let record = &mut wave.record;
         let (expected, rate, mut is_certain) = match &self.before {
             Some(before) => before.angle_at(record),
@@ -140,6 +133,14 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
                 wave.record.drift_variance += moved * moved;
             }
         }
+        let is_misfit = flags.contains(Flags::MISFIT);
+        let is_no_wave =
+            (is_misfit || self.before.is_none()) && checks::is_no_wave(model, fit, wave);
+        if self.before.is_none() && is_no_wave {
+            // The detector was deceived: nothing is reported, and the search goes on.
+            self.failures = Failures::ENOUGH;
+            return None;
+        }
         let record = &wave.record;
 
         // What is at no frequency is no wave.
@@ -151,8 +152,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let left = |before: &Record| record.main.value < LEFT * before.main.value;
         let is_left = self.before.as_ref().is_some_and(left);
         // A wave elsewhere, too: its sums are like so little of one here, but its samples are not.
-        let is_elsewhere = flags.contains(Flags::MISFIT)
-            && converter::are_all_beyond(self.gathered.blocks(), fit, record.main.value);
+        let is_elsewhere =
+            is_misfit && converter::are_all_beyond(self.gathered.blocks(), fit, record.main.value);
         let is_little = is_no_wave || is_left || is_elsewhere;
         if is_left || checks::is_hidden(wave) || flags.contains(Flags::DEAD_CHANNEL) {
             // No new level of noise takes the wave away, or a pick-off.

@@ -55,9 +55,13 @@ pub(super) fn examine(
     remains: &mut Remains,
     gradients: &mut [Gradient; 2],
 ) {
-    let is_watched = blocks.first().is_some_and(|block| block.watched.is_some());
+    let is_watched = blocks.first().is_some_and(Seen::is_watched);
     let mut thirds = Thirds::of(Line::Third);
-    let mut image = image::of(model).map(Thirds::of);
+    let mut image = if is_watched {
+        image::of(model).map(Thirds::of)
+    } else {
+        None
+    };
     let mut views = Views::new();
     let mut hum = Hum::new(&mut remains.wander);
     for (chunk, run) in blocks.chunks(CHUNK).enumerate() {
@@ -88,9 +92,11 @@ pub(super) fn examine(
         }
     }
     views.conclude(model, remains);
-    thirds.conclude(model, remains);
-    if let Some(image) = &image {
-        image.take_out(&thirds, model, remains);
+    if is_watched {
+        thirds.conclude(model, remains);
+        if let Some(image) = &image {
+            image.take_out(&thirds, model, remains);
+        }
     }
 }
 

@@ -40,6 +40,12 @@ impl Seen {
         }; 2],
         watched: None,
     };
+
+    /// True where its samples were watched: those of all blocks of a window are, or of none.
+    #[inline]
+    pub(crate) fn is_watched(&self) -> bool {
+        self.watched.is_some()
+    }
 }
 
 impl Model {

@@ -102,6 +102,12 @@ pub enum InputError {
          for it; mend it, for example with `sox --ignore-length {file} whole.wav`"
     )]
     MoreData { file: String, promised: u64 },
+    /// WAV files in one, one behind the other.
+    #[error(
+        "{file}: behind {found} sample pairs another WAV file begins, which is not read: `cat` does not join WAV files; \
+         `sox part1.wav part2.wav whole.wav` does"
+    )]
+    AnotherWav { file: String, found: u64 },
     /// Channels that do not exist, or are not given by number.
     #[error(
         "{file}: --columns {chosen}: give the numbers of the channels of S_C and S_D, two of 1 to {channels}"

@@ -14,6 +14,15 @@ const CHUNK_BYTES: usize = 3 << 16;
 /// The name of a chunk and its size.
 const CHUNK_HEADER: usize = 8;
 
+/// What a file holds behind the samples that its header promises.
+#[derive(Debug, PartialEq, Eq)]
+enum Behind {
+    /// Another WAV file, as `cat` makes them.
+    Wav,
+    /// More samples, or what else is no chunk.
+    Data,
+}
+
 /// Reads interleaved samples as long as there are any.
 pub(super) struct Interleaved {
     file: String,
@@ -139,26 +148,36 @@ impl Interleaved {
         }
     }
 
-    /// True where what comes behind the promised bytes is neither a chunk, whose name is text, nor padding. A pipe is not waited for.
+    /// What comes behind the promised bytes, unless it is a chunk, whose name is text, or padding. A pipe is not waited for.
     ///
     /// It looks once: behind the name is what may be anything.
-    fn goes_on(&mut self) -> bool {
-        let mut name = [0; CHUNK_HEADER];
-        self.left == Some(0)
+    fn behind(&mut self) -> Option<Behind> {
+        let mut header = [0; CHUNK_HEADER];
+        let is_there = self.left == Some(0)
             && mem::take(&mut self.before_chunks)
             && !self.live
-            && self.stream.read_exact(&mut name).is_ok()
-            && !name[..4]
+            && self.stream.read_exact(&mut header).is_ok();
+        match &header[..4] {
+            _ if !is_there || header == [0; CHUNK_HEADER] => None,
+            b"RIFF" | b"RF64" => Some(Behind::Wav),
+            name if name
                 .iter()
-                .all(|byte| byte.is_ascii_graphic() || *byte == b' ')
-            && name != [0; CHUNK_HEADER]
+                .all(|byte| byte.is_ascii_graphic() || *byte == b' ') =>
+            {
+                None
+            }
+            _ => Some(Behind::Data),
+        }
     }
 
     fn end(&mut self) -> Result<(), InputError> {
-        let goes_on = self.goes_on();
+        let behind = self.behind();
         let (file, found) = (self.file.clone(), self.pairs);
         match self.promised {
-            Some(promised) if goes_on => Err(InputError::MoreData { file, promised }),
+            Some(_) if behind == Some(Behind::Wav) => Err(InputError::AnotherWav { file, found }),
+            Some(promised) if behind == Some(Behind::Data) => {
+                Err(InputError::MoreData { file, promised })
+            }
             Some(promised) if found < promised => Err(InputError::Truncated {
                 file,
                 promised,

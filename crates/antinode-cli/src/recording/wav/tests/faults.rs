@@ -145,3 +145,16 @@ fn not_finite_and_padding_are_named() {
     let expected = "a.wav: sample pair 0 (from 0), S_D (right): bits are set below the 24 valid ones of a 32-bit";
     assert!(low.starts_with(expected), "{low}");
 }
+
+#[test]
+fn another_wav_behind_the_samples_is_told() {
+    for magic in [b"RIFF", b"RF64"] {
+        let one = wav(format(1, 2, 16), &[PAIR_16; 3].concat());
+        let mut both = one.clone();
+        both.after = Wav { magic, ..one }.bytes();
+        let (pairs, fault) = both.read();
+        assert_eq!(pairs, [[0.5, -1.0]; 3]);
+        let expected = "a.wav: behind 3 sample pairs another WAV file begins, which is not read: ";
+        assert!(fault.expect("a fault").starts_with(expected));
+    }
+}

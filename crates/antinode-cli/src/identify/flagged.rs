@@ -13,6 +13,10 @@ const SOME: u64 = 4;
 const OF_CLIPPED: &str = "give the wave less gain where an amplifier or the converter limits it, or a larger --periods where a tone near \
                           three times the frequency is taken for its third harmonic";
 
+/// What may be wrong where most rows are circular.
+const OF_CIRCULAR: &str = "S_C and S_D are one wave a quarter period apart, as I and Q of a lock-in amplifier are: give the pick-offs' own \
+                           samples, not demodulated ones";
+
 /// Rows with flags.
 #[derive(Debug)]
 pub(super) struct Flagged {
@@ -25,6 +29,7 @@ pub(super) struct Flagged {
     counts: Vec<(&'static str, u64)>,
     misfits_alone: u64,
     clipped_alone: u64,
+    circular_alone: u64,
 }
 
 impl Flagged {
@@ -38,6 +43,7 @@ impl Flagged {
             counts: Vec::new(),
             misfits_alone: 0,
             clipped_alone: 0,
+            circular_alone: 0,
         }
     }
 
@@ -47,6 +53,7 @@ impl Flagged {
         self.flagged += u64::from(!flags.is_empty());
         self.misfits_alone += u64::from(flags == Flags::MISFIT);
         self.clipped_alone += u64::from(flags == Flags::CLIPPED);
+        self.circular_alone += u64::from(flags == Flags::CIRCULAR);
         for name in flags.names() {
             match self.counts.iter_mut().find(|(known, _)| *known == name) {
                 Some((_, count)) => *count += 1,
@@ -72,9 +79,16 @@ impl Flagged {
             if flagged == 1 { "is" } else { "are" },
             counts.join(", ")
         );
+        // A pattern goes through a circle now and then, but does not stay.
+        let circular = if 2 * self.circular_alone > rows {
+            self.circular_alone
+        } else {
+            0
+        };
         for (alone, flag, remedies) in [
             (self.misfits_alone, "misfit", self.of_misfits()),
             (self.clipped_alone, "clipped", OF_CLIPPED.to_owned()),
+            (circular, "circular", OF_CIRCULAR.to_owned()),
         ] {
             if alone >= MANY && 10 * alone > rows || alone >= SOME && 2 * alone > rows {
                 told += "; ";
@@ -156,6 +170,14 @@ mod tests {
             (
                 vec![(300, Flags::empty()), (20, Flags::CLIPPED)],
                 "flagged: clipped 20".to_owned(),
+            ),
+            (
+                vec![(6, Flags::empty()), (18, Flags::CIRCULAR)],
+                format!("circular 18; {OF_CIRCULAR}"),
+            ),
+            (
+                vec![(30, Flags::empty()), (29, Flags::CIRCULAR)],
+                "flagged: circular 29".to_owned(),
             ),
         ] {
             let told = told(&rows).unwrap();

@@ -17,6 +17,7 @@ mod silence;
 mod span;
 mod stop;
 mod topped;
+mod unsearched;
 mod windows;
 
 use std::collections::HashSet;

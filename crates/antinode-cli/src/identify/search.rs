@@ -4,13 +4,14 @@ use super::Core;
 use super::first::{amplitude_beyond, large_offset};
 use super::held::Held;
 use super::options::{Detector, Identify};
+use super::unsearched::Unsearched;
 use crate::failure::Failure;
 
 /// Three of the longest periods that are searched: with fewer pairs none may be found for want of them.
 const FEW_PAIRS: u64 = 600;
 
 /// What became of the search for a period.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Search {
     has_found: bool,
     /// Periods whose first window was no wave.
@@ -19,6 +20,7 @@ pub(super) struct Search {
     offset: Option<[f64; 2]>,
     /// How far the first samples swing, where that is no amplitude that can be identified.
     beyond: Option<f64>,
+    unsearched: Unsearched,
 }
 
 impl Search {
@@ -41,6 +43,11 @@ impl Search {
     pub fn see(&mut self, is_searching: bool) {
         self.refused += u64::from(self.has_found && is_searching);
         self.has_found = !is_searching;
+    }
+
+    /// Takes pairs that gave no row.
+    pub fn look(&mut self, pairs: &[[f32; 2]]) {
+        self.unsearched.see(pairs);
     }
 
     /// Why a recording that was read to its end gave no row.
@@ -90,6 +97,8 @@ impl Search {
                 "no period found in only {all}: a search takes 3 periods, in noise 7; record longer, or give --frequency where it is \
                  known{amiss}"
             )
+        } else if let Some(told) = self.unsearched.told(rate).filter(|_| core.is_searching()) {
+            format!("no period found in {all}: {told}{amiss}")
         } else if core.is_searching() {
             let other = match options.detector {
                 Detector::Difference => "mean-return",

@@ -18,6 +18,7 @@ use super::silence::Silence;
 use super::span::{Span, Step};
 use super::stop::Stop;
 use super::topped::Topped;
+use super::unsearched::alias;
 use super::{Core, LONGEST, is_pipe};
 use crate::failure::Failure;
 use crate::methods::History;
@@ -73,9 +74,10 @@ impl<'a> Windows<'a> {
         let core = Core::new(settings).map_err(|error| match error {
             SettingsError::Frequency(frequency)
             | SettingsError::FrequencyTooLow { frequency, .. } => Failure::Usage(format!(
-                "{name}: --frequency: {frequency} Hz, but at {rate} Hz it must lie within {:.6} to {} Hz, {LONGEST} to 2.5 samples a period",
+                "{name}: --frequency: {frequency} Hz, but at {rate} Hz it must lie within {:.6} to {} Hz, {LONGEST} to 2.5 samples a period{}",
                 rate / LONGEST as f64,
-                rate / 2.5
+                rate / 2.5,
+                alias(f64::from(frequency), rate)
             )),
             error => error.into(),
         })?;
@@ -153,6 +155,9 @@ impl<'a> Windows<'a> {
             let (new, rest) = pairs.split_at(taken);
             pairs = rest;
             recording.look(self.span.take(taken), new);
+            if rows.count() == 0 {
+                self.search.look(new);
+            }
             self.held.see(new);
             self.few.see(new);
             self.topped.see(new);

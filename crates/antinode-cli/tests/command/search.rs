@@ -71,12 +71,26 @@ fn too_few_samples_a_period_are_named() {
     let here = directory.path();
     for samples in [2.5, 2.6, 2.7] {
         tones(&here.join("a.wav"), &[(RATE / samples, 0.9)]);
-        fault(
-            here,
-            "a.wav",
-            &["4 to 200 samples a period", "check the sample rate"],
-        );
+        let told = format!("Hz has {samples} samples a period");
+        fault(here, "a.wav", &["no period found", &told]);
     }
+    let fast = "undersampled on purpose, such a wave shows at 18750 Hz";
+    let refused = run(here, "identify a.wav --frequency 218750");
+    assert!(
+        refused.code == 2 && refused.err.contains(fast),
+        "{}",
+        refused.err
+    );
+}
+
+#[test]
+fn a_wave_of_too_many_samples_a_period_is_named_with_the_option_that_finds_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    tones(&here.join("a.wav"), &[(410.07, 0.9)]);
+    let told = "a wave of about 410 Hz has 244 samples a period";
+    fault(here, "a.wav", &["no period found", told, "--frequency 410"]);
+    assert!(rows(here, "a.wav --frequency 410").len() > 4);
 }
 
 #[test]
@@ -143,7 +157,7 @@ fn the_other_detector_is_something_to_try() {
     );
     assert!(rows.len() > 90);
     let short = "short.wav --detector mean-return";
-    tones(&here.join("short.wav"), &[(RATE / 2.6, 0.9)]);
+    fs::write(here.join("short.wav"), wav(&silence(0.005).codes(20_000))).unwrap();
     fault(
         here,
         short,
@@ -186,7 +200,8 @@ fn a_slow_wave_may_be_known() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     tones(&here.join("slow.wav"), &[(125.0, 0.9)]);
-    fault(here, "slow.wav", &["no wave of 4 to 200 samples a period"]);
+    let told = "a wave of about 125 Hz has 800 samples a period, and 4 to 200 are searched";
+    fault(here, "slow.wav", &[told, "give --frequency 125"]);
     let found = rows(here, "slow.wav --periods 4 --frequency 125");
     assert!(found.len() > 4 && found.iter().all(|row| row.text("flags").is_empty()));
 }

@@ -38,6 +38,10 @@ impl Default for Looking {
 
 impl Looking {
     fn push(&mut self, pair: [f32; 2]) {
+        // What was believed stays so when the wave has decayed.
+        if self.found().is_some() {
+            return;
+        }
         let Some(period) = self.detector.push(pair) else {
             return;
         };
@@ -189,16 +193,22 @@ mod tests {
 
     /// What is told of tones, each so many samples a period and an amplitude, about an offset in noise.
     fn told(tones: &[(f64, f64)], noise: f64) -> Option<String> {
+        told_of_decaying(tones, noise, f64::INFINITY)
+    }
+
+    /// The same of tones that decay in so many samples.
+    fn told_of_decaying(tones: &[(f64, f64)], noise: f64, decay: f64) -> Option<String> {
         let mut deviates = Deviates(1);
         let mut unsearched = Unsearched::default();
         let pairs: Vec<[f32; 2]> = (0..150_000)
             .map(|k| {
+                let left = (-f64::from(k) / decay).exp();
                 [0.8, -0.5].map(|share| {
                     let tone = |&(period, amplitude): &(f64, f64)| {
                         amplitude * (TAU * f64::from(k) / period).cos()
                     };
                     let wave: f64 = tones.iter().map(tone).sum();
-                    (0.5 + share * wave + noise * deviates.draw()) as f32
+                    (0.5 + share * left * wave + noise * deviates.draw()) as f32
                 })
             })
             .collect();
@@ -223,6 +233,14 @@ mod tests {
                 let told = told(&[(period, 1.0)], noise).expect("a wave");
                 assert!(told.contains(names), "{period} {noise}: {told}");
             }
+        }
+    }
+
+    #[test]
+    fn a_wave_that_decays_into_noise_is_named() {
+        for (period, names) in [(3.3, "--frequency 30300"), (244.0, "--frequency 410")] {
+            let told = told_of_decaying(&[(period, 1.0)], 0.01, 15_000.0).expect("a wave");
+            assert!(told.contains(names), "{told}");
         }
     }
 

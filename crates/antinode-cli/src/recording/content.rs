@@ -5,8 +5,9 @@ use std::io::{self, Cursor, Read};
 use super::Stream;
 use super::columns::is_known;
 use super::foreign::{FEW_BYTES, Foreign};
+use super::number::is_number;
 use super::source::unmarked_utf_16;
-use super::text::{MAX_LINE, fields, is_number, is_skipped, separator, without_mark};
+use super::text::{MAX_LINE, fields, is_log_head, is_skipped, separator, without_mark};
 
 /// Bytes read at a time while a text's first line is looked for.
 const PIECE: usize = 4096;
@@ -96,7 +97,7 @@ fn tells_csv(text: &[u8], has_begun: &mut bool) -> Option<bool> {
     lines.find_map(|line| {
         if has_control(line) {
             Some(false)
-        } else if is_skipped(line) {
+        } else if is_skipped(line) || is_log_head(line) {
             None
         } else {
             let is_first = !std::mem::replace(has_begun, true);

@@ -1,6 +1,6 @@
 //! Fields that hold a number and are none: behind a label or a time stamp, in brackets, in hexadecimal digits.
 
-use super::text::is_number;
+use super::number::is_number;
 
 /// Whether two fields hold numbers in the same text: names do not, over samples.
 pub(super) fn are_alike(one: &[u8], other: &[u8]) -> bool {
@@ -24,6 +24,14 @@ fn form(field: &[u8]) -> Vec<u8> {
     form
 }
 
+/// Whether a field is a number with its unit.
+pub(super) fn is_measured(text: &str) -> bool {
+    let is_digit = |letter: char| letter.is_ascii_digit();
+    let unit = text.trim_start_matches(|letter| is_digit(letter) || "+-−.,eE".contains(letter));
+    let base = unit.trim_start().trim_start_matches(['m', 'u', 'µ', 'n']);
+    text[..text.len() - unit.len()].contains(is_digit) && ["V", "s", "sec"].contains(&base)
+}
+
 /// How lines with such a field become lines of numbers; none where its form is none that is known.
 pub(super) fn remedy(text: &str) -> Option<&'static str> {
     let is_stamp = |word: &str| {
@@ -31,12 +39,25 @@ pub(super) fn remedy(text: &str) -> Option<&'static str> {
         word.contains(':')
             && parts.all(|part| part.starts_with(|letter: char| letter.is_ascii_digit()))
     };
-    let mut words = text.split_ascii_whitespace().rev();
-    // A time alone has no number behind it.
-    let has_number = words
-        .next()
-        .is_some_and(|last| is_number(last.as_bytes(), b','));
-    let is_stamped = words.any(is_stamp) && (has_number || text.contains("->"));
+    let words: Vec<&str> = text
+        .split([' ', '\t', ']'])
+        .filter(|word| !word.is_empty())
+        .collect();
+    let stamp = words.iter().rposition(|word| is_stamp(word));
+    // `Thu Nov 26 10:00:00 2026`
+    let has_year = stamp == Some(3) && words[2].len() <= 2;
+    let is_behind = |stamp: usize| {
+        words.len() > stamp + 1 + usize::from(has_year)
+            && (words
+                .last()
+                .is_some_and(|last| is_number(last.as_bytes(), b','))
+                || text.contains("->"))
+    };
+    let is_stamped = stamp.is_some_and(is_behind);
+    // A time alone has no number behind it: its column may be left out.
+    if stamp.is_some() && !is_stamped {
+        return None;
+    }
     let label = text.split([':', '=']).next().unwrap_or_default().trim_end();
     let is_label = label.len() < text.len()
         && label.starts_with(|letter: char| letter.is_ascii_alphabetic() || letter == '_')
@@ -50,13 +71,15 @@ pub(super) fn remedy(text: &str) -> Option<&'static str> {
             .chars()
             .all(|letter| letter.is_ascii_hexdigit());
     Some(if is_stamped {
-        r"switch the terminal's time stamps off, or take them away, `sed -E 's/^.*[0-9]:[0-9.]+( ->|\])?[[:blank:]]*//' FILE | antinode identify -`"
+        r"switch the terminal's time stamps off, or take them away, `sed -E 's/^.*([a-z] [A-Z][a-z]+ +[0-9]+ [0-9:]+ [0-9]{4}|[0-9]:[0-9.]+)( ->|\])?[[:blank:]]*//' FILE | antinode identify -`"
     } else if text.starts_with("b'") {
         r#"write text, not bytes, in Python `line.decode()`; of this file `sed -E "s/^b'|(\\\\[rn])+'$//g" FILE | antinode identify -`"#
     } else if text.starts_with("{\"") {
         "write CSV of JSON lines, `jq -r '[.c,.d]|@csv' FILE | antinode identify -`, with the names of your two signals for c and d"
-    } else if text.starts_with(['[', '(', '{']) || text.ends_with([']', ')', '}']) {
-        "take the brackets away, `tr -d '[](){}' < FILE | antinode identify -`"
+    } else if text.starts_with(['[', '(', '{', '>']) || text.ends_with([']', ')', '}']) {
+        "take the brackets away, `tr -d '[](){}>' < FILE | antinode identify -`"
+    } else if is_measured(text) {
+        r"take the units away, `perl -pe 's/(\d\.?) *([mun]|µ|)(V|s|sec)\b/$1.{qw(m e-3 u e-6 µ e-6 n e-9)}->{$2}/ge' FILE | antinode identify -`"
     } else if is_label {
         "take the labels away, `sed -E 's/[A-Za-z_][A-Za-z_0-9]* *[:=]//g' FILE | antinode identify -`"
     } else if is_hexadecimal {
@@ -111,7 +134,17 @@ mod tests {
             ("1x", None),
             ("x", None),
             ("low", None),
-            ("0.398V", None),
+            ("[12:34:56.000]", None),
+            ("[12:34:56.000]755", Some("switch")),
+            ("Thu Nov 26 10:00:00 2026", None),
+            ("Thu Nov 26 10:00:00 2026 -755", Some("switch")),
+            ("> 755", Some("take the brackets")),
+            (">", Some("take the brackets")),
+            ("0.398V", Some("take the units")),
+            ("−398 mV", Some("take the units")),
+            ("1e-05 sec", Some("take the units")),
+            ("1e-05 min", None),
+            ("V", None),
             ("", None),
         ] {
             let found = remedy(text);

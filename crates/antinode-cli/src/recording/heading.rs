@@ -2,7 +2,8 @@
 
 use super::forms::are_alike;
 use super::no_number::stand_in;
-use super::text::{self, fields, number};
+use super::number::{self, number};
+use super::text::{self, fields};
 
 /// Fewer lines than these do not tell whether a sample goes before them.
 const FEW: usize = 8;
@@ -18,7 +19,7 @@ pub(super) fn is_header(first: &[u8], next: &[u8], separator: u8) -> bool {
         .filter(|line| !text::is_skipped(line))
         .map(|line| fields(line, separator).collect())
         .collect();
-    let is_number = |field: &[u8]| text::is_number(field, separator);
+    let is_number = |field: &[u8]| number::is_number(field, separator);
     if !names.iter().any(|name| is_number(name)) {
         // A recording may begin with samples that are out of range, and nothing is named as a sample is written.
         let is_sample = |(place, name): (usize, &&[u8])| {
@@ -68,7 +69,7 @@ fn are_counted(names: &[&[u8]]) -> bool {
 /// Whether the numbers in these columns are all written with a point or an exponent.
 fn are_written_otherwise(rows: &[Vec<&[u8]>], columns: &[usize], separator: u8) -> bool {
     let is_otherwise = |field: &[u8]| {
-        text::is_number(field, separator) && field.iter().any(|byte| b".,eE".contains(byte))
+        number::is_number(field, separator) && field.iter().any(|byte| b".,eE".contains(byte))
     };
     columns.iter().all(|&place| {
         let below = || rows.iter().filter_map(|row| row.get(place));

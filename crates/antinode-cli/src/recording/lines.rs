@@ -7,6 +7,7 @@ use csv::{ByteRecord, ReaderBuilder, Terminator};
 use super::Stream;
 use super::error::{InputError, LineFault};
 use super::preamble::{self, STEADY_LINES, Start};
+use super::quoted::{self, Quoted, has_decimal_commas};
 use super::text::{self, LineEnds, MAX_LINE, Text, bare};
 
 /// How a text begins; all of it but settings above is still to be read.
@@ -37,10 +38,15 @@ impl Lines {
         let mut stream = BufReader::with_capacity(MAX_LINE, LineEnds::new(stream));
         let (mut begun, line, before) = text::first_line(file, &mut stream)?;
         // No row needs fewer lines than are read ahead here.
+        let mut is_quoted = false;
         let mut start = loop {
             let next = text::next_lines(&mut stream, STEADY_LINES)
                 .map_err(|fault| InputError::io(file, fault))?;
             begun.extend_from_slice(&next);
+            is_quoted = is_quoted || has_decimal_commas(&begun);
+            if is_quoted {
+                quoted::part(&mut begun, &mut false);
+            }
             let is_all = next.iter().filter(|&&byte| byte == b'\n').count() < STEADY_LINES;
             if let Some(start) = preamble::find(&begun, is_all) {
                 break start;
@@ -62,7 +68,12 @@ impl Lines {
             start,
         };
         let separator = text::separator(&beginning.first);
-        let text = Text::new(Box::new(Cursor::new(begun).chain(stream)));
+        let rest: Stream = if is_quoted {
+            Box::new(Quoted::new(Box::new(stream)))
+        } else {
+            Box::new(stream)
+        };
+        let text = Text::new(Box::new(Cursor::new(begun).chain(rest)));
         let reader = ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)

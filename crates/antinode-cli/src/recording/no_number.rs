@@ -1,6 +1,6 @@
 //! Fields that hold no number because there was none to tell: out of range, or missing.
 
-use super::text::number;
+use super::number::number;
 
 /// What programs and instruments write for a sample that is missing or out of range, in lower case.
 const WORDS: [&str; 32] = [

@@ -12,8 +12,9 @@ use clock::{UNBENT, UNEVEN, is_clock};
 use super::header::lossy;
 use super::heading::is_header;
 use super::no_number::stand_in;
+use super::number::is_number;
 use super::sequence::Sequence;
-use super::text::{fields, is_number, is_skipped, separator};
+use super::text::{fields, is_skipped, separator};
 use super::units::{self, bare, time_exponent};
 use super::{columns, signal_units};
 

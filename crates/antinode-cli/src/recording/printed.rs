@@ -23,7 +23,7 @@ impl Printed {
                     last = *byte;
                 }
                 b'.' | b',' => point = true,
-                b'e' | b'E' => break,
+                b'e' | b'E' | b'D' => break,
                 _ => {}
             }
         }

@@ -1,7 +1,7 @@
 //! Recordings whose header tells the time of the first sample and the step: `X,CH1,CH2,Start,Increment`, with or without the column `X` that
 //! counts the lines, or `CH1V,CH2V,t0 = -1e-3, tInc = 1e-5`; and those whose settings tell the same.
 
-use super::text::number;
+use super::number::number;
 
 /// The settings of LabVIEW and of Yokogawa: the time of the first sample, the step, what they are of, and that in s.
 const SETTINGS: [[&str; 4]; 2] = [

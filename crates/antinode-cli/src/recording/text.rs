@@ -1,7 +1,6 @@
 //! Lines of text and the numbers in them.
 
 use std::io::{self, BufRead, Read};
-use std::str::FromStr;
 
 use super::Stream;
 use super::columns::is_time;
@@ -164,7 +163,7 @@ pub(super) fn first_line(
             before += (line.len() - rest.len()) as u64;
             line = rest;
         }
-        if is_skipped(&line) {
+        if is_skipped(&line) || is_log_head(&line) {
             counted = has_count(&line).then(|| (line.clone(), number, before));
             continue;
         }
@@ -238,6 +237,12 @@ pub(super) fn is_skipped(line: &[u8]) -> bool {
     line.trim_ascii_start().is_empty() || is_comment(line)
 }
 
+/// Whether a line is the head that PuTTY writes above a log.
+pub(super) fn is_log_head(line: &[u8]) -> bool {
+    let line = line.trim_ascii();
+    line.starts_with(b"=~=~=~") && line.ends_with(b"=~=")
+}
+
 /// Whether a line is a comment.
 pub(super) fn is_comment(line: &[u8]) -> bool {
     let line = line.trim_ascii_start();
@@ -280,23 +285,6 @@ pub(super) fn bare(field: &[u8]) -> &[u8] {
         [b'"', inner @ .., b'"'] => inner.trim_ascii(),
         _ => field,
     }
-}
-
-/// The number a field holds, finite or not; its decimal mark may be a comma where that separates no fields.
-pub(super) fn number<T: FromStr>(field: &[u8], separator: u8) -> Option<T> {
-    let text = str::from_utf8(field).ok()?;
-    let number = match text.parse::<T>() {
-        Err(_) if separator != b',' && !text.contains('.') => {
-            text.replacen(',', ".", 1).parse::<T>()
-        }
-        number => number,
-    };
-    number.ok()
-}
-
-/// Whether a field holds a number, finite or not.
-pub(super) fn is_number(field: &[u8], separator: u8) -> bool {
-    number::<f64>(field, separator).is_some()
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! Units of the columns of a text recording, in its header or in a line of their own.
 
+use super::forms::is_measured;
 use super::no_number::stand_in;
+use super::number::is_number;
 use super::signal_units::is_known;
-use super::text::is_number;
 
 /// The power of ten that a unit of time makes of seconds: −3 for ms. `Some(None)` for times that are none, `None` for other units.
 pub(super) fn time_exponent(unit: &str) -> Option<Option<i32>> {
@@ -74,12 +75,13 @@ pub(super) fn are_bracketed(fields: &[String]) -> bool {
 
 /// Whether a field may be a unit: a short word, or nothing.
 fn is_unit(field: &str) -> bool {
+    let is_sample = is_measured(field);
     let field = bare(field).to_lowercase();
     // What stands for a number that is missing is none.
     let is_missing = !field.is_empty() && stand_in(field.as_bytes()).is_some();
     let is_word = field.chars().any(|letter| !letter.is_ascii_digit());
     let is_short = field.chars().count() <= 8 || is_known(&field);
-    !is_missing && is_short && (is_word || field.is_empty())
+    !is_missing && !is_sample && is_short && (is_word || field.is_empty())
 }
 
 /// Whether fields may be units, all of them: short words, or nothing, and no numbers.
@@ -138,7 +140,7 @@ mod tests {
         for field in ["V", "(mV)", "", "m/s", "LSB", "-", "°/s"] {
             assert!(is_unit(field), "{field}");
         }
-        for field in ["NA", "n/a", "12", "no signal here"] {
+        for field in ["NA", "n/a", "12", "0.398V", "-5 mV", "no signal here"] {
             assert!(!is_unit(field), "{field}");
         }
     }

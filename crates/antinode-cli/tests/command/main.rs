@@ -40,6 +40,7 @@ mod span;
 mod study;
 mod text;
 mod text_broken;
+mod text_forms;
 mod text_gaps;
 mod text_garbled;
 mod text_preambles;

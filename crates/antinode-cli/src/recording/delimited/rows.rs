@@ -9,8 +9,8 @@ use super::super::left_out::LeftOut;
 use super::super::lines::Lines;
 use super::super::no_number::stand_in;
 use super::super::not_finite::Written;
+use super::super::number::number;
 use super::super::printed::Printed;
-use super::super::text::number;
 use super::fields::{cut, missing, place};
 
 /// How much of a bad field an error shows.

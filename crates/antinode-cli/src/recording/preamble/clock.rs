@@ -1,7 +1,7 @@
 //! Whether a column of a text is its time.
 
 use super::Line;
-use crate::recording::text::number;
+use crate::recording::number::number;
 
 /// How far the longest step of a time may exceed the shortest, which rounding makes uneven.
 pub(super) const UNEVEN: f64 = 1.5;

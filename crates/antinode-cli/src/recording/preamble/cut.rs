@@ -3,7 +3,7 @@
 //! It is known only where all lines below it hold samples in the same columns, so that no other can be lost.
 
 use super::super::heading::is_header;
-use super::super::text::number;
+use super::super::number::number;
 use super::{Line, Start, UNBENT, UNEVEN, has_samples, is_clock, is_sample};
 
 /// Where the lines behind such a first line begin; none where it is whole.
@@ -33,7 +33,7 @@ pub(super) fn start(lines: &[Line], numbers: &[usize], separator: u8) -> Option<
 fn lacks_fields(fields: &[&[u8]], width: usize, separator: u8) -> bool {
     let is_part = |field: &[u8]| {
         let has_digit = field.iter().any(u8::is_ascii_digit);
-        let is_of_number = |byte: &u8| byte.is_ascii_digit() || b"+-.,eE".contains(byte);
+        let is_of_number = |byte: &u8| byte.is_ascii_digit() || b"+-.,eED".contains(byte);
         field.is_empty() || has_digit && field.iter().all(is_of_number)
     };
     let Some((part, whole)) = fields.split_first() else {

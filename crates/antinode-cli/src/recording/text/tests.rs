@@ -33,26 +33,6 @@ fn fields_lose_blanks_and_quotes() {
 }
 
 #[test]
-fn numbers_may_have_a_decimal_comma() {
-    assert_eq!(number::<f32>(b"-1.5e-3", b','), Some(-1.5e-3));
-    assert_eq!(number::<f64>(b"1,5", b';'), Some(1.5));
-    for (text, mark) in [
-        ("1,5", b','),
-        ("1,234.5", b';'),
-        ("1,234,5", b';'),
-        ("nanny", b','),
-        ("1.#INF", b','),
-    ] {
-        assert_eq!(number::<f32>(text.as_bytes(), mark), None, "{text}");
-    }
-    assert_eq!(number::<f32>(b"1e39", b','), Some(f32::INFINITY));
-    assert_eq!(number::<f32>(b"-Inf", b','), Some(f32::NEG_INFINITY));
-    assert!(number::<f32>(b"NaN", b',').is_some_and(f32::is_nan));
-    assert_eq!(number::<f32>(b"", b';'), None);
-    assert_eq!(number::<f32>(b"\xff", b';'), None);
-}
-
-#[test]
 fn lines_end_the_same_way() {
     for (text, expected) in [
         ("1,2\r\n3,4", "1,2\n 3,4\n"),

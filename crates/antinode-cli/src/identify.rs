@@ -1,5 +1,6 @@
 //! `antinode identify`: recordings in, rows out, as a stream.
 
+mod causes;
 mod coarse;
 mod copied;
 mod few;
@@ -11,6 +12,8 @@ mod in_turn;
 mod one_sided;
 mod options;
 mod out;
+mod ripple;
+mod rounded;
 mod scatter;
 mod search;
 mod silence;

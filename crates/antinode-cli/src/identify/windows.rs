@@ -4,6 +4,7 @@ use std::io::Write;
 
 use antinode::{Estimate, Flags, SettingsError};
 
+use super::causes::Causes;
 use super::coarse::Coarse;
 use super::copied::Copied;
 use super::few::Few;
@@ -12,7 +13,6 @@ use super::held::Held;
 use super::in_turn::InTurn;
 use super::one_sided::OneSided;
 use super::options::{Identify, Methods};
-use super::scatter::Scatter;
 use super::search::Search;
 use super::silence::Silence;
 use super::span::{Span, Step};
@@ -45,7 +45,7 @@ pub(super) struct Windows<'a> {
     search: Search,
     span: Span,
     silence: Silence,
-    scatter: Scatter,
+    causes: Causes,
     in_turn: InTurn,
     held: Held,
     copied: Copied,
@@ -95,7 +95,7 @@ impl<'a> Windows<'a> {
             search: Search::default(),
             span: Span::new(options, recording, rate),
             silence: Silence::default(),
-            scatter: Scatter::new(settings.resolution),
+            causes: Causes::new(options, &settings, rate),
             in_turn: InTurn::default(),
             held: Held::default(),
             copied: Copied::default(),
@@ -215,7 +215,7 @@ impl<'a> Windows<'a> {
         let history = self.history.as_ref();
         let methods = history.and_then(|history| history.compare(estimate));
         self.silence.see(estimate, self.rate, self.options.hop);
-        self.scatter.see(estimate);
+        self.causes.see(estimate);
         self.in_turn.see(estimate, self.rate);
         self.one_sided.see(estimate);
         if !estimate.flags.contains(Flags::LOST) {
@@ -261,7 +261,7 @@ impl<'a> Windows<'a> {
                 .told(recording.resolution_so_far(), self.residual),
             self.few.told().filter(|_| rows.count() > 0),
             self.topped.told(self.residual),
-            self.scatter.told(self.options.hum || self.options.coloured),
+            self.causes.told(),
             self.in_turn.told(),
             self.held
                 .told()

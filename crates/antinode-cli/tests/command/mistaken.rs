@@ -1,6 +1,6 @@
 //! `antinode identify` on samples that are not what they are taken for: rows would look well.
 
-use crate::common::{RATE, WAVE, fault, npy, raw, run, run_with, text, wav};
+use crate::common::{RATE, WAVE, Wave, fault, npy, raw, run, run_with, text, wav};
 
 #[test]
 fn one_pick_off_behind_the_other_is_told() {
@@ -133,6 +133,28 @@ fn amplitudes_that_are_not_identified_are_told() {
             .contains("amplitudes are identified from 1e-15 to 1e17");
         assert_eq!(is_told, is_beyond, "{scale}: {}", run.err);
         assert!(is_beyond || run.code == 0, "{scale}: {}", run.err);
+    }
+}
+
+#[test]
+fn an_offset_that_single_precision_rounds_is_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let codes = Wave {
+        noise: 1e-5,
+        ..WAVE
+    }
+    .codes(20_000);
+    for (offset, is_told) in [(80.0, true), (8.0, false), (0.0, false)] {
+        let samples = codes.as_flattened().iter();
+        let bytes = samples.flat_map(|&code| (f32::from(code) / 32_768.0 + offset).to_le_bytes());
+        let run = run_with(
+            directory.path(),
+            "identify - --raw f32 --rate 100000",
+            bytes.collect(),
+        );
+        assert_eq!(run.code, 0, "{}", run.err);
+        let told = "warning: standard input: the offset is ";
+        assert_eq!(run.err.contains(told), is_told, "{offset}: {}", run.err);
     }
 }
 

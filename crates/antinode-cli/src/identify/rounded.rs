@@ -1,0 +1,84 @@
+//! Whether the residual is what single precision rounds of a large offset, rather than noise: it raises σ, and may look like misfits.
+
+use antinode::{Estimate, Flags};
+
+/// An offset of fewer amplitudes rounds hardly more than the wave itself.
+const LARGE: f64 = 3.0;
+/// Residual, as a share of the offset and for each sample of a period, that rounded sums of blocks leave: half of it of short blocks, and up
+/// to 1.4·10⁻⁸ of those of two periods.
+const ROUNDING: f64 = 1.8e-8;
+/// Residual, as a share of the wave, below which nobody misses what is rounded.
+const LEAST: f64 = 1e-5;
+/// Fewer rows tell too little.
+const FEWEST: u64 = 4;
+
+/// Rows whose residual is no larger than such rounding.
+#[derive(Debug, Default)]
+pub(super) struct Rounded {
+    rows: u64,
+    rounded: u64,
+    /// The offset of the last of them, in amplitudes.
+    offset: f64,
+}
+
+impl Rounded {
+    /// Takes a row of a recording of this sample rate, Hz.
+    pub fn see(&mut self, estimate: &Estimate, rate: f64) {
+        if estimate.flags.contains(Flags::LOST) {
+            return;
+        }
+        self.rows += 1;
+        let [c, d] = estimate.offsets.map(f64::from);
+        let (offset, main) = (c.hypot(d), f64::from(estimate.main_amplitude));
+        let rounding = ROUNDING * rate / estimate.frequency * offset;
+        let residual = f64::from(estimate.residual_rms);
+        if offset > LARGE * main && (LEAST * main..rounding).contains(&residual) {
+            self.rounded += 1;
+            self.offset = offset / main;
+        }
+    }
+
+    /// What to tell where most rows are such.
+    pub fn told(&self) -> Option<String> {
+        (self.rows >= FEWEST && 2 * self.rounded > self.rows).then(|| {
+            format!(
+                "the offset is {:.0} times the wave, and what single precision rounds of it is much of the residual: deviations are larger for \
+                 it, and rows may be flagged misfit; take the mean of each pick-off away before, in double precision",
+                self.offset
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::scatter::tests::row;
+    use super::*;
+    use crate::deviates::Deviates;
+
+    #[test]
+    fn a_residual_of_rounding_is_told_from_noise() {
+        // Of 0.6, at 18.75 samples a period.
+        for (offset, residual, is_told) in [
+            (60.0, 1.6e-5, true),
+            (60.0, 3e-5, false),
+            (60.0, 5e-6, false),
+            (1.0, 1e-8, false),
+            (0.0, 0.0, false),
+            (f32::NAN, 1e-5, false),
+        ] {
+            let (mut rounded, mut deviates) = (Rounded::default(), Deviates(1));
+            for index in 0..9 {
+                let mut row = row(index, 1.0, &mut deviates);
+                row.residual_rms = if index % 2 == 0 { residual } else { 1.0 };
+                row.offsets = [offset, 0.0];
+                rounded.see(&row, 1e5);
+                row.flags = Flags::LOST;
+                rounded.see(&row, 1e5);
+            }
+            let told = rounded.told();
+            assert_eq!(told.is_some(), is_told, "{offset} {residual}");
+            assert!(told.is_none_or(|told| told.starts_with("the offset is 100 times")));
+        }
+    }
+}

@@ -4,7 +4,7 @@ mod fields;
 mod options;
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -15,9 +15,6 @@ use crate::failure::Failure;
 use crate::interrupt::on_interrupt;
 use crate::recording::{RecordingWriter, WholeFile};
 pub use options::Simulate;
-
-/// Beyond this no disk holds a recording.
-const MOST_PAIRS: f64 = 1e12;
 
 /// What was written, as JSON.
 #[derive(Debug, Serialize)]
@@ -34,14 +31,7 @@ struct Truth<'a> {
 pub fn run(options: &Simulate) -> Result<(), Failure> {
     let (wave, flaws) = (options.wave(), options.flaws());
     let gyro = Gyro::new(wave, flaws.clone(), options.rate, options.seed)?;
-    let pairs = (options.seconds * options.rate).round();
-    if !(1.0..=MOST_PAIRS).contains(&pairs) {
-        return Err(Failure::Usage(format!(
-            "--seconds: {} s at {} Hz are not 1 to {MOST_PAIRS:e} sample pairs",
-            options.seconds, options.rate
-        )));
-    }
-    let pairs = pairs as u64;
+    let pairs = options.pairs()?;
     options.check_places(pairs)?;
     options.check_frequency()?;
     // The whole name: recordings that differ in their extension alone have each their own.
@@ -55,9 +45,6 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
             options.out.display()
         )));
     }
-    // Files that have no name yet go as they are dropped, but not with a process that is killed.
-    let interrupted = interrupted()?;
-    let mut writer = RecordingWriter::create(&options.out, options.rate, options.sample)?;
     let truth = Truth {
         sample_rate_hz: options.rate,
         sample_pairs: pairs,
@@ -65,21 +52,7 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
         wave: &wave,
         flaws: &flaws,
     };
-    let text = serde_json::to_string_pretty(&truth).map_err(io::Error::from)?;
-    // Written before the samples: what cannot be is found at once, and not after a long recording.
-    let beside_whole = WholeFile::text(&beside, &(text + "\n"))?;
-    let mut beyond = 0u64;
-    // Counted in 64 bits: a processor of 32 bits can write as many.
-    for (_, pair) in (0..pairs).zip(gyro) {
-        if interrupted.load(Ordering::Relaxed) {
-            let file = options.out.display().to_string();
-            return Err(Failure::Interrupted { file });
-        }
-        beyond += u64::from(pair.c.abs() > 1.0 || pair.d.abs() > 1.0);
-        writer.write([pair.c, pair.d])?;
-    }
-    writer.finish()?;
-    beside_whole.finish()?;
+    let beyond = write(options, gyro, &truth, &beside)?;
     if options.sample.is_integer() && beyond > 0 {
         eprintln!(
             "warning: {beyond} of {pairs} sample pairs lay beyond the file's full scale of 1 and were limited to it; \
@@ -94,6 +67,29 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
         beside.display()
     )?;
     Ok(())
+}
+
+/// Writes both files, or none; gives how many pairs lay beyond a full scale of 1.
+fn write(options: &Simulate, gyro: Gyro, truth: &Truth, beside: &Path) -> Result<u64, Failure> {
+    // Files that have no name yet go as they are dropped, but not with a process that is killed.
+    let interrupted = interrupted()?;
+    let mut writer = RecordingWriter::create(&options.out, options.rate, options.sample)?;
+    let text = serde_json::to_string_pretty(truth).map_err(io::Error::from)?;
+    // Written before the samples: what cannot be is found at once, and not after a long recording.
+    let beside = WholeFile::text(beside, &(text + "\n"))?;
+    let mut beyond = 0u64;
+    // Counted in 64 bits: a processor of 32 bits can write as many.
+    for (_, pair) in (0..truth.sample_pairs).zip(gyro) {
+        if interrupted.load(Ordering::Relaxed) {
+            let file = options.out.display().to_string();
+            return Err(Failure::Interrupted { file });
+        }
+        beyond += u64::from(pair.c.abs() > 1.0 || pair.d.abs() > 1.0);
+        writer.write([pair.c, pair.d])?;
+    }
+    writer.finish()?;
+    beside.finish()?;
+    Ok(beyond)
 }
 
 /// What becomes true when the user or the system ends the command.

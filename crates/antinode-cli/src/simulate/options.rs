@@ -12,6 +12,9 @@ use crate::failure::Failure;
 use crate::ranges;
 use crate::recording::SampleFormat;
 
+/// Beyond this no disk holds a recording.
+const MOST_PAIRS: f64 = 1e12;
+
 /// `antinode simulate`.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true, mut_args = told_as_number)]
@@ -169,6 +172,18 @@ impl Simulate {
             frequency_split: self.wave.frequency_split,
             frequency_angle: self.wave.frequency_angle,
         }
+    }
+
+    /// Sample pairs of the recording; refuses none, and more than a disk holds.
+    pub fn pairs(&self) -> Result<u64, Failure> {
+        let pairs = (self.seconds * self.rate).round();
+        if (1.0..=MOST_PAIRS).contains(&pairs) {
+            return Ok(pairs as u64);
+        }
+        Err(Failure::Usage(format!(
+            "--seconds: {} s at {} Hz are not 1 to {MOST_PAIRS:e} sample pairs",
+            self.seconds, self.rate
+        )))
     }
 
     /// Refuses a frequency whose samples would be those of another one.

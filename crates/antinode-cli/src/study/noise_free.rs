@@ -97,7 +97,7 @@ fn figure(
         });
     }
     for panel in &mut panels {
-        // f64::max takes no part in a missing value.
+        // By name, as a value that a curve has not is the floor here, like one too small.
         panel.curves.retain(|curve| {
             !matches!(
                 (curve.name, panel.letter),

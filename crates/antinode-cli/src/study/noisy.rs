@@ -11,6 +11,11 @@ use super::simulated::{STEPS, Simulated};
 /// Runs that one core takes at a time. Sums over them are joined in order: results do not depend on the cores.
 const CHUNK: u32 = 250;
 
+/// The noise at a step, rms a sample, in input units.
+fn noise(simulated: &Simulated, step: u32) -> f64 {
+    0.01 * simulated.percent(step) * simulated.wave().main_amplitude
+}
+
 /// Summed square errors of every curve at a step of the noise.
 fn squares(
     simulated: &Simulated,
@@ -20,7 +25,7 @@ fn squares(
 ) -> [[f64; 4]; 8] {
     let mut sums = [[0.0; 4]; 8];
     let wave = &simulated.wave();
-    let noise = 0.01 * simulated.percent(step) * wave.main_amplitude;
+    let noise = noise(simulated, step);
     for run in runs {
         // A run of a step has a seed of its own.
         let seed =
@@ -75,49 +80,36 @@ pub fn against_noise(simulated: &Simulated, runs: u32, seed: u64) -> Figure {
     let percent = 100.0 / wave.main_amplitude;
     let [bound, centred] =
         Samples::simulate(wave, simulated.periods, simulated.rate, 0.0, seed).bounds(wave);
-    let bounds = [(Name::Bound, bound), (Name::CentredBound, centred)];
     let kinds = [
         ('a', "main amplitude", "rms error, % of a_A", percent),
         ('b', "quadrature amplitude", "rms error, % of a_A", percent),
         ('c', "angle of the standing wave", "rms error, degrees", 1.0),
         ('d', "frequency", "rms error, Hz", 1.0),
     ];
-    let panels = kinds
-        .into_iter()
-        .enumerate()
-        .map(|(i, (letter, title, axis, scale))| {
-            let mut curves: Vec<Curve> = CURVES
-                .into_iter()
-                .enumerate()
-                .map(|(c, name)| Curve {
-                    name,
-                    y: rms.iter().map(|step| step[c][i] * scale).collect(),
-                })
-                .filter(|curve| curve.y.iter().any(|y| y.is_finite()))
-                .collect();
-            let noise = |&step: &u32| 0.01 * simulated.percent(step) * wave.main_amplitude;
-            for (name, bound) in bounds {
-                curves.push(Curve {
-                    name,
-                    y: steps
-                        .iter()
-                        .map(|step| bound[i] * noise(step) * scale)
-                        .collect(),
-                });
-            }
-            let last = |curve: &Curve| curve.y.last().copied().unwrap_or(0.0);
-            let [least, greatest] = [f64::min, f64::max].map(|pick| {
-                let values = curves.iter().map(last).filter(|y| *y > 0.0);
-                values.reduce(pick).unwrap_or(1.0)
-            });
-            Panel {
-                letter,
-                title: format!("{title}, {}", simulated.window()),
-                axis,
-                logarithmic: greatest > LINEAR * least,
-                curves,
-            }
+    let panels = kinds.into_iter().enumerate();
+    let panels = panels.map(|(i, (letter, title, axis, scale))| {
+        let curves = CURVES.into_iter().enumerate().map(|(c, name)| Curve {
+            name,
+            y: rms.iter().map(|step| step[c][i] * scale).collect(),
         });
+        let known = curves.filter(|curve| curve.y.iter().any(|y| y.is_finite()));
+        let bounds = [(Name::Bound, bound[i]), (Name::CentredBound, centred[i])];
+        let bounds = bounds.map(|(name, bound)| Curve {
+            name,
+            y: steps
+                .iter()
+                .map(|&step| bound * noise(simulated, step) * scale)
+                .collect(),
+        });
+        let curves: Vec<_> = known.chain(bounds).collect();
+        Panel {
+            letter,
+            title: format!("{title}, {}", simulated.window()),
+            axis,
+            logarithmic: is_wide(&curves),
+            curves,
+        }
+    });
     let point = Point {
         periods: simulated.periods,
         rate: simulated.rate,
@@ -130,4 +122,12 @@ pub fn against_noise(simulated: &Simulated, runs: u32, seed: u64) -> Figure {
         runs: Some((runs, seed)),
         panels: panels.collect(),
     }
+}
+
+/// True where errors at the greatest noise are too far apart for a linear axis.
+fn is_wide(curves: &[Curve]) -> bool {
+    let last = curves.iter().filter_map(|curve| curve.y.last().copied());
+    let errors: Vec<f64> = last.filter(|error| *error > 0.0).collect();
+    let greatest = errors.iter().copied().fold(0.0, f64::max);
+    errors.iter().any(|error| greatest > LINEAR * error)
 }

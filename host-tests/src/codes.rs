@@ -41,7 +41,7 @@ pub fn settings(bits: u32, periods: u16) -> Settings {
 pub fn codes(wave: Wave, flaws: &Flaws, samples: usize, seed: u64) -> Vec<[i32; 2]> {
     let gyro = Gyro::new(wave, flaws.clone(), RATE, seed).expect("the test's gyro is valid");
     gyro.take(samples)
-        .map(|pair| [pair.c as i32, pair.d as i32])
+        .map(|pair| pair.map(|x| x as i32))
         .collect()
 }
 

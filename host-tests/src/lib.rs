@@ -44,7 +44,7 @@ pub fn identify_changed(
     let gyro = Gyro::new(wave, flaws.clone(), RATE, seed).expect("the test's gyro is valid");
     gyro.take(samples)
         .enumerate()
-        .map(|(k, pair)| change(k, [pair.c, pair.d]))
+        .map(|(k, pair)| change(k, pair))
         .filter_map(|pair| core.push(pair.map(|x| x as f32)))
         .collect()
 }
@@ -114,7 +114,7 @@ pub fn no_wave() -> Wave {
 pub fn stream(wave: Wave, flaws: Flaws, samples: usize, seed: u64) -> Vec<[f32; 2]> {
     let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
     gyro.take(samples)
-        .map(|pair| [pair.c as f32, pair.d as f32])
+        .map(|pair| pair.map(|x| x as f32))
         .collect()
 }
 

@@ -15,7 +15,7 @@ pub fn samples(wave: &Wave, periods: usize) -> Vec<[f32; 2]> {
     let n = (periods as f64 * RATE / wave.frequency).round() as usize;
     (0..n + LEAD)
         .map(|k| {
-            let (c, d) = wave.pick_offs((k as f64 - LEAD as f64) / RATE);
+            let [c, d] = wave.pick_offs((k as f64 - LEAD as f64) / RATE);
             [c as f32, d as f32]
         })
         .collect()

@@ -49,7 +49,7 @@ fn codes() -> Vec<Code> {
     };
     let gyro = Gyro::new(wave, flaws, RATE, 1).expect("the gyro is valid");
     gyro.take(PAIRS)
-        .map(|pair| [pair.c as i16, pair.d as i16])
+        .map(|pair| pair.map(|x| x as i16))
         .collect()
 }
 

@@ -42,7 +42,7 @@ pub fn run() -> Result<(), Failure> {
     let mut core = Box::new(Identifier::<f32, 256, 16>::new(Settings::new(RATE))?);
     let pairs = gyro.take((SECONDS * RATE) as usize);
     let estimates: Vec<Estimate> = pairs
-        .filter_map(|pair| core.push([pair.c as f32, pair.d as f32]))
+        .filter_map(|pair| core.push(pair.map(|x| x as f32)))
         .collect();
 
     let mut out = io::stdout().lock();

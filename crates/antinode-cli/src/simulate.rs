@@ -84,8 +84,8 @@ fn write(options: &Simulate, gyro: Gyro, truth: &Truth, beside: &Path) -> Result
             let file = options.out.display().to_string();
             return Err(Failure::Interrupted { file });
         }
-        beyond += u64::from(pair.c.abs() > 1.0 || pair.d.abs() > 1.0);
-        writer.write([pair.c, pair.d])?;
+        beyond += u64::from(pair.iter().any(|s| s.abs() > 1.0));
+        writer.write(pair)?;
     }
     writer.finish()?;
     beside.finish()?;

@@ -31,8 +31,8 @@ pub(crate) trait Carried {
     /// What the time from t = 0 to an instant does to any waves.
     fn step(&self, instant: Instant) -> Self::Step;
 
-    /// (S_C, S_D) when these waves have moved on by `step`.
-    fn pick_offs(waves: &Self::Waves, step: &Self::Step) -> (f64, f64);
+    /// [S_C, S_D] when these waves have moved on by `step`.
+    fn pick_offs(waves: &Self::Waves, step: &Self::Step) -> [f64; 2];
 }
 
 /// The wave that runs forward (2 theta + tau) and the one that runs back (2 theta - tau).
@@ -67,9 +67,9 @@ impl Carried for Wave {
         }
     }
 
-    fn pick_offs(waves: &Running, step: &Running) -> (f64, f64) {
+    fn pick_offs(waves: &Running, step: &Running) -> [f64; 2] {
         let (forward, back) = (waves.forward * step.forward, waves.back * step.back);
-        (forward.re + back.re, forward.im + back.im)
+        [forward.re + back.re, forward.im + back.im]
     }
 }
 
@@ -102,8 +102,8 @@ impl<W: Carried> Carrier<W> {
         }
     }
 
-    /// (S_C, S_D) at sample `index`, and again `skew` s later.
-    pub fn at(&mut self, index: u64) -> ((f64, f64), (f64, f64)) {
+    /// [S_C, S_D] at sample `index`, and again `skew` s later.
+    pub fn at(&mut self, index: u64) -> ([f64; 2], [f64; 2]) {
         let block = index / BLOCK;
         if self.block != Some(block) {
             let instant = Instant::of_sample(block * BLOCK, self.sample_rate);
@@ -149,9 +149,9 @@ mod tests {
             .chain([3_600_000_063, 17])
         {
             let instant = Instant::of_sample(index, rate);
-            let ((c, d), (c_late, d_late)) = carrier.at(index);
-            let (c0, d0) = wave.pick_offs_at(instant);
-            let (c1, d1) = wave.pick_offs_at(instant.later(skew));
+            let ([c, d], [c_late, d_late]) = carrier.at(index);
+            let [c0, d0] = wave.pick_offs_at(instant);
+            let [c1, d1] = wave.pick_offs_at(instant.later(skew));
             for error in [c - c0, d - d0, c_late - c1, d_late - d1] {
                 worst = worst.max(error.abs());
             }

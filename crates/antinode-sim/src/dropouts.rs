@@ -47,10 +47,7 @@ pub(crate) fn fills(
                 None => 0.0,
                 Some(before) => {
                     let Input { signal, floor } = front.at(before);
-                    let (signal, floor) = match channel {
-                        Channel::C => (signal.c, floor.c),
-                        Channel::D => (signal.d, floor.d),
-                    };
+                    let (signal, floor) = (signal[channel as usize], floor[channel as usize]);
                     // The sample before may itself stand in a dropout.
                     let last = filled.last().filter(|last| last.end == span.first);
                     last.map_or(signal, |last| last.what.value(floor))

@@ -2,7 +2,6 @@
 
 use crate::carrier::Carrier;
 use crate::flaws::Flaws;
-use crate::gyro::Pair;
 use crate::noise::{Coloured, Normals, Stream};
 use crate::split::SplitWave;
 use crate::time::Instant;
@@ -13,9 +12,9 @@ use libm::sincos;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Input {
     /// The whole of it.
-    pub signal: Pair,
+    pub signal: [f64; 2],
     /// What is left of it without the wave: offset, hum and noise.
-    pub floor: Pair,
+    pub floor: [f64; 2],
 }
 
 /// Where the clean signals come from.
@@ -41,7 +40,7 @@ pub(crate) struct Front {
     /// Cubic distortion over a^2, 1 / (input unit)^2.
     bend: f64,
     gain: f64,
-    offset: Pair,
+    offset: [f64; 2],
     /// Amplitude of the hum and its turns a sample.
     hum: Option<(f64, f64)>,
     noise: Option<(f64, Normals)>,
@@ -68,10 +67,7 @@ impl Front {
             turn: (flaws.pick_off_angle != 0.0).then(|| sincos(2.0 * flaws.pick_off_angle)),
             bend: flaws.cubic / (wave.main_amplitude * wave.main_amplitude),
             gain: flaws.gain_ratio,
-            offset: Pair {
-                c: flaws.offset_c,
-                d: flaws.offset_d,
-            },
+            offset: [flaws.offset_c, flaws.offset_d],
             hum: (flaws.hum != 0.0).then(|| (flaws.hum, flaws.hum_frequency / sample_rate)),
             noise: normals(flaws.noise, Stream::Noise),
             coloured: (flaws.coloured_noise > 0.0).then(|| {
@@ -82,34 +78,26 @@ impl Front {
     }
 
     pub fn at(&mut self, index: u64) -> Input {
-        let seen = self.pick_offs(index);
+        let [c, d] = self.pick_offs(index);
         let mut floor = self.offset;
         if let Some((amplitude, turns)) = self.hum {
             let turns = turns * index as f64;
             let hum = amplitude * sincos(core::f64::consts::TAU * (turns - libm::floor(turns))).0;
-            floor.c += hum;
-            floor.d += hum;
+            floor = floor.map(|s| s + hum);
         }
         if let Some((rms, normals)) = &mut self.noise {
-            let (c, d) = normals.pair(index);
-            floor.c += *rms * c;
-            floor.d += *rms * d;
+            add(&mut floor, *rms, normals.pair(index));
         }
         if let Some((rms, coloured)) = &mut self.coloured {
-            let (c, d) = coloured.pair(index);
-            floor.c += *rms * c;
-            floor.d += *rms * d;
+            add(&mut floor, *rms, coloured.pair(index));
         }
         let bent = |s: f64| s + self.bend * s * s * s;
-        let signal = Pair {
-            c: bent(seen.c) + floor.c,
-            d: self.gain * bent(seen.d) + floor.d,
-        };
+        let signal = [bent(c) + floor[0], self.gain * bent(d) + floor[1]];
         Input { signal, floor }
     }
 
-    fn pick_offs(&mut self, index: u64) -> Pair {
-        let ((c, _), (c_late, d_late)) = match &mut self.source {
+    fn pick_offs(&mut self, index: u64) -> [f64; 2] {
+        let ([c, _], [c_late, d_late]) = match &mut self.source {
             Source::Steady(carrier) => carrier.at(index),
             Source::Split(carrier) => carrier.at(index),
             Source::Formulas { jitter } => {
@@ -129,8 +117,14 @@ impl Front {
         let d = self
             .turn
             .map_or(d_late, |(sin, cos)| d_late * cos - c_late * sin);
-        Pair { c, d }
+        [c, d]
     }
+}
+
+/// Adds noise of `rms` to both channels.
+fn add(floor: &mut [f64; 2], rms: f64, (c, d): (f64, f64)) {
+    floor[0] += rms * c;
+    floor[1] += rms * d;
 }
 
 #[cfg(test)]

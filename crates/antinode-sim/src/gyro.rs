@@ -13,16 +13,7 @@ use crate::wave::{Truth, Wave};
 /// The last index that is an exact `f64`.
 const LAST: u64 = 1 << 53;
 
-/// One sample of both channels.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pair {
-    /// S_C of (2), input units.
-    pub c: f64,
-    /// S_D of (2), input units.
-    pub d: f64,
-}
-
-/// A synthetic gyro: an endless iterator of its samples.
+/// A synthetic gyro: an endless iterator of its sample pairs, [S_C, S_D] of (2), input units.
 ///
 /// Sample `k` of true time is at `k` / sample rate s. It is a function of the arguments of [`Gyro::new`] and `k` alone:
 /// [`Iterator::nth`] and [`Iterator::skip`] jump at no cost, but that coloured noise is computed all the way, and lost samples change none of the others.
@@ -31,8 +22,8 @@ pub struct Gyro {
     wave: Wave,
     sample_rate: f64,
     front: Front,
-    dropouts_c: Spans<Fill>,
-    dropouts_d: Spans<Fill>,
+    /// Of C and of D.
+    dropouts: [Spans<Fill>; 2],
     clip: f64,
     clip_spans: Spans<f64>,
     adc: Option<Adc>,
@@ -53,8 +44,8 @@ impl Gyro {
         wave.check()?;
         flaws.check()?;
         let mut front = Front::new(wave, &flaws, sample_rate, seed);
-        let dropouts_c = fills(&flaws, Channel::C, sample_rate, &mut front)?;
-        let dropouts_d = fills(&flaws, Channel::D, sample_rate, &mut front)?;
+        let mut fills = |channel| fills(&flaws, channel, sample_rate, &mut front);
+        let dropouts = [fills(Channel::C)?, fills(Channel::D)?];
         let clips: Result<Vec<_>, _> = flaws
             .clip_spans
             .iter()
@@ -81,8 +72,7 @@ impl Gyro {
             wave,
             sample_rate,
             front,
-            dropouts_c,
-            dropouts_d,
+            dropouts,
             clip: flaws.clip.unwrap_or(f64::INFINITY),
             clip_spans,
             adc: Adc::new(&flaws),
@@ -104,7 +94,7 @@ impl Gyro {
             .at_instant(Instant::of_sample(index, self.sample_rate))
     }
 
-    /// The ADC's codes (C, D) from the next sample on, in place of their values.
+    /// The ADC's codes [C, D] from the next sample on, in place of their values.
     ///
     /// # Errors
     ///
@@ -122,27 +112,22 @@ impl Gyro {
     }
 
     /// The next sample before the ADC.
-    fn analogue(&mut self) -> Pair {
+    fn analogue(&mut self) -> [f64; 2] {
         let index = self.next;
         let Input { signal, floor } = self.front.at(index);
-        let c = self
-            .dropouts_c
-            .at(index)
-            .map_or(signal.c, |span| span.what.value(floor.c));
-        let d = self
-            .dropouts_d
-            .at(index)
-            .map_or(signal.d, |span| span.what.value(floor.d));
+        let mut pair = signal;
+        for (i, dropouts) in self.dropouts.iter_mut().enumerate() {
+            if let Some(span) = dropouts.at(index) {
+                pair[i] = span.what.value(floor[i]);
+            }
+        }
         let level = self
             .clip_spans
             .at(index)
             .map_or(self.clip, |span| span.what.min(self.clip));
         self.next = self.next.saturating_add(1);
         self.pass_lost();
-        Pair {
-            c: c.max(-level).min(level),
-            d: d.max(-level).min(level),
-        }
+        pair.map(|s| s.max(-level).min(level))
     }
 
     /// Moves on by `count` samples that would have come out.
@@ -159,20 +144,17 @@ impl Gyro {
 }
 
 impl Iterator for Gyro {
-    type Item = Pair;
+    type Item = [f64; 2];
 
-    fn next(&mut self) -> Option<Pair> {
+    fn next(&mut self) -> Option<[f64; 2]> {
         let pair = self.analogue();
         Some(match &self.adc {
-            Some(adc) => Pair {
-                c: adc.value(pair.c),
-                d: adc.value(pair.d),
-            },
+            Some(adc) => pair.map(|s| adc.value(s)),
             None => pair,
         })
     }
 
-    fn nth(&mut self, n: usize) -> Option<Pair> {
+    fn nth(&mut self, n: usize) -> Option<[f64; 2]> {
         self.pass(n as u64);
         self.next()
     }
@@ -182,7 +164,7 @@ impl Iterator for Gyro {
     }
 }
 
-/// The ADC codes of a gyro, an endless iterator of (C, D): see [`Gyro::codes`].
+/// The ADC codes of a gyro, an endless iterator of [C, D]: see [`Gyro::codes`].
 #[derive(Debug, Clone)]
 pub struct Codes {
     gyro: Gyro,
@@ -197,14 +179,13 @@ impl Codes {
 }
 
 impl Iterator for Codes {
-    type Item = (i32, i32);
+    type Item = [i32; 2];
 
-    fn next(&mut self) -> Option<(i32, i32)> {
-        let pair = self.gyro.analogue();
-        Some((self.adc.code(pair.c), self.adc.code(pair.d)))
+    fn next(&mut self) -> Option<[i32; 2]> {
+        Some(self.gyro.analogue().map(|s| self.adc.code(s)))
     }
 
-    fn nth(&mut self, n: usize) -> Option<(i32, i32)> {
+    fn nth(&mut self, n: usize) -> Option<[i32; 2]> {
         self.gyro.pass(n as u64);
         self.next()
     }

@@ -14,7 +14,7 @@
 //! * [`Wave`] is the truth: the five numbers of (1)-(3), their rates, and the resonator's splits of damping and frequency.
 //! * [`Flaws`] is everything between the resonator and the file: noise, offset, gain, skew, clipping, quantisation, lost
 //!   samples and so on. Its documentation gives the order in which they act.
-//! * [`Gyro`] is the stream of samples, an endless iterator of [`Pair`]; [`Gyro::codes`] gives the ADC's integers.
+//! * [`Gyro`] is the stream of samples, an endless iterator of pairs [S_C, S_D]; [`Gyro::codes`] gives the ADC's integers.
 //! * [`Bound`] is how well a window of the wave can be identified at all: the Cramér-Rao bound.
 //!
 //! # Reproducible
@@ -29,7 +29,7 @@
 //! # fn main() -> Result<(), antinode_sim::Error> {
 //! let flaws = Flaws { noise: 0.02, bits: Some(16), full_scale: 2.5, ..Flaws::default() };
 //! let gyro = Gyro::new(Wave::default(), flaws, 100_000.0, 1)?;
-//! let mean_square: f64 = gyro.take(150).map(|s| s.c * s.c + s.d * s.d).sum::<f64>() / 150.0;
+//! let mean_square: f64 = gyro.take(150).map(|[c, d]| c * c + d * d).sum::<f64>() / 150.0;
 //! // The sum of (22) in the paper: a_A^2 + a_B^2 = 2 <S_C^2 + S_D^2>
 //! assert!((2.0 * mean_square - (2.0 * 2.0 + 0.1 * 0.1)).abs() < 0.05);
 //! # Ok(())
@@ -60,7 +60,7 @@ mod wave;
 pub use bound::Bound;
 pub use error::Error;
 pub use flaws::Flaws;
-pub use gyro::{Codes, Gyro, Pair};
+pub use gyro::{Codes, Gyro};
 pub use random::random_wave;
 pub use timed::{Channel, ClipSpan, Dropout, DropoutKind, Loss};
 pub use wave::{Truth, Wave};

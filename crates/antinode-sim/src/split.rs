@@ -150,13 +150,13 @@ impl SplitWave {
     }
 
     #[inline(never)]
-    pub fn pick_offs_at(&self, instant: Instant) -> (f64, f64) {
+    pub fn pick_offs_at(&self, instant: Instant) -> [f64; 2] {
         let wave = &self.wave;
         let turns = instant.turns(wave.frequency, wave.frequency_rate);
         let (scale, matrix) = self.moved(instant.seconds());
         let [f, g] = (matrix * self.start * Self::carrier(turns, wave.phase)).into();
         let seen = (f + g.conj()) * polar(0.5 * scale, 2.0 * wave.angle);
-        (seen.re, seen.im)
+        [seen.re, seen.im]
     }
 }
 
@@ -183,10 +183,10 @@ impl Carried for SplitWave {
         [f + g, f - g]
     }
 
-    fn pick_offs(waves: &Self::Waves, [c, d]: &Self::Step) -> (f64, f64) {
-        (
+    fn pick_offs(waves: &Self::Waves, [c, d]: &Self::Step) -> [f64; 2] {
+        [
             c.x.re * waves.x.re - c.x.im * waves.x.im + c.y.re * waves.y.re - c.y.im * waves.y.im,
             d.x.re * waves.x.im + d.x.im * waves.x.re + d.y.re * waves.y.im + d.y.im * waves.y.re,
-        )
+        ]
     }
 }

@@ -118,12 +118,12 @@ impl Wave {
         }
     }
 
-    /// The pick-off signals (S_C, S_D) of (1)-(3) at `t` s, without noise, input units.
-    pub fn pick_offs(&self, t: f64) -> (f64, f64) {
+    /// The pick-off signals [S_C, S_D] of (1)-(3) at `t` s, without noise, input units.
+    pub fn pick_offs(&self, t: f64) -> [f64; 2] {
         self.pick_offs_at(Instant::of(t))
     }
 
-    pub(crate) fn pick_offs_at(&self, instant: Instant) -> (f64, f64) {
+    pub(crate) fn pick_offs_at(&self, instant: Instant) -> [f64; 2] {
         if let Some(split) = SplitWave::of(self) {
             return split.pick_offs_at(instant);
         }
@@ -132,7 +132,7 @@ impl Wave {
         let (sin, cos) = sincos(2.0 * truth.angle);
         let a = truth.main_amplitude * cos_tau;
         let b = truth.quadrature_amplitude * sin_tau;
-        (a * cos - b * sin, a * sin + b * cos)
+        [a * cos - b * sin, a * sin + b * cos]
     }
 
     pub(crate) fn check(&self) -> Result<(), Error> {
@@ -182,7 +182,7 @@ mod tests {
     #[test]
     fn the_papers_wave_at_zero() {
         // tau = -30 deg, 2 theta = 60 deg: A = 2 cos 30 = sqrt 3, B = -0.1 sin 30 = -0.05
-        let (c, d) = Wave::default().pick_offs(0.0);
+        let [c, d] = Wave::default().pick_offs(0.0);
         let root = 3f64.sqrt();
         assert!((c - (root / 2.0 + 0.05 * root / 2.0)).abs() < 1e-15, "{c}");
         assert!((d - (root * root / 2.0 - 0.05 / 2.0)).abs() < 1e-15, "{d}");
@@ -208,8 +208,8 @@ mod tests {
                 ..wave
             };
             for dt in [0.0, 1e-5, 0.01] {
-                let (c, d) = wave.pick_offs_at(Instant::of(t0).later(dt));
-                let (c0, d0) = moved.pick_offs(dt);
+                let [c, d] = wave.pick_offs_at(Instant::of(t0).later(dt));
+                let [c0, d0] = moved.pick_offs(dt);
                 // 1e-16 of 1.5e5 turns of drift at 1000 s
                 assert!(
                     (c - c0).abs() < 1e-9 && (d - d0).abs() < 1e-9,
@@ -254,7 +254,7 @@ mod tests {
             phase: wave.phase + PI,
             ..wave
         };
-        let ((c, d), (c2, d2)) = (wave.pick_offs(1e-4), same.pick_offs(1e-4));
+        let ([c, d], [c2, d2]) = (wave.pick_offs(1e-4), same.pick_offs(1e-4));
         assert!((c - c2).abs() < 1e-14 && (d - d2).abs() < 1e-14);
     }
 

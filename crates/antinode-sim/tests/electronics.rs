@@ -48,11 +48,11 @@ fn identify(wave: Wave, flaws: Flaws) -> Found {
         .take(SAMPLES)
         .collect();
     let c = phasor(
-        &pairs.iter().map(|s| s.c).collect::<Vec<_>>(),
+        &pairs.iter().map(|s| s[0]).collect::<Vec<_>>(),
         wave.frequency,
     );
     let d = phasor(
-        &pairs.iter().map(|s| s.d).collect::<Vec<_>>(),
+        &pairs.iter().map(|s| s[1]).collect::<Vec<_>>(),
         wave.frequency,
     );
     let plus = (c.0 - d.1, c.1 + d.0);
@@ -214,8 +214,8 @@ fn a_turned_pick_off_sees_the_wave_turned() {
         .enumerate()
     {
         let t = k as f64 / RATE;
-        near("C", pair.c, wave.pick_offs(t).0, 1e-13);
-        near("D", pair.d, turned.pick_offs(t).1, 1e-13);
+        near("C", pair[0], wave.pick_offs(t)[0], 1e-13);
+        near("D", pair[1], turned.pick_offs(t)[1], 1e-13);
     }
 }
 
@@ -242,7 +242,7 @@ fn offset_is_all_the_offset_there_is() {
             .expect("a good gyro")
             .take(25_000);
         pairs.fold((0.0, 0.0), |(c, d), s| {
-            (c + s.c / 25_000.0, d + s.d / 25_000.0)
+            (c + s[0] / 25_000.0, d + s[1] / 25_000.0)
         })
     };
     let (c, d) = sum(flaws);
@@ -267,7 +267,7 @@ fn clipping_lowers_the_fundamental() {
         let samples: Vec<f64> = Gyro::new(wave, clipped, RATE, 0)
             .expect("a good gyro")
             .take(1_000_000)
-            .map(|s| s.c)
+            .map(|s| s[0])
             .collect();
         let (re, im) = phasor(&samples, wave.frequency);
         let expected = 2.0 / PI * (f64::asin(r) + r * (1.0 - r * r).sqrt());

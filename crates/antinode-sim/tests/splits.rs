@@ -117,7 +117,7 @@ fn as_the_two_modes_move() {
                 state[i] + step / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i])
             });
             if k % 3989 == 0 {
-                let (c, d) = wave.pick_offs(step * f64::from(k));
+                let [c, d] = wave.pick_offs(step * f64::from(k));
                 worst = worst.max((c - state[0]).abs()).max((d - state[1]).abs());
             }
         }
@@ -157,7 +157,7 @@ fn the_truth_describes_the_wave_and_its_rates_are_those_of_differences() {
         for k in 0..500 {
             let t = 0.0301 * f64::from(k) - 1.0;
             let [before, truth, after] = [t - h, t, t + h].map(|t| wave.at(t));
-            let (c, d) = wave.pick_offs(t);
+            let [c, d] = wave.pick_offs(t);
             let (c0, d0) = seen(&truth);
             let size = truth.main_amplitude;
             assert!(
@@ -225,8 +225,8 @@ fn nothing_is_special_where_the_splits_and_the_rotation_cancel() {
         for t in [0.0, 1e-6, 0.3, 7.0, 40.0] {
             let (middle, size) = (wave.pick_offs(t), wave.at(t).main_amplitude);
             let [low, high] = [-1e-6, 1e-6].map(|by| near(by).pick_offs(t));
-            let bent =
-                (low.0 + high.0 - 2.0 * middle.0).abs() + (low.1 + high.1 - 2.0 * middle.1).abs();
+            let bent = (low[0] + high[0] - 2.0 * middle[0]).abs()
+                + (low[1] + high[1] - 2.0 * middle[1]).abs();
             // Smooth in the splits: second differences of a millionth are rounding.
             assert!(bent < 1e-9 * size, "{t}: {bent}");
         }
@@ -280,7 +280,7 @@ fn what_grows_and_decays_beyond_all_measure_stays_finite() {
         "{truth:?}"
     );
     assert!(truth.decay_rate.abs() < 1e-9);
-    let (c, d) = wave.pick_offs(10.0);
+    let [c, d] = wave.pick_offs(10.0);
     assert!(c.is_finite() && d.is_finite());
 }
 
@@ -303,9 +303,9 @@ fn the_stream_is_the_formulas() {
                 let index = gyro.index() - 1;
                 let t = index as f64 / rate;
                 let size = wave.at(t).main_amplitude;
-                let (c, d) = (wave.pick_offs(t).0, wave.pick_offs(t + flaws.skew).1);
+                let (c, d) = (wave.pick_offs(t)[0], wave.pick_offs(t + flaws.skew)[1]);
                 assert!(
-                    (pair.c - c).abs() < 1e-11 * size && (pair.d - d).abs() < 1e-11 * size,
+                    (pair[0] - c).abs() < 1e-11 * size && (pair[1] - d).abs() < 1e-11 * size,
                     "{index}: {pair:?} {c} {d}"
                 );
                 assert!((gyro.truth_at(index).angle - wave.at(t).angle).abs() < 1e-12);

@@ -32,7 +32,7 @@ pub fn codes(wave: Wave, flaws: Flaws, pairs: usize) -> Vec<Packed> {
     gyro.codes()
         .expect("there is a converter")
         .take(pairs)
-        .map(|(c, d)| Packed(unipolar(c) | unipolar(d) << 16))
+        .map(|[c, d]| Packed(unipolar(c) | unipolar(d) << 16))
         .collect()
 }
 

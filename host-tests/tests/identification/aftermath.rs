@@ -281,7 +281,7 @@ fn a_fault_that_seems_to_turn_the_pattern_does_not_take_its_angle_along() {
             };
             let angle = wave.angle + turned;
             let tone = tone * wave.main_amplitude * (12_000.0 * t).sin();
-            let (c, d) = Wave { angle, ..wave }.pick_offs(t);
+            let [c, d] = Wave { angle, ..wave }.pick_offs(t);
             [c + tone, d + tone]
         });
         let is_misfit = |e: &Estimate| e.flags.contains(Flags::MISFIT);

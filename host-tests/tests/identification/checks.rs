@@ -268,7 +268,7 @@ fn a_lasting_rise_of_noise_becomes_the_new_level() {
         };
         let still = no_wave();
         let more = antinode_sim::Gyro::new(still, noise, RATE, seed + 50).unwrap();
-        let more: Vec<_> = more.take(60_000).map(|pair| [pair.c, pair.d]).collect();
+        let more: Vec<_> = more.take(60_000).collect();
         changed(seed, 0.002, 10, 60_000, |k, [c, d]| {
             if k < 20_000 {
                 [c, d]

@@ -65,7 +65,10 @@ fn the_angle_runs_on_over_a_stretch_in_which_the_pattern_is_circular() {
                 let time = k as f64 / RATE;
                 let share = (2.0 - (2.0 * time - 2.0).abs() * 2.0).clamp(0.0, 1.0);
                 let (one, none) = (full.pick_offs(time), wave.pick_offs(time));
-                [c + share * (one.0 - none.0), d + share * (one.1 - none.1)]
+                [
+                    c + share * (one[0] - none[0]),
+                    d + share * (one[1] - none[1]),
+                ]
             });
             let circular = found.iter().filter(|e| e.flags == Flags::CIRCULAR).count();
             assert!(circular > 200, "{circular}");
@@ -114,7 +117,10 @@ fn a_circle_that_is_passed_has_neither_a_step_nor_a_jump() {
                 let time = k as f64 / RATE;
                 let share = 0.8 + 0.4 * (5.0 * time).sin();
                 let (one, none) = (full.pick_offs(time), wave.pick_offs(time));
-                [c + share * (one.0 - none.0), d + share * (one.1 - none.1)]
+                [
+                    c + share * (one[0] - none[0]),
+                    d + share * (one[1] - none[1]),
+                ]
             });
             for estimate in &found {
                 assert!(
@@ -161,7 +167,7 @@ fn the_first_angle_after_a_circle_that_began_without_one_is_told_to_be_unsure() 
                 }
                 let at = if k < 25_000 { k } else { k + gap };
                 let time = at as f64 / RATE;
-                let (c, d) = (if is_circular { full } else { wave }).pick_offs(time);
+                let [c, d] = (if is_circular { full } else { wave }).pick_offs(time);
                 let noise =
                     flaws.noise * f64::from((k as u32).wrapping_mul(0x9e37_79b9)) / 2f64.powi(31);
                 found.extend(core.push([(c + noise) as f32, (d - noise) as f32]));
@@ -221,7 +227,7 @@ fn a_misfit_behind_a_circle_leaves_the_angle_that_the_wave_starts_at() {
         };
         let found = identify_signal(1e-3, settings, 4000, 1, |t| {
             let wave = if t < 900.0 / RATE { circle } else { flat };
-            wave.pick_offs(t).into()
+            wave.pick_offs(t)
         });
         assert!(found[..4].iter().all(|e| e.flags.contains(Flags::CIRCULAR)));
         let last = found.last().unwrap();
@@ -243,7 +249,7 @@ fn the_first_angle_after_a_single_circle_is_told_to_be_unsure() {
         frequency: Some(full.frequency as f32),
         ..windows(10)
     };
-    let circle = identify_signal(0.002, settings, 2000, 1, |t| full.pick_offs(t).into());
+    let circle = identify_signal(0.002, settings, 2000, 1, |t| full.pick_offs(t));
     let end = circle[1].start;
     let wave = Wave {
         quadrature_amplitude: 0.04,
@@ -251,7 +257,7 @@ fn the_first_angle_after_a_single_circle_is_told_to_be_unsure() {
     };
     let found = identify_signal(0.002, settings, 4000, 1, |t| {
         let wave = if t < end as f64 / RATE { full } else { wave };
-        wave.pick_offs(t).into()
+        wave.pick_offs(t)
     });
     let first = found.iter().find(|e| e.start == end).unwrap();
     assert_eq!(found[0].flags, Flags::CIRCULAR);

@@ -47,7 +47,7 @@ fn noise(filters: Filters, rms: f64, seed: u64) -> Vec<[f64; 2]> {
     };
     let white = gyro(rms)
         .zip(gyro(0.0))
-        .map(|(with, without)| [with.c - without.c, with.d - without.d]);
+        .map(|(with, without)| [with[0] - without[0], with[1] - without[1]]);
     let mut filtered = |pair: [f64; 2]| {
         let mut chains = both.iter_mut();
         pair.map(|x| chains.next().unwrap().iter_mut().fold(x, |x, f| f.run(x)))
@@ -169,7 +169,7 @@ fn a_first_window_that_the_wave_begins_in_is_no_noise_to_those_after_it() {
             if t < f64::from(begin) / RATE {
                 [0.0; 2]
             } else {
-                wave.pick_offs(t).into()
+                wave.pick_offs(t)
             }
         });
         assert!(found.len() > 90);
@@ -199,7 +199,7 @@ fn noise_that_comes_and_goes_is_no_misfit() {
         } else {
             4.0
         };
-        let (of_c, of_d) = wave.pick_offs(k as f64 / RATE);
+        let [of_c, of_d] = wave.pick_offs(k as f64 / RATE);
         [of_c + factor * c, of_d + factor * d]
     });
     let misfits = found.iter().filter(|e| e.flags.contains(Flags::MISFIT));
@@ -215,7 +215,7 @@ fn a_burst_in_the_first_window_is_no_noise_to_those_after_it() {
         // Of four samples, a hundred times the noise.
         let burst = 20 + 3 * seed..24 + 3 * seed;
         let found = identify_signal(1e-3, settings, 20_000, seed, |t| {
-            let (c, d) = wave.pick_offs(t);
+            let [c, d] = wave.pick_offs(t);
             let is_burst = burst.contains(&((t * RATE).round() as u64));
             [c + if is_burst { 0.1 } else { 0.0 }, d]
         });

@@ -35,7 +35,7 @@ fn comparisons_with(
     let pairs: Vec<[f32; 2]> = gyro
         .take(samples)
         .enumerate()
-        .map(|(k, pair)| spoil(k, [pair.c, pair.d]).map(|x| x as f32))
+        .map(|(k, pair)| spoil(k, pair).map(|x| x as f32))
         .collect();
     let mut core = Box::new(Core::new(settings).expect("valid settings"));
     let mut found = Vec::new();

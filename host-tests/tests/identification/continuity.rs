@@ -150,7 +150,7 @@ fn the_angle_does_not_slip_at_the_end_of_a_ring_down() {
         let found = identify_changed(wave, &flaws, settings, 3_000_000, seed, |k, [c, d]| {
             let more = 5.0 * (-(k as f64) / 30_000.0).exp();
             let clean = wave.pick_offs(k as f64 / RATE);
-            [c + more * clean.0, d + more * clean.1]
+            [c + more * clean[0], d + more * clean[1]]
         });
         let slips = found.iter().filter(|e| (e.angle - 0.3).abs() > 0.8);
         let (rows, slipped) = (found.len(), slips.count());
@@ -235,7 +235,7 @@ fn the_angle_is_followed_through_misfits_while_the_pattern_turns_otherwise() {
             } else {
                 0.0
             };
-            let (c, d) = turned.pick_offs(t);
+            let [c, d] = turned.pick_offs(t);
             [c + hum, d + hum]
         });
         let clean: Vec<_> = found.iter().filter(|e| e.flags.is_empty()).collect();
@@ -266,7 +266,7 @@ fn an_angle_that_was_followed_to_another_quarter_than_promised_is_told_to_be_uns
             angle: 0.1 + rate * (t - still(t)),
             ..Wave::default()
         };
-        let (c, d) = wave.pick_offs(t);
+        let [c, d] = wave.pick_offs(t);
         let hum = if (from..to).contains(&t) {
             0.1 * (314.0 * t).sin()
         } else {

@@ -34,8 +34,7 @@ fn starts(
             .take((periods * period) as usize)
             .enumerate()
             .find_map(|(k, pair)| {
-                push([pair.c as f32, pair.d as f32])
-                    .map(|found| (k as f64 / period, f64::from(found)))
+                push(pair.map(|x| x as f32)).map(|found| (k as f64 / period, f64::from(found)))
             });
         match found {
             Some((time, found)) => {
@@ -92,7 +91,7 @@ fn noise_is_no_wave() {
         let mut difference = DifferenceDetector::new();
         let mut mean_return = MeanReturnDetector::new();
         for pair in Gyro::new(wave, flaws, RATE, seed).unwrap().take(2000) {
-            let pair = [pair.c as f32, pair.d as f32];
+            let pair = pair.map(|x| x as f32);
             assert_eq!(difference.push(pair), None, "seed {seed}");
             assert_eq!(mean_return.push(pair), None, "seed {seed}");
         }
@@ -116,7 +115,7 @@ where
         // Offsets that wander from code to code.
         let offset = 2e-5 * k as f64;
         let was_searching = core.is_searching();
-        let codes = [pair.c + offset, pair.d - offset].map(|x| code(x.round()));
+        let codes = [pair[0] + offset, pair[1] - offset].map(|x| code(x.round()));
         assert_eq!(core.push(codes), None, "noise of {noise} codes");
         found += usize::from(was_searching && !core.is_searching());
     }
@@ -151,7 +150,7 @@ fn a_wave_of_a_dozen_codes_is_found_as_soon() {
         };
         let mut detector = DifferenceDetector::<i16>::new();
         let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
-        let codes = gyro.map(|pair| [pair.c, pair.d].map(|x| (scale * x).round() as i16));
+        let codes = gyro.map(|pair| pair.map(|x| (scale * x).round() as i16));
         let found = codes
             .take((30.0 * period) as usize)
             .position(|pair| detector.push(pair).is_some());
@@ -222,7 +221,7 @@ fn a_wave_that_begins_late_is_found_as_soon() {
             let gyro = Gyro::new(wave, Flaws::default(), RATE, seed).unwrap();
             let pairs = (0..before as usize)
                 .map(|k| [drift(k), -drift(k)])
-                .chain(gyro.map(|pair| [pair.c, pair.d]))
+                .chain(gyro)
                 .take((before + 40.0 * period) as usize);
             let found = pairs.enumerate().find_map(|(k, pair)| {
                 let found = detector.push(pair.map(|x| x as f32))?;
@@ -258,7 +257,7 @@ fn a_wave_that_begins_after_two_tones_is_found_soon() {
         let gyro = Gyro::new(wave, Flaws::default(), RATE, seed).unwrap();
         let pairs = (0..before)
             .map(|k| [tones(k), 0.6 * tones(k)])
-            .chain(gyro.map(|pair| [pair.c, pair.d]))
+            .chain(gyro)
             .take(before + (40.0 * period) as usize);
         let found = pairs.enumerate().find_map(|(k, pair)| {
             let found = detector.push(pair.map(|x| x as f32))?;
@@ -292,7 +291,7 @@ fn no_call_both_tries_many_samples_and_judges() {
             let found = Gyro::new(wave, Flaws::default(), RATE, seed)
                 .unwrap()
                 .take(100)
-                .position(|pair| detector.push([pair.c as f32, pair.d as f32]).is_some());
+                .position(|pair| detector.push(pair.map(|x| x as f32)).is_some());
             let pushed = found.expect("a period") + 1;
             assert_eq!(pushed, frame + calls, "{period} samples, seed {seed}");
         }

@@ -81,7 +81,7 @@ fn a_limiter_before_the_noise_is_flagged_by_its_harmonic() {
         let mut estimates = Vec::new();
         for (k, pair) in gyro.take(60_000).enumerate() {
             let limit = if k < 30_000 { f64::INFINITY } else { level };
-            let [c, d] = [pair.c, pair.d].map(|s| (s.clamp(-limit, limit) + noise()) as f32);
+            let [c, d] = pair.map(|s| (s.clamp(-limit, limit) + noise()) as f32);
             estimates.extend(core.push([c, d]));
         }
         let limited = estimates.iter().filter(|e| e.start >= 30_000).count();
@@ -120,9 +120,7 @@ fn a_limiter_is_told_where_a_harmonic_folds_onto_the_third() {
                 let samples = (300.0 * period * f64::from(periods)) as usize;
                 let gyro = Gyro::new(wave, flaws, RATE, u64::from(periods)).unwrap();
                 let mut core = Core::new(windows(periods)).unwrap();
-                let pairs = gyro
-                    .take(samples)
-                    .map(|pair| [pair.c as f32, pair.d as f32]);
+                let pairs = gyro.take(samples).map(|pair| pair.map(|x| x as f32));
                 let found: Vec<Estimate> = pairs.filter_map(|pair| core.push(pair)).collect();
                 assert!(found.len() > 250, "{}", found.len());
                 let clipped = |e: &&Estimate| e.flags.contains(Flags::CLIPPED);
@@ -208,11 +206,11 @@ fn a_pick_off_that_dies_is_told_whatever_its_calibration_and_a_wave_that_ends_is
         let pairs = gyro.zip(dead).take(40_000).enumerate();
         let estimates = pairs.filter_map(|(k, (pair, dead))| {
             let c = if k < 20_000 || !is_end {
-                pair.c
+                pair[0]
             } else {
-                dead.c
+                dead[0]
             };
-            let d = if k < 20_000 { pair.d } else { dead.d };
+            let d = if k < 20_000 { pair[1] } else { dead[1] };
             core.push([c as f32, d as f32])
         });
         let estimates: Vec<Estimate> = estimates.collect();

@@ -61,7 +61,7 @@ fn algorithm_4_as_printed_leaks_where_the_core_does_not() {
         let samples = (f64::from(periods) * RATE / wave.frequency).round() as usize;
         let pairs: Vec<[f32; 2]> = (0..samples)
             .map(|k| {
-                let (c, d) = wave.pick_offs(k as f64 / RATE);
+                let [c, d] = wave.pick_offs(k as f64 / RATE);
                 [c as f32, d as f32]
             })
             .collect();
@@ -105,7 +105,7 @@ fn phase_and_time_rebuild_the_samples() {
         let main = f64::from(estimate.main_amplitude) * tau.cos();
         let quadrature = f64::from(estimate.quadrature_amplitude) * tau.sin();
         let (s2, c2) = (2.0 * estimate.angle).sin_cos();
-        let (c, d) = wave.pick_offs(t);
+        let [c, d] = wave.pick_offs(t);
         assert!((main * c2 - quadrature * s2 - c).abs() < 3e-6);
         assert!((main * s2 + quadrature * c2 - d).abs() < 3e-6);
     }

@@ -215,9 +215,9 @@ fn numbers_that_are_none_cost_one_window() {
         let gyro = antinode_sim::Gyro::new(wave, flaws.clone(), RATE, 3).unwrap();
         let mut flagged = Vec::new();
         for (k, pair) in gyro.take(60_000).enumerate() {
-            let c = if k == 30_000 { value } else { pair.c as f32 };
+            let c = if k == 30_000 { value } else { pair[0] as f32 };
             flagged.extend(
-                core.push([c, pair.d as f32])
+                core.push([c, pair[1] as f32])
                     .filter(|estimate| !estimate.flags.is_empty()),
             );
         }
@@ -237,7 +237,7 @@ fn a_step_between_or_within_windows_is_flagged() {
             let gyro = antinode_sim::Gyro::new(wave, flaws, RATE, seed).unwrap();
             let mut estimates = Vec::new();
             for (k, pair) in gyro.take(60_000).enumerate() {
-                let (mut c, mut d) = (pair.c, pair.d);
+                let [mut c, mut d] = pair;
                 match kind {
                     "gain" if k >= at => (c, d) = (1.1 * c, 1.1 * d),
                     "offset" if k >= at => c += 0.2 * a,

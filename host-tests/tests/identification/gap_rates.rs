@@ -173,7 +173,7 @@ fn a_rate_that_changes_in_a_gap_leaves_no_angle_that_is_wrong_and_unflagged() {
                 angle: still.angle + angle,
                 ..still
             };
-            let (c, d) = turned.pick_offs(t);
+            let [c, d] = turned.pick_offs(t);
             pair[0] += c as f32;
             pair[1] += d as f32;
         }

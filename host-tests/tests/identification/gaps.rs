@@ -93,7 +93,7 @@ fn a_long_gap_leaves_no_angle_that_is_wrong_and_clean() {
             let push = |gyro: &mut Gyro, core: &mut Core, count| -> Vec<Estimate> {
                 let pairs = gyro.by_ref().take(count);
                 pairs
-                    .filter_map(|pair| core.push([pair.c as f32, pair.d as f32]))
+                    .filter_map(|pair| core.push(pair.map(|x| x as f32)))
                     .collect()
             };
             let before = push(&mut gyro, &mut core, 5000);

@@ -43,7 +43,7 @@ fn agree_with_double_precision_to_1e_minus_5() {
         for periods in 1..=10 {
             let pairs = samples(wave, periods);
             let doubles: Vec<[f64; 2]> = (0..pairs.len())
-                .map(|k| wave.pick_offs((k as f64 - LEAD as f64) / RATE).into())
+                .map(|k| wave.pick_offs((k as f64 - LEAD as f64) / RATE))
                 .collect();
             let omega = omega(wave);
             let window = Window {

@@ -22,7 +22,7 @@ fn core_and_oracle_agree() {
         let samples = (period * 80.0) as usize;
         let estimates = identify(wave, &flaws, windows(10), samples, seed);
         let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
-        let pairs: Vec<[f64; 2]> = gyro.take(samples).map(|pair| [pair.c, pair.d]).collect();
+        let pairs: Vec<[f64; 2]> = gyro.take(samples).collect();
         assert!(estimates.len() >= 5);
         for estimate in &estimates {
             let truth = wave.at(estimate.time);

@@ -28,10 +28,10 @@ fn what_is_reacquired_in_a_misfit_is_told_again_with_the_first_row_that_is_none(
         let mut found = Vec::new();
         for k in 0..24_000u32 {
             let noise = 1e-4 * f64::from(k.wrapping_mul(0x9e37_79b9)) / 2f64.powi(32);
-            let (c, d) = if k < 10_000 {
+            let [c, d] = if k < 10_000 {
                 wave.pick_offs(f64::from(k) / RATE)
             } else if k < onset {
-                (0.0, 0.0)
+                [0.0; 2]
             } else {
                 turned.pick_offs(f64::from(k) / RATE)
             };

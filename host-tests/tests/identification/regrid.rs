@@ -57,13 +57,13 @@ fn one_period_leaks_no_more() {
             quadrature_amplitude: 0.3,
             ..random_wave(seed, 5332.0, 0.5)
         };
-        let signal = |k: usize| <[f64; 2]>::from(wave.pick_offs(k as f64 / RATE));
+        let signal = |k: usize| wave.pick_offs(k as f64 / RATE);
         let period = RATE / wave.frequency;
         let fitted = regridded::<32>(signal, period, 60);
         after = after.max(worst(&fitted[30..], &wave));
         // The first output stands at input sample TAPS/2 − 1, and each next one a twentieth of a period later.
         for (k, pair) in fitted.iter().enumerate() {
-            let (c, d) = wave.pick_offs((15.0 + k as f64 * period / 20.0) / RATE);
+            let [c, d] = wave.pick_offs((15.0 + k as f64 * period / 20.0) / RATE);
             assert!((f64::from(pair[0]) - c).abs() + (f64::from(pair[1]) - d).abs() < 2e-5);
         }
         // The same on the converter's own grid, 19 samples for 18.75.
@@ -111,7 +111,7 @@ fn the_filter_takes_noise_and_harmonics() {
         RATE,
         7,
     );
-    let noise: Vec<[f64; 2]> = gyro.unwrap().take(8000).map(|p| [p.c, p.d]).collect();
+    let noise: Vec<[f64; 2]> = gyro.unwrap().take(8000).collect();
     let kept = power(&|k| noise[k]);
     println!("white noise: {kept:.3} of its power passes");
     assert!((kept / (4.0 / period) - 1.0).abs() < 0.15, "{kept}");

@@ -203,7 +203,10 @@ fn a_quadrature_that_grows_by_itself_is_no_step() {
         let time = k as f64 / RATE;
         let share = 0.5 + 0.4 * (12.0 * time).sin();
         let (one, none) = (full.pick_offs(time), wave.pick_offs(time));
-        [c + share * (one.0 - none.0), d + share * (one.1 - none.1)]
+        [
+            c + share * (one[0] - none[0]),
+            d + share * (one[1] - none[1]),
+        ]
     });
     assert!(found.len() > 300);
     for estimate in &found {

@@ -28,7 +28,8 @@ fn two_unrelated_tones_are_no_wave() {
         let two = Gyro::new(second, flaws, RATE, seed + 1).unwrap();
         let mut core = Core::new(windows(10)).unwrap();
         for (one, two) in one.zip(two).take((60.0 * period) as usize) {
-            if let Some(estimate) = core.push([(one.c + two.c) as f32, (one.d + two.d) as f32]) {
+            if let Some(estimate) = core.push([(one[0] + two[0]) as f32, (one[1] + two[1]) as f32])
+            {
                 rows += 1;
                 if estimate.flags.is_empty() {
                     clean += 1;
@@ -69,7 +70,7 @@ fn beside_a_tone_half_as_large_hardly_a_row_is_clean_and_wrong() {
             let mut core = Core::new(windows(10)).unwrap();
             let pairs = stream(first, flaws, (60.0 * period) as usize, seed);
             for (k, [c, d]) in pairs.into_iter().enumerate() {
-                let (more_c, more_d) = second.pick_offs(k as f64 / RATE);
+                let [more_c, more_d] = second.pick_offs(k as f64 / RATE);
                 let Some(estimate) = core.push([c + more_c as f32, d + more_d as f32]) else {
                     continue;
                 };
@@ -106,7 +107,7 @@ fn a_spur_does_not_hide_the_wave() {
             let pairs = (0..).zip(gyro.take((20.0 * period) as usize));
             let found = pairs.into_iter().find_map(|(k, pair)| {
                 let (sine, cosine) = (advance * f64::from(k) + seed as f64).sin_cos();
-                let pair = [pair.c + size * cosine, pair.d + size * sine];
+                let pair = [pair[0] + size * cosine, pair[1] + size * sine];
                 let found = detector.push(pair.map(|x| x as f32))?;
                 Some((f64::from(k), f64::from(found)))
             });

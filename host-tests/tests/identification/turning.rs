@@ -85,7 +85,7 @@ fn the_frequency_of_a_pattern_that_vibrates_is_stated_with_what_its_turning_leav
                 // A fault is no vibration, and hides none after it.
                 let fault = if k == 100_003 { f64::NAN } else { 0.0 };
                 let (still, now) = (wave.pick_offs(k as f64 / RATE), vibrating(k));
-                [c + now.0 - still.0 + fault, d + now.1 - still.1]
+                [c + now[0] - still[0] + fault, d + now[1] - still[1]]
             });
             // Until it is known that the pattern vibrates.
             for estimate in found.iter().skip(30).filter(|e| e.flags.is_empty()) {
@@ -124,7 +124,7 @@ fn a_step_of_the_angle_is_no_vibration() {
                         let angle = wave.angle + if k < at { 0.0 } else { step };
                         let (time, turned) = (k as f64 / RATE, Wave { angle, ..wave });
                         let (still, now) = (wave.pick_offs(time), turned.pick_offs(time));
-                        [c + now.0 - still.0, d + now.1 - still.1]
+                        [c + now[0] - still[0], d + now[1] - still[1]]
                     });
                 let deviations = |from: usize, to: usize| -> f64 {
                     let rows = found.iter().skip(from).take(to - from);
@@ -258,7 +258,7 @@ fn a_pause_of_very_many_windows_leaves_numbers() {
             let mut found = Vec::new();
             let mut push = |core: &mut Core, count: u64, lost: f64| {
                 for k in core.index()..core.index() + count {
-                    let (c, d) = wave.pick_offs(k as f64 / RATE);
+                    let [c, d] = wave.pick_offs(k as f64 / RATE);
                     found.extend(core.push([c as f32, d as f32]));
                 }
                 core.skip(lost as u64);
@@ -300,7 +300,10 @@ fn a_pattern_that_turns_on_over_a_circle_is_not_promised_to_have_stood_still() {
             let time = k as f64 / RATE;
             let share = (2.0 - (2.0 * time - 2.0).abs() * 2.0).clamp(0.0, 1.0);
             let (one, none) = (full.pick_offs(time), wave.pick_offs(time));
-            [c + share * (one.0 - none.0), d + share * (one.1 - none.1)]
+            [
+                c + share * (one[0] - none[0]),
+                d + share * (one[1] - none[1]),
+            ]
         });
         let quarters = |e: &Estimate| {
             let apart = e.angle - wave.at(e.time).angle;

@@ -89,7 +89,7 @@ mod tests {
         };
         let gyro = Gyro::new(wave, flaws, RATE, 7).expect("a valid gyro");
         gyro.take(40_000)
-            .map(|pair| [pair.c as f32, pair.d as f32])
+            .map(|pair| pair.map(|x| x as f32))
             .collect()
     }
 

@@ -133,12 +133,12 @@ mod tests {
             let raw: Vec<Pair> = Gyro::new(wave, flaws, RATE, 1)
                 .expect("a valid gyro")
                 .take(60)
-                .map(|pair| [pair.c as f32, pair.d as f32])
+                .map(|pair| pair.map(|x| x as f32))
                 .collect();
             let ideal = Ideal::new(&calibration(skew), omega, RATE).pairs(&raw, [0.0, 0.25]);
             assert_eq!(ideal.len(), raw.len());
             for (k, pair) in ideal.iter().enumerate() {
-                let (c, d) = wave.pick_offs(k as f64 / RATE);
+                let [c, d] = wave.pick_offs(k as f64 / RATE);
                 assert!((f64::from(pair[0]) - c).abs() < 1e-6, "{skew} {k}");
                 assert!((f64::from(pair[1]) - d).abs() < 3e-6, "{skew} {k}");
             }
@@ -159,7 +159,7 @@ mod tests {
         let raw: Vec<Pair> = Gyro::new(wave, flaws, RATE, 1)
             .expect("a valid gyro")
             .take(400_000)
-            .map(|pair| [pair.c as f32, pair.d as f32])
+            .map(|pair| pair.map(|x| x as f32))
             .collect();
         let ideal = Ideal::new(&calibration(4e-6), 1.3, RATE);
         let pairs = ideal.pairs(&raw, [0.0; 2]);

@@ -148,7 +148,7 @@ mod tests {
             .expect("a valid gyro")
             .take(3000)
         {
-            let pair = change([pair.c as f32, pair.d as f32]);
+            let pair = change(pair.map(|x| x as f32));
             history.extend(&[pair]);
             if let Some(estimate) = core.push(pair) {
                 found = history.compare(&estimate);

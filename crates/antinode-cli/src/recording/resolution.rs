@@ -121,9 +121,7 @@ mod tests {
             ..Flaws::default()
         };
         let gyro = Gyro::new(wave, flaws, 1e5, 1).expect("a valid gyro");
-        gyro.take(1 << 14)
-            .map(|pair| [print(pair.c), print(pair.d)])
-            .collect()
+        gyro.take(1 << 14).map(|pair| pair.map(&print)).collect()
     }
 
     #[test]

@@ -43,7 +43,7 @@ impl Samples {
         );
         let pairs = gyro.map_or(Vec::new(), |gyro| {
             gyro.take(lead + count + after)
-                .map(|pair| [pair.c as f32, pair.d as f32])
+                .map(|pair| pair.map(|x| x as f32))
                 .collect()
         });
         Self {

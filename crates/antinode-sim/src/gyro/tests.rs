@@ -36,9 +36,9 @@ fn without_flaws_the_samples_are_the_formulas() {
         .take(1000)
         .enumerate()
     {
-        let (c, d) = wave.pick_offs(k as f64 / RATE);
+        let [c, d] = wave.pick_offs(k as f64 / RATE);
         assert!(
-            (pair.c - c).abs() < 1e-13 && (pair.d - d).abs() < 1e-13,
+            (pair[0] - c).abs() < 1e-13 && (pair[1] - d).abs() < 1e-13,
             "sample {k}"
         );
     }
@@ -46,7 +46,7 @@ fn without_flaws_the_samples_are_the_formulas() {
 
 #[test]
 fn lost_samples_leave_the_others_alone() {
-    let whole: Vec<Pair> = gyro(noisy()).take(40).collect();
+    let whole: Vec<[f64; 2]> = gyro(noisy()).take(40).collect();
     let losses = lost(&[(20, 5), (0, 2), (8, 1), (9, 2), (22, 6), (35, 0)]);
     let mut gyro = gyro(Flaws {
         lost: losses,
@@ -80,7 +80,7 @@ fn a_lost_sample_is_a_jump_of_phase() {
         0,
     )
     .unwrap();
-    let samples: Vec<f64> = gyro.take(200).map(|s| s.c).collect();
+    let samples: Vec<f64> = gyro.take(200).map(|s| s[0]).collect();
     // One period is 100 samples: demodulate the record's two halves against one reference.
     let demodulate = |from: usize| {
         (from..from + 100).fold((0.0, 0.0), |(x, y), k| {
@@ -138,27 +138,27 @@ fn dropouts_of_every_kind() {
         offset_d: -3.0,
         ..noisy()
     };
-    let whole: Vec<Pair> = gyro(offsets.clone()).take(400).collect();
-    let clean: Vec<Pair> = gyro(Flaws::default()).take(400).collect();
-    let broken: Vec<Pair> = gyro(Flaws {
+    let whole: Vec<[f64; 2]> = gyro(offsets.clone()).take(400).collect();
+    let clean: Vec<[f64; 2]> = gyro(Flaws::default()).take(400).collect();
+    let broken: Vec<[f64; 2]> = gyro(Flaws {
         dropouts,
         ..offsets
     })
     .take(400)
     .collect();
-    let floor_c = |k: usize| whole[k].c - clean[k].c;
+    let floor_c = |k: usize| whole[k][0] - clean[k][0];
     for k in 0..400 {
         let (c, d) = match k {
             0..10 => (0.0, 0.0),
-            100..112 => (0.0, if k < 105 { whole[k].d } else { whole[104].d }),
-            112..115 => (whole[k].c, whole[104].d),
-            300..310 => (floor_c(k), whole[k].d - clean[k].d),
-            310..315 => (floor_c(309), whole[k].d),
-            _ => (whole[k].c, whole[k].d),
+            100..112 => (0.0, if k < 105 { whole[k][1] } else { whole[104][1] }),
+            112..115 => (whole[k][0], whole[104][1]),
+            300..310 => (floor_c(k), whole[k][1] - clean[k][1]),
+            310..315 => (floor_c(309), whole[k][1]),
+            _ => whole[k].into(),
         };
         let pair = broken[k];
         assert!(
-            (pair.c - c).abs() < 1e-14 && (pair.d - d).abs() < 1e-14,
+            (pair[0] - c).abs() < 1e-14 && (pair[1] - d).abs() < 1e-14,
             "sample {k}: {pair:?}, {c} {d}"
         );
     }
@@ -179,7 +179,7 @@ fn clipping_everywhere_and_for_a_time() {
             level: 1.8,
         },
     ];
-    let whole: Vec<Pair> = gyro(noisy()).take(400).collect();
+    let whole: Vec<[f64; 2]> = gyro(noisy()).take(400).collect();
     let clipped = gyro(Flaws {
         clip: Some(1.5),
         clip_spans,
@@ -187,11 +187,7 @@ fn clipping_everywhere_and_for_a_time() {
     });
     for (k, (pair, before)) in clipped.zip(&whole).enumerate() {
         let level = if (200..300).contains(&k) { 0.5 } else { 1.5 };
-        assert_eq!(
-            (pair.c, pair.d),
-            (before.c.clamp(-level, level), before.d.clamp(-level, level)),
-            "{k}"
-        );
+        assert_eq!(pair, before.map(|s| s.clamp(-level, level)), "{k}");
     }
 }
 
@@ -204,8 +200,9 @@ fn codes_are_the_values() {
     };
     let lsb = adc.lsb().unwrap();
     let mut range = (0, 0);
-    for (pair, (c, d)) in gyro(adc.clone()).zip(gyro(adc).codes().unwrap()).take(2000) {
-        assert_eq!((pair.c, pair.d), (f64::from(c) * lsb, f64::from(d) * lsb));
+    for (pair, codes) in gyro(adc.clone()).zip(gyro(adc).codes().unwrap()).take(2000) {
+        assert_eq!(pair, codes.map(|code| f64::from(code) * lsb));
+        let [c, d] = codes;
         range = (range.0.min(c).min(d), range.1.max(c).max(d));
     }
     assert_eq!(range, (-2048, 2047)); // a wave of twice the full scale: both ends are reached
@@ -215,8 +212,8 @@ fn codes_are_the_values() {
         ..noisy()
     };
     for (pair, before) in gyro(fine).zip(gyro(noisy())).take(2000) {
-        assert!((pair.c - before.c).abs() <= 2.0 / 32768.0 + 1e-15);
-        assert!((pair.d - before.d).abs() <= 2.0 / 32768.0 + 1e-15);
+        assert!((pair[0] - before[0]).abs() <= 2.0 / 32768.0 + 1e-15);
+        assert!((pair[1] - before[1]).abs() <= 2.0 / 32768.0 + 1e-15);
     }
     assert!(matches!(gyro(noisy()).codes(), Err(Error::NoBits)));
 }

@@ -214,21 +214,7 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
             rank: 0,
         }
     });
-    // A method that found nothing comes last.
-    let j = |method: &Method| {
-        if method.j.is_nan() {
-            f64::INFINITY
-        } else {
-            method.j
-        }
-    };
-    let key = |method: &Method| (!method.conditions.of_the_method_hold(), j(method));
-    let keys = methods.map(|method| key(&method));
-    for (i, method) in methods.iter_mut().enumerate() {
-        let own = key(method);
-        let before = |(j, key): &(usize, (bool, f64))| *key < own || *key == own && *j < i;
-        method.rank = 1 + keys.iter().copied().enumerate().filter(before).count() as u8;
-    }
+    rank(&mut methods);
     let beyond = |method: &Method| {
         let within = |x: &f64| x.abs() <= DISAGREEMENT;
         // Not a number is beyond.
@@ -245,5 +231,22 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
             &sums.moments,
             sums.delayed.quarter(&sums.moments, omega),
         ),
+    }
+}
+
+/// Ranks methods: those whose own conditions hold come first, and among equals the smaller J, or else the one before.
+fn rank(methods: &mut [Method; 4]) {
+    let keys = methods.map(|method| {
+        // A method that found nothing comes last.
+        let j = if method.j.is_nan() {
+            f64::INFINITY
+        } else {
+            method.j
+        };
+        (!method.conditions.of_the_method_hold(), j)
+    });
+    for (i, (method, own)) in methods.iter_mut().zip(keys).enumerate() {
+        let before = |&(place, key): &(usize, (bool, f64))| key < own || key == own && place < i;
+        method.rank = 1 + keys.iter().copied().enumerate().filter(before).count() as u8;
     }
 }

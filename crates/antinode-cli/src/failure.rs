@@ -84,8 +84,11 @@ impl From<antinode_sim::Error> for Failure {
                 simulate_option(what)
             ),
             Error::QuadratureAboveMain { main, quadrature } => format!(
-                "--quadrature-amplitude: {quadrature} exceeds the main amplitude of {main} in size; \
-                 exchange the two and turn the angle by 45°"
+                "--quadrature-amplitude: {quadrature} exceeds the main amplitude of {main} in size; the same wave has --main-amplitude {}, \
+                 --quadrature-amplitude {}, an angle 45° {} and a phase 90° less",
+                quadrature.abs(),
+                main.copysign(quadrature),
+                if quadrature > 0.0 { "less" } else { "greater" }
             ),
             Error::EndlessLoss { .. } => format!("--lost: {error}"),
             other => other.to_string(),

@@ -17,7 +17,7 @@ pub enum Error {
     /// The quadrature wave is larger than the main wave, so it would be the main wave itself.
     #[error(
         "quadrature_amplitude is {quadrature} with main_amplitude {main}: it must not exceed it in size \
-         (exchange the two and turn the angle by 45 degrees)"
+         (exchange their sizes, and take 45 degrees off the angle, or add them to it if it is negative, and 90 off the phase)"
     )]
     QuadratureAboveMain {
         /// `main_amplitude` as given, input units.

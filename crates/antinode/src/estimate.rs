@@ -192,7 +192,8 @@ pub struct Estimate {
     pub main_amplitude: f32,
     /// a_B, amplitude of the quadrature wave, signed, |a_B| ≤ a_A.
     pub quadrature_amplitude: f32,
-    /// θ_A, pattern angle in rad: it begins at the value nearest to the start angle, and is continued from window to window.
+    /// θ_A, pattern angle in rad: it begins at the value nearest to the start angle, and is continued from window to window. Where it would
+    /// leave ±3.37·10⁹, which are 2³¹ quarter turns, it goes on from the other end.
     pub angle: f64,
     /// α in rad, (−π, π]: the main wave is a_A cos(2πf·(t − `time`) − α).
     pub phase: f32,

@@ -62,13 +62,13 @@ impl Angle {
         }
     }
 
-    /// In radians.
+    /// In radians. Beyond 2³¹ quarter turns the count of them goes on at −2³¹.
     pub(crate) fn radians(self) -> f64 {
         // In units of 2⁻³² quarter turn.
         let rest = (self.rest * 2_147_483_648.0) as i32;
         let rest = (i64::from(rest) * 2_734_261_102) >> 31;
         let unit = core::f64::consts::FRAC_PI_2 / 4_294_967_296.0;
-        units((i64::from(self.quarters) << 32) + rest, unit)
+        units((i64::from(self.quarters) << 32).wrapping_add(rest), unit)
     }
 }
 
@@ -79,5 +79,27 @@ mod tests {
     #[test]
     fn half_a_turn_is_positive() {
         assert_eq!([wrap(PI), wrap(-PI)], [PI; 2]);
+    }
+
+    #[test]
+    fn beyond_the_greatest_count_of_quarter_turns_an_angle_goes_on() {
+        let all = 2_147_483_648.0 * core::f64::consts::FRAC_PI_2;
+        let last = Angle {
+            quarters: i32::MAX,
+            rest: 0.7,
+        };
+        let next = last.plus(0.5);
+        assert_eq!(next.quarters, i32::MIN);
+        assert!(next.rest < 0.0 && (next.less(last) - 0.5).abs() < 1e-6);
+        // A rest below zero is the one that the least count has no room for.
+        let quarter = core::f64::consts::FRAC_PI_2;
+        for (angle, radians) in [(last, all - quarter + 0.7), (next, all - quarter + 1.2)] {
+            assert!((angle.radians() - radians).abs() < 1e-5, "{angle:?}");
+        }
+        let after = next.plus(0.5);
+        assert!(
+            (after.radians() + all + quarter - 1.7).abs() < 1e-5,
+            "{after:?}"
+        );
     }
 }

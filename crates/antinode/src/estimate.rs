@@ -8,7 +8,8 @@ use core::ops::{BitAnd, BitOr, BitOrAssign};
 pub struct Flags(u16);
 
 impl Flags {
-    /// Samples at the converter's rail, or flattened crests, or the third harmonic that a limiter leaves: amplitudes are wrong.
+    /// Samples at the converter's rail, or flattened crests, or the third harmonic that a limiter leaves: amplitudes are wrong. Near 3 and
+    /// 4 samples a period only known [rails](crate::Settings::rails) tell.
     pub const CLIPPED: Self = Self(1);
     /// No significant wave: the other numbers mean nothing.
     pub const LOST: Self = Self(1 << 1);

@@ -63,7 +63,7 @@ impl Thirds {
         if thirds.watched < LEAST_BLOCKS || apart < APART * count * count {
             return;
         }
-        let (amplitude, power) = thirds.scales(model);
+        let (amplitude, power) = Self::scales(model);
         let mut left = thirds.power;
         let sums = thirds.sum.iter().zip(&self.sum);
         for (third, (sum, other)) in remains.third.iter_mut().zip(sums) {

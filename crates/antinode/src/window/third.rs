@@ -106,7 +106,7 @@ impl Thirds {
     /// The amplitudes and their noise.
     #[inline(never)]
     pub(super) fn conclude(&self, model: &Model, remains: &mut Remains) {
-        let (amplitude, power) = self.scales(model);
+        let (amplitude, power) = Self::scales(model);
         let watched = f32::from(self.watched.max(1));
         let freedom = 4.0 * (watched - 1.0);
         // One over the product of both makes one over each.
@@ -125,7 +125,7 @@ impl Thirds {
 
     /// What makes an amplitude of the mean sum, and a noise variance a sample of a sum's.
     #[inline]
-    pub(super) fn scales(&self, model: &Model) -> (f32, f32) {
+    pub(super) fn scales(model: &Model) -> (f32, f32) {
         // Two over the samples of a block.
         let doubled = model.per_half * f32::from(model.blocks);
         let unit = model.basis.unit;

@@ -3,7 +3,7 @@
 use antinode::{Flags, Identifier, Settings, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::errors;
-use host_tests::{Core, RATE, calibrated, identify, stream, windows};
+use host_tests::{Core, RATE, calibrated, gyro, identify, stream, windows};
 
 /// True when the core takes windows of ten periods with this change.
 fn is_taken(change: impl Fn(&mut Settings)) -> bool {
@@ -129,6 +129,37 @@ fn a_count_of_lost_pairs_that_no_stream_lasts_leaves_indices_that_can_be_doubled
             assert!(estimate.start >= index && (estimate.time * RATE / middle - 1.0).abs() < 1e-12);
         });
         assert!(count > 20, "{lost}: {count}");
+    }
+}
+
+#[test]
+fn rows_are_the_same_to_the_bit_however_far_from_the_start() {
+    let (wave, flaws) = gyro(5);
+    let mut pairs = stream(wave, flaws, 40_000, 5);
+    // What looks back over windows: a spike, and a silence after which the wave is searched anew.
+    pairs[9_000] = [7.0, -5.0];
+    pairs[20_000..21_000].fill([0.0; 2]);
+    let rows = |start: u64| {
+        let mut core = Core::new(windows(10)).unwrap();
+        core.skip(start);
+        let mut rows = Vec::new();
+        core.extend(&pairs[..30_000], |e| rows.push(e));
+        core.skip(700);
+        core.extend(&pairs[30_700..], |e| rows.push(e));
+        assert_eq!(core.index(), start + 40_000);
+        for row in &mut rows {
+            let middle = 2.0 * row.start as f64 + f64::from(row.samples) - 1.0;
+            let time = middle / (2.0 * RATE);
+            assert!((row.time / time - 1.0).abs() < 1e-15, "{start}: {row:?}");
+            row.start -= start;
+            row.time = 0.0;
+        }
+        format!("{rows:?}")
+    };
+    let first = rows(0);
+    // Where indices, or twice these, outgrow 32 bits, the fractions of f32 and f64, and all but two bits.
+    for bits in [23, 24, 30, 31, 32, 52, 53, 60, 61] {
+        assert!(rows((1 << bits) - 19_000) == first, "2^{bits}");
     }
 }
 

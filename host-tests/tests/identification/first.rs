@@ -155,3 +155,33 @@ fn no_first_window_of_a_steady_wave_is_flagged() {
         }
     }
 }
+
+#[test]
+fn a_tone_of_twice_the_frequency_is_told_in_the_first_window_though_it_looks_like_noise() {
+    // At an odd number of half samples a period blocks of whole periods leave of it what noise would.
+    let (mut told, mut runs) = (0, 0);
+    for (period, periods) in [(10.5, 10), (12.5, 10), (8.5, 50)] {
+        for seed in 0..20 {
+            let wave = random_wave(seed, RATE / period, 0.3);
+            let a = wave.main_amplitude;
+            let flaws = Flaws {
+                noise: 1e-3 * a,
+                ..Flaws::default()
+            };
+            let settings = Settings {
+                frequency: Some(wave.frequency as f32),
+                ..windows(periods)
+            };
+            let samples = (1.2 * period * f64::from(periods)) as usize;
+            let found = identify_changed(wave, &flaws, settings, samples, seed, |k, [c, d]| {
+                let phase = std::f64::consts::TAU * 2.0 * k as f64 / period + seed as f64;
+                let tone = |phase: f64| 0.95 * a * phase.cos();
+                [c + tone(phase), d + tone(phase + 1.1 + seed as f64)]
+            });
+            runs += found.len();
+            told += found.iter().filter(|e| !e.flags.is_empty()).count();
+        }
+    }
+    println!("a tone of twice the frequency: {told} of {runs} first windows flagged");
+    assert!(runs == 60 && told > 40, "{told} of {runs}");
+}

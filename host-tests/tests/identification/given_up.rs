@@ -1,0 +1,79 @@
+//! A wave that is hardly seen beside all else is given up after eight windows, and searched anew: whoever waits for it is told.
+
+use antinode_sim::{Flaws, random_wave};
+use host_tests::{Core, RATE, stream, windows};
+
+/// After how many windows of so many periods of 20 samples a wave of which `left` is left is given up, where there is a tone beside it from
+/// then on: so many times the wave's former amplitude, at so many times its frequency.
+fn given_up_after(
+    periods: u16,
+    left: f64,
+    [amplitude, times]: [f64; 2],
+    seed: u64,
+) -> Option<usize> {
+    let period = 20;
+    let wave = random_wave(seed, RATE / f64::from(period), 0.3);
+    let a = wave.main_amplitude;
+    let flaws = Flaws {
+        noise: 1e-3 * a,
+        ..Flaws::default()
+    };
+    let window = usize::from(periods) * period as usize;
+    let at = 6 * window + 37;
+    let mut core = Core::new(windows(periods)).unwrap();
+    let pairs = stream(wave, flaws, at + 20 * window, seed);
+    for (k, pair) in pairs.into_iter().enumerate() {
+        let mut pair = pair.map(f64::from);
+        if k >= at {
+            let turns = times * k as f64 / f64::from(period);
+            let phase = std::f64::consts::TAU * turns + seed as f64;
+            for (s, phase) in pair.iter_mut().zip([phase, phase + 1.0]) {
+                *s = left * *s + amplitude * a * phase.cos();
+            }
+        }
+        let _ = core.push(pair.map(|s| s as f32));
+        assert!(k >= at || k < 100 || !core.is_searching());
+        if k >= at && core.is_searching() {
+            return Some((k - at) / window);
+        }
+    }
+    None
+}
+
+#[test]
+fn a_wave_beside_a_tone_nearly_as_large_is_given_up() {
+    for seed in 0..4 {
+        for times in [0.9, 1.05, 1.1] {
+            let after = given_up_after(50, 1.0, [0.8, times], seed);
+            assert_eq!(after, Some(8), "seed {seed}, {times} times");
+        }
+    }
+}
+
+#[test]
+fn a_wave_beyond_which_all_blocks_have_samples_is_given_up_though_their_sums_see_nothing() {
+    for seed in 0..4 {
+        for (times, amplitude, expected) in
+            [(2.0, 1.2, Some(8)), (4.0, 1.5, Some(8)), (2.0, 0.9, None)]
+        {
+            let after = given_up_after(10, 1.0, [amplitude, times], seed);
+            assert_eq!(after, expected, "seed {seed}, {times} times, {amplitude}");
+        }
+    }
+}
+
+#[test]
+fn a_wave_of_which_less_than_a_quarter_is_left_in_a_misfit_is_given_up() {
+    // The second tone looks like noise in whole blocks, and would be a new level of it.
+    for (periods, tone) in [(10, [0.15, 2.0]), (50, [0.1, 1.37])] {
+        for seed in 0..4 {
+            for (left, expected) in [(0.2, Some(8)), (0.3, None)] {
+                let after = given_up_after(periods, left, tone, seed);
+                assert_eq!(
+                    after, expected,
+                    "seed {seed}, {periods} periods, {left} is left"
+                );
+            }
+        }
+    }
+}

@@ -14,6 +14,7 @@ mod given;
 mod identify;
 mod interrupt;
 mod methods;
+mod normal;
 mod options;
 mod plot;
 mod ranges;

@@ -9,10 +9,11 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::Complex;
 
 use super::moments::Run;
 use crate::failure::Failure;
+use crate::normal::Equations;
 use crate::options::Corrected;
 
 /// Unknowns of the pick-offs: ln g, 2πf·Δ and ε.
@@ -143,11 +144,11 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
     let mut pick_offs = start;
     for _ in 0..STEPS {
         let normal = Normal::of(runs, &pick_offs, knows_splits);
-        let unknowns = normal.matrix.nrows();
-        let Some(factors) = normal.matrix.cholesky() else {
+        let unknowns = normal.equations.unknowns();
+        let Some(factors) = normal.equations.factors(0.0) else {
             return Err(Fault::Unsettled);
         };
-        let step = factors.solve(&normal.right);
+        let step = factors.solve(normal.equations.right());
         let omega = normal.omega;
         let part = (LONGEST / step.rows(0, FLAWS).amax()).min(1.0);
         pick_offs.gain_ratio *= (part * step[0]).exp();
@@ -159,10 +160,9 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
         }
         if (0..FLAWS).all(|i| step[i].abs() < SETTLED) {
             // What is left once the step is made, per degree of freedom.
-            let left = (normal.squares - normal.right.dot(&step)).max(0.0);
+            let left = (normal.squares - normal.equations.right().dot(&step)).max(0.0);
             let residual = (left / (2 * rows - unknowns) as f64).sqrt();
-            let inverse = factors.inverse();
-            let deviation = |i: usize| inverse[(i, i)].sqrt() * residual.max(1.0);
+            let deviation = |i: usize| factors.variance(&[(i, 1.0)]).sqrt() * residual.max(1.0);
             return Ok(Found {
                 pick_offs,
                 deviations: [
@@ -181,8 +181,7 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
 
 /// The normal equations of all runs, about a calibration.
 struct Normal {
-    matrix: DMatrix<f64>,
-    right: DVector<f64>,
+    equations: Equations,
     /// The weighted squares of what is to be explained.
     squares: f64,
     /// 2πf, the mean.
@@ -192,10 +191,8 @@ struct Normal {
 impl Normal {
     fn of(runs: &[Run], pick_offs: &PickOffs, knows_splits: bool) -> Self {
         let shared = FLAWS + if knows_splits { SPLITS } else { 0 };
-        let unknowns = shared + OWN * runs.len();
         let mut normal = Self {
-            matrix: DMatrix::zeros(unknowns, unknowns),
-            right: DVector::zeros(unknowns),
+            equations: Equations::new(shared, OWN, runs.len()),
             squares: 0.0,
             omega: 0.0,
         };
@@ -223,7 +220,7 @@ impl Normal {
                     let weight = 1.0 / variance;
                     let columns = (0..shared).chain([first, first + 1]);
                     let entries = row.into_iter().take(shared).chain([1.0, time]);
-                    normal.add(columns.zip(entries), seen, weight);
+                    normal.add(index, columns.zip(entries), seen, weight);
                 }
                 normal.omega += moment.omega;
             }
@@ -232,12 +229,18 @@ impl Normal {
         normal
     }
 
-    /// Adds one equation, whose entries are named by their columns.
-    fn add(&mut self, entries: impl Iterator<Item = (usize, f64)> + Clone, seen: f64, weight: f64) {
+    /// Adds one equation of a run, whose entries are named by their columns.
+    fn add(
+        &mut self,
+        run: usize,
+        entries: impl Iterator<Item = (usize, f64)> + Clone,
+        seen: f64,
+        weight: f64,
+    ) {
         for (i, left) in entries.clone() {
-            self.right[i] += weight * left * seen;
+            self.equations.add_right(i, weight * left * seen);
             for (j, right) in entries.clone() {
-                self.matrix[(i, j)] += weight * left * right;
+                self.equations.add(run, [i, j], weight * left * right);
             }
         }
         self.squares += weight * seen * seen;

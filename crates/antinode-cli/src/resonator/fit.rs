@@ -5,13 +5,14 @@
 //! pattern that stands still sees one side of each split alone. Where no steady rotation explains the rows, their angles are taken as they
 //! are: they tell where the splits act, and only the amplitudes are explained. The steps are those of Levenberg and Marquardt.
 
-use nalgebra::{Cholesky, Complex, DMatrix, DVector, Dyn, RowSVector, SMatrix, SVector};
+use nalgebra::{Complex, DVector, RowSVector, SMatrix, SVector};
 
 use super::chords;
 use super::found::{Found, OfRun, TOGETHER};
 use super::model::{Model, Term};
 use super::motion::PARAMETERS;
 use super::start::start;
+use crate::normal::Equations;
 use crate::runs::Run;
 
 /// Below this all patterns are one, and what seems to tell them apart is noise: 3° between two runs, 5° of one that turns.
@@ -62,7 +63,7 @@ fn steady(runs: &[Run]) -> Result<Found, Unsettled> {
     }
     let told = |model| {
         let shared = found(model).ok()?;
-        is_told(&shared.covariance, &shared, each.as_ref().ok()).then_some(shared)
+        is_told(|at| shared.variance(at), &shared, each.as_ref().ok()).then_some(shared)
     };
     // As an unknown that is nothing it would leave less known of all others: of rotation above all, which quadrature that stays is like.
     let nonlinear = told(Model::Nonlinear);
@@ -84,7 +85,7 @@ fn turned(runs: &[Run]) -> Result<Found, Unsettled> {
     let each = found(runs, Model::EachTurned);
     let shared = found(runs, Model::SharedTurned);
     match shared {
-        Ok(shared) if is_told(&shared.covariance, &shared, each.as_ref().ok()) => Ok(shared),
+        Ok(shared) if is_told(|at| shared.variance(at), &shared, each.as_ref().ok()) => Ok(shared),
         _ => each,
     }
 }
@@ -104,8 +105,8 @@ fn may_tell(runs: &[Run], each: &Found) -> bool {
         let from = each.values.rows(each.model.own_at(run), 4);
         values.rows_mut(model.own_at(run), 4).copy_from(&from);
     }
-    let rough = Normal::of(runs, model, &values).covariance();
-    rough.is_some_and(|rough| is_told(&rough, each, Some(each)))
+    let rough = Normal::of(runs, model, &values).equations.factors(0.0);
+    rough.is_some_and(|rough| is_told(|at| rough.variance(&[(at, 1.0)]), each, Some(each)))
 }
 
 /// How far the rows' patterns stand apart, up to 1: the circular variance of 4θ, less what noise makes of it.
@@ -119,9 +120,9 @@ fn spread(runs: &[Run]) -> f64 {
     1.0 - (sum.norm() + noise) / count
 }
 
-/// True where the rows tell both splits, whose unknowns have this covariance; what `found` says of the decays along the patterns is known
+/// True where the rows tell both splits, whose unknowns have these variances by their places; what `found` says of the decays along the patterns is known
 /// wherever these stand.
-fn is_told(covariance: &DMatrix<f64>, found: &Found, each: Option<&Found>) -> bool {
+fn is_told(variance: impl Fn(usize) -> f64, found: &Found, each: Option<&Found>) -> bool {
     let runs = found.of_runs.len();
     let decays = (0..runs).map(|run| found.decay_of_run(run).0.abs());
     let decay = decays.sum::<f64>() / runs as f64;
@@ -129,7 +130,7 @@ fn is_told(covariance: &DMatrix<f64>, found: &Found, each: Option<&Found>) -> bo
         .iter()
         .flat_map(|each| (0..runs).map(move |run| each.values[each.model.decay_at(run) + 1].abs()));
     let growth = growths.fold(0.0, f64::max);
-    let knows = |at: usize, most: f64| (at..at + 2).all(|i| covariance[(i, i)] < most * most);
+    let knows = |at: usize, most: f64| (at..at + 2).all(|i| variance(i) < most * most);
     knows(Model::DAMPING, TOLD[0] * decay)
         && knows(Model::FREQUENCY, (TOLD[1] * decay).max(TOLD_SHARE * growth))
 }
@@ -141,7 +142,7 @@ fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Result<Found,
     let mut most = SETTLED;
     for _ in 0..STEPS {
         let whole = normal.step(0.0).ok_or(Unsettled)?;
-        if normal.right.dot(&whole) < most * normal.widening(&values) {
+        if normal.equations.right().dot(&whole) < most * normal.widening(&values) {
             let values = values + whole;
             return Normal::of(runs, model, &values).conclude(model, values);
         }
@@ -164,8 +165,7 @@ fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Result<Found,
 
 /// The normal equations of all runs about some values.
 struct Normal {
-    matrix: DMatrix<f64>,
-    right: DVector<f64>,
+    equations: Equations,
     /// What is left, in squares of deviations.
     squares: f64,
     /// Sum of the products of what is left of rows that follow each other.
@@ -177,23 +177,27 @@ struct Normal {
 
 impl Normal {
     fn of(runs: &[Run], model: Model, values: &DVector<f64>) -> Self {
-        let unknowns = values.len();
         let mut normal = Self {
-            matrix: DMatrix::zeros(unknowns, unknowns),
-            right: DVector::zeros(unknowns),
+            equations: Equations::new(model.shared(), model.own(), runs.len()),
             squares: 0.0,
             neighbours: 0.0,
             of_runs: Vec::with_capacity(runs.len()),
             count: 0.0,
         };
         for (index, run) in runs.iter().enumerate() {
-            normal.add(run, model, &model.terms(index, run), values);
+            normal.add((index, run), model, &model.terms(index, run), values);
         }
         normal
     }
 
     /// Adds the rows of a run.
-    fn add(&mut self, run: &Run, model: Model, terms: &[Term], values: &DVector<f64>) {
+    fn add(
+        &mut self,
+        (index, run): (usize, &Run),
+        model: Model,
+        terms: &[Term],
+        values: &DVector<f64>,
+    ) {
         let mut motion = model.motion(run, terms, values);
         let mut before = [0.0; 3];
         let mut last = &run.rows[0];
@@ -224,10 +228,11 @@ impl Normal {
         }
         for &(place, direction) in terms {
             let direction = SVector::from(direction);
-            self.right[place] += right.dot(&direction);
+            self.equations.add_right(place, right.dot(&direction));
             let along = matrix * direction;
             for &(other, direction) in terms {
-                self.matrix[(place, other)] += along.dot(&SVector::from(direction));
+                let more = along.dot(&SVector::from(direction));
+                self.equations.add(index, [place, other], more);
             }
         }
         self.squares += squares;
@@ -248,20 +253,8 @@ impl Normal {
 
     /// The step that a damping leaves.
     fn step(&self, damping: f64) -> Option<DVector<f64>> {
-        let mut matrix = self.matrix.clone();
-        for index in 0..matrix.nrows() {
-            matrix[(index, index)] *= 1.0 + damping;
-        }
-        let (factors, scale) = scaled(matrix)?;
-        let right = self.right.component_mul(&scale);
-        Some(factors.solve(&right).component_mul(&scale))
-    }
-
-    /// None where the rows leave an unknown open altogether.
-    fn covariance(&self) -> Option<DMatrix<f64>> {
-        let (factors, scale) = scaled(self.matrix.clone())?;
-        let scale = DMatrix::from_diagonal(&scale);
-        Some(&scale * factors.inverse() * &scale)
+        let factors = self.equations.factors(damping)?;
+        Some(factors.solve(self.equations.right()))
     }
 
     /// The rms residual over the rows' own deviations.
@@ -275,10 +268,10 @@ impl Normal {
     }
 
     fn conclude(self, model: Model, values: DVector<f64>) -> Result<Found, Unsettled> {
-        let covariance = self.covariance().ok_or(Unsettled)?;
         Ok(Found {
             model,
-            covariance: covariance * self.widening(&values),
+            factors: self.equations.factors(0.0).ok_or(Unsettled)?,
+            widening: self.widening(&values),
             residual: self.residual(&values),
             // What is far below the rows' own deviations does no harm.
             alike: self.neighbours / self.squares.max(self.count),
@@ -288,17 +281,6 @@ impl Normal {
             unseen_turning: None,
         })
     }
-}
-
-/// The factors of a symmetric matrix whose unknowns are of very unlike sizes, scaled to a diagonal of ones, and the scale; none where it is
-/// not positive.
-fn scaled(mut matrix: DMatrix<f64>) -> Option<(Cholesky<f64, Dyn>, DVector<f64>)> {
-    let scale = matrix.diagonal().map(|entry| entry.sqrt().recip());
-    for (j, mut column) in matrix.column_iter_mut().enumerate() {
-        column.component_mul_assign(&scale);
-        column *= scale[j];
-    }
-    Some((matrix.cholesky()?, scale))
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
 //! What the fit found, and the quantities that follow from it.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::is_alike;
 use super::model::Model;
+use crate::normal::Factors;
 use crate::runs::{BEYOND_NOISE, Run};
 
 /// Of fewer deviations than this, what amplitudes turn patterns by is taken to be nothing: more would be missed than it spares.
@@ -23,8 +24,9 @@ pub struct Found {
     /// What the runs share.
     pub(super) model: Model,
     pub(super) values: DVector<f64>,
-    /// Of the values, widened where the residual is beyond the rows' own deviations.
-    pub(super) covariance: DMatrix<f64>,
+    /// Of the equations about the values, and what variances are multiplied by where the residual is beyond the rows' own deviations.
+    pub(super) factors: Factors,
+    pub(super) widening: f64,
     /// The rms residual over the rows' own deviations: 1 where there is nothing but noise.
     pub residual: f64,
     /// How much alike the residuals of rows that follow each other are, −1 to 1: 0 where there is nothing but noise.
@@ -80,15 +82,15 @@ pub struct Resonator {
 }
 
 impl Found {
+    /// The variance of an unknown.
+    pub(super) fn variance(&self, place: usize) -> f64 {
+        self.factors.variance(&[(place, 1.0)]) * self.widening
+    }
+
     /// A value whose derivatives by the unknowns are these.
     fn measured(&self, value: f64, gradient: &[(usize, f64)]) -> Measured {
-        let mut variance = 0.0;
-        for (i, left) in gradient {
-            for (j, right) in gradient {
-                variance += left * right * self.covariance[(*i, *j)];
-            }
-        }
-        (value, variance.max(0.0).sqrt())
+        let variance = self.factors.variance(gradient) * self.widening;
+        (value, variance.sqrt())
     }
 
     /// A sum of unknowns.

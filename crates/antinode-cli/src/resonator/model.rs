@@ -50,7 +50,7 @@ impl Model {
     }
 
     /// How many unknowns are shared.
-    fn shared(self) -> usize {
+    pub fn shared(self) -> usize {
         match self {
             Self::Each | Self::EachTurned => 0,
             Self::Shared | Self::SharedTurned => GAMMA,
@@ -59,7 +59,7 @@ impl Model {
     }
 
     /// How many unknowns a run has to itself.
-    fn own(self) -> usize {
+    pub fn own(self) -> usize {
         match self {
             Self::Each => 6,
             Self::Shared | Self::Nonlinear | Self::EachTurned => 4,

@@ -3,10 +3,11 @@
 //! The motion is linear in the rates, so that E, R, S and Q are what they began with plus integrals over time of what each rate does to them:
 //! by linear least squares the rates follow, wherever the pattern stands and however it moves, but for noise in the integrals.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Matrix4, SVector, Vector4};
+use nalgebra::{DVector, Matrix4, SVector, Vector4};
 
 use super::model::{Model, Term};
 use super::motion::{RATES, by_rates};
+use crate::normal::Equations;
 use crate::runs::{Row, Run};
 
 /// The share of each unknown's own weight that is added to it: what the rows do not tell then stays next to nothing.
@@ -14,106 +15,112 @@ const RIDGE: f64 = 1e-10;
 
 /// The unknowns of a model, as the integrals tell them; none where they are no numbers.
 pub fn start(runs: &[Run], model: Model) -> Option<DVector<f64>> {
-    let unknowns = model.unknowns(runs.len());
-    let mut normal = Normal {
-        // E, R and S at first stand where a_A, a_B and θ will, and Q behind all; or E and Q where a_A and a_B will.
-        matrix: DMatrix::zeros(unknowns + runs.len(), unknowns + runs.len()),
-        right: DVector::zeros(unknowns + runs.len()),
-    };
+    // E, R and S at first stand where a_A, a_B and θ will, and Q behind all of a run; or E and Q where a_A and a_B will.
+    let (shared, own) = (model.shared(), model.own());
+    let each = own + usize::from(!model.is_turned());
+    let mut equations = Equations::new(shared, each, runs.len());
+    let from = |run: usize| shared + each * run;
     for (index, run) in runs.iter().enumerate() {
-        let own = model.own_at(index);
+        let begin = from(index);
         let begins = if model.is_turned() {
-            vec![(0, own), (3, own + 1)]
+            vec![(0, begin), (3, begin + 1)]
         } else {
             vec![
-                (0, own + 1),
-                (1, own + 2),
-                (2, own + 3),
-                (3, unknowns + index),
+                (0, begin + 1),
+                (1, begin + 2),
+                (2, begin + 3),
+                (3, begin + own),
             ]
         };
-        normal.add(run, &model.terms(index, run), &begins);
+        let terms = model
+            .terms(index, run)
+            .into_iter()
+            .map(|(place, direction)| {
+                let place = if place < shared {
+                    place
+                } else {
+                    place - model.own_at(index) + begin
+                };
+                (place, direction)
+            });
+        add(
+            &mut equations,
+            (index, run),
+            &terms.collect::<Vec<_>>(),
+            &begins,
+        );
     }
-    if model.is_turned() {
-        normal
-            .matrix
-            .view_mut((unknowns, unknowns), (runs.len(), runs.len()))
-            .fill_diagonal(1.0);
-    }
-    for index in 0..normal.matrix.nrows() {
-        normal.matrix[(index, index)] *= 1.0 + RIDGE;
-    }
-    let found = Cholesky::new(normal.matrix)?.solve(&normal.right);
-    let mut values = found.rows(0, unknowns).into_owned();
+    let found = equations.factors(RIDGE)?.solve(equations.right());
+    let mut values = DVector::zeros(model.unknowns(runs.len()));
+    values.rows_mut(0, shared).copy_from(&found.rows(0, shared));
     for (index, run) in runs.iter().enumerate() {
-        let own = model.own_at(index);
+        let found = found.rows(from(index), each);
+        let mut values = values.rows_mut(model.own_at(index), own);
+        values.copy_from(&found.rows(0, own));
         if model.is_turned() {
-            let [e, q] = [found[own], found[own + 1]];
+            let [e, q] = [found[0], found[1]];
             let main = (0.5 * (e + (e * e - q * q).max(0.0).sqrt())).sqrt();
-            values[own] = main;
-            values[own + 1] = 0.5 * q / main;
+            values[0] = main;
+            values[1] = 0.5 * q / main;
             continue;
         }
-        let [r, s, q] = [found[own + 2], found[own + 3], found[unknowns + index]];
+        let [r, s, q] = [found[2], found[3], found[own]];
         let apart = r.hypot(s);
         let main = (0.5 * (apart.hypot(q) + apart)).sqrt();
-        values[own] -= 2.0 * run.turned() / run.seconds();
-        values[own + 1] = main;
-        values[own + 2] = 0.5 * q / main;
-        values[own + 3] = 0.25 * s.atan2(r);
+        values[0] -= 2.0 * run.turned() / run.seconds();
+        values[1] = main;
+        values[2] = 0.5 * q / main;
+        values[3] = 0.25 * s.atan2(r);
     }
     let is_sound = values.iter().all(|value| value.is_finite());
     is_sound.then_some(values)
 }
 
-/// The normal equations of all runs.
-struct Normal {
-    matrix: DMatrix<f64>,
-    right: DVector<f64>,
-}
-
-impl Normal {
-    /// Adds the rows of a run, of whose E, R, S and Q these, by number, begin with unknowns at these places.
-    ///
-    /// Seen from a frame that turns with the pattern's mean rate nothing moves far from row to row, and sums do for integrals; its κ is
-    /// what is beyond that rate.
-    fn add(&mut self, run: &Run, terms: &[Term], begins: &[(usize, usize)]) {
-        let mut places: Vec<usize> = begins.iter().map(|&(_, place)| place).collect();
-        let mut moves = Vec::new();
-        for (place, direction) in terms {
-            let rates = SVector::<f64, RATES>::from_column_slice(&direction[..RATES]);
-            if rates.norm() > 0.0 {
-                places.push(*place);
-                moves.push(rates);
+/// Adds the rows of a run, of whose E, R, S and Q these, by number, begin with unknowns at these places.
+///
+/// Seen from a frame that turns with the pattern's mean rate nothing moves far from row to row, and sums do for integrals; its κ is
+/// what is beyond that rate.
+fn add(
+    equations: &mut Equations,
+    (index, run): (usize, &Run),
+    terms: &[Term],
+    begins: &[(usize, usize)],
+) {
+    let mut places: Vec<usize> = begins.iter().map(|&(_, place)| place).collect();
+    let mut moves = Vec::new();
+    for (place, direction) in terms {
+        let rates = SVector::<f64, RATES>::from_column_slice(&direction[..RATES]);
+        if rates.norm() > 0.0 {
+            places.push(*place);
+            moves.push(rates);
+        }
+    }
+    let rate = run.turned() / run.seconds();
+    let mut integrals = vec![Vector4::zeros(); moves.len()];
+    let mut before: Option<(f64, Vec<Vector4<f64>>)> = None;
+    for row in &run.rows {
+        let back = turned(-rate * (row.time - run.rows[0].time));
+        let state = state(row);
+        let by_rates = back * by_rates(&state);
+        let slopes: Vec<_> = moves.iter().map(|rates| by_rates * rates).collect();
+        if let Some((time, last)) = before {
+            let half = 0.5 * (row.time - time);
+            for ((integral, last), slope) in integrals.iter_mut().zip(last).zip(&slopes) {
+                *integral += (last + slope) * half;
             }
         }
-        let rate = run.turned() / run.seconds();
-        let mut integrals = vec![Vector4::zeros(); moves.len()];
-        let mut before: Option<(f64, Vec<Vector4<f64>>)> = None;
-        for row in &run.rows {
-            let back = turned(-rate * (row.time - run.rows[0].time));
-            let state = state(row);
-            let by_rates = back * by_rates(&state);
-            let slopes: Vec<_> = moves.iter().map(|rates| by_rates * rates).collect();
-            if let Some((time, last)) = before {
-                let half = 0.5 * (row.time - time);
-                for ((integral, last), slope) in integrals.iter_mut().zip(last).zip(&slopes) {
-                    *integral += (last + slope) * half;
-                }
-            }
-            before = Some((row.time, slopes));
-            let weight = 1.0 / (state[0] * row.deviations[0].powi(2));
-            let turned = back * state;
-            for (begin, &(equation, _)) in begins.iter().enumerate() {
-                let seen = turned[equation];
-                let mut entries = vec![0.0; begins.len()];
-                entries[begin] = 1.0;
-                entries.extend(integrals.iter().map(|integral| integral[equation]));
-                for (&place, left) in places.iter().zip(&entries) {
-                    self.right[place] += weight * left * seen;
-                    for (&other, right) in places.iter().zip(&entries) {
-                        self.matrix[(place, other)] += weight * left * right;
-                    }
+        before = Some((row.time, slopes));
+        let weight = 1.0 / (state[0] * row.deviations[0].powi(2));
+        let turned = back * state;
+        for (begin, &(equation, _)) in begins.iter().enumerate() {
+            let seen = turned[equation];
+            let mut entries = vec![0.0; begins.len()];
+            entries[begin] = 1.0;
+            entries.extend(integrals.iter().map(|integral| integral[equation]));
+            for (&place, left) in places.iter().zip(&entries) {
+                equations.add_right(place, weight * left * seen);
+                for (&other, right) in places.iter().zip(&entries) {
+                    equations.add(index, [place, other], weight * left * right);
                 }
             }
         }

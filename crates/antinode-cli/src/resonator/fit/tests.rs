@@ -143,7 +143,7 @@ fn stated_deviations_are_the_rms_errors() {
         let found = fit(&at_three_angles(NOISE, seed)).unwrap();
         let resonator = found.resonator().unwrap();
         let mut errors: Vec<_> = (0..5)
-            .map(|i| (found.values[i] - RESONATOR[i]) / found.covariance[(i, i)].sqrt())
+            .map(|i| (found.values[i] - RESONATOR[i]) / found.variance(i).sqrt())
             .collect();
         for run in 0..3 {
             let (rotation, deviation) = resonator.rotations[run];
@@ -197,7 +197,7 @@ fn a_pattern_that_is_a_circle_meanwhile_tells_the_same() {
             assert!(found.resonator().is_some());
             assert!((found.residual - 1.0).abs() < 0.06, "{}", found.residual);
             for (i, (square, truth)) in squares.iter_mut().zip(RESONATOR).enumerate() {
-                let error = (found.values[i] - truth) / found.covariance[(i, i)].sqrt();
+                let error = (found.values[i] - truth) / found.variance(i).sqrt();
                 assert!(error.abs() < 5.0, "{starts:?}, {i}: {error}");
                 *square += error * error / trials as f64;
             }
@@ -242,7 +242,7 @@ fn what_else_moves_widens_the_deviations() {
     let [honest, boastful] = [honest, boastful].map(|runs| fit(&runs).unwrap());
     assert!((boastful.residual / honest.residual - 10.0).abs() < 1e-3);
     for i in 0..5 {
-        let ratio = (boastful.covariance[(i, i)] / honest.covariance[(i, i)]).sqrt();
+        let ratio = (boastful.variance(i) / honest.variance(i)).sqrt();
         assert!(
             (ratio / honest.residual.min(1.0) - 1.0).abs() < 0.05,
             "{i}: {ratio}"
@@ -347,7 +347,7 @@ fn stiffness_that_depends_on_the_amplitude_is_told_beside_the_splits() {
                 .collect();
             let found = fit(&runs).unwrap();
             for (i, (square, truth)) in squares.iter_mut().zip(stiff).enumerate() {
-                let error = (found.values[i] - truth) / found.covariance[(i, i)].sqrt();
+                let error = (found.values[i] - truth) / found.variance(i).sqrt();
                 *square += error * error / trials as f64;
             }
             let (turning, deviation) = found.resonator().unwrap().turning_by_amplitudes.unwrap();
@@ -384,6 +384,6 @@ fn what_amplitudes_turn_is_not_told_beside_what_is_not_noise() {
     assert_eq!(found.resonator().unwrap().turning_by_amplitudes, None);
     assert!(found.withholds_turning());
     // Of fewer deviations nothing would be told in any case.
-    found.covariance *= (turning.abs() / std / 2.9).powi(2);
+    found.widening *= (turning.abs() / std / 2.9).powi(2);
     assert!(found.is_nonlinear() && !found.withholds_turning());
 }

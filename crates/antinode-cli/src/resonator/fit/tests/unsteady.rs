@@ -27,7 +27,7 @@ fn deviations_hold_however_patterns_are_turned() {
             assert!((found.residual - 1.0).abs() < 0.15, "{}", found.residual);
             let rotations = found.resonator().unwrap().rotations;
             std::array::from_fn(|i| match i.checked_sub(5) {
-                None => (found.values[i] - RESONATOR[i]) / found.covariance[(i, i)].sqrt(),
+                None => (found.values[i] - RESONATOR[i]) / found.variance(i).sqrt(),
                 Some(run) => {
                     let (rotation, deviation) = rotations[run];
                     assert!(deviation < 1e-5, "{deviation}");

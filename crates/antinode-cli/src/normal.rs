@@ -1,0 +1,271 @@
+//! Normal equations of runs that share some unknowns: each has others of its own, which nothing but the shared ones ties to those of others.
+//!
+//! So they are solved run by run, at a cost in proportion to the runs: where a ring-down reaches the noise these are hundreds.
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+/// The equations; unknowns are the shared ones, and behind these each run's own.
+pub struct Equations {
+    shared: usize,
+    own: usize,
+    /// Of each run: the matrix of the shared unknowns and of its own.
+    matrices: Vec<DMatrix<f64>>,
+    right: DVector<f64>,
+}
+
+impl Equations {
+    /// Empty ones of so many shared unknowns, and so many of each run's own.
+    pub fn new(shared: usize, own: usize, runs: usize) -> Self {
+        let size = shared + own;
+        Self {
+            shared,
+            own,
+            matrices: vec![DMatrix::zeros(size, size); runs],
+            right: DVector::zeros(shared + own * runs),
+        }
+    }
+
+    /// The number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.right.len()
+    }
+
+    /// The right sides.
+    pub fn right(&self) -> &DVector<f64> {
+        &self.right
+    }
+
+    /// Adds to the right side of an unknown.
+    pub fn add_right(&mut self, place: usize, more: f64) {
+        self.right[place] += more;
+    }
+
+    /// Adds to the entry of two unknowns, shared or of this run.
+    pub fn add(&mut self, run: usize, [i, j]: [usize; 2], more: f64) {
+        let [i, j] = [i, j].map(|place| self.within(run, place));
+        self.matrices[run][(i, j)] += more;
+    }
+
+    /// The place of an unknown in the matrix of this run.
+    fn within(&self, run: usize, place: usize) -> usize {
+        if place < self.shared {
+            place
+        } else {
+            place - self.own * run
+        }
+    }
+
+    /// The factors, where each unknown's own entry is greater by a share; none where the rows leave an unknown open altogether.
+    ///
+    /// Unknowns are of very unlike sizes: they are scaled to a diagonal of ones.
+    pub fn factors(&self, more: f64) -> Option<Factors> {
+        let (shared, own) = (self.shared, self.own);
+        let mut whole = DMatrix::zeros(shared, shared);
+        for matrix in &self.matrices {
+            whole += matrix.view((0, 0), (shared, shared));
+        }
+        let mut scale = DVector::zeros(self.unknowns());
+        let scale_of = |entry: f64| entry.sqrt().recip();
+        for i in 0..shared {
+            scale[i] = scale_of(whole[(i, i)]);
+        }
+        let scaled = |(i, j): (usize, usize), entry: f64, [of_i, of_j]: [f64; 2]| {
+            let by = if i == j { 1.0 + more } else { 1.0 };
+            entry * by * of_i * of_j
+        };
+        for i in 0..shared {
+            for j in 0..shared {
+                whole[(i, j)] = scaled((i, j), whole[(i, j)], [scale[i], scale[j]]);
+            }
+        }
+        let mut runs = Vec::with_capacity(self.matrices.len());
+        for (run, matrix) in self.matrices.iter().enumerate() {
+            let from = shared + own * run;
+            for i in 0..own {
+                scale[from + i] = scale_of(matrix[(shared + i, shared + i)]);
+            }
+            let entry = |i: usize, j: usize| {
+                let of = |place: usize| {
+                    scale[if place < shared {
+                        place
+                    } else {
+                        place + own * run
+                    }]
+                };
+                scaled((i, j), matrix[(i, j)], [of(i), of(j)])
+            };
+            let factors =
+                DMatrix::from_fn(own, own, |i, j| entry(shared + i, shared + j)).cholesky()?;
+            let ties = DMatrix::from_fn(own, shared, |i, j| entry(shared + i, j));
+            let ties = factors.l_dirty().solve_lower_triangular(&ties)?;
+            whole -= ties.tr_mul(&ties);
+            runs.push(OfRun { factors, ties });
+        }
+        Some(Factors {
+            shared: whole.cholesky()?,
+            runs,
+            scale,
+        })
+    }
+}
+
+/// The factors of the equations' matrix, of which each run's own unknowns are eliminated first.
+#[derive(Debug)]
+pub struct Factors {
+    shared: Cholesky<f64, Dyn>,
+    runs: Vec<OfRun>,
+    scale: DVector<f64>,
+}
+
+/// Those of a run.
+#[derive(Debug)]
+struct OfRun {
+    factors: Cholesky<f64, Dyn>,
+    /// What ties its unknowns to the shared ones, divided by the factor.
+    ties: DMatrix<f64>,
+}
+
+impl OfRun {
+    /// Own unknowns divided by the factor.
+    fn divide(&self, own: &DVector<f64>) -> DVector<f64> {
+        let mut divided = own.clone();
+        // No entry of the factor's diagonal is 0.
+        self.factors
+            .l_dirty()
+            .solve_lower_triangular_mut(&mut divided);
+        divided
+    }
+}
+
+impl Factors {
+    /// The unknowns that these right sides have.
+    pub fn solve(&self, right: &DVector<f64>) -> DVector<f64> {
+        let mut found = right.component_mul(&self.scale);
+        let shared = self.shared.l_dirty().nrows();
+        let mut of_shared = found.rows(0, shared).into_owned();
+        let mut from = shared;
+        for run in &self.runs {
+            let own = run.ties.nrows();
+            let divided = run.divide(&found.rows(from, own).into_owned());
+            of_shared -= run.ties.tr_mul(&divided);
+            found.rows_mut(from, own).copy_from(&divided);
+            from += own;
+        }
+        self.shared.solve_mut(&mut of_shared);
+        found.rows_mut(0, shared).copy_from(&of_shared);
+        from = shared;
+        for run in &self.runs {
+            let own = run.ties.nrows();
+            let mut left = found.rows(from, own) - &run.ties * &of_shared;
+            run.factors
+                .l_dirty()
+                .tr_solve_lower_triangular_mut(&mut left);
+            found.rows_mut(from, own).copy_from(&left);
+            from += own;
+        }
+        found.component_mul(&self.scale)
+    }
+
+    /// The variance of a sum of shared unknowns and of one run's own, each by its place times a factor, where right sides have the
+    /// variances of the matrix.
+    pub fn variance(&self, terms: &[(usize, f64)]) -> f64 {
+        let shared = self.shared.l_dirty().nrows();
+        let mut of_shared = DVector::zeros(shared);
+        let own = self.runs[0].ties.nrows();
+        let mut of_run: Option<(usize, DVector<f64>)> = None;
+        for &(place, by) in terms {
+            let by = by * self.scale[place];
+            if place < shared {
+                of_shared[place] += by;
+            } else {
+                let run = (place - shared) / own;
+                let (_, of_own) = of_run.get_or_insert_with(|| (run, DVector::zeros(own)));
+                of_own[place - shared - own * run] += by;
+            }
+        }
+        let mut variance = 0.0;
+        if let Some((run, of_own)) = of_run {
+            let divided = self.runs[run].divide(&of_own);
+            of_shared -= self.runs[run].ties.tr_mul(&divided);
+            variance += divided.norm_squared();
+        }
+        variance + of_shared.dot(&self.shared.solve(&of_shared))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::deviates::Deviates;
+
+    #[test]
+    fn runs_are_solved_one_by_one_as_they_are_all_together() {
+        for (shared, own, runs) in [(0, 3, 4), (5, 4, 1), (6, 4, 30), (2, 1, 7)] {
+            let mut random = Deviates(shared as u64);
+            let unknowns = shared + own * runs;
+            let mut equations = Equations::new(shared, own, runs);
+            let mut whole = DMatrix::zeros(unknowns, unknowns);
+            for run in 0..runs {
+                let from = shared + own * run;
+                for _ in 0..2 * (shared + own) {
+                    let places: Vec<_> = (0..shared).chain(from..from + own).collect();
+                    // Of very unlike sizes.
+                    let line = places
+                        .iter()
+                        .map(|&place| 10f64.powi(place as i32 % 9) * random.draw());
+                    let line: Vec<_> = line.collect();
+                    for (&i, left) in places.iter().zip(&line) {
+                        for (&j, right) in places.iter().zip(&line) {
+                            equations.add(run, [i, j], left * right);
+                            whole[(i, j)] += left * right;
+                        }
+                    }
+                }
+            }
+            let truth =
+                DVector::from_fn(unknowns, |i, _| 10f64.powi(-(i as i32 % 9)) * random.draw());
+            for more in [0.0, 0.5] {
+                let mut damped = whole.clone();
+                for i in 0..unknowns {
+                    damped[(i, i)] *= 1.0 + more;
+                }
+                let factors = equations.factors(more).unwrap();
+                let found = factors.solve(&(&damped * &truth));
+                for (found, truth) in found.iter().zip(&truth) {
+                    assert!((found / truth - 1.0).abs() < 1e-6, "{found} {truth}");
+                }
+                let inverse = damped.try_inverse().unwrap();
+                for run in 0..runs {
+                    let mut terms = vec![
+                        (shared + own * run, 2.0),
+                        (shared + own * (run + 1) - 1, -0.7),
+                    ];
+                    terms.extend((0..shared).map(|place| (place, 0.3)));
+                    let mut expected = 0.0;
+                    for (i, left) in &terms {
+                        for (j, right) in &terms {
+                            expected += left * right * inverse[(*i, *j)];
+                        }
+                    }
+                    let variance = factors.variance(&terms);
+                    assert!(
+                        (variance / expected - 1.0).abs() < 1e-6,
+                        "{variance} {expected}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_unknown_that_nothing_tells_has_no_factors() {
+        for (shared, own) in [(2, 2), (0, 2)] {
+            let mut equations = Equations::new(shared, own, 2);
+            for place in 0..shared + 3 {
+                let run = usize::from(place >= shared + own);
+                equations.add(run, [place, place], 1.0);
+            }
+            assert!(equations.factors(0.0).is_none());
+        }
+    }
+}

@@ -6,6 +6,7 @@ mod jump;
 mod recording;
 mod row;
 mod step;
+pub mod way;
 
 use std::f64::consts::FRAC_PI_2;
 use std::io::{self, Read, Write};
@@ -18,7 +19,7 @@ use crate::given::{Given, none_within};
 use crate::row_file::{self, RowFile};
 use recording::{Recording, Taken};
 use row::Places;
-pub use row::Row;
+pub use row::{BOWS, Row};
 
 /// From this rms residual over the rows' own deviations on, it is told that something else moves.
 pub const BEYOND_NOISE: f64 = 2.0;
@@ -214,7 +215,8 @@ impl Runs {
                 }
             }
             if !record[flags].is_empty() {
-                recordings[present].leave_out(row_file::flags(&record[flags]), self.breaks);
+                let flags = row_file::flags(&record[flags]);
+                recordings[present].leave_out(flags, self.breaks, places.way(record));
                 continue;
             }
             // Only here: a flagged row need not have numbers.

@@ -3,10 +3,13 @@
 use nalgebra::{DVector, RowSVector};
 
 use super::motion::{GAMMA, KAPPA, Motion, PARAMETERS, RATES};
-use crate::runs::{Row, Run, turn};
+use crate::runs::{BOWS, Row, Run, turn};
 
 /// An unknown of a run's motion: its place among all, and what one of it is in the parameters of the motion.
 pub type Term = (usize, [f64; PARAMETERS]);
+
+/// Straight pieces that a way becomes on which the pattern does not turn steadily.
+const PIECES: u32 = 64;
 
 /// Places in the parameters of the motion: of 1/τ, and of the first of Δω.
 const DECAY: usize = 0;
@@ -114,17 +117,27 @@ impl Model {
             motion.advance(seconds);
             return (0.0, RowSVector::zeros());
         }
-        let mut beyond = 0.0;
-        if seconds > 0.0 {
-            let rate = turn(to.angle - from.angle) / seconds;
-            motion.steer(rate);
-            beyond = turn(motion.angle_after(seconds) - to.angle);
-            // So that it is on the way all along, not only at its end.
-            motion.steer(rate - beyond / seconds);
+        let pieces = if to.bow == [0.0; BOWS] { 1 } else { PIECES };
+        let seconds = seconds / f64::from(pieces);
+        let (mut beyond, mut derivatives) = (0.0, RowSVector::zeros());
+        let mut turned = 0.0;
+        for piece in 1..=pieces {
+            let now = to.turned(from, f64::from(piece) / f64::from(pieces));
+            let angle = from.angle + now;
+            if seconds > 0.0 {
+                let rate = (now - turned) / seconds;
+                motion.steer(rate);
+                let ahead = turn(motion.angle_after(seconds) - angle);
+                // So that it is on the way all along, not only at its end.
+                motion.steer(rate - ahead / seconds);
+                beyond += ahead;
+            }
+            motion.advance(seconds);
+            let (rest, of_rest) = motion.turn_to(angle);
+            (beyond, derivatives) = (beyond + rest, derivatives + of_rest);
+            turned = now;
         }
-        motion.advance(seconds);
-        let (rest, derivatives) = motion.turn_to(to.angle);
-        (beyond + rest, derivatives)
+        (beyond, derivatives)
     }
 
     /// The unknowns of a run.

@@ -150,6 +150,7 @@ mod tests {
             frequency_deviation: OF_FREQUENCY,
             deviations: [1e-3; 3],
             seconds: EVERY,
+            bow: Default::default(),
         }
     }
 

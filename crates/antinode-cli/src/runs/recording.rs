@@ -5,6 +5,7 @@ use antinode::Flags;
 use super::jump::jumps;
 use super::row::Row;
 use super::step::steps;
+use super::way::bow;
 use super::{LEAST_ROWS, Run, turn};
 
 /// A row whose deviations are so many times those of another is known worse.
@@ -26,6 +27,8 @@ pub(super) struct Recording {
     torn: Option<usize>,
     /// Rows of the run before circles that were left out.
     circles: Vec<usize>,
+    /// Times and angles of rows that were left out behind the last one; none of one that does not show the pattern.
+    between: Vec<Option<[f64; 2]>>,
 }
 
 /// What becomes of a row.
@@ -48,14 +51,16 @@ impl Recording {
             run: Run::default(),
             torn: None,
             circles: Vec::new(),
+            between: Vec::new(),
         }
     }
 
-    /// Leaves out a row with flags, of which these end a run.
-    pub fn leave_out(&mut self, flags: Flags, breaks: Flags) {
+    /// Leaves out a row with flags, of which these end a run, and such a time and angle.
+    pub fn leave_out(&mut self, flags: Flags, breaks: Flags, way: Option<[f64; 2]>) {
         if flags.intersects(breaks) {
             self.end();
         }
+        self.between.push(way.filter(|_| flags == Flags::MISFIT));
         if flags == Flags::CIRCULAR {
             self.circles.push(self.run.rows.len());
         } else {
@@ -64,7 +69,7 @@ impl Recording {
     }
 
     /// Takes the next row; a run ends where the pattern turns by more than so much, rad.
-    pub fn take(&mut self, row: Row, most_turn: f64) -> Taken {
+    pub fn take(&mut self, mut row: Row, most_turn: f64) -> Taken {
         let mut taken = Taken::Kept;
         if let Some(last) = self.run.rows.last() {
             if row.time <= last.time {
@@ -85,6 +90,10 @@ impl Recording {
             }
         }
         self.torn = self.torn.filter(|&torn| self.is_vague(torn, &row));
+        let between: Option<Vec<_>> = std::mem::take(&mut self.between).into_iter().collect();
+        if let (Some(last), Some(between)) = (self.run.rows.last(), between) {
+            row.bow = bow(last, &row, &between);
+        }
         self.run.rows.push(row);
         taken
     }

@@ -5,6 +5,7 @@ use std::io::Read;
 
 use csv::StringRecord;
 
+use super::turn;
 use crate::failure::Failure;
 use crate::row_file::{RowFile, number};
 
@@ -24,6 +25,9 @@ const COLUMNS: [&str; 8] = [
 const OTHER_DEVIATIONS: [&str; 3] = ["frequency_std_hz", "decay_rate_std_s", "phase_std_rad"];
 /// Rows may lack it too.
 const PHASE: &str = "phase_rad";
+
+/// Curves of which a way is made.
+pub const BOWS: usize = 3;
 
 /// What is used of a row.
 #[derive(Debug, Clone, Copy)]
@@ -46,6 +50,9 @@ pub struct Row {
     pub deviations: [f64; 3],
     /// Length of the window, s, from what it knows of an amplitude and its rate; 0 where the rows do not tell the latter.
     pub seconds: f64,
+    /// How far the pattern is beside a steady turn on its way from the row before, rad: so many times what [`Row::beside`] has; 0 where it
+    /// is taken to turn steadily.
+    pub bow: [f64; BOWS],
 }
 
 /// Where the columns stand.
@@ -68,6 +75,12 @@ impl Places {
             others,
             phase: rows.place(PHASE),
         })
+    }
+
+    /// The time of a row, s, and its angle, rad, where they are numbers.
+    pub fn way(&self, record: &StringRecord) -> Option<[f64; 2]> {
+        let [time, _, _, angle, ..] = self.needed.map(|place| number(record, place));
+        Some([time?, angle.filter(|angle| angle.is_finite())?])
     }
 
     /// The time of a row, s, where it is a number.
@@ -108,11 +121,25 @@ impl Row {
             frequency_deviation: 1e-3,
             deviations,
             seconds: 0.0,
+            bow: [0.0; BOWS],
         }
     }
 }
 
 impl Row {
+    /// By how much the pattern has turned since the row before at such a share of the way from that, rad.
+    pub fn turned(&self, before: &Self, share: f64) -> f64 {
+        let beside = Self::beside(share).into_iter().zip(self.bow);
+        let beside: f64 = beside.map(|(by, bow)| by * bow).sum();
+        share * turn(self.angle - before.angle) + beside
+    }
+
+    /// The curves of which a way is made, at a share of it.
+    pub fn beside(share: f64) -> [f64; BOWS] {
+        let middle = 2.0 * share - 1.0;
+        [1.0, middle, middle * middle].map(|curve| curve * share * (1.0 - share))
+    }
+
     /// The logarithm of a_A over another row's, and its deviation: a decay alone does not bend it.
     pub fn log_beside(&self, other: &Self) -> (f64, f64) {
         (
@@ -172,6 +199,7 @@ impl Row {
             deviations,
             // A straight line through evenly spread samples knows its slope so much worse than its middle.
             seconds: 12f64.sqrt() * of_main / main / of_rate,
+            bow: [0.0; BOWS],
         })
     }
 }

@@ -283,3 +283,30 @@ fn a_pattern_that_turns_to_and_fro_turns_both_ways() {
     let both: Vec<f64> = [&forth[..], &back[1..10], &forth[10..]].concat();
     assert_eq!(turns(&both), [-4.5, 9.5]);
 }
+
+#[test]
+fn rows_that_are_misfits_alone_tell_the_way_of_the_pattern() {
+    let bow = |flags: &str| {
+        let row = |k: usize| {
+            let begun = k as f64 - 14.0;
+            let angle = 1e-3 * begun.clamp(0.0, 7.0).powi(2) + 0.014 * (begun - 7.0).max(0.0);
+            let flags = match k {
+                15..18 => "misfit",
+                18..21 => flags,
+                _ => "",
+            };
+            let time = 0.01 * k as f64;
+            format!("a,{time},0.5,0.02,{angle},5332,0.001,0.001,0.01,{flags}\n")
+        };
+        let all = read(&(0..40).map(row).collect::<String>());
+        assert_eq!(lengths(&all), [34]);
+        let [others, next] = [14, 15].map(|index| all.runs[0].rows[index].bow);
+        assert_eq!(others, [0.0; BOWS]);
+        next
+    };
+    let [first, ..] = bow("misfit");
+    // −θ̈ T²/2.
+    assert!((first + 0.049).abs() < 1e-3, "{first}");
+    assert_eq!(bow("circular"), [0.0; BOWS]);
+    assert_eq!(bow("circular+misfit"), [0.0; BOWS]);
+}

@@ -1,6 +1,7 @@
 //! Patterns that are turned as it happens.
 
 use super::*;
+use crate::runs::way::bow;
 
 /// Rates of tables, rad/s, by time, that are not steady: a ripple, a start, one that slows down, to and fro.
 const UNSTEADY: [fn(f64) -> f64; 4] = [
@@ -74,4 +75,36 @@ fn one_pattern_that_hardly_swings_tells_no_splits() {
     assert!(found.is_turned() && found.resonator().is_none());
     // Nor do they move its frequency.
     assert_eq!(found.splits(&[1.0; 4]), (0.0, 0.0));
+}
+
+#[test]
+fn a_table_may_speed_up_among_rows_left_out() {
+    let rate = |time: f64| 0.2 * (time - 8.13).clamp(0.0, 1.0);
+    let errors = |is_shown: bool| {
+        let trials = (0..6).into_par_iter().map(|seed| {
+            let one = |way: f64, angle: f64, seed| {
+                let start = [1.0, 0.03, angle];
+                let turns = |time| way * rate(time);
+                let mut all = run_turned(&RESONATOR, turns, start, 800, 0.05, NOISE, seed);
+                let begun = all.rows[0].time;
+                let is_between = |row: &&Row| (8.0..9.3).contains(&(row.time - begun));
+                let between = all.rows.iter().filter(is_between);
+                let between: Vec<_> = between.map(|row| [row.time, row.angle]).collect();
+                all.rows.retain(|row| !is_between(&row));
+                let next = all.rows.partition_point(|row| row.time < begun + 9.0);
+                if is_shown {
+                    all.rows[next].bow = bow(&all.rows[next - 1], &all.rows[next], &between);
+                }
+                all
+            };
+            let found = fit(&[one(1.0, 0.2, 2 * seed), one(-1.0, 0.9, 2 * seed + 1)]).unwrap();
+            assert!(found.is_turned());
+            (0..5)
+                .map(|i| ((found.values[i] - RESONATOR[i]) / found.variance(i).sqrt()).powi(2))
+                .sum::<f64>()
+        });
+        (trials.sum::<f64>() / 30.0).sqrt()
+    };
+    let [steadily, shown] = [false, true].map(errors);
+    assert!(steadily > 3.0 && shown < 1.4, "{steadily} {shown}");
 }

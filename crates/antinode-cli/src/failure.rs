@@ -87,8 +87,8 @@ impl From<antinode_sim::Error> for Failure {
                 "--quadrature-amplitude: {quadrature} exceeds the main amplitude of {main} in size; the same wave has --main-amplitude {}, \
                  --quadrature-amplitude {}, an angle 45° {} and a phase 90° less",
                 quadrature.abs(),
-                main.copysign(quadrature),
-                if quadrature > 0.0 { "less" } else { "greater" }
+                main.copysign(*quadrature),
+                if *quadrature > 0.0 { "less" } else { "greater" }
             ),
             Error::EndlessLoss { .. } => format!("--lost: {error}"),
             other => other.to_string(),

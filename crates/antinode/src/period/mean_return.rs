@@ -33,142 +33,40 @@ impl Upward {
     }
 }
 
-/// Finds the range of both signals, until the stronger one has crossed its middle twice.
-#[derive(Debug, Clone)]
-struct Range {
-    low: Pair,
-    high: Pair,
-    upward: [Upward; 2],
-    crossings: [u8; 2],
-}
-
-impl Range {
-    const START: Self = Self {
-        low: [f32::INFINITY; 2],
-        high: [f32::NEG_INFINITY; 2],
-        upward: [Upward { below: false }; 2],
-        crossings: [0; 2],
-    };
-
-    /// Takes a pair; gives the channel of the stronger signal in the end, and what takes its mean.
-    #[inline(always)]
-    fn push(&mut self, pair: Pair) -> Option<(usize, Mean)> {
-        let mut swing = [0.0; 2];
-        let mut middle = [0.0; 2];
-        for i in 0..2 {
-            self.low[i] = lesser(pair[i], self.low[i]);
-            self.high[i] = greater(pair[i], self.high[i]);
-            swing[i] = 0.5 * (self.high[i] - self.low[i]);
-            middle[i] = 0.5 * (self.high[i] + self.low[i]);
-            let crossed = self.upward[i].crossed(pair[i] - middle[i], 0.25 * swing[i]);
-            // Those of the weaker pick-off, which may only seem to swing, have no end.
-            self.crossings[i] = self.crossings[i].saturating_add(u8::from(crossed));
-        }
-        let strong = usize::from(swing[1] > swing[0]);
-        let mean = || Mean {
-            middle: middle[strong],
-            swing: swing[strong],
-            upward: Upward::default(),
-            crossings: 0,
-            before: 0.0,
-            area: 0.0,
-            lead: 0.0,
-        };
-        (self.crossings[strong] >= 2).then(|| (strong, mean()))
-    }
-}
-
-/// Takes the mean from one upward crossing of the middle to another.
-#[derive(Debug, Clone)]
-struct Mean {
-    middle: f32,
-    swing: f32,
-    upward: Upward,
-    crossings: u16,
-    before: f32,
-    area: f32,
-    lead: f32,
-}
-
-impl Mean {
-    /// Takes a sample, so many after the first crossing, which begins the count; gives what waits for the crest in the end.
-    #[inline(always)]
-    fn push(&mut self, value: f32, time: &mut u16) -> Option<Crest> {
-        let height = value - self.middle;
-        let rise = height - self.before;
-        self.area += 0.5 * (height + self.before);
-        self.before = height;
-        if !self.upward.crossed(height, 0.25 * self.swing) {
-            return None;
-        }
-        // The crossing itself lies on the line through the last two samples, so long before this one.
-        let late = height / rise;
-        let triangle = 0.5 * height * late;
-        self.crossings += 1;
-        if self.crossings == 1 {
-            (self.area, self.lead) = (triangle, late);
-            *time = 0;
-        }
-        if self.crossings <= SPAN {
-            return None;
-        }
-        let span = f32::from(*time) + self.lead - late;
-        let period = span / f32::from(SPAN);
-        Some(Crest {
-            mean: self.middle + (self.area - triangle) / span,
-            margin: 0.25 * self.swing * period / TAU,
-            // The sum's first sample is to stand half a sample past the crest after the next.
-            samples: (1.25 * period - late) as u16,
-        })
-    }
-}
-
-/// Waits until `samples` have passed: the crest, where the sum leaves and meets zero steeply.
-#[derive(Debug, Clone)]
-struct Crest {
-    mean: f32,
-    margin: f32,
-    samples: u16,
-}
-
-/// Sums until the sum has returned.
-#[derive(Debug, Clone)]
-struct Return {
-    mean: f32,
-    margin: f32,
-    upward: Upward,
-    sum: f32,
-    returns: u16,
-}
-
-impl Return {
-    /// Takes the sample that is so many after the first; gives the period in the end.
-    #[inline(always)]
-    fn push(&mut self, value: f32, time: u16) -> Option<f32> {
-        let step = value - self.mean;
-        self.sum += step;
-        // The return itself is the crossing of zero: the margin only arms it.
-        self.upward.below |= self.sum < -self.margin;
-        if self.upward.below && self.sum >= 0.0 {
-            self.upward.below = false;
-            self.returns += 1;
-        }
-        if self.returns < SPAN {
-            return None;
-        }
-        // Of the step that took the sum over zero.
-        let late = self.sum / step;
-        Some((f32::from(time) - late) / f32::from(SPAN))
-    }
-}
-
 /// What the detector does with the stronger signal.
 #[derive(Debug, Clone)]
 enum Stage {
-    Range(Range),
-    Mean(Mean),
-    Crest(Crest),
-    Return(Return),
+    /// Finds the range of both signals, until one of them has crossed its middle twice.
+    Range {
+        low: Pair,
+        high: Pair,
+        upward: [Upward; 2],
+        crossings: [u8; 2],
+    },
+    /// Takes the mean from one upward crossing of the middle to another.
+    Mean {
+        middle: f32,
+        swing: f32,
+        upward: Upward,
+        crossings: u16,
+        before: f32,
+        area: f32,
+        lead: f32,
+    },
+    /// Waits until `samples` have passed: the crest, where the sum leaves and meets zero steeply.
+    Crest {
+        mean: f32,
+        margin: f32,
+        samples: u16,
+    },
+    /// Sums until the sum has returned.
+    Sum {
+        mean: f32,
+        margin: f32,
+        upward: Upward,
+        sum: f32,
+        returns: u16,
+    },
     /// Tries the period found.
     Try,
 }
@@ -185,10 +83,17 @@ pub struct MeanReturnDetector {
 }
 
 impl MeanReturnDetector {
+    const START: Stage = Stage::Range {
+        low: [f32::INFINITY; 2],
+        high: [f32::NEG_INFINITY; 2],
+        upward: [Upward { below: false }; 2],
+        crossings: [0; 2],
+    };
+
     /// A detector at rest.
     pub const fn new() -> Self {
         Self {
-            stage: Stage::Range(Range::START),
+            stage: Self::START,
             channel: 0,
             time: 0,
             trial: Trial::NONE,
@@ -198,7 +103,7 @@ impl MeanReturnDetector {
     /// Forgets all samples.
     #[inline(never)]
     pub fn restart(&mut self) {
-        self.stage = Stage::Range(Range::START);
+        self.stage = Self::START;
         self.time = 0;
     }
 
@@ -208,41 +113,133 @@ impl MeanReturnDetector {
         self.time += 1;
         let value = pair[self.channel & 1];
         let next = match &mut self.stage {
-            Stage::Range(range) => range.push(pair).map(|(strong, mean)| {
+            Stage::Range {
+                low,
+                high,
+                upward,
+                crossings,
+            } => {
+                let mut swing = [0.0; 2];
+                for i in 0..2 {
+                    low[i] = lesser(pair[i], low[i]);
+                    high[i] = greater(pair[i], high[i]);
+                    swing[i] = 0.5 * (high[i] - low[i]);
+                    let height = pair[i] - 0.5 * (high[i] + low[i]);
+                    let crossed = upward[i].crossed(height, 0.25 * swing[i]);
+                    // Those of the weaker pick-off, which may only seem to swing, have no end.
+                    crossings[i] = crossings[i].saturating_add(u8::from(crossed));
+                }
+                let strong = usize::from(swing[1] > swing[0]);
+                if crossings[strong] < 2 {
+                    return self.wait();
+                }
                 self.channel = strong;
-                Stage::Mean(mean)
-            }),
-            Stage::Mean(mean) => mean.push(value, &mut self.time).map(Stage::Crest),
-            &mut Stage::Crest(Crest {
+                Stage::Mean {
+                    middle: 0.5 * (high[strong] + low[strong]),
+                    swing: swing[strong],
+                    upward: Upward::default(),
+                    crossings: 0,
+                    before: 0.0,
+                    area: 0.0,
+                    lead: 0.0,
+                }
+            }
+            Stage::Mean {
+                middle,
+                swing,
+                upward,
+                crossings,
+                before,
+                area,
+                lead,
+            } => {
+                let height = value - *middle;
+                let rise = height - *before;
+                *area += 0.5 * (height + *before);
+                *before = height;
+                if !upward.crossed(height, 0.25 * *swing) {
+                    return self.wait();
+                }
+                // The crossing itself lies on the line through the last two samples, so long before this one.
+                let late = height / rise;
+                let triangle = 0.5 * height * late;
+                *crossings += 1;
+                if *crossings == 1 {
+                    (*area, *lead) = (triangle, late);
+                    self.time = 0;
+                }
+                if *crossings <= SPAN {
+                    return self.wait();
+                }
+                let span = f32::from(self.time) + *lead - late;
+                let mean = *middle + (*area - triangle) / span;
+                let period = span / f32::from(SPAN);
+                Stage::Crest {
+                    mean,
+                    margin: 0.25 * *swing * period / TAU,
+                    // The sum's first sample is to stand half a sample past the crest after the next.
+                    samples: (1.25 * period - late) as u16,
+                }
+            }
+            Stage::Crest {
                 mean,
                 margin,
                 samples,
-            }) => (self.time >= samples).then_some(Stage::Return(Return {
+            } => {
+                if self.time < *samples {
+                    return self.wait();
+                }
+                Stage::Sum {
+                    mean: *mean,
+                    margin: *margin,
+                    upward: Upward::default(),
+                    sum: 0.0,
+                    returns: 0,
+                }
+            }
+            Stage::Sum {
                 mean,
                 margin,
-                upward: Upward::default(),
-                sum: 0.0,
-                returns: 0,
-            })),
-            Stage::Return(sum) => sum.push(value, self.time).map(|period| {
+                upward,
+                sum,
+                returns,
+            } => {
+                let step = value - *mean;
+                *sum += step;
+                // The return itself is the crossing of zero: the margin only arms it.
+                upward.below |= *sum < -*margin;
+                if upward.below && *sum >= 0.0 {
+                    upward.below = false;
+                    *returns += 1;
+                }
+                if *returns < SPAN {
+                    return self.wait();
+                }
+                // Of the step that took the sum over zero.
+                let late = *sum / step;
+                let period = (f32::from(self.time) - late) / f32::from(SPAN);
                 let length = (TRIED * period) as usize + 1;
                 self.trial.begin(period, length.max(12));
                 Stage::Try
-            }),
+            }
             Stage::Try => {
                 self.trial.push(pair);
-                if self.trial.is_whole() {
-                    self.restart();
-                    let found = self.trial.fitted(0.0).map(|found| found.period);
-                    return found.filter(|period| PERIODS.contains(period));
+                if !self.trial.is_whole() {
+                    return self.wait();
                 }
-                None
+                self.restart();
+                let found = self.trial.fitted(0.0).map(|found| found.period);
+                return found.filter(|period| PERIODS.contains(period));
             }
         };
-        if let Some(next) = next {
-            self.stage = next;
-            self.time = 0;
-        } else if self.time > LONGEST {
+        self.stage = next;
+        self.time = 0;
+        None
+    }
+
+    /// Stays in the stage, unless that has taken too long.
+    fn wait(&mut self) -> Option<f32> {
+        if self.time > LONGEST {
             self.restart();
         }
         None

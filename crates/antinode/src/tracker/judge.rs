@@ -25,9 +25,8 @@ const UNSEEN: Flags = BROKEN.without(Flags::MISFIT).with(Flags::CIRCULAR);
 const HIGHEST: f32 = 3.1;
 
 impl<const BLOCKS: usize> Tracker<BLOCKS> {
-    /// Makes something of a fit's record and flags; nothing where there is no wave to be tracked. By itself, so that what it needs of the
-    /// stack is not there while the window is fitted.
-    #[inline(never)]
+    /// Makes something of a fit's record and flags; nothing where there is no wave to be tracked.
+    #[inline(always)]
     pub(super) fn judged<R>(
         &mut self,
         fit: &Fit,

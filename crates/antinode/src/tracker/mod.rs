@@ -153,20 +153,26 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     #[inline]
     pub fn push<S: Sample>(&mut self, block: &Block<S>) -> Option<Estimate> {
         if self.gather(block) {
-            self.solved(|units, record, flags| record.estimate(units, flags))
+            self.estimate()
         } else {
             None
         }
     }
 
-    /// Solves the window gathered, and makes something of its record.
+    /// Solves the window gathered.
     #[inline(never)]
-    fn solved<R>(&mut self, make: impl FnOnce(&Units, &Record, Flags) -> R) -> Option<R> {
+    fn estimate(&mut self) -> Option<Estimate> {
         let mut fit = Fit::default();
         self.fit(&mut fit);
-        let made = self.judged(&fit, make);
+        let estimate = self.estimate_fit(&fit);
         self.advance();
-        made
+        estimate
+    }
+
+    /// By itself, so that what it needs of the stack is not there while the window is fitted.
+    #[inline(never)]
+    fn estimate_fit(&mut self, fit: &Fit) -> Option<Estimate> {
+        self.judged(fit, |units, record, flags| record.estimate(units, flags))
     }
 
     /// Begins the next window, or has the wave searched anew where it is lost.
@@ -178,8 +184,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
     }
 
-    /// As [`push`](Self::push), but hands the estimate to `report`: it has no place in the stack while the window is fitted, which is 232
-    /// bytes less of [`Identifier::extend`](crate::Identifier::extend).
+    /// Takes a block and hands the estimate of the window that it completes to `report`: without room for it in the stack while the
+    /// window is fitted.
     #[inline]
     pub(crate) fn push_to<S: Sample>(
         &mut self,
@@ -187,8 +193,23 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         report: &mut impl FnMut(Estimate),
     ) {
         if self.gather(block) {
-            self.solved(|units, record, flags| tell(units, record, flags, report));
+            self.report(report);
         }
+    }
+
+    #[inline(never)]
+    fn report(&mut self, report: &mut impl FnMut(Estimate)) {
+        let mut fit = Fit::default();
+        self.fit(&mut fit);
+        self.report_fit(&fit, report);
+        self.advance();
+    }
+
+    #[inline(never)]
+    fn report_fit(&mut self, fit: &Fit, report: &mut impl FnMut(Estimate)) {
+        self.judged(fit, |units, record, flags| {
+            tell(units, record, flags, report);
+        });
     }
 
     /// Takes a block; true where it completes a window.

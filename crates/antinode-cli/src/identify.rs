@@ -1,26 +1,13 @@
 //! `antinode identify`: recordings in, rows out, as a stream.
 
-mod causes;
-mod coarse;
-mod copied;
-mod few;
-mod first;
-mod flagged;
+mod first_pairs;
 mod format;
-mod held;
-mod in_turn;
-mod one_sided;
 mod options;
 mod out;
-mod ripple;
-mod rounded;
-mod scatter;
+mod remarks;
 mod search;
-mod silence;
 mod span;
 mod stop;
-mod topped;
-mod unsearched;
 mod windows;
 
 use std::collections::HashSet;
@@ -36,10 +23,10 @@ use crate::options::Format;
 use crate::ranges::in_order;
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
-use flagged::Flagged;
 pub use options::Identify;
 use options::{MOST_PERIODS, Methods};
 use out::{Out, check_other};
+use remarks::flag_counts::FlagCounts;
 use stop::Stop;
 use windows::Windows;
 
@@ -117,7 +104,7 @@ fn identify(
     let (mut recording, rate) = open(path, options)?;
     let name = recording.name().to_owned();
     let mut windows = Windows::new(&name, options, &recording, rate, stop)?;
-    stop.begin(&name, Flagged::new(options.hum, options.coloured));
+    stop.begin(&name, FlagCounts::new(options.hum, options.coloured));
     let pairs = recording.pairs();
     let length = pairs.map_or(String::new(), |pairs| format!(", {pairs} sample pairs"));
     let title = format!("{name}: {}{length} at {rate} Hz", recording.format());

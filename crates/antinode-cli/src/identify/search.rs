@@ -1,11 +1,12 @@
 //! What becomes of the search for a period, and why there is no row where it comes to nothing.
 
+pub(super) mod unsearched_wave;
+
 use super::Core;
-use super::first::{amplitude_beyond, large_offset};
-use super::held::Held;
+use super::first_pairs::{amplitude_beyond, large_offset};
 use super::options::{Detector, Identify};
-use super::unsearched::Unsearched;
-use crate::failure::Failure;
+use super::remarks::constant_pick_off::ConstantPickOff;
+use unsearched_wave::UnsearchedWave;
 
 /// Three of the longest periods that are searched: with fewer pairs none may be found for want of them.
 const FEW_PAIRS: u64 = 600;
@@ -20,7 +21,7 @@ pub(super) struct Search {
     offset: Option<[f64; 2]>,
     /// How far the first samples swing, where that is no amplitude that can be identified.
     beyond: Option<f64>,
-    unsearched: Unsearched,
+    unsearched: UnsearchedWave,
 }
 
 impl Search {
@@ -53,33 +54,30 @@ impl Search {
     /// Why a recording that was read to its end gave no row.
     pub fn no_rows(
         &self,
-        name: &str,
         rate: f64,
         core: &Core,
         options: &Identify,
-        held: &Held,
-    ) -> Failure {
+        constant: &ConstantPickOff,
+    ) -> String {
         let pairs = core.index();
         let all = format!("{pairs} sample pairs ({:.4} s)", pairs as f64 / rate);
         let periods = options.periods;
-        // A window may be so much longer than asked.
-        let longest = |frequency: f32| 1.1 * f64::from(periods) * rate / f64::from(frequency);
-        let near = options
-            .frequency
-            .filter(|&frequency| pairs as f64 > longest(frequency));
-        let amiss = self.amiss(held);
-        let told = if let Some(told) = held.told().filter(|_| held.are_both()) {
+        if let Some(told) = constant.told().filter(|_| constant.are_both()) {
             let what = if core.is_searching() {
                 "period"
             } else {
                 "wave"
             };
-            format!("no {what} found in {all}: {told}")
-        } else if let Some(frequency) = near {
+            return format!("no {what} found in {all}: {told}");
+        }
+        // A window may be so much longer than asked.
+        let longest = |frequency: f32| 1.1 * f64::from(periods) * rate / f64::from(frequency);
+        let known = options.frequency;
+        let why = if let Some(frequency) = known.filter(|&known| pairs as f64 > longest(known)) {
             format!(
                 "no window of {periods} periods in {all} is mostly one wave within 5 % of {frequency} Hz: check --frequency and the \
                  sample rate, or leave --frequency out, and the period is searched; a wave that changes fast wants shorter windows, \
-                 --periods{amiss}"
+                 --periods"
             )
         } else if self.refused > 0 {
             let hum = if options.hum {
@@ -90,16 +88,21 @@ impl Search {
             format!(
                 "a period was found, but no window of {periods} periods in {all} is mostly one wave; the wave may have fewer than 4 \
                  samples a period: check the sample rate; or look for a second tone{hum}; or the wave changes too fast: give a smaller \
-                 --periods; and check the scale of the samples, --full-scale and --resolution{amiss}"
+                 --periods; and check the scale of the samples, --full-scale and --resolution"
             )
-        } else if core.is_searching() && pairs < FEW_PAIRS {
+        } else if !core.is_searching() {
+            let found = known.map_or("a period was found, but ", |_| "");
+            return format!(
+                "{found}{all} hold no window of {periods} periods; record longer or give a smaller --periods"
+            );
+        } else if pairs < FEW_PAIRS {
             format!(
                 "no period found in only {all}: a search takes 3 periods, in noise 7; record longer, or give --frequency where it is \
-                 known{amiss}"
+                 known"
             )
-        } else if let Some(told) = self.unsearched.told(rate).filter(|_| core.is_searching()) {
-            format!("no period found in {all}: {told}{amiss}")
-        } else if core.is_searching() {
+        } else if let Some(told) = self.unsearched.told(rate) {
+            format!("no period found in {all}: {told}")
+        } else {
             let other = match options.detector {
                 Detector::Difference => "mean-return",
                 Detector::MeanReturn => "difference",
@@ -107,22 +110,14 @@ impl Search {
             format!(
                 "no period found in {all}: no wave of 4 to 200 samples a period stands out of the noise; check the sample rate, the \
                  channels and the signal; try --detector {other}, as a second tone may hide the period, or give --frequency where it is \
-                 known, from 2.5 to 1024 samples a period{amiss}"
-            )
-        } else {
-            let found = match options.frequency {
-                Some(_) => "",
-                None => "a period was found, but ",
-            };
-            format!(
-                "{found}{all} hold no window of {periods} periods; record longer or give a smaller --periods"
+                 known, from 2.5 to 1024 samples a period"
             )
         };
-        Failure::Fault(format!("{name}: {told}"))
+        why + &self.amiss(constant)
     }
 
     /// What is wrong with the samples themselves, after a semicolon; nothing where they look well.
-    fn amiss(&self, held: &Held) -> String {
+    fn amiss(&self, constant: &ConstantPickOff) -> String {
         let offset = || {
             let [mean, rms] = self.offset?;
             Some(format!(
@@ -130,7 +125,7 @@ impl Search {
                  take the offset off"
             ))
         };
-        let told = self.scale().or_else(|| held.told()).or_else(offset);
+        let told = self.scale().or_else(|| constant.told()).or_else(offset);
         told.map_or(String::new(), |told| format!("; {told}"))
     }
 }

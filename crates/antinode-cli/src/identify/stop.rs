@@ -8,8 +8,8 @@ use std::time::Duration;
 
 use antinode::Flags;
 
-use super::flagged::Flagged;
 use super::out::Out;
+use super::remarks::flag_counts::FlagCounts;
 use crate::failure::Failure;
 use crate::interrupt::on_interrupt;
 
@@ -21,7 +21,7 @@ const GRACE: Duration = Duration::from_millis(300);
 pub(super) struct Stop {
     is_asked: Arc<AtomicBool>,
     /// The present recording and its rows, as long as these are not told.
-    present: Arc<Mutex<Option<(String, Flagged)>>>,
+    present: Arc<Mutex<Option<(String, FlagCounts)>>>,
 }
 
 impl Stop {
@@ -47,7 +47,7 @@ impl Stop {
     }
 
     /// Begins a recording.
-    pub fn begin(&self, name: &str, flagged: Flagged) {
+    pub fn begin(&self, name: &str, flagged: FlagCounts) {
         *self.lock() = Some((name.to_owned(), flagged));
     }
 
@@ -68,7 +68,7 @@ impl Stop {
         }
     }
 
-    fn lock(&self) -> MutexGuard<'_, Option<(String, Flagged)>> {
+    fn lock(&self) -> MutexGuard<'_, Option<(String, FlagCounts)>> {
         self.present.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -2,23 +2,15 @@
 
 use std::io::Write;
 
-use antinode::{Estimate, Flags, SettingsError};
+use antinode::{Estimate, SettingsError};
 
-use super::causes::Causes;
-use super::coarse::Coarse;
-use super::copied::Copied;
-use super::few::Few;
-use super::first::{First, elsewhere, straight};
-use super::held::Held;
-use super::in_turn::InTurn;
-use super::one_sided::OneSided;
+use super::first_pairs::{FirstPairs, elsewhere, straight};
 use super::options::{Identify, Methods};
+use super::remarks::Remarks;
 use super::search::Search;
-use super::silence::Silence;
+use super::search::unsearched_wave::alias;
 use super::span::{Span, Step};
 use super::stop::Stop;
-use super::topped::Topped;
-use super::unsearched::alias;
 use super::{Core, LONGEST, is_pipe};
 use crate::failure::Failure;
 use crate::methods::History;
@@ -41,23 +33,12 @@ pub(super) struct Windows<'a> {
     rate: f64,
     core: Box<Core>,
     history: Option<History>,
-    first: First,
+    first: FirstPairs,
     search: Search,
     span: Span,
-    silence: Silence,
-    causes: Causes,
-    in_turn: InTurn,
-    held: Held,
-    copied: Copied,
-    one_sided: OneSided,
+    remarks: Remarks,
     /// From this pair on, after a second, a pipe is told what a file is told at its end, which a pipe may not have.
     early: Option<u64>,
-    coarse: Coarse,
-    few: Few,
-    topped: Topped,
-    /// The least residual of a row that shows a wave, and the frequency of the last one, Hz.
-    residual: f32,
-    frequency: f64,
     stop: &'a Stop,
 }
 
@@ -91,25 +72,11 @@ impl<'a> Windows<'a> {
             rate,
             core: Box::new(core),
             history,
-            first: First::default(),
+            first: FirstPairs::default(),
             search: Search::default(),
             span: Span::new(options, recording, rate),
-            silence: Silence::default(),
-            causes: Causes::new(options, &settings, rate),
-            in_turn: InTurn::default(),
-            held: Held::default(),
-            copied: Copied::default(),
-            one_sided: OneSided::default(),
+            remarks: Remarks::new(options, recording, settings),
             early: is_pipe(recording).then(|| rate.clamp(EARLY[0], EARLY[1]) as u64),
-            coarse: Coarse::new(
-                recording
-                    .resolution()
-                    .filter(|_| options.resolution.is_none()),
-            ),
-            few: Few::new(settings.resolution),
-            topped: Topped::new(settings.resolution),
-            residual: f32::INFINITY,
-            frequency: 0.0,
             stop,
         })
     }
@@ -158,10 +125,7 @@ impl<'a> Windows<'a> {
             if rows.count() == 0 {
                 self.search.look(new);
             }
-            self.held.see(new);
-            self.few.see(new);
-            self.topped.see(new);
-            self.copied.see(new);
+            self.remarks.see(new);
             if let Some(history) = &mut self.history {
                 history.extend(new);
             }
@@ -171,27 +135,13 @@ impl<'a> Windows<'a> {
         }
         let pairs = self.core.index();
         if self.early.take_if(|due| pairs >= *due).is_some() {
-            self.tell_early(recording, rows)?;
+            let step = recording.resolution_so_far();
+            for told in self.remarks.told_early(step) {
+                rows.flush()?;
+                eprintln!("warning: {}: so far {told}", self.name);
+            }
         }
         Ok(true)
-    }
-
-    /// Tells of a pipe what a file is told at its end.
-    fn tell_early(
-        &mut self,
-        recording: &Recording,
-        rows: &mut Rows<impl Write>,
-    ) -> Result<(), Failure> {
-        // Rows have flags where one of them holds its value.
-        let held = self.held.told().filter(|_| rows.count() == 0);
-        let early = held.or_else(|| self.copied.told());
-        let step = recording.resolution_so_far();
-        let coarse = self.coarse.told(step, self.residual);
-        for told in early.into_iter().chain(coarse) {
-            rows.flush()?;
-            eprintln!("warning: {}: so far {told}", self.name);
-        }
-        Ok(())
     }
 
     /// Looks at the first pairs that are identified.
@@ -214,15 +164,7 @@ impl<'a> Windows<'a> {
     fn print(&mut self, estimate: &Estimate, rows: &mut Rows<impl Write>) -> Result<(), Failure> {
         let history = self.history.as_ref();
         let methods = history.and_then(|history| history.compare(estimate));
-        self.silence.see(estimate, self.rate, self.options.hop);
-        self.causes.see(estimate);
-        self.in_turn.see(estimate, self.rate);
-        self.one_sided.see(estimate);
-        if !estimate.flags.contains(Flags::LOST) {
-            self.residual = self.residual.min(estimate.residual_rms);
-            self.frequency = estimate.frequency;
-        }
-        self.topped.row(estimate.flags);
+        self.remarks.row(estimate);
         self.stop.see(estimate.flags);
         let estimate = Estimate {
             time: estimate.time + self.span.offset(),
@@ -251,28 +193,12 @@ impl<'a> Windows<'a> {
         if let Some(warning) = recording.late_warning() {
             eprintln!("warning: {warning}");
         }
-        let is_told_early = is_pipe(recording) && self.early.is_none();
         let seconds = self.core.index() as f64 / self.rate;
-        let warnings = [
-            self.span.warning().filter(|_| fault.is_none()),
-            self.span.coarse_time(self.frequency),
-            self.silence.told(seconds, self.span.offset()),
-            self.coarse
-                .told(recording.resolution_so_far(), self.residual),
-            self.few.told().filter(|_| rows.count() > 0),
-            self.topped.told(self.residual),
-            self.causes.told(),
-            self.in_turn.told(),
-            self.held
-                .told()
-                .filter(|_| rows.count() > 0)
-                .or_else(|| self.one_sided.told()),
-            self.copied
-                .told()
-                .filter(|_| !self.held.are_both() && !is_told_early),
-            self.search.scale().filter(|_| rows.count() > 0),
-        ];
-        for warning in warnings.into_iter().flatten() {
+        let span = self.span.warning().filter(|_| fault.is_none());
+        let step = recording.resolution_so_far();
+        let remarks = self.remarks.told(step, &self.span, seconds);
+        let scale = self.search.scale().filter(|_| rows.count() > 0);
+        for warning in span.into_iter().chain(remarks).chain(scale) {
             eprintln!("warning: {name}: {warning}");
         }
         let failure = match fault {
@@ -280,8 +206,11 @@ impl<'a> Windows<'a> {
             None if flushed.is_err() => flushed.err(),
             None if rows.count() > 0 || mistaken.is_some() => None,
             None => Some(self.span.missing(name).unwrap_or_else(|| {
-                self.search
-                    .no_rows(name, self.rate, &self.core, self.options, &self.held)
+                let constant = &self.remarks.constant_pick_off;
+                let why = self
+                    .search
+                    .no_rows(self.rate, &self.core, self.options, constant);
+                Failure::Fault(format!("{name}: {why}"))
             })),
         };
         let told = [recording.lost(), recording.not_finite()];

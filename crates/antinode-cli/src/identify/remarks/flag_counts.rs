@@ -18,8 +18,8 @@ const OF_CIRCULAR: &str = "S_C and S_D are one wave a quarter period apart, as I
                            samples, not demodulated ones";
 
 /// Rows with flags.
-#[derive(Debug)]
-pub(super) struct Flagged {
+#[derive(Debug, Default)]
+pub struct FlagCounts {
     /// What is taken for no fault.
     hum: bool,
     coloured: bool,
@@ -32,18 +32,13 @@ pub(super) struct Flagged {
     circular_alone: u64,
 }
 
-impl Flagged {
+impl FlagCounts {
     /// None yet, of an identification with `--hum` and `--coloured` or without.
     pub fn new(hum: bool, coloured: bool) -> Self {
         Self {
             hum,
             coloured,
-            rows: 0,
-            flagged: 0,
-            counts: Vec::new(),
-            misfits_alone: 0,
-            clipped_alone: 0,
-            circular_alone: 0,
+            ..Self::default()
         }
     }
 
@@ -124,11 +119,11 @@ mod tests {
 
     /// What is told of rows with these flags, so many times each.
     fn told(rows: &[(u64, Flags)]) -> Option<String> {
-        let mut flagged = Flagged::new(true, true);
+        let mut counts = FlagCounts::new(true, true);
         for &(count, flags) in rows {
-            (0..count).for_each(|_| flagged.see(flags));
+            (0..count).for_each(|_| counts.see(flags));
         }
-        flagged.told()
+        counts.told()
     }
 
     #[test]

@@ -9,7 +9,7 @@ const NONE: f64 = 1e-3;
 
 /// What clean rows show of each pick-off's wave.
 #[derive(Debug, Default)]
-pub(super) struct OneSided {
+pub(super) struct PickOffWithoutWave {
     rows: u32,
     /// Σ of the squared amplitudes of S_C and of S_D, less what noise adds.
     powers: [f64; 2],
@@ -17,7 +17,7 @@ pub(super) struct OneSided {
     chance: f64,
 }
 
-impl OneSided {
+impl PickOffWithoutWave {
     /// Takes a row.
     pub fn see(&mut self, row: &Estimate) {
         if !row.flags.is_empty() {
@@ -55,16 +55,16 @@ impl OneSided {
 
 #[cfg(test)]
 mod tests {
-    use super::super::scatter::tests::row;
+    use super::super::row_scatter::tests::row;
     use super::*;
     use crate::deviates::Deviates;
 
     /// What is told of so many rows of a pattern at this angle, rad, with these amplitudes and deviation.
     fn told(rows: u64, angle: f64, [main, quadrature]: [f64; 2], deviation: f64) -> Option<String> {
-        let (mut one_sided, mut deviates) = (OneSided::default(), Deviates(1));
+        let (mut without_wave, mut deviates) = (PickOffWithoutWave::default(), Deviates(1));
         for index in 0..rows {
             let mut near = |value: f64, by: f64| value + by * deviates.draw();
-            one_sided.see(&Estimate {
+            without_wave.see(&Estimate {
                 main_amplitude: near(main, deviation) as f32,
                 quadrature_amplitude: near(quadrature, deviation) as f32,
                 angle: near(angle, 0.5 * deviation / main),
@@ -74,7 +74,7 @@ mod tests {
                 ..row(index, 0.0, &mut Deviates(0))
             });
         }
-        one_sided.told()
+        without_wave.told()
     }
 
     #[test]

@@ -23,8 +23,8 @@ const WIDE: f64 = 4.0;
 const SLOW: usize = 8;
 
 /// Rows that are looked at, and what was seen.
-#[derive(Debug)]
-pub(super) struct Ripple {
+#[derive(Debug, Default)]
+pub(super) struct MainsRipple {
     hum: bool,
     /// Times and amplitudes.
     rows: Vec<[f64; 2]>,
@@ -37,17 +37,12 @@ pub(super) struct Ripple {
     frequency: f64,
 }
 
-impl Ripple {
+impl MainsRipple {
     /// None yet, of an identification with `--hum` or without.
     pub fn new(hum: bool) -> Self {
         Self {
             hum,
-            rows: Vec::new(),
-            end: 0,
-            looks: 0,
-            seen: 0,
-            first: [0.0; 2],
-            frequency: 0.0,
+            ..Self::default()
         }
     }
 
@@ -140,13 +135,13 @@ fn line(rows: &[[f64; 2]], lines: &[f64]) -> Option<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::scatter::tests::row;
+    use super::super::row_scatter::tests::row;
     use super::*;
     use crate::deviates::Deviates;
 
     /// What is told of so many rows, each first changed by its time.
     fn told(hum: bool, count: u64, change: impl Fn(f32, &mut Estimate)) -> Option<String> {
-        let (mut ripple, mut deviates) = (Ripple::new(hum), Deviates(5));
+        let (mut ripple, mut deviates) = (MainsRipple::new(hum), Deviates(5));
         for index in 0..count {
             let mut row = row(index, 1.0, &mut deviates);
             change(row.time as f32, &mut row);

@@ -2,7 +2,7 @@
 
 use antinode::period::DifferenceDetector;
 
-use super::LONGEST;
+use super::super::LONGEST;
 
 /// Pairs that are summed into one to see a slow wave: periods of 128 to 6400 samples.
 const SUMMED: u32 = 32;
@@ -81,7 +81,7 @@ impl Power {
 
 /// The search for waves of periods that the core does not search.
 #[derive(Debug, Default)]
-pub(super) struct Unsearched {
+pub(super) struct UnsearchedWave {
     pairs: u32,
     last: [f32; 2],
     sum: [f32; 2],
@@ -92,7 +92,7 @@ pub(super) struct Unsearched {
     differences: Power,
 }
 
-impl Unsearched {
+impl UnsearchedWave {
     /// Takes pairs that gave no row.
     pub fn see(&mut self, pairs: &[[f32; 2]]) {
         for &pair in pairs {
@@ -163,7 +163,7 @@ impl Unsearched {
 }
 
 /// Where samples show a wave that is too fast for their rate, both in Hz; nothing of one that is not.
-pub(super) fn alias(frequency: f64, rate: f64) -> String {
+pub fn alias(frequency: f64, rate: f64) -> String {
     if frequency <= 0.5 * rate {
         return String::new();
     }
@@ -199,7 +199,7 @@ mod tests {
     /// The same of tones that decay in so many samples.
     fn told_of_decaying(tones: &[(f64, f64)], noise: f64, decay: f64) -> Option<String> {
         let mut deviates = Deviates(1);
-        let mut unsearched = Unsearched::default();
+        let mut unsearched = UnsearchedWave::default();
         let pairs: Vec<[f32; 2]> = (0..150_000)
             .map(|k| {
                 let left = (-f64::from(k) / decay).exp();

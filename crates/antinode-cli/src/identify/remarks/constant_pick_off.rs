@@ -5,7 +5,7 @@ const ENOUGH: u64 = 64;
 
 /// What each pick-off has held since the first pair.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Held {
+pub struct ConstantPickOff {
     /// The first pair.
     first: Option<[f32; 2]>,
     /// Whether a pick-off gave another value since.
@@ -13,7 +13,7 @@ pub(super) struct Held {
     pairs: u64,
 }
 
-impl Held {
+impl ConstantPickOff {
     /// Takes the next pairs.
     pub fn see(&mut self, pairs: &[[f32; 2]]) {
         self.pairs += pairs.len() as u64;
@@ -53,11 +53,11 @@ mod tests {
 
     /// What is told of pairs that come in stretches.
     fn told(pairs: &[[f32; 2]]) -> Option<String> {
-        let mut held = Held::default();
+        let mut constant = ConstantPickOff::default();
         for stretch in pairs.chunks(8) {
-            held.see(stretch);
+            constant.see(stretch);
         }
-        held.told()
+        constant.told()
     }
 
     #[test]

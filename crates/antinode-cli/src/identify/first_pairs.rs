@@ -24,14 +24,14 @@ const APART: f64 = 0.1;
 
 /// Pairs gathered before they are identified.
 #[derive(Debug, Default)]
-pub(super) struct First {
+pub(super) struct FirstPairs {
     pairs: Vec<[f32; 2]>,
     /// Pairs gathered, and not yet identified.
     ahead: usize,
     is_given: bool,
 }
 
-impl First {
+impl FirstPairs {
     /// Sees the next pairs that are to be identified, some of them not for the first time; gives all, once they are enough.
     pub fn see(&mut self, pairs: &[[f32; 2]]) -> Option<Vec<[f32; 2]>> {
         if !self.is_given && pairs.len() > self.ahead {
@@ -127,7 +127,7 @@ mod tests {
     fn pairs_are_given_once_in_their_order() {
         let all: Vec<[f32; 2]> = (0..5000).map(|k| [k as f32, 0.0]).collect();
         for (stretch, step) in [(1, 1), (7, 3), (1000, 8), (512, 8), (5000, 4999)] {
-            let mut first = First::default();
+            let mut first = FirstPairs::default();
             let mut given = Vec::new();
             for mut pairs in all.chunks(stretch) {
                 while !pairs.is_empty() {
@@ -145,8 +145,8 @@ mod tests {
 
     #[test]
     fn too_few_are_given_at_the_end() {
-        assert!(First::default().rest().is_none());
-        let mut first = First::default();
+        assert!(FirstPairs::default().rest().is_none());
+        let mut first = FirstPairs::default();
         assert!(first.see(&[[1.0; 2]; 9]).is_none());
         assert_eq!(first.rest().map(|pairs| pairs.len()), Some(9));
     }

@@ -14,14 +14,14 @@ const FEWEST: u64 = 4;
 
 /// Rows whose residual is no larger than such rounding.
 #[derive(Debug, Default)]
-pub(super) struct Rounded {
+pub(super) struct RoundedOffset {
     rows: u64,
     rounded: u64,
     /// The offset of the last of them, in amplitudes.
     offset: f64,
 }
 
-impl Rounded {
+impl RoundedOffset {
     /// Takes a row of a recording of this sample rate, Hz.
     pub fn see(&mut self, estimate: &Estimate, rate: f64) {
         if estimate.flags.contains(Flags::LOST) {
@@ -52,7 +52,7 @@ impl Rounded {
 
 #[cfg(test)]
 mod tests {
-    use super::super::scatter::tests::row;
+    use super::super::row_scatter::tests::row;
     use super::*;
     use crate::deviates::Deviates;
 
@@ -67,7 +67,7 @@ mod tests {
             (0.0, 0.0, false),
             (f32::NAN, 1e-5, false),
         ] {
-            let (mut rounded, mut deviates) = (Rounded::default(), Deviates(1));
+            let (mut rounded, mut deviates) = (RoundedOffset::default(), Deviates(1));
             for index in 0..9 {
                 let mut row = row(index, 1.0, &mut deviates);
                 row.residual_rms = if index % 2 == 0 { residual } else { 1.0 };

@@ -8,14 +8,14 @@ const REPEATED: usize = 4;
 
 /// The values of the first pairs.
 #[derive(Debug)]
-pub(super) struct Few {
+pub(super) struct FewValues {
     /// False where it is of no matter any more.
     is_open: bool,
     values: Vec<f32>,
     pairs: usize,
 }
 
-impl Few {
+impl FewValues {
     /// Of samples whose step may be known.
     pub fn new(resolution: Option<f32>) -> Self {
         Self {
@@ -60,7 +60,7 @@ mod tests {
 
     /// What is told of so many pairs of a wave, with so many values on each pick-off.
     fn told(resolution: Option<f32>, pairs: usize, values: usize) -> Option<String> {
-        let mut few = Few::new(resolution);
+        let mut few = FewValues::new(resolution);
         let sample = |k: usize| (k % values) as f32 * 0.1;
         let all: Vec<[f32; 2]> = (0..pairs).map(|k| [sample(k), -1.0 - sample(k)]).collect();
         for stretch in all.chunks(8) {

@@ -47,8 +47,8 @@ fn compared(e: &Estimate) -> [[f64; 2]; NAMES.len()] {
 }
 
 /// Differences of clean rows that share no samples, over their deviations.
-#[derive(Debug)]
-pub(super) struct Scatter {
+#[derive(Debug, Default)]
+pub(super) struct RowScatter {
     /// The converter's step, 0 where it is not known: below it the residual is no noise.
     resolution: f32,
     rows: VecDeque<Estimate>,
@@ -60,16 +60,12 @@ pub(super) struct Scatter {
     coarse: u32,
 }
 
-impl Scatter {
+impl RowScatter {
     /// Of samples of this resolution, where it is known.
     pub fn new(resolution: Option<f32>) -> Self {
         Self {
             resolution: resolution.unwrap_or(0.0),
-            rows: VecDeque::with_capacity(ROWS),
-            sums: [0.0; NAMES.len()],
-            count: 0,
-            noisy: 0,
-            coarse: 0,
+            ..Self::default()
         }
     }
 
@@ -220,7 +216,7 @@ pub(super) mod tests {
         times: f64,
         change: impl Fn(u64, &mut Estimate),
     ) -> Option<String> {
-        let (mut scatter, mut deviates) = (Scatter::new(resolution), Deviates(3));
+        let (mut scatter, mut deviates) = (RowScatter::new(resolution), Deviates(3));
         for index in 0..1000 {
             let mut row = row(index, times, &mut deviates);
             change(index, &mut row);

@@ -4,40 +4,32 @@
 const ENOUGH: u64 = 64;
 
 /// Whether S_D is S_C, sample for sample, or its negative.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Copied {
-    is_same: bool,
-    is_negative: bool,
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct SameSignalTwice {
+    /// Whether S_D has differed from S_C, and from its negative.
+    has_differed: [bool; 2],
     pairs: u64,
 }
 
-impl Default for Copied {
-    fn default() -> Self {
-        Self {
-            is_same: true,
-            is_negative: true,
-            pairs: 0,
-        }
-    }
-}
-
-impl Copied {
+impl SameSignalTwice {
     /// Takes the next pairs.
     pub fn see(&mut self, pairs: &[[f32; 2]]) {
         self.pairs += pairs.len() as u64;
-        // Not looked at any more from the first pair on that differs. What is no finite number may be missing in one of them.
-        let mut numbers = pairs
+        // What is no finite number may be missing in one of them.
+        let numbers = pairs
             .iter()
             .filter(|pair| pair.iter().all(|value| value.is_finite()));
-        self.is_same = self.is_same && numbers.clone().all(|[c, d]| c == d);
-        self.is_negative = self.is_negative && numbers.all(|&[c, d]| c == -d);
+        for (has_differed, sign) in self.has_differed.iter_mut().zip([1.0, -1.0]) {
+            // Not looked at any more from the first pair on that differs.
+            *has_differed = *has_differed || numbers.clone().any(|[c, d]| sign * c != *d);
+        }
     }
 
     /// What to tell of pick-offs that do not hold one value all the time.
     pub fn told(&self) -> Option<String> {
-        let how = match (self.is_same, self.is_negative) {
-            (true, false) => "",
-            (false, true) => " but for the sign",
+        let how = match self.has_differed {
+            [false, true] => "",
+            [true, false] => " but for the sign",
             _ => return None,
         };
         (self.pairs >= ENOUGH).then(|| {
@@ -53,11 +45,11 @@ mod tests {
     use super::*;
 
     fn told(pairs: &[[f32; 2]]) -> Option<String> {
-        let mut copied = Copied::default();
+        let mut same = SameSignalTwice::default();
         for stretch in pairs.chunks(8) {
-            copied.see(stretch);
+            same.see(stretch);
         }
-        copied.told()
+        same.told()
     }
 
     /// As many pairs of one signal, S_D so many times S_C.

@@ -7,13 +7,13 @@ const COARSER: f32 = 4.0;
 
 /// What the deviations of rows take for the step.
 #[derive(Debug)]
-pub(super) struct Coarse {
+pub(super) struct ConverterStep {
     /// None where it was given: then it is right.
     assumed: Option<f32>,
     is_told: bool,
 }
 
-impl Coarse {
+impl ConverterStep {
     /// Of samples of this resolution, where it is known, and not given.
     pub fn new(assumed: Option<f32>) -> Self {
         Self {
@@ -60,7 +60,7 @@ mod tests {
 
     /// What is told of steps, where the least residual is this.
     fn told(assumed: Option<f32>, step: Option<f32>, residual: f32) -> Option<String> {
-        Coarse::new(assumed).told(step, residual)
+        ConverterStep::new(assumed).told(step, residual)
     }
 
     #[test]
@@ -80,8 +80,8 @@ mod tests {
         assert_eq!(told(None, Some(coarse), 0.0), None);
         assert_eq!(told(Some(fine), None, 0.0), None);
         // Rows without a wave have no residual, and nothing is told twice.
-        let mut coarse = Coarse::new(Some(fine));
-        assert_eq!(coarse.told(Some(1.0), f32::INFINITY), None);
-        assert!(coarse.told(Some(0.5), 0.0).is_some() && coarse.told(Some(0.5), 0.0).is_none());
+        let mut step = ConverterStep::new(Some(fine));
+        assert_eq!(step.told(Some(1.0), f32::INFINITY), None);
+        assert!(step.told(Some(0.5), 0.0).is_some() && step.told(Some(0.5), 0.0).is_none());
     }
 }

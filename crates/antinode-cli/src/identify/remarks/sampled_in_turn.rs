@@ -13,13 +13,13 @@ const VAGUE: [f64; 2] = [2e-3, 0.05];
 
 /// How many rows look like one signal of which S_D is half a sample later than S_C.
 #[derive(Debug, Default)]
-pub(super) struct InTurn {
+pub(super) struct SampledInTurn {
     /// Rows that tell something.
     count: u32,
     alike: u32,
 }
 
-impl InTurn {
+impl SampledInTurn {
     /// Takes a row of a recording of this sample rate.
     pub fn see(&mut self, row: &Estimate, rate: f64) {
         if !row.flags.is_empty() {
@@ -70,7 +70,7 @@ mod tests {
     /// What is told of the rows of so many pairs.
     fn told(pairs: &[[f32; 2]]) -> Option<String> {
         let mut core = Box::new(Core::new(antinode::Settings::new(RATE)).expect("good settings"));
-        let mut in_turn = InTurn::default();
+        let mut in_turn = SampledInTurn::default();
         core.extend(pairs, |row| in_turn.see(&row, RATE));
         in_turn.told()
     }

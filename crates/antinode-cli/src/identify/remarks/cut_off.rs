@@ -26,7 +26,7 @@ struct End {
 
 /// The ends of both pick-offs' samples.
 #[derive(Debug)]
-pub(super) struct Topped {
+pub(super) struct CutOff {
     /// The converter's step, where it is known.
     step: Option<f32>,
     /// Lowest and highest, of S_C and S_D.
@@ -37,7 +37,7 @@ pub(super) struct Topped {
     clipped: u64,
 }
 
-impl Topped {
+impl CutOff {
     /// Of a converter of this step.
     pub fn new(step: Option<f32>) -> Self {
         let none = End {
@@ -156,10 +156,10 @@ mod tests {
                 [code(0.3 * sine), code(cosine).min(level)].map(|code| code as f32)
             })
             .collect();
-        let mut topped = Topped::new(Some(1.0));
-        pairs.chunks(700).for_each(|pairs| topped.see(pairs));
-        topped.row(Flags::empty());
-        topped.told(noise.hypot(0.29) as f32)
+        let mut cut_off = CutOff::new(Some(1.0));
+        pairs.chunks(700).for_each(|pairs| cut_off.see(pairs));
+        cut_off.row(Flags::empty());
+        cut_off.told(noise.hypot(0.29) as f32)
     }
 
     #[test]
@@ -192,25 +192,25 @@ mod tests {
 
     #[test]
     fn nothing_is_told_without_a_step_or_where_rows_have_the_flag() {
-        let mut topped = Topped::new(None);
-        topped.see(&[[1.0; 2]; 100]);
-        assert_eq!(topped.told(1.0), None);
+        let mut cut_off = CutOff::new(None);
+        cut_off.see(&[[1.0; 2]; 100]);
+        assert_eq!(cut_off.told(1.0), None);
         let end = End {
             value: 1.0,
             count: 1000,
             beside: 10,
         };
-        let mut topped = Topped::new(Some(1.0));
-        topped.ends = [[end; 2]; 2];
-        assert_eq!(topped.told(1.0), None);
-        topped.rows = 10;
+        let mut cut_off = CutOff::new(Some(1.0));
+        cut_off.ends = [[end; 2]; 2];
+        assert_eq!(cut_off.told(1.0), None);
+        cut_off.rows = 10;
         assert!(
-            topped
+            cut_off
                 .told(1.0)
                 .unwrap()
                 .contains("S_C stands at its lowest value, -1, 100 times")
         );
-        topped.clipped = 6;
-        assert_eq!(topped.told(1.0), None);
+        cut_off.clipped = 6;
+        assert_eq!(cut_off.told(1.0), None);
     }
 }

@@ -1,0 +1,143 @@
+//! What a recording's samples and rows show beside what rows tell: looked at as they pass, and told in warnings.
+
+pub(super) mod constant_pick_off;
+mod converter_step;
+mod cut_off;
+mod few_values;
+pub(super) mod flag_counts;
+mod mains_ripple;
+mod pick_off_without_wave;
+mod rounded_offset;
+mod row_scatter;
+mod same_signal_twice;
+mod sampled_in_turn;
+mod silence;
+
+use antinode::{Estimate, Flags, Settings};
+
+use super::options::Identify;
+use super::span::Span;
+use crate::recording::Recording;
+use constant_pick_off::ConstantPickOff;
+use converter_step::ConverterStep;
+use cut_off::CutOff;
+use few_values::FewValues;
+use mains_ripple::MainsRipple;
+use pick_off_without_wave::PickOffWithoutWave;
+use rounded_offset::RoundedOffset;
+use row_scatter::RowScatter;
+use same_signal_twice::SameSignalTwice;
+use sampled_in_turn::SampledInTurn;
+use silence::Silence;
+
+/// All that is looked for in a recording.
+#[derive(Debug)]
+pub(super) struct Remarks {
+    settings: Settings,
+    pub constant_pick_off: ConstantPickOff,
+    converter_step: ConverterStep,
+    cut_off: CutOff,
+    few_values: FewValues,
+    mains_ripple: MainsRipple,
+    pick_off_without_wave: PickOffWithoutWave,
+    rounded_offset: RoundedOffset,
+    row_scatter: RowScatter,
+    same_signal_twice: SameSignalTwice,
+    sampled_in_turn: SampledInTurn,
+    silence: Silence,
+    rows: u64,
+    /// The least residual of a row that shows a wave, and the frequency of the last one, Hz.
+    residual: f32,
+    frequency: f64,
+    is_told_early: bool,
+}
+
+impl Remarks {
+    /// Of a recording that is identified with these settings.
+    pub fn new(options: &Identify, recording: &Recording, settings: Settings) -> Self {
+        let found = recording.resolution();
+        Self {
+            settings,
+            constant_pick_off: ConstantPickOff::default(),
+            converter_step: ConverterStep::new(found.filter(|_| options.resolution.is_none())),
+            cut_off: CutOff::new(settings.resolution),
+            few_values: FewValues::new(settings.resolution),
+            mains_ripple: MainsRipple::new(settings.hum),
+            pick_off_without_wave: PickOffWithoutWave::default(),
+            rounded_offset: RoundedOffset::default(),
+            row_scatter: RowScatter::new(settings.resolution),
+            same_signal_twice: SameSignalTwice::default(),
+            sampled_in_turn: SampledInTurn::default(),
+            silence: Silence::default(),
+            rows: 0,
+            residual: f32::INFINITY,
+            frequency: 0.0,
+            is_told_early: false,
+        }
+    }
+
+    /// Takes the next pairs.
+    pub fn see(&mut self, pairs: &[[f32; 2]]) {
+        self.constant_pick_off.see(pairs);
+        self.few_values.see(pairs);
+        self.cut_off.see(pairs);
+        self.same_signal_twice.see(pairs);
+    }
+
+    /// Takes a row.
+    pub fn row(&mut self, row: &Estimate) {
+        let rate = self.settings.sample_rate;
+        self.silence.see(row, rate, self.settings.hop);
+        self.rounded_offset.see(row, rate);
+        self.mains_ripple.see(row);
+        self.row_scatter.see(row);
+        self.sampled_in_turn.see(row, rate);
+        self.pick_off_without_wave.see(row);
+        self.cut_off.row(row.flags);
+        self.rows += 1;
+        if !row.flags.contains(Flags::LOST) {
+            self.residual = self.residual.min(row.residual_rms);
+            self.frequency = row.frequency;
+        }
+    }
+
+    /// What to tell, before its end, of a recording that may have none; this is the step of all samples so far.
+    pub fn told_early(&mut self, step: Option<f32>) -> impl Iterator<Item = String> {
+        self.is_told_early = true;
+        // Rows have flags where one of them holds its value.
+        let constant = self.constant_pick_off.told().filter(|_| self.rows == 0);
+        let early = constant.or_else(|| self.same_signal_twice.told());
+        let step = self.converter_step.told(step, self.residual);
+        early.into_iter().chain(step)
+    }
+
+    /// What to tell of a recording of so many seconds, whose samples show this step.
+    pub fn told(
+        &mut self,
+        step: Option<f32>,
+        span: &Span,
+        seconds: f64,
+    ) -> impl Iterator<Item = String> {
+        let has_rows = self.rows > 0;
+        let has_option = self.settings.hum || self.settings.coloured;
+        let constant = self.constant_pick_off.told().filter(|_| has_rows);
+        let is_same_told = self.is_told_early || self.constant_pick_off.are_both();
+        [
+            span.coarse_time(self.frequency),
+            self.silence.told(seconds, span.offset()),
+            self.converter_step.told(step, self.residual),
+            self.few_values.told().filter(|_| has_rows),
+            self.cut_off.told(self.residual),
+            // The first cause that is sure goes before the others.
+            self.rounded_offset
+                .told()
+                .or_else(|| self.mains_ripple.told())
+                .or_else(|| self.row_scatter.told(has_option)),
+            self.sampled_in_turn.told(),
+            constant.or_else(|| self.pick_off_without_wave.told()),
+            self.same_signal_twice.told().filter(|_| !is_same_told),
+        ]
+        .into_iter()
+        .flatten()
+    }
+}

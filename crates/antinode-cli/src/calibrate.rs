@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::digits::{decimals, fixed, significant, with_std};
 use crate::failure::Failure;
-use crate::given::Given;
+use crate::given_rows::GivenRows;
 use crate::options::Corrected;
 use crate::runs::{BEYOND_NOISE, Runs, driven};
 use crate::serialized;
@@ -29,7 +29,7 @@ const MOST_TURN: f64 = 0.1;
 #[command(allow_negative_numbers = true)]
 pub struct Calibrate {
     #[command(flatten)]
-    pub given: Given,
+    pub given: GivenRows,
     /// How the calibration is printed.
     #[arg(long, visible_alias = "format", value_enum, default_value_t = Printed::Options, value_name = "FORMAT")]
     pub output: Printed,

@@ -10,7 +10,7 @@ mod deviates;
 mod device;
 mod digits;
 mod failure;
-mod given;
+mod given_rows;
 mod identify;
 mod interrupt;
 mod methods;

@@ -18,7 +18,7 @@ use clap::Args;
 
 use crate::canvas;
 use crate::failure::Failure;
-use crate::given::{Given, none_within};
+use crate::given_rows::{GivenRows, none_within};
 use crate::recording::{OutputError, WholeFile};
 use draw::Format;
 use figure::figure;
@@ -29,7 +29,7 @@ use rows::Trust;
 #[command(allow_negative_numbers = true)]
 pub struct Plot {
     #[command(flatten)]
-    pub given: Given,
+    pub given: GivenRows,
     /// The figure to write: .svg or .png.
     #[arg(short = 'o', long, value_name = "FILE")]
     pub out: PathBuf,

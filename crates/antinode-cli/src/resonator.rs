@@ -21,7 +21,7 @@ use antinode::Flags;
 use clap::Args;
 
 use crate::failure::Failure;
-use crate::given::Given;
+use crate::given_rows::GivenRows;
 use crate::options::Format;
 use crate::runs::driven::{self, undriven};
 use crate::runs::{BEYOND_NOISE, Run, Runs};
@@ -59,7 +59,7 @@ fn is_alike(correlation: f64, count: f64) -> bool {
 #[command(after_long_help = HELP, allow_negative_numbers = true)]
 pub struct Resonator {
     #[command(flatten)]
-    pub given: Given,
+    pub given: GivenRows,
     /// How the quantities are printed: a table in degrees, or CSV or JSON lines in radians.
     #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
     pub output: Format,

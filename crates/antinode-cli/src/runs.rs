@@ -15,7 +15,7 @@ use std::ops::Range;
 use antinode::Flags;
 
 use crate::failure::Failure;
-use crate::given::{Given, none_within};
+use crate::given_rows::{GivenRows, none_within};
 use crate::row_file::{self, RowFile};
 use recording::{Recording, Taken};
 use row::Places;
@@ -60,7 +60,11 @@ pub struct Runs {
 impl Runs {
     /// Reads the rows given; gives the names of their files too. A run ends where the pattern turns by more than `most_turn` rad
     /// from row to row, where the wave jumps across rows left out or steps between clean ones, and at a row that has one of the flags `breaks`.
-    pub fn open(given: &Given, most_turn: f64, breaks: Flags) -> Result<(Self, String), Failure> {
+    pub fn open(
+        given: &GivenRows,
+        most_turn: f64,
+        breaks: Flags,
+    ) -> Result<(Self, String), Failure> {
         let paths = &given.rows;
         let mut runs = Self::new(given.times()?, most_turn, breaks);
         let mut names = Vec::new();

@@ -10,7 +10,7 @@ use crate::ranges::{self, in_order};
 
 /// The rows that a command is given.
 #[derive(Debug, Args)]
-pub struct Given {
+pub struct GivenRows {
     /// Rows that `antinode identify` or `antinode monitor` printed with --output csv or jsonl; `-` is standard input.
     #[arg(required = true, value_name = "ROWS")]
     pub rows: Vec<PathBuf>,
@@ -22,7 +22,7 @@ pub struct Given {
     pub to: Option<f64>,
 }
 
-impl Given {
+impl GivenRows {
     /// The times asked for, s.
     pub fn times(&self) -> Result<Range<f64>, Failure> {
         in_order(self.from, self.to)?;

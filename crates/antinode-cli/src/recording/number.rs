@@ -4,7 +4,8 @@ use std::str::FromStr;
 
 /// The number a field holds, finite or not; its decimal mark may be a comma where that separates no fields.
 pub(super) fn number<T: FromStr>(field: &[u8], separator: u8) -> Option<T> {
-    let text = str::from_utf8(field).ok()?;
+    // An empty field is none at once: in text without a column of times every line has one.
+    let text = str::from_utf8(field).ok().filter(|text| !text.is_empty())?;
     let parsed = text.parse::<T>().or_else(|_| {
         let has_comma = separator != b',' && !text.contains('.');
         let text = text.replacen(',', ".", usize::from(has_comma));

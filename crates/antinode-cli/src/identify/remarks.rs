@@ -101,6 +101,13 @@ impl Remarks {
         }
     }
 
+    /// Why rows are what they are, where that is sure.
+    pub fn why(&mut self) -> Option<String> {
+        self.rounded_offset
+            .told()
+            .or_else(|| self.mains_ripple.told())
+    }
+
     /// What to tell, before its end, of a recording that may have none; this is the step of all samples so far.
     pub fn told_early(&mut self, step: Option<f32>) -> impl Iterator<Item = String> {
         self.is_told_early = true;
@@ -128,11 +135,7 @@ impl Remarks {
             self.converter_step.told(step, self.residual),
             self.few_values.told().filter(|_| has_rows),
             self.cut_off.told(self.residual),
-            // The first cause that is sure goes before the others.
-            self.rounded_offset
-                .told()
-                .or_else(|| self.mains_ripple.told())
-                .or_else(|| self.row_scatter.told(has_option)),
+            self.why().or_else(|| self.row_scatter.told(has_option)),
             self.sampled_in_turn.told(),
             constant.or_else(|| self.pick_off_without_wave.told()),
             self.same_signal_twice.told().filter(|_| !is_same_told),

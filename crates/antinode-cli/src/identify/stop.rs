@@ -33,7 +33,7 @@ impl Stop {
         on_interrupt(move || {
             asked.is_asked.store(true, Ordering::Relaxed);
             thread::sleep(GRACE);
-            asked.tell();
+            asked.tell(false);
             let _closed = out.cut_short();
             let failure = Failure::Stopped;
             eprintln!("error: {failure}");
@@ -58,12 +58,12 @@ impl Stop {
         }
     }
 
-    /// Tells, once, how many rows of the present recording are flagged.
-    pub fn tell(&self) {
+    /// Tells, once, how many rows of the present recording are flagged, and what may be done unless something else tells why.
+    pub fn tell(&self, knows_why: bool) {
         let Some((name, flagged)) = self.lock().take() else {
             return;
         };
-        if let Some(told) = flagged.told() {
+        if let Some(told) = flagged.told(knows_why) {
             eprintln!("warning: {name}: {told}");
         }
     }

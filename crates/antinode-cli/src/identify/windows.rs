@@ -186,7 +186,7 @@ impl<'a> Windows<'a> {
         if matches!(flushed, Err(Failure::Closed)) {
             return flushed;
         }
-        self.stop.tell();
+        self.stop.tell(self.remarks.why().is_some());
         let first = self.first.rest();
         let mistaken = first.and_then(|first| self.begin(&first).err());
         let name = self.name;

@@ -159,6 +159,29 @@ fn an_offset_that_single_precision_rounds_is_told() {
 }
 
 #[test]
+fn a_gain_that_ripples_with_the_mains_is_told_in_place_of_what_may_be_done_about_misfits() {
+    let directory = tempfile::tempdir().unwrap();
+    let codes = WAVE.codes(100_000);
+    for (ripple, is_told) in [(0.02, true), (0.0, false)] {
+        let bytes = codes.iter().enumerate().flat_map(|(k, pair)| {
+            let gain = 1.0 + ripple * (std::f64::consts::TAU * 100.0 * k as f64 / RATE).cos();
+            pair.map(|code| ((gain * f64::from(code)) as i16).to_le_bytes())
+        });
+        let run = run_with(
+            directory.path(),
+            "identify - --raw i16 --rate 100000",
+            bytes.flatten().collect(),
+        );
+        assert_eq!(run.code, 0, "{}", run.err);
+        let told = run.err.contains("goes up and down by")
+            && run.err.contains("at 100 Hz")
+            && run.err.contains("misfit");
+        assert_eq!(told, is_told, "{ripple}: {}", run.err);
+        assert!(!run.err.contains("--hum takes it out"), "{}", run.err);
+    }
+}
+
+#[test]
 fn rows_in_a_recordings_place_and_a_recording_in_theirs_are_told() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

@@ -11,8 +11,10 @@ const LEAST: u64 = 40;
 const LEAST_BESIDE: u64 = 5;
 /// Noise of less than this, in steps, leaves the samples of a wave that repeats on the same few codes.
 const LEAST_NOISE: f32 = 0.3;
-/// Pairs that are all looked at; of those behind them one stretch in so many.
-const ALL: u64 = 1 << 17;
+/// Pairs that are looked at together, however they come.
+const STRETCH: usize = 1 << 12;
+/// Stretches that are all looked at; of those behind them one in so many.
+const ALL: u64 = 32;
 const SHARE: u64 = 8;
 
 /// One end of a pick-off's samples, as the greatest of what they are or of their negatives.
@@ -31,7 +33,9 @@ pub(super) struct CutOff {
     step: Option<f32>,
     /// Lowest and highest, of S_C and S_D.
     ends: [[End; 2]; 2],
-    pairs: u64,
+    /// The stretch that has begun, if it is looked at, and how many pairs of it there were.
+    stretch: Vec<[f32; 2]>,
+    taken: usize,
     stretches: u64,
     rows: u64,
     clipped: u64,
@@ -48,7 +52,8 @@ impl CutOff {
         Self {
             step,
             ends: [[none; 2]; 2],
-            pairs: 0,
+            stretch: Vec::new(),
+            taken: 0,
             stretches: 0,
             rows: 0,
             clipped: 0,
@@ -56,18 +61,31 @@ impl CutOff {
     }
 
     /// Takes the next pairs.
-    pub fn see(&mut self, pairs: &[[f32; 2]]) {
-        let Some(step) = self.step else { return };
-        self.pairs += pairs.len() as u64;
-        self.stretches += 1;
-        if self.pairs > ALL && !self.stretches.is_multiple_of(SHARE) {
-            return;
-        }
-        for (channel, ends) in self.ends.iter_mut().enumerate() {
-            for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
-                end.see(pairs, channel, sign, step);
+    pub fn see(&mut self, mut pairs: &[[f32; 2]]) {
+        while self.step.is_some() && !pairs.is_empty() {
+            let (now, rest) = pairs.split_at(pairs.len().min(STRETCH - self.taken));
+            pairs = rest;
+            self.taken += now.len();
+            if self.stretches < ALL || self.stretches.is_multiple_of(SHARE) {
+                self.stretch.extend_from_slice(now);
+            }
+            if self.taken == STRETCH {
+                self.look();
+                self.taken = 0;
+                self.stretches += 1;
             }
         }
+    }
+
+    /// Looks at what there is of a stretch.
+    fn look(&mut self) {
+        let Some(step) = self.step else { return };
+        for (channel, ends) in self.ends.iter_mut().enumerate() {
+            for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
+                end.see(&self.stretch, channel, sign, step);
+            }
+        }
+        self.stretch.clear();
     }
 
     /// Takes a row's flags.
@@ -77,8 +95,9 @@ impl CutOff {
     }
 
     /// What to tell, where most rows do not have the flag, and this is the least residual of a row.
-    pub fn told(&self, residual: f32) -> Option<String> {
+    pub fn told(&mut self, residual: f32) -> Option<String> {
         let step = self.step?;
+        self.look();
         if self.rows == 0 || 2 * self.clipped > self.rows || residual < LEAST_NOISE * step {
             return None;
         }
@@ -156,10 +175,16 @@ mod tests {
                 [code(0.3 * sine), code(cosine).min(level)].map(|code| code as f32)
             })
             .collect();
-        let mut cut_off = CutOff::new(Some(1.0));
-        pairs.chunks(700).for_each(|pairs| cut_off.see(pairs));
-        cut_off.row(Flags::empty());
-        cut_off.told(noise.hypot(0.29) as f32)
+        let tell = |size: usize| {
+            let mut cut_off = CutOff::new(Some(1.0));
+            pairs.chunks(size).for_each(|pairs| cut_off.see(pairs));
+            cut_off.row(Flags::empty());
+            cut_off.told(noise.hypot(0.29) as f32)
+        };
+        // However the pairs come.
+        let told = tell(700);
+        assert_eq!(told, tell(9000));
+        told
     }
 
     #[test]

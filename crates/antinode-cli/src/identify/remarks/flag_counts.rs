@@ -57,8 +57,8 @@ impl FlagCounts {
         }
     }
 
-    /// What to tell in one line where there are any.
-    pub fn told(&self) -> Option<String> {
+    /// What to tell in one line where there are any; what may be done about misfits only where nothing else tells why.
+    pub fn told(&self, knows_why: bool) -> Option<String> {
         if self.flagged == 0 {
             return None;
         }
@@ -80,8 +80,9 @@ impl FlagCounts {
         } else {
             0
         };
+        let misfits = if knows_why { 0 } else { self.misfits_alone };
         for (alone, flag, remedies) in [
-            (self.misfits_alone, "misfit", self.of_misfits()),
+            (misfits, "misfit", self.of_misfits()),
             (self.clipped_alone, "clipped", OF_CLIPPED.to_owned()),
             (circular, "circular", OF_CIRCULAR.to_owned()),
         ] {
@@ -123,7 +124,7 @@ mod tests {
         for &(count, flags) in rows {
             (0..count).for_each(|_| counts.see(flags));
         }
-        counts.told()
+        counts.told(false)
     }
 
     #[test]

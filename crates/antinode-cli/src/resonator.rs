@@ -221,12 +221,21 @@ fn tell_of_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<
 /// Tells where the rows differ from the resonator's motion by more than noise.
 fn tell_of_misfit(out: &mut impl Write, found: &Found) -> io::Result<()> {
     let why = "the wave is still driven in some rows (see --from), the damping changes meanwhile, or with the amplitude, the pick-offs are \
-               not calibrated, a gain or the wave jumped by too little to be flagged, or a pick-off or the converter is nonlinear";
+               not calibrated, a gain or the wave jumped by too little to be flagged, a pick-off or the converter is nonlinear, or its steps repeat from row to row";
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,
             "warning: rows differ from the resonator's motion by {:.1} times their noise: {why}; the deviations above are wider by that, and the \
              values may be further off than these",
+            found.residual
+        )?;
+    } else if found.is_below_noise() {
+        writeln!(
+            out,
+            "warning: rows differ from the resonator's motion by only {:.2} times their noise: the converter's steps do so where its noise is below \
+             half a step, for they repeat from row to row, and values may then be several times further off than the deviations above (use more \
+             of its range, or add noise before it); or noise is less about the wave's frequency than elsewhere, as a filter or a second tone makes \
+             it, and the deviations are larger than need be (see --coloured and --hum of identify)",
             found.residual
         )?;
     } else if found.is_alike() {

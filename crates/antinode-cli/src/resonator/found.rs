@@ -15,6 +15,10 @@ const NONLINEAR_TOLD: f64 = 3.0;
 /// From this residual over the rows' own deviations on, the runs do not explain the rows each by itself.
 pub(super) const TOGETHER: f64 = 1.5;
 
+/// Noise that is coloured a little leaves as small a residual; less by so many deviations of chance is below noise.
+const BELOW_NOISE: f64 = 0.9;
+const BELOW_SEEN: f64 = 5.0;
+
 /// A variance that is less than another's by so many deviations of chance is less.
 const LESS_SEEN: f64 = 5.0;
 
@@ -159,6 +163,13 @@ impl Found {
     /// True where it is told that more than noise is left.
     pub fn is_beyond_noise(&self) -> bool {
         self.residual > BEYOND_NOISE || self.is_alike()
+    }
+
+    /// True where less than noise is left, and not by chance, or what is left is alike from row to row though it is less.
+    pub fn is_below_noise(&self) -> bool {
+        let least = BELOW_NOISE - BELOW_SEEN / (2.0 * self.count).sqrt();
+        let alike = self.alike / self.residual.powi(2).min(1.0);
+        self.residual < least || !self.is_alike() && is_alike(alike, self.count)
     }
 
     /// True where it leaves less than another, and not by chance.

@@ -26,6 +26,7 @@ mod readme;
 mod resonator;
 mod resonator_driven;
 mod resonator_frequency;
+mod resonator_residual;
 mod resonator_rows;
 mod resonator_splits;
 mod rows_digits;

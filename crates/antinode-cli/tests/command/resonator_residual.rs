@@ -1,0 +1,33 @@
+//! `antinode resonator`: what it tells where rows differ from the motion by more than their noise, or by less.
+
+use crate::common::ring_downs::{four_seconds, resonator, rows};
+use crate::common::run;
+
+#[test]
+fn rows_that_differ_by_less_than_their_noise_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let told = "times their noise: the converter's steps do so";
+    for (noise, bits, is_told) in [
+        // 0.01, 0.13 and 0.5 of the steps of 8 bits.
+        ("1e-4", "--bits 8", true),
+        ("1e-3", "--bits 8", true),
+        ("4e-3", "--bits 8", false),
+        ("1e-3", "", false),
+    ] {
+        for seed in 1..=3 {
+            let simulated = format!(
+                "--seconds 4 --frequency 5321.7 --decay-rate 0.1 --angle-rate 0.4 --noise {noise} {bits} --seed {seed}"
+            );
+            rows(here, &simulated, "--periods 50");
+            let found = run(here, "resonator rows.csv");
+            assert_eq!(found.code, 0);
+            assert_eq!(
+                found.err.contains(told),
+                is_told,
+                "{noise} {bits}: {}",
+                found.err
+            );
+        }
+    }
+}

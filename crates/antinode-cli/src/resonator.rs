@@ -220,8 +220,9 @@ fn tell_of_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<
 
 /// Tells where the rows differ from the resonator's motion by more than noise.
 fn tell_of_misfit(out: &mut impl Write, found: &Found) -> io::Result<()> {
-    let why = "the wave is still driven in some rows (see --from), the damping changes meanwhile, or with the amplitude, the pick-offs are \
-               not calibrated, a gain or the wave jumped by too little to be flagged, a pick-off or the converter is nonlinear, or its steps repeat from row to row";
+    let why = "the wave is still driven in some rows (see --from), the damping changes meanwhile, or with the amplitude, a tone at the wave's \
+               frequency is always present, as a drive's feed-through is, the pick-offs are not calibrated, a gain or the wave jumped by too little \
+               to be flagged, a pick-off or the converter is nonlinear, or the converter's steps repeat from row to row";
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,

@@ -31,3 +31,17 @@ fn rows_that_differ_by_less_than_their_noise_are_told() {
         }
     }
 }
+
+#[test]
+fn feed_through_of_a_drive_is_among_the_causes() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let rows = four_seconds(
+        here,
+        "--decay-rate 0.5 --angle-rate 0.4 --hum 0.005 --hum-frequency 5332",
+    );
+    let fed = resonator(here, &rows, "").err;
+    for part in ["times their noise", "feed-through"] {
+        assert!(fed.contains(part), "{fed}");
+    }
+}

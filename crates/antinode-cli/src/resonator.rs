@@ -211,8 +211,8 @@ fn tell_of_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<
         };
         writeln!(
             out,
-            "warning: the frequency moves by {moves:.2e} Hz, rms, beyond noise: with the amplitude, or the temperature; the deviation of \
-             the mean frequency is wider by that{with}"
+            "warning: the frequency moves by {moves:.2e} Hz, rms, beyond noise: with the amplitude, or the temperature, or the sample clock drifts; \
+             the deviation of the mean frequency is wider by that{with}"
         )?;
     }
     Ok(())

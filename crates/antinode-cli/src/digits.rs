@@ -4,6 +4,8 @@
 const MOST_DECIMALS: f64 = 9.0;
 /// The same of double precision.
 const MOST_OF_DOUBLE: f64 = 17.0;
+/// Digits of a number that double precision has.
+const DIGITS_OF_DOUBLE: usize = 16;
 /// Deviations below this have fewer than two digits in as many decimals.
 const LEAST_STD: f64 = 1e-8;
 /// Values from this on show digits enough in as many decimals, whatever their deviation.
@@ -12,6 +14,19 @@ const LEAST_VALUE: f64 = 1e-3;
 /// A number rounded to so many digits, 1 or more, whatever its size.
 pub fn significant(x: f64, digits: usize) -> f64 {
     format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
+}
+
+/// A number rounded to so many digits, or to as many more as show two digits of its deviation, if double precision has them.
+pub fn significant_or_known(x: f64, digits: usize, std: f64) -> f64 {
+    // A number of 0 asks for none.
+    let known = exponent(x) - exponent(std) + 2.0;
+    let known = if std > 0.0 { known as usize } else { digits };
+    significant(x, known.clamp(digits, DIGITS_OF_DOUBLE))
+}
+
+/// The place of a number's first digit: 0 of 1 to 9.
+fn exponent(x: f64) -> f64 {
+    x.abs().log10().floor()
 }
 
 /// The decimals that show two digits of a standard deviation.
@@ -65,7 +80,6 @@ fn is_small(value: f64, std: f64) -> bool {
 
 /// A value with an exponent, to two digits of its deviation.
 fn exponential(value: f64, std: f64) -> String {
-    let exponent = |x: f64| x.abs().log10().floor();
     // One digit at the least, of zero too.
     let decimals = (exponent(value) - exponent(std) + 1.0).max(0.0) as usize;
     format!("{value:.decimals$e}")
@@ -125,6 +139,23 @@ mod tests {
             assert_eq!(significant(x, digits), rounded);
         }
         assert!(significant(f64::NAN, 9).is_nan());
+    }
+
+    #[test]
+    fn digits_are_kept_as_far_as_a_number_is_known() {
+        let third = 23_102.0 / 3.0;
+        for (std, rounded) in [
+            (3.0e-9, 7_700.666_666_666_7),
+            (9.9e-9, 7_700.666_666_666_7),
+            (1.1e-8, 7_700.666_666_667),
+            (3.0e-7, 7_700.666_666_67),
+            (0.0, 7_700.666_666_67),
+            (f64::NAN, 7_700.666_666_67),
+            (1e-20, 7_700.666_666_666_667),
+        ] {
+            assert_eq!(significant_or_known(third, 12, std), rounded, "{std}");
+        }
+        assert_eq!(significant_or_known(0.0, 12, 1e-9), 0.0);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::found::{Found, Measured};
 use super::frequency::Frequency;
-use crate::digits::{fixed, significant, with_small_std};
+use crate::digits::{fixed, significant, significant_or_known, with_small_std};
 use crate::runs::Runs;
 
 /// A split of fewer deviations than this has no angle.
@@ -99,7 +99,7 @@ impl<'a> Row<'a> {
             run: quantity.run.map(|run| run + 1),
             quantity: quantity.kind.name,
             // More would be digits of nothing.
-            value: significant(quantity.value, 12),
+            value: significant_or_known(quantity.value, 12, quantity.std),
             std: (quantity.std > 0.0).then(|| significant(quantity.std, 6)),
             file: run.map(|run| run.file.as_str()),
             from_s: run.map(|run| run.rows[0].time),

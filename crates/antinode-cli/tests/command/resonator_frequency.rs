@@ -87,12 +87,9 @@ fn a_frequency_that_moves_is_told() {
         );
         let found = run(here, "resonator rows.csv --output csv");
         assert_eq!(found.code, 0);
-        assert_eq!(
-            found.err.contains("the frequency moves by"),
-            is_told,
-            "{rate}: {}",
-            found.err
-        );
+        for part in ["the frequency moves by", "the sample clock drifts"] {
+            assert_eq!(found.err.contains(part), is_told, "{rate}: {}", found.err);
+        }
         let (drift, std) = of_run(&found.out, "1", "frequency_drift_hz_s");
         let rate: f64 = rate.parse().unwrap();
         assert!(
@@ -128,4 +125,31 @@ fn a_drift_with_time_is_not_taken_to_go_with_the_energy() {
         let (frequency, std) = of_resonator(&found.out, "frequency_hz");
         assert!((frequency - 5332.002).abs() < 2.0 * std, "{}", found.out);
     }
+}
+
+#[test]
+fn csv_and_json_lines_show_two_digits_of_the_deviation_of_a_frequency() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    rows(
+        here,
+        "--seconds 60 --rate 25000 --noise 1e-7 --sample f32 --decay-rate 0.02 --angle-rate 0.02",
+        "--periods 50",
+    );
+    let found = run(here, "resonator rows.csv --output csv");
+    let (_, std) = of_resonator(&found.out, "frequency_hz");
+    // The twelfth digit of 5332 is 1e-8.
+    assert!(std > 1e-9 && std < 5e-9, "{}", found.out);
+    let line = found
+        .out
+        .lines()
+        .find_map(|line| line.strip_prefix(",frequency_hz,"));
+    let (value, _) = line.unwrap().split_once(',').unwrap();
+    let (_, decimals) = value.split_once('.').unwrap();
+    assert_eq!(decimals.len(), 10, "{value} {std}");
+    let lines = run(here, "resonator rows.csv --output jsonl").out;
+    assert!(
+        lines.contains(&format!("\"frequency_hz\",\"value\":{value},")),
+        "{lines}"
+    );
 }

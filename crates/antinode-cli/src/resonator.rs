@@ -6,6 +6,7 @@ mod drift;
 mod fit;
 mod found;
 mod frequency;
+mod gaps;
 mod informing;
 mod line;
 mod model;

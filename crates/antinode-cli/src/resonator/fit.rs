@@ -9,6 +9,7 @@ use nalgebra::{Complex, DVector, RowSVector, SMatrix, SVector};
 
 use super::chords;
 use super::found::{Found, OfRun, TOGETHER};
+use super::gaps;
 use super::model::{Model, Term};
 use super::motion::PARAMETERS;
 use super::start::start;
@@ -92,6 +93,17 @@ fn turned(runs: &[Run]) -> Result<Found, Unsettled> {
 
 /// What a model finds.
 pub fn found(runs: &[Run], model: Model) -> Result<Found, Unsettled> {
+    let found = searched(runs, model);
+    if !model.is_shared() || model.is_turned() || found.as_ref().is_ok_and(Found::is_explained) {
+        return found;
+    }
+    let most = found.as_ref().map_or(f64::INFINITY, |found| found.residual);
+    let across = gaps::across(runs, model).filter(|across| across.residual < most);
+    across.map_or(found, Ok)
+}
+
+/// The same from where the integrals lead.
+pub fn searched(runs: &[Run], model: Model) -> Result<Found, Unsettled> {
     let values = start(runs, model).ok_or(Unsettled)?;
     settle(runs, model, values)
 }
@@ -136,7 +148,7 @@ fn is_told(variance: impl Fn(usize) -> f64, found: &Found, each: Option<&Found>)
 }
 
 /// Moves the values to where the squares of the residual are least.
-fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Result<Found, Unsettled> {
+pub fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Result<Found, Unsettled> {
     let mut normal = Normal::of(runs, model, &values);
     let mut damping = 1e-3;
     let mut most = SETTLED;

@@ -1,6 +1,7 @@
 //! Rows made from the averaged equations of a resonator, with noise.
 
 mod frequency;
+mod gaps;
 mod unsteady;
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};

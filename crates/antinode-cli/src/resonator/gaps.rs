@@ -1,0 +1,48 @@
+//! Runs cut at long gaps: where no row tells how far the splits moved the pattern meanwhile, a search may begin far off.
+
+use nalgebra::DVector;
+
+use super::fit::{searched, settle};
+use super::found::Found;
+use super::model::Model;
+use crate::runs::{LEAST_ROWS, Run};
+
+/// A gap is longer than so many mean distances of a run's rows.
+const LONG: f64 = 8.0;
+
+/// What a model that is shared finds from where the pieces of runs with long gaps lead, if there are such.
+pub fn across(runs: &[Run], model: Model) -> Option<Found> {
+    let (pieces, firsts) = cut(runs)?;
+    let of_pieces = searched(&pieces, model).ok()?;
+    let mut values = DVector::zeros(model.unknowns(runs.len()));
+    let mut copy = |to, from, count| {
+        let from = of_pieces.values.rows(from, count);
+        values.rows_mut(to, count).copy_from(&from);
+    };
+    copy(0, 0, model.shared());
+    for (run, first) in firsts.into_iter().enumerate() {
+        copy(model.own_at(run), model.own_at(first), model.own());
+    }
+    settle(runs, model, values).ok()
+}
+
+/// The pieces of the runs, and which of them each run begins with; none where there is no gap, or a run does not begin with rows enough.
+fn cut(runs: &[Run]) -> Option<(Vec<Run>, Vec<usize>)> {
+    let (mut pieces, mut firsts) = (Vec::new(), Vec::new());
+    for run in runs {
+        let long = LONG * run.seconds() / run.rows.len() as f64;
+        let of_run = run.rows.chunk_by(|row, next| next.time - row.time < long);
+        firsts.push(pieces.len());
+        for (index, rows) in of_run.enumerate() {
+            if rows.len() >= LEAST_ROWS {
+                pieces.push(Run {
+                    rows: rows.to_vec(),
+                    file: run.file.clone(),
+                });
+            } else if index == 0 {
+                return None;
+            }
+        }
+    }
+    (pieces.len() > runs.len()).then_some((pieces, firsts))
+}

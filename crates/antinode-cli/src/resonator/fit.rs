@@ -132,8 +132,8 @@ fn spread(runs: &[Run]) -> f64 {
     1.0 - (sum.norm() + noise) / count
 }
 
-/// True where the rows tell both splits, whose unknowns have these variances by their places; what `found` says of the decays along the patterns is known
-/// wherever these stand.
+/// True where the rows tell both splits, whose unknowns have these variances by their places; what `found` says of the decays along the
+/// patterns is known wherever these stand.
 fn is_told(variance: impl Fn(usize) -> f64, found: &Found, each: Option<&Found>) -> bool {
     let runs = found.of_runs.len();
     let decays = (0..runs).map(|run| found.decay_of_run(run).0.abs());

@@ -189,6 +189,28 @@ mod tests {
     }
 
     #[test]
+    fn the_error_names_the_wave_that_one_with_too_much_quadrature_is() {
+        for quadrature_amplitude in [2.5f64, -2.5] {
+            let wrong = Wave {
+                quadrature_amplitude,
+                ..Wave::default()
+            };
+            let sign = quadrature_amplitude.signum();
+            let right = Wave {
+                main_amplitude: quadrature_amplitude.abs(),
+                quadrature_amplitude: sign * wrong.main_amplitude,
+                angle: wrong.angle - sign * 0.5 * FRAC_PI_2,
+                phase: wrong.phase - FRAC_PI_2,
+                ..wrong
+            };
+            for t in [0.0, 1e-5, 7.3e-5] {
+                let pairs = wrong.pick_offs(t).into_iter().zip(right.pick_offs(t));
+                pairs.for_each(|(one, other)| assert!((one - other).abs() < 1e-12, "{t}"));
+            }
+        }
+    }
+
+    #[test]
     fn truth_describes_the_wave_about_its_moment() {
         let wave = Wave {
             frequency_rate: 0.3,

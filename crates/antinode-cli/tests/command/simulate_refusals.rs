@@ -28,7 +28,11 @@ fn what_makes_no_sense_is_refused() {
         ),
         (
             "-o a.wav --quadrature-amplitude -0.6",
-            "--quadrature-amplitude: ",
+            "the same wave has --main-amplitude 0.6, --quadrature-amplitude -0.5, an angle 45° greater and a phase 90° less",
+        ),
+        (
+            "-o a.wav --quadrature-amplitude 0.6",
+            "the same wave has --main-amplitude 0.6, --quadrature-amplitude 0.5, an angle 45° less and a phase 90° less",
         ),
         ("-o a.wav --frequency 0", "--frequency: it must be"),
         ("-o a.wav --frequency 50000", "half of --rate, 50000 Hz"),

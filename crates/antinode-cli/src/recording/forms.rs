@@ -79,7 +79,7 @@ pub(super) fn remedy(text: &str) -> Option<&'static str> {
     } else if text.starts_with(['[', '(', '{', '>']) || text.ends_with([']', ')', '}']) {
         "take the brackets away, `tr -d '[](){}>' < FILE | antinode identify -`"
     } else if is_measured(text) {
-        r"take the units away, `perl -pe 's/(\d\.?) *([mun]|µ|)(V|s|sec)\b/$1.{qw(m e-3 u e-6 µ e-6 n e-9)}->{$2}/ge' FILE | antinode identify -`"
+        r"take the units away, `sed -E 's/([0-9]\.?) *(V|s|sec)/\1/g; s/([0-9]\.?) *m(V|s|sec)/\1e-3/g; s/([0-9]\.?) *(u|µ)(V|s|sec)/\1e-6/g; s/([0-9]\.?) *n(V|s|sec)/\1e-9/g' FILE | antinode identify -`"
     } else if is_label {
         "take the labels away, `sed -E 's/[A-Za-z_][A-Za-z_0-9]* *[:=]//g' FILE | antinode identify -`"
     } else if is_hexadecimal {

@@ -1,7 +1,6 @@
 //! `antinode identify` on numbers as other programs write them: read where they are sure, or refused with a command that makes plain ones.
 
 use std::fs;
-use std::process::Command;
 
 use crate::common::{Row, WAVE, no_rows, rows_of, run_with, same_later, text};
 
@@ -108,7 +107,7 @@ fn converted(here: &std::path::Path, told: &str) -> String {
     let (command, end) = command.rsplit_once(" | ").unwrap();
     assert_eq!(end, "antinode identify -");
     let command = command.replace("FILE", "a.csv");
-    let output = Command::new("sh")
+    let output = std::process::Command::new("sh")
         .args(["-c", &command])
         .current_dir(here)
         .output()

@@ -30,8 +30,9 @@ use remarks::flag_counts::FlagCounts;
 use stop::Stop;
 use windows::Windows;
 
-/// Samples of the longest period.
+/// Samples of the longest period, and of the shortest one that is known.
 const LONGEST: usize = 1024;
+const SHORTEST: f64 = 2.5;
 /// Windows of up to 1022 periods.
 type Core = Identifier<f32, LONGEST, { MOST_PERIODS as usize + 2 }>;
 

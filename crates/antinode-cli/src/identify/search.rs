@@ -2,10 +2,10 @@
 
 pub(super) mod unsearched_wave;
 
-use super::Core;
 use super::first_pairs::{amplitude_beyond, large_offset};
 use super::options::{Detector, Identify};
 use super::remarks::constant_pick_off::ConstantPickOff;
+use super::{Core, LONGEST, SHORTEST};
 use unsearched_wave::UnsearchedWave;
 
 /// Three of the longest periods that are searched: with fewer pairs none may be found for want of them.
@@ -46,7 +46,7 @@ impl Search {
         self.has_found = !is_searching;
     }
 
-    /// Takes pairs that gave no row.
+    /// Takes pairs in which no period has been found yet.
     pub fn look(&mut self, pairs: &[[f32; 2]]) {
         self.unsearched.see(pairs);
     }
@@ -110,7 +110,7 @@ impl Search {
             format!(
                 "no period found in {all}: no wave of 4 to 200 samples a period stands out of the noise; check the sample rate, the \
                  channels and the signal; try --detector {other}, as a second tone may hide the period, or give --frequency where it is \
-                 known, from 2.5 to 1024 samples a period"
+                 known, from {SHORTEST} to {LONGEST} samples a period"
             )
         };
         why + &self.amiss(constant)

@@ -11,7 +11,7 @@ use super::search::Search;
 use super::search::unsearched_wave::alias;
 use super::span::{Span, Step};
 use super::stop::Stop;
-use super::{Core, LONGEST, is_pipe};
+use super::{Core, LONGEST, SHORTEST, is_pipe};
 use crate::failure::Failure;
 use crate::methods::History;
 use crate::recording::Recording;
@@ -55,9 +55,9 @@ impl<'a> Windows<'a> {
         let core = Core::new(settings).map_err(|error| match error {
             SettingsError::Frequency(frequency)
             | SettingsError::FrequencyTooLow { frequency, .. } => Failure::Usage(format!(
-                "{name}: --frequency: {frequency} Hz, but at {rate} Hz it must lie within {:.6} to {} Hz, {LONGEST} to 2.5 samples a period{}",
+                "{name}: --frequency: {frequency} Hz, but at {rate} Hz it must lie within {:.6} to {} Hz, {LONGEST} to {SHORTEST} samples a period{}",
                 rate / LONGEST as f64,
-                rate / 2.5,
+                rate / SHORTEST,
                 alias(f64::from(frequency), rate)
             )),
             error => error.into(),
@@ -122,7 +122,7 @@ impl<'a> Windows<'a> {
             let (new, rest) = pairs.split_at(taken);
             pairs = rest;
             recording.look(self.span.take(taken), new);
-            if rows.count() == 0 {
+            if rows.count() == 0 && self.core.is_searching() {
                 self.search.look(new);
             }
             self.remarks.see(new);

@@ -138,7 +138,7 @@ pub(super) fn sample_flags(
 struct Range {
     low: [f32; 2],
     high: [f32; 2],
-    /// No less than the most samples in a row that were equal to either end of a block: all such numbers' bits; 0 where none was watched.
+    /// No less than the most samples in a row that were equal to either end of a block: all such numbers' bits.
     longest: u16,
 }
 

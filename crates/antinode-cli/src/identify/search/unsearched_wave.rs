@@ -2,7 +2,7 @@
 
 use antinode::period::DifferenceDetector;
 
-use super::super::LONGEST;
+use super::super::{LONGEST, SHORTEST};
 
 /// Pairs that are summed into one to see a slow wave: periods of 128 to 6400 samples.
 const SUMMED: u32 = 32;
@@ -13,8 +13,6 @@ const DIFFERING: f64 = 1.6;
 /// Periods found one after the other that agree before they are believed, and how far they may be apart.
 const ALIKE: u32 = 4;
 const APART: f32 = 0.02;
-/// The least samples a period with `--frequency`.
-const SHORTEST: f64 = 2.5;
 /// Pairs that are looked at: a recording of noise need not be searched thrice to its end.
 const MOST: u32 = 1_000_000;
 
@@ -93,7 +91,7 @@ pub(super) struct UnsearchedWave {
 }
 
 impl UnsearchedWave {
-    /// Takes pairs that gave no row.
+    /// Takes pairs in which no period has been found yet.
     pub fn see(&mut self, pairs: &[[f32; 2]]) {
         for &pair in pairs {
             if self.pairs < MOST && pair.iter().all(|value| value.is_finite()) {

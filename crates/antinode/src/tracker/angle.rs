@@ -1,4 +1,4 @@
-//! The pattern angle over its ambiguity of π/2, and phases over theirs of whole turns.
+//! The pattern angle, continued over its ambiguity of π/2, and phases within one turn.
 
 use core::f32::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
 
@@ -11,11 +11,12 @@ pub(crate) fn wrap(angle: f32) -> f32 {
     if rest <= -PI { rest + TAU } else { rest }
 }
 
-/// A pattern angle that runs on over the ambiguity of π/2: whole quarter turns apart from the rest, so that it never loses digits.
+/// A pattern angle continued over the ambiguity of π/2: its whole quarter turns are kept apart from the rest, so that it never loses
+/// digits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Angle {
     pub quarters: i32,
-    /// In rad, about −π/4…π/4.
+    /// In rad, about −π/4…π/4; ±π/2 before it is continued.
     pub rest: f32,
 }
 
@@ -91,7 +92,7 @@ mod tests {
         let next = last.plus(0.5);
         assert_eq!(next.quarters, i32::MIN);
         assert!(next.rest < 0.0 && (next.less(last) - 0.5).abs() < 1e-6);
-        // A rest below zero is the one that the least count has no room for.
+        // With the least count and a rest below zero the value is below the range, and wraps to its upper end.
         let quarter = core::f64::consts::FRAC_PI_2;
         for (angle, radians) in [(last, all - quarter + 0.7), (next, all - quarter + 1.2)] {
             assert!((angle.radians() - radians).abs() < 1e-5, "{angle:?}");

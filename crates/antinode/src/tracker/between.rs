@@ -1,7 +1,7 @@
-//! What a window must be like after the clean one before it: neither phase nor amplitudes, angle and offsets step.
+//! Tests of a window against the clean one before it: phase, amplitudes, angle and offsets must not step.
 //!
-//! Thresholds are as those of a window by itself. A change has the deviations of both levels and of both rates: √8 of a level in windows that
-//! follow each other.
+//! Thresholds are as those of a window by itself. A change has the variances of both levels and both rates: its standard deviation is √8
+//! times that of a level in windows that follow each other.
 
 use super::angle::wrap;
 use super::checks::SIGMAS;
@@ -17,10 +17,10 @@ const ANGLE_FLOOR: f32 = 2e-3;
 /// Below this a step of the phase is no fault, rad: a lost sample makes 2π/200 or more.
 const PHASE_FLOOR: f32 = 0.02;
 
-/// Tests of a window against the clean one before; of an angle that is known modulo π/2 only, and the phase that goes with it, nothing
-/// is asked.
+/// Tests a window against the clean one before. Unless `knows_angle`, the angle is known modulo π/2 only: neither it nor the phase that
+/// goes with it is tested.
 ///
-/// `offset_rates` are by how much the offsets had moved to the window before, a sample, and become those to this one.
+/// `offset_rates` are the rates a sample at which the offsets moved to the window before, and become those to this one.
 pub(super) fn flags(
     before: &Record,
     now: &Record,
@@ -33,14 +33,14 @@ pub(super) fn flags(
         before.phase_variance + now.phase_variance,
         before.drift_variance + now.drift_variance,
     );
-    // Of a phase known to 0.45 rad or worse seven deviations are beyond half a turn.
+    // A phase known to 0.45 rad or worse never jumps: seven standard deviations are beyond half a turn.
     let jump = beyond(phase, phase_variance, PHASE_FLOOR);
 
     let amplitude_floor = AMPLITUDE_FLOOR * before.main.value;
     let main = interval.change(&before.main, &now.main, amplitude_floor);
     let quadrature = interval.change(&before.quadrature, &now.quadrature, amplitude_floor);
     let angle = beyond(
-        now.angle.less(before.angle) - interval.promised([before.turning, now.turning]),
+        now.angle.less(before.angle) - interval.predicted([before.turning, now.turning]),
         interval.variance(
             now.angle_variance + before.angle_variance,
             now.turning_variance + before.turning_variance,
@@ -51,7 +51,7 @@ pub(super) fn flags(
     let (mut step, per_sample) = (0.0, 1.0 / interval.samples);
     for (i, rate) in offset_rates.iter_mut().enumerate() {
         let moved = now.offsets[i] - before.offsets[i];
-        // One that goes on as it went before wanders, and does not step.
+        // An offset that goes on as it moved before wanders, and does not step.
         let beside = moved - *rate * interval.samples;
         *rate = moved * per_sample;
         step = greater(lesser(moved.abs(), beside.abs()), step);
@@ -64,11 +64,11 @@ pub(super) fn flags(
         .with(quadrature)
 }
 
-/// True where the pattern turns at another rate than in the window before: a step in the middle of a window looks like a turn.
-pub(super) fn turns_otherwise(before: &Record, now: &Record) -> bool {
-    // Not by `beyond`, to which what is no number is a step: that a rate is none is told by other tests, and this is 28 bytes less.
-    let by = now.turning - before.turning;
-    by * by > SIGMAS * SIGMAS * (now.turning_variance + before.turning_variance)
+/// True if the pattern turns at another rate than in the window before: a step in the middle of a window looks like a turn.
+pub(super) fn turns_at_another_rate(before: &Record, now: &Record) -> bool {
+    // Not by `beyond`, to which NaN is a step: other tests see a rate that is NaN, and this takes 28 bytes less.
+    let rate_change = now.turning - before.turning;
+    rate_change * rate_change > SIGMAS * SIGMAS * (now.turning_variance + before.turning_variance)
 }
 
 /// What lies between the middles of two windows.
@@ -76,16 +76,16 @@ struct Interval {
     samples: f32,
     /// Half the later window.
     half: f32,
-    /// Growth of the main amplitude, a share of itself a sample, in both windows: a wave that rings down has the same all along.
+    /// Growth of the main amplitude in each window, as a share of itself a sample: the same in both if a wave rings down.
     growth: [f32; 2],
-    /// The factor that makes of an amplitude from one middle to the other.
+    /// Factor by which amplitudes grow from one middle to the other.
     factor: f32,
 }
 
 impl Interval {
     fn new(before: &Record, now: &Record) -> Self {
         let samples = 0.5 * long(now.middle.wrapping_sub(before.middle));
-        // Each rate by its own amplitude: the other one times one over the product of both.
+        // Each rate over its own amplitude, with a single division.
         let values = [before.main.value, now.main.value];
         let per_both = 1.0 / (values[0] * values[1]);
         let growth = [
@@ -100,12 +100,12 @@ impl Interval {
         }
     }
 
-    /// The change that both windows' own rates promise, as a trapezoid: exact for a rate that itself changes steadily.
-    fn promised(&self, rates: [f32; 2]) -> f32 {
+    /// The change that both windows' own rates predict, by the trapezoidal rule: exact for a rate that itself changes steadily.
+    fn predicted(&self, rates: [f32; 2]) -> f32 {
         0.5 * (rates[0] + rates[1]) * self.samples
     }
 
-    /// The variance of a change from what is promised, from those of both levels and both rates.
+    /// The variance of a change less the predicted one, from the variances of both levels and of both rates.
     fn variance(&self, levels: f32, rates: f32) -> f32 {
         levels + 0.25 * self.samples * self.samples * rates
     }
@@ -115,10 +115,10 @@ impl Interval {
     fn change(&self, before: &Amplitude, now: &Amplitude, floor: f32) -> Flags {
         let (values, rates) = ([before.value, now.value], [before.rate, now.rate]);
         let rate_variance = before.rate_variance + now.rate_variance;
-        // Beside the growth that both amplitudes share, as a trapezoid.
+        // The change besides the growth that both amplitudes share, by the trapezoidal rule.
         let own: [f32; 2] = core::array::from_fn(|i| rates[i] - self.growth[i] * values[i]);
-        let beside = self.promised([self.factor * own[0], own[1]]);
-        // What is not known of the growth makes more of an amplitude the more it has grown.
+        let beside = self.predicted([self.factor * own[0], own[1]]);
+        // Errors of the growth weigh more the more an amplitude has grown.
         let grown = greater(self.factor * self.factor, 1.0);
         let step = beyond(
             values[1] - self.factor * values[0] - beside,
@@ -138,7 +138,7 @@ impl Interval {
     }
 }
 
-/// True where a step is more than chance and a floor explain, or no number.
+/// True if a step is NaN, or more than chance and a floor explain.
 #[inline(always)]
 fn beyond(step: f32, variance: f32, floor: f32) -> bool {
     let rest = step.abs() - floor;

@@ -1,37 +1,37 @@
-//! What a window must satisfy by itself to be believed, and beside the noise of those before: general tests on its residuals.
+//! General tests of one window's residuals, by themselves and against the noise of the windows before.
 //!
-//! Every threshold is a false-alarm rate below 10⁻⁹ a window for white noise, plus a floor under which a deviation is no fault.
+//! Every threshold is that of a false-alarm rate below 10⁻⁹ a window in white noise, plus a floor below which a deviation is no fault.
 
-use super::noise::{Noise, REACH, REACH_ONCE, RISE, is_louder, limit_of};
+use super::noise::{FIRST_NOISE_SIGMAS, MAX_RISE, NOISE_SIGMAS, Noise, is_louder, limit_of};
 use super::standing::Standing;
 use crate::arch::square_root;
 use crate::estimate::Flags;
 use crate::scalar::{greater, lesser};
 use crate::window::{Covariance, Fit, Model, Remains};
 
-/// Standard deviations of an innocent deviation.
+/// Standard deviations beyond which a deviation is a fault.
 pub(super) const SIGMAS: f32 = 7.0;
-/// The square of an amplitude over its variance from which on it stands out of its noise: six deviations.
+/// Square of an amplitude over its variance beyond which it stands out of its noise: six standard deviations.
 pub(super) const SIGNIFICANT: f32 = 36.0;
-/// Below this share of a_A the lesser of the travelling waves is none, and the pattern a circle.
-const ROUND: f32 = 2e-3;
-/// Degrees of freedom of the noise about the third harmonic from which on it is known: those of four blocks.
-const LEAST_FREEDOM: f32 = 12.0;
-/// Margin on the share of a sample's noise that the third harmonic has, which is taken to be that of the wave.
-const THIRD_SHARE: f32 = 1.2;
-/// Third harmonic, as a share of a_A, that common electronics may have.
+/// Share of a_A below which the smaller travelling wave is none, and the pattern a circle.
+const CIRCULAR_RATIO: f32 = 2e-3;
+/// Degrees of freedom with which the noise about the third harmonic is known well enough: those of four blocks.
+const MIN_THIRD_FREEDOM: f32 = 12.0;
+/// Margin on the third harmonic's share of a sample's noise, which is taken to be the wave's.
+const THIRD_NOISE_MARGIN: f32 = 1.2;
+/// Third harmonic that common electronics may have, as a share of a_A.
 const HARMONIC_FLOOR: f32 = 1e-3;
-/// The square of what [`SIGMAS`] times is 0.1 of the hum's rms: its slopes within blocks leave up to 0.05 of that as third harmonic, seen of
-/// a twentieth of the wave's frequency in windows of five periods.
+/// Variance that hum adds to a third harmonic, as a share of its mean square: [`SIGMAS`] times the root is 0.1. Its slopes within blocks
+/// leave up to 0.05 of its rms there, as seen at a twentieth of the wave's frequency in windows of five periods.
 const HUM_IN_HARMONIC: f32 = 2e-4;
-/// Residual, as a share of a_A, that rounding and converters may leave: (2·10⁻⁴)².
+/// Residual variance that rounding and converters may leave, as a share of a_A²: (2·10⁻⁴)².
 const RESIDUAL_FLOOR: f32 = 4e-8;
-/// Residual of a first window's blocks, as a share of the wave's own power, beyond which it is no wave: 20 % noise leaves 0.1.
-const STRANGER: f32 = 0.25;
-/// By how much the residual variance about the carrier may exceed that about the third harmonic, where noise is not coloured.
-pub(super) const COLOUR: f32 = 16.0;
+/// Residual of a window's blocks, as a share of the wave's power in them, beyond which there is no wave: 20 % noise leaves 0.1.
+const MAX_STRANGE_RATIO: f32 = 0.25;
+/// Highest ratio of the residual variance about the carrier to that about the third harmonic, unless noise is set to be coloured.
+pub(super) const MAX_COLOUR: f32 = 16.0;
 
-/// True when the first window after a search holds no wave, or as much else beside it: two tones, say.
+/// True when a window holds no wave, or too much else beside it, such as a second tone.
 pub(crate) fn is_no_wave(model: &Model, fit: &Fit, wave: &Standing) -> bool {
     let remains = &fit.remains;
     let explained = model.half
@@ -41,38 +41,39 @@ pub(crate) fn is_no_wave(model: &Model, fit: &Fit, wave: &Standing) -> bool {
         remains.residual,
         remains.third_noise * remains.third_freedom,
     );
-    // White noise in a long window is more than any share of the wave; where none is watched, nothing is known to be white.
+    // In a long window white noise may exceed any share of the wave. Without the watch nothing is known to be white.
     let (own, third) = (wave.record.residual, remains.third_noise);
-    let is_white = own < RISE * third && third < RISE * own;
-    // Long blocks show a little of a wave at another frequency, and leave more, which is as white as noise: what a step leaves is not.
-    let alias = is_hidden(wave) && COLOUR * third > own;
-    !is_significant(wave) || strange > STRANGER * explained && !is_white || alias
+    let is_white = own < MAX_RISE * third && third < MAX_RISE * own;
+    // Long blocks show little of a wave at another frequency, and leave more of it, as white as noise; what a step leaves is not white.
+    let alias = is_hidden(wave) && MAX_COLOUR * third > own;
+    !is_significant(wave) || strange > MAX_STRANGE_RATIO * explained && !is_white || alias
 }
 
-/// True when there is more noise than wave.
+/// True when the residual variance exceeds a_A²: more noise than wave.
 pub(crate) fn is_hidden(wave: &Standing) -> bool {
     wave.record.residual > wave.record.main.value * wave.record.main.value
 }
 
-/// True when the main amplitude stands out of its own noise.
+/// True when the main amplitude stands out of its noise.
 fn is_significant(wave: &Standing) -> bool {
     wave.record.main.value * wave.record.main.value > SIGNIFICANT * wave.record.main.variance
 }
 
-/// Noise variances of a window.
+/// Noise variances of a window, per sample, and the limit of their ratio.
 #[derive(Clone, Copy)]
 pub(crate) struct Levels {
-    /// What it leaves.
+    /// That of its own residual.
     pub own: f32,
-    /// For which it states its deviations.
+    /// That for which its standard deviations are stated.
     pub stated: f32,
-    /// What the converter's steps may add.
+    /// What the converter's steps may add at most.
     pub coding: f32,
-    /// How many times that about the third harmonic its own may be.
+    /// Highest ratio of `own` to the variance about the third harmonic.
     pub colour: f32,
 }
 
-/// Tests of one window by itself and against the noise of those before; `advance` of its blocks are not in the next one.
+/// Tests one window by itself and against the noise of those before, and learns its noise if it is clean; `advance` of its blocks are not
+/// in the next one.
 #[inline(always)]
 pub(crate) fn within(
     model: &Model,
@@ -96,60 +97,59 @@ pub(crate) fn within(
     flags = flags.with_if(!significant, Flags::LOST);
 
     let known = noise.freedom > 0.0;
-    // White noise is the same about the carrier and about its third harmonic, and what is coloured may be any times as much. A first
-    // window has no other noise to be compared with, and one block's fault may be in that too: to leave out the worst of n makes chance
-    // no more than n times as likely.
-    let (about_third, reach) = if known {
-        (remains.third_noise, REACH)
+    // White noise is the same about the carrier and about the third harmonic. A first window has nothing else to be compared with, and a
+    // fault in one block may raise both: leaving out the worst of n blocks makes chance at most n times as likely.
+    let (about_third, sigmas) = if known {
+        (remains.third_noise, NOISE_SIGMAS)
     } else {
         let least = lesser(remains.third_noise, remains.third_spared);
-        (least, REACH_ONCE)
+        (least, FIRST_NOISE_SIGMAS)
     };
     let beyond = own - 4.0 * floor;
-    let coloured = remains.third_freedom >= LEAST_FREEDOM
+    let coloured = remains.third_freedom >= MIN_THIRD_FREEDOM
         && beyond > colour * about_third
-        && beyond > limit_of(reach, remains.freedom, remains.third_freedom) * about_third;
-    // What is white is seen better in both together.
-    let both = remains.freedom + remains.third_freedom;
-    let per_both = 1.0 / both;
-    let over_both = |third: f32| (remains.residual + third * remains.third_freedom) * per_both;
-    let wide = over_both(remains.third_noise);
-    // Blocks of a few samples have more sums than samples: no more is known than these tell, less ten unknowns.
-    let wide_freedom = lesser(both, 4.0 * model.half - 10.0);
+        && beyond > limit_of(sigmas, remains.freedom, remains.third_freedom) * about_third;
+    // White noise is known better from both together.
+    let total_freedom = remains.freedom + remains.third_freedom;
+    let per_total = 1.0 / total_freedom;
+    let over_total = |third: f32| (remains.residual + third * remains.third_freedom) * per_total;
+    let wide = over_total(remains.third_noise);
+    // Blocks of a few samples have more sums than samples: there are no more degrees of freedom than samples, less ten unknowns.
+    let wide_freedom = lesser(total_freedom, 4.0 * model.half - 10.0);
     let louder = known
         && (noise.is_exceeded(own, remains.freedom, floor)
             || is_louder(wide - floor, noise.wide, wide_freedom, noise.freedom));
-    // A part of the residual beside the noise of the windows before, or beside the rest where that is known better.
+    // Compares a part of the residual with the noise of the windows before, or with the rest of the residual if that is known better.
     let stands_out = |part: f32, degrees: f32, floor: f32| {
         let (rest, beyond) = (remains.freedom - degrees, part - floor);
         if noise.freedom > rest && !louder {
             is_louder(beyond, degrees * noise.variance, degrees, noise.freedom)
         } else {
             let others = greater(remains.residual - part, 0.0);
-            // Both sides times the degrees of freedom: a product is less than a division.
+            // Both sides are times the degrees of freedom: a product costs less than a division.
             is_louder(beyond * rest, degrees * others, degrees, rest)
         }
     };
-    // One block out of line with all others: a step, a spike or a short dropout.
-    // Of both pick-offs' sums of a block, those that its own offsets leave.
+    // One block out of line with all others: a step, a spike or a short dropout. A block has three sums a pick-off, or two besides an
+    // offset of its own.
     let sums = 4.0 + 2.0 * model.shared;
     let outlier = stands_out(remains.worst_block, sums, 6.0 * floor);
-    // A step within the window, or any course that bends.
+    // A step within the window, or rates that change.
     let stepped = stands_out(remains.step, 4.0, (8.0 + 0.1 * remains.freedom) * floor);
     let misfit = coloured || louder || outlier || stepped || !fit.settled;
     flags = flags.with_if(misfit, Flags::MISFIT);
 
-    let alone = over_both(remains.third_alone);
+    let alone = over_total(remains.third_alone);
     let third_noise = greater(remains.third_alone, lesser(alone, noise.wide));
-    let harmonic = remains.third_freedom >= LEAST_FREEDOM
+    let harmonic = remains.third_freedom >= MIN_THIRD_FREEDOM
         && has_harmonic(model, remains, wave, coding, third_noise);
     flags = flags.with_if(harmonic, Flags::CLIPPED);
 
     let (main, quadrature) = (&wave.record.main, &wave.record.quadrature);
-    // The lesser of the travelling waves; the variance is the mean of both of theirs.
+    // The smaller travelling wave; its variance is taken to be the mean of both.
     let size = main.value - quadrature.value.abs();
     let round = size * size < SIGNIFICANT * (main.variance + quadrature.variance)
-        || size < ROUND * main.value;
+        || size < CIRCULAR_RATIO * main.value;
     flags = flags.with_if(round && significant, Flags::CIRCULAR);
 
     if flags.with(Flags::CIRCULAR) == Flags::CIRCULAR {
@@ -158,7 +158,7 @@ pub(crate) fn within(
         && !(coloured || outlier || stepped)
         && fit.settled
     {
-        noise.refuse(advance, model.blocks);
+        noise.count_raised(advance, model.blocks);
     }
     flags
 }
@@ -171,20 +171,20 @@ fn has_harmonic(
     coding: f32,
     noise: f32,
 ) -> bool {
-    // Of a raw pick-off: what of a sample's noise is in an amplitude.
+    // The share of a sample's noise variance in the amplitude of a raw pick-off.
     let Covariance { even, odd } = &model.covariance;
     let share = greater(even[0][0], odd[0][0]);
     let floor = HARMONIC_FLOOR * wave.record.main.value;
     let steady = share * coding + HUM_IN_HARMONIC * greater(remains.wander[0], remains.wander[1]);
     let [per_gain, _] = model.correction.noise_gains;
-    // As a pick-off of C's gain would see it.
+    // Scaled to C's gain.
     [1.0, per_gain]
         .iter()
         .zip(&remains.third)
         .any(|(gain, third)| {
             let square = gain * gain * third;
             square > floor * floor && {
-                let chance = square_root(THIRD_SHARE * share * noise) + square_root(steady);
+                let chance = square_root(THIRD_NOISE_MARGIN * share * noise) + square_root(steady);
                 let limit = SIGMAS * gain * chance + floor;
                 square > limit * limit
             }
@@ -202,7 +202,7 @@ mod tests {
 
     const BLOCKS: u16 = 5;
 
-    /// The fit of a window of a steady wave, in noise of such variances about the carrier and about its third harmonic.
+    /// The fit of a window of a steady wave, in noise of these variances about the carrier and about the third harmonic.
     fn fit([own, third]: [f32; 2]) -> Fit {
         let mut fit = Fit {
             settled: true,
@@ -232,7 +232,7 @@ mod tests {
             own,
             stated: own,
             coding: 0.0,
-            colour: COLOUR,
+            colour: MAX_COLOUR,
         };
         let wave = Standing::new(&model, fit, [own, 1.0], own, 0);
         within(&model, fit, &wave, levels, noise, BLOCKS)
@@ -250,12 +250,12 @@ mod tests {
     }
 
     #[test]
-    fn only_white_noise_is_a_new_level() {
+    fn only_white_noise_becomes_a_new_level() {
         let mut noise = Noise::NONE;
         for _ in 0..20 {
             assert_eq!(flags(&fit([1e-4; 2]), &mut noise), Flags::empty());
         }
-        // A tone near the wave, which is not about its third harmonic.
+        // A tone near the wave raises the residual there, but not about the third harmonic.
         for _ in 0..10 {
             assert_eq!(flags(&fit([1e-2, 1e-4]), &mut noise), Flags::MISFIT);
         }

@@ -1,4 +1,4 @@
-//! What the converter does to a window: its steps, its rails, and channels that stand still.
+//! Effects of the converter on a window: its steps, its rails, and channels that stand still.
 
 use super::standing::Standing;
 use crate::arch::square_root;
@@ -9,20 +9,22 @@ use crate::scalar::{greater, lesser};
 use crate::settings::Settings;
 use crate::window::{Fit, Model, Seen};
 
-/// 4π²: noise of this inverse of a step's square, in its deviation, breaks up its errors to 1/e.
-const BREAKING: f32 = 39.5;
+/// 4π²: noise with a variance of a step's square over this breaks up the steps' repeating errors to 1/e.
+const DITHER_FACTOR: f32 = 39.5;
 
-/// What the converter's steps add to the noise variance a sample.
+/// Noise variance a sample that the converter's steps add.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Coding {
+    /// That to be expected of this wave.
     pub expected: f32,
-    /// Where every period of the wave has the same few errors, of up to a third of a step.
+    /// The most: every period of the wave has the same few errors, of up to a third of a step.
     pub most: f32,
 }
 
 impl Coding {
-    /// Errors that repeat with the wave do not average: one that visits Q distinct phases has Q errors of step²/12, not one a sample.
-    /// Noise breaks them up as exp(−4π²σ²/step²): `noise` is its variance, and the least that it may be where these errors are in that.
+    /// Errors that repeat with the wave do not average out: a wave that visits Q distinct phases has Q errors of variance step²/12, not one
+    /// a sample. Noise breaks them up as exp(−4π²σ²/step²). `noise` is its variance, and the least that this may be, as it may contain
+    /// these errors.
     #[inline]
     pub(super) fn new(settings: &Settings, noise: [f32; 2], model: &Model, fit: &Fit) -> Self {
         match settings.resolution {
@@ -35,8 +37,8 @@ impl Coding {
     fn of_step(step: f32, [noise, least]: [f32; 2], model: &Model, fit: &Fit) -> Self {
         let square = step * step;
         let own = square / 12.0;
-        // The steps' own noise does not break up anything.
-        let share = |noise: f32| exponential(-BREAKING * greater(noise - own, 0.0) / square);
+        // The noise of the steps themselves breaks up nothing.
+        let share = |noise: f32| exponential(-DITHER_FACTOR * greater(noise - own, 0.0) / square);
         let repeated = share(noise);
         let white = greater(own - noise, 0.0);
         let most = white + 0.09 * square * share(least) * model.half;
@@ -45,28 +47,28 @@ impl Coding {
             let samples = 2.0 * model.half;
             let amplitude = square_root(lesser(fit.reach[0], fit.reach[1]));
             let frequency = model.carrier.shifted(fit.waves.drift() * model.per_half);
-            // A wave crosses so many codes in a period.
-            let phases = phases(frequency, samples, step / (4.0 * amplitude));
+            // In a period a wave crosses `4 * amplitude / step` codes.
+            let phases = distinct_phases(frequency, samples, step / (4.0 * amplitude));
             expected += own * repeated * (samples / phases - 1.0);
         }
         Self { expected, most }
     }
 }
 
-/// How many phases further apart than `width` turns so many samples of a wave visit, at least 2.
+/// Number of phases, further apart than `width` turns, that so many samples of a wave visit; at least 2.
 ///
-/// After as many samples as the denominator of a good fraction for the frequency they come back, but for what the fraction is off.
+/// They repeat, but for the error of the fraction, after as many samples as the denominator of a fraction near the frequency.
 #[inline(never)]
-fn phases(frequency: PhaseStep, samples: f32, width: f32) -> f32 {
+fn distinct_phases(frequency: PhaseStep, samples: f32, width: f32) -> f32 {
     let (mut far, mut near) = (0u32, frequency.0);
     let (mut before, mut count) = (0u32, 1u32);
     let mut least = lesser(samples, 1.0 / width);
     while (count as f32) < least {
         let slipped = samples * (near as f32 * (1.0 / 4_294_967_296.0)) / width;
-        // Half a wave has the errors of the other half.
+        // With an even count, each half wave has the errors of the other.
         let share = if count.is_multiple_of(2) { 0.5 } else { 1.0 };
         least = lesser(least, share * (count as f32 + slipped));
-        // A step of Euclid's algorithm; a first `far` of zero is a whole turn. None is left where the fraction is exact.
+        // A step of Euclid's algorithm; a first `far` of zero is a whole turn. No step is left if the fraction is exact.
         let Some(more) = far.wrapping_sub(near).checked_div(near) else {
             break;
         };
@@ -77,21 +79,22 @@ fn phases(frequency: PhaseStep, samples: f32, width: f32) -> f32 {
     greater(least, 2.0)
 }
 
-/// Deviations of the noise that a sample may lie beyond the wave: less than one in 10¹⁴ lies further.
-const SIGMAS: f32 = 8.0;
-/// Deviations of the noise that samples of every block may lie beyond a wave that is the first or hardly louder than its noise, and a
-/// share of it besides: those of a wave at another frequency lie further, though its sums look like so much noise.
-const SIGMAS_OF_ALL: f32 = 3.5;
-/// That share, and of how much noise.
-const LOUD: f32 = 0.25;
-/// How far hum may take samples beyond the wave, in its rms, from one end of it to the other; and samples of every block, for it swings.
-const HUM: f32 = 4.0;
-const HUM_OF_ALL: f32 = 1.5;
-/// How far samples may lie beyond the wave and its noise, as a share of a_A: common electronics have harmonics.
-const BEYOND: f32 = 0.01;
+/// Standard deviations of the noise by which a sample may lie beyond the wave: fewer than one in 10¹⁴ lie further.
+const SAMPLE_SIGMAS: f32 = 8.0;
+/// Standard deviations of the noise by which, besides [`LOUD_NOISE`] of a_A, samples of every block may lie beyond a first wave or one in
+/// loud noise: those of a wave at another frequency lie further, though its sums look like noise.
+const EVERY_BLOCK_SIGMAS: f32 = 3.5;
+/// Standard deviation of loud noise, as a share of a_A.
+const LOUD_NOISE: f32 = 0.25;
+/// How far hum may take samples beyond the wave, from its one extreme to the other, in multiples of its rms.
+const HUM_REACH: f32 = 4.0;
+/// The same for samples of every block: hum swings, and is not at its extreme in all of them.
+const EVERY_BLOCK_HUM_REACH: f32 = 1.5;
+/// How far harmonics of common electronics may take samples beyond the wave and its noise, as a share of a_A.
+const HARMONICS: f32 = 0.01;
 
-/// Faults that single samples show, in a window of blocks of a wave of `step` a sample and with a noise variance of `noise`; `is_first`
-/// where no clean window was before.
+/// Flags of the faults that single samples show, in a window of `blocks` with a wave of `step` a sample and a noise variance of `noise`;
+/// `is_first` if no clean window came before.
 #[inline]
 pub(super) fn sample_flags(
     settings: &Settings,
@@ -102,8 +105,8 @@ pub(super) fn sample_flags(
     noise: f32,
     is_first: bool,
 ) -> Flags {
-    let broken = !wave.record.main.value.is_finite();
-    let flags = Flags::empty().with_if(broken, Flags::NOT_FINITE.with(Flags::LOST));
+    let is_broken = !wave.record.main.value.is_finite();
+    let flags = Flags::empty().with_if(is_broken, Flags::NOT_FINITE.with(Flags::LOST));
     if !blocks.first().is_some_and(Seen::is_watched) {
         return flags;
     }
@@ -113,18 +116,22 @@ pub(super) fn sample_flags(
     let at_rail = settings.rails.is_some_and(|[least, most]| {
         (0..2).any(|i| range.high[i] >= most || range.low[i] <= least)
     });
-    // Samples that stay at the extreme for longer than a crest does show a limit, known or not.
+    // Samples that stay at an extreme for longer than a crest show a limit, known or not.
     let clipped = at_rail
         || range.longest > 2 && fine && {
-            // The samples of a run span one less than there are, and noise of a step makes a crest wider by chance.
+            // A run spans one step less than it has samples, and noise of one converter step makes a crest wider by chance.
             let crest = greater(step.period() / 16.0, 1.0) + 1.5;
             let crest = crest as u16;
             let arc = f32::from(crest) * step.radians();
             range.longest > crest && range.is_flat(blocks, main, crest, [arc, deviation])
         };
-    let misfit = range.is_beyond(fit, SIGMAS * deviation + BEYOND * main)
-        || (is_first || deviation > LOUD * main)
-            && are_all_beyond(blocks, fit, SIGMAS_OF_ALL * deviation + LOUD * main);
+    let misfit = range.is_beyond(fit, SAMPLE_SIGMAS * deviation + HARMONICS * main)
+        || (is_first || deviation > LOUD_NOISE * main)
+            && are_all_beyond(
+                blocks,
+                fit,
+                EVERY_BLOCK_SIGMAS * deviation + LOUD_NOISE * main,
+            );
     flags
         .with_if(clipped, Flags::CLIPPED)
         .with_if(misfit, Flags::MISFIT)
@@ -138,7 +145,7 @@ pub(super) fn sample_flags(
 struct Range {
     low: [f32; 2],
     high: [f32; 2],
-    /// No less than the most samples in a row that were equal to either end of a block: all such numbers' bits.
+    /// Upper bound of the longest run of equal samples at an extreme of a block: the bits of all such lengths.
     longest: u16,
 }
 
@@ -162,8 +169,8 @@ impl Range {
         range
     }
 
-    /// True when more samples of a pick-off in a row than a crest has were equal to an end of a range wider than `main`: twice, or so many
-    /// that noise does not make them so. `arc` is the angle of the wave from their first to their last.
+    /// True when a pick-off with a range wider than `main` stays at an end of it for more than `crest` samples: twice, or once if noise
+    /// cannot be the cause. `arc` is the angle of the wave over a crest, `deviation` that of the noise.
     #[cold]
     #[inline(never)]
     fn is_flat(&self, blocks: &[Seen], main: f32, crest: u16, [arc, deviation]: [f32; 2]) -> bool {
@@ -178,37 +185,39 @@ impl Range {
                 }
             }
         }
-        // A crest is that much lower at its ends. Three samples of it are equal by chance where their noise makes up for that: the two at its
-        // ends on average, and the one between, differ by √1.5 deviations.
+        // A crest is lower by this at its ends. Three samples of it are equal by chance if noise makes up for that: the mean of the outer
+        // two and the one between differ by √1.5 standard deviations.
         let drop = 0.125 * arc * arc * main;
-        ends > u32::from(drop < SIGMAS * deviation)
+        ends > u32::from(drop < SAMPLE_SIGMAS * deviation)
     }
 
-    /// True when samples lie `apart` beyond the wave: what does is not of it, but a tone, say, that the sums of whole blocks do not see.
+    /// True when samples lie more than `margin` beyond the wave, as by a tone that the sums of whole blocks do not see.
     #[inline(always)]
-    fn is_beyond(&self, fit: &Fit, apart: f32) -> bool {
-        (0..2).any(|i| is_beyond(fit, i, [self.low[i], self.high[i]], apart, HUM))
+    fn is_beyond(&self, fit: &Fit, margin: f32) -> bool {
+        (0..2).any(|i| is_beyond(fit, i, [self.low[i], self.high[i]], margin, HUM_REACH))
     }
 }
 
-/// True when samples of every block lie `apart` beyond the wave.
+/// True when every block has samples more than `margin` beyond the wave.
 #[cold]
 #[inline(never)]
-pub(super) fn are_all_beyond(blocks: &[Seen], fit: &Fit, apart: f32) -> bool {
+pub(super) fn are_all_beyond(blocks: &[Seen], fit: &Fit, margin: f32) -> bool {
     blocks.iter().all(|block| {
         block.watched.as_ref().is_some_and(|watched| {
             let mut extremes = (0..2).zip(&watched.extremes);
-            extremes.any(|(i, seen)| is_beyond(fit, i, [seen.low, seen.high], apart, HUM_OF_ALL))
+            extremes.any(|(i, seen)| {
+                is_beyond(fit, i, [seen.low, seen.high], margin, EVERY_BLOCK_HUM_REACH)
+            })
         })
     })
 }
 
-/// True when samples of pick-off `i` from `low` to `high` lie `apart` beyond the wave, and so many times the rms of its hum.
+/// True when samples of pick-off `i`, from `low` to `high`, lie more than `margin` and `hum` times the rms of its hum beyond the wave.
 #[inline(never)]
-fn is_beyond(fit: &Fit, i: usize, [low, high]: [f32; 2], apart: f32, hum: f32) -> bool {
+fn is_beyond(fit: &Fit, i: usize, [low, high]: [f32; 2], margin: f32, hum: f32) -> bool {
     let offset = fit.offsets[i & 1];
     let (rest, reach) = (
-        greater(high - offset, offset - low) - apart,
+        greater(high - offset, offset - low) - margin,
         fit.reach[i & 1],
     );
     if rest <= 0.0 || rest * rest <= reach {
@@ -223,17 +232,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn phases_are_counted() {
+    fn distinct_phases_are_counted() {
         let count = |period: f32, samples: u32, width: f32| {
-            phases(PhaseStep::from_period(period), samples as f32, width)
+            distinct_phases(PhaseStep::from_period(period), samples as f32, width)
         };
-        // 75 samples are four periods; the frequency is rounded to 24 bits. 20 are ten each side.
+        // 75 samples are four periods; the frequency is rounded to 24 bits. Of 20 phases ten have the errors of the others.
         assert_eq!(count(20.0, 2000, 1e-3).round(), 10.0);
         assert_eq!(count(18.75, 1875, 1e-3).round(), 75.0);
-        // Exact to the unit, and the last fraction there is.
+        // A period of 16 samples is an exact fraction, at which the search ends.
         assert_eq!(count(16.0, 2000, 1e-3), 8.0);
         assert_eq!(count(18.75, 30, 1e-3), 30.0);
-        // No more than there is room for.
+        // No more phases than a turn has room for.
         assert_eq!(count(18.72, 100_000, 0.01), 100.0);
         // A little beyond 20 samples: 100 times 0.002 of 20 are 0.01 turn, two widths from each of ten.
         let slipped = count(20.002, 2000, 5e-3);

@@ -1,30 +1,30 @@
-//! When a wave is given up and a new period searched.
+//! Decides when a wave is given up and a new period is searched for.
 
 use crate::estimate::Flags;
 
-/// What may be left of a wave's amplitude after a fault.
-pub(super) const LEFT: f32 = 0.25;
+/// Share of its last clean amplitude below which little is left of a wave.
+pub(super) const LITTLE: f32 = 0.25;
 
-/// What failed in the last windows: two without a wave or a fit are enough, or eight with little of a wave. Each counts as many blocks as
-/// are not in the next one, for a fault is in all windows that overlap there.
+/// Failures of the last windows in a row: two without a wave or a settled fit are enough to give it up, or eight with little of it. Each
+/// window counts by its blocks that the next one does not have, for a fault is in all windows that overlap it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Failures(u32);
 
 impl Failures {
     pub(super) const NONE: Self = Self(0);
     pub(super) const ENOUGH: Self = Self(u32::MAX);
-    /// More windows with little of a wave than these are enough.
-    const MOST: u32 = 7;
-    /// So many of them is one without a wave.
+    /// Windows with little of a wave that are not yet enough.
+    const MAX: u32 = 7;
+    /// Windows with little of a wave for which one without it counts.
     const LOSS: u32 = 4;
 
-    /// True where they are enough for windows of `blocks`.
+    /// True if they are enough to give up the wave, with windows of `blocks`.
     pub(super) fn are_enough(self, blocks: u16) -> bool {
-        self.0 > Self::MOST * u32::from(blocks)
+        self.0 > Self::MAX * u32::from(blocks)
     }
 
-    /// Takes the next window: its flags, whether its fit settled, and whether there is much less of the wave in it than of all else, or than
-    /// there was. Noise that was there before is no failure, however much it is. `advance` of its blocks are not in the next one.
+    /// Takes the next window: its flags, whether its fit settled, and whether it has little of the wave, compared with all else or with
+    /// before. Noise that was there before is no failure, however much it is. `advance` of its blocks are not in the next one.
     pub(super) fn take(&mut self, flags: Flags, settled: bool, is_little: bool, advance: u16) {
         let weight = if flags.contains(Flags::LOST) || !settled {
             Self::LOSS

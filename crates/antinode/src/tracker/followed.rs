@@ -1,21 +1,22 @@
-//! Where the pattern went while no window was clean.
+//! Follows the pattern angle while no window is clean.
 
 use core::f32::consts::FRAC_PI_8;
 
 use super::angle::Angle;
 use super::record::Record;
 
-/// The angle followed from window to window through those that are no clean ones, but show the wave: over many of them a pattern may turn
-/// otherwise than the last clean one promised.
+/// The angle followed through windows that are not clean but show the wave: over many of them a pattern may turn at another rate than the
+/// last clean one predicts.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Followed {
     angle: Angle,
-    /// Where it was, half samples: what is left of it in 32 bits, for nothing is followed for hours.
+    /// Time of `angle`, half samples, in its lowest 32 bits: nothing is followed for hours.
     middle: u32,
 }
 
 impl Followed {
-    /// From the angle that a first window is nearest to: until a pattern has one, it is promised no rate, and any time will do.
+    /// From the angle that a first window takes the nearest value to: until a pattern has an angle, no rate is predicted, and any time will
+    /// do.
     pub(super) const fn begin(angle: Angle) -> Self {
         Self { angle, middle: 0 }
     }
@@ -34,7 +35,7 @@ impl Followed {
         self.angle.plus(rate * passed)
     }
 
-    /// Goes on to the window of `record`, unless its angle is far from where this goes: a fault may have made that.
+    /// Goes on to the window of `record`, unless its angle is far from the expected one, as a fault may make it.
     pub(super) fn follow(&mut self, record: &Record, rate: f32) {
         let expected = self.at(record.middle, rate);
         let (angle, _) = expected.nearest(record.angle.rest);

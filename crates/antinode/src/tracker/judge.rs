@@ -1,9 +1,9 @@
-//! A fit becomes a record with flags: what is wrong with a window, and what the next ones need of it.
+//! Turns a fit into a record with flags, and keeps what the next windows need of it.
 
 use super::angle::wrap;
 use super::checks::{self, Levels};
 use super::converter::{self, Coding};
-use super::failures::{Failures, LEFT};
+use super::failures::{Failures, LITTLE};
 use super::followed::Followed;
 use super::record::{Record, Units};
 use super::standing::Standing;
@@ -12,7 +12,7 @@ use crate::estimate::Flags;
 use crate::scalar::greater;
 use crate::window::Fit;
 
-/// Flags of a window that says nothing about those after it.
+/// Flags of a window with which those after it are not compared.
 const BROKEN: Flags = Flags::LOST
     .with(Flags::MISFIT)
     .with(Flags::NOT_FINITE)
@@ -21,11 +21,11 @@ const BROKEN: Flags = Flags::LOST
 /// Flags of a window that has no angle of its own.
 const UNSEEN: Flags = BROKEN.without(Flags::MISFIT).with(Flags::CIRCULAR);
 
-/// A frequency of half a turn a sample or more, which is 3.14 rad, would be stated as one below zero.
-const HIGHEST: f32 = 3.1;
+/// Highest frequency, rad a sample: one of half a turn or more, 3.14 rad, would be stated as a negative one.
+const MAX_RADIANS: f32 = 3.1;
 
 impl<const BLOCKS: usize> Tracker<BLOCKS> {
-    /// Makes something of a fit's record and flags; nothing where there is no wave to be tracked.
+    /// Judges a fit and hands its record and flags to `make`; `None` if there is no wave to be tracked.
     #[inline(always)]
     pub(super) fn judged<R>(
         &mut self,
@@ -34,15 +34,15 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     ) -> Option<R> {
         let model = self.model.as_ref()?;
         let own = fit.remains.variance();
-        let [noise, stated] = self.noise.beside(own, fit.remains.freedom);
-        // Rounding of f32 is an error too, where there is no other, and does not average; but what an offset rounds in exact sums does.
+        let [noise, stated] = self.noise.blended(own, fit.remains.freedom);
+        // Rounding of f32 is an error too, and does not average out; only that of offsets does where sums are exact, as those of codes.
         let whole = 1.0 + model.half;
         let of_offsets = if model.layout.scale == 0 { whole } else { 1.0 };
         let [c, d] = fit.offsets;
         let rounding = 1e-14 * (whole * fit.waves.power() + of_offsets * (c * c + d * d));
         let least = self.noise.least(noise);
         let coding = Coding::new(&self.settings, [noise, least], model, fit);
-        // Of a tiny wave the rounding's square is 0 in f32, and 0 over 0 is no share.
+        // The squared rounding of a tiny wave is 0 in f32, and 0/0 would be no share.
         let errors = rounding + coding.expected + f32::MIN_POSITIVE;
         let share = (stated + errors) / (noise + errors);
         let mut wave = Standing::new(model, fit, [noise + errors, share], own, self.end);
@@ -50,22 +50,22 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         Some(make(&self.units, &wave.record, flags))
     }
 
-    /// Tests a window's wave and joins it to those before; none where the first window shows no wave. `coding` is the noise variance that
-    /// the converter's steps may add, `stated` that for which the window states its deviations.
+    /// Tests a window's wave and joins it to those before; `None` if a first window shows no wave. `coding` is the noise variance that the
+    /// converter's steps may add, `stated` that for which standard deviations are stated.
     #[inline(always)]
     fn judge(&mut self, fit: &Fit, coding: f32, stated: f32, wave: &mut Standing) -> Option<Flags> {
         let model = self.model.as_ref()?;
         let record = &mut wave.record;
         let (expected, rate, mut is_certain) = match &self.before {
-            Some(before) => before.angle_at(record),
+            Some(before) => before.predict_angle(record),
             None => (self.angle, 0.0, true),
         };
         let (mut angle, mut quarters) = expected.nearest(record.angle.rest);
         if self.broken && self.before.is_some() {
-            let promised = quarters;
+            let predicted = quarters;
             let followed = self.followed.at(record.middle, rate);
             (angle, quarters) = followed.nearest(record.angle.rest);
-            is_certain &= quarters == promised;
+            is_certain &= quarters == predicted;
         }
         record.angle = angle;
         record.phase = wrap(record.phase + (quarters & 1) as f32 * core::f32::consts::PI);
@@ -78,7 +78,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let colour = if self.settings.coloured {
             f32::INFINITY
         } else {
-            checks::COLOUR
+            checks::MAX_COLOUR
         };
         let mut flags = checks::within(
             model,
@@ -116,19 +116,19 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             Flags::DEAD_CHANNEL,
         );
         let is_circular = flags.contains(Flags::CIRCULAR);
-        // Of an angle that is known modulo π/2 only those before tell no rate.
+        // If the angle is known modulo π/2 only, the angles before tell nothing of its rate.
         if is_circular || !is_certain {
             self.trend.clear();
         }
         if let (false, Some(before)) = (is_certain, &self.before) {
             wave.record.average_rate(before);
         }
-        // A wave's first window takes its pattern to stand still, and so does one that cannot see it turn.
+        // The pattern is taken to be at rest in a wave's first window and where it is circular, as it cannot be seen to turn.
         if is_circular || self.before.is_none() || !self.trend.is_empty() {
             let drift = wave.record.drift;
             self.trend.take_turning_out(wave, model);
             if self.before.is_none() && !is_circular {
-                // It may have turned by as much as it seems to.
+                // The pattern may in fact turn by as much as it seems to.
                 let moved = wave.record.drift - drift;
                 wave.record.drift_variance += moved * moved;
             }
@@ -137,27 +137,27 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let is_no_wave =
             (is_misfit || self.before.is_none()) && checks::is_no_wave(model, fit, wave);
         if self.before.is_none() && is_no_wave {
-            // The detector was deceived: nothing is reported, and the search goes on.
+            // The detector was deceived: no estimate is given, and the search goes on.
             self.failures = Failures::ENOUGH;
             return None;
         }
         let record = &wave.record;
 
-        // What is at no frequency is no wave.
+        // A frequency that samples cannot have is not that of a wave.
         let turned = model.carrier.radians() + record.drift;
-        if turned <= 0.0 || turned > HIGHEST {
+        if turned <= 0.0 || turned > MAX_RADIANS {
             flags = flags.with(Flags::LOST);
         }
 
-        let left = |before: &Record| record.main.value < LEFT * before.main.value;
-        let is_left = self.before.as_ref().is_some_and(left);
-        // A wave elsewhere, too: its sums are like so little of one here, but its samples are not.
+        let is_faded_from = |before: &Record| record.main.value < LITTLE * before.main.value;
+        let is_faded = self.before.as_ref().is_some_and(is_faded_from);
+        // A wave at another frequency counts as little of one too: its sums here are small, but its samples are not.
         let is_elsewhere =
             is_misfit && converter::are_all_beyond(self.gathered.blocks(), fit, record.main.value);
-        let is_little = is_no_wave || is_left || is_elsewhere;
-        if is_left || checks::is_hidden(wave) || flags.contains(Flags::DEAD_CHANNEL) {
-            // No new level of noise takes the wave away, or a pick-off.
-            self.noise.refuse_none();
+        let is_little = is_no_wave || is_faded || is_elsewhere;
+        if is_faded || checks::is_hidden(wave) || flags.contains(Flags::DEAD_CHANNEL) {
+            // A wave or a pick-off that goes is no new level of noise.
+            self.noise.clear_raised();
         }
         self.failures.take(flags, fit.settled, is_little, advance);
         self.found = !flags.contains(Flags::LOST);
@@ -165,7 +165,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             let is_clean = !flags.intersects(BROKEN);
             if self.lost || !is_certain && is_clean && !flags.contains(Flags::CIRCULAR) {
                 flags = flags.with(Flags::REACQUIRED);
-                // Whoever leaves out what else is flagged must see it too.
+                // It stands until an unbroken window, for those who leave out rows with other flags.
                 self.lost = !is_clean;
             }
             self.had_wave = true;
@@ -186,13 +186,13 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         Some(flags)
     }
 
-    /// True when one pick-off that showed the wave in the last clean window shows none now, and the other does: by a fault, or the pattern
-    /// has stopped to turn just where it would show none.
+    /// True when one pick-off that showed the wave in the last clean window shows none now, while the other does, and there is a fault or a
+    /// jump of the angle rate: a pattern that turns on steadily may leave a pick-off silent too.
     fn has_fallen_silent(&self, now: &Record, fault: bool) -> bool {
         self.before.as_ref().is_some_and(|before| {
             let [c, d] = [now.is_silent(0), now.is_silent(1)];
             let silent = usize::from(d);
-            (fault || between::turns_otherwise(before, now))
+            (fault || between::turns_at_another_rate(before, now))
                 && c != d
                 && before.channel_power[silent] > 4.0 * now.channel_power[silent]
                 && !before.is_silent(silent)
@@ -213,7 +213,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             // The next window is judged by itself: what lies between it and the last clean one is already flagged.
             self.trend.clear();
             if let Some(before) = &mut self.before {
-                // But for the phase, where a wave went on: it tells samples that are missing from a spike.
+                // The phase is still compared if the wave went on: it tells missing samples from a spike.
                 if flags.intersects(BROKEN.without(Flags::MISFIT)) {
                     before.phase_variance = f32::INFINITY;
                 }
@@ -242,15 +242,15 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let last = self.before;
         let before = self.before.insert(*record);
         if flags.contains(Flags::CIRCULAR) {
-            // It has neither an angle nor a phase of its own, and of its two waves one knows the frequency.
+            // A circular pattern has neither an angle nor a phase of its own, and only one of its two waves knows the frequency.
             before.drift = drift;
             before.angle = angle;
-            // The last angle may have turned on since then; where none was, it is not known by how much.
-            (before.promised, before.promised_variance) = (0.0, f32::INFINITY);
+            // The pattern may have turned on since the last angle; if there was none, it is not known how fast.
+            (before.predicted_rate, before.predicted_rate_variance) = (0.0, f32::INFINITY);
             if let Some(last) = last {
                 before.angle_middle = last.angle_middle;
-                (before.promised, before.promised_variance) =
-                    (last.promised, last.promised_variance);
+                (before.predicted_rate, before.predicted_rate_variance) =
+                    (last.predicted_rate, last.predicted_rate_variance);
             }
             before.angle_variance = f32::INFINITY;
             before.phase_variance = f32::INFINITY;

@@ -1,4 +1,4 @@
-//! Blocks become estimates of a tracked wave: windows are cut, solved, checked, and joined to those before.
+//! Turns blocks into estimates of a tracked wave: cuts windows, solves and checks them, and joins each to those before.
 
 mod angle;
 mod between;
@@ -26,7 +26,7 @@ use noise::Noise;
 use record::{Record, Units};
 use trend::Trend;
 
-/// How far the detector's frequency is taken to be off, or a known one, as a share of it: a little more is found too.
+/// Assumed error of the detector's frequency, or of a known one, as a share of it; a slightly larger error is corrected too.
 const DETECTOR_UNCERTAINTY: f32 = 0.05;
 
 /// Cuts the stream of blocks into windows and tracks the wave over them. Holds up to `BLOCKS` blocks, 11 to 65 535.
@@ -38,34 +38,34 @@ const DETECTOR_UNCERTAINTY: f32 = 0.05;
 #[derive(Debug, Clone)]
 pub struct Tracker<const BLOCKS: usize> {
     settings: Settings,
-    /// Made with the model.
+    /// Set together with the model.
     units: Units,
     gathered: Gathered<BLOCKS>,
     /// Index in the stream of the sample pair after the last block.
     end: u64,
     model: Option<Model>,
-    /// Blocks a window.
+    /// Blocks in a window.
     count: u16,
     noise: Noise,
     trend: Trend,
     /// The last clean window.
     before: Option<Record>,
-    /// By how much the offsets had moved to that from the one before it, a sample; 0 where none was.
+    /// Rates a sample at which the offsets moved from the clean window before `before` to it; 0 if there was none.
     offset_rates: [f32; 2],
-    /// The angle of the last window that had one: continuity is kept over faults.
+    /// Angle of the last window that had one, kept over faults so that the angle stays continuous.
     angle: Angle,
-    /// From the last clean window on.
+    /// The angle followed from the last clean window on.
     followed: Followed,
-    /// True from the loss of a wave to the first window after it.
+    /// True from the loss of a wave, or a change of settings, to the first unbroken window after it.
     lost: bool,
-    /// True where a wave was found since the settings were configured.
+    /// True once a wave was found, until the next `configure`.
     had_wave: bool,
-    /// Number of the search whose blocks are taken.
+    /// Number of the search whose blocks are accepted.
     wanted: u32,
     failures: Failures,
     /// True while a fault lies between the last clean window and the next.
     broken: bool,
-    /// True where the last window showed a wave.
+    /// True if the last window showed a wave.
     found: bool,
 }
 
@@ -75,7 +75,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// It is all zeros: as a static it takes no flash and is never on the stack, unlike the result of [`new`](Self::new).
     pub const UNSET: Self = Self::unset();
 
-    /// In code, where the constant would be copied from flash.
+    /// The value of `UNSET`, made by code: the constant would be copied from flash.
     const fn unset() -> Self {
         const {
             assert!(
@@ -136,7 +136,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
 
     /// Waits for its first block anew with settings that are checked.
     pub(crate) fn set(&mut self, settings: &Settings) {
-        // What had no settings took no block.
+        // A tracker without settings has taken no block.
         if self.settings.periods > 0 {
             self.search();
         }
@@ -169,13 +169,13 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         estimate
     }
 
-    /// By itself, so that what it needs of the stack is not there while the window is fitted.
+    /// Not inlined, so that its stack is not in use while the window is fitted.
     #[inline(never)]
     fn estimate_fit(&mut self, fit: &Fit) -> Option<Estimate> {
         self.judged(fit, |units, record, flags| record.estimate(units, flags))
     }
 
-    /// Begins the next window, or has the wave searched anew where it is lost.
+    /// Moves on to the next window, and wants a new search if the wave is lost.
     fn advance(&mut self) {
         self.gathered
             .advance(self.settings.hop.unwrap_or(self.count));
@@ -184,10 +184,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
     }
 
-    /// As [`push`](Self::push), but hands the estimate to `report`: it has no place in the stack while the window is fitted, which is 232
-    /// bytes less of [`Identifier::extend`](crate::Identifier::extend).
+    /// As [`push`](Self::push), but hands the estimate to `report`: no stack is reserved for it while the window is fitted, which saves
+    /// [`Identifier::extend`](crate::Identifier::extend) 232 bytes.
     ///
-    /// That a function generic over what becomes of the estimate would serve both costs the C library 380 bytes of flash.
+    /// One function for both, generic over what becomes of the estimate, would cost the C library 380 bytes of flash.
     #[inline]
     pub(crate) fn push_to<S: Sample>(
         &mut self,
@@ -210,11 +210,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     #[inline(never)]
     fn report_fit(&mut self, fit: &Fit, report: &mut impl FnMut(Estimate)) {
         self.judged(fit, |units, record, flags| {
-            tell(units, record, flags, report);
+            hand_over(units, record, flags, report);
         });
     }
 
-    /// Takes a block; true where it completes a window.
+    /// Takes a block; true if it completes a window.
     #[inline(never)]
     fn gather<S: Sample>(&mut self, block: &Block<S>) -> bool {
         let is_same = self
@@ -239,11 +239,11 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.gathered.length() >= usize::from(self.count)
     }
 
-    /// Takes a block that does not continue those gathered: by itself, so that the others need keep nothing meanwhile.
+    /// Takes a block that does not continue those gathered. Not inlined, so that the usual path saves no registers for it.
     #[cold]
     #[inline(never)]
     fn gather_anew<S: Sample>(&mut self, block: &Block<S>, is_same: bool) -> bool {
-        // Only here: what is gathered is of the search wanted, or is dropped when another one is.
+        // Checked only here: the blocks gathered are of the wanted search, and are dropped when another is wanted.
         if block.search != self.wanted {
             return false;
         }
@@ -256,8 +256,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
 
     /// Number of the search whose blocks it takes, for [`Front::search_if_wanted`](crate::Front::search_if_wanted): 0 at first. It counts
     /// up, and wraps, when a new period must be searched for: when the first window showed no wave, or two in a row were [`Flags::LOST`] or
-    /// did not settle, or eight in a row held little of the wave beside all else, or had samples in every block that lie beyond the wave by
-    /// more than its amplitude. Overlapping windows count by the blocks they move on.
+    /// did not settle, or eight in a row held little of the wave compared with all else, or had samples in every block that lie beyond the
+    /// wave by more than its amplitude. Overlapping windows count by the blocks they move on.
     ///
     /// Hand it on after every block, as a first window without a wave gives no estimate, and also after [`configure`](Self::configure) and
     /// [`search`](Self::search).
@@ -279,7 +279,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.found
     }
 
-    /// With the next block a first window begins.
+    /// Drops the model: the next block begins a first window.
     fn forget(&mut self) {
         self.model = None;
         self.failures = Failures::NONE;
@@ -314,17 +314,17 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.settings = settings;
         let found = self.found;
         self.forget();
-        // The wave is there as before.
+        // The wave itself is still there.
         self.found = found;
         Ok(())
     }
 
-    /// Begins with blocks of another layout.
+    /// Builds the model for blocks of another layout; their first window is compared with none.
     #[cold]
     #[inline(never)]
     fn begin(&mut self, &layout: &Layout) {
         let settings = &self.settings;
-        // Only without settings: no block is taken then.
+        // A tracker without settings takes no block.
         if settings.periods == 0 {
             return;
         }
@@ -343,7 +343,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.failures = Failures::NONE;
     }
 
-    /// Solves for the waves, from the last clean frequency or the detector's.
+    /// Fits the waves of the window gathered, from the last clean frequency or the detector's.
     fn fit(&mut self, fit: &mut Fit) {
         let Some(model) = &mut self.model else {
             return;
@@ -374,8 +374,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 }
 
-/// Hands an estimate over: by itself, so that there is room for it only now.
+/// Makes an estimate and hands it over. Not inlined, so that stack is reserved for it only now.
 #[inline(never)]
-fn tell(units: &Units, record: &Record, flags: Flags, report: &mut impl FnMut(Estimate)) {
+fn hand_over(units: &Units, record: &Record, flags: Flags, report: &mut impl FnMut(Estimate)) {
     report(record.estimate(units, flags));
 }

@@ -1,4 +1,4 @@
-//! One window as the tracker remembers it: values at its middle, rates a sample, variances.
+//! One window as the tracker remembers it: values at its middle, rates per sample, variances.
 
 use core::num::NonZeroU32;
 
@@ -10,22 +10,23 @@ use crate::estimate::{Estimate, Flags};
 use crate::phase::PhaseStep;
 use crate::scalar::{greater, long};
 
-/// Deviation of a promised angle, rad, of which six reach the next angle that looks the same.
-const UNKNOWN_TURN: f32 = 0.13;
+/// Largest standard deviation, rad, of a predicted angle that is known to less than a quarter turn: six of them reach π/4, half the
+/// ambiguity.
+const MAX_ANGLE_STD: f32 = 0.13;
 
-/// What a rate that changes adds to an angle at most, rad, and is no quarter turn.
-const OTHERWISE: f32 = 0.7;
+/// Angle, rad, that a change of the rate may add over a gap without doubt about the quarter turn.
+const MAX_EXTRA_TURN: f32 = 0.7;
 
-/// Deviations by which a rate is another one than was promised.
-const TOLD: f32 = 4.0;
+/// Standard deviations beyond which a rate is not the predicted one.
+const CHANGED_RATE_SIGMAS: f32 = 4.0;
 
-/// Windows over whose gaps rates are averaged at most.
-const AVERAGED: f32 = 8.0;
+/// Windows over which rates are averaged across gaps, at most.
+const MAX_AVERAGED: f32 = 8.0;
 
-/// Deviations by which a window's own rate denies another.
-const DENIED: f32 = 5.0;
+/// Standard deviations beyond which a window's own rate contradicts another.
+const CONTRADICTION_SIGMAS: f32 = 5.0;
 
-/// What turns samples into seconds and Hz, made once: f64 is slow on a core without it.
+/// Factors that turn samples into seconds and Hz, made once: f64 is slow on a core without it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Units {
     /// In Hz.
@@ -37,7 +38,7 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    /// Those of no sample rate yet.
+    /// Without a sample rate.
     pub(crate) const NONE: Self = Self {
         sample_rate: 0.0,
         half_sample: 0.0,
@@ -62,39 +63,42 @@ pub(crate) struct Amplitude {
     pub rate_variance: f32,
 }
 
+/// What is kept of a window.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Record {
     /// Middle of the window, half samples from the start of the stream.
     pub middle: u64,
-    /// Sample pairs of the window; never 0, so that a record that may be none takes no more room.
+    /// Sample pairs of the window; never 0, so that an `Option<Record>` takes no more room.
     pub samples: NonZeroU32,
-    /// What this window alone leaves, as a noise variance a sample.
+    /// Noise variance a sample, from this window's own residual.
     pub residual: f32,
-    /// Variances that are stated over those here, which tests take.
+    /// Ratio of the variances stated in an estimate to those here, which the tests use.
     pub share: f32,
     pub carrier: PhaseStep,
     /// Frequency beyond the carrier, rad/sample.
     pub drift: f32,
     pub drift_variance: f32,
     pub angle: Angle,
-    /// Where it was, half samples: the middle, but of a circular pattern that of the last one that had an angle.
+    /// Time of `angle`, half samples: `middle`, or for a circular pattern that of the last window that had an angle.
     pub angle_middle: u64,
     pub angle_variance: f32,
+    /// Angle rate, rad/sample, from this window alone.
     pub turning: f32,
     pub turning_variance: f32,
-    /// The same with what the angles of the windows before say; the variance is infinite where no window has had an angle yet.
-    pub promised: f32,
-    pub promised_variance: f32,
+    /// Angle rate predicted for the next window, from `turning` and the windows before; its variance is infinite until a window has an
+    /// angle.
+    pub predicted_rate: f32,
+    pub predicted_rate_variance: f32,
     /// α, paired with `angle`.
     pub phase: f32,
     pub phase_variance: f32,
     pub main: Amplitude,
     pub quadrature: Amplitude,
-    /// Power of each raw pick-off's phasor, and the variance of a part of it.
+    /// |z|² of each raw pick-off's phasor, and the variance of one of its components.
     pub channel_power: [f32; 2],
     pub channel_variance: f32,
     pub offsets: [f32; 2],
-    /// Of each; infinite where it may wander.
+    /// Of each offset; infinite where offsets may wander.
     pub offset_variance: f32,
 }
 
@@ -102,7 +106,7 @@ impl Record {
     /// The window as it is reported.
     #[inline(always)]
     pub(crate) fn estimate(&self, units: &Units, flags: Flags) -> Estimate {
-        // First what is called, so that no number need be kept meanwhile.
+        // Calls come first, so that no number is kept in memory across them.
         let time = double::units(self.middle as i64, units.half_sample);
         let angle = self.angle.radians();
         let frequency = self.carrier.hertz(self.drift, units.turn);
@@ -143,49 +147,55 @@ impl Record {
         }
     }
 
-    /// The angle that this window promises another, `now`, at which rate a sample it gets there, and whether it knows that to less than a
-    /// quarter turn: over a gap it may not, nor where the pattern turns otherwise behind it.
-    pub(crate) fn angle_at(&self, now: &Self) -> (Angle, f32, bool) {
+    /// Predicts the angle of a later window, `now`. Gives that angle, the rate a sample that leads there, and whether the angle is certain
+    /// to less than a quarter turn: it may not be over a gap, or if the pattern turns at another rate after it.
+    pub(crate) fn predict_angle(&self, now: &Self) -> (Angle, f32, bool) {
         let passed = 0.5 * long(now.middle.wrapping_sub(self.angle_middle));
         let is_next =
-            passed < 1.5 * now.samples.get() as f32 && self.promised_variance < f32::INFINITY;
-        let is_known =
-            is_next || self.promised_variance * passed * passed < UNKNOWN_TURN * UNKNOWN_TURN;
-        let by = now.turning - self.promised;
-        let spread = now.turning_variance + self.promised_variance;
-        let turns_on = (by * passed).abs() < OTHERWISE || by * by < TOLD * TOLD * spread;
-        // As much of the turning as stands out of its noise: in much of it a pattern that stands still would be promised a quarter turn.
-        let square = self.promised * self.promised;
-        let share = square / (square + self.promised_variance + f32::MIN_POSITIVE);
-        let rate = if is_known { share * self.promised } else { 0.0 };
+            passed < 1.5 * now.samples.get() as f32 && self.predicted_rate_variance < f32::INFINITY;
+        let is_known = is_next
+            || self.predicted_rate_variance * passed * passed < MAX_ANGLE_STD * MAX_ANGLE_STD;
+        let rate_change = now.turning - self.predicted_rate;
+        let spread = now.turning_variance + self.predicted_rate_variance;
+        let turns_on = (rate_change * passed).abs() < MAX_EXTRA_TURN
+            || rate_change * rate_change < CHANGED_RATE_SIGMAS * CHANGED_RATE_SIGMAS * spread;
+        // Only the share of the rate that stands out of its noise: else, in much noise, a pattern at rest would be predicted to turn by a
+        // quarter.
+        let square = self.predicted_rate * self.predicted_rate;
+        let share = square / (square + self.predicted_rate_variance + f32::MIN_POSITIVE);
+        let rate = if is_known {
+            share * self.predicted_rate
+        } else {
+            0.0
+        };
         let is_certain = is_known && (is_next || turns_on);
         (self.angle.plus(rate * passed), rate, is_certain)
     }
 
-    /// Promises the rate that the windows before have too, each by itself: over gaps of unknown turns no angles tell it.
+    /// Averages the predicted rate with that of the windows before: over gaps of unknown turns their angles tell nothing of it.
     pub(crate) fn average_rate(&mut self, before: &Self) {
-        if before.promised_variance == f32::INFINITY {
+        if before.predicted_rate_variance == f32::INFINITY {
             return;
         }
         let known = greater(
-            before.promised_variance,
-            self.turning_variance / (AVERAGED - 1.0),
+            before.predicted_rate_variance,
+            self.turning_variance / (MAX_AVERAGED - 1.0),
         );
-        self.promise(before.promised, known);
+        self.predict_rate(before.predicted_rate, known);
     }
 
-    /// Promises the mean of this window's own rate and another, unless its own denies that: over a gap the pattern may have turned by a
-    /// quarter more or less than angles say. Gives how far apart they are, and the variance of that.
+    /// Predicts the weighted mean of this window's own rate and another, unless they contradict each other: over a gap the pattern may have
+    /// turned by a quarter turn more or less than angles say. Gives the difference of the two rates, and its variance.
     #[inline(never)]
-    pub(crate) fn promise(&mut self, rate: f32, variance: f32) -> (f32, f32) {
-        let apart = self.turning - rate;
+    pub(crate) fn predict_rate(&mut self, rate: f32, variance: f32) -> (f32, f32) {
+        let difference = self.turning - rate;
         let spread = self.turning_variance + variance;
-        if apart * apart < DENIED * DENIED * spread {
+        if difference * difference < CONTRADICTION_SIGMAS * CONTRADICTION_SIGMAS * spread {
             let share = self.turning_variance / spread;
-            self.promised = self.turning - share * apart;
-            self.promised_variance = share * variance;
+            self.predicted_rate = self.turning - share * difference;
+            self.predicted_rate_variance = share * variance;
         }
-        (apart, spread)
+        (difference, spread)
     }
 
     /// True when pick-off `channel` shows no wave.
@@ -194,18 +204,18 @@ impl Record {
             < SIGNIFICANT * self.channel_variance + 1e-6 * self.main.value * self.main.value
     }
 
-    /// By how much the phase has run beyond what the mean frequency of both windows explains, rad, not wrapped.
+    /// Phase, rad, by which this window is ahead of what the mean frequency of both windows explains, not wrapped.
     pub(crate) fn phase_advance(&self, before: &Self) -> f32 {
         let half_samples = self.middle.wrapping_sub(before.middle);
         let whole = before.carrier.after_half_samples(half_samples as i64);
-        let beyond = before.drift + self.frequency_less(before);
+        let beyond = before.drift + self.frequency_change(before);
         let run = 0.25 * long(half_samples) * (beyond + before.drift);
         let whole = (whole.0 as i32) as f32 * (core::f32::consts::TAU / 4_294_967_296.0);
         (before.phase - self.phase) - whole - run
     }
 
     /// The frequency of this window less that of `before`, rad/sample.
-    fn frequency_less(&self, before: &Self) -> f32 {
+    fn frequency_change(&self, before: &Self) -> f32 {
         self.frequency_beyond(before.carrier) - before.drift
     }
 

@@ -1,4 +1,4 @@
-//! The travelling waves of a window become the numbers of the standing wave: the short form of formulas (24)–(25).
+//! The standing wave's parameters from the travelling waves of a window: the short form of formulas (24)–(25).
 //!
 //! z₊ = (a_A + a_B)·e^{j(2θ−α)} and z₋ = (a_A − a_B)·e^{−j(2θ+α)}. Hence a_A = (|z₊|+|z₋|)/2, a_B = (|z₊|−|z₋|)/2,
 //! 4θ = arg z₊ − arg z₋, 2α = −arg z₊ − arg z₋, with no cancellation and the right quadrant.
@@ -14,51 +14,54 @@ use crate::phase::argument;
 use crate::scalar::greater;
 use crate::window::{Covariance, Fit, Model};
 
-/// The standing wave at the middle of a window, with variances for the fit's own noise, and what only its own window asks.
+/// The standing wave at the middle of a window, with variances for the fit's own noise, and what only the tests of this window need.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Standing {
-    /// Of its angle and its phase, those of −π/4 to π/4 and −π to π that go together.
+    /// Its angle lies within ±π/2 and its phase within ±π, of the values that go together.
     pub record: Record,
-    /// The noise variance a sample that all variances are for.
+    /// The noise variance a sample for which all variances are.
     pub noise: f32,
     /// Covariance of drift and turning, per half window: with quadrature, a turning pattern looks like another frequency.
     pub drift_turning: f32,
-    /// The product of both variances less the square of that.
+    /// The product of both variances less the square of their covariance.
     pub turn_determinant: f32,
 }
 
-/// Variances of the components of z₊ and of z₋ along two directions, and their covariance.
+/// Variances of the components of z₊ and z₋ along a direction each, and their covariance.
 struct Variances {
     plus: f32,
     minus: f32,
-    both: f32,
+    covariance: f32,
 }
 
 impl Variances {
-    /// Variance of the sum of both, and of their difference.
+    /// Variances of the sum of both components and of their difference.
     fn sum_and_difference(&self) -> [f32; 2] {
         let separate = self.plus + self.minus;
-        [separate + 2.0 * self.both, separate - 2.0 * self.both]
+        [
+            separate + 2.0 * self.covariance,
+            separate - 2.0 * self.covariance,
+        ]
     }
 
-    /// Of components so many times as large.
+    /// Those of the components times these factors.
     fn times(&self, [plus, minus]: [f32; 2]) -> Self {
         Self {
             plus: self.plus * plus * plus,
             minus: self.minus * minus * minus,
-            both: self.both * plus * minus,
+            covariance: self.covariance * plus * minus,
         }
     }
 }
 
-/// What the noise of the raw phasors' real parts, and of their imaginary parts, adds to the components of z₊ and z₋ along two
-/// directions: the variances for a variance of one.
+/// Variances of the components of z₊ and z₋ along a direction each that are due to unit variance of the raw phasors' real parts, and of
+/// their imaginary parts.
 struct Shares([Variances; 2]);
 
 impl Shares {
-    /// The gains are those of a [`Correction`](crate::calibration::Correction).
+    /// Along the directions `plus` and `minus`; the gains are the noise gains of a [`Correction`](crate::calibration::Correction).
     fn along(plus: Complex32, minus: Complex32, [d, c_on_d]: [f32; 2]) -> Self {
-        // z₊ = z_C + j z_D and z₋ = z_C − j z_D: what a component sees of z_D, and of D and C in it.
+        // From z₊ = z_C + j z_D and z₋ = z_C − j z_D: how a component depends on z_D, and through it on raw D and C.
         let (plus_d, minus_d) = (
             Complex32::new(plus.im, -plus.re),
             Complex32::new(-minus.im, minus.re),
@@ -71,31 +74,31 @@ impl Shares {
             Variances {
                 plus: plus_c * plus_c + plus_d * plus_d,
                 minus: minus_c * minus_c + minus_d * minus_d,
-                both: plus_c * minus_c + plus_d * minus_d,
+                covariance: plus_c * minus_c + plus_d * minus_d,
             }
         };
         Self([of(|z| z.re), of(|z| z.im)])
     }
 
-    /// For these variances of the real and of the imaginary parts.
+    /// The variances for these variances of the real and the imaginary parts.
     fn of(&self, [real, imaginary]: [f32; 2]) -> Variances {
         let [re, im] = &self.0;
         Variances {
             plus: real * re.plus + imaginary * im.plus,
             minus: real * re.minus + imaginary * im.minus,
-            both: real * re.both + imaginary * im.both,
+            covariance: real * re.covariance + imaginary * im.covariance,
         }
     }
 
-    /// As [`Shares::of`], across the directions, where the parts change places.
+    /// As [`Shares::of`], for the components across the directions: real and imaginary parts change places.
     fn across(&self, [real, imaginary]: [f32; 2]) -> Variances {
         self.of([imaginary, real])
     }
 }
 
 impl Standing {
-    /// The standing wave of a fit whose noise variance a sample is `noise`, and `share` of that where deviations are stated; `residual` is
-    /// what is left of it, and `end` the index of the sample after its window.
+    /// The standing wave of a fit whose noise variance a sample is `noise`, and `share` times that for the stated standard deviations;
+    /// `residual` is the variance of what the fit leaves, and `end` the index of the sample after its window.
     #[inline(never)]
     pub(crate) fn new(
         model: &Model,
@@ -111,11 +114,11 @@ impl Standing {
         let absolute = |z: Complex32| square_root(z.norm_sqr());
         let (plus_angle, minus_angle) = (argument(plus), argument(minus));
         let (p, m) = (absolute(plus), absolute(minus));
-        // A wave of less than this beside the other is rounding, and has no direction.
-        let least = greater(1e-7 * (p + m), f32::MIN_POSITIVE);
-        let per_size = [p, m].map(|size| 1.0 / greater(size, least));
+        // A wave smaller than this share of both is rounding, and has no direction.
+        let min_size = greater(1e-7 * (p + m), f32::MIN_POSITIVE);
+        let per_size = [p, m].map(|size| 1.0 / greater(size, min_size));
         let along = |z: Complex32, size: f32, per_size: f32| {
-            if size > least {
+            if size > min_size {
                 z * per_size
             } else {
                 Complex32::ONE
@@ -123,7 +126,7 @@ impl Standing {
         };
         let e_plus = along(plus, p, per_size[0]);
         let e_minus = along(minus, m, per_size[1]);
-        // The component of a change along a wave and across it: how its size and its phase move, the latter the more the smaller it is.
+        // The components of a change along a wave and across it: the change of its amplitude and, over the amplitude, of its phase.
         let grown = |change: Complex32, e: Complex32| change.re * e.re + change.im * e.im;
         let turned = |change: Complex32, e: Complex32| change.im * e.re - change.re * e.im;
         let (plus_growth, minus_growth) =
@@ -140,7 +143,7 @@ impl Standing {
         let turn = shares.across(slopes).times(per_size);
         let [main, quadrature] = size.sum_and_difference();
         let [main_change, quadrature_change] = growth.sum_and_difference();
-        let [common, apart] = phase.sum_and_difference();
+        let [common, difference] = phase.sum_and_difference();
         let [drift, turning] = turn.sum_and_difference();
         let per_half = model.per_half;
         let squared = per_half * per_half;
@@ -162,11 +165,11 @@ impl Standing {
                     quarters: 0,
                     rest: 0.25 * (plus_angle - minus_angle),
                 },
-                angle_variance: 0.0625 * apart,
+                angle_variance: 0.0625 * difference,
                 turning: turning_rate,
                 turning_variance,
-                promised: turning_rate,
-                promised_variance: turning_variance,
+                predicted_rate: turning_rate,
+                predicted_rate_variance: turning_variance,
                 phase: -0.5 * (plus_angle + minus_angle),
                 phase_variance: 0.25 * common,
                 main: Amplitude {
@@ -184,7 +187,8 @@ impl Standing {
                 channel_power: fit.power,
                 channel_variance: noise * greater(even[0][0], odd[0][0]),
                 offsets: fit.offsets,
-                // A short window knows its offset worse than the mean of its samples. One that blocks have to themselves may be anywhere.
+                // Four times the variance of a mean: a short window knows its offset worse than that. Offsets of single blocks may be
+                // anywhere.
                 offset_variance: if model.shared > 0.0 {
                     2.0 * noise * per_half
                 } else {
@@ -193,7 +197,7 @@ impl Standing {
             },
             noise,
             drift_turning: 0.125 * (turn.plus - turn.minus),
-            turn_determinant: 0.0625 * (turn.plus * turn.minus - turn.both * turn.both),
+            turn_determinant: 0.0625 * (turn.plus * turn.minus - turn.covariance * turn.covariance),
         }
     }
 }

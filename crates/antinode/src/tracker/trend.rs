@@ -1,4 +1,4 @@
-//! The course of the pattern angle over the last windows: what rate it promises for the present one.
+//! The pattern angles of the last windows, and the angle rate that they predict for the present one.
 //!
 //! With a quadrature wave a turning pattern shifts the apparent frequency, so a window that must find θ̇ and f together knows f up
 //! to (a_A² + a_B²)/(a_A² − a_B²) times worse than the bound. The angles of the windows before know θ̇ far better than one window.
@@ -9,26 +9,26 @@ use super::standing::Standing;
 use crate::scalar::{greater, lesser};
 use crate::window::Model;
 
-/// Windows kept.
-const KEPT: usize = 5;
-/// Quarter windows ago beyond which an angle says nothing of the present rate: what its powers leave of nearer ones is lost in rounding.
-const OLDEST: f32 = 4e3;
+/// Windows kept at most.
+const MAX_POINTS: usize = 5;
+/// Age, in quarter windows, beyond which an angle is left out: beside its powers those of newer angles are lost in rounding.
+const MAX_AGE: f32 = 4e3;
 
-/// Angles from which on a window's own is compared with the curve through the others.
-const ENOUGH: u32 = 5;
-/// The share that these others have in the curve at the window, below which it is lost in rounding: all were in far more noise.
-const LEAST: f32 = 1e-4;
-/// Windows over which is averaged by how much it lies beside that.
-const AVERAGED: f32 = 16.0;
-/// The share of its variance by which that average exceeds its noise by chance.
-const BY_CHANCE: f32 = 0.4;
-/// A single window counts no more than so many times what is expected of it: one step is no vibration, and by itself no more than chance.
-const MOST: f32 = 7.0;
-/// What a rate is off, times the distance of two windows, where the last angle of six, which turn as a cubic, is off the parabola through
-/// the others by one.
-const OF_CUBIC: f32 = 0.82;
-/// The square of the same of a few angles: a line or a parabola through them is off by more.
-const OF_LINE: f32 = 20.0;
+/// Angles, the window's own included, from which on that is compared with the curve through the others.
+const MIN_COMPARED: u32 = 5;
+/// Share of the others in the curve's value at the window, below which it is lost in rounding: all of them had far more noise.
+const MIN_SHARE_OF_OTHERS: f32 = 1e-4;
+/// Windows over which the square of their distance is averaged.
+const AVERAGED_WINDOWS: f32 = 16.0;
+/// Excess of that average that chance explains, as a share of what noise makes it.
+const CHANCE_EXCESS: f32 = 0.4;
+/// Highest square that a single window counts for, over the expected one: one step is no vibration, and by itself no more than chance.
+const MAX_SQUARE: f32 = 7.0;
+/// Error of a rate, times the distance of two windows, if of six angles along a cubic the last lies one off the parabola through the
+/// others.
+const CUBIC_ERROR: f32 = 0.82;
+/// The square of the same for fewer angles, through which a line or a parabola is off by more.
+const LINE_ERROR_SQUARED: f32 = 20.0;
 
 /// A rate in rad/sample and its variance.
 #[derive(Debug, Clone, Copy)]
@@ -39,7 +39,7 @@ struct Rate {
 
 #[derive(Debug, Clone, Copy)]
 struct Point {
-    /// Middle of the window, half samples, in halves of 32 bits: one of 64 would leave a gap in every point.
+    /// Middle of the window, half samples, in halves of 32 bits: a `u64` would leave a gap in every point.
     middle: [u32; 2],
     angle: Angle,
     /// One over the variance.
@@ -56,15 +56,15 @@ impl Point {
 /// Angles of the last clean windows that do not overlap.
 #[derive(Debug, Clone)]
 pub(crate) struct Trend {
-    points: [Point; KEPT],
+    points: [Point; MAX_POINTS],
     length: u16,
-    /// Where the last one is.
+    /// Index of the last one kept.
     last: u16,
-    /// Mean square of what angles are beside the curves through those before, over what noise makes of it, less one: a pattern that vibrates
-    /// turns as no parabola.
-    beside: f32,
-    /// What that becomes if the present window is kept.
-    learned: f32,
+    /// Mean squared distance of angles from the curves through those before, over what noise makes it, less one: a pattern that vibrates
+    /// follows no parabola.
+    excess: f32,
+    /// The value of `excess` if the present window is kept.
+    next_excess: f32,
 }
 
 impl Trend {
@@ -74,24 +74,24 @@ impl Trend {
                 middle: [0; 2],
                 angle: Angle::ZERO,
                 weight: 0.0,
-            }; KEPT],
+            }; MAX_POINTS],
             length: 0,
             last: 0,
-            beside: 0.0,
-            learned: 0.0,
+            excess: 0.0,
+            next_excess: 0.0,
         }
     }
 
     /// Drops the angles: the next ones do not continue them.
     pub(crate) fn clear(&mut self) {
         self.length = 0;
-        self.learned = self.beside;
+        self.next_excess = self.excess;
     }
 
     /// Drops what is known of the pattern's vibration too.
     pub(crate) fn forget(&mut self) {
         self.clear();
-        (self.beside, self.learned) = (0.0, 0.0);
+        (self.excess, self.next_excess) = (0.0, 0.0);
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -109,15 +109,15 @@ impl Trend {
         {
             return;
         }
-        self.beside = self.learned;
-        // In the place of the oldest where all are taken.
+        self.excess = self.next_excess;
+        // Takes the place of the oldest if all are in use.
         let next = self.last + 1;
-        self.last = if self.length == 0 || next == KEPT as u16 {
+        self.last = if self.length == 0 || next == MAX_POINTS as u16 {
             0
         } else {
             next
         };
-        self.length = (self.length + 1).min(KEPT as u16);
+        self.length = (self.length + 1).min(MAX_POINTS as u16);
         if let Some(place) = self.points.get_mut(usize::from(self.last)) {
             *place = Point {
                 middle: [middle as u32, (middle >> 32) as u32],
@@ -132,32 +132,32 @@ impl Trend {
         self.points.get(..length).unwrap_or(&self.points)
     }
 
-    /// Takes the share of a turning pattern out of a window's frequency, with what the angles of the windows before promise.
+    /// Takes the share of a turning pattern out of a window's frequency, by the rate that the angles of the windows before predict.
     #[inline]
     pub(crate) fn take_turning_out(&mut self, wave: &mut Standing, model: &Model) {
         let record = &mut wave.record;
         let rate = self.rate(record, model.per_half);
-        let (apart, spread) = if rate.variance > 0.0 {
-            record.promise(rate.value, rate.variance)
+        let (difference, spread) = if rate.variance > 0.0 {
+            record.predict_rate(rate.value, rate.variance)
         } else if self.is_empty() {
             (record.turning, record.turning_variance)
         } else {
-            // All of them overlap this window: nothing is known of its rate, and least of all that it stands still.
+            // All of them overlap this window: nothing is known of its rate, not even that the pattern is at rest.
             return;
         };
-        if apart * apart < 16.0 * spread {
+        if difference * difference < 16.0 * spread {
             let (squared, per_half) = (model.half * model.half, model.per_half);
             let per_spread = 1.0 / (squared * spread);
-            record.drift -= wave.drift_turning * per_spread * apart;
-            // The variance less shared²/spread, without a difference: near a circle nothing would be left of it.
+            record.drift -= wave.drift_turning * per_spread * difference;
+            // The variance less covariance²/spread, without a difference, which would lose all digits near a circle.
             record.drift_variance = (wave.turn_determinant * per_half * per_half
                 + record.drift_variance * rate.variance * squared)
                 * per_spread;
         }
     }
 
-    /// The rate at the middle of a window, from its own angle and the angles before: constant through three points, linear in time
-    /// through more. With none before, the pattern is taken to stand still until a window shows that it does not.
+    /// The rate at the middle of a window, from its own angle and the angles before: constant through three points, linear in time through
+    /// more. With none before, the pattern is taken to be at rest until a window shows that it is not.
     ///
     /// `per_half` is one over half the window's samples.
     #[inline(always)]
@@ -166,9 +166,9 @@ impl Trend {
         let own = record.angle_variance;
         let mut powers = [1.0, 0.0, 0.0, 0.0, 0.0];
         let mut values = [0.0; 3];
-        let (mut used, mut nearest) = (1, -OLDEST);
+        let (mut used, mut nearest) = (1, -MAX_AGE);
         for point in self.known() {
-            // Not overlapping, and so near that 32 bits hold it.
+            // Those that overlap the window, or are too old for 32 bits, are left out.
             let passed = record.middle.wrapping_sub(point.middle());
             let Ok(passed) = u32::try_from(passed) else {
                 continue;
@@ -177,7 +177,7 @@ impl Trend {
                 continue;
             }
             let time = -(passed as f32) * per_half;
-            if time < -OLDEST {
+            if time < -MAX_AGE {
                 continue;
             }
             nearest = greater(time, nearest);
@@ -200,33 +200,34 @@ impl Trend {
         }
         let [s0, s1, s2, s3, s4] = powers;
         let [v0, v1, v2] = values;
-        // The curve is taken out of level and rate where there are points for it, then the level out of the rate.
-        let bent = if used > 3 { 1.0 / s4 } else { 0.0 };
-        // First over s4: a product of two sums may be beyond f32, where noise was far less long ago.
-        let (of_level, of_rate) = (s2 * bent, s3 * bent);
+        // The curvature is eliminated from level and rate if there are enough points for it, then the level from the rate.
+        let per_s4 = if used > 3 { 1.0 / s4 } else { 0.0 };
+        // Divided by s4 first: a product of two sums may exceed f32 if noise was far less long ago.
+        let (of_level, of_rate) = (s2 * per_s4, s3 * per_s4);
         let (level, mixed, rate) = (s0 - s2 * of_level, s1 - s2 * of_rate, s2 - s3 * of_rate);
         let (level_value, rate_value) = (v0 - of_level * v2, v1 - of_rate * v2);
-        // Of a rate a quarter window: a rate a sample is so much less.
+        // From a rate per quarter window to one per sample.
         let per_sample = 2.0 * per_half;
         let per_determinant = 1.0 / (level * rate - mixed * mixed);
         let mut variance = level * own * per_determinant;
-        // Of a pattern that vibrates a curve through the angles is off by this, where those of the windows before were beside theirs by one.
+        // How far the rate of a vibrating pattern is off, from how far angles have lain off the curves through those before them.
         let of_others = 1.0 - rate * per_determinant;
-        let (off, share) = if used >= ENOUGH && of_others > LEAST {
-            // The angle of the curve at the window, in which the others have this share: what is left is its distance from the others' curve.
+        let (error_square, share) = if used >= MIN_COMPARED && of_others > MIN_SHARE_OF_OTHERS {
+            // The curve's value at the window, whose own angle is 0: `of_others` times the distance of the others' curve.
             let at_window = (rate * level_value - mixed * rate_value) * per_determinant;
-            // The square of that over what is expected of it.
-            let most = MOST * (1.0 + greater(self.beside, 0.0));
-            let square = lesser(at_window * at_window / (own * of_others), most);
-            self.learned = self.beside + (square - 1.0 - self.beside) * (1.0 / AVERAGED);
-            (OF_CUBIC * OF_CUBIC, of_others)
+            // Its square over the expected one.
+            let max_square = MAX_SQUARE * (1.0 + greater(self.excess, 0.0));
+            let square = lesser(at_window * at_window / (own * of_others), max_square);
+            self.next_excess =
+                self.excess + (square - 1.0 - self.excess) * (1.0 / AVERAGED_WINDOWS);
+            (CUBIC_ERROR * CUBIC_ERROR, of_others)
         } else {
-            self.learned = self.beside;
-            (OF_LINE, 1.0)
+            self.next_excess = self.excess;
+            (LINE_ERROR_SQUARED, 1.0)
         };
-        let bias = self.learned - BY_CHANCE;
+        let bias = self.next_excess - CHANCE_EXCESS;
         if bias > 0.0 {
-            variance += off * own * bias / (share * nearest * nearest);
+            variance += error_square * own * bias / (share * nearest * nearest);
         }
         Rate {
             value: (level * rate_value - mixed * level_value) * per_determinant * per_sample,

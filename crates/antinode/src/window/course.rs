@@ -6,13 +6,13 @@ use super::model::Model;
 use super::waves::Waves;
 use crate::exponential::growth;
 
-/// Blocks from one exact exponential to the next; between them a recursion.
+/// Blocks from one exact exponential to the next; a recursion gives those between.
 pub(super) const CHUNK: usize = 5;
 
-/// z₊ and z₋ at the middles of a chunk's blocks, turned with the carrier: their halves, which is what C sees of each.
+/// Half of z₊ and z₋, turned by the carrier, at the middles of a chunk's blocks: the part of each that C sees.
 pub(super) type Course = [[Complex32; CHUNK]; 2];
 
-/// That of the blocks from block `index` of a window on, but for what [`bend`] adds: they may be more than the window has.
+/// The course over the blocks from block `index` of a window on, perhaps beyond its last; [`bend`] adds the linear changes.
 #[inline(never)]
 pub(super) fn course(model: &Model, waves: &Waves, index: usize) -> Course {
     let (u, unit) = model.carrier(index + CHUNK / 2);
@@ -23,31 +23,32 @@ pub(super) fn course(model: &Model, waves: &Waves, index: usize) -> Course {
     ]
 }
 
-/// A wave from its chunk's middle outwards: at time `u`, where it is `middle` but for what it has grown since the window's middle.
+/// A wave over a chunk, from the chunk's middle outwards, which lies at time `u`; `middle` is the wave there without its growth since the
+/// window's middle.
 #[inline(never)]
 fn outwards(model: &Model, mut middle: Complex32, slope: Complex32, u: f32) -> [Complex32; CHUNK] {
     if u != 0.0 {
-        // In two halves: the middle of a chunk may lie beyond the window's end.
+        // In two halves, as the middle of a chunk may lie beyond the window's end.
         let grown = growth(slope * (0.5 * u));
         middle += middle * grown;
         middle += middle * grown;
     }
-    // What a block does to the wave.
+    // What one block makes of the wave.
     let on = model.turn + model.turn * growth(slope * model.advance);
     let back = on.conj() * (1.0 / on.norm_sqr());
     let (before, after) = (middle * back, middle * on);
     [before * back, before, middle, after, after * on]
 }
 
-/// Adds to each wave what of its change is not exponential.
+/// Adds the changes of the waves that are linear.
 #[cold]
 #[inline(never)]
 pub(super) fn bend(course: &mut Course, model: &Model, waves: &Waves, index: usize, count: usize) {
-    let rests = waves.rest();
+    let linear_changes = waves.linear_changes();
     for i in 0..count.min(CHUNK) {
         let (u, unit) = model.carrier(index + i);
-        for (wave, rest) in course.iter_mut().zip(rests) {
-            wave[i] += rest * unit * (0.5 * u);
+        for (wave, change) in course.iter_mut().zip(linear_changes) {
+            wave[i] += change * unit * (0.5 * u);
         }
     }
 }
@@ -68,7 +69,7 @@ mod tests {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (seed >> 8) as f32 / 8_388_608.0 - 1.0
         };
-        // A fifth, a quarter, half of a period and all of it; a third is the furthest from a whole number of quarters.
+        // Blocks of a fifth, a quarter, a half and all of a period; a third of one is furthest from a whole number of quarter periods.
         for (length, limit) in [
             (4u16, 1.5e-7),
             (5, 1.5e-7),

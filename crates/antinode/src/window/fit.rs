@@ -1,9 +1,9 @@
-//! Block sums become a window's waves: the exact least-squares fit over any run of blocks.
+//! The exact least-squares fit of a window's waves to the sums of any run of blocks.
 //!
-//! Each pick-off is Re(z(t)·e^{jωt}) + d with a slowly changing z. About a carrier near ω it has five linear parameters, z, z′ and
-//! d at the middle of the window, and both pick-offs share one 5×5 matrix that does not depend on the data. What is not linear,
-//! the exponential course of the two travelling waves, is predicted exactly and fitted by Gauss–Newton steps on the rest: the
-//! linear solution comes first, and a wave that holds still leaves one step to do, in the pass that looks at its residual anyway.
+//! Each pick-off is Re(z(t)·e^{jωt}) + d with a slowly changing z. About a carrier near ω it has five linear parameters, z, z′ and d at the
+//! middle of the window, and both pick-offs share one 5×5 matrix that does not depend on the data. The part that is not linear, the
+//! exponential course of the two travelling waves, is predicted exactly and fitted by Gauss–Newton steps on the rest. The linear solution
+//! comes first; a steady wave then needs one step, in the pass that computes its residual anyway.
 
 use super::examine::{Remains, examine};
 use super::gradient::{self, Gradient};
@@ -17,48 +17,51 @@ use crate::scalar::lesser;
 
 /// Beyond this phase (rad) between a window's middle and its end the carrier is moved before the fit is believed.
 pub(crate) const CARRIER_REACH: f32 = 0.05;
-/// Beyond this phase the wave is nowhere near the carrier.
-const FARTHEST: f32 = 1.5;
-/// The highest carrier: 0.45 turns a sample. A known frequency is at most 0.42, and near half a turn both quadratures are one.
-const HIGHEST: u32 = 1_932_735_283;
-/// The lowest carrier is that of the blocks over this: in a window of two periods an offset that wanders would be a wave of next to none.
-const LOWEST: u32 = 2;
-/// A fit that still moves by more than this share of the wave has found nothing.
-const NEAR: f32 = 0.01;
-/// Below this share of the wave the next step is rounding. One of 10⁻⁶ that is not looked at stands out of the noise of 10⁵ samples.
+/// Beyond this phase, rad per half window, the wave is nowhere near the carrier.
+const MAX_DRIFT: f32 = 1.5;
+/// The highest carrier, 0.45 turns a sample: a known frequency is at most 0.42, and near half a turn sine and cosine cannot be told apart.
+const MAX_CARRIER: u32 = 1_932_735_283;
+/// The lowest carrier is that of the blocks over this: in a window of two periods a wandering offset would pass for a wave of almost no
+/// frequency.
+const MIN_CARRIER_DIVISOR: u32 = 2;
+/// A fit whose last step exceeds this share of the wave has found nothing.
+const MAX_LAST_STEP: f32 = 0.01;
+/// After a step below this share of the wave the next is rounding; one of 10⁻⁶ left undone would stand out of the noise of 10⁵ samples.
 const SETTLED: f32 = 2.5e-7;
-/// What a step may take off the residual, in variances of the noise and divided by the blocks, before the residual is looked at anew:
-/// what is not taken off looks like a step between the first block and the others, as many times as large as there are blocks.
+/// What a step may take off the residual, in noise variances over the number of blocks, without a new pass over the blocks: what is not
+/// taken off looks like a step between the first block and the others, larger by the number of blocks.
 const NEGLIGIBLE: f32 = 0.5;
-/// A step that explains less than this share of the variance of the noise moves nothing by a hundredth of its standard deviation.
+/// A step that explains less than this share of the noise variance moves nothing by more than a hundredth of its standard deviation.
 const FUTILE: f32 = 1e-4;
-/// Steps at most.
-const STEPS: usize = 6;
+/// Gauss–Newton steps at most.
+const MAX_STEPS: usize = 6;
 
 /// What a fit found.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Fit {
     pub waves: Waves,
     pub offsets: [f32; 2],
-    /// |z|² of each raw pick-off: of one that is dead nothing is left, whatever a calibration adds of the other.
+    /// |z|² of each raw pick-off: nothing for a dead one, whatever the calibration adds from the other.
     pub power: [f32; 2],
-    /// The greatest amplitude of each raw pick-off's wave within the window, squared, or a little more.
+    /// Upper bound, squared, of the amplitude of each raw pick-off's wave within the window.
     pub reach: [f32; 2],
-    /// What the waves leave unexplained.
+    /// The residual that the waves leave.
     pub remains: Remains,
     /// False when the steps did not settle.
     pub settled: bool,
 }
 
 impl Model {
-    /// The carrier moved by `drift` rad a half window; none where that is too far, or no frequency that samples can tell.
+    /// The carrier moved by `drift` rad per half window; `None` if that is too far, or a frequency that samples cannot show.
     #[inline(never)]
     fn moved(&self, drift: f32) -> Option<PhaseStep> {
-        let moved = (drift.abs() <= FARTHEST).then(|| self.carrier.shifted(drift * self.per_half));
-        moved.filter(|carrier| (self.layout.step.0 / LOWEST..=HIGHEST).contains(&carrier.0))
+        let moved = (drift.abs() <= MAX_DRIFT).then(|| self.carrier.shifted(drift * self.per_half));
+        moved.filter(|carrier| {
+            (self.layout.step.0 / MIN_CARRIER_DIVISOR..=MAX_CARRIER).contains(&carrier.0)
+        })
     }
 
-    /// How many blocks of `count` a carrier is good for that a fit of `span` of them found.
+    /// The number of blocks, of `count`, for which a carrier is good that was found by a fit of `span` of them.
     #[inline(never)]
     fn next_span(&self, fit: &Fit, carrier: PhaseStep, span: u16, count: u16) -> u16 {
         // Four standard deviations of the frequency, from the bound.
@@ -75,10 +78,10 @@ impl Model {
         let mut parameters = Parameters::default();
         fit.offsets = [0.0; 2];
         self.step(&gradients, &mut parameters, fit);
-        // With offsets of their own the linear solution does not know what the waves put into the blocks' means.
+        // If blocks have offsets of their own, the linear solution ignores what the waves add to the blocks' means.
         let mut knows_offset = self.shared > 0.0;
-        for _ in 0..STEPS {
-            fit.waves.take_course();
+        for _ in 0..MAX_STEPS {
+            fit.waves.choose_courses();
             examine(
                 self,
                 blocks,
@@ -99,12 +102,12 @@ impl Model {
         let Parameters { z, slope, .. } = &parameters;
         fit.power = z.map(|z| z.norm_sqr());
         for (i, reach) in fit.reach.iter_mut().enumerate() {
-            // (|z| + |z′|)² is not more than that: half a per cent of |z| more where nothing changes.
+            // At least (|z| + |z′|)²: without a change this is half a per cent more than |z|.
             *reach = 1.01 * fit.power[i] + 101.0 * slope[i].norm_sqr();
         }
     }
 
-    /// True when a step from where these are the gradients would be lost in the noise, and that is far below the wave.
+    /// True when a step from the place of these gradients would be lost in the noise, and the noise is far below the wave.
     #[inline(never)]
     fn is_futile(&self, gradients: &[Gradient; 2], fit: &Fit) -> bool {
         let Covariance { even, odd } = &self.covariance;
@@ -113,7 +116,7 @@ impl Model {
         let explained = gradients.iter().map(|Gradient { level, slope, mean }| {
             of_level * level.norm_sqr() + of_slope * slope.norm_sqr() + of_mean * mean * mean
         });
-        // Parameters that depend on each other explain up to as many times more as there are of them.
+        // Correlated parameters may explain more than the sum of each alone, by a factor of up to their number.
         let explained = 3.0 * explained.sum::<f32>();
         let most = explained * fit.remains.freedom;
         let residual = fit.remains.residual;
@@ -130,8 +133,8 @@ impl Model {
             *offset += by;
         }
         let size = 0.5 * fit.waves.power();
-        fit.settled = moved <= NEAR * NEAR * size;
-        // What is left has no part along the parameters: this much less than before the step.
+        fit.settled = moved <= MAX_LAST_STEP * MAX_LAST_STEP * size;
+        // The new residual has no part along the parameters: the step has taken this off it.
         let explained = lesser(explained, fit.remains.residual);
         fit.remains.residual -= explained;
         let left = explained * fit.remains.freedom * f32::from(self.blocks);
@@ -142,7 +145,7 @@ impl Model {
 
 /// Solves a run of blocks into `fit`, from a carrier known to `uncertainty` rad a sample.
 ///
-/// A carrier too rough for the whole window is first refined in its middle: a single jump to a long window would slip a turn.
+/// A carrier too rough for the whole window is first refined in the middle of it: a single jump to a long window could slip a turn.
 pub(crate) fn solve(
     model: &mut Model,
     blocks: &[Seen],
@@ -169,7 +172,7 @@ pub(crate) fn solve(
             return;
         }
         let Some(moved) = model.moved(drift) else {
-            // The wave is nowhere near: the caller sees a fit that did not settle.
+            // The wave is nowhere near: the caller gets a fit that did not settle.
             model.retune(carrier, count);
             model.fit(blocks, fit);
             fit.settled = false;
@@ -184,12 +187,12 @@ pub(crate) fn solve(
     }
 }
 
-/// How many blocks of `count` a carrier known to `uncertainty` rad a sample is good for.
+/// The number of blocks, of `count`, for which a carrier known to `uncertainty` rad a sample is good.
 #[inline(never)]
 fn reach(model: &Model, count: u16, carrier: PhaseStep, uncertainty: f32) -> u16 {
     let length = f32::from(model.layout.length);
     let whole = uncertainty * length;
-    // A carrier that noise has led to nothing has a period of any length.
+    // At least 2.5 periods; the period of a carrier that noise has led towards zero may have any length.
     let shortest = (2.5 * carrier.period() / length + 1.0) as u16;
     ((1.0 / whole) as u16).max(shortest.max(3)).min(count)
 }
@@ -203,7 +206,7 @@ mod tests {
     use crate::calibration::Calibration;
 
     #[test]
-    fn a_carrier_of_nothing_is_good_for_any_number_of_blocks() {
+    fn a_carrier_near_zero_is_good_for_all_blocks() {
         let carrier = PhaseStep::from_period(2.79);
         let layout = Layout::unrounded(carrier, 1);
         let model = Model::new(layout, carrier, 11, Calibration::IDEAL, 1e5, false);
@@ -213,8 +216,8 @@ mod tests {
     }
 
     #[test]
-    fn a_carrier_is_moved_to_no_frequency_that_samples_cannot_tell() {
-        // A window of six samples: 1.4 rad a half of it are 0.074 turns a sample.
+    fn a_carrier_is_not_moved_to_a_frequency_that_samples_cannot_show() {
+        // A window of six samples: 1.4 rad per half window are 0.074 turns a sample.
         for (period, drift, is_moved) in [
             (2.5, 0.6, true),
             (2.5, 1.4, false),
@@ -246,7 +249,7 @@ mod tests {
             let model = Model::new(layout, carrier, blocks, Calibration::IDEAL, 1e5, false);
             let (mut futile, mut others) = (0, 0);
             for i in 0..2000 {
-                // From 10⁻⁶ of the noise's deviation to that; of every other one the offset's part is next to nothing.
+                // From 10⁻⁶ of the noise's standard deviation up to all of it; in every other one the offset's part is next to nothing.
                 let scale = square_root(f32::from(length) * f32::from(blocks))
                     * libm::powf(10.0, -6.0 * (i % 500) as f32 / 500.0);
                 let share = if i % 2 == 0 { 1.0 } else { 1e-6 };
@@ -268,12 +271,15 @@ mod tests {
                     futile += 1;
                     assert!(explained <= FUTILE, "{length}, {blocks}: {explained}");
                     let size = 0.5 * fit.waves.power();
-                    assert!(moved <= NEAR * NEAR * size, "{length}, {blocks}: {moved}");
+                    assert!(
+                        moved <= MAX_LAST_STEP * MAX_LAST_STEP * size,
+                        "{length}, {blocks}: {moved}"
+                    );
                 } else {
                     others += 1;
                     assert!(explained > 0.01 * FUTILE, "{length}, {blocks}: {explained}");
                 }
-                // A lesser wave may be at another frequency: whether its steps settle tells.
+                // A smaller wave may be at another frequency, which shows only in whether its steps settle.
                 fit.waves.value[0].re *= 0.99;
                 assert!(!model.is_futile(&gradients, &fit));
             }

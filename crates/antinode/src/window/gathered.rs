@@ -7,7 +7,7 @@ use super::seen::Seen;
 pub(crate) struct Gathered<const BLOCKS: usize> {
     seen: [Seen; BLOCKS],
     length: usize,
-    /// Blocks to leave out before the next window begins.
+    /// Blocks still to be left out before the next window begins.
     gap: u16,
 }
 
@@ -26,7 +26,7 @@ impl<const BLOCKS: usize> Gathered<BLOCKS> {
         self.gap = 0;
     }
 
-    /// The place of the next block, to be filled; none where it is to be left out.
+    /// The place of the next block, to be filled; `None` if the block is to be left out.
     #[inline]
     pub(crate) fn next(&mut self) -> Option<&mut Seen> {
         if self.gap > 0 {

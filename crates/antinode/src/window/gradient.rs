@@ -1,4 +1,4 @@
-//! The right-hand sides of the normal equations, of the sums themselves or of what is left of them.
+//! The right-hand sides of the normal equations, from the sums themselves or from their residuals.
 
 use num_complex::Complex32;
 
@@ -9,15 +9,15 @@ use super::seen::Seen;
 /// The sums that make the right-hand side of one pick-off.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Gradient {
-    /// Along z, block for block.
+    /// Along z, summed over the blocks.
     pub level: Complex32,
     /// Along z′.
     pub slope: Complex32,
-    /// Of the means: an offset is so often in it.
+    /// Sum of the means, to which an offset adds as often as there are blocks.
     pub mean: f32,
 }
 
-/// The right-hand sides of both pick-offs' sums, nothing taken off them.
+/// The right-hand sides from both pick-offs' sums themselves.
 #[inline(never)]
 pub(super) fn of_sums(model: &Model, blocks: &[Seen]) -> [Gradient; 2] {
     let mut gradients = [Gradient::default(); 2];

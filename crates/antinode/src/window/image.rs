@@ -1,5 +1,5 @@
-//! The image of a harmonic that sampling brings next to the third: in a window of few samples a period it would look like noise there, and
-//! hide the third harmonic that a limiter leaves.
+//! The alias of a harmonic next to the third: at few samples a period it would look like noise there, and hide the third harmonic that a
+//! limiter leaves.
 
 use num_complex::Complex32;
 
@@ -9,49 +9,49 @@ use super::third::{Line, Thirds};
 use crate::phase::PhaseStep;
 use crate::scalar::greater;
 
-/// No image is slow at a lower frequency: at more than 10.5 samples a period.
-const LEAST: PhaseStep = PhaseStep((4_294_967_296.0 / 10.5) as u32);
-/// Where an image answers in a block with less than one over this, it is left among what looks like noise.
-const SLOW: f32 = 6.0;
-/// The same of the second harmonic, which common electronics have: where it is nearer than that, nothing is told from it.
-const SECOND: f32 = 0.55;
-/// Of fewer blocks a line beside the first would leave too few degrees of freedom.
-const LEAST_BLOCKS: u16 = 5;
-/// Below this share of what they have apart a line and its image are one.
-const APART: f32 = 0.02;
+/// Lowest frequency at which an image can be near: below it, at more than 10.5 samples a period, none is.
+const MIN_STEP: PhaseStep = PhaseStep((4_294_967_296.0 / 10.5) as u32);
+/// An image is taken out if it is nearer than this: a block sees more than one over this of it. Else it stays in what looks like noise.
+const MAX_DISTANCE: f32 = 6.0;
+/// The same for the image of the second harmonic, which common electronics have: if that is nearer, no image is taken out.
+const MIN_SECOND_DISTANCE: f32 = 0.55;
+/// Blocks from which on a second line leaves enough degrees of freedom.
+const MIN_BLOCKS: u16 = 5;
+/// A line and its image are one if their determinant is below this share of that of independent lines.
+const MIN_DETERMINANT: f32 = 0.02;
 
-/// The image that a window would take for noise.
+/// The image that a window would take for noise, if any.
 #[inline]
 pub(super) fn of(model: &Model) -> Option<Line> {
-    if model.layout.step.0 < LEAST.0 {
+    if model.layout.step.0 < MIN_STEP.0 {
         return None;
     }
-    slow(model)
+    near(model)
 }
 
 #[cold]
 #[inline(never)]
-fn slow(model: &Model) -> Option<Line> {
-    // A block adds up a tone so many carriers away to the sine of all its turn over that of a sample's.
-    let answer = |carriers: i64| model.carrier.after_half_samples(carriers).unit().im.abs();
-    let (second, own, fifth) = (answer(5), answer(6), answer(8));
+fn near(model: &Model) -> Option<Line> {
+    // Over a block a tone n carriers away sums to no more than one over this: the sine of half its turn in a sample.
+    let half_turn_sine = |carriers: i64| model.carrier.after_half_samples(carriers).unit().im.abs();
+    let (second, own, fifth) = (half_turn_sine(5), half_turn_sine(6), half_turn_sine(8));
     let (line, nearest) = if own < fifth {
         (Line::OwnImage, own)
     } else {
         (Line::ImageOfFifth, fifth)
     };
     let samples = f32::from(model.layout.length);
-    // Near five samples a period the second harmonic has its image there: it would be taken for a limiter's.
-    (nearest * samples < SLOW && second * samples > SECOND).then_some(line)
+    // Near five samples a period the second harmonic's image is there, and would be taken for a limiter's.
+    (nearest * samples < MAX_DISTANCE && second * samples > MIN_SECOND_DISTANCE).then_some(line)
 }
 
 impl Thirds {
-    /// Takes this image out of what looks like noise about the third harmonic, and into the latter's amplitudes: of a limiter both are about
-    /// as large.
+    /// Takes this image out of the noise about the third harmonic and into that harmonic's amplitudes: after a limiter both are about as
+    /// large.
     #[cold]
     #[inline(never)]
     pub(super) fn take_out(&self, thirds: &Thirds, model: &Model, remains: &mut Remains) {
-        // Both lines, block for block before the last one, one against the other.
+        // The sum over all blocks of the phase of one line against the other.
         let against = Line::Third.turn(model.turn) * self.line.turn(model.turn).conj();
         let (mut mixed, mut unit) = (Complex32::ZERO, Complex32::ONE);
         for _ in 0..thirds.watched {
@@ -59,17 +59,17 @@ impl Thirds {
             unit *= against;
         }
         let count = f32::from(thirds.watched);
-        let apart = count * count - mixed.norm_sqr();
-        if thirds.watched < LEAST_BLOCKS || apart < APART * count * count {
+        let determinant = count * count - mixed.norm_sqr();
+        if thirds.watched < MIN_BLOCKS || determinant < MIN_DETERMINANT * count * count {
             return;
         }
         let (amplitude, power) = Self::scales(model);
         let mut left = thirds.power;
         let sums = thirds.sum.iter().zip(&self.sum);
         for (third, (sum, other)) in remains.third.iter_mut().zip(sums) {
-            // What is left of the other sum when the line is taken out, and of the unit that it answers to.
+            // The image's sum less what the line adds to it.
             let rest = other - sum * mixed.conj() / count;
-            let explained = sum.norm_sqr() / count + rest.norm_sqr() * count / apart;
+            let explained = sum.norm_sqr() / count + rest.norm_sqr() * count / determinant;
             left -= explained;
             *third = 0.5 * explained * amplitude * amplitude / count;
         }

@@ -1,4 +1,4 @@
-//! Block sums become a window's waves.
+//! Turns the block sums of a window into its waves.
 
 mod course;
 mod examine;

@@ -1,4 +1,4 @@
-//! Everything about a window's fit that does not depend on its samples: built once, kept while the frequency stays.
+//! The part of a window's fit that does not depend on its samples: built once, and kept while the frequency stays.
 
 use num_complex::Complex32;
 
@@ -8,10 +8,10 @@ use crate::block::Layout;
 use crate::calibration::{Calibration, Correction};
 use crate::phase::{Phase, PhaseStep};
 
-/// Periods of a block that can have an offset of its own: a little less than one, for it is a whole number of samples.
-const LEAST_PERIODS: f32 = 0.9;
+/// Periods from which on a block can have an offset of its own: a little less than one, as it is a whole number of samples.
+const MIN_PERIODS_WITH_OFFSET: f32 = 0.9;
 
-/// A window of blocks about a carrier, and what its samples would not change.
+/// A window of blocks about a carrier, whatever its samples are.
 #[derive(Debug, Clone)]
 pub(crate) struct Model {
     pub layout: Layout,
@@ -20,16 +20,16 @@ pub(crate) struct Model {
     calibration: Calibration,
     sample_rate: f32,
     pub(super) basis: Basis,
-    /// 1 where the blocks of a window share an offset, 0 where each has its own.
+    /// 1 if the blocks of a window share an offset, 0 if each has its own.
     pub(crate) shared: f32,
     pub(super) response: Response,
     /// Half the window, in samples, and one over it.
     pub half: f32,
     pub per_half: f32,
-    /// What a block adds to the time, and what it does to the carrier.
+    /// Time, in half windows, and turn of the carrier from one block to the next.
     pub(super) advance: f32,
     pub(super) turn: Complex32,
-    /// The carrier in the middle of the first block.
+    /// The carrier at the middle of the first block.
     pub(super) first: Complex32,
     /// Correction of the pick-offs at the carrier.
     pub correction: Correction,
@@ -73,11 +73,11 @@ impl Model {
         }
     }
 
-    /// Builds all of it.
+    /// Builds all that [`Model::empty`] left out.
     pub(crate) fn begin(&mut self, carrier: PhaseStep, blocks: u16, own_offsets: bool) {
         self.basis = Basis::new(self.layout);
-        // It costs a block of a period or more next to nothing, and a shorter one what it knows of the wave.
-        let is_long = f32::from(self.layout.length) > LEAST_PERIODS * carrier.period();
+        // An offset of its own costs a block of a period or more next to nothing, but a shorter one what it knows of the wave.
+        let is_long = f32::from(self.layout.length) > MIN_PERIODS_WITH_OFFSET * carrier.period();
         self.shared = if own_offsets && is_long { 0.0 } else { 1.0 };
         self.retune(carrier, blocks);
     }
@@ -91,15 +91,15 @@ impl Model {
         }
     }
 
-    /// Degrees of freedom that the residual of both pick-offs has.
+    /// Degrees of freedom of both pick-offs' residual.
     pub(super) fn freedom(&self) -> f32 {
-        // An offset that a block has to itself takes its mean, and is no parameter of the window.
+        // An offset of its own takes a block's mean, and is no parameter of the window.
         let own = 1.0 - self.shared;
         let sums = (f32::from(self.basis.rank) - own) * f32::from(self.blocks);
         2.0 * (sums - (PARAMETERS as f32 - own))
     }
 
-    /// Blocks, twice, from the middle of the window to that of block `index`.
+    /// Twice the number of blocks from the middle of the window to that of block `index`.
     fn twice_blocks(&self, index: u16) -> i32 {
         2 * i32::from(index) + 1 - i32::from(self.blocks)
     }
@@ -110,7 +110,7 @@ impl Model {
         0.5 * self.advance * self.twice_blocks(index) as f32
     }
 
-    /// Time and carrier in the middle of block `index`, exactly.
+    /// Time and carrier at the middle of block `index`, without the errors of a recursion.
     #[inline]
     pub(super) fn carrier(&self, index: usize) -> (f32, Complex32) {
         let index = index as u16;
@@ -124,13 +124,13 @@ impl Model {
         (self.time(index), unit)
     }
 
-    /// Phase of the carrier in the middle of block `index`, zero in the middle of the window.
+    /// Phase of the carrier at the middle of block `index`; it is zero at the middle of the window.
     pub(super) fn phase(&self, index: u16) -> Phase {
         let half_samples = i64::from(self.twice_blocks(index)) * i64::from(self.layout.length);
         self.carrier.after_half_samples(half_samples)
     }
 
-    /// The design rows of a block, for its mean, even and odd sums: each as its even and its odd side.
+    /// The design rows of a block, for its mean, even and odd sums, each split into its even and its odd side.
     fn rows(&self, u: f32, unit: Complex32) -> [[Row; 2]; 3] {
         let (c, s) = (unit.re, unit.im);
         let even = |answer: &Answer, share: f32, offset: f32| {
@@ -144,7 +144,7 @@ impl Model {
         let r = &self.response;
         let (l, k) = (r.odd.level * u, r.odd.slope);
         [
-            // Where each block has its own offset, its mean says nothing of the wave.
+            // If each block has its own offset, its mean says nothing of the wave.
             even(&r.mean, self.shared, r.offset),
             even(&r.even, 1.0, 0.0),
             [
@@ -169,7 +169,7 @@ impl Model {
         self.covariance = self.covariance();
     }
 
-    /// That of the parameters, from the design rows of all blocks.
+    /// Covariance of the parameters, from the design rows of all blocks.
     #[inline(never)]
     fn covariance(&self) -> Covariance {
         let [mut even, mut odd] = [Normal::ZERO; 2];
@@ -192,7 +192,7 @@ mod tests {
     use crate::cut::Cut;
 
     #[test]
-    fn every_window_knows_its_noise() {
+    fn every_window_has_degrees_of_freedom_for_its_noise() {
         for periods in [2, 3, 4, 5, 7, 10, 20] {
             for (has_hop, own_offsets) in [(false, false), (true, false), (false, true)] {
                 let cut = Cut { periods, has_hop };

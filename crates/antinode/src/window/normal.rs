@@ -1,15 +1,15 @@
 //! The normal equations that both pick-offs share, and their inverse.
 //!
-//! A window is symmetric about its middle, where the carrier's phase is zero. So what is even in time (Re z, Im z′ and the offset)
-//! and what is odd (Im z and Re z′) do not mix: five equations are three and two.
+//! A window is symmetric about its middle, where the carrier's phase is zero. So the parameters that are even in time (Re z, Im z′ and the
+//! offset) do not mix with the odd ones (Im z and Re z′): five equations split into three and two.
 
 /// Parameters of one pick-off: Re z, Im z, Re z′, Im z′, offset.
 pub(crate) const PARAMETERS: usize = 5;
 
-/// Of one side, the even or the odd.
+/// Parameters of one side, the even or the odd.
 const SIDE: usize = 3;
 
-/// One row of the design of one side, or one right-hand side: of the odd side the third entry is zero.
+/// One design row of one side, or one right-hand side; the third entry of the odd side is zero.
 pub(crate) type Row = [f32; SIDE];
 
 /// Covariance of a pick-off's parameters for noise of one a sample.

@@ -1,6 +1,6 @@
-//! What blocks would sum of a window's waves.
+//! Predicts the sums of blocks from a window's waves.
 //!
-//! Every sum of every block is the real part of a constant times each wave's phasor there: the constants are made for a run of blocks.
+//! Every sum of a block is the real part of each wave's phasor there times a constant; the constants are made once for a run of blocks.
 
 use num_complex::Complex32;
 
@@ -8,7 +8,7 @@ use super::model::Model;
 use super::response::{Answer, Whitened};
 use super::waves::Waves;
 
-/// The constants by which one sum of a pick-off answers to both waves, as it sees them: it is the real part of their products.
+/// The two constants of one sum: it is the real part of the sum of their products with the waves, as the pick-off sees them.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gains([Complex32; 2]);
 
@@ -19,7 +19,7 @@ impl Gains {
         p.re * plus.re - p.im * plus.im + m.re * minus.re - m.im * minus.im
     }
 
-    /// Those of what C sees, where pick-off D sees `factors` times that.
+    /// The gains for the waves that C sees, if pick-off D sees them times these factors.
     #[inline(always)]
     fn through(&self, [plus, minus]: &[Complex32; 2]) -> Self {
         Self([self.0[0] * plus, self.0[1] * minus])
@@ -36,7 +36,7 @@ impl Slopes {
         Self([[plus, plus * plus], [minus, minus * minus]])
     }
 
-    /// The gains in a sum that is even in time.
+    /// Gains of a sum that is even in time.
     #[inline(always)]
     pub(super) fn even(&self, answer: &Answer) -> Gains {
         let gain = |[slope, square]: [Complex32; 2]| {
@@ -47,7 +47,7 @@ impl Slopes {
         Gains([gain(plus), gain(minus)])
     }
 
-    /// The gains in a sum that is odd in time.
+    /// Gains of a sum that is odd in time.
     #[inline(always)]
     pub(super) fn odd(&self, answer: &Answer) -> Gains {
         // The imaginary part of a number is the real part of −j times it.
@@ -55,7 +55,7 @@ impl Slopes {
         Gains(gains.map(|gain| Complex32::new(gain.im, -gain.re)))
     }
 
-    /// The factors of a [`Prediction`].
+    /// The factors of a [`Prediction`]: gain, skew and angle of pick-off D, with the waves' courses during the skew.
     #[inline(always)]
     fn factors(&self, model: &Model) -> [Complex32; 2] {
         let delay = model.correction.delay * model.per_half;
@@ -74,13 +74,14 @@ pub(super) struct Prediction {
     even: Gains,
     odd: Gains,
     offset: f32,
-    /// What raw pick-off D sees of each wave, for a C of one, and its offset.
+    /// What raw pick-off D sees of each wave of which C sees one.
     pub factors: [Complex32; 2],
+    /// The offset that pick-off D adds to the mean.
     offset_d: f32,
 }
 
 impl Prediction {
-    /// Of pick-off C.
+    /// The prediction for pick-off C.
     #[inline(never)]
     pub(super) fn of_c(model: &Model, waves: &Waves, offsets: &[f32; 2]) -> Self {
         let slopes = Slopes::new(waves);
@@ -95,7 +96,7 @@ impl Prediction {
         }
     }
 
-    /// Becomes that of pick-off D.
+    /// Turns it into the prediction for pick-off D.
     #[inline(always)]
     pub(super) fn change_to_d(&mut self) {
         let factors = self.factors;
@@ -105,17 +106,17 @@ impl Prediction {
         self.offset = self.offset_d;
     }
 
-    /// The mean alone, less what is predicted here.
+    /// The mean less its prediction.
     #[inline(always)]
-    pub(super) fn mean_rest(&self, seen: &Whitened, waves: &[Complex32; 2]) -> f32 {
+    pub(super) fn mean_residual(&self, seen: &Whitened, waves: &[Complex32; 2]) -> f32 {
         seen.mean - self.offset - self.mean.of(waves)
     }
 
-    /// The sums less what is predicted here.
+    /// The sums less their predictions.
     #[inline(always)]
-    pub(super) fn rest(&self, seen: &Whitened, waves: &[Complex32; 2]) -> Whitened {
+    pub(super) fn residual(&self, seen: &Whitened, waves: &[Complex32; 2]) -> Whitened {
         Whitened {
-            mean: self.mean_rest(seen, waves),
+            mean: self.mean_residual(seen, waves),
             even: seen.even - self.even.of(waves),
             odd: seen.odd - self.odd.of(waves),
         }

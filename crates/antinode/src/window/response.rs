@@ -1,4 +1,4 @@
-//! What a block's sums see of a wave at a given carrier: every sum taken exactly over the block's samples.
+//! How a block's sums depend on a wave at a given carrier, computed exactly over the block's samples.
 //!
 //! Within a block the wave of one pick-off is S(κ) = Re v(κ)·cos ωκ − Im v(κ)·sin ωκ + d, κ in samples from the block's middle,
 //! with v(κ) = v₀ + v₁κ + ½v₂κ². Even and odd parts separate, so each sum sees only a few of the numbers in v.
@@ -19,13 +19,13 @@ pub(crate) struct Basis {
     cosine: f32,
     cosine_mean: f32,
     sine: f32,
-    /// What a slope adds to the odd sum, of one over two blocks.
+    /// What a slope of one over two blocks adds to the odd sum.
     pub ramp: f32,
-    /// What a bend adds to the even sum, of one from block to block.
+    /// What a second difference of one between blocks adds to the even sum.
     pub bow: f32,
     /// One over the layout's scale.
     pub unit: f32,
-    /// How many of the three a block resolves: 1 for a block of one sample, else 2 or 3.
+    /// Number of the three vectors that a block resolves: 1 for a block of one sample, else 2 or 3.
     pub rank: u8,
 }
 
@@ -37,8 +37,8 @@ pub(crate) struct Whitened {
     pub odd: f32,
 }
 
-/// How one whitened sum answers to v, in half windows: an even one is the real part of `level`·v₀ − j·`slope`·v₁ + `curve`·v₂, an odd
-/// one the imaginary part.
+/// How one whitened sum depends on v, with κ in half windows: an even sum is the real part of `level`·v₀ − j·`slope`·v₁ + `curve`·v₂, an
+/// odd one its imaginary part.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Answer {
     pub level: f32,
@@ -54,7 +54,7 @@ pub(crate) struct Response {
     pub odd: Answer,
     /// What an offset of one adds to the mean: √length.
     pub offset: f32,
-    /// Those of the third harmonic's sums, times the layout's scale.
+    /// Answers of the third harmonic's sums, times the layout's scale.
     pub third_even: Answer,
     pub third_odd: Answer,
     pub third_offset: f32,
@@ -82,7 +82,7 @@ impl Basis {
             let twice = layout.twice_from_middle(k) as i32 as f32;
             bend.add(twice * twice * rest);
         }
-        // Below these the vector is only rounding: a block of one or two samples has no room for it.
+        // A vector shorter than this is only rounding: a block of one or two samples has no room for it.
         let least = 1e-4 * n * layout.one() * layout.one();
         let inverse = |square: f32| {
             if square > least {
@@ -105,6 +105,7 @@ impl Basis {
         }
     }
 
+    /// The whitened sums of one pick-off, from its raw ones.
     #[inline]
     pub(crate) fn whiten(&self, cosine: f32, sine: f32, sum: f32) -> Whitened {
         Whitened {
@@ -116,7 +117,8 @@ impl Basis {
 }
 
 impl Response {
-    /// What the sums of a block say along z, against the carrier in its middle; `known` is what its mean says of the wave.
+    /// Projection of a block's sums along z, against the carrier at the block's middle; `known` is the part of its mean that tells of the
+    /// wave.
     #[inline(always)]
     pub(crate) fn along(&self, sums: &Whitened, known: f32) -> Complex32 {
         Complex32::new(
@@ -125,7 +127,7 @@ impl Response {
         )
     }
 
-    /// The same along z′, beside what the time of its middle makes of that along z.
+    /// The same along z′, besides the projection along z times the time of the block's middle.
     #[inline(always)]
     pub(crate) fn across(&self, sums: &Whitened, known: f32) -> Complex32 {
         Complex32::new(
@@ -134,7 +136,7 @@ impl Response {
         )
     }
 
-    /// The same with slopes a block of a window of `blocks`.
+    /// The same response with slopes per block, not per half window, in a window of `blocks`.
     #[inline(always)]
     pub(crate) fn in_blocks(mut self, blocks: u16) -> Self {
         let per_block = 0.5 * f32::from(blocks);
@@ -144,7 +146,7 @@ impl Response {
         self
     }
 
-    /// The answers of blocks of `layout` to a wave at `carrier`, in windows of which `per_half` is one over the half.
+    /// The answers of blocks of `layout` to a wave at `carrier`; `per_half` is one over half the window's samples.
     #[inline(never)]
     pub(crate) fn new(layout: Layout, basis: &Basis, carrier: PhaseStep, per_half: f32) -> Self {
         let mut sums = [[Sum::default(); 3]; 5];
@@ -154,7 +156,7 @@ impl Response {
             let twice = layout.twice_from_middle(k);
             let t = 0.5 * per_half * twice as i32 as f32;
             let wave = carrier.after_half_samples(twice).unit();
-            // An odd sum sees of a wave what an even one sees of it turned by a quarter.
+            // An odd sum sees a wave as an even one sees it turned by a quarter.
             let turned = Complex32::new(-wave.im, wave.re);
             let weighted = [
                 wave * basis.one,
@@ -185,7 +187,7 @@ impl Response {
     }
 }
 
-/// Adds what a wave's sample at time `t` makes of its level, of its slope and of its curve.
+/// Adds the terms of a wave's level, slope and curve from its sample at time `t`.
 #[inline(never)]
 fn add(sums: &mut [Sum; 3], wave: Complex32, t: f32) {
     sums[0].add(wave.re);

@@ -1,4 +1,4 @@
-//! What a window keeps of a block: its sums made independent, and what was watched.
+//! What a window keeps of a block: its whitened sums, and what was watched.
 
 use num_complex::Complex32;
 
@@ -27,7 +27,7 @@ pub(crate) struct Watched {
 pub(crate) struct Extremes {
     pub low: f32,
     pub high: f32,
-    /// The longest runs of samples there, in the halves of one number: that at the low end in the low half.
+    /// The longest runs of equal samples at both ends, in one number: that at `low` in its low half, that at `high` in its high half.
     pub runs: u32,
 }
 
@@ -41,7 +41,7 @@ impl Seen {
         watched: None,
     };
 
-    /// True where its samples were watched: those of all blocks of a window are, or of none.
+    /// True if its samples were watched: in a window all blocks are watched, or none is.
     #[inline]
     pub(crate) fn is_watched(&self) -> bool {
         self.watched.is_some()
@@ -49,7 +49,7 @@ impl Seen {
 }
 
 impl Model {
-    /// Takes a block into a window.
+    /// Makes of a block what a window keeps of it.
     #[inline]
     pub(crate) fn see<S: Sample>(&self, block: &Block<S>, seen: &mut Seen) {
         for (seen, sums) in seen.whitened.iter_mut().zip(&block.sums) {

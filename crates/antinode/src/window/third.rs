@@ -1,4 +1,4 @@
-//! The third harmonic of a window, beyond what the wave itself puts there.
+//! The third harmonic of a window, less what the wave itself adds to its sums.
 
 use num_complex::Complex32;
 
@@ -10,9 +10,9 @@ use super::seen::Seen;
 use super::waves::Waves;
 use crate::scalar::greater;
 
-/// A line in the sums about the third harmonic, which sampling may bring there from elsewhere.
+/// A line in the sums about the third harmonic: that harmonic, or an alias that sampling brings there.
 ///
-/// As wide as what stands beside it: of a single byte the compiler clears it and others by a store that is not aligned.
+/// As wide as the field beside it: with a single byte the compiler clears both by a store that is not aligned.
 #[derive(Clone, Copy)]
 #[repr(u16)]
 pub(super) enum Line {
@@ -20,12 +20,12 @@ pub(super) enum Line {
     Third,
     /// Its own image.
     OwnImage,
-    /// That of the fifth harmonic.
+    /// The image of the fifth harmonic.
     ImageOfFifth,
 }
 
 impl Line {
-    /// By what it turns in a block in which the carrier turns so.
+    /// Turn of the line in a block in which the carrier turns by `turn`.
     pub(super) fn turn(self, turn: Complex32) -> Complex32 {
         let third = turn * turn * turn;
         match self {
@@ -36,19 +36,18 @@ impl Line {
     }
 }
 
-/// Gathers the third-harmonic sums of the blocks, turned back by the carrier, less what the wave itself puts there in blocks that do
-/// not fit its period.
+/// Gathers the third-harmonic sums of the blocks along a line, less what the wave itself adds to them in blocks that do not fit its period.
 pub(super) struct Thirds {
     pub sum: [Complex32; 2],
     pub power: f32,
-    /// The most of it in a block.
+    /// The largest share of a block in `power`.
     most: f32,
     pub watched: u16,
     pub line: Line,
 }
 
 impl Thirds {
-    /// Those of a line.
+    /// No sums yet, for a line.
     pub(super) fn of(line: Line) -> Self {
         Self {
             sum: [Complex32::ZERO; 2],
@@ -93,7 +92,7 @@ impl Thirds {
                     third.re - offsets[channel] - cosine.of(waves),
                     sine.of(waves) - third.im,
                 );
-                // Against the line's phase in the middle of the last block taken.
+                // The sum refers to the line's phase at the middle of the last block taken.
                 *sum = *sum * turn + rest;
                 thirds.power += rest.norm_sqr();
             }
@@ -103,13 +102,13 @@ impl Thirds {
         *self = thirds;
     }
 
-    /// The amplitudes and their noise.
+    /// Gives the amplitudes and their noise.
     #[inline(never)]
     pub(super) fn conclude(&self, model: &Model, remains: &mut Remains) {
         let (amplitude, power) = Self::scales(model);
         let watched = f32::from(self.watched.max(1));
         let freedom = 4.0 * (watched - 1.0);
-        // One over the product of both makes one over each.
+        // A single division: the inverse of the product gives both inverses.
         let least = greater(freedom, 1.0);
         let per_both = 1.0 / (watched * least);
         let per_count = least * per_both;
@@ -123,7 +122,7 @@ impl Thirds {
         remains.third_freedom = freedom;
     }
 
-    /// What makes an amplitude of the mean sum, and a noise variance a sample of a sum's.
+    /// Factors from the mean sum to an amplitude, and from a sum's variance to a noise variance a sample.
     #[inline]
     pub(super) fn scales(model: &Model) -> (f32, f32) {
         // Two over the samples of a block.

@@ -7,14 +7,14 @@ use super::gradient::Gradient;
 use super::model::Model;
 use super::normal::{Covariance, Row};
 
-/// The raw parameters of both pick-offs but for the offsets, as they stand in the normal equations.
+/// The parameters of both raw pick-offs in the normal equations, except the offsets.
 #[derive(Default)]
 pub(super) struct Parameters {
     pub z: [Complex32; 2],
     pub slope: [Complex32; 2],
 }
 
-/// By how much the raw parameters are moved.
+/// A change of the raw parameters.
 pub(super) struct Step {
     z: [Complex32; 2],
     slope: [Complex32; 2],
@@ -22,7 +22,7 @@ pub(super) struct Step {
 }
 
 impl Step {
-    /// To where the gradients vanish, but for what is not linear.
+    /// The step to where the gradients vanish, in a linear problem.
     #[inline(always)]
     pub(super) fn new(model: &Model, gradients: &[Gradient; 2]) -> Self {
         let Covariance { even, odd } = &model.covariance;
@@ -47,8 +47,8 @@ impl Step {
 }
 
 impl Parameters {
-    /// Moves by a step from where these are the gradients. Gives Σ|Δz|² + Σ|Δz′|², and by how much the residual's sum of squares is less
-    /// there.
+    /// Moves by a step from the place of these gradients. Gives Σ|Δz|² + Σ|Δz′|², and by how much that lowers the residual's sum of
+    /// squares.
     #[inline(always)]
     pub(super) fn take(
         &mut self,
@@ -56,7 +56,7 @@ impl Parameters {
         gradients: &[Gradient; 2],
         model: &Model,
     ) -> [f32; 2] {
-        // An offset that every block has to itself has no part in the residual.
+        // Offsets of single blocks have no part in the residual.
         let per_mean = model.response.offset * model.shared;
         let dot = |a: Complex32, b: Complex32| a.re * b.re + a.im * b.im;
         let (mut moved, mut explained) = (0.0, 0.0);
@@ -78,15 +78,15 @@ impl Parameters {
 pub(crate) struct Waves {
     /// z₊ and z₋.
     pub value: [Complex32; 2],
-    /// z₊′ and z₋′ for each half window.
+    /// z₊′ and z₋′, per half window.
     pub change: [Complex32; 2],
-    /// Where the change is exponential z′/z, else zero, as where a wave is too small to have a course of its own: the change runs
-    /// linearly then. Made by [`Waves::take_course`].
+    /// z′/z if the wave changes exponentially; zero if it changes linearly, being too small to have a course of its own. Set by
+    /// [`Waves::choose_courses`].
     pub(super) slope: [Complex32; 2],
 }
 
 impl Waves {
-    /// Moves to the waves of ideal pick-offs that the raw parameters are.
+    /// Sets value and change to those that ideal pick-offs would see, from the raw parameters.
     #[inline]
     pub(super) fn set(&mut self, model: &Model, parameters: &Parameters) {
         let correction = &model.correction;
@@ -96,23 +96,23 @@ impl Waves {
             let turned = Complex32::new(-d.im, d.re);
             [c + turned, c - turned]
         };
-        // Channel D was sampled later: what it saw lies that much further along its course.
+        // Channel D is sampled later, and so sees the wave that much further along its course.
         let [c, d] = parameters.z;
         let d = d - parameters.slope[1] * (correction.delay * model.per_half);
         self.value = travelling([c, d]);
         self.change = travelling(parameters.slope);
     }
 
-    /// Tells which changes are exponential: one of a little more than the wave is, for the carrier follows the greater wave, and the lesser
-    /// turns by twice as much beside it; of one as small as noise, of half of it.
+    /// Decides which changes are exponential: those up to a little more than the wave itself, as the carrier follows the larger wave and
+    /// the smaller one turns by twice as much beside it; for waves as small as noise, up to half of the wave.
     #[inline(never)]
-    pub(super) fn take_course(&mut self) {
+    pub(super) fn choose_courses(&mut self) {
         let small = 0.0001 * self.power();
         for w in 0..2 {
             let (value, change) = (self.value[w], self.change[w]);
             let power = value.norm_sqr();
             let share = if power > small { 1.3 } else { 0.25 };
-            // Nor has one whose power has no inverse: that would be no number.
+            // Nor is one exponential whose power has no inverse, which would give NaN.
             self.slope[w] = if change.norm_sqr() + f32::MIN_POSITIVE < share * power {
                 change * value.conj() * (1.0 / power)
             } else {
@@ -121,17 +121,17 @@ impl Waves {
         }
     }
 
-    /// What of the changes is not exponential.
+    /// The changes that are not exponential.
     #[inline]
-    pub(super) fn rest(&self) -> [Complex32; 2] {
-        let rest = |w: usize| {
+    pub(super) fn linear_changes(&self) -> [Complex32; 2] {
+        let linear_change = |w: usize| {
             if self.slope[w] == Complex32::ZERO {
                 self.change[w]
             } else {
                 Complex32::ZERO
             }
         };
-        [rest(0), rest(1)]
+        [linear_change(0), linear_change(1)]
     }
 
     /// |z₊|² + |z₋|².

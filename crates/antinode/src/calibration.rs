@@ -1,4 +1,4 @@
-//! What the electronics do to the wave, and its inverse, applied to a window's phasors: it costs nothing at sample rate.
+//! The effect of the electronics on the wave, and its inverse, applied to a window's phasors: nothing is done at sample rate.
 
 use num_complex::Complex32;
 
@@ -38,7 +38,7 @@ impl Calibration {
         let noise_gains = [per_cosine / self.gain_ratio, turned.im * per_cosine];
         Correction {
             delay: self.skew * sample_rate,
-            // Of −j and j: z₊ = z_C + j z_D and z₋ = z_C − j z_D.
+            // An ideal D sees −j z₊ + j z₋ where C sees z₊ + z₋: z₊ = z_C + j z_D and z₋ = z_C − j z_D.
             of_waves: [-1.0, 1.0]
                 .map(|d| lag * Complex32::new(-turned.im, d * turned.re) * self.gain_ratio),
             lead: lag.conj() * (noise_gains[0] / lag.norm_sqr()),
@@ -53,21 +53,21 @@ impl Default for Calibration {
     }
 }
 
-/// A [`Calibration`] made ready for one frequency: D_raw = lag·(cosine·D − sine·C).
+/// A [`Calibration`] made ready for one frequency: D_raw = g·lag·(cosine·D − sine·C).
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Correction {
-    /// Skew in samples: the slow course of the wave goes on during it.
+    /// Skew in samples, during which the wave's slow course goes on.
     pub delay: f32,
     /// What raw pick-off D sees of each travelling wave of which C sees one.
     pub of_waves: [Complex32; 2],
-    /// 1/(lag·cosine).
+    /// 1/(g·lag·cosine).
     lead: Complex32,
-    /// What correcting makes of noise: by how much it amplifies that of channel D, and the share of C's that it adds there.
+    /// Effect of the correction on noise: the gain of channel D's, and the share of C's that it adds to that.
     pub noise_gains: [f32; 2],
 }
 
 impl Correction {
-    /// The phasor of an ideal pick-off D from raw ones: that of C is what it was.
+    /// The phasor of an ideal pick-off D from the raw ones; that of C stays as it is.
     #[inline]
     pub(crate) fn correct(&self, c: Complex32, d: Complex32) -> Complex32 {
         d * self.lead + c * self.noise_gains[1]

@@ -1,15 +1,16 @@
-//! f64 at the interface: whole numbers times a unit, and what makes units. On a core without f64 its arithmetic is 2.5 KB of code, and
-//! this a tenth of it.
+//! The f64 arithmetic of the interface, in integers: whole numbers times a unit, and what makes units. On a core without f64 the compiler's
+//! own is 2.5 KB of code, and this a tenth of that.
 //!
-//! Units and numbers here are positive and within 10⁻³⁰ to 10³⁰, so there is no rounding to nothing, no infinity and nothing that is no number.
+//! Units and numbers here are positive and within 10⁻³⁰ to 10³⁰, so there is no underflow, no infinity and no NaN.
 
 /// The bits of one.
 const ONE: i64 = 0x3ff0_0000_0000_0000;
-/// By how much the exponents of f64 and f32 differ, and their fractions.
-const EXPONENT: u64 = (1023 - 127) << 23;
-const FRACTION: u32 = 29;
+/// Difference of the exponents of f64 and f32, at the place of an f32's.
+const EXPONENT_DIFFERENCE: u64 = (1023 - 127) << 23;
+/// Bits that the fraction of f64 has more than that of f32.
+const EXTRA_FRACTION_BITS: u32 = 29;
 
-/// So many units, to within a unit of the last place.
+/// `count` times `unit`, to within a unit in the last place.
 #[inline(never)]
 pub(crate) fn units(count: i64, unit: f64) -> f64 {
     let size = count.unsigned_abs();
@@ -19,17 +20,17 @@ pub(crate) fn units(count: i64, unit: f64) -> f64 {
     let bits = unit.to_bits();
     let shift = size.leading_zeros();
     let (a, b) = (size << shift, (bits << 11) | (1 << 63));
-    // The upper half of the product: of what is left out, less than three of its units.
+    // The upper half of the product; what is left out is less than three of its units.
     let halves = |x: u64| [x & 0xffff_ffff, x >> 32];
     let ([a_low, a_high], [b_low, b_high]) = (halves(a), halves(b));
     let product = a_high * b_high + ((a_high * b_low) >> 32) + ((a_low * b_high) >> 32);
-    // Both begin with a one: their product does, or at its second bit.
+    // Both factors begin with a one, so the product begins with one in its first or second bit.
     let (fraction, lead) = if product >> 63 == 1 {
         (product, 0)
     } else {
         (product << 1, 1)
     };
-    // Rounding may carry into the exponent, as it should; the leading one is taken off it.
+    // Rounding may carry into the exponent, as it should. The leading one adds to it too, and is allowed for.
     let rounded = (fraction >> 11) + ((fraction >> 10) & 1);
     let exponent = (bits >> 52) + 63 - u64::from(shift + lead);
     let sign = count as u64 & (1 << 63);
@@ -43,20 +44,20 @@ pub(crate) fn scaled(x: f64, exponent: i64) -> f64 {
 
 /// The nearest f32.
 pub(crate) const fn to_single(x: f64) -> f32 {
-    let half = 1 << (FRACTION - 1);
-    f32::from_bits((((x.to_bits() + half) >> FRACTION) - EXPONENT) as u32)
+    let half = 1 << (EXTRA_FRACTION_BITS - 1);
+    f32::from_bits((((x.to_bits() + half) >> EXTRA_FRACTION_BITS) - EXPONENT_DIFFERENCE) as u32)
 }
 
-/// One over a number, to within two units of the last place.
+/// One over a number, to within two units in the last place.
 pub(crate) fn reciprocal(x: f64) -> f64 {
-    let rough = u64::from((1.0 / to_single(x)).to_bits()) + EXPONENT;
+    let rough = u64::from((1.0 / to_single(x)).to_bits()) + EXPONENT_DIFFERENCE;
     let newton = |rough: f64| {
-        // Two less the product, which is so near one that its bits count what it is beyond: in halves below one.
-        let beyond = product(x, rough).to_bits() as i64 - ONE;
-        let less = if beyond > 0 { 2 * beyond } else { beyond >> 1 };
-        product(rough, f64::from_bits((ONE - less) as u64))
+        // 2 less the product, which is so near 1 that its bits count the excess; below 1 their unit is half as large.
+        let excess = product(x, rough).to_bits() as i64 - ONE;
+        let decrease = if excess > 0 { 2 * excess } else { excess >> 1 };
+        product(rough, f64::from_bits((ONE - decrease) as u64))
     };
-    newton(newton(f64::from_bits(rough << FRACTION)))
+    newton(newton(f64::from_bits(rough << EXTRA_FRACTION_BITS)))
 }
 
 /// The product of two numbers.
@@ -71,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn as_with_the_arithmetic_of_f64() {
+    fn results_are_those_of_f64_arithmetic() {
         let mut seed = 1u64;
         for i in 0..100_000 {
             seed = seed

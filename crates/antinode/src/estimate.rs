@@ -1,4 +1,4 @@
-//! What a window says of the wave.
+//! The result of a window: the wave's parameters and flags.
 
 use core::fmt::{self, Alignment, Write};
 use core::ops::{BitAnd, BitOr, BitOrAssign};
@@ -13,7 +13,8 @@ impl Flags {
     pub const CLIPPED: Self = Self(1);
     /// No significant wave: the other numbers mean nothing.
     pub const LOST: Self = Self(1 << 1);
-    /// The phase does not continue that of the last window without a misfit: samples are missing between the two windows or within one.
+    /// The phase does not continue from the last window without [`MISFIT`](Self::MISFIT): samples are missing between the two windows or
+    /// within one.
     pub const PHASE_JUMP: Self = Self(1 << 2);
     /// Amplitude, angle or offset stepped between the window before and this one. Half of the steps that exceed 0.2 % of a_A or 2 mrad by
     /// 20 of the deviations stated are flagged, and all that exceed it by 30. In the middle of a window, where [`MISFIT`](Self::MISFIT) may
@@ -97,12 +98,12 @@ impl Flags {
         Some(Self(1 << bit))
     }
 
-    /// Bit 0 is the first constant above, and so on.
+    /// The flags as bits: bit 0 is the first constant above, and so on.
     pub const fn bits(self) -> u16 {
         self.0
     }
 
-    /// The flags of [`Flags::bits`]; bits that are no flag are dropped.
+    /// The flags of [`Flags::bits`]; bits that stand for no flag are dropped.
     pub const fn from_bits_truncate(bits: u16) -> Self {
         Self(bits & ((1 << Self::NAMES.len()) - 1))
     }
@@ -259,7 +260,7 @@ mod tests {
             assert_eq!(std::format!("{flags:^7}"), std::format!("{text:^7}"));
         }
         assert!(flags.names().eq(["clipped", "not_finite"]));
-        // Every bit that is kept has a name, and no other.
+        // All bits that have a name are kept, and no others.
         assert_eq!(Flags::from_bits_truncate(u16::MAX).bits(), 0x1ff);
         assert!(Flags::from_bits_truncate(0xfe00).is_empty());
     }

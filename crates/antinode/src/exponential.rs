@@ -1,4 +1,4 @@
-//! The exponential function near zero, which the courses of waves need to the last digit, and from there everywhere.
+//! The exponential function: less one and to the last digit near zero, as the courses of waves need it, and as a whole over a wide range.
 
 use num_complex::Complex32;
 
@@ -18,7 +18,7 @@ const FACTORIALS: [f32; 7] = [
 /// e^x − 1: within 10⁻⁸ for |x| up to 0.5, 3·10⁻⁶ up to 1, and 10⁻⁵ up to 1.14, which no course exceeds.
 #[inline(never)]
 pub(crate) fn growth(x: Complex32) -> Complex32 {
-    // Horner's scheme for real factors: without products of complex numbers.
+    // Horner's scheme for real factors, without products of complex numbers.
     let (doubled, square) = (2.0 * x.re, x.norm_sqr());
     let next = |(a, b): (f32, f32), &factor: &f32| (factor + doubled * a - square * b, a);
     // Three terms leave 3·10⁻⁹ here.
@@ -30,10 +30,10 @@ pub(crate) fn growth(x: Complex32) -> Complex32 {
     Complex32::new(1.0 + x.re * a - square * b, x.im * a) * x
 }
 
-/// e^x for x from −20 to 20, and the value at the nearer end beyond, within 10⁻⁵ of itself.
+/// e^x for x from −20 to 20, and beyond the value at the nearer end, with a relative error below 10⁻⁵.
 pub(crate) fn exponential(x: f32) -> f32 {
     let part = lesser(greater(x, -20.0), 20.0) * (1.0 / 64.0);
-    // Terms up to the sixth leave 6·10⁻⁸ of a part.
+    // Terms up to the sixth power leave a relative error of 6·10⁻⁸ before the power of 64.
     let next = |sum: f32, factor: &f32| sum * part + factor;
     let mut power = FACTORIALS[2..].iter().fold(0.0, next);
     power = (power * part + 1.0) * part + 1.0;
@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn as_that_of_the_library() {
+    fn the_exponential_is_that_of_the_library() {
         for i in -2000..=2000 {
             let x = 0.01 * i as f32;
             let apart = exponential(x) / libm::expf(x) - 1.0;

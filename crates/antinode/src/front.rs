@@ -1,4 +1,4 @@
-//! Samples become blocks, from cold: the period is searched, then blocks are gathered. This is what runs in an interrupt.
+//! Turns samples into blocks, from cold: searches for the period, then gathers blocks. This is the part that runs in an interrupt.
 
 use crate::block::{Block, Demodulator};
 use crate::cut::Cut;
@@ -9,7 +9,7 @@ use crate::phase::PhaseStep;
 use crate::sample::{Sample, SamplePair, in_pairs};
 use crate::settings::{Detection, Settings, SettingsError};
 
-/// What searches for the period.
+/// The detector that searches for the period.
 #[derive(Debug, Clone)]
 enum Detector<S: Sample> {
     Difference(DifferenceDetector<S>),
@@ -50,7 +50,7 @@ enum Stage {
     /// It has no settings yet.
     Unset,
     Searching,
-    /// From this period the next pair begins the first block: to begin it at once would make the longest call longer.
+    /// A period is found: the next pair begins the first block. To begin it at once would make the longest call longer.
     Found(f32),
     Gathering,
 }
@@ -65,9 +65,9 @@ enum Stage {
 pub struct Front<S: Sample, const N: usize> {
     cut: Cut,
     detection: Detection,
-    /// The period, where it is not to be searched.
+    /// The period, if it is known and not searched for.
     known: Option<f32>,
-    // Two fields, no enum of both: to build one in the other's memory would be the longest call of all.
+    // Two fields, not an enum of both: to build one in the memory of the other would be the longest call of all.
     detector: Detector<S>,
     demodulator: Demodulator<S, N>,
     stage: Stage,
@@ -81,7 +81,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// It is all zeros: as a static it takes no flash and is never on the stack, unlike the result of [`new`](Self::new).
     pub const UNSET: Self = Self::unset();
 
-    /// In code, where the constant would be copied from flash.
+    /// The value of `UNSET`, made by code: the constant would be copied from flash.
     const fn unset() -> Self {
         Self {
             cut: Settings::UNSET.cut(),
@@ -118,7 +118,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
         Ok(())
     }
 
-    /// Begins anew with settings that are checked.
+    /// Begins anew with settings that have been checked.
     pub(crate) fn set(&mut self, settings: &Settings) {
         if settings.detection != self.detection {
             self.replace_detector(settings.detection);
@@ -145,7 +145,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
         Self::check_with(settings, u16::MAX as usize)
     }
 
-    /// The same, and for a ring of `blocks`.
+    /// As [`check`](Self::check), but also for a ring of `blocks`.
     pub(crate) const fn check_with(
         settings: &Settings,
         blocks: usize,
@@ -164,12 +164,12 @@ impl<S: Sample, const N: usize> Front<S, N> {
         }
     }
 
-    /// True where a block has room for a period: the ring of blocks is made for that.
+    /// True if a block has room for a period, as the size of the ring of blocks presumes.
     const fn holds(period: f32) -> bool {
         period < N as f32 + 0.5
     }
 
-    /// Apart from the rest: only here a detector is on the stack.
+    /// Not inlined: only here is a detector on the stack.
     #[inline(never)]
     fn replace_detector(&mut self, detection: Detection) {
         self.detector = Detector::new(detection);
@@ -232,7 +232,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
         if count == 0 {
             return;
         }
-        // What no stream lasts is a count that was wrong: indices have room to be doubled, and to go on.
+        // A count that no stream reaches was wrong. Below 2⁶² indices can be doubled, and still go on.
         self.index = self.index.wrapping_add(count) & (u64::MAX >> 2);
         match self.stage {
             Stage::Searching => self.search(),
@@ -313,7 +313,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
         for (taken, &pair) in (1..).zip(searched) {
             if let Some(period) = self.detector.push(pair) {
                 self.index += taken as u64;
-                // Of one that is too long the search goes on.
+                // If the period is too long, the search goes on.
                 if Self::holds(period) {
                     self.stage = Stage::Found(period);
                 }

@@ -173,7 +173,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         in_pairs(c, d, |pairs| self.extend(pairs, &mut report));
     }
 
-    /// Searches a new period where the wave is lost.
+    /// Searches for a new period if the tracker wants one.
     #[inline]
     fn search_if_wanted(&mut self) {
         self.front.search_if_wanted(self.tracker.wanted_search());

@@ -28,7 +28,7 @@ impl Phase {
 
     /// The phase of some turns.
     pub(crate) fn from_turns(turns: f32) -> Self {
-        // Whole turns go first: what is left fits an i32 in half turns, in its doubled form.
+        // Whole turns are taken off first: the rest fits an i32 in units of 2⁻³¹ turn, which are then doubled.
         let rest = turns - turns as i32 as f32;
         Self(((rest * (0.5 * TURN)) as i32 as u32) << 1)
     }
@@ -86,7 +86,7 @@ impl Phase {
 impl PhaseStep {
     /// The step of a tone of `period` samples. Valid for `period` > 2.
     pub fn from_period(period: f32) -> Self {
-        // f32 holds 24 bits of the step; the tracker refines what is left.
+        // f32 holds 24 bits of the step; the tracker finds the rest.
         Self((TURN / period) as u32)
     }
 
@@ -102,9 +102,9 @@ impl PhaseStep {
 
     /// The frequency in Hz plus `offset` radians a sample, at full resolution; `unit` is sample rate · 2⁻⁶⁴, in Hz.
     ///
-    /// An offset beyond ±3, as where there is no wave, gives a number that means nothing.
+    /// An offset beyond ±3, as found where there is no wave, gives a number that means nothing.
     pub(crate) fn hertz(self, offset: f32, unit: f64) -> f64 {
-        // The offset in units of 2⁻²⁹ rad, of which each is 2³⁵/2π of 2⁻⁶⁴ turn, and what is beyond: no digit of it is lost.
+        // The offset as whole units of 2⁻²⁹ rad, each of which is 2³⁵/2π times 2⁻⁶⁴ turn, and a rest: no digit of it is lost.
         let scaled = offset * 536_870_912.0;
         let whole = scaled as i32;
         let rest = ((scaled - whole as f32) * (2.0 * TURN / TAU)) as i32;
@@ -133,11 +133,11 @@ impl PhaseStep {
 pub(crate) fn argument(z: Complex32) -> f32 {
     /// tan π/8.
     const NARROW: f32 = 0.414_213_57;
-    /// π/4 as a number of which thrice is one too, and what it is beyond.
+    /// π/4 cut short, so that three times it is exact in f32, and what was cut off.
     const EIGHTH: f32 = FRAC_PI_4 - 3.0 / 16_777_216.0;
-    const BEYOND: f32 = 1.569_582_4e-7;
+    const EIGHTH_REST: f32 = 1.569_582_4e-7;
     let (x, y) = (z.re.abs(), z.im.abs());
-    // From the nearest multiple of π/4, so that the polynomial sees |t| ≤ tan π/8.
+    // Measured from the nearest multiple of π/4, so that the polynomial sees |t| ≤ tan π/8.
     let (eighths, t) = if y <= NARROW * x {
         (0.0, y / greater(x, f32::MIN_POSITIVE))
     } else if x <= NARROW * y {
@@ -146,7 +146,7 @@ pub(crate) fn argument(z: Complex32) -> f32 {
         (1.0, (y - x) / (y + x))
     };
     let t2 = t * t;
-    // Minimax: within 2·10⁻⁸ of itself.
+    // Minimax, with a relative error below 2·10⁻⁸.
     let series = -0.333_329_56 + t2 * (0.199_779_14 + t2 * (-0.138_797_1 + t2 * 0.080_598_23));
     let rest = t + t * t2 * series;
     let (eighths, rest) = if z.re < 0.0 {
@@ -154,7 +154,7 @@ pub(crate) fn argument(z: Complex32) -> f32 {
     } else {
         (eighths, rest)
     };
-    let angle = eighths * EIGHTH + (eighths * BEYOND + rest);
+    let angle = eighths * EIGHTH + (eighths * EIGHTH_REST + rest);
     if z.im < 0.0 { -angle } else { angle }
 }
 

@@ -1,12 +1,12 @@
-//! Re-gridding: a stream is low-passed and resampled to a grid that fits the wave's period, as the paper advises after (10).
+//! Re-gridding: low-passes a stream and resamples it to a grid that fits the wave's period, as the paper advises after (10).
 //!
 //! On the new grid a window of whole periods is a whole number of samples, so condition (8) holds, and if the number of samples a period
 //! divides by 4, so is the quarter-period delay of algorithm 2. It stands in front of any method; the [`Tracker`](crate::Tracker), whose
 //! sums are exact on any grid, needs it only for the filter.
 //!
-//! Each output is one product with a row of filter taps, a windowed sinc whose response at the wave's own frequency is made exactly 1;
-//! rows stand at 64 places between two samples, with straight lines between them. The wave itself passes with an error below
-//! (2π/64P)²/8 of itself, P samples a period: 3.5·10⁻⁶ at 18.75.
+//! Each output is one product with a row of filter taps, a windowed sinc whose response at the wave's own frequency is made exactly 1; rows
+//! are tabulated at 64 places between two samples, and interpolated linearly. The wave itself passes with a relative error below
+//! (2π/64P)²/8, with P samples a period: 3.5·10⁻⁶ at 18.75.
 //!
 //! # Example
 //!
@@ -33,7 +33,7 @@ use core::fmt;
 use crate::block::Pair;
 use crate::phase::Phase;
 
-/// Places between two samples that the filter is tabulated at.
+/// Places between two samples at which the filter is tabulated.
 const PLACES: usize = 64;
 
 /// A grid that cannot be made.
@@ -43,11 +43,11 @@ const PLACES: usize = 64;
 pub enum RegridError {
     /// The period is outside 2.5 to 1000 samples.
     Period(f32),
-    /// Samples a period on the new grid: fewer than 3, or more than 1000.
+    /// The new grid has fewer than 3 samples a period, or more than 1000.
     PerPeriod(u16),
     /// The cut-off is not above 1 or above half the samples a period, in multiples of the wave's frequency.
     CutOff(f32),
-    /// Taps: fewer than 4, or an odd number of them.
+    /// There are fewer than 4 taps, or an odd number of them.
     Taps(usize),
 }
 
@@ -82,7 +82,7 @@ impl core::error::Error for RegridError {}
 pub struct Regrid<const TAPS: usize> {
     rows: [[f32; TAPS]; PLACES + 1],
     line: [Pair; TAPS],
-    /// Place in the line of the oldest pair.
+    /// Index of the oldest pair in `line`.
     oldest: usize,
     /// Input samples from one output to the next, in units of 2⁻³².
     step: u64,
@@ -192,7 +192,7 @@ fn fill<const TAPS: usize>(row: &mut [f32; TAPS], place: f32, period: f32, cut_o
     let half = TAPS as f32 / 2.0;
     let turn = core::f32::consts::TAU / period;
     let time = |tap: usize| tap as f32 + 1.0 - half - place;
-    // Hann's, a little wider than the taps, so that none is lost.
+    // Hann's window, a little wider than the taps, so that none has a weight of zero.
     let window = |t: f32| 0.5 + 0.5 * libm::cosf(core::f32::consts::PI * t / (half + 0.5));
     let mut normal = [0.0f32; 3];
     let mut seen = [0.0f32; 2];
@@ -212,7 +212,7 @@ fn fill<const TAPS: usize>(row: &mut [f32; TAPS], place: f32, period: f32, cut_o
         normal[1] += window(t) * unit.re * unit.im;
         normal[2] += window(t) * unit.im * unit.im;
     }
-    // Least change that makes Σ h cos ωt = 1 and Σ h sin ωt = 0.
+    // The smallest change that makes Σ h cos ωt = 1 and Σ h sin ωt = 0.
     let (cosine, sine) = (1.0 - seen[0], -seen[1]);
     let scale = 1.0 / (normal[0] * normal[2] - normal[1] * normal[1]);
     let along = scale * (normal[2] * cosine - normal[1] * sine);

@@ -1,4 +1,5 @@
-//! Flags as they are stored and sent: to be read, by their names, as [`Display`](core::fmt::Display) gives them; else as their bits.
+//! Flags as `serde` stores them, in readable formats by their names, as [`Display`](core::fmt::Display) gives them, else as bits; and
+//! defaults of settings.
 
 use core::fmt;
 
@@ -29,23 +30,23 @@ impl<'de> Deserialize<'de> for Flags {
     }
 }
 
-/// What settings that are stored may lack, as [`Settings::new`] has it.
-const PLAIN: Settings = Settings::new(1.0);
+/// Defaults of the fields that stored settings may lack, as [`Settings::new`] sets them.
+const DEFAULTS: Settings = Settings::new(1.0);
 
 pub(crate) fn periods() -> u16 {
-    PLAIN.periods
+    DEFAULTS.periods
 }
 
 pub(crate) fn start_angle() -> f32 {
-    PLAIN.start_angle
+    DEFAULTS.start_angle
 }
 
 pub(crate) fn watch() -> bool {
-    PLAIN.watch
+    DEFAULTS.watch
 }
 
 pub(crate) fn calibration() -> Calibration {
-    PLAIN.calibration
+    DEFAULTS.calibration
 }
 
 /// Reads names joined by `+`.
@@ -99,8 +100,8 @@ mod tests {
         };
         let text = serde_json::to_string(&settings).unwrap();
         assert_eq!(serde_json::from_str::<Settings>(&text).unwrap(), settings);
-        let least: Settings = serde_json::from_str("{\"sample_rate\": 1e5}").unwrap();
-        assert_eq!(least, Settings::new(1e5));
+        let defaults: Settings = serde_json::from_str("{\"sample_rate\": 1e5}").unwrap();
+        assert_eq!(defaults, Settings::new(1e5));
         let skewed = "{\"sample_rate\": 1e5, \"calibration\": {\"skew\": 1e-7}}";
         let skewed: Settings = serde_json::from_str(skewed).unwrap();
         let calibration = Calibration {
@@ -111,7 +112,7 @@ mod tests {
             skewed,
             Settings {
                 calibration,
-                ..least
+                ..defaults
             }
         );
         assert!(serde_json::from_str::<Settings>("{\"periods\": 5}").is_err());

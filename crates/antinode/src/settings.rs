@@ -1,4 +1,4 @@
-//! What the user chooses, checked once.
+//! Settings, as the user chooses them, and their checks.
 
 use core::fmt;
 
@@ -62,11 +62,11 @@ pub struct Settings {
     /// tenth of a window of fewer than ten periods, so that windows move in finer steps. A hop longer than the window leaves gaps. `None`:
     /// windows follow each other without gap or overlap.
     pub hop: Option<u16>,
-    /// Where the pattern stands at first, rad, within ±10⁴. The angle is known modulo π/2 only: the first window takes the value nearest to
+    /// Initial angle of the pattern, rad, within ±10⁴. The angle is known modulo π/2 only: the first window takes the value nearest to
     /// this. With π/4, the default, the first angle lies in 0…π/2.
     #[cfg_attr(feature = "serde", serde(default = "crate::serial::start_angle"))]
     pub start_angle: f32,
-    /// The least and the greatest sample that the converter gives, input units: a window with a sample at or beyond either is flagged as
+    /// The lowest and the highest sample that the converter can give, input units: a window with a sample at or beyond either is flagged as
     /// clipped. `None` if they are not known. A signed converter of 12 bits, taken as codes, has −2048 and 2047.
     pub rails: Option<[f32; 2]>,
     /// Step between neighbouring codes of the converter, input units, > 0; 1 if samples are codes, `None` if it is not known. With less
@@ -89,9 +89,10 @@ pub struct Settings {
     /// moves an offset is neither noise nor a fault. Windows must have at least 5 periods for it, or 10 with a hop.
     #[cfg_attr(feature = "serde", serde(default))]
     pub hum: bool,
-    /// True if the noise is not white. Behind a tuned front end, or a filter that cuts off below three times the frequency, noise there has
-    /// less than a sixteenth of its power about the wave: with this setting that is no fault, and blocks have offsets of their own as with
-    /// `hum`. In return, what is in every window is not flagged: a second tone counts as noise, and so does a fault in the first window.
+    /// True if the noise is not white. Behind a tuned front end, or a filter that cuts off below three times the frequency, noise about
+    /// that third harmonic may have less than a sixteenth of its power about the wave: with this setting that is no misfit, and blocks have
+    /// offsets of their own as with `hum`. In return, what is in every window is not flagged: a second tone counts as noise, and so does a
+    /// fault in the first window.
     #[cfg_attr(feature = "serde", serde(default))]
     pub coloured: bool,
     /// How the pick-offs differ from ideal ones.
@@ -113,7 +114,7 @@ pub enum SettingsError {
     PeriodsTooMany {
         /// The periods asked for.
         periods: u16,
-        /// The most that the ring holds: its blocks less 2, or 60 000.
+        /// The most that the ring holds: its blocks less 2, but not more than 60 000.
         most: u16,
     },
     /// A hop of no blocks.
@@ -212,11 +213,11 @@ impl fmt::Display for SettingsError {
 
 impl core::error::Error for SettingsError {}
 
-/// Samples of the shortest period that may be known.
+/// Samples in the shortest period that may be known.
 const SHORTEST_PERIOD: f32 = 2.5;
 
 impl Settings {
-    /// Those of what has none yet: zeros.
+    /// The settings of what has none yet: zeros.
     pub(crate) const UNSET: Self = Self {
         sample_rate: 0.0,
         periods: 0,
@@ -261,7 +262,7 @@ impl Settings {
     /// use antinode::Settings;
     ///
     /// const SETTINGS: Settings = Settings { periods: 20, ..Settings::new(100_000.0) };
-    /// // Settings that cannot be do not compile.
+    /// // Settings that are not allowed do not compile.
     /// const _: () = assert!(SETTINGS.check(24).is_ok());
     /// ```
     ///
@@ -287,7 +288,7 @@ impl Settings {
             return Err(SettingsError::Hop);
         }
         // Blocks of less than a period have no offsets of their own.
-        let least = self.cut().least_periods();
+        let least = self.cut().min_hum_periods();
         if self.hum && self.periods < least {
             return Err(SettingsError::HumPeriods {
                 periods: self.periods,
@@ -346,17 +347,18 @@ impl Settings {
     }
 }
 
-/// Numbers above zero are in the order of their bits, and all else is beyond: no comparison in f64 is linked in.
+/// True for rates in the valid range. Positive numbers are ordered as their bits, and those of negative ones and NaN lie beyond: no
+/// comparison in f64 is linked in.
 const fn is_rate(rate: f64) -> bool {
     rate.to_bits() >= 1e-3f64.to_bits() && rate.to_bits() <= 1e12f64.to_bits()
 }
 
-/// False where the value is not a number.
-const fn within(value: f32, least: f32, most: f32) -> bool {
-    value >= least && value <= most
+/// False if the value is NaN.
+const fn within(value: f32, low: f32, high: f32) -> bool {
+    value >= low && value <= high
 }
 
-/// False where either is not a number.
+/// False if either is NaN.
 const fn is_less(low: f32, high: f32) -> bool {
     low < high
 }

@@ -1,4 +1,4 @@
-//! A running sum that keeps what rounding takes: of samples' products, and of what a block sees of a wave.
+//! A running sum that makes up for rounding, for products of samples and for the response of a block to a wave.
 
 /// A compensated f32 sum (Kahan): four additions a term.
 ///
@@ -7,7 +7,7 @@
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Sum {
     total: f32,
-    /// What `total` has beyond the true sum.
+    /// By how much `total` exceeds the true sum.
     excess: f32,
 }
 
@@ -25,7 +25,7 @@ impl Sum {
         f64::from(self.total) - f64::from(self.excess)
     }
 
-    /// The sum, right to its last digit or two.
+    /// The sum in f32, right to its last digit or two.
     pub(crate) fn get(self) -> f32 {
         self.total - self.excess
     }
@@ -68,7 +68,7 @@ mod tests {
         for length in [5u32, 19, 94, 200] {
             let (mut sum, mut truth, mut size) = (Sum::default(), 0f64, 0f64);
             for k in 0..length {
-                // As a reference times a wave and the square of the time: terms of both signs that nearly cancel.
+                // Like a reference times a wave and the square of time: terms of both signs that nearly cancel.
                 let term = (k as f32 * 0.335).cos() * (k as f32 - 0.5 * length as f32).powi(2);
                 sum.add(term);
                 truth += f64::from(term);

@@ -9,11 +9,11 @@ pub struct Layout {
     pub step: PhaseStep,
     /// Sample pairs in a block, 1 to the capacity of the [`Demodulator`](super::Demodulator).
     pub length: u16,
-    /// The whole number that stands for a reference of one; 0 where the reference is not rounded.
+    /// The whole number that stands for a reference of one; 0 if the reference is not rounded.
     pub scale: u16,
 }
 
-/// The reference at one sample of a block, times the scale where there is one.
+/// The reference at one sample of a block, times the scale if there is one.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Reference {
     pub cosine: f32,
@@ -37,10 +37,10 @@ impl Layout {
         2 * i64::from(index) + 1 - i64::from(self.length)
     }
 
-    /// The reference at sample `index`: the same on the demodulator's side and the solution's, so nothing is handed over.
+    /// The reference at sample `index`: the demodulator and the solution both compute it, so that it need not be handed over.
     pub(crate) fn reference(self, index: u16) -> Reference {
         let twice = self.twice_from_middle(index);
-        // Taken after the middle and mirrored before it: exactly even and odd, whatever is rounded.
+        // Computed after the middle and mirrored before it: exactly even and odd in spite of rounding.
         let phase = self.step.after_half_samples(twice.abs());
         let side = if twice < 0 { -1.0 } else { 1.0 };
         let ([cosine, sine], [third_cosine, third_sine]) = if self.scale == 0 {
@@ -59,7 +59,7 @@ impl Layout {
         }
     }
 
-    /// What a reference of one is in the sums.
+    /// The factor of the sums that stands for a reference of one.
     pub(crate) fn one(self) -> f32 {
         f32::from(self.scale.max(1))
     }

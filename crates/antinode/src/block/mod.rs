@@ -1,4 +1,4 @@
-//! Samples become block sums: the only work done at sample rate while a wave is tracked, formulas (7) and (24).
+//! Sums samples in blocks: the only work done at sample rate while a wave is tracked, formulas (7) and (24).
 //!
 //! A block is a fixed count of sample pairs, up to about two periods. Its reference starts anew at every block, centred on the block's
 //! middle, so there is no oscillator to run: the phase of the block is applied to its sums later, at block rate. Blocks need not fit the
@@ -35,16 +35,16 @@ pub struct Block<S: Sample> {
     pub watch: Option<[ChannelWatch<S>; 2]>,
 }
 
-/// Pairs that single calls hold back: a slice of them costs far less than each by itself.
-const HELD: usize = 32;
+/// Pairs held back at most when they are pushed singly: a slice of them costs far less than each by itself.
+const MAX_HELD: usize = 32;
 
 /// Gathers sample pairs into blocks of up to `N` pairs. `N` is even, 2 to 65 534.
 #[derive(Debug, Clone)]
 pub struct Demodulator<S: Sample, const N: usize> {
-    /// Pairs held back, and how many may be: they are summed together, at the latest when the block ends.
+    /// Pairs held back, and the count at which they are summed together: at the latest when the block ends.
     held: u16,
     room: u16,
-    holding: [[S; 2]; HELD],
+    holding: [[S; 2]; MAX_HELD],
     summing: Summing<S, N>,
 }
 
@@ -52,16 +52,16 @@ pub struct Demodulator<S: Sample, const N: usize> {
 #[derive(Debug, Clone)]
 #[repr(C)]
 struct Summing<S: Sample, const N: usize> {
-    /// Sample pairs that `block` has; when it is full the next one begins a new block.
+    /// Sample pairs in `block`; when it is full, the next pair begins a new block.
     count: u16,
-    /// How much of the tables is made: they grow with the first block, so that no sample waits for all of them.
+    /// Samples for which the tables have weights: they grow with the first block, so that no call makes all of them.
     known: u16,
     block: Block<S>,
     weights: S::Weights<N>,
 }
 
 impl<S: Sample, const N: usize> Demodulator<S, N> {
-    /// A demodulator that has not begun, of zeros.
+    /// A demodulator that has not begun: all zeros.
     pub(crate) const fn unset() -> Self {
         const {
             assert!(
@@ -72,7 +72,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         Self {
             held: 0,
             room: 0,
-            holding: [[S::ZERO; 2]; HELD],
+            holding: [[S::ZERO; 2]; MAX_HELD],
             summing: Summing {
                 count: 0,
                 known: 0,
@@ -124,7 +124,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     #[must_use = "it stops at the end of a block: call it again with the rest, and hand the block on"]
     #[inline]
     pub fn push_slice<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, Option<&Block<S>>) {
-        // While slices come nothing is held back. The next single pair is not either: by then there is room.
+        // With slices nothing is held back, nor is the next single pair: summing it makes room again.
         if self.room > 0 {
             self.hold_no_more();
         }
@@ -149,13 +149,13 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         is_full.then_some(&self.summing.block)
     }
 
-    /// Number of the search that its blocks are of.
+    /// Number of the search that found the wave of its blocks.
     #[inline(always)]
     pub(crate) fn search(&self) -> u32 {
         self.summing.block.search
     }
 
-    /// Blocks are of another search from the next beginning on.
+    /// Sets the search number of its blocks, from the next beginning on.
     pub(crate) fn set_search(&mut self, number: u32) {
         self.summing.block.search = number;
     }
@@ -172,7 +172,7 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
         self.restart(start);
     }
 
-    /// Watches the samples or does not, from the next beginning on.
+    /// Sets whether samples are watched, from the next beginning on.
     pub(crate) fn set_watch(&mut self, watch: bool) {
         self.summing.block.watch = watch.then_some([ChannelWatch::empty(); 2]);
     }
@@ -187,8 +187,8 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
 }
 
 impl<S: Sample, const N: usize> Summing<S, N> {
-    /// Takes pairs up to the end of the block; gives how many, and whether the block is full. The first of a block begins its sums
-    /// and its watch.
+    /// Takes pairs up to the end of the block; gives how many, and whether the block is full. The first pair of a block begins its sums and
+    /// its watch anew.
     #[inline(always)]
     fn sum<P: SamplePair<S>>(&mut self, pairs: &[P]) -> (usize, bool) {
         let length = usize::from(self.block.layout.length);
@@ -209,7 +209,7 @@ impl<S: Sample, const N: usize> Summing<S, N> {
         (pairs.len(), count == length)
     }
 
-    /// Pairs that may be held back, so that no call takes long: one while the table grows, and never beyond the end of the block.
+    /// Count at which held pairs are summed, so that no call takes long: one while the tables grow, and never beyond the end of the block.
     #[inline(always)]
     fn room(&self) -> u16 {
         let length = self.block.layout.length;
@@ -221,12 +221,12 @@ impl<S: Sample, const N: usize> Summing<S, N> {
         } else {
             length
         };
-        let most = if self.block.watch.is_some() {
+        let max_held = if self.block.watch.is_some() {
             S::WATCHED_AT_ONCE
         } else {
-            HELD as u16
+            MAX_HELD as u16
         };
-        left.min(most)
+        left.min(max_held)
     }
 
     /// Makes the tables as long as the block so far.

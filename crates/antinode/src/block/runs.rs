@@ -1,16 +1,16 @@
-//! How long samples of f32 stay at their extremes: where no rail is known, that shows one.
+//! Runs of equal f32 samples at their extremes: they show a rail that is not known.
 
 use super::ChannelWatch;
 
-/// Samples in a row that were equal: the longest runs at the lowest and the highest value that had one.
+/// Runs of equal samples: the longest at the lowest and at the highest value that had one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct Runs {
     /// The last sample; infinite before the first.
     last: f32,
-    /// The run that came last, which may go on.
+    /// The latest run, which may still go on.
     now: Run,
-    /// The others.
+    /// Of the runs before it: the lowest and the highest value, and the longest run at each.
     values: [f32; 2],
     lengths: [u16; 2],
 }
@@ -40,7 +40,7 @@ impl Default for Runs {
 }
 
 impl Runs {
-    /// The longest run at an extreme, from the longest of those that have ended, `length` at `value`.
+    /// The longest run at an extreme; `length` at `value` is the longest of those before the latest.
     #[inline(always)]
     fn longest_at(&self, extreme: f32, value: f32, length: u16) -> u16 {
         let ended = if value == extreme { length } else { 1 };
@@ -52,7 +52,7 @@ impl Runs {
         ended.max(last)
     }
 
-    /// Takes the last run to the others.
+    /// Adds the latest run to those before.
     fn take_last(&mut self) {
         let (value, length) = (self.now.value, self.now.to - self.now.from);
         let beyond = [value < self.values[0], value > self.values[1]];
@@ -65,7 +65,7 @@ impl Runs {
 }
 
 impl ChannelWatch<f32> {
-    /// Most samples in a row that were equal to the least, and to the greatest: one, unless the signal is cut off.
+    /// The longest runs of samples equal to the lowest, and to the highest: one each, unless the signal is clipped.
     #[inline(always)]
     pub fn longest(&self) -> [u16; 2] {
         if self.runs.now.to == 0 {
@@ -82,7 +82,7 @@ impl ChannelWatch<f32> {
         ]
     }
 
-    /// Looks at sample `index`. What is not a number is no extreme.
+    /// Takes sample `index`. NaN is no extreme.
     #[doc(hidden)]
     #[inline(always)]
     pub fn see(&mut self, sample: f32, index: u16) {
@@ -93,7 +93,7 @@ impl ChannelWatch<f32> {
         self.end(sample);
     }
 
-    /// Looks at sample `index`, which is equal to the one before. Few are, and those that go on take little.
+    /// Takes sample `index`, which is equal to the one before. Few are, and going on with a run costs little.
     #[doc(hidden)]
     #[inline(always)]
     pub fn see_again(&mut self, sample: f32, index: u16) {
@@ -119,14 +119,14 @@ impl ChannelWatch<f32> {
         self.runs.last
     }
 
-    /// Samples ended with this one.
+    /// Notes the last of the samples taken.
     #[doc(hidden)]
     #[inline(always)]
     pub fn end(&mut self, sample: f32) {
         self.runs.last = sample;
     }
 
-    /// Samples reached from `low` to `high`.
+    /// Widens the range to `low` and `high`.
     #[doc(hidden)]
     #[inline(always)]
     pub fn reach(&mut self, low: f32, high: f32) {
@@ -148,7 +148,7 @@ mod tests {
         let mut seed = 1u32;
         let mut long = 0;
         for _ in 0..2000 {
-            // Three values: runs are many, and most are not at an extreme of the samples so far.
+            // Three values give many runs, most of them not at an extreme of the samples so far.
             let samples: [f32; 20] = core::array::from_fn(|_| {
                 seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
                 ((seed >> 24) % 3) as f32 - 1.0
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_no_extreme() {
+    fn nan_is_no_extreme() {
         let mut watch = ChannelWatch::<f32>::empty();
         for (sample, index) in [2.0, f32::NAN, f32::NAN, -1.0].into_iter().zip(0..) {
             watch.see(sample, index);

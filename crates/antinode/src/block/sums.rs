@@ -28,11 +28,11 @@ impl<S: Sample> ChannelSums<S> {
     }
 }
 
-/// What is watched of one pick-off over one block beside its sums: where clipping, nonlinearity and dead channels show.
+/// What is watched of one pick-off over one block besides its sums: clipping, nonlinearity and dead channels show there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct ChannelWatch<S: Sample> {
-    /// Σ S cos 3φ, as large as the sums of the carrier.
+    /// Σ S cos 3φ, within the same bounds as the sums of the carrier.
     pub third_cosine: S::Sum,
     /// Σ S sin 3φ.
     pub third_sine: S::Sum,
@@ -40,7 +40,7 @@ pub struct ChannelWatch<S: Sample> {
     pub low: S,
     /// The greatest sample.
     pub high: S,
-    /// How long the signal stayed at its extremes; of f32 only: codes have known rails.
+    /// Runs of equal samples at the extremes, for f32 only: codes have known rails.
     pub runs: S::Runs,
 }
 

@@ -10,9 +10,9 @@ use crate::period::Lags;
 pub trait Arithmetic: Zero {
     /// A running sum of weighted samples.
     type Sum: Copy + Debug + PartialEq + Send + Zero;
-    /// What is kept of runs of equal samples.
+    /// The runs of equal samples that are kept.
     type Runs: Copy + Debug + PartialEq + Default + Send;
-    /// The reference at every sample of a block, and its third harmonic where that is not made of the reference itself.
+    /// The reference at every sample of a block, and its third harmonic unless that is computed from the reference.
     type Weights<const N: usize>: Copy + Debug + Send + Zero;
     /// A running sum of squared differences.
     type Square: Copy + Debug + Send + Zero;
@@ -23,11 +23,11 @@ pub trait Arithmetic: Zero {
     /// A running sum of products.
     type Product: Copy + Debug + Default + Send;
 
-    /// What a pair of these is in memory.
+    /// Layout of a pair in memory.
     const FORM: Form;
     /// No sample is less than the first or more than the second.
     const EXTREMES: [Self; 2];
-    /// Single pairs that are summed and watched together, at most 32: no more than fit between two samples of a fast converter.
+    /// Singly pushed pairs that are summed and watched together, at most 32: no more than fit between two samples of a fast converter.
     const WATCHED_AT_ONCE: u16;
     /// Power that rounding adds to a pair in [`search_form`](Self::search_form), less the three tenths of it that a short trial of the search
     /// takes for a wave.
@@ -45,9 +45,9 @@ pub trait Arithmetic: Zero {
         index: usize,
         reference: Reference,
     );
-    /// Adds pairs, the first of which is sample `index` of its block, to sums and watch, which begin anew at 0.
+    /// Adds pairs, the first of which is sample `index` of its block, to sums and watch, both of which begin anew if `index` is 0.
     ///
-    /// The table must have weights for all of them; where it has not, what is added means nothing.
+    /// The table must have weights for all of them; else what is added means nothing.
     fn add_slice<P: SamplePair<Self>, const N: usize>(
         sums: &mut [ChannelSums<Self>; 2],
         watch: &mut Option<[ChannelWatch<Self>; 2]>,
@@ -56,7 +56,7 @@ pub trait Arithmetic: Zero {
         index: u16,
     ) where
         Self: Sample;
-    /// The longest runs at the extremes, low and high: 1 where they are not counted, as of codes.
+    /// The longest runs at the low and the high extreme; 1 where they are not counted, as for codes.
     #[inline(always)]
     fn runs(_: &ChannelWatch<Self>) -> [u16; 2]
     where
@@ -84,7 +84,7 @@ pub trait Arithmetic: Zero {
     fn mean(a: [Self; 2], b: [Self; 2]) -> [Self; 2];
     /// A sum of squared differences in f32, input units squared.
     fn square_to_f32(square: Self::Square) -> f32;
-    /// What the sums must be shifted by for [`level`](Self::level) to lose none of their digits.
+    /// Shift of the sums, in bits, with which [`level`](Self::level) loses none of their digits.
     fn shift(sums: &Lags<Self>) -> u32;
     /// A sum of `count` pairs, at most a frame of the search, as a mean: only the ratios of levels mean anything.
     fn level(sum: Self::Square, shift: u32, count: usize) -> Self::Level;

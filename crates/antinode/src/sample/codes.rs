@@ -1,4 +1,4 @@
-//! What codes of any width share.
+//! Functions that codes of any width share.
 
 use crate::period::{FRAME, LAGS};
 
@@ -13,13 +13,13 @@ static RECIPROCALS: [u32; FRAME] = {
     table
 };
 
-/// What brings the greatest sum to the top, so that a mean keeps 24 bits and more.
+/// Shift that brings the largest sum to the top of its word, so that a mean keeps 24 bits and more.
 #[inline(always)]
 pub(super) fn shift(sums: &[u32; LAGS]) -> u32 {
     sums.iter().fold(1, |all, &sum| all | sum).leading_zeros()
 }
 
-/// A sum over `count` pairs as a mean, with the last digits of small ones.
+/// The mean of a sum over `count` pairs; the shift keeps the last digits of small sums.
 #[inline(always)]
 pub(super) fn mean(sum: u32, shift: u32, count: usize) -> u32 {
     let reciprocal = RECIPROCALS[count % FRAME];

@@ -12,7 +12,7 @@ fn word(pair: [i16; 2]) -> u32 {
     Packed::from(pair).0
 }
 
-/// Puts the weights of sample `index` into a table: cosines of two samples in the even places, their sines in the odd ones.
+/// Puts the weights of sample `index` into a table: cosines of two samples in its even entries, their sines in its odd ones.
 #[inline(always)]
 fn set_weight(table: &mut [u32], index: usize, weight: [f32; 2]) {
     let [cosine, sine] = weight.map(|value| value as i16);
@@ -35,7 +35,7 @@ impl Arithmetic for i16 {
     type Weights<const N: usize> = [[u32; N]; 2];
     type Square = u32;
     type Level = u32;
-    // A word of two. Products are at most 2³⁰, two of them 2³¹: 2³² stay below 2⁶³.
+    // Two halves of a word. Products are at most 2³⁰, sums of two at most 2³¹: 2³² of those stay below 2⁶³.
     type Centred = u32;
     type Product = i64;
 
@@ -114,7 +114,7 @@ impl Arithmetic for i16 {
 
     #[inline(always)]
     fn add_difference(sum: &mut u32, a: [i16; 2], b: [i16; 2]) {
-        // Of codes of 14 bits half a difference is below 2¹³: 31 squares of two stay below 2³².
+        // Half a difference of 14-bit codes is below 2¹³: 31 sums of two squares stay below 2³².
         let half = arch::half_difference(word(a), word(b));
         *sum = arch::dual_multiply_add(half, half, *sum);
     }

@@ -23,7 +23,7 @@ impl Arithmetic for i32 {
     const FORM: Form = Form::Other;
     const EXTREMES: [Self; 2] = [i32::MIN, i32::MAX];
     const WATCHED_AT_ONCE: u16 = 14;
-    // A search does not see differences of less than a dozen codes: their squares are less than the bits that it leaves off.
+    // A search does not see differences of less than a dozen codes: their squares are below the bits that it drops.
     const ROUNDING: f32 = 0.0;
 
     #[inline(always)]
@@ -107,7 +107,7 @@ impl Arithmetic for i32 {
 
     #[inline(always)]
     fn mean(a: [Self; 2], b: [Self; 2]) -> [Self; 2] {
-        // Without overflow: halves, and what both halvings rounded off.
+        // Without overflow: the sum of halves, and the bit that both halvings dropped.
         let mean = |a: i32, b: i32| (a >> 1) + (b >> 1) + (a & b & 1);
         [mean(a[0], b[0]), mean(a[1], b[1])]
     }

@@ -17,7 +17,7 @@ impl Arithmetic for f32 {
 
     const FORM: Form = Form::Floats;
     const EXTREMES: [Self; 2] = [f32::NEG_INFINITY, f32::INFINITY];
-    // A signal that comes twice each costs twice the usual.
+    // A signal in which every sample comes twice costs twice the usual.
     const WATCHED_AT_ONCE: u16 = 8;
     const ROUNDING: f32 = 0.0;
 

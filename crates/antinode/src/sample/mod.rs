@@ -1,4 +1,4 @@
-//! What samples are, and with it the arithmetic at sample rate: f32, or integers of 16 or 32 bits.
+//! The types of samples, f32 or integers of 16 or 32 bits, each with its arithmetic at sample rate.
 
 mod arithmetic;
 mod codes;
@@ -43,7 +43,7 @@ mod sealed {
     }
 }
 
-/// What a pair is in memory: the kernels of `arch` rest on it.
+/// Layout of a pair in memory, on which the kernels of `arch` rely.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[doc(hidden)]
 pub enum Form {
@@ -87,8 +87,8 @@ impl Sample for i32 {}
 /// | `i16` | `[i16; 2]`, `[I1F15; 2]`, [`Packed`], `u32` |
 /// | `i32` | `[i32; 2]`, `[i16; 2]`, `[u16; 2]`, `[I1F31; 2]`, [`Packed`], `u32` |
 ///
-/// A `u32` is what a [`Packed`] holds: a DMA's buffer of words is taken as it is. A buffer of samples in turn, C, D, C, D, becomes pairs by
-/// `as_chunks::<2>().0`.
+/// A `u32` is what a [`Packed`] holds, so that a DMA's buffer of words is taken as it is. A buffer of alternating samples, C, D, C, D,
+/// becomes pairs by `as_chunks::<2>().0`.
 ///
 /// No other type can be a pair. `I1F15` and `I1F31` are those of the crate `fixed`, with the feature of that name; a unit of the estimates
 /// is then 2⁻¹⁵ or 2⁻³¹.
@@ -131,14 +131,14 @@ impl From<[i16; 2]> for Packed {
     }
 }
 
-/// Pairs that are made of two slices at once.
-const AT_ONCE: usize = 32;
+/// Pairs made from two slices at a time.
+const PAIRS_AT_A_TIME: usize = 32;
 
-/// Hands the samples of two slices over in pairs, to the end of the shorter one.
+/// Hands over the samples of two slices in pairs, up to the end of the shorter one.
 #[inline]
 pub(crate) fn in_pairs<S: Sample>(c: &[S], d: &[S], mut take: impl FnMut(&[[S; 2]])) {
-    let mut pairs = [[S::ZERO; 2]; AT_ONCE];
-    for (c, d) in c.chunks(AT_ONCE).zip(d.chunks(AT_ONCE)) {
+    let mut pairs = [[S::ZERO; 2]; PAIRS_AT_A_TIME];
+    for (c, d) in c.chunks(PAIRS_AT_A_TIME).zip(d.chunks(PAIRS_AT_A_TIME)) {
         for (pair, (&c, &d)) in pairs.iter_mut().zip(c.iter().zip(d)) {
             *pair = [c, d];
         }

@@ -1,8 +1,8 @@
 //! Zero as a constant: a static of zeros takes neither flash nor stack.
 
-/// Samples, sums and tables of them that are nothing.
+/// Types of samples, sums and tables that have a constant zero.
 pub trait Zero: Copy {
-    /// Nothing.
+    /// Zero, in every element.
     const ZERO: Self;
 }
 

@@ -14,7 +14,7 @@ mod trend;
 
 use crate::block::{Block, Layout};
 use crate::calibration::Calibration;
-use crate::cut::MOST_BLOCKS;
+use crate::cut::MAX_BLOCKS;
 use crate::estimate::{Estimate, Flags};
 use crate::sample::Sample;
 use crate::settings::{Settings, SettingsError};
@@ -79,7 +79,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     const fn unset() -> Self {
         const {
             assert!(
-                BLOCKS >= MOST_BLOCKS as usize && BLOCKS <= u16::MAX as usize,
+                BLOCKS >= MAX_BLOCKS as usize && BLOCKS <= u16::MAX as usize,
                 "BLOCKS, the length of the ring, must be 11 to 65 535"
             );
         }

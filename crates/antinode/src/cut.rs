@@ -3,7 +3,7 @@
 use crate::block::Layout;
 use crate::scalar::lesser;
 
-/// Fewest blocks of a window: a regression over K blocks keeps all but 1/K² of what the samples know of the frequency.
+/// Fewest blocks of a window: a regression over K blocks keeps all but 1/K² of the samples' information on the frequency.
 const MIN_BLOCKS: f32 = 5.0;
 /// Periods of a block at most: a reference off by the detector's 5 % then costs 2 % of the sums.
 const MAX_BLOCK_PERIODS: f32 = 2.0;
@@ -21,7 +21,7 @@ const MAX_LENGTH_ERROR: f32 = 0.05;
 pub(crate) struct Cut {
     /// Periods a window.
     pub periods: u16,
-    /// True if windows move on by a hop instead of their length.
+    /// True if windows move on by a hop and not by their length.
     pub has_hop: bool,
 }
 

@@ -194,8 +194,8 @@ pub struct Estimate {
     pub main_amplitude: f32,
     /// a_B, amplitude of the quadrature wave, signed, |a_B| ≤ a_A.
     pub quadrature_amplitude: f32,
-    /// θ_A, pattern angle in rad: it begins at the value nearest to the start angle, and is continued from window to window. Where it would
-    /// leave ±3.37·10⁹, which are 2³¹ quarter turns, it goes on from the other end.
+    /// θ_A, pattern angle in rad: it begins at the value nearest to the start angle, and is continued from window to window. If it leaves
+    /// ±3.37·10⁹, which are 2³¹ quarter turns, it goes on from the other end.
     pub angle: f64,
     /// α in rad, (−π, π]: the main wave is a_A cos(2πf·(t − `time`) − α).
     pub phase: f32,
@@ -205,8 +205,8 @@ pub struct Estimate {
     pub angle_rate: f32,
     /// −ȧ_A/a_A in 1/s: positive while the wave decays.
     pub decay_rate: f32,
-    /// Offsets of the raw S_C and S_D; in white noise their deviation is `residual_rms`/√`samples`, and up to 15 % more in the shortest
-    /// windows.
+    /// Offsets of the raw S_C and S_D; in white noise their standard deviation is `residual_rms`/√`samples`, and up to 15 % more in the
+    /// shortest windows.
     pub offsets: [f32; 2],
     /// Standard deviation of a_A.
     pub main_amplitude_std: f32,
@@ -216,8 +216,8 @@ pub struct Estimate {
     pub angle_std: f32,
     /// Standard deviation of α, rad.
     pub phase_std: f32,
-    /// Standard deviation of f, Hz. A wave's first window must take the pattern to stand still: if it turns, the error may be up to twice
-    /// this with a quadrature of up to 0.7 a_A, and six times at 0.95 a_A.
+    /// Standard deviation of f, Hz. In a wave's first window the pattern has to be taken to be at rest: if it turns, the error may be up to
+    /// twice this with a quadrature of up to 0.7 a_A, and six times at 0.95 a_A.
     pub frequency_std: f32,
     /// Standard deviation of θ̇, rad/s.
     pub angle_rate_std: f32,

@@ -281,7 +281,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
         }
     }
 
-    /// Takes the samples of both pick-offs from a slice each, pair by pair to the end of the shorter one, and hands every block to `report`.
+    /// Takes the samples of both pick-offs from a slice each, pair by pair up to the end of the shorter one; hands every block to `report`.
     ///
     /// It costs a copy, and 32 pairs of stack: [`extend`](Self::extend) takes pairs where they are.
     pub fn extend_separate(&mut self, c: &[S], d: &[S], mut report: impl FnMut(&Block<S>)) {

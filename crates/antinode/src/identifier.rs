@@ -165,7 +165,7 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         }
     }
 
-    /// Takes the samples of both pick-offs from a slice each, pair by pair to the end of the shorter one, and hands every estimate to
+    /// Takes the samples of both pick-offs from a slice each, pair by pair up to the end of the shorter one; hands every estimate to
     /// `report`.
     ///
     /// It costs a copy, and 32 pairs of stack: [`extend`](Self::extend) takes pairs where they are.

@@ -11,7 +11,7 @@
 //! the model does not explain. Numbers in parentheses are formulas of R. I. Mingazov, K. V. Shishakov, DOI 10.22213/2410-9304-2021-3-12-24,
 //! whose four algorithms are in [`methods`]; the identification itself is the exact counterpart of the fourth.
 //!
-//! | step | at | by |
+//! | step | runs at | done by |
 //! |---|---|---|
 //! | the period is searched for, then samples are summed in blocks of up to two periods | sample rate | [`Front`], with [`period`] and [`block`] |
 //! | a window of blocks is solved for its waves by exact least squares, and joined to those before | window rate | [`Tracker`] |

@@ -91,8 +91,8 @@ pub struct Settings {
     pub hum: bool,
     /// True if the noise is not white. Behind a tuned front end, or a filter that cuts off below three times the frequency, noise about
     /// that third harmonic may have less than a sixteenth of its power about the wave: with this setting that is no misfit, and blocks have
-    /// offsets of their own as with `hum`. In return, what is in every window is not flagged: a second tone counts as noise, and so does a
-    /// fault in the first window.
+    /// offsets of their own as with `hum`. In return, nothing that is in every window is flagged: a second tone counts as noise, and so
+    /// does a fault in the first window.
     #[cfg_attr(feature = "serde", serde(default))]
     pub coloured: bool,
     /// How the pick-offs differ from ideal ones.

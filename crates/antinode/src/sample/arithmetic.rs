@@ -29,8 +29,8 @@ pub trait Arithmetic: Zero {
     const EXTREMES: [Self; 2];
     /// Singly pushed pairs that are summed and watched together, at most 32: no more than fit between two samples of a fast converter.
     const WATCHED_AT_ONCE: u16;
-    /// Power that rounding adds to a pair in [`search_form`](Self::search_form), less the three tenths of it that a short trial of the search
-    /// takes for a wave.
+    /// Power that rounding adds to a pair in [`search_form`](Self::search_form), less the three tenths of it that a short trial of the
+    /// search takes for a wave.
     const ROUNDING: f32;
 
     /// The sample in f32.

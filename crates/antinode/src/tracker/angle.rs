@@ -35,7 +35,7 @@ impl Angle {
         }
     }
 
-    /// The value nearest to this one that equals `angle` modulo π/2, and by how many quarter turns it was moved.
+    /// The value nearest to this one that equals `angle` modulo π/2, and the quarter turns by which it differs from `angle`.
     pub(crate) fn nearest(self, angle: f32) -> (Self, i32) {
         let quarters = nearest((self.rest - angle) * FRAC_2_PI);
         let rest = angle + quarters as f32 * FRAC_PI_2;
@@ -63,7 +63,7 @@ impl Angle {
         }
     }
 
-    /// In radians. Beyond 2³¹ quarter turns the count of them goes on at −2³¹.
+    /// The angle in radians; beyond 2³¹ quarter turns their count goes on at −2³¹.
     pub(crate) fn radians(self) -> f64 {
         // In units of 2⁻³² quarter turn.
         let rest = (self.rest * 2_147_483_648.0) as i32;

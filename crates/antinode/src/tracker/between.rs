@@ -1,7 +1,7 @@
 //! Tests of a window against the clean one before it: phase, amplitudes, angle and offsets must not step.
 //!
-//! Thresholds are as those of a window by itself. A change has the variances of both levels and both rates: its standard deviation is √8
-//! times that of a level in windows that follow each other.
+//! Thresholds are as those of a window by itself. A change has the variances of both levels and both rates; in adjacent windows its
+//! standard deviation is √8 times that of a level.
 
 use super::angle::wrap;
 use super::checks::SIGMAS;
@@ -33,7 +33,7 @@ pub(super) fn flags(
         before.phase_variance + now.phase_variance,
         before.drift_variance + now.drift_variance,
     );
-    // A phase known to 0.45 rad or worse never jumps: seven standard deviations are beyond half a turn.
+    // A phase known to 0.45 rad or worse is never seen to jump: seven standard deviations are beyond half a turn.
     let jump = beyond(phase, phase_variance, PHASE_FLOOR);
 
     let amplitude_floor = AMPLITUDE_FLOOR * before.main.value;
@@ -71,7 +71,7 @@ pub(super) fn turns_at_another_rate(before: &Record, now: &Record) -> bool {
     rate_change * rate_change > SIGMAS * SIGMAS * (now.turning_variance + before.turning_variance)
 }
 
-/// What lies between the middles of two windows.
+/// The time between the middles of two windows, and the growth over it.
 struct Interval {
     samples: f32,
     /// Half the later window.

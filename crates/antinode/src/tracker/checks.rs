@@ -1,6 +1,6 @@
 //! General tests of one window's residuals, by themselves and against the noise of the windows before.
 //!
-//! Every threshold is that of a false-alarm rate below 10⁻⁹ a window in white noise, plus a floor below which a deviation is no fault.
+//! Every threshold is set for fewer than 10⁻⁹ false alarms a window in white noise, plus a floor below which a deviation is no fault.
 
 use super::noise::{FIRST_NOISE_SIGMAS, MAX_RISE, NOISE_SIGMAS, Noise, is_louder, limit_of};
 use super::standing::Standing;
@@ -44,7 +44,7 @@ pub(crate) fn is_no_wave(model: &Model, fit: &Fit, wave: &Standing) -> bool {
     // In a long window white noise may exceed any share of the wave. Without the watch nothing is known to be white.
     let (own, third) = (wave.record.residual, remains.third_noise);
     let is_white = own < MAX_RISE * third && third < MAX_RISE * own;
-    // Long blocks show little of a wave at another frequency, and leave more of it, as white as noise; what a step leaves is not white.
+    // Long blocks show little of a wave at another frequency; the rest of it is left, and as white as noise, unlike what a step leaves.
     let alias = is_hidden(wave) && MAX_COLOUR * third > own;
     !is_significant(wave) || strange > MAX_STRANGE_RATIO * explained && !is_white || alias
 }
@@ -62,11 +62,11 @@ fn is_significant(wave: &Standing) -> bool {
 /// Noise variances of a window, per sample, and the limit of their ratio.
 #[derive(Clone, Copy)]
 pub(crate) struct Levels {
-    /// That of its own residual.
+    /// Variance of its own residual.
     pub own: f32,
-    /// That for which its standard deviations are stated.
+    /// Variance for which its standard deviations are stated.
     pub stated: f32,
-    /// What the converter's steps may add at most.
+    /// The most that the converter's steps may add.
     pub coding: f32,
     /// Highest ratio of `own` to the variance about the third harmonic.
     pub colour: f32,
@@ -96,13 +96,13 @@ pub(crate) fn within(
     let significant = is_significant(wave);
     flags = flags.with_if(!significant, Flags::LOST);
 
-    let known = noise.freedom > 0.0;
+    let is_noise_known = noise.freedom > 0.0;
     // White noise is the same about the carrier and about the third harmonic. A first window has nothing else to be compared with, and a
     // fault in one block may raise both: leaving out the worst of n blocks makes chance at most n times as likely.
-    let (about_third, sigmas) = if known {
+    let (about_third, sigmas) = if is_noise_known {
         (remains.third_noise, NOISE_SIGMAS)
     } else {
-        let least = lesser(remains.third_noise, remains.third_spared);
+        let least = lesser(remains.third_noise, remains.third_without_worst);
         (least, FIRST_NOISE_SIGMAS)
     };
     let beyond = own - 4.0 * floor;
@@ -114,9 +114,10 @@ pub(crate) fn within(
     let per_total = 1.0 / total_freedom;
     let over_total = |third: f32| (remains.residual + third * remains.third_freedom) * per_total;
     let wide = over_total(remains.third_noise);
-    // Blocks of a few samples have more sums than samples: there are no more degrees of freedom than samples, less ten unknowns.
+    // Blocks of a few samples have more sums than samples: there are no more degrees of freedom than samples of both pick-offs, less ten
+    // unknowns.
     let wide_freedom = lesser(total_freedom, 4.0 * model.half - 10.0);
-    let louder = known
+    let louder = is_noise_known
         && (noise.is_exceeded(own, remains.freedom, floor)
             || is_louder(wide - floor, noise.wide, wide_freedom, noise.freedom));
     // Compares a part of the residual with the noise of the windows before, or with the rest of the residual if that is known better.
@@ -139,8 +140,8 @@ pub(crate) fn within(
     let misfit = coloured || louder || outlier || stepped || !fit.settled;
     flags = flags.with_if(misfit, Flags::MISFIT);
 
-    let alone = over_total(remains.third_alone);
-    let third_noise = greater(remains.third_alone, lesser(alone, noise.wide));
+    let alone = over_total(remains.third_without_image);
+    let third_noise = greater(remains.third_without_image, lesser(alone, noise.wide));
     let harmonic = remains.third_freedom >= MIN_THIRD_FREEDOM
         && has_harmonic(model, remains, wave, coding, third_noise);
     flags = flags.with_if(harmonic, Flags::CLIPPED);
@@ -216,8 +217,8 @@ mod tests {
             step: 4.0 * own,
             third_noise: third,
             third_freedom: 16.0,
-            third_spared: third,
-            third_alone: third,
+            third_without_worst: third,
+            third_without_image: third,
             ..Remains::default()
         };
         fit

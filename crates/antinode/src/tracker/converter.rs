@@ -9,7 +9,7 @@ use crate::scalar::{greater, lesser};
 use crate::settings::Settings;
 use crate::window::{Fit, Model, Seen};
 
-/// 4π²: noise with a variance of a step's square over this breaks up the steps' repeating errors to 1/e.
+/// 4π²: noise of a variance of step²/4π² reduces the variance of rounding errors that repeat to 1/e.
 const DITHER_FACTOR: f32 = 39.5;
 
 /// Noise variance a sample that the converter's steps add.
@@ -17,8 +17,8 @@ const DITHER_FACTOR: f32 = 39.5;
 pub(super) struct Coding {
     /// That to be expected of this wave.
     pub expected: f32,
-    /// The most: every period of the wave has the same few errors, of up to a third of a step.
-    pub most: f32,
+    /// Upper bound, for a wave of which every period has the same few errors, of up to a third of a step.
+    pub max: f32,
 }
 
 impl Coding {
@@ -41,7 +41,7 @@ impl Coding {
         let share = |noise: f32| exponential(-DITHER_FACTOR * greater(noise - own, 0.0) / square);
         let repeated = share(noise);
         let white = greater(own - noise, 0.0);
-        let most = white + 0.09 * square * share(least) * model.half;
+        let max = white + 0.09 * square * share(least) * model.half;
         let mut expected = white;
         if repeated > 1e-3 {
             let samples = 2.0 * model.half;
@@ -51,13 +51,13 @@ impl Coding {
             let phases = distinct_phases(frequency, samples, step / (4.0 * amplitude));
             expected += own * repeated * (samples / phases - 1.0);
         }
-        Self { expected, most }
+        Self { expected, max }
     }
 }
 
 /// Number of phases, further apart than `width` turns, that so many samples of a wave visit; at least 2.
 ///
-/// They repeat, but for the error of the fraction, after as many samples as the denominator of a fraction near the frequency.
+/// After as many samples as the denominator of a fraction near the frequency the phases repeat, but for the error of the fraction.
 #[inline(never)]
 fn distinct_phases(frequency: PhaseStep, samples: f32, width: f32) -> f32 {
     let (mut far, mut near) = (0u32, frequency.0);
@@ -112,13 +112,13 @@ pub(super) fn sample_flags(
     }
     let range = Range::of(blocks);
     let (main, deviation) = (wave.record.main.value, square_root(noise));
-    let fine = main > 100.0 * settings.resolution.unwrap_or(0.0);
+    let is_well_resolved = main > 100.0 * settings.resolution.unwrap_or(0.0);
     let at_rail = settings.rails.is_some_and(|[least, most]| {
         (0..2).any(|i| range.high[i] >= most || range.low[i] <= least)
     });
     // Samples that stay at an extreme for longer than a crest show a limit, known or not.
     let clipped = at_rail
-        || range.longest > 2 && fine && {
+        || range.longest > 2 && is_well_resolved && {
             // A run spans one step less than it has samples, and noise of one converter step makes a crest wider by chance.
             let crest = greater(step.period() / 16.0, 1.0) + 1.5;
             let crest = crest as u16;
@@ -145,7 +145,7 @@ pub(super) fn sample_flags(
 struct Range {
     low: [f32; 2],
     high: [f32; 2],
-    /// Upper bound of the longest run of equal samples at an extreme of a block: the bits of all such lengths.
+    /// Upper bound of the longest run of equal samples at an extreme of a block: all such lengths, joined by a bitwise or.
     longest: u16,
 }
 

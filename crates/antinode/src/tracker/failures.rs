@@ -6,16 +6,16 @@ use crate::estimate::Flags;
 pub(super) const LITTLE: f32 = 0.25;
 
 /// Failures of the last windows in a row: two without a wave or a settled fit are enough to give it up, or eight with little of it. Each
-/// window counts by its blocks that the next one does not have, for a fault is in all windows that overlap it.
+/// window counts by the blocks that the next one does not share, for a fault is in all windows that overlap it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Failures(u32);
 
 impl Failures {
     pub(super) const NONE: Self = Self(0);
     pub(super) const ENOUGH: Self = Self(u32::MAX);
-    /// Windows with little of a wave that are not yet enough.
+    /// Most windows with little of a wave that are not yet enough.
     const MAX: u32 = 7;
-    /// Windows with little of a wave for which one without it counts.
+    /// Weight of a window without a wave, in windows with little of one.
     const LOSS: u32 = 4;
 
     /// True if they are enough to give up the wave, with windows of `blocks`.

@@ -15,8 +15,7 @@ pub(super) struct Followed {
 }
 
 impl Followed {
-    /// From the angle that a first window takes the nearest value to: until a pattern has an angle, no rate is predicted, and any time will
-    /// do.
+    /// From the angle before a first window: until a pattern has an angle, no rate is predicted, and any time will do.
     pub(super) const fn begin(angle: Angle) -> Self {
         Self { angle, middle: 0 }
     }
@@ -35,7 +34,7 @@ impl Followed {
         self.angle.plus(rate * passed)
     }
 
-    /// Goes on to the window of `record`, unless its angle is far from the expected one, as a fault may make it.
+    /// Goes on to the window of `record`, unless its angle is far from the expected one, as it may be by a fault.
     pub(super) fn follow(&mut self, record: &Record, rate: f32) {
         let expected = self.at(record.middle, rate);
         let (angle, _) = expected.nearest(record.angle.rest);

@@ -46,7 +46,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let errors = rounding + coding.expected + f32::MIN_POSITIVE;
         let share = (stated + errors) / (noise + errors);
         let mut wave = Standing::new(model, fit, [noise + errors, share], own, self.end);
-        let flags = self.judge(fit, coding.most, stated, &mut wave)?;
+        let flags = self.judge(fit, coding.max, stated, &mut wave)?;
         Some(make(&self.units, &wave.record, flags))
     }
 
@@ -143,7 +143,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
         let record = &wave.record;
 
-        // A frequency that samples cannot have is not that of a wave.
+        // There is no wave at a frequency of zero or beyond the highest.
         let turned = model.carrier.radians() + record.drift;
         if turned <= 0.0 || turned > MAX_RADIANS {
             flags = flags.with(Flags::LOST);
@@ -165,7 +165,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             let is_clean = !flags.intersects(BROKEN);
             if self.lost || !is_certain && is_clean && !flags.contains(Flags::CIRCULAR) {
                 flags = flags.with(Flags::REACQUIRED);
-                // It stands until an unbroken window, for those who leave out rows with other flags.
+                // The flag stands up to the first unbroken window, for users who leave out windows with other flags.
                 self.lost = !is_clean;
             }
             self.had_wave = true;
@@ -210,7 +210,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     ) {
         self.broken = flags.intersects(BROKEN);
         if self.broken {
-            // The next window is judged by itself: what lies between it and the last clean one is already flagged.
+            // The next window is judged by itself: a change between it and the last clean one is already flagged.
             self.trend.clear();
             if let Some(before) = &mut self.before {
                 // The phase is still compared if the wave went on: it tells missing samples from a spike.

@@ -134,7 +134,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         &self.settings
     }
 
-    /// Waits for its first block anew with settings that are checked.
+    /// Waits for its first block anew with settings that have been checked.
     pub(crate) fn set(&mut self, settings: &Settings) {
         // A tracker without settings has taken no block.
         if self.settings.periods > 0 {

@@ -32,19 +32,19 @@ impl Noise {
         stated: 0.0,
         raised: 0,
     };
-    /// Windows with a raised residual in a row that are a new level of noise, if the noise about the third harmonic agrees. Windows that
+    /// Successive windows with a raised residual that make a new level of noise, if the noise about the third harmonic agrees. Windows that
     /// overlap count in part: a fault is in all that contain it.
     pub(super) const NEW_LEVEL: u32 = 3;
-    /// Windows whose degrees of freedom are remembered at most.
+    /// Windows whose degrees of freedom are remembered, at most.
     const MAX_WINDOWS: f32 = 16.0;
     /// Highest weight of the windows before, relative to the window's own degrees of freedom.
     const MAX_WEIGHT: f32 = 2.0;
     /// Degrees of freedom that the windows before may weigh in any case: they know the noise to a sixth.
     const ALWAYS_WEIGHED: f32 = 40.0;
-    /// Degrees of freedom from which on a single window can show that noise has changed: five blocks have 20.
+    /// Fewest degrees of freedom with which a single window can show that noise has changed: five blocks have 20.
     const MIN_TELLING: f32 = 16.0;
-    /// Squared distance of a window's noise variance from the one stated before that chance explains: times the degrees of freedom, over
-    /// the stated one times the sum of both.
+    /// Chance explains a difference between a window's noise variance and the one stated before if its square is below this times the
+    /// stated one times the sum of both, over the degrees of freedom.
     const CHANCE_SQUARE: f32 = 3.0;
 
     /// The noise variance of a window, from its own of `freedom` degrees and, unless that exceeds them, those of the windows before: one

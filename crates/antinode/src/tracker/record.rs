@@ -10,14 +10,13 @@ use crate::estimate::{Estimate, Flags};
 use crate::phase::PhaseStep;
 use crate::scalar::{greater, long};
 
-/// Largest standard deviation, rad, of a predicted angle that is known to less than a quarter turn: six of them reach π/4, half the
-/// ambiguity.
+/// Largest standard deviation of an angle, rad, of which the quarter turn is certain: six reach π/4, half the ambiguity.
 const MAX_ANGLE_STD: f32 = 0.13;
 
-/// Angle, rad, that a change of the rate may add over a gap without doubt about the quarter turn.
+/// Angle, rad, that a change of the rate may add over a gap with the quarter turn still certain.
 const MAX_EXTRA_TURN: f32 = 0.7;
 
-/// Standard deviations beyond which a rate is not the predicted one.
+/// Standard deviations beyond which a rate differs from the predicted one.
 const CHANGED_RATE_SIGMAS: f32 = 4.0;
 
 /// Windows over which rates are averaged across gaps, at most.
@@ -38,7 +37,7 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    /// Without a sample rate.
+    /// Before a sample rate is set.
     pub(crate) const NONE: Self = Self {
         sample_rate: 0.0,
         half_sample: 0.0,
@@ -63,7 +62,7 @@ pub(crate) struct Amplitude {
     pub rate_variance: f32,
 }
 
-/// What is kept of a window.
+/// The results of a window with their variances, from which estimates are made and later windows are judged.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Record {
     /// Middle of the window, half samples from the start of the stream.
@@ -159,7 +158,7 @@ impl Record {
         let spread = now.turning_variance + self.predicted_rate_variance;
         let turns_on = (rate_change * passed).abs() < MAX_EXTRA_TURN
             || rate_change * rate_change < CHANGED_RATE_SIGMAS * CHANGED_RATE_SIGMAS * spread;
-        // Only the share of the rate that stands out of its noise: else, in much noise, a pattern at rest would be predicted to turn by a
+        // Only the share of the rate that stands out of its noise: in strong noise a pattern at rest would be predicted to turn by a
         // quarter.
         let square = self.predicted_rate * self.predicted_rate;
         let share = square / (square + self.predicted_rate_variance + f32::MIN_POSITIVE);
@@ -172,7 +171,7 @@ impl Record {
         (self.angle.plus(rate * passed), rate, is_certain)
     }
 
-    /// Averages the predicted rate with that of the windows before: over gaps of unknown turns their angles tell nothing of it.
+    /// Averages the predicted rate with that of the windows before, whose angles tell nothing of it over gaps of unknown turns.
     pub(crate) fn average_rate(&mut self, before: &Self) {
         if before.predicted_rate_variance == f32::INFINITY {
             return;

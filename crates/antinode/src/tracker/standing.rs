@@ -17,9 +17,9 @@ use crate::window::{Covariance, Fit, Model};
 /// The standing wave at the middle of a window, with variances for the fit's own noise, and what only the tests of this window need.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Standing {
-    /// Its angle lies within ±π/2 and its phase within ±π, of the values that go together.
+    /// Its angle, within ±π/2, and its phase, within ±π, are values that go together.
     pub record: Record,
-    /// The noise variance a sample for which all variances are.
+    /// The noise variance a sample from which all variances are computed.
     pub noise: f32,
     /// Covariance of drift and turning, per half window: with quadrature, a turning pattern looks like another frequency.
     pub drift_turning: f32,
@@ -44,7 +44,7 @@ impl Variances {
         ]
     }
 
-    /// Those of the components times these factors.
+    /// The variances of the components times these factors.
     fn times(&self, [plus, minus]: [f32; 2]) -> Self {
         Self {
             plus: self.plus * plus * plus,
@@ -80,7 +80,7 @@ impl Shares {
         Self([of(|z| z.re), of(|z| z.im)])
     }
 
-    /// The variances for these variances of the real and the imaginary parts.
+    /// The variances that result from these of the real and the imaginary parts.
     fn of(&self, [real, imaginary]: [f32; 2]) -> Variances {
         let [re, im] = &self.0;
         Variances {

@@ -11,16 +11,16 @@ use crate::window::Model;
 
 /// Windows kept at most.
 const MAX_POINTS: usize = 5;
-/// Age, in quarter windows, beyond which an angle is left out: beside its powers those of newer angles are lost in rounding.
+/// Age, in quarter windows, beyond which an angle is left out: its powers would drown those of newer angles in rounding.
 const MAX_AGE: f32 = 4e3;
 
-/// Angles, the window's own included, from which on that is compared with the curve through the others.
+/// Fewest angles, the window's own included, with which that is compared with the curve through the others.
 const MIN_COMPARED: u32 = 5;
 /// Share of the others in the curve's value at the window, below which it is lost in rounding: all of them had far more noise.
 const MIN_SHARE_OF_OTHERS: f32 = 1e-4;
-/// Windows over which the square of their distance is averaged.
+/// Windows over which the squared distance from that curve is averaged.
 const AVERAGED_WINDOWS: f32 = 16.0;
-/// Excess of that average that chance explains, as a share of what noise makes it.
+/// Excess of that average that chance explains, as a share of its value in noise.
 const CHANCE_EXCESS: f32 = 0.4;
 /// Highest square that a single window counts for, over the expected one: one step is no vibration, and by itself no more than chance.
 const MAX_SQUARE: f32 = 7.0;
@@ -60,7 +60,7 @@ pub(crate) struct Trend {
     length: u16,
     /// Index of the last one kept.
     last: u16,
-    /// Mean squared distance of angles from the curves through those before, over what noise makes it, less one: a pattern that vibrates
+    /// Mean squared distance of angles from the curves through those before, over its value in noise, less one: a pattern that vibrates
     /// follows no parabola.
     excess: f32,
     /// The value of `excess` if the present window is kept.
@@ -156,7 +156,7 @@ impl Trend {
         }
     }
 
-    /// The rate at the middle of a window, from its own angle and the angles before: constant through three points, linear in time through
+    /// The rate at the middle of a window, from its own angle and the angles before: constant with up to three points, linear in time with
     /// more. With none before, the pattern is taken to be at rest until a window shows that it is not.
     ///
     /// `per_half` is one over half the window's samples.
@@ -210,7 +210,7 @@ impl Trend {
         let per_sample = 2.0 * per_half;
         let per_determinant = 1.0 / (level * rate - mixed * mixed);
         let mut variance = level * own * per_determinant;
-        // How far the rate of a vibrating pattern is off, from how far angles have lain off the curves through those before them.
+        // The rate's error if the pattern vibrates is inferred from how far angles have lain off the curves through those before them.
         let of_others = 1.0 - rate * per_determinant;
         let (error_square, share) = if used >= MIN_COMPARED && of_others > MIN_SHARE_OF_OTHERS {
             // The curve's value at the window, whose own angle is 0: `of_others` times the distance of the others' curve.

@@ -33,7 +33,7 @@ fn outwards(model: &Model, mut middle: Complex32, slope: Complex32, u: f32) -> [
         middle += middle * grown;
         middle += middle * grown;
     }
-    // What one block makes of the wave.
+    // Growth and turn of the wave over one block.
     let on = model.turn + model.turn * growth(slope * model.advance);
     let back = on.conj() * (1.0 / on.norm_sqr());
     let (before, after) = (middle * back, middle * on);

@@ -25,15 +25,15 @@ pub(crate) struct Remains {
     pub worst_block: f32,
     /// The most that one step of both phasors between two blocks would take off `residual`: 4 degrees of freedom.
     pub step: f32,
-    /// Squared amplitude of each pick-off's third harmonic, or the mean of its and that of an image next to it.
+    /// Squared amplitude of each pick-off's third harmonic, or its mean with that of an image next to it.
     pub third: [f32; 2],
     /// Noise variance a sample about the third harmonic, and its degrees of freedom.
     pub third_noise: f32,
     pub third_freedom: f32,
     /// The same without the block that has the most: free of a fault in one block, but not of the third harmonic itself.
-    pub third_spared: f32,
+    pub third_without_worst: f32,
     /// The same as `third_noise`, without an image of a harmonic.
-    pub third_alone: f32,
+    pub third_without_image: f32,
 }
 
 impl Remains {
@@ -177,7 +177,8 @@ fn take_residuals(
 struct Views {
     residual: f32,
     worst_block: f32,
-    /// Squared sum of the residuals up to a block, and what noise makes it in proportion, at the block where their ratio is highest.
+    /// Squared sum of the residuals up to a block, and its expectation in noise but for a factor, at the block where their ratio is
+    /// highest.
     run: f32,
     expected: f32,
     time: f32,

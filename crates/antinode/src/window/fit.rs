@@ -28,15 +28,15 @@ const MIN_CARRIER_DIVISOR: u32 = 2;
 const MAX_LAST_STEP: f32 = 0.01;
 /// After a step below this share of the wave the next is rounding; one of 10⁻⁶ left undone would stand out of the noise of 10⁵ samples.
 const SETTLED: f32 = 2.5e-7;
-/// What a step may take off the residual, in noise variances over the number of blocks, without a new pass over the blocks: what is not
-/// taken off looks like a step between the first block and the others, larger by the number of blocks.
+/// What a step may take off the residual, in noise variances over the number of blocks, without a new pass over the blocks: until then it
+/// looks like a jump between the first block and the others, larger by the number of blocks.
 const NEGLIGIBLE: f32 = 0.5;
 /// A step that explains less than this share of the noise variance moves nothing by more than a hundredth of its standard deviation.
 const FUTILE: f32 = 1e-4;
 /// Gauss–Newton steps at most.
 const MAX_STEPS: usize = 6;
 
-/// What a fit found.
+/// The result of a fit.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Fit {
     pub waves: Waves,
@@ -107,7 +107,7 @@ impl Model {
         }
     }
 
-    /// True when a step from the place of these gradients would be lost in the noise, and the noise is far below the wave.
+    /// True when the step that these gradients call for would be lost in the noise, and the noise is far below the wave.
     #[inline(never)]
     fn is_futile(&self, gradients: &[Gradient; 2], fit: &Fit) -> bool {
         let Covariance { even, odd } = &self.covariance;

@@ -11,13 +11,14 @@ use crate::scalar::greater;
 
 /// Lowest frequency at which an image can be near: below it, at more than 10.5 samples a period, none is.
 const MIN_STEP: PhaseStep = PhaseStep((4_294_967_296.0 / 10.5) as u32);
-/// An image is taken out if it is nearer than this: a block sees more than one over this of it. Else it stays in what looks like noise.
+/// Distance of an image, as [`near`] measures it, below which it is taken out: a block shows more than one over this of it. Beyond, it
+/// stays in what looks like noise.
 const MAX_DISTANCE: f32 = 6.0;
 /// The same for the image of the second harmonic, which common electronics have: if that is nearer, no image is taken out.
 const MIN_SECOND_DISTANCE: f32 = 0.55;
-/// Blocks from which on a second line leaves enough degrees of freedom.
+/// Fewest blocks with which a second line leaves enough degrees of freedom.
 const MIN_BLOCKS: u16 = 5;
-/// A line and its image are one if their determinant is below this share of that of independent lines.
+/// A line and its image cannot be told apart if their determinant is below this share of that of independent lines.
 const MIN_DETERMINANT: f32 = 0.02;
 
 /// The image that a window would take for noise, if any.
@@ -29,6 +30,7 @@ pub(super) fn of(model: &Model) -> Option<Line> {
     near(model)
 }
 
+/// The nearer image, if it is near enough. Distances are those from the third harmonic, times the samples of a block.
 #[cold]
 #[inline(never)]
 fn near(model: &Model) -> Option<Line> {
@@ -73,6 +75,6 @@ impl Thirds {
             left -= explained;
             *third = 0.5 * explained * amplitude * amplitude / count;
         }
-        remains.third_alone = greater(left, 0.0) * power / (remains.third_freedom - 4.0);
+        remains.third_without_image = greater(left, 0.0) * power / (remains.third_freedom - 4.0);
     }
 }

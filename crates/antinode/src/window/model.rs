@@ -8,7 +8,7 @@ use crate::block::Layout;
 use crate::calibration::{Calibration, Correction};
 use crate::phase::{Phase, PhaseStep};
 
-/// Periods from which on a block can have an offset of its own: a little less than one, as it is a whole number of samples.
+/// Shortest block, in periods, that can have an offset of its own: a little less than one, as it is a whole number of samples.
 const MIN_PERIODS_WITH_OFFSET: f32 = 0.9;
 
 /// A window of blocks about a carrier, whatever its samples are.
@@ -23,7 +23,7 @@ pub(crate) struct Model {
     /// 1 if the blocks of a window share an offset, 0 if each has its own.
     pub(crate) shared: f32,
     pub(super) response: Response,
-    /// Half the window, in samples, and one over it.
+    /// Half the window's samples, and one over that.
     pub half: f32,
     pub per_half: f32,
     /// Time, in half windows, and turn of the carrier from one block to the next.

@@ -12,7 +12,7 @@ const SIDE: usize = 3;
 /// One design row of one side, or one right-hand side; the third entry of the odd side is zero.
 pub(crate) type Row = [f32; SIDE];
 
-/// Covariance of a pick-off's parameters for noise of one a sample.
+/// Covariance of a pick-off's parameters for a noise variance of one a sample.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Covariance {
     /// Of Re z, Im z′ and the offset.

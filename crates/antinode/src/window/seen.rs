@@ -49,7 +49,7 @@ impl Seen {
 }
 
 impl Model {
-    /// Makes of a block what a window keeps of it.
+    /// Stores what a window keeps of a block.
     #[inline]
     pub(crate) fn see<S: Sample>(&self, block: &Block<S>, seen: &mut Seen) {
         for (seen, sums) in seen.whitened.iter_mut().zip(&block.sums) {

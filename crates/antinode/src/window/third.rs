@@ -41,7 +41,7 @@ pub(super) struct Thirds {
     pub sum: [Complex32; 2],
     pub power: f32,
     /// The largest share of a block in `power`.
-    most: f32,
+    worst: f32,
     pub watched: u16,
     pub line: Line,
 }
@@ -52,7 +52,7 @@ impl Thirds {
         Self {
             sum: [Complex32::ZERO; 2],
             power: 0.0,
-            most: 0.0,
+            worst: 0.0,
             watched: 0,
             line,
         }
@@ -96,7 +96,7 @@ impl Thirds {
                 *sum = *sum * turn + rest;
                 thirds.power += rest.norm_sqr();
             }
-            thirds.most = greater(thirds.power - before, thirds.most);
+            thirds.worst = greater(thirds.power - before, thirds.worst);
             thirds.watched += 1;
         }
         *self = thirds;
@@ -117,8 +117,8 @@ impl Thirds {
         let per_freedom = watched * per_both;
         remains.third = squares.map(|square| square * (amplitude * amplitude * per_count));
         remains.third_noise = incoherent * power * per_freedom;
-        remains.third_alone = remains.third_noise;
-        remains.third_spared = (self.power - self.most) * power * per_freedom;
+        remains.third_without_image = remains.third_noise;
+        remains.third_without_worst = (self.power - self.worst) * power * per_freedom;
         remains.third_freedom = freedom;
     }
 

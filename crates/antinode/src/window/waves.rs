@@ -22,7 +22,7 @@ pub(super) struct Step {
 }
 
 impl Step {
-    /// The step to where the gradients vanish, in a linear problem.
+    /// The step to where the gradients vanish, if the problem were linear.
     #[inline(always)]
     pub(super) fn new(model: &Model, gradients: &[Gradient; 2]) -> Self {
         let Covariance { even, odd } = &model.covariance;
@@ -47,8 +47,8 @@ impl Step {
 }
 
 impl Parameters {
-    /// Moves by a step from the place of these gradients. Gives Σ|Δz|² + Σ|Δz′|², and by how much that lowers the residual's sum of
-    /// squares.
+    /// Moves by a step, from the point at which the gradients were taken. Gives Σ|Δz|² + Σ|Δz′|², and by how much that lowers the
+    /// residual's sum of squares.
     #[inline(always)]
     pub(super) fn take(
         &mut self,
@@ -112,7 +112,7 @@ impl Waves {
             let (value, change) = (self.value[w], self.change[w]);
             let power = value.norm_sqr();
             let share = if power > small { 1.3 } else { 0.25 };
-            // Nor is one exponential whose power has no inverse, which would give NaN.
+            // A wave whose power has no inverse changes linearly too: its slope would be NaN.
             self.slope[w] = if change.norm_sqr() + f32::MIN_POSITIVE < share * power {
                 change * value.conj() * (1.0 / power)
             } else {

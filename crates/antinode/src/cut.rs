@@ -42,7 +42,7 @@ impl Cut {
         self.fitting(window, length.max(1)).min(max_length).max(1)
     }
 
-    /// Fewest periods of a window whose blocks have a period each, as hum needs; a little less if a period is no whole number of samples.
+    /// Fewest periods of a window whose blocks have a period each, or a little less if that is no whole number of samples, as hum needs.
     pub(crate) const fn min_hum_periods(self) -> u16 {
         let blocks = MIN_BLOCKS as u16;
         if self.has_hop { 2 * blocks } else { blocks }

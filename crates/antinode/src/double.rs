@@ -5,9 +5,9 @@
 
 /// The bits of one.
 const ONE: i64 = 0x3ff0_0000_0000_0000;
-/// Difference of the exponents of f64 and f32, at the place of an f32's.
+/// Difference of the exponent biases of f64 and f32, in the place of an f32's exponent.
 const EXPONENT_DIFFERENCE: u64 = (1023 - 127) << 23;
-/// Bits that the fraction of f64 has more than that of f32.
+/// Bits of an f64's fraction beyond those of an f32's.
 const EXTRA_FRACTION_BITS: u32 = 29;
 
 /// `count` times `unit`, to within a unit in the last place.
@@ -30,7 +30,7 @@ pub(crate) fn units(count: i64, unit: f64) -> f64 {
     } else {
         (product << 1, 1)
     };
-    // Rounding may carry into the exponent, as it should. The leading one adds to it too, and is allowed for.
+    // Rounding may carry into the exponent, as it should. The leading one adds one to it, which `exponent` allows for.
     let rounded = (fraction >> 11) + ((fraction >> 10) & 1);
     let exponent = (bits >> 52) + 63 - u64::from(shift + lead);
     let sign = count as u64 & (1 << 63);

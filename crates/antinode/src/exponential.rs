@@ -1,4 +1,4 @@
-//! The exponential function: less one and to the last digit near zero, as the courses of waves need it, and as a whole over a wide range.
+//! The exponential function, and e^x − 1 to the last digit near zero, as the courses of waves need it.
 
 use num_complex::Complex32;
 

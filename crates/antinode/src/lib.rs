@@ -23,8 +23,8 @@
 //! # On a microcontroller
 //!
 //! Run a [`Front`] in the interrupt and a [`Tracker`] in the main loop, both with the same [`Settings`], and a queue of [`Block`]s between
-//! them, here that of `heapless`. In the other direction goes the number of the search whose blocks the tracker accepts, which is
-//! incremented when the wave is lost:
+//! them, here that of `heapless`. The number of the search whose blocks the tracker accepts goes the other way; it is incremented when the
+//! wave is lost:
 //!
 //! ```
 //! use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -75,8 +75,8 @@
 //! # Ok::<(), antinode::SettingsError>(())
 //! ```
 //!
-//! Calibration and settings are changed in place: calibration by [`Tracker::calibrate`] in the main loop only, settings on both sides, in
-//! this order:
+//! Calibration and settings are changed in place: the calibration by [`Tracker::calibrate`] in the main loop alone, settings on both sides,
+//! in this order:
 //!
 //! 1. the main loop calls [`Tracker::configure`],
 //! 2. sends the settings to the interrupt, by a queue say,
@@ -84,7 +84,7 @@
 //! 4. the interrupt passes any settings received to [`Front::configure`], and only then calls [`Front::search_if_wanted`].
 //!
 //! Blocks of the old settings then bear an old search number, and the tracker leaves them out. In any other order some of them bear the new
-//! number, and give windows of a wrong frequency or length without a flag. Report samples that the interrupt missed to [`Front::skip`].
+//! number, and give windows with a wrong frequency or length without a flag. Report samples that the interrupt missed to [`Front::skip`].
 //!
 //! | bytes of RAM on a 32-bit core | `i16` | `f32` | `i32` |
 //! |---|---|---|---|
@@ -96,9 +96,9 @@
 //! `ConstStaticCell` of the crate `static_cell`, take neither flash nor stack; call `configure` before use. The result of
 //! [`Identifier::new`] is copied: an identifier of 5 KB takes 12 KB of stack, and 1 KB more flash.
 //!
-//! `opt-level = 2` is as fast as 3 and smaller. On a Cortex-M4 give rustc `-Ctarget-cpu=cortex-m4`, without which it mistakes three-cycle
-//! multiply-accumulates for single-cycle ones; the core is then 2 KB larger. Cargo does not take such flags from a dependency: they belong
-//! in your own `.cargo/config.toml`.
+//! `opt-level = 2` is as fast as 3 and smaller. On a Cortex-M4 give rustc `-Ctarget-cpu=cortex-m4`: without it rustc mistakes three-cycle
+//! multiply-accumulates for single-cycle ones. With it the core is 2 KB larger. Cargo does not take such flags from a dependency: they
+//! belong in your own `.cargo/config.toml`.
 //!
 //! # Features
 //!

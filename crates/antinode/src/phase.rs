@@ -41,7 +41,7 @@ impl Phase {
         let rest = self.0.wrapping_sub(quarter << 30) as i32;
         let x = rest as f32 * (TAU / TURN);
         let x2 = x * x;
-        // Taylor to x⁹ and x⁸: the first term left out is below 4·10⁻⁹ at π/4.
+        // Taylor to x⁹ and x⁸: the first terms left out are below 1.8·10⁻⁹ and 2.5·10⁻⁸ at π/4.
         let sine = x + x
             * x2
             * (-1.0 / 6.0 + x2 * (1.0 / 120.0 + x2 * (-1.0 / 5040.0 + x2 * (1.0 / 362_880.0))));

@@ -1,8 +1,8 @@
 //! Re-gridding: low-passes a stream and resamples it to a grid that fits the wave's period, as the paper advises after (10).
 //!
 //! On the new grid a window of whole periods is a whole number of samples, so condition (8) holds, and if the number of samples a period
-//! divides by 4, so is the quarter-period delay of algorithm 2. It stands in front of any method; the [`Tracker`](crate::Tracker), whose
-//! sums are exact on any grid, needs it only for the filter.
+//! divides by 4, so is the quarter-period delay of algorithm 2. It can precede any method; the [`Tracker`](crate::Tracker), whose sums are
+//! exact on any grid, needs it only for the filter.
 //!
 //! Each output is one product with a row of filter taps, a windowed sinc whose response at the wave's own frequency is made exactly 1; rows
 //! are tabulated at 64 places between two samples, and interpolated linearly. The wave itself passes with a relative error below
@@ -45,7 +45,7 @@ pub enum RegridError {
     Period(f32),
     /// The new grid has fewer than 3 samples a period, or more than 1000.
     PerPeriod(u16),
-    /// The cut-off is not above 1 or above half the samples a period, in multiples of the wave's frequency.
+    /// The cut-off, in multiples of the wave's frequency, is not above 1, or is above half the samples a period of either grid.
     CutOff(f32),
     /// There are fewer than 4 taps, or an odd number of them.
     Taps(usize),

@@ -1,5 +1,5 @@
-//! Flags as `serde` stores them, in readable formats by their names, as [`Display`](core::fmt::Display) gives them, else as bits; and
-//! defaults of settings.
+//! Flags in `serde`: in readable formats their names, as [`Display`](core::fmt::Display) gives them, in others their bits. And defaults of
+//! settings.
 
 use core::fmt;
 

@@ -1,4 +1,4 @@
-//! Settings, as the user chooses them, and their checks.
+//! What the user chooses, and its checks.
 
 use core::fmt;
 

@@ -59,7 +59,7 @@ impl Layout {
         }
     }
 
-    /// The factor of the sums that stands for a reference of one.
+    /// The value of a reference of one in the sums.
     pub(crate) fn one(self) -> f32 {
         f32::from(self.scale.max(1))
     }

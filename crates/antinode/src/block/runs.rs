@@ -10,7 +10,7 @@ pub struct Runs {
     last: f32,
     /// The latest run, which may still go on.
     now: Run,
-    /// Of the runs before it: the lowest and the highest value, and the longest run at each.
+    /// Lowest and highest value of the runs before, and the longest run at each.
     values: [f32; 2],
     lengths: [u16; 2],
 }

@@ -9,15 +9,15 @@ use crate::scalar::{greater, lesser};
 use crate::settings::Settings;
 use crate::window::{Fit, Model, Seen};
 
-/// 4π²: noise of a variance of step²/4π² reduces the variance of rounding errors that repeat to 1/e.
+/// 4π²: noise of variance step²/4π² reduces the variance of repeating rounding errors to 1/e.
 const DITHER_FACTOR: f32 = 39.5;
 
 /// Noise variance a sample that the converter's steps add.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Coding {
-    /// That to be expected of this wave.
+    /// Expected of this wave.
     pub expected: f32,
-    /// Upper bound, for a wave of which every period has the same few errors, of up to a third of a step.
+    /// Upper bound: every period of the wave has the same few errors, of up to a third of a step.
     pub max: f32,
 }
 
@@ -55,7 +55,7 @@ impl Coding {
     }
 }
 
-/// Number of phases, further apart than `width` turns, that so many samples of a wave visit; at least 2.
+/// Number of phases, further apart than `width` turns, that the samples of a wave visit; at least 2.
 ///
 /// After as many samples as the denominator of a fraction near the frequency the phases repeat, but for the error of the fraction.
 #[inline(never)]

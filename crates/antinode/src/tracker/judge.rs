@@ -143,7 +143,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         }
         let record = &wave.record;
 
-        // There is no wave at a frequency of zero or beyond the highest.
+        // No wave has a frequency of zero or less, or beyond the highest.
         let turned = model.carrier.radians() + record.drift;
         if turned <= 0.0 || turned > MAX_RADIANS {
             flags = flags.with(Flags::LOST);

@@ -56,7 +56,7 @@ pub struct Tracker<const BLOCKS: usize> {
     angle: Angle,
     /// The angle followed from the last clean window on.
     followed: Followed,
-    /// True from the loss of a wave, or a change of settings, to the first unbroken window after it.
+    /// True from the loss of a wave, or a change of settings, to the next unbroken window.
     lost: bool,
     /// True once a wave was found, until the next `configure`.
     had_wave: bool,

@@ -1,4 +1,4 @@
-//! One window as the tracker remembers it: values at its middle, rates per sample, variances.
+//! One window as the tracker remembers it, with values at its middle and rates per sample.
 
 use core::num::NonZeroU32;
 
@@ -62,7 +62,7 @@ pub(crate) struct Amplitude {
     pub rate_variance: f32,
 }
 
-/// The results of a window with their variances, from which estimates are made and later windows are judged.
+/// Values, rates and variances of one window.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Record {
     /// Middle of the window, half samples from the start of the stream.

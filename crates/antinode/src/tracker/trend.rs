@@ -103,7 +103,7 @@ impl Trend {
     pub(crate) fn keep(&mut self, middle: u64, samples: u32, angle: Angle, variance: f32) {
         let overlaps = |last: &Point| middle < last.middle().wrapping_add(2 * u64::from(samples));
         if self
-            .known()
+            .kept()
             .get(usize::from(self.last))
             .is_some_and(overlaps)
         {
@@ -127,7 +127,7 @@ impl Trend {
         }
     }
 
-    fn known(&self) -> &[Point] {
+    fn kept(&self) -> &[Point] {
         let length = usize::from(self.length);
         self.points.get(..length).unwrap_or(&self.points)
     }
@@ -167,7 +167,7 @@ impl Trend {
         let mut powers = [1.0, 0.0, 0.0, 0.0, 0.0];
         let mut values = [0.0; 3];
         let (mut used, mut nearest) = (1, -MAX_AGE);
-        for point in self.known() {
+        for point in self.kept() {
             // Those that overlap the window, or are too old for 32 bits, are left out.
             let passed = record.middle.wrapping_sub(point.middle());
             let Ok(passed) = u32::try_from(passed) else {

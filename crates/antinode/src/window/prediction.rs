@@ -55,7 +55,7 @@ impl Slopes {
         Gains(gains.map(|gain| Complex32::new(gain.im, -gain.re)))
     }
 
-    /// The factors of a [`Prediction`]: gain, skew and angle of pick-off D, with the waves' courses during the skew.
+    /// The factors of a [`Prediction`], with the course of the waves during the skew.
     #[inline(always)]
     fn factors(&self, model: &Model) -> [Complex32; 2] {
         let delay = model.correction.delay * model.per_half;

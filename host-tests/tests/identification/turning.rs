@@ -34,6 +34,11 @@ fn much_turning_beside_much_quadrature_is_neither_biased_nor_flagged() {
         (0.9, -0.4, 0.01),
         (-0.95, 0.4, 0.01),
         (0.95, 0.5, 0.001),
+        // The lesser wave turns by a radian each half of a window, and noise adds to that.
+        (-0.9, 0.49, 0.02),
+        (0.95, -0.49, 0.01),
+        (-0.7, 0.49, 0.05),
+        (0.9, 0.56, 0.005),
     ] {
         let mut honesty = Honesty::default();
         let mut rows = 0;

@@ -120,16 +120,19 @@ mod tests {
         let layout = Layout::unrounded(carrier, 19);
         let blocks = CHUNK as u16 + 1;
         let model = Model::new(layout, carrier, blocks, Calibration::IDEAL, 1e5, false);
-        let slope = Complex32::new(-0.7, 0.9);
-        let waves = Waves {
-            value: [Complex32::ONE; 2],
-            slope: [slope; 2],
-            ..Waves::default()
-        };
-        let found = course(&model, &waves, CHUNK)[1][0];
-        let (u, unit) = model.carrier(CHUNK);
-        let (sine, cosine) = libm::sincosf(u * slope.im);
-        let truth = unit * Complex32::new(cosine, sine) * (0.5 * libm::expf(u * slope.re));
-        assert!((found - truth).norm_sqr() < 2e-5 * 2e-5 * truth.norm_sqr());
+        for slope in [(-0.7, 0.9), (0.0, 1.39), (-1.13, 0.1)] {
+            let slope = Complex32::new(slope.0, slope.1);
+            let waves = Waves {
+                value: [Complex32::ONE; 2],
+                slope: [slope; 2],
+                ..Waves::default()
+            };
+            let found = course(&model, &waves, CHUNK)[1][0];
+            let (u, unit) = model.carrier(CHUNK);
+            let (sine, cosine) = libm::sincosf(u * slope.im);
+            let truth = unit * Complex32::new(cosine, sine) * (0.5 * libm::expf(u * slope.re));
+            let error = (found - truth).norm_sqr() / truth.norm_sqr();
+            assert!(error < 2e-5 * 2e-5, "{slope}: {error:e}");
+        }
     }
 }

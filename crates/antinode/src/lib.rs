@@ -139,8 +139,10 @@
 //! ## Waves that change
 //!
 //! - Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: that is 260 rad/s and 480 1/s in ten periods
-//!   of 5332 Hz, 2.6 rad/s and 4.8 1/s in a thousand. If the pattern turns by more than about 0.6 rad, amplitudes are some per cent off;
-//!   windows of more than ten periods flag this as a misfit, shorter ones may not.
+//!   of 5332 Hz, 2.6 rad/s and 4.8 1/s in a thousand. So quick a turn leaves up to 2·10⁻⁵ of a_A in windows of ten periods, which shows in
+//!   noise of 2·10⁻⁴ of a_A and less, or 5·10⁻⁴ at 150 samples a period: a_A and a_B are then off by up to 6 of their deviations, 2 to 3 rms,
+//!   with no flag. If the pattern turns by more than about 0.6 rad, amplitudes are some per cent off; windows of more than ten periods flag
+//!   this as a misfit, shorter ones may not.
 //! - A frequency that drifts or depends on the amplitude bends the phase within a window; splits of damping and frequency bend amplitudes
 //!   and θ too. If this is well above both the noise (2 Hz/s in a window of 60 ms, say) and 2·10⁻⁴ of a_A, it is flagged as a misfit. If
 //!   not, nothing is flagged, and values are off by up to 6 of their deviations in windows of 10 periods, and by up to 30 in those of 100

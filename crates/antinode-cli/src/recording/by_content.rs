@@ -1,4 +1,4 @@
-//! Which format's reader a stream is for.
+//! The choice of a reader for a stream: by its content, or else by its extension and the options.
 
 use std::rc::Rc;
 
@@ -11,20 +11,20 @@ use super::sample::Kind;
 use super::source::{Counted, Known, Opened, Stream, in_utf8};
 use super::{delimited, npy, wav};
 
-/// What the content does not tell about itself.
+/// What the user tells of a recording beside its content.
 #[derive(Debug, Clone, Default)]
 pub struct OpenOptions {
-    /// The format of raw samples: of what is neither WAV nor NPY by its first bytes, nor text by both its name and its content.
+    /// The format of raw samples: applies to a stream that is neither WAV nor NPY by its first bytes, nor text by both name and content.
     pub raw: Option<Kind>,
     /// The number of interleaved channels of raw samples, 2 by default.
     pub channels: Option<usize>,
-    /// The columns of a text recording, or the channels of another; by default, they are told from the header or their number.
+    /// The columns of a text recording, or the channels of another; by default they follow from the header or from how many there are.
     pub columns: Option<Columns>,
     /// The sample rate that takes precedence over the recording's own, Hz.
     pub rate: Option<f64>,
 }
 
-/// Opens a stream by its content, or else by what is known beside it.
+/// Opens a stream by its content, or else by what is known about it otherwise.
 pub(super) fn open(
     name: &str,
     stream: Stream,
@@ -34,17 +34,18 @@ pub(super) fn open(
     let length = known.length;
     let is_named_text = matches!(known.extension.as_str(), "csv" | "tsv" | "txt" | "lvm");
     let mut is_text = options.raw.is_none() && (is_named_text || options.columns.is_some());
-    // Raw samples may have any name: beside their format one of text is believed where the content is text too.
-    let or_text = !is_text && (options.raw.is_none() || is_named_text);
-    let look = |stream| Content::look(stream, or_text).map_err(|fault| InputError::io(name, fault));
+    // Raw samples may have any name: where their format is given, a text's extension counts only if the content is text too.
+    let try_text = !is_text && (options.raw.is_none() || is_named_text);
+    let look =
+        |stream| Content::look(stream, try_text).map_err(|fault| InputError::io(name, fault));
     let (mut content, mut stream) = look(stream)?;
-    // Raw samples may begin as UTF-16 does.
+    // Raw samples may happen to begin as UTF-16 does.
     if content == Content::Utf16 && (is_named_text || options.raw.is_none()) {
         let count = Rc::clone(&known.encoded);
         let decoded = in_utf8(Counted { stream, count });
         let decoded = decoded.map_err(|fault| InputError::io(name, fault))?;
         (content, stream) = look(Box::new(decoded))?;
-        // Decoded, they are no samples any more.
+        // Once decoded, they can no longer be read as raw samples.
         is_text |= is_named_text;
     }
     let file = name.to_owned();

@@ -1,67 +1,68 @@
-//! The step between a converter's codes, where integers of more bits hold them or text has them as whole numbers.
+//! The step between a converter's codes, if they are stored in wider integers or, in text, as whole numbers.
 
-/// Bits that all distances of codes have in common by chance less than once in 10¹⁸ times.
-const SHARED_BITS: usize = 60;
-/// Fewer codes than these may have been chosen by hand.
-const FEWEST: usize = 12;
+/// Bits of the common factor, summed over all distances between codes, that occur by chance less than once in 10¹⁸ times.
+const SURE_BITS: usize = 60;
+/// Fewest distinct codes for that: fewer may have been chosen by hand.
+const MIN_CODES: usize = 12;
 
-/// A wave that is sampled a whole number of times a period shows but a few codes: with as many of them, a step that a converter may have
-/// is told by as many bits beside the lowest, which sums of a wave's codes may share.
-const FEW: usize = 6;
-const BITS_OF_FEW: usize = 8;
-/// The coarsest step told by a few codes, as a share of full scale: that of 8 bits.
-const COARSEST: f32 = 1.0 / 128.0;
-/// As many distances are all even by chance less than once in 60 times; where there are fewer, converters have an even number of bits.
-const SURELY_ODD: usize = 6;
+/// Fewest distinct codes of a wave that repeats them, as it is sampled a whole number of times a period.
+const MIN_REPEATED_CODES: usize = 6;
+/// Zero bits needed in these codes, in all, beside the lowest one of each, which sums of a wave's codes may share.
+const MIN_ZERO_BITS: usize = 8;
+/// Coarsest step that repeated codes can show, as a share of full scale: that of 8 bits.
+const MAX_STEP: f32 = 1.0 / 128.0;
+/// This many distances are all even by chance less than once in 60 times; up to this number, the converter is taken to have an even number
+/// of bits.
+const MAX_EVEN_BY_CHANCE: usize = 6;
 
-/// Whole numbers up to this size may be any.
-const LEAST_WHOLE: f32 = 128.0;
+/// Whole numbers are taken for codes if the largest is at least this: smaller ones may be anything.
+const MIN_LARGEST_CODE: f32 = 128.0;
 
-/// The step of samples with `unit` between them where they use few of their bits: a wave without noise that repeats a few values tells
-/// it too, for these are exact.
+/// The step of integer samples, multiples of `unit`, that leave their lowest bits unused. Noise is not needed: the few values that a
+/// noise-free wave repeats are exact.
 pub(super) fn of_integers(pairs: &[[f32; 2]], unit: f32) -> Option<f32> {
     step(pairs, unit, 1.0, true)
 }
 
-/// The step of samples with `unit` between them, of which the largest may be as large; where full scale is known, so are their bits.
+/// The step of samples that are multiples of `unit` and at most `largest`; if this `is_full_scale`, it tells the converter's bits.
 fn step(pairs: &[[f32; 2]], unit: f32, largest: f32, is_full_scale: bool) -> Option<f32> {
     let channels = [0, 1].map(|channel| codes(pairs.iter().map(|pair| pair[channel]), unit));
     let all = sorted(channels.concat());
     let distances = all.windows(2).map(|pair| pair[1].abs_diff(pair[0]));
     let factor = distances.fold(0, common_factor);
     let bits = factor.checked_ilog2()? as usize;
-    if all.len() >= FEWEST && bits * (all.len() - 1) >= SHARED_BITS {
+    if all.len() >= MIN_CODES && bits * (all.len() - 1) >= SURE_BITS {
         return Some(factor as f32 * unit);
     }
-    if all.len() < FEW {
+    if all.len() < MIN_REPEATED_CODES {
         return None;
     }
     let one_side = sorted(channels.iter().flat_map(|codes| one_side(codes)).collect()).len();
-    // Of a converter in more bits, the steps are a power of two.
+    // A converter's step in wider integers is a power of two.
     let mut bits = factor.trailing_zeros();
-    if one_side * (bits as usize).saturating_sub(1) < BITS_OF_FEW {
+    if one_side * (bits as usize).saturating_sub(1) < MIN_ZERO_BITS {
         return None;
     }
     let of_converter = (2.0 * largest / unit).log2().round() as u32 - bits;
-    if is_full_scale && one_side <= SURELY_ODD && of_converter % 2 == 1 {
+    if is_full_scale && one_side <= MAX_EVEN_BY_CHANCE && of_converter % 2 == 1 {
         bits -= 1;
     }
     let step = unit * (bits as f32).exp2();
-    (step > unit && step <= COARSEST * largest).then_some(step)
+    (step > unit && step <= MAX_STEP * largest).then_some(step)
 }
 
-/// The step of text and floats that are whole numbers, of which there are too few to tell one otherwise.
+/// The step of text and floats that are whole numbers, if they are too few for their distances alone to show one.
 pub(super) fn of_whole(pairs: &[[f32; 2]]) -> Option<f32> {
     let finite = || pairs.iter().flatten().filter(|sample| sample.is_finite());
     let largest = finite().fold(0.0, |most: f32, sample| most.max(sample.abs()));
-    let is_whole = (LEAST_WHOLE..1e9).contains(&largest) && finite().all(|x| x.fract() == 0.0);
-    if !is_whole || codes(finite().copied(), 1.0).len() < FEW {
+    let is_whole = (MIN_LARGEST_CODE..1e9).contains(&largest) && finite().all(|x| x.fract() == 0.0);
+    if !is_whole || codes(finite().copied(), 1.0).len() < MIN_REPEATED_CODES {
         return None;
     }
     step(pairs, 1.0, largest, false).or(Some(1.0))
 }
 
-/// The codes of samples, in their order.
+/// The distinct codes of samples, in ascending order.
 fn codes(samples: impl Iterator<Item = f32>, unit: f32) -> Vec<i64> {
     let finite = samples.filter(|sample| sample.is_finite());
     sorted(
@@ -77,29 +78,29 @@ fn sorted(mut codes: Vec<i64>) -> Vec<i64> {
     codes
 }
 
-/// Codes without those of the other half of a wave, which are as far from its middle and tell nothing more.
+/// Codes folded onto the lower half of the wave: those of the upper half are as far from its middle and add no information.
 fn one_side(codes: &[i64]) -> impl Iterator<Item = i64> {
     let ends = codes.first().zip(codes.last());
     let ends = ends.map_or(0, |(least, most)| least + most);
     codes.iter().map(move |&code| code.min(ends - code))
 }
 
-/// The greatest factor of both; that of 0 and a number is the number.
+/// The greatest common factor; that of 0 and a number is the number.
 fn common_factor(a: u64, b: u64) -> u64 {
     if b == 0 { a } else { common_factor(b, a % b) }
 }
 
-/// The lowest bits of integers, as long as they have been the same in all samples.
+/// Finds the lowest bits that are the same in all integer samples.
 #[derive(Debug)]
 pub(super) struct Lowest {
     unit: f32,
     first: Option<i32>,
-    /// Bits that some sample had otherwise than the first.
+    /// Bits in which some sample differed from the first.
     differ: i32,
 }
 
 impl Lowest {
-    /// Of integers with so much between them.
+    /// For integers with a step of `unit` as they are decoded.
     pub fn new(unit: f32) -> Self {
         Self {
             unit,
@@ -121,7 +122,7 @@ impl Lowest {
         self.differ |= differ;
     }
 
-    /// The power of two by which all samples are apart; none where they are all the same.
+    /// The step between all samples so far, `unit` times a power of two; none if they are all the same.
     pub fn step(&self) -> Option<f32> {
         let bits = self.differ.trailing_zeros();
         (self.differ != 0).then(|| self.unit * (bits as f32).exp2())
@@ -134,7 +135,7 @@ mod tests {
 
     use super::*;
 
-    /// A wave of codes of so many bits, so many of them a period.
+    /// A wave in codes of a converter of `bits` bits, `period` samples a period.
     fn wave(period: usize, bits: i32, phase: f64, pairs: usize) -> Vec<[f32; 2]> {
         let step = f64::exp2(f64::from(1 - bits));
         let code = |value: f64| (step * (value / step).round()) as f32;
@@ -151,13 +152,13 @@ mod tests {
     }
 
     #[test]
-    fn the_bits_that_integers_leave_out_are_found_without_noise_too() {
+    fn unused_bits_of_integers_are_found_without_noise_too() {
         for (container, bits) in [(16, 8), (16, 12), (24, 12), (24, 16), (32, 24)] {
             let (unit, step) = (unit(container), unit(bits));
             // Twenty values, over and over.
             let pairs = wave(20, bits, 0.3, 2000);
             assert_eq!(of_integers(&pairs, unit), Some(step), "{container} {bits}");
-            // With all their bits in use, or next to nothing there, none is told.
+            // None is found if all bits are in use, or if the signal has only two codes.
             let [fine, coarse] = [unit, step].map(|by| {
                 let shifted = pairs.iter().enumerate();
                 let shifted = shifted.map(|(k, pair)| [pair[0] + by * (k % 2) as f32, pair[1]]);
@@ -171,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn a_few_values_tell_the_step_of_a_converter() {
+    fn a_few_values_show_the_step_of_a_converter() {
         for (container, bits, periods) in [
             (16, 12, &[4, 5, 6, 8, 10][..]),
             (16, 10, &[4, 5, 6, 8, 10]),
@@ -190,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn a_few_values_that_use_their_bits_tell_none() {
+    fn a_few_values_that_use_all_bits_show_no_step() {
         for container in [8, 16, 24] {
             for period in [3, 4, 5, 6, 8, 10] {
                 let told = (0..2000).filter(|&k| {
@@ -204,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn values_made_by_hand_tell_none() {
+    fn values_made_by_hand_show_no_step() {
         let unit = unit(16);
         for levels in [
             vec![0.0, 0.5, -0.5],
@@ -232,7 +233,7 @@ mod tests {
         assert_eq!(of_whole(&scaled(32_768.0)), Some(16.0));
         assert_eq!(of_whole(&scaled(1.0)), None);
         assert_eq!(of_whole(&scaled(2047.5)), None);
-        // As many as that may be counted by hand.
+        // Numbers as small as these may be anything.
         assert_eq!(of_whole(&[[100.0, -100.0], [0.0, 0.0]]), None);
         assert_eq!(of_whole(&[[1000.0, f32::NAN], [-1000.0, 0.0]]), None);
         assert_eq!(of_whole(&[]), None);
@@ -249,7 +250,7 @@ mod tests {
         assert_eq!(lowest.step(), Some(16.0 * unit));
         lowest.look(&[[1.0 - unit, 0.0]]);
         assert_eq!(lowest.step(), Some(unit));
-        // All that are the same tell nothing.
+        // Samples that are all the same show no step.
         let mut lowest = Lowest::new(unit);
         lowest.look(&[[0.25; 2]; 100]);
         lowest.look(&[]);

@@ -8,15 +8,14 @@ use super::preamble::Start;
 use super::signal_units;
 use super::units::{bare, time_exponent, told_by, without_unit};
 
-/// The columns to read, chosen by the user: `c,d` or `time,c,d`, each a name from the header or a
-/// number from 1.
+/// The columns to read, chosen by the user: `c,d` or `time,c,d`, each a name from the header or a number from 1.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Columns {
     time: Option<String>,
     signals: [String; 2],
 }
 
-/// What is told of a choice that cannot be understood.
+/// The error for a choice of columns that cannot be understood.
 const WANTED: &str =
     "give two (S_C, S_D) or three (time, S_C, S_D) names or numbers, separated by commas";
 
@@ -36,7 +35,7 @@ impl FromStr for Columns {
 }
 
 impl Columns {
-    /// The numbers from 1 of S_C and S_D, where both are numbers, they differ, and there is no time.
+    /// The numbers of S_C and S_D, from 1; none unless both are numbers, they differ, and no time is chosen.
     pub(super) fn numbers(&self) -> Option<[usize; 2]> {
         let [c, d] = self.signals.each_ref().map(|name| name.parse().ok());
         match (&self.time, c?, d?) {
@@ -55,24 +54,24 @@ impl fmt::Display for Columns {
     }
 }
 
-/// The positions from 0 of the time, S_C and S_D.
+/// The positions of the time, S_C and S_D among the columns, from 0.
 pub(super) type Places = [Option<usize>; 3];
 
 /// The first line of a text recording.
 pub(super) struct FirstLine<'a> {
     /// The names, if the line is a header.
     pub names: Option<&'a [String]>,
-    /// What the line below it has, if that is one of units.
+    /// The fields of the line below, if that may hold units; otherwise none.
     pub units: &'a [String],
     pub width: usize,
-    /// What was seen of the lines about it.
+    /// What was found in the lines above and below.
     pub start: &'a Start,
     /// True for the first line that `antinode identify` prints, as CSV or as JSON lines.
     pub is_of_rows: bool,
 }
 
 impl FirstLine<'_> {
-    /// The places of the `chosen` columns, or else of those that the names, or how many there are, suggest.
+    /// The places of the `chosen` columns, or else of those that the names or the number of columns suggest.
     pub fn places(&self, chosen: Option<&Columns>) -> Result<Places, LineFault> {
         match chosen {
             Some(columns) => self.chosen(columns),
@@ -83,7 +82,7 @@ impl FirstLine<'_> {
     fn chosen(&self, columns: &Columns) -> Result<Places, LineFault> {
         let [c, d] = &columns.signals;
         let wanted = [columns.time.as_ref(), Some(c), Some(d)];
-        // Names may be numbers too: what may all be numbers of columns is.
+        // Names may be numbers too: if all that is chosen can be column numbers, it is.
         let is_number = |wanted: &&String| self.number(wanted).is_some();
         let are_numbers = wanted.iter().flatten().all(is_number);
         let mut places = [None; 3];
@@ -102,7 +101,7 @@ impl FirstLine<'_> {
         }
     }
 
-    /// The place of the column of this number from 1.
+    /// The place of a column given by its number, from 1.
     fn number(&self, wanted: &str) -> Option<usize> {
         let place = wanted.parse::<usize>().ok()?.checked_sub(1)?;
         (place < self.width).then_some(place)
@@ -111,7 +110,7 @@ impl FirstLine<'_> {
     fn find(&self, wanted: &str, is_number: bool) -> Result<usize, LineFault> {
         let names = self.names.filter(|_| !is_number).unwrap_or_default();
         let by_name = names.iter().position(|name| name == wanted);
-        // Of several that differ in their units or in capitals alone, none is meant for sure.
+        // Of several names that differ only in units or capitals, none is surely meant.
         let only = |is_wanted: &dyn Fn(&str) -> bool| {
             let mut places = (0..names.len()).filter(|&place| is_wanted(&names[place]));
             places.next().filter(|_| places.next().is_none())
@@ -141,7 +140,7 @@ impl FirstLine<'_> {
             .copied()
             .filter(|&place| place < self.width)
             .collect();
-        // Settings may stand beside the samples too, and so may columns without a number.
+        // Beside the samples there may be settings, and other columns without numbers.
         let is_partial = !numbers.is_empty() && numbers.len() < self.width;
         if is_partial && self.start.lines > 0 {
             return self.among(&numbers);
@@ -153,7 +152,7 @@ impl FirstLine<'_> {
         places
     }
 
-    /// The only one of these columns whose unit is one of time, where the others have none or one of signals.
+    /// The one column of these with a unit of time, provided that the others have no unit or that of a signal.
     fn timed(&self, columns: &[usize]) -> Option<usize> {
         let names = self.names?;
         let unit = |place: usize| match told_by(&names[place]) {
@@ -172,16 +171,16 @@ impl FirstLine<'_> {
         }
     }
 
-    /// The places that the names of these columns, or how many they are, suggest.
+    /// The places that the names or the number of these columns suggest.
     fn among(&self, columns: &[usize]) -> Result<Places, LineFault> {
         let role = |place: usize| self.names.and_then(|names| role(&names[place]));
         let places = || columns.iter().copied();
         let place = |wanted: Role| places().find(|&place| role(place) == Some(wanted));
         let [time, c, d] = Role::ALL.map(place);
-        // One name over all columns tells none from the others: `HUnit,s,s` of Yokogawa.
+        // The same name over all columns does not make one of them the time: `HUnit,s,s` of Yokogawa.
         let name = |place: usize| self.names.map(|names| &names[place]);
         let time = time.filter(|&time| places().any(|place| name(place) != name(time)));
-        // Settings may say that there is no time.
+        // If the settings give a start and a step, no column is the time.
         let is_timed = self.start.sequence.is_none();
         // Names in another order than usual must not swap the signals.
         if c.is_some() && d.is_some() {
@@ -190,7 +189,7 @@ impl FirstLine<'_> {
             let other = unnamed.filter(|place| is_timed && columns.len() == 3 && !index(place));
             return Ok([time.or(other), c, d]);
         }
-        // What settings stand above or beside may be a time without a name.
+        // With settings above or beside it, the first column may be a time without a name.
         let is_instrument = self.start.lines > 0 || columns.len() < self.width;
         let is_count = |place: usize| self.names.is_some_and(|names| is_count(&names[place]));
         let first = columns.first().copied();
@@ -221,12 +220,12 @@ impl FirstLine<'_> {
     }
 }
 
-/// The units that name the time and no signal.
+/// Whether a unit is one of time, s or a decimal part of it.
 fn is_of_time(unit: &str) -> bool {
     matches!(time_exponent(unit), Some(Some(_)))
 }
 
-/// What a name says its column holds.
+/// The role of a column by its name.
 fn role(name: &str) -> Option<Role> {
     let bare = name.split(['[', '(', '/']).next().unwrap_or_default();
     let bare: String = bare
@@ -255,12 +254,12 @@ pub(super) fn is_time(name: &str) -> bool {
     role(name) == Some(Role::Time)
 }
 
-/// Whether a name is that of a mere count of lines: among others also a letter that may be a current beside a time.
+/// Whether a name is that of a mere count of lines, or one of the letters that may be a current if there is a time too.
 fn is_index(name: &str) -> bool {
     is_count(name) || ["i", "k"].contains(&name.to_lowercase().as_str())
 }
 
-/// Whether a name is that of a count of lines, whatever stands beside it.
+/// Whether a name is that of a count of lines, whatever the other columns are.
 fn is_count(name: &str) -> bool {
     let names = [
         "", "#", "n", "nr", "no", "index", "sample", "samples", "point", "points",

@@ -1,4 +1,4 @@
-//! What a stream is, told from its first bytes.
+//! Recognition of a stream's format by its first bytes.
 
 use std::io::{self, Cursor, Read};
 
@@ -12,30 +12,30 @@ use super::text::{MAX_LINE, fields, is_log_head, is_skipped, separator, without_
 /// Bytes read at a time while a text's first line is looked for.
 const PIECE: usize = 4096;
 
-/// What the first bytes tell.
+/// The kind of content that the first bytes show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Content {
     Nothing,
     Wav,
     Npy,
     Utf16,
-    /// What is known, and not read.
+    /// A known format that is not read.
     Foreign(&'static Foreign),
-    /// Its first line is a CSV header or numbers, or such numbers follow behind settings.
+    /// Text whose first line is a CSV header or numbers, or with such numbers below settings.
     Text,
     Other,
 }
 
 impl Content {
-    /// Looks at a stream, and gives it back whole. Text is looked for only where `or_text` says so, for it takes a line or more.
-    pub fn look(mut stream: Stream, or_text: bool) -> io::Result<(Self, Stream)> {
+    /// Examines a stream, and gives it back whole. Text is recognised only if asked for by `try_text`, for it takes a line or more.
+    pub fn look(mut stream: Stream, try_text: bool) -> io::Result<(Self, Stream)> {
         let mut head = Vec::new();
         for most in [|_: &[u8]| FEW_BYTES, Foreign::head_bytes] {
             let more = most(&head) - head.len();
             stream.by_ref().take(more as u64).read_to_end(&mut head)?;
         }
         let mut content = Self::of(&head);
-        if or_text && content == Self::Other && is_text(&mut head, &mut stream)? {
+        if try_text && content == Self::Other && is_text(&mut head, &mut stream)? {
             content = Self::Text;
         }
         Ok((content, Box::new(Cursor::new(head).chain(stream))))
@@ -44,7 +44,7 @@ impl Content {
     fn of(head: &[u8]) -> Self {
         match head {
             [] => Self::Nothing,
-            // Any twelve bytes of a raw stream could be a chunk's name, but hardly this pair.
+            // Raw samples may happen to contain one of these two names, but hardly both.
             [b'R', b'I', b'F', b'F' | b'X', .., b'W', b'A', b'V', b'E'] => Self::Wav,
             [
                 b'R' | b'B',
@@ -66,9 +66,9 @@ impl Content {
 }
 
 /// Whether the first line that is neither blank nor a comment is one of CSV, or a later one holds samples; what is read is appended to
-/// `head`. Bytes that no text has matter only up to there, however many have come by then.
+/// `head`. Control bytes matter only up to that line, however much has been read by then.
 fn is_text(head: &mut Vec<u8>, stream: &mut Stream) -> io::Result<bool> {
-    // The bytes of whole lines that are looked through, and whether the first line is among them.
+    // The bytes of whole lines examined so far, and whether the first line is among them.
     let (mut seen, mut has_begun) = (0, false);
     loop {
         let end = head.iter().rposition(|byte| b"\r\n".contains(byte));
@@ -81,7 +81,7 @@ fn is_text(head: &mut Vec<u8>, stream: &mut Stream) -> io::Result<bool> {
             return Ok(false);
         }
         let before = head.len();
-        // No more than is there: a line of a slow pipe is enough.
+        // One read gives what is there: a slow pipe need not send more than a line.
         let mut piece = [0; PIECE];
         let read = stream.read(&mut piece)?;
         head.extend_from_slice(&piece[..read]);
@@ -91,7 +91,8 @@ fn is_text(head: &mut Vec<u8>, stream: &mut Stream) -> io::Result<bool> {
     }
 }
 
-/// True at the first of these lines that holds samples, or is the text's first and one of CSV; false at one that is no text before it.
+/// Whether these lines show CSV: true if one holds samples, or the text's first is one of CSV; false if a line that is no text comes
+/// before; none if more lines are needed.
 fn tells_csv(text: &[u8], has_begun: &mut bool) -> Option<bool> {
     let mut lines = without_mark(text).split(|byte| b"\r\n".contains(byte));
     lines.find_map(|line| {
@@ -106,7 +107,7 @@ fn tells_csv(text: &[u8], has_begun: &mut bool) -> Option<bool> {
     })
 }
 
-/// Whether there are bytes that no text has.
+/// Whether there are control bytes, which no text has.
 pub(super) fn has_control(bytes: &[u8]) -> bool {
     let is_control = |byte: &u8| byte.is_ascii_control() && !byte.is_ascii_whitespace();
     bytes.iter().any(is_control)
@@ -126,7 +127,7 @@ fn is_csv(line: &[u8]) -> bool {
     }
     let separator = separator(line);
     let found: Vec<&[u8]> = fields(line, separator).collect();
-    // Words between blanks are any text: one of them must be a name that is known.
+    // Words separated by blanks may be prose: one of them must be a known name of a column.
     let is_header = if separator == b' ' {
         found
             .iter()
@@ -141,7 +142,7 @@ fn is_csv(line: &[u8]) -> bool {
 mod tests {
     use super::*;
 
-    /// What bytes are that come one at a time.
+    /// The content recognised in bytes that come one at a time.
     fn content(bytes: &[u8]) -> Content {
         let stream = super::super::tests::Dribble::new(bytes.to_vec(), 1);
         let (content, mut stream) = Content::look(Box::new(stream), true).unwrap();
@@ -152,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn what_follows_the_first_samples_is_no_matter_of_how_much_has_come() {
+    fn bytes_after_the_first_samples_do_not_matter_however_many_have_come() {
         for (text, expected) in [
             (&b"1,2\n3,4\n5\x01,6\n"[..], Content::Text),
             (b"time,c,d\n0,1,2\n\0\0\n", Content::Text),
@@ -180,7 +181,7 @@ mod tests {
             "\u{feff}# a comment as long as you like, \n\n# one more\nt\tx\ty\r0\t1\t2\r",
             "2024-05-01T00:00:00,1,2\n",
             "LabVIEW Measurement\t\nSeparator\tTab\n\n0.1\t0.2\t\n",
-            // As a Parquet file, a sound file and a waveform begin.
+            // These begin as a Parquet file, a sound file and a waveform do.
             "PAR1,PAR2,PAR3\n1,2,3\n",
             "ID3;ID4\n1;2\n",
             "\u{feff}time,AIF,BIF\n0,1,2\n",

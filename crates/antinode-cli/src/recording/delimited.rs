@@ -11,13 +11,13 @@ use super::time::{Meaning, TimeAxis, are_paired, roundest, standstill};
 use super::{OpenOptions, Opened, Source, Stream};
 use rows::{Row, Rows};
 
-/// The lines read ahead to tell the sample rate, whose times are rounded as they are printed.
+/// Lines read ahead to find the sample rate from times that are rounded by printing.
 const HEAD_LINES: u64 = 1 << 16;
 
-/// The lines read ahead where there is no time: enough to tell whether they are lines of numbers.
+/// Lines read ahead if there is no time column: enough to tell whether they hold numbers.
 const FEW_LINES: u64 = 16;
 
-/// Opens text; a `live` stream is handed over as it comes.
+/// Opens text; pairs of a `live` stream, a pipe, are delivered as they come.
 pub(super) fn open(
     file: &str,
     stream: Stream,
@@ -62,24 +62,24 @@ pub(super) fn open(
     })
 }
 
-/// Reads lines of numbers.
+/// A source of pairs from lines of numbers.
 struct Delimited {
     file: String,
     rows: Rows,
-    /// The first time, or 0.
+    /// The first number in the time column, or 0 if there is none.
     start: f64,
     axis: Option<TimeAxis>,
     gaps: Gaps,
     /// The pairs read.
     pairs: u64,
-    /// The lines left out behind the last of them.
+    /// The lines left out since the last pair.
     left_out: u64,
     live: bool,
-    /// The rate in use, where it is that of the times.
+    /// The rate in use, Hz, if the time column is taken for times.
     used: Option<f64>,
-    /// Pairs read to tell the sample rate, and not yet delivered.
+    /// Pairs read ahead to find the sample rate, not yet delivered.
     ahead: std::vec::IntoIter<[f32; 2]>,
-    /// What is wrong behind the last of them.
+    /// The fault behind the last of them.
     fault: Option<InputError>,
 }
 
@@ -100,7 +100,7 @@ impl Delimited {
         })
     }
 
-    /// Reads as many lines as it takes to tell the sample rate, and checks their times.
+    /// Reads as many lines as it takes to find the sample rate, and checks their times.
     fn read_ahead(&mut self) {
         let is_timed = self.rows.header.places[0].is_some();
         let head = if is_timed { HEAD_LINES } else { FEW_LINES };
@@ -162,7 +162,8 @@ impl Delimited {
         }
     }
 
-    /// Takes the time of this line, before which there were so many pairs, and just before it so many lines left out.
+    /// Checks the time of a line, and records a gap before it. `before`: the pairs read before the line; `left_out`: the lines left out
+    /// just before it.
     fn check(
         &mut self,
         before: u64,
@@ -187,7 +188,7 @@ impl Delimited {
         Ok(())
     }
 
-    /// Warns of a time column that is read as what it hardly is.
+    /// The warning about a time column that may mean something else, or a sample rate that contradicts `--rate`.
     fn warning(&self, meaning: Meaning) -> Option<String> {
         let samples = self.rows.header.samples();
         let ignored = format!("ignore it with --columns {samples} --rate HZ");
@@ -241,7 +242,7 @@ impl Source for Delimited {
                     pairs.push(pair);
                 }
             }
-            // The next line may take its time.
+            // A live stream must not be held up by its next line.
             if self.live && self.rows.lines.is_drained() && !pairs.is_empty() {
                 break;
             }
@@ -261,8 +262,8 @@ impl Source for Delimited {
         self.gaps.next()
     }
 
-    fn pass_gap(&mut self, is_told: bool) {
-        self.gaps.pass(is_told);
+    fn pass_gap(&mut self, is_reported: bool) {
+        self.gaps.pass(is_reported);
     }
 
     fn look(&mut self, start: u64, end: u64) {

@@ -1,4 +1,4 @@
-//! What can be wrong with a recording, told as `FILE: place: what is wrong; remedy`.
+//! Errors of recordings, each worded as `FILE: place: what is wrong; remedy`.
 
 mod line;
 
@@ -28,10 +28,10 @@ impl fmt::Display for Channel {
 /// Why a recording cannot be opened, or cannot be read further.
 #[derive(Debug, thiserror::Error)]
 pub enum InputError {
-    /// The path leads nowhere.
+    /// Nothing is at the path.
     #[error("{file}: there is no such file; check the path")]
     NotFound { file: String },
-    /// The path leads to a directory.
+    /// A directory is at the path.
     #[error("{file}: this is a directory; name the file inside it")]
     Directory { file: String },
     /// The file may not be read.
@@ -40,10 +40,10 @@ pub enum InputError {
     /// The system failed to read.
     #[error("{file}: cannot be read: {fault}; check the disk, the network share or the pipe")]
     Io { file: String, fault: io::Error },
-    /// Not one byte.
+    /// The file or stream has not one byte.
     #[error("{file}: there is nothing in it; check that the recording was saved or sent")]
     Empty { file: String },
-    /// A sound file without a single pair of samples.
+    /// A recording without a single pair of samples.
     #[error(
         "{file}: there is not one sample pair in it; check that the recording was saved or sent"
     )]
@@ -55,7 +55,7 @@ pub enum InputError {
          f32 or f64, or the columns of a text with --columns"
     )]
     Unknown { file: String },
-    /// What the content is, which is not read.
+    /// The content is of a known format that is not read.
     #[error("{file}: this is {kind}, which is not read; {remedy}")]
     Foreign {
         file: String,
@@ -68,7 +68,7 @@ pub enum InputError {
          raw one with --raw"
     )]
     NotOfKind { file: String, kind: &'static str },
-    /// Standard input without a sample format.
+    /// Standard input of no known format, or from a terminal, without a sample format.
     #[error(
         "{file}: this is neither WAV, NPY nor CSV, and raw samples do not tell their format; give it \
          with --raw u8, i8, u16, i16, i24, i32, f32 or f64 (little-endian, S_C and S_D in turn)"
@@ -85,7 +85,7 @@ pub enum InputError {
         "{file}: WAV header: the samples are {encoding}; export them as 16, 24 or 32-bit PCM or 32-bit float"
     )]
     WavEncoding { file: String, encoding: String },
-    /// Not two channels.
+    /// A WAV file of other than two channels, of which none are chosen.
     #[error(
         "{file}: WAV header: found {found} {}, but two are needed; {}",
         if *.found == 1 { "channel" } else { "channels" },
@@ -96,19 +96,19 @@ pub enum InputError {
         }
     )]
     Channels { file: String, found: usize },
-    /// More samples than the header tells.
+    /// More samples follow than the header promises.
     #[error(
         "{file}: the WAV header says {promised} sample pairs, and more follow that are not read: it was never finished, or they are too many \
          for it; mend it, for example with `sox --ignore-length {file} whole.wav`"
     )]
     MoreData { file: String, promised: u64 },
-    /// WAV files in one, one behind the other.
+    /// Several WAV files joined byte by byte.
     #[error(
         "{file}: behind {found} sample pairs another WAV file begins, which is not read: `cat` does not join WAV files; \
          `sox part1.wav part2.wav whole.wav` does"
     )]
     AnotherWav { file: String, found: u64 },
-    /// Channels that do not exist, or are not given by number.
+    /// Chosen channels that do not exist, or are not given by number.
     #[error(
         "{file}: --columns {chosen}: give the numbers of the channels of S_C and S_D, two of 1 to {channels}"
     )]
@@ -122,7 +122,7 @@ pub enum InputError {
         "{file}: of {channels} channels in turn (--channels) two are needed; give those of S_C and S_D, --columns 1,2"
     )]
     RawChannels { file: String, channels: usize },
-    /// Raw channels that do not exist as long as nobody says how many there are, or are not given by number.
+    /// Chosen raw channels beyond the two that are assumed without `--channels`, or not given by number.
     #[error(
         "{file}: --columns {chosen}: raw samples have two channels unless --channels says how many there are; give the \
          numbers of those of S_C and S_D, 1,2 or 2,1, or --channels too"
@@ -150,7 +150,7 @@ pub enum InputError {
         promised: u64,
         found: u64,
     },
-    /// An S_C without its S_D, or without the channels beside it.
+    /// The data end within a pair, or within the channels that were sampled together.
     #[error(
         "{file}: sample pair {found} (from 0): the data end in the middle of it; check that {} channels \
          are there in the format named, and that the recording was not cut off",
@@ -161,7 +161,7 @@ pub enum InputError {
         found: u64,
         channels: usize,
     },
-    /// NaN, an infinity, a number beyond single precision, text, or a broken line: told once all is read.
+    /// Samples that are NaN, infinite, beyond single precision, text, or in a broken line; reported once all is read.
     #[error(
         "{file}{}: sample pair {pair} (from 0), {told}{}; \
          rows of windows with one are flagged or missing, the others are good: mend what wrote it",
@@ -179,26 +179,27 @@ pub enum InputError {
     /// The NPY header is damaged.
     #[error("{file}: NPY header: {fault}; save it again with `numpy.save`")]
     NpyHeader { file: String, fault: &'static str },
-    /// Neither (N, 2) nor (2, N).
+    /// An array of neither shape (N, 2) nor (2, N).
     #[error(
         "{file}: NPY header: the shape is {shape}, but (N, 2) is needed; of more channels \
          give two, --columns 2,3 where the first is the time, or save `numpy.stack([c, d], axis=1)`"
     )]
     NpyShape { file: String, shape: String },
-    /// A type of number that has no scale here.
+    /// An array of a number type that is not read.
     #[error(
         "{file}: NPY header: the dtype is {dtype}, but u1, i1, u2, i2, i4, f4 or f8 is needed; save \
          `numpy.stack([c, d], axis=1).astype('f4')`"
     )]
     NpyType { file: String, dtype: String },
-    /// One channel after the other, in a pipe.
+    /// An array that stores one channel after the other, in a pipe.
     #[error(
         "{file}: S_D follows after all of S_C, which a pipe cannot go back for; give a file, or save \
          `numpy.stack([c, d], axis=1)` in C order"
     )]
     NpyPipe { file: String },
 
-    /// Lines of text whose time is not known; and the line that other samples are lost before, with how many: told once all is read.
+    /// Lines of text that are left out, as their time is not known. `lost`: the line before which other samples are missing, and how
+    /// many. Reported once all is read.
     #[error(
         "{file}:{place}: {told}: the line is left out{}{}; \
          rows of windows that lack a sample are missing, the others are good: mend what wrote it",
@@ -225,7 +226,7 @@ pub enum InputError {
 }
 
 impl InputError {
-    /// A fault in a line as a whole.
+    /// The error for a line as a whole.
     pub(super) fn line(file: &str, line: u64, fault: LineFault) -> Self {
         let place = Place { line, column: None };
         Self::Line {
@@ -235,11 +236,11 @@ impl InputError {
         }
     }
 
-    /// What the system said about `file`, in the words of this tool.
+    /// The error for what the system said about `file`.
     pub fn io(file: &str, fault: io::Error) -> Self {
         let file = file.to_owned();
         match fault.kind() {
-            // On Windows, no file's name has a `*`.
+            // Windows calls a name with `*` invalid: no file can have it.
             io::ErrorKind::NotFound | io::ErrorKind::InvalidFilename => Self::NotFound { file },
             io::ErrorKind::PermissionDenied => Self::Permission { file },
             io::ErrorKind::IsADirectory => Self::Directory { file },

@@ -1,31 +1,32 @@
-//! Files that are not read: what they are, by their first bytes, and how each becomes one that is.
+//! Formats that are recognised by their first bytes but not read, each with the way to convert it.
 
 use super::content::has_control;
 
-/// What a file is that is not read.
+/// A format that is recognised but not read.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Foreign {
-    /// The bytes that tell it, and where they stand.
+    /// The bytes that identify it, and their offset.
     mark: &'static [u8],
     at: usize,
+    /// The format in words, as after "this is".
     pub kind: &'static str,
     /// What to do, with `FILE` for its name.
     remedy: &'static str,
 }
 
-/// Enough of the first bytes to know most of these.
+/// Number of first bytes that identifies most of these formats.
 pub(super) const FEW_BYTES: usize = 12;
 
-/// Enough to know those of which the first tell too little.
+/// Number of first bytes for formats that the first few leave open.
 pub(super) const MORE_BYTES: usize = 64;
 
 const ZIP: &[u8] = b"PK\x03\x04";
 
-/// The beginning of the length of a waveform of LeCroy, nine digits: a comment may begin so too.
+/// The beginning of a LeCroy waveform, which announces a length of nine digits; a comment may begin so too.
 const LECROY: &[u8] = b"#9";
 
-/// Marks of so many letters may begin a text.
-const SHORT: usize = 4;
+/// Longest mark, in bytes, that may begin a text by chance.
+const MAX_TEXT_LIKE: usize = 4;
 
 const MATLAB: &str = "write text in MATLAB or Octave, `load('FILE'); dlmwrite('both.csv', [c(:) d(:)], 'precision', 9)`, with the names of your two \
                       signals for c and d";
@@ -41,7 +42,7 @@ const LOSSY: &str = "what it lost does not come back: record WAV or FLAC; only f
 const SHEET: &str = "save its sheet as CSV";
 const UNZIP: &str = "where it holds one recording alone, `unzip -p FILE | antinode identify -`, and else unpack it first";
 
-/// By its name alone: files of level 4 begin with no mark.
+/// MATLAB files of level 4, which have no mark: they are recognised by their extension alone.
 pub(super) const MAT: Foreign = of(b"", 0, "a MATLAB file", MATLAB);
 const ARRAYS: Foreign = of(ZIP, 0, "an NPZ archive of NumPy", NPZ);
 const WORKBOOK: Foreign = of(ZIP, 0, "a spreadsheet", SHEET);
@@ -133,33 +134,33 @@ const fn of(mark: &'static [u8], at: usize, kind: &'static str, remedy: &'static
 }
 
 impl Foreign {
-    /// How many of the first bytes tell what a file is, by the first few of them.
+    /// How many of the first bytes are needed to identify a file, given the first few.
     pub fn head_bytes(few: &[u8]) -> usize {
         let is_more = few.starts_with(ZIP) || few.starts_with(LECROY);
         if is_more { MORE_BYTES } else { FEW_BYTES }
     }
 
-    /// What begins so.
+    /// The format of a file that begins with `head`, if it is one of these.
     pub fn find(head: &[u8]) -> Option<&'static Self> {
         if head.starts_with(ZIP) {
             return Some(zipped(head));
         }
         let few = &head[..head.len().min(FEW_BYTES)];
-        // Its last letter may be cut.
+        // The last character may be cut in two.
         let is_text = !has_control(few)
             && str::from_utf8(few).map_or_else(|fault| fault.error_len().is_none(), |_| true);
         KNOWN.iter().find(|known| {
             let begins = head
                 .get(known.at..)
                 .is_some_and(|head| head.starts_with(known.mark));
-            begins && !(is_text && known.mark.len() <= SHORT)
+            begins && !(is_text && known.mark.len() <= MAX_TEXT_LIKE)
         })
     }
 
     /// What to do with a file of this name.
     pub fn remedy(&self, name: Option<&str>) -> String {
         let name = name.unwrap_or("FILE");
-        // Between quotes it is as it is; a shell wants them where it has blanks.
+        // Within quotes the name stands as it is; elsewhere a shell needs quotes if it has blanks.
         let argument = if name.contains(' ') {
             format!("\"{name}\"")
         } else {

@@ -1,8 +1,8 @@
-//! Fields that hold a number and are none: behind a label or a time stamp, in brackets, in hexadecimal digits.
+//! Fields that contain a number but are none: with a label, a time stamp or a unit, in brackets, or in hexadecimal digits.
 
 use super::number::is_number;
 
-/// Whether two fields hold numbers in the same text: names do not, over samples.
+/// Whether two fields differ in nothing but their numbers, as samples do from one another; a name above a sample differs otherwise.
 pub(super) fn are_alike(one: &[u8], other: &[u8]) -> bool {
     let one = form(one);
     one.contains(&b'#') && one == form(other)
@@ -32,7 +32,7 @@ pub(super) fn is_measured(text: &str) -> bool {
     text[..text.len() - unit.len()].contains(is_digit) && ["V", "s", "sec"].contains(&base)
 }
 
-/// How lines with such a field become lines of numbers; none where its form is none that is known.
+/// The advice on how to turn lines with such a field into lines of numbers; none if its form is not known.
 pub(super) fn remedy(text: &str) -> Option<&'static str> {
     let is_stamp = |word: &str| {
         let mut parts = word.trim_start_matches('[').split(':');
@@ -54,7 +54,7 @@ pub(super) fn remedy(text: &str) -> Option<&'static str> {
                 || text.contains("->"))
     };
     let is_stamped = stamp.is_some_and(is_behind);
-    // A time alone has no number behind it: its column may be left out.
+    // A stamp without a number behind it has a column of its own, which may be left out.
     if stamp.is_some() && !is_stamped {
         return None;
     }
@@ -94,7 +94,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_same_text_about_other_numbers_is_alike() {
+    fn fields_that_differ_in_their_numbers_alone_are_alike() {
         for (one, other, expected) in [
             ("C:691", "C:-12", true),
             ("[3300", "[-0.5", true),

@@ -17,7 +17,7 @@ impl Frame {
         chosen: [0, 1],
     };
 
-    /// The channels that the user chose of so many, or else both of two.
+    /// The two of `channels` channels that the user chose by `columns`; without a choice, both of two.
     pub fn choose(
         file: &str,
         channels: usize,
@@ -46,7 +46,7 @@ impl Frame {
         }
     }
 
-    /// Takes the samples of S_C and S_D, of `size` bytes each, out of whole frames.
+    /// Copies the samples of S_C and S_D, of `size` bytes each, from whole frames into `picked`.
     pub fn pick(self, frames: &[u8], size: usize, picked: &mut Vec<u8>) {
         picked.clear();
         for frame in frames.chunks_exact(self.channels * size) {

@@ -1,12 +1,12 @@
-//! Samples that a recording's own time shows to be missing: they are left out of the rows, and told at the end.
+//! Gaps: samples that a recording's own time shows to be missing. No row spans one, and they are reported at the end.
 
 use std::collections::VecDeque;
 use std::num::NonZeroU32;
 
 use super::error::TimeFault;
 
-/// Gaps as far apart from each other as the next are no chance, if they are so many.
-const REGULAR: u32 = 5;
+/// Number of gaps from which on equal distances between them are no chance.
+const MIN_REGULAR: u32 = 5;
 
 /// Samples that are missing between two pairs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,14 +20,15 @@ pub struct Gap {
 /// The gaps found so far.
 #[derive(Debug, Default)]
 pub(super) struct Gaps {
-    /// Those among pairs that are still to be delivered.
+    /// Gaps that are not yet passed.
     ahead: VecDeque<Found>,
-    /// The first of those to be told.
+    /// The first gap to be reported.
     first: Option<Found>,
+    /// The number of gaps to be reported.
     count: u32,
     /// The pairs missing in all of them.
     lost: u64,
-    /// Pairs before the last one, and from each to the next where these are as many for all of them.
+    /// Pairs before the last gap, and from each gap to the next if these are always as many.
     last: u64,
     every: Option<NonZeroU32>,
 }
@@ -39,12 +40,12 @@ struct Found {
     line: u64,
     from: f64,
     to: f64,
-    /// Whether lines that were left out had its samples.
+    /// Whether its samples were in lines that were left out, which are reported themselves.
     is_explained: bool,
 }
 
 impl Gaps {
-    /// Takes one that was found before this line, between these times; it may be told otherwise.
+    /// Adds a gap that was found before this line, between these times.
     pub fn add(&mut self, gap: Gap, line: u64, [from, to]: [f64; 2], is_explained: bool) {
         let found = Found {
             gap,
@@ -56,15 +57,15 @@ impl Gaps {
         self.ahead.push_back(found);
     }
 
-    /// The next one.
+    /// The next gap that is not yet passed.
     pub fn next(&self) -> Option<Gap> {
         self.ahead.front().map(|found| found.gap)
     }
 
-    /// Passes the next one; it `is_told` at the end, or not.
-    pub fn pass(&mut self, is_told: bool) {
+    /// Passes the next gap, which `is_reported` at the end or not.
+    pub fn pass(&mut self, is_reported: bool) {
         let passed = self.ahead.pop_front();
-        if let Some(found) = passed.filter(|found| is_told && !found.is_explained) {
+        if let Some(found) = passed.filter(|found| is_reported && !found.is_explained) {
             let since = found.gap.before - self.last;
             match self.count {
                 0 => {}
@@ -78,12 +79,12 @@ impl Gaps {
         }
     }
 
-    /// The line of the first one, and how many samples are lost in all.
+    /// The line of the first gap to be reported, and the number of samples lost in all.
     pub fn told(&self) -> Option<(u64, u64)> {
         Some((self.first?.line, self.lost))
     }
 
-    /// The line of the first one, and what is to be told of all.
+    /// The line of the first gap to be reported, and the fault that reports all.
     pub fn fault(&self) -> Option<(u64, TimeFault)> {
         let first = self.first?;
         let fault = TimeFault::Gap {
@@ -92,7 +93,7 @@ impl Gaps {
             to: first.to,
             gaps: self.count,
             all: self.lost,
-            every: self.every.filter(|_| self.count >= REGULAR),
+            every: self.every.filter(|_| self.count >= MIN_REGULAR),
         };
         Some((first.line, fault))
     }

@@ -1,4 +1,4 @@
-//! What the first lines of a text recording tell: its columns, and the unit of its time.
+//! The header of a text recording: its columns and their units, from the first lines.
 
 use super::columns::{Columns, FirstLine, Places, is_time};
 use super::error::{InputError, LineFault, TimeFault};
@@ -15,34 +15,34 @@ use super::units::{
 pub(super) struct Header {
     pub width: usize,
     pub places: Places,
-    /// The power of ten that makes seconds of the time.
+    /// The power of ten of the time's unit in seconds: −3 for ms.
     pub exponent: i32,
-    /// The times of the samples, where the first column counts them.
+    /// The times of the samples, if these are counted from a start in equal steps.
     pub sequence: Option<Sequence>,
-    /// What brings S_C and S_D to one unit: each is divided by its own.
+    /// Divisors of S_C and S_D that bring both to one unit.
     pub divisors: [f32; 2],
-    /// Their units, and what became of them.
+    /// The units of S_C and S_D, and how they are brought together.
     units: ([String; 2], Together),
     /// The name of a time column whose brackets hold no unit of time.
     unknown: Option<String>,
-    /// What the names tell of a start and an increment.
+    /// What the names tell about a start and an increment, if they do.
     counted: Option<Counted>,
-    /// The line above that is left out, for it is cut.
+    /// The number of a first line that is left out, as it lacks its beginning.
     cut: Option<usize>,
 }
 
-/// What names and a line of units below them told.
+/// What was found in the names and a line of units below them.
 #[derive(Default)]
 struct Told {
-    /// The unit of the time.
+    /// Whether the time's unit was found.
     has_unit: bool,
-    /// The line that the signals' units stand in, and whether they are surely units.
+    /// The line with the signals' units, and whether they are surely units.
     line: u64,
     are_signals: bool,
 }
 
 impl Header {
-    /// Reads the names and the units, where there are any; what begins the text is still to be read.
+    /// Reads the names and the units, if there are any, and leaves the samples to be read; `beginning` shows the lines ahead.
     pub fn read(
         file: &str,
         lines: &mut Lines,
@@ -74,7 +74,7 @@ impl Header {
             is_of_rows,
         };
         let places = if counted.is_some() && !is_timed && chosen.is_none() && columns != 2 {
-            // None of these is a time.
+            // No column here is a time.
             let (found, are_words) = (columns, false);
             Err(LineFault::ColumnCount { found, are_words })
         } else {
@@ -102,7 +102,7 @@ impl Header {
             }
         };
         if !told.has_unit {
-            // Where the samples tell the unit of their time, settings may be about the screen's.
+            // Only now do the settings matter: beside a unit in the header, theirs may be that of the screen.
             let is_other = |unit: &str| time_exponent(unit).is_some_and(|own| own != Some(0));
             if let Some((unit, line)) = &start.unit
                 && places[0].is_some()
@@ -120,7 +120,7 @@ impl Header {
         Ok(header)
     }
 
-    /// Takes the units in the names, and in the line below these, if it is one of units; else it is still to be read.
+    /// Reads the units in the names and in the line below them; leaves that line to be read if it holds none.
     fn read_units(
         &mut self,
         file: &str,
@@ -132,7 +132,7 @@ impl Header {
         let mut told = Told {
             has_unit: false,
             line: lines.number(),
-            // Behind another mark than a bracket, a name may end in a label.
+            // Outside of brackets, the end of a name may be a label.
             are_signals: signals.iter().all(|name| is_bracketed(name)),
         };
         self.units.0 = signals.map(|name| of_name(name).to_owned());
@@ -148,7 +148,7 @@ impl Header {
         };
         let line = lines.number();
         match self.set_unit(&unit, &unit) {
-            // Brackets hold a unit, which is not that of seconds where it is none known.
+            // Brackets hold a unit: one that is not known cannot be taken for seconds.
             Ok(false) if is_bracketed(&unit) => {
                 return Err(self.of_time(file, line, TimeFault::Unit { name: unit }));
             }
@@ -162,21 +162,21 @@ impl Header {
         Ok(told)
     }
 
-    /// A fault of the time in this line.
+    /// The error for a fault of the time in this line.
     fn of_time(&self, file: &str, line: u64, fault: TimeFault) -> InputError {
         InputError::line(file, line, self.time_fault(fault))
     }
 
-    /// The unit in this line of the column of this `role`.
+    /// The unit that this line holds for the column of this `role`.
     fn field(&self, lines: &Lines, role: usize) -> String {
         let field = self.places[role].and_then(|place| lines.fields().nth(place));
         bare(&lossy(field.unwrap_or_default())).to_owned()
     }
 
-    /// Finds what brings both signals to one unit.
-    fn bring_together(&mut self, are_told: bool) -> Result<(), LineFault> {
+    /// Finds the divisors that bring both signals to one unit; fails if they measure different things.
+    fn bring_together(&mut self, are_sure: bool) -> Result<(), LineFault> {
         let (units, outcome) = &mut self.units;
-        *outcome = together([&units[0], &units[1]], are_told);
+        *outcome = together([&units[0], &units[1]], are_sure);
         match outcome {
             Together::Same | Together::Unsure => {}
             Together::Divided(divisors) => self.divisors = *divisors,
@@ -188,12 +188,12 @@ impl Header {
         Ok(())
     }
 
-    /// What to tell of the first lines.
+    /// The warnings about the first lines.
     pub fn warnings(&self) -> [Option<String>; 3] {
         [self.cut(), self.signal_units(), self.time_unit()]
     }
 
-    /// What to tell of the signals' units.
+    /// The warning about signals in different units, or one of an unknown unit.
     fn signal_units(&self) -> Option<String> {
         let ([c, d], together) = &self.units;
         let told = match together {
@@ -207,7 +207,7 @@ impl Header {
         Some(format!("S_C is in {c} and S_D in {d}: {told}"))
     }
 
-    /// What to tell of a time whose unit is none that is known.
+    /// The warning about a time whose unit is not known.
     fn time_unit(&self) -> Option<String> {
         let name = self.unknown.as_ref()?;
         let samples = self.samples();
@@ -217,7 +217,7 @@ impl Header {
         ))
     }
 
-    /// What to tell of a first line that is left out.
+    /// The warning about a first line that is left out.
     fn cut(&self) -> Option<String> {
         let line = self.cut?;
         Some(format!(
@@ -225,7 +225,7 @@ impl Header {
         ))
     }
 
-    /// Takes the time's unit, which stands in a column of this name; false where it is none.
+    /// Sets the time's unit; false if it is no unit of time. `name` stands for it in an error.
     fn set_unit(&mut self, unit: &str, name: &str) -> Result<bool, TimeFault> {
         match time_exponent(unit) {
             None => Ok(false),
@@ -240,10 +240,10 @@ impl Header {
         }
     }
 
-    /// The time's unit, if this is a line of units.
+    /// The time's unit, which may be empty, if this is a line of units.
     fn units(&mut self, lines: &Lines) -> Option<String> {
         let mut found: Vec<String> = lines.fields().map(lossy).collect();
-        // One mark at the end of a line ends its last field; it does not begin another.
+        // A single separator at the end of a line does not begin another field.
         if found.len() == self.width + 1 && found[self.width].is_empty() {
             found.pop();
         }
@@ -251,7 +251,7 @@ impl Header {
             return None;
         }
         if let Some(counted) = self.counted {
-            // Another column than the first holds times of its own.
+            // A time column other than the first holds the times themselves.
             let first = counted.has_numbers.then_some(0);
             let is_first = self.places[0].is_none() || self.places[0] == first;
             if is_first && counted.sequence.is_none() {
@@ -274,20 +274,20 @@ impl Header {
             .then(|| time.to_owned())
     }
 
-    /// The columns of the samples, as they are asked for.
+    /// The columns of the samples, as `--columns` takes them.
     pub fn samples(&self) -> String {
         let [c, d] = [1, 2].map(|role| self.places[role].map_or(0, |place| place + 1));
         format!("{c},{d}")
     }
 
-    /// A fault of the time, with the way around it.
+    /// The fault of a line whose time is at fault, with the columns to read without it.
     pub fn time_fault(&self, fault: TimeFault) -> LineFault {
         let samples = self.samples();
         LineFault::Time { fault, samples }
     }
 }
 
-/// The fields of the first of these lines, where it may be one of units; else nothing.
+/// The fields of the first of these lines, if it may be one of units; otherwise none.
 fn units_below(next: &[u8], separator: u8) -> Vec<String> {
     let mut lines = next.split(|&byte| byte == b'\n');
     let line = lines.find(|line| !is_skipped(line)).unwrap_or_default();
@@ -297,7 +297,7 @@ fn units_below(next: &[u8], separator: u8) -> Vec<String> {
         .unwrap_or_default()
 }
 
-/// A field as text, whatever its code.
+/// A field as text, whatever its encoding.
 pub(super) fn lossy(field: &[u8]) -> String {
     String::from_utf8_lossy(field).into_owned()
 }

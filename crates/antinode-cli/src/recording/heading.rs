@@ -5,13 +5,13 @@ use super::no_number::stand_in;
 use super::number::{self, number};
 use super::text::{self, fields};
 
-/// Fewer lines than these do not tell whether a sample goes before them.
-const FEW: usize = 8;
+/// Fewest lines that can tell whether the line above them is a sample of the same wave.
+const MIN_LINES: usize = 8;
 
-/// How far a first sample may be from what follows, in rms residuals.
-const FAR: f64 = 5.0;
+/// Largest distance of a first sample from the wave that follows, in rms residuals.
+const MAX_DISTANCE: f64 = 5.0;
 
-/// Whether the first line holds the names of columns, by the lines that follow it: a first sample must not be lost.
+/// Whether the first line holds the names of columns, judged by the lines that follow; in doubt it does not, lest a sample be lost.
 pub(super) fn is_header(first: &[u8], next: &[u8], separator: u8) -> bool {
     let names: Vec<&[u8]> = fields(first, separator).collect();
     let rows: Vec<Vec<&[u8]>> = next
@@ -21,7 +21,7 @@ pub(super) fn is_header(first: &[u8], next: &[u8], separator: u8) -> bool {
         .collect();
     let is_number = |field: &[u8]| number::is_number(field, separator);
     if !names.iter().any(|name| is_number(name)) {
-        // A recording may begin with samples that are out of range, and nothing is named as a sample is written.
+        // A recording may begin with samples out of range, and a field written like the sample below it is no name.
         let is_sample = |(place, name): (usize, &&[u8])| {
             let below = rows.first().and_then(|row| row.get(place));
             below.is_some_and(|below| !is_number(below) && are_alike(name, below))
@@ -50,13 +50,13 @@ pub(super) fn is_header(first: &[u8], next: &[u8], separator: u8) -> bool {
         }
 }
 
-/// Whether a field begins as a name does, and no number.
+/// Whether a field begins with a letter, as names do, and does not stand for a missing number.
 fn begins_with_letter(field: &[u8]) -> bool {
     let text = String::from_utf8_lossy(field);
     stand_in(field).is_none() && text.starts_with(char::is_alphabetic)
 }
 
-/// Whether the fields are 0, 1 and so on, as a table without names has them; the first may be empty, over the numbers of the lines.
+/// Whether the names are 0, 1 and so on, as written above a table without names; the first may be empty, above the line numbers.
 fn are_counted(names: &[&[u8]]) -> bool {
     let counted = match names {
         [b"", rest @ ..] => rest,
@@ -66,7 +66,7 @@ fn are_counted(names: &[&[u8]]) -> bool {
     counted.len() >= 2 && counted.iter().enumerate().all(is_next)
 }
 
-/// Whether the numbers in these columns are all written with a point or an exponent.
+/// Whether the numbers in these columns all have a decimal mark or an exponent, which 0, 1 and so on lack.
 fn are_written_otherwise(rows: &[Vec<&[u8]>], columns: &[usize], separator: u8) -> bool {
     let is_otherwise = |field: &[u8]| {
         number::is_number(field, separator) && field.iter().any(|byte| b".,eE".contains(byte))
@@ -78,8 +78,8 @@ fn are_written_otherwise(rows: &[Vec<&[u8]>], columns: &[usize], separator: u8) 
     })
 }
 
-/// Whether the last two columns go on from the first line as a wave does: each sample is as far from the mean of its neighbours as
-/// its place in the wave says.
+/// Whether the last two columns continue the first line as a wave does: in a wave, the sum of a sample's two neighbours is proportional
+/// to the sample, both less their means.
 fn is_continued(names: &[&[u8]], rows: &[Vec<&[u8]>], separator: u8) -> bool {
     let pair = |row: &[&[u8]]| {
         let [.., c, d] = row else { return None };
@@ -90,12 +90,12 @@ fn is_continued(names: &[&[u8]], rows: &[Vec<&[u8]>], separator: u8) -> bool {
         return false;
     };
     let pairs: Vec<[f64; 2]> = rows.iter().map_while(|row| pair(row)).collect();
-    if pairs.len() < FEW {
+    if pairs.len() < MIN_LINES {
         return false;
     }
     let channel = |index: usize| pairs.iter().map(move |pair| pair[index]);
     let channels: [Vec<f64>; 2] = [0, 1].map(|index| channel(index).collect());
-    // Of each sample but the first and the last: itself and the sum of its neighbours, less their means.
+    // Means over all samples but the first and the last: of the sample, and of the sum of its neighbours.
     let means = channels.each_ref().map(|x| {
         let inner = &x[1..x.len() - 1];
         let count = inner.len() as f64;
@@ -115,7 +115,7 @@ fn is_continued(names: &[&[u8]], rows: &[Vec<&[u8]>], separator: u8) -> bool {
     (0..2).all(|index| {
         let ([own, sum], x) = (means[index], &channels[index]);
         let off = first[index] + x[1] - sum - slope * (x[0] - own);
-        off.abs() <= FAR * rms
+        off.abs() <= MAX_DISTANCE * rms
     })
 }
 

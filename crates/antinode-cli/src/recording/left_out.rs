@@ -1,21 +1,21 @@
-//! Lines of a text recording that are left out, for when they were is not known: they are told at the end.
+//! Lines of a text recording that are left out because their time is not known; they are reported at the end.
 
 use std::collections::VecDeque;
 
 use super::not_finite::Written;
 
-/// No more pairs than these are read before they are looked at or passed.
-const MOST_AHEAD: usize = 1 << 19;
+/// Most runs of lines kept: fewer pairs than this are read before they are looked at or passed.
+const MAX_AHEAD: usize = 1 << 19;
 
 /// The lines left out so far.
 #[derive(Debug, Default)]
 pub(super) struct LeftOut {
-    /// Those behind pairs that are still to be looked at.
+    /// Lines behind pairs that are still to be looked at.
     ahead: VecDeque<Run>,
-    /// The first of those to be told, and how many they are.
+    /// The first line to be reported, and how many there are.
     first: Option<Written>,
     count: u64,
-    /// The pairs up to the last one looked at.
+    /// The number of pairs up to the last one looked at.
     looked: u64,
 }
 
@@ -27,7 +27,7 @@ struct Run {
 }
 
 impl LeftOut {
-    /// Takes one more.
+    /// Adds a line.
     pub fn add(&mut self, line: Written) {
         match self.ahead.back_mut() {
             Some(run) if run.first.pair == line.pair => run.count += 1,
@@ -36,13 +36,13 @@ impl LeftOut {
                 count: 1,
             }),
         }
-        // Before the first pair that is asked for, none is looked at.
-        if self.ahead.len() > MOST_AHEAD {
+        // Before the first pair that is asked for, none is looked at: lines there must not fill the memory.
+        if self.ahead.len() > MAX_AHEAD {
             self.ahead.pop_front();
         }
     }
 
-    /// The pairs from `start` up to `end` are looked at: lines before these are not asked for.
+    /// Notes that the pairs from `start` up to `end` are looked at: lines among them are reported, earlier ones are not asked for.
     pub fn look(&mut self, start: u64, end: u64) {
         let passed = self.ahead.partition_point(|run| run.first.pair < end);
         for run in self.ahead.drain(..passed) {
@@ -54,7 +54,7 @@ impl LeftOut {
         self.looked = end;
     }
 
-    /// The first of those to be told, and how many they are; lines just behind the last pair looked at are among them.
+    /// The first line to be reported, and how many there are, with those just behind the last pair looked at.
     pub fn told(&self) -> Option<(&Written, u64)> {
         let behind = self.ahead.front();
         let behind = behind.filter(|run| run.first.pair == self.looked);
@@ -62,7 +62,7 @@ impl LeftOut {
         Some((first, self.count + behind.map_or(0, |run| run.count)))
     }
 
-    /// Forgets them all: a fault tells of them.
+    /// Forgets all lines: another error reports them.
     pub fn clear(&mut self) {
         *self = Self::default();
     }

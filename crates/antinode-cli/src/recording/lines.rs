@@ -10,13 +10,13 @@ use super::preamble::{self, STEADY_LINES, Start};
 use super::quoted::{self, Quoted, has_decimal_commas};
 use super::text::{self, LineEnds, MAX_LINE, Text, bare};
 
-/// How a text begins; all of it but settings above is still to be read.
+/// The beginning of a text below its settings, which [`Lines`] has still to read.
 pub(super) struct Beginning {
     /// The first line.
     pub first: Vec<u8>,
-    /// Those behind it.
+    /// The lines behind it.
     pub next: Vec<u8>,
-    /// What was seen above and in these.
+    /// What was found above and in these lines.
     pub start: Start,
 }
 
@@ -28,16 +28,16 @@ pub(super) struct Lines {
     pub separator: u8,
     /// The lines and bytes before those that `reader` has.
     skipped: (u64, u64),
-    /// True where the line last read is to be read again.
+    /// True if the line last read is to be read again.
     again: bool,
 }
 
 impl Lines {
-    /// Opens text, and gives its first lines too.
+    /// Opens text, and gives its first lines beside the reader.
     pub fn open(file: &str, stream: Stream) -> Result<(Self, Beginning), InputError> {
         let mut stream = BufReader::with_capacity(MAX_LINE, LineEnds::new(stream));
         let (mut begun, line, before) = text::first_line(file, &mut stream)?;
-        // No row needs fewer lines than are read ahead here.
+        // Reading these lines ahead delays no row of a pipe: each needs at least as many.
         let mut is_quoted = false;
         let mut start = loop {
             let next = text::next_lines(&mut stream, STEADY_LINES)
@@ -45,7 +45,7 @@ impl Lines {
             begun.extend_from_slice(&next);
             is_quoted = is_quoted || has_decimal_commas(&begun);
             if is_quoted {
-                quoted::part(&mut begun, &mut false);
+                quoted::separate(&mut begun, &mut false);
             }
             let is_all = next.iter().filter(|&&byte| byte == b'\n').count() < STEADY_LINES;
             if let Some(start) = preamble::find(&begun, is_all) {
@@ -109,7 +109,7 @@ impl Lines {
         self.reader.position().byte() >= self.reader.get_ref().lines_end()
     }
 
-    /// Reads the line last read once more.
+    /// Has [`advance`](Self::advance) give the line last read once more.
     pub fn back(&mut self) {
         self.again = true;
     }
@@ -137,7 +137,7 @@ impl Lines {
         }
     }
 
-    /// The fields of this line; of those between blanks, only those that are not empty.
+    /// The fields of this line; where blanks separate them, only those that are not empty.
     pub fn fields(&self) -> impl Iterator<Item = &[u8]> {
         let fields = self.record.iter().map(bare);
         fields.filter(|field| self.separator != b' ' || !field.is_empty())

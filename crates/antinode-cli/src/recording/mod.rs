@@ -49,27 +49,27 @@ use source::{Known, Opened, Source, Stream};
 pub use source::{in_utf8, open_file};
 pub use write::{OutputError, RecordingWriter, SampleFormat, WholeFile};
 
-/// The capacity given to a buffer that has none: small enough to stay in the cache.
+/// Capacity, in pairs, given to a buffer that has none: small enough to stay in the cache.
 pub const BLOCK_PAIRS: usize = 1 << 14;
 
-/// What is between two integers of 32 bits.
-const LEAST_UNIT: f32 = 1.0 / 2_147_483_648.0;
+/// Step between 32-bit integers as they are decoded, full scale 1: the finest of all.
+const MIN_UNIT: f32 = 1.0 / 2_147_483_648.0;
 
 /// A recording of S_C and S_D, read once from its beginning to its end in constant memory.
 pub struct Recording {
     name: String,
     bytes_total: Option<u64>,
-    /// The bytes read of a text that is decoded.
+    /// Bytes read of a UTF-16 text, counted before decoding.
     encoded: Rc<Cell<u64>>,
     opened: Opened,
-    /// Pairs read to tell the resolution, and not yet delivered.
+    /// Pairs read ahead to find the resolution, not yet delivered.
     head: std::vec::IntoIter<[f32; 2]>,
-    /// The step that the first samples tell.
+    /// Step between codes, as found in the first samples.
     step: Option<f32>,
-    /// Of integers.
+    /// The lowest bits of integer samples; none for floats and text.
     lowest: Option<Lowest>,
     not_finite: NotFinite,
-    /// Met while there were still good pairs to deliver.
+    /// A fault that was met while good pairs were still to be delivered.
     fault: Option<InputError>,
     ended: bool,
 }
@@ -111,8 +111,8 @@ impl Recording {
     fn standard_input(options: &OpenOptions) -> Result<Self, InputError> {
         let name = "standard input".to_owned();
         let stdin = io::stdin();
-        let is_told = options.raw.is_some() || options.columns.is_some();
-        if !is_told && stdin.is_terminal() {
+        let is_described = options.raw.is_some() || options.columns.is_some();
+        if !is_described && stdin.is_terminal() {
             return Err(InputError::RawFormatNeeded { file: name });
         }
         let opened = by_content::open(&name, Box::new(stdin), Known::default(), options)?;
@@ -122,12 +122,12 @@ impl Recording {
     fn new(name: String, mut opened: Opened, bytes_total: Option<u64>) -> Self {
         let unit = opened.integers.map(|code| unit(code.full_scale()));
         let (head, step, fault) = if bytes_total.is_some() {
-            // By the first samples that do not stand still: integers too may have come from a converter of fewer bits.
+            // Found in the first samples that are not silent: integers, too, may come from a converter of fewer bits.
             let (head, step, fault) = resolution::of_head(opened.source.as_mut());
             let step = step.or_else(|| codes::of_integers(&head, unit?));
             (head, step, fault)
         } else {
-            // A pipe must not wait, and what has come by now is chance, but for what its source needs.
+            // A pipe must not be waited for, and how much has come is chance: only what the source has read ahead anyway is used.
             let step = resolution::resolution(opened.source.ahead());
             (Vec::new(), step, None)
         };
@@ -150,7 +150,7 @@ impl Recording {
         &self.name
     }
 
-    /// What the recording is, in words.
+    /// The recording's format, in words.
     pub fn format(&self) -> &str {
         &self.opened.format
     }
@@ -160,12 +160,12 @@ impl Recording {
         self.opened.sample_rate
     }
 
-    /// The time of the first pair in the recording's own time column, s; 0 where there is none, or an index.
+    /// The time of the first pair by the recording's own time column or settings, s; 0 if there are none, or only an index.
     pub fn start(&self) -> f64 {
         self.opened.start
     }
 
-    /// Warnings: what can be read, but is hardly meant, or is not read as it is written.
+    /// Warnings about content that can be read but is hardly meant so, or is not read as it is written.
     pub fn warnings(&self) -> &[String] {
         &self.opened.warnings
     }
@@ -175,12 +175,12 @@ impl Recording {
         self.opened.source.late_warning()
     }
 
-    /// The number of pairs, where the format tells it: those that are there, if the header promises more.
+    /// The number of pairs, if the format tells it; those that are there, if the header promises more.
     pub fn pairs(&self) -> Option<u64> {
         self.opened.pairs
     }
 
-    /// The size of a file.
+    /// The size of the file, bytes; none for a pipe.
     pub fn bytes_total(&self) -> Option<u64> {
         self.bytes_total
     }
@@ -201,29 +201,29 @@ impl Recording {
         Some(self.step.map_or(largest, |step| largest.min(1.0 - step)))
     }
 
-    /// What is wrong with rails that are given, where the samples are integers.
+    /// The warning about `rails` given for integer samples that do not fit their scale.
     pub fn rails_warning(&self, rails: [f32; 2]) -> Option<String> {
         self.opened.integers?.rails_warning(rails)
     }
 
-    /// The step between two codes of the converter: of integers, and of text and floats that lie on one.
+    /// The step between two codes of the converter: of integers, and of text and floats that are multiples of one.
     ///
-    /// A pipe tells it only where it is text with a time, of which many lines are read ahead, and else that of its integers' bits.
+    /// In a pipe it is found only in text with a time, of which many lines are read ahead; otherwise it is that of the integers' bits.
     pub fn resolution(&self) -> Option<f32> {
         let of_integers = self.full_scale().map(|largest| 1.0 - largest);
         of_integers.filter(|&step| step > 0.0).or(self.step)
     }
 
-    /// The step of all integers looked at so far, a power of two: one coarser than [`resolution`](Self::resolution) shows too late, as that
-    /// of a wave that repeats its first few codes, or of a pipe.
+    /// The step of all integers looked at so far, a power of two. One coarser than [`resolution`](Self::resolution) was found too late for
+    /// that, as in a pipe or where the wave repeats a few codes at first.
     pub fn resolution_so_far(&self) -> Option<f32> {
         self.lowest.as_ref()?.step()
     }
 
-    /// What is wrong with the samples looked at so far that are not finite numbers, if there are any.
+    /// The error for those of the samples looked at so far that are not finite numbers, if any are.
     pub fn not_finite(&self) -> Option<InputError> {
         let first = self.not_finite.first?;
-        // Another one may have been first where not all are looked at.
+        // The first that the source met may be none of those looked at.
         let written = self.opened.source.not_finite();
         let written = written.filter(|written| written.pair == first.pair);
         Some(InputError::NotFinite {
@@ -235,26 +235,25 @@ impl Recording {
         })
     }
 
-    /// The next gap that the samples' own time shows; those among pairs that were delivered are to be passed in turn.
+    /// The next gap in the samples' own time; each gap among delivered pairs must be passed by [`pass_gap`](Self::pass_gap), in order.
     pub fn next_gap(&self) -> Option<Gap> {
         self.opened.source.next_gap()
     }
 
-    /// Passes the next gap; it `is_told` at the end, or was not asked for.
-    pub fn pass_gap(&mut self, is_told: bool) {
-        self.opened.source.pass_gap(is_told);
+    /// Passes the next gap, which `is_reported` at the end unless it lies outside the span asked for.
+    pub fn pass_gap(&mut self, is_reported: bool) {
+        self.opened.source.pass_gap(is_reported);
     }
 
-    /// What is wrong with the gaps passed so far that are to be told and with lines left out, if there are any.
+    /// The error for the gaps passed so far that are to be reported and for the lines left out, if there are any.
     pub fn lost(&self) -> Option<InputError> {
         self.opened.source.lost()
     }
 
     /// Clears `buffer` and fills it to its capacity with the next pairs [S_C, S_D]; `Ok(0)` at the end.
     ///
-    /// A pipe gives what is there instead of waiting for more. All good pairs before a
-    /// fault are delivered first; the next call gives the error, and those after it `Ok(0)`. Samples that are
-    /// not finite numbers are delivered as they are: [`look`](Self::look) finds them.
+    /// A pipe gives what is there instead of waiting for more. All good pairs before a fault are delivered first; the next call gives the
+    /// error, and those after it `Ok(0)`. Samples that are not finite numbers are delivered as they are: [`look`](Self::look) finds them.
     pub fn read(&mut self, buffer: &mut Vec<[f32; 2]>) -> Result<usize, InputError> {
         buffer.clear();
         if buffer.capacity() == 0 {
@@ -272,7 +271,8 @@ impl Recording {
         Ok(buffer.len())
     }
 
-    /// Looks for what is no finite number or left out in `pairs`, before which the recording had so many: only these are told.
+    /// Looks through `pairs`, which begin at pair `before` of the recording, for samples that are not finite and lines that are left out:
+    /// only those found here are reported.
     pub fn look(&mut self, before: u64, pairs: &[[f32; 2]]) {
         self.opened.source.look(before, before + pairs.len() as u64);
         match &mut self.lowest {
@@ -283,9 +283,9 @@ impl Recording {
     }
 }
 
-/// What is between two integers of which this is the largest as it is decoded, which single precision does not tell from 1 of many bits.
+/// The step between integers whose largest code is decoded to `largest`, which rounds to 1 in single precision if they have many bits.
 fn unit(largest: f32) -> f32 {
-    (1.0 - largest).max(LEAST_UNIT)
+    (1.0 - largest).max(MIN_UNIT)
 }
 
 #[cfg(test)]

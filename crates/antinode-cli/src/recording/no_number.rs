@@ -1,8 +1,8 @@
-//! Fields that hold no number because there was none to tell: out of range, or missing.
+//! Fields that stand for a sample without a number: out of range, or missing.
 
 use super::number::number;
 
-/// What programs and instruments write for a sample that is missing or out of range, in lower case.
+/// Words that programs and instruments write for a sample that is missing or out of range, in lower case.
 const WORDS: [&str; 32] = [
     "na",
     "n/a",
@@ -38,12 +38,12 @@ const WORDS: [&str; 32] = [
     "clipped",
 ];
 
-/// The value of a field that stands for a sample without a number; none where it is anything else.
+/// The value of a field that stands for a sample without a number, NaN or an infinity; none for any other field.
 pub(super) fn stand_in(field: &[u8]) -> Option<f32> {
     let text = str::from_utf8(field).ok()?;
     let size = text.trim_start_matches(['+', '-', '−']).to_lowercase();
     let is_dashes = size.is_empty() && text.chars().count() != 1;
-    // `1.#INF` and `nan(ind)` of older compilers, the sign in front of them.
+    // `1.#IND` and `nan(ind)` of older compilers, whose sign is taken off already.
     let is_undefined = size.starts_with("1.#") || size.starts_with("nan(");
     if size == "∞" || size.starts_with("1.#inf") {
         let is_negative = text.starts_with(['-', '−']);
@@ -55,7 +55,7 @@ pub(super) fn stand_in(field: &[u8]) -> Option<f32> {
     } else if is_dashes || is_undefined || WORDS.contains(&size.as_str()) {
         Some(f32::NAN)
     } else {
-        // An infinity or a NaN by its usual name, which no header has.
+        // An infinity or a NaN by its usual name, which no column is named.
         number::<f32>(field, b',').filter(|value| !value.is_finite())
     }
 }

@@ -1,9 +1,9 @@
-//! Samples that are not finite numbers: they are passed on, and told at the end.
+//! Samples that are not finite numbers: they are delivered as they are, and reported at the end.
 
 use super::error::{Channel, Place};
 use super::sample::channel_at;
 
-/// The first of them.
+/// The first sample that is not a finite number.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct First {
     pub pair: u64,
@@ -12,7 +12,7 @@ pub(super) struct First {
 }
 
 impl First {
-    /// What it is, in words.
+    /// A description of it.
     pub fn told(self) -> String {
         format!(
             "{}: the value is {}, not a finite number",
@@ -21,26 +21,26 @@ impl First {
     }
 }
 
-/// What is wrong with a line of text that costs no more than itself.
+/// A fault of a line of text that costs no more than the line or its pair.
 #[derive(Debug, Clone)]
 pub(super) struct Written {
-    /// The pairs before it.
+    /// The number of pairs before it.
     pub pair: u64,
     pub place: Place,
-    /// What it is, in words.
+    /// A description of it.
     pub told: String,
 }
 
-/// What was seen of them so far.
+/// The samples seen so far that are not finite numbers.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct NotFinite {
     pub first: Option<First>,
-    /// Samples, not pairs.
+    /// The number of samples, not of pairs.
     pub count: u64,
 }
 
 impl NotFinite {
-    /// Looks through the next `pairs`, before which the recording had so many.
+    /// Looks through the next `pairs`, which begin at pair `before` of the recording.
     pub fn look(&mut self, before: u64, pairs: &[[f32; 2]]) {
         let values = pairs.as_flattened();
         // Counted without a branch: this form is compiled to vector instructions.

@@ -13,13 +13,13 @@ use super::sample::{Kind, SampleCode};
 use super::source::Known;
 use super::{Opened, Source, Stream};
 
-/// No header of a plain array is as long; `numpy` itself refuses longer ones.
+/// Longest header read, bytes: that of a plain array is shorter, and `numpy` itself refuses longer ones.
 const MAX_HEADER: usize = 10_000;
 
-/// No header of a plain array nests deeper; one that does would exhaust the stack of its parser.
+/// Deepest nesting of brackets read: a plain array has less, and a far deeper one would exhaust the stack of the parser.
 const MAX_DEPTH: usize = 8;
 
-/// Pairs read at a time where the signals lie apart.
+/// Pairs read at a time from an array that stores one channel after the other.
 const PLANE_PAIRS: usize = 1 << 14;
 
 /// Opens an NPY file; `columns` are the channels asked for.
@@ -41,7 +41,7 @@ pub(super) fn open(
     let (pairs, channels, interleaved) = match (header.shape(), header.order()) {
         (&[pairs, 2], order) => (pairs, 2, order == Order::C),
         (&[2, pairs], order) => (pairs, 2, order == Order::Fortran),
-        // No recording has more channels than samples.
+        // The longer side counts the samples: no recording has more channels.
         (&[one, other], order) if columns.is_some() => (
             one.max(other),
             one.min(other),
@@ -99,7 +99,7 @@ pub(super) fn open(
     Ok(Opened::of_samples("NPY of", code, source, Some(there)))
 }
 
-/// The header, once it is known to be harmless to its parser.
+/// Reads the header, and refuses one that would harm its parser.
 fn header_text(file: &str, stream: &mut Stream) -> Result<Vec<u8>, InputError> {
     let fault = |fault| InputError::NpyHeader {
         file: file.to_owned(),
@@ -154,6 +154,7 @@ fn header_text(file: &str, stream: &mut Stream) -> Result<Vec<u8>, InputError> {
     Ok(text)
 }
 
+/// How samples of this number type are stored.
 fn code(file: &str, dtype: &DType) -> Result<SampleCode, InputError> {
     let refused = || InputError::NpyType {
         file: file.to_owned(),
@@ -163,7 +164,7 @@ fn code(file: &str, dtype: &DType) -> Result<SampleCode, InputError> {
         return Err(refused());
     };
     let kind = match (plain.type_char(), plain.size_field()) {
-        // Unsigned ones of 32 bits are none: codes that use 24 of these or fewer would lie too close to −1 for single precision.
+        // Unsigned integers of 32 bits are refused: codes of up to 24 bits in them would lie too close to −1 for single precision.
         (TypeChar::Uint, 1) => Kind::U8,
         (TypeChar::Uint, 2) => Kind::U16,
         (TypeChar::Int, 1) => Kind::I8,
@@ -191,15 +192,15 @@ fn shown(shape: &[u64]) -> String {
     }
 }
 
-/// Reads all of S_C and all of S_D side by side.
+/// A source of pairs from an array that stores one channel after the other.
 struct Planes {
     file: String,
     stream: File,
     code: SampleCode,
-    /// Where the signals begin.
+    /// Where S_C and S_D begin in the file, bytes.
     starts: [u64; 2],
     promised: u64,
-    /// The pairs both of whose samples are there.
+    /// The number of pairs of which both samples are there.
     there: u64,
     read: u64,
     /// S_C, S_D, and both interleaved.

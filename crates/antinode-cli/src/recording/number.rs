@@ -2,14 +2,14 @@
 
 use std::str::FromStr;
 
-/// The number a field holds, finite or not; its decimal mark may be a comma where that separates no fields.
+/// The number that a field holds, finite or not; its decimal mark may be a comma if that does not separate fields.
 pub(super) fn number<T: FromStr>(field: &[u8], separator: u8) -> Option<T> {
-    // An empty field is none at once: in text without a column of times every line has one.
+    // An empty field is refused at once: in text without a time column every line has one.
     let text = str::from_utf8(field).ok().filter(|text| !text.is_empty())?;
     let parsed = text.parse::<T>().or_else(|_| {
         let has_comma = separator != b',' && !text.contains('.');
         let text = text.replacen(',', ".", usize::from(has_comma));
-        // Fortran always signs an exponent behind `D`, and hexadecimal digits have no sign among them.
+        // Only a `D` with a sign behind it is Fortran's exponent: without one it may be a hexadecimal digit.
         let other = || {
             let size = text.strip_prefix('−').unwrap_or(&text);
             let minus = if size.len() < text.len() { "-" } else { "" };
@@ -64,7 +64,7 @@ mod tests {
                 "{text}"
             );
         }
-        // What hexadecimal digits may be, and signs that are too many.
+        // Possible hexadecimal digits, and too many signs.
         for text in ["1D5", "0D05", "D-01", "−−1", "−+1", "1−2", "−", "1D-1D-1"] {
             assert_eq!(number::<f32>(text.as_bytes(), b';'), None, "{text}");
         }

@@ -1,13 +1,13 @@
-//! Where the samples of a text begin: behind the settings that oscilloscopes and recorders write above them.
+//! Where the samples of a text begin: below the settings that oscilloscopes and recorders write above them.
 //!
 //! Settings are skipped only where no number can be lost: lines of numbers in the same columns follow, and no line that is skipped has
-//! numbers in all of these, or begins with one. A first line that lacks its beginning is skipped too, and told.
+//! numbers in all of these, or begins with one. A first line that lacks its beginning is skipped too, with a warning.
 
 mod clock;
 mod cut;
 mod titles;
 
-use clock::{UNBENT, UNEVEN, is_clock};
+use clock::{MAX_STEP_RATIO, MAX_STEP_RATIO_ALONE, is_clock};
 
 use super::header::lossy;
 use super::heading::is_header;
@@ -18,52 +18,54 @@ use super::text::{fields, is_skipped, separator};
 use super::units::{self, bare, time_exponent};
 use super::{columns, signal_units};
 
-/// So many lines with numbers in the same columns are samples.
+/// Lines in a row with numbers in the same columns that are taken for samples.
 pub(super) const STEADY_LINES: usize = 16;
 
-/// No preamble is longer.
-const MOST_LINES: usize = 256;
-/// Nor with blank lines and comments: all of it is looked at again when more is read.
-const MOST_IN_ALL: usize = 4096;
-const MOST_BYTES: usize = 4 << 20;
+/// Longest preamble, in lines that are neither blank nor comments.
+const MAX_LINES: usize = 256;
+/// Longest preamble, in lines of any kind: all of it is looked at again when more is read.
+const MAX_ALL_LINES: usize = 4096;
+/// Longest preamble, bytes.
+const MAX_BYTES: usize = 4 << 20;
 
-/// So many settings without names below them are surely no samples.
-const FEWEST_LABELS: usize = 4;
+/// Fewest labelled lines that are surely settings, and no samples, even without names below them.
+const MIN_LABELS: usize = 4;
 
-/// Where to read from, and what was seen on the way.
+/// Where the names or samples begin, and what was found up to the first samples.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Start {
-    /// The lines of settings, or the one that is cut, and their bytes.
+    /// The lines skipped, settings or one that lacks its beginning, and their bytes.
     pub lines: usize,
     pub bytes: usize,
-    /// The line that is cut at its beginning.
+    /// The line that lacks its beginning.
     pub cut: Option<usize>,
-    /// The columns that hold numbers, from 0; none where that is not known.
+    /// The columns that hold numbers, from 0; none if that is not known.
     pub numbers: Vec<usize>,
-    /// Whether the first of these goes up as time does.
+    /// Whether the first of these columns goes up as time does.
     pub is_clocked: bool,
-    /// Whether it does so as no signal does.
+    /// Whether it does so more evenly than any signal.
     pub is_surely_clocked: bool,
-    /// The unit of time among the settings, and its line.
+    /// The unit of time that the settings name, and its line.
     pub unit: Option<(String, usize)>,
-    /// The times of samples that have none beside them, by the settings.
+    /// The times of the samples by the settings, for samples without a time column.
     pub sequence: Option<Sequence>,
 }
 
 /// A line that is neither blank nor a comment.
 struct Line<'a> {
-    /// The lines and bytes before it.
+    /// The number of lines before it.
     before: usize,
+    /// The number of bytes before it.
     start: usize,
     text: &'a [u8],
     fields: Vec<&'a [u8]>,
 }
 
-/// Where the text goes on to the samples; none where more lines are needed to tell. `is_all` where there are no more.
+/// Finds where the names or samples begin; none if more lines are needed to tell. `is_all`: there are no more lines.
 pub(super) fn find(text: &[u8], is_all: bool) -> Option<Start> {
     let separator = last_separator(text);
     let lines = lines(text, separator);
-    // Numbers at the front are samples: nothing is above them.
+    // A first line that begins with a sample has no settings above it.
     let begins_with_word = lines.first().is_some_and(|line| {
         let lead = lead(line);
         !lead.is_some_and(|field| is_sample(field, separator))
@@ -72,18 +74,18 @@ pub(super) fn find(text: &[u8], is_all: bool) -> Option<Start> {
         cut::start(&lines, &numbers, separator).or_else(|| start(&lines, numbers, separator))
     });
     match found {
-        None if begins_with_word && !is_all && lines.len() < MOST_LINES && is_short(text) => None,
+        None if begins_with_word && !is_all && lines.len() < MAX_LINES && is_short(text) => None,
         found => Some(found.flatten().unwrap_or_default()),
     }
 }
 
-/// Whether text may still be above samples.
+/// Whether a preamble may be as long as this text.
 fn is_short(text: &[u8]) -> bool {
     let ends = text.iter().filter(|&&byte| byte == b'\n');
-    text.len() < MOST_BYTES && ends.count() < MOST_IN_ALL
+    text.len() < MAX_BYTES && ends.count() < MAX_ALL_LINES
 }
 
-/// What separates the fields of the samples: they come last.
+/// The separator of the samples' fields, from the last line: samples come last.
 fn last_separator(text: &[u8]) -> u8 {
     let mut lines = text.rsplit(|&byte| byte == b'\n');
     let last = lines.find(|line| !is_skipped(line));
@@ -128,7 +130,7 @@ fn has_samples(line: &Line, columns: &[usize], separator: u8) -> bool {
     are_samples && found.any(|field| is_number(field, separator))
 }
 
-/// The columns of the last lines that hold numbers, mostly, and what stands for one.
+/// The columns in which each of the last [`STEADY_LINES`] lines has a sample, most of them a number; none if there are not two.
 fn steady(lines: &[Line], separator: u8) -> Option<Vec<usize>> {
     let last = &lines[lines.len().checked_sub(STEADY_LINES)?..];
     let width = last.iter().map(|line| line.fields.len()).max()?;
@@ -144,7 +146,7 @@ fn steady(lines: &[Line], separator: u8) -> Option<Vec<usize>> {
     (columns.len() >= 2).then_some(columns)
 }
 
-/// Where the lines with samples in these columns and the names above them begin; none where others would be lost.
+/// Finds where the samples in these columns, or the names above them, begin; none if a sample might be lost.
 fn start(lines: &[Line], numbers: Vec<usize>, separator: u8) -> Option<Start> {
     let is_row = |line: &Line| has_samples(line, &numbers, separator);
     let last_other = lines.iter().rposition(|line| !is_row(line));
@@ -160,7 +162,7 @@ fn start(lines: &[Line], numbers: Vec<usize>, separator: u8) -> Option<Start> {
     let roles = lines
         .iter()
         .rposition(|line| is_named(line) && has_role(line));
-    // Samples right below names stay, garbled though the first of them may be.
+    // Samples right below names must stay, even if the first of them are garbled.
     let are_samples = |roles: &usize| {
         let begins = |line: &Line| line.fields.first().is_some_and(|field| !is_word(field));
         let mut below = lines[(roles + 1).min(rows)..rows].iter();
@@ -173,12 +175,12 @@ fn start(lines: &[Line], numbers: Vec<usize>, separator: u8) -> Option<Start> {
     let header = &rest[..rows - first];
     let are_surely = are_labels(settings);
     let is_title = |line: &Line| titles::is_title(line, &lines[rows..], separator);
-    // A first line that may be the names stays it.
+    // A first line that may be the names must not be skipped.
     let is_header_lost = settings.first().is_some_and(|line| {
         let is_other = are_surely || is_title(line) || header.first().is_some_and(has_role);
         line.fields.len() >= width && (has_role(line) || !is_other)
     });
-    // Names over all of these columns divide settings from samples, of which neither is the other then.
+    // Names over all of these columns divide settings from samples: no setting can be a sample then.
     let is_divided = header.first().is_some_and(is_named);
     let is_safe = |line: &Line| lead(line).is_none_or(is_word) && (is_divided || !is_row(line));
     let are_told = !header.is_empty() || are_surely || settings.iter().all(is_title);
@@ -187,8 +189,8 @@ fn start(lines: &[Line], numbers: Vec<usize>, separator: u8) -> Option<Start> {
     (are_safe && !is_header_lost).then(|| Start {
         lines: lines[first].before,
         bytes: lines[first].start,
-        is_clocked: is_clock(&lines[rows..], numbers[0], separator, UNEVEN),
-        is_surely_clocked: is_clock(&lines[rows..], numbers[0], separator, UNBENT),
+        is_clocked: is_clock(&lines[rows..], numbers[0], separator, MAX_STEP_RATIO),
+        is_surely_clocked: is_clock(&lines[rows..], numbers[0], separator, MAX_STEP_RATIO_ALONE),
         unit: settings.iter().find_map(unit),
         sequence: Sequence::of_settings(&fields, separator),
         cut: None,
@@ -196,7 +198,7 @@ fn start(lines: &[Line], numbers: Vec<usize>, separator: u8) -> Option<Start> {
     })
 }
 
-/// Whether these lines begin with labels, which samples that are garbled do not.
+/// Whether these lines begin with labels, all different, as settings do and garbled samples do not.
 fn are_labels(settings: &[Line]) -> bool {
     let label = |line: &Line| lead(line).unwrap_or_default().to_ascii_lowercase();
     let labels: Vec<Vec<u8>> = settings
@@ -206,17 +208,17 @@ fn are_labels(settings: &[Line]) -> bool {
         .collect();
     let is_label = |text: &Vec<u8>| text[0].is_ascii_alphabetic() || text.starts_with(b"*");
     let are_other = (1..labels.len()).all(|place| !labels[..place].contains(&labels[place]));
-    labels.len() >= FEWEST_LABELS && are_other && labels.iter().all(is_label)
+    labels.len() >= MIN_LABELS && are_other && labels.iter().all(is_label)
 }
 
-/// The line of names above those of samples, which have so many columns, or the first of these where there is none.
+/// The index of the line of names above the samples, which begin at index `rows` and have `width` columns; `rows` if there is none.
 fn names(lines: &[Line], rows: usize, width: usize, separator: u8) -> usize {
     let Some(above) = rows.checked_sub(1) else {
         return rows;
     };
     let line = &lines[above];
-    // Words that are too few are told of as a header, for they may be one over numbers that are cut in two.
-    // Among labels it is one more of them.
+    // Too few words are still a header, for its error to show: they may stand over numbers that are cut in two.
+    // Below labels, such a line is one more label.
     let is_label = line.fields.len() < width && are_labels(&lines[..rows]);
     let is_title = |line: &Line| titles::is_title(line, &lines[rows..], separator);
     let is_number = |field: &&[u8]| is_number(field, separator);
@@ -225,13 +227,13 @@ fn names(lines: &[Line], rows: usize, width: usize, separator: u8) -> usize {
         .text
         .split(|byte| b",;\t ".contains(byte))
         .filter_map(|word| str::from_utf8(word.trim_ascii()).ok());
-    // Names between other marks than the numbers are no title, but those in a sentence are: `Length processed: 4000 samples 0.04 seconds.`
+    // Names separated otherwise than the numbers are no title, unless in a sentence: `Length processed: 4000 samples 0.04 seconds.`
     let are_names = if line.fields.len() == 1 {
         words.any(columns::is_known) && !line.text.trim_ascii_end().ends_with(b".")
     } else if is_title(line) {
         false
     } else {
-        // A first line is what it always was.
+        // The first line of the text, right above the samples, is its header.
         above == 0 || are_words || line.fields.len() >= width && has_role(line)
     };
     let is_unit_line = || {
@@ -263,19 +265,19 @@ fn has_role(line: &Line) -> bool {
     names.any(columns::is_known)
 }
 
-/// Whether a line holds the units of so many columns, and no names.
+/// Whether a line holds the units of `width` columns, and no names.
 fn are_units(line: &Line, width: usize, is_second: bool, separator: u8) -> bool {
     let fields = &line.fields[..width.min(line.fields.len())];
     let texts: Vec<String> = fields.iter().map(|field| lossy(field)).collect();
     let is_surely =
         |text: &String| time_exponent(text).is_some() || signal_units::is_known(bare(text));
-    // The second line of a text is one of units wherever it may be: its first would be lost.
+    // In doubt the second line of a text is one of units: otherwise the first, with the names, would be lost.
     let is_wide = line.fields.len() >= width || is_second;
     units::are_units(&texts, separator)
         && (texts.iter().any(is_surely) || is_wide && !has_role(line))
 }
 
-/// The unit that a line of settings tells of the time.
+/// The unit of time that a line of settings names, and the number of lines before it.
 fn unit(line: &Line) -> Option<(String, usize)> {
     let text = |field: &[u8]| lossy(field).trim_matches([':', ' ']).to_owned();
     let label = text(line.fields.first()?)

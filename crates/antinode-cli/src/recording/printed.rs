@@ -1,6 +1,7 @@
-//! How finely the times of a text recording are told.
+//! The resolution to which the times of a text recording are printed.
 
-/// Decimals or digits, whichever tell less; and single precision, where all times so far have no more.
+/// The resolution of all times so far: that of their decimals or of their digits, or of single precision if it holds them all, whichever
+/// is coarsest.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Printed {
     decimals: i32,
@@ -10,7 +11,7 @@ pub(super) struct Printed {
 }
 
 impl Printed {
-    /// Takes one more number into account, which is `text` times ten to the `exponent` in seconds.
+    /// Takes one more time into account: `text`, whose `value` times ten to the `exponent` is in s.
     pub fn see(&mut self, text: &[u8], value: f64, exponent: i32) {
         let (mut decimals, mut digits, mut point) = (0, 0, false);
         let mut bytes = text.iter();
@@ -37,7 +38,7 @@ impl Printed {
         self.digits = self.digits.max(digits);
     }
 
-    /// The step between neighbouring numbers told near `seconds`.
+    /// The step between neighbouring printed times near `seconds`, s.
     pub fn step(self, seconds: f64) -> f64 {
         let magnitude = seconds.abs().log10().floor().max(-300.0) as i32;
         let by_digits = 10f64.powi(magnitude + 1 - self.digits);
@@ -50,14 +51,14 @@ impl Printed {
         10f64.powi(-self.decimals).max(by_digits).max(precision)
     }
 
-    /// True where all numbers are whole.
+    /// True if all times so far are whole numbers of seconds.
     pub fn is_whole(self) -> bool {
         self.decimals <= 0
     }
 }
 
-/// Whether a number told to so many decimals may come of single precision: it is one such number rounded to them, or the shortest
-/// text that tells it from its neighbours.
+/// Whether a number printed to `decimals` decimals may come from single precision: it is such a number rounded to them, or its shortest
+/// text that differs from those of its neighbours.
 fn is_single(value: f64, decimals: i32, is_padded: bool) -> bool {
     let single = value as f32;
     let half = 0.5 * 10f64.powi(-decimals) + f64::EPSILON * value.abs();

@@ -6,7 +6,7 @@ use super::Stream;
 use super::number::number;
 use super::text::separator;
 
-/// Text behind a line's end, with semicolons between its fields.
+/// A stream of text from the beginning of a line on, given with semicolons between its fields.
 pub(super) struct Quoted {
     stream: Stream,
     is_inside: bool,
@@ -22,13 +22,13 @@ impl Quoted {
 impl Read for Quoted {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         let count = self.stream.read(bytes)?;
-        part(&mut bytes[..count], &mut self.is_inside);
+        separate(&mut bytes[..count], &mut self.is_inside);
         Ok(count)
     }
 }
 
-/// Puts semicolons between fields.
-pub(super) fn part(text: &mut [u8], is_inside: &mut bool) {
+/// Replaces the commas between fields by semicolons; `is_inside` a quote is carried over to the next piece of text.
+pub(super) fn separate(text: &mut [u8], is_inside: &mut bool) {
     for byte in text {
         match *byte {
             b'"' => *is_inside = !*is_inside,
@@ -40,19 +40,19 @@ pub(super) fn part(text: &mut [u8], is_inside: &mut bool) {
     }
 }
 
-/// Whether the numbers in quotes surely have decimal commas: those that part thousands are in quotes too.
+/// Whether numbers in quotes surely have decimal commas: numbers with commas between thousands are quoted too.
 pub(super) fn has_decimal_commas(text: &[u8]) -> bool {
     let lines = text.split(|&byte| byte == b'\n');
     let mut lines = lines.filter(|line| separator(line) == b',');
     lines.any(|line| {
         let parts: Vec<&[u8]> = line.split(|&byte| byte == b'"').collect();
-        // Behind a quote that is the last one nothing is in quotes.
+        // What follows an unpaired quote is not in quotes.
         let inside = (1..parts.len() - 1).step_by(2);
         inside.map(|place| parts[place]).any(is_decimal)
     })
 }
 
-/// Whether this is a number with a comma that parts no thousands.
+/// Whether this is a number with a comma that does not separate thousands.
 fn is_decimal(field: &[u8]) -> bool {
     let mut parts = field.splitn(2, |&byte| byte == b',');
     let (whole, decimals) = (parts.next().unwrap_or_default(), parts.next());
@@ -91,7 +91,7 @@ mod tests {
         let mut text = b"t,\"c\",d\n1,\"0,5\",\"0,3\"\n2,\"0,5,3\n4,5".to_vec();
         let expected = b"t;\"c\";d\n1;\"0,5\";\"0,3\"\n2;\"0,5,3\n4;5";
         for _ in 0..2 {
-            part(&mut text, &mut false);
+            separate(&mut text, &mut false);
             assert_eq!(text, expected);
         }
     }

@@ -8,10 +8,10 @@ use super::frame::Frame;
 use super::sample::{BadSample, Kind, SampleCode};
 use super::{OpenOptions, Opened, Source, Stream};
 
-/// Large enough that system calls cost nothing, small enough to stay in the cache.
+/// Bytes read at a time: enough that system calls cost nothing, few enough to stay in the cache.
 const CHUNK_BYTES: usize = 3 << 16;
 
-/// The name of a chunk and its size.
+/// Bytes of a WAV chunk's name and size.
 const CHUNK_HEADER: usize = 8;
 
 /// What a file holds behind the samples that its header promises.
@@ -19,30 +19,30 @@ const CHUNK_HEADER: usize = 8;
 enum Behind {
     /// Another WAV file, as `cat` makes them.
     Wav,
-    /// More samples, or what else is no chunk.
+    /// More samples, or anything else that is no chunk.
     Data,
 }
 
-/// Reads interleaved samples as long as there are any.
+/// A source of pairs from interleaved samples.
 pub(super) struct Interleaved {
     file: String,
     stream: Stream,
     code: SampleCode,
     frame: Frame,
-    /// The samples of the chosen channels, where there are others.
+    /// The samples of the chosen channels, if there are others beside them.
     picked: Vec<u8>,
-    /// The pairs the header promises, if it does.
+    /// The number of pairs that the header promises, if it does.
     promised: Option<u64>,
-    /// The bytes of data not yet read, where they are counted.
+    /// The bytes of data not yet read, if the header promises their number.
     left: Option<u64>,
     /// The bytes read, the header included.
     consumed: u64,
     pairs: u64,
     chunk: Vec<u8>,
-    /// The bytes of a pair begun, at the front of `chunk`.
+    /// The bytes of an incomplete pair, at the front of `chunk`.
     begun: usize,
     live: bool,
-    /// True where only other chunks of a WAV file may follow what is promised.
+    /// True if only other chunks of a WAV file may follow the promised data.
     before_chunks: bool,
 }
 
@@ -63,7 +63,7 @@ pub(super) fn open(
     Ok(Opened::of_samples("raw", code, Box::new(source), pairs))
 }
 
-/// The channels of raw samples, which do not tell themselves how many there are.
+/// The channels of raw samples, whose number only the options tell.
 fn frame(file: &str, options: &OpenOptions) -> Result<Frame, InputError> {
     let channels = options.channels.unwrap_or(2);
     if channels != 2 && options.columns.is_none() {
@@ -100,7 +100,7 @@ impl Interleaved {
         }
     }
 
-    /// Only other chunks of a WAV file may follow what is promised.
+    /// The same, with only other chunks of a WAV file to follow the promised data.
     pub fn before_chunks(self) -> Self {
         Self {
             before_chunks: true,
@@ -113,7 +113,7 @@ impl Interleaved {
         Self { frame, ..self }
     }
 
-    /// The bytes of one pair, with what was sampled beside it.
+    /// The bytes of one pair and of the other channels that were sampled with it.
     fn frame_bytes(&self) -> usize {
         self.frame.channels * self.code.sample_bytes()
     }
@@ -130,7 +130,7 @@ impl Interleaved {
         Self { live, ..self }
     }
 
-    /// Reads behind what is begun; 0 at the end.
+    /// Reads bytes behind those of an incomplete pair, up to `pairs` pairs with these; 0 at the end.
     fn read(&mut self, pairs: usize) -> io::Result<usize> {
         let most = pairs
             .saturating_mul(self.frame_bytes())
@@ -148,9 +148,9 @@ impl Interleaved {
         }
     }
 
-    /// What comes behind the promised bytes, unless it is a chunk, whose name is text, or padding. A pipe is not waited for.
+    /// What follows the promised data, unless it is padding or a chunk, known by a name in ASCII. A pipe is not waited for.
     ///
-    /// It looks once: behind the name is what may be anything.
+    /// It looks only once: what follows the name of a chunk may be anything.
     fn behind(&mut self) -> Option<Behind> {
         let mut header = [0; CHUNK_HEADER];
         let is_there = self.left == Some(0)

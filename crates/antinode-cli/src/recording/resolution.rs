@@ -3,30 +3,30 @@
 use super::error::InputError;
 use super::{BLOCK_PAIRS, Source, codes};
 
-/// Samples of a channel for each of its values, where these are few: a wave without noise repeats a few values too.
-const SAMPLES_A_VALUE: usize = 8;
-/// Values that are too few to tell a step.
-const FEWEST: usize = 8;
-/// As many values as these lie on a grid by chance less than once in 10³⁰ times.
-const MANY: usize = 64;
-/// How far the distance of two values may be from whole steps, in steps.
+/// Samples needed for each distinct value of a channel, if these are few: a noise-free wave repeats a few values too.
+const MIN_SAMPLES_A_VALUE: usize = 8;
+/// Fewest distinct values that show a step.
+const MIN_VALUES: usize = 8;
+/// Distinct values that lie on a grid by chance less than once in 10³⁰ times.
+const SURE_VALUES: usize = 64;
+/// Largest deviation of a distance between two values from a whole number of steps, in steps.
 const TOLERANCE: f64 = 0.125;
-/// Steps of fewer units in the last place of the largest sample are those of single precision itself.
-const LEAST_UNITS: f32 = 4.0;
+/// Smallest distance of two values, in units in the last place of the largest: smaller ones show the steps of single precision itself.
+const MIN_UNITS: f32 = 4.0;
 
-/// Blocks that are looked at where a file begins in silence.
-const HEAD_BLOCKS: usize = 16;
+/// Blocks looked at, at most, if a file begins in silence.
+const MAX_HEAD_BLOCKS: usize = 16;
 
-/// The step of which the samples of both channels are whole multiples, the greater one where they differ.
+/// The step between a converter's codes, found in the samples; the greater one if the channels differ.
 ///
-/// None for a continuous signal, however it was rounded: single precision's own steps are none of a converter.
+/// None for a continuous signal, however it was rounded: the steps of single precision itself are not a converter's.
 pub(super) fn resolution(pairs: &[[f32; 2]]) -> Option<f32> {
     let steps = [0, 1].map(|channel| step(pairs.iter().map(|pair| pair[channel])));
     let step = steps.into_iter().flatten().reduce(f32::max);
     step.or_else(|| codes::of_whole(pairs))
 }
 
-/// The first pairs of a file, the step that they tell, and the fault behind them.
+/// The first pairs of a file, the step found in them, and the fault behind them, if any.
 pub(super) fn of_head(source: &mut dyn Source) -> (Vec<[f32; 2]>, Option<f32>, Option<InputError>) {
     let mut head = Vec::with_capacity(BLOCK_PAIRS);
     let mut end = 0;
@@ -35,24 +35,24 @@ pub(super) fn of_head(source: &mut dyn Source) -> (Vec<[f32; 2]>, Option<f32>, O
         end += BLOCK_PAIRS;
         let fault = source.fill(&mut head, end).err();
         let step = resolution(&head[before..]);
-        let is_last = fault.is_some() || head.len() < end || end >= HEAD_BLOCKS * BLOCK_PAIRS;
+        let is_last = fault.is_some() || head.len() < end || end >= MAX_HEAD_BLOCKS * BLOCK_PAIRS;
         if is_last || step.is_some() || !is_silent(&head[before..]) {
             return (head, step, fault);
         }
     }
 }
 
-/// Whether both channels have too few values to tell a step.
+/// Whether both channels have too few distinct values to show a step.
 fn is_silent(pairs: &[[f32; 2]]) -> bool {
     (0..2).all(|channel| {
-        let mut values = Vec::with_capacity(FEWEST);
+        let mut values = Vec::with_capacity(MIN_VALUES);
         let samples = pairs.iter().map(|pair| pair[channel]);
         for sample in samples.filter(|sample| sample.is_finite()) {
             if !values.contains(&sample) {
                 values.push(sample);
             }
-            // Mostly after as many samples: nothing is sorted for it.
-            if values.len() == FEWEST {
+            // Usually after as many samples, so that nothing need be sorted.
+            if values.len() == MIN_VALUES {
                 return false;
             }
         }
@@ -65,9 +65,9 @@ fn step(samples: impl Iterator<Item = f32>) -> Option<f32> {
     let mut values: Vec<f32> = samples.filter(|sample| sample.is_finite()).collect();
     let count = values.len();
     values.sort_unstable_by(f32::total_cmp);
-    // Zeros of both signs are one.
+    // Zeros of both signs are one value.
     values.dedup_by(|a, b| a == b);
-    if values.len() < FEWEST {
+    if values.len() < MIN_VALUES {
         return None;
     }
     let largest = values[0].abs().max(values[values.len() - 1].abs());
@@ -80,10 +80,10 @@ fn step(samples: impl Iterator<Item = f32>) -> Option<f32> {
         })
         .collect();
     distances.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    if distances[0].0 <= f64::from(LEAST_UNITS * f32::EPSILON * largest) {
+    if distances[0].0 <= f64::from(MIN_UNITS * f32::EPSILON * largest) {
         return None;
     }
-    // The short distances tell the step to a part of itself; all of them together tell it ever better.
+    // The shortest distance gives a first estimate of the step, which each longer one refines.
     let (mut length, mut steps) = (0.0, 0.0);
     for &(distance, rounding) in &distances {
         let step = if steps > 0.0 {
@@ -97,8 +97,9 @@ fn step(samples: impl Iterator<Item = f32>) -> Option<f32> {
         }
         (length, steps) = (length + distance, steps + whole);
     }
-    let is_filled = steps <= 2.0 * values.len() as f64 && count >= SAMPLES_A_VALUE * values.len();
-    (values.len() >= MANY || is_filled).then_some((length / steps) as f32)
+    let is_filled =
+        steps <= 2.0 * values.len() as f64 && count >= MIN_SAMPLES_A_VALUE * values.len();
+    (values.len() >= SURE_VALUES || is_filled).then_some((length / steps) as f32)
 }
 
 #[cfg(test)]
@@ -109,7 +110,7 @@ mod tests {
 
     use super::*;
 
-    /// A wave in noise, each sample as `print` has it.
+    /// A wave in noise, each sample as `print` gives it.
     fn printed(main_amplitude: f64, noise: f64, print: impl Fn(f64) -> f32) -> Vec<[f32; 2]> {
         let wave = Wave {
             main_amplitude,
@@ -153,14 +154,14 @@ mod tests {
     }
 
     #[test]
-    fn a_continuous_signal_has_none() {
+    fn a_continuous_signal_has_no_step() {
         for noise in [0.0, 1e-6, 1e-3] {
             assert_eq!(resolution(&printed(0.5, noise, |x| x as f32)), None);
             let digits = |x: f64| format!("{x:.8e}").parse().expect("a number");
             assert_eq!(resolution(&printed(0.5, noise, digits)), None);
             let decimals = |x: f64| format!("{x:.9}").parse().expect("a number");
             assert_eq!(resolution(&printed(0.5, noise, decimals)), None);
-            // What the text itself rounds to is a step too, and here too small to matter.
+            // The rounding of the text has a step of its own, here too small to matter.
             let coarse = |x: f64| format!("{x:.6}").parse().expect("a number");
             let found = resolution(&printed(0.5, noise, coarse));
             assert!(found.is_none_or(|step| step < 1.01e-6), "{found:?}");
@@ -178,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_and_what_stands_still_tell_nothing() {
+    fn samples_that_are_not_finite_or_constant_do_not_matter() {
         assert_eq!(resolution(&[]), None);
         assert_eq!(resolution(&[[1.0, f32::NAN]; 1000]), None);
         let mut pairs = printed(0.5, 0.0, |x| (x * 64.0).round() as f32 / 64.0);

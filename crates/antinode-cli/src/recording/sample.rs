@@ -1,4 +1,4 @@
-//! From the bytes of stored samples to pairs of numbers, many at a time.
+//! Decoding of stored samples to pairs of numbers, many at a time.
 
 use clap::ValueEnum;
 
@@ -30,7 +30,7 @@ pub enum Kind {
 pub(super) struct SampleCode {
     kind: Kind,
     big_endian: bool,
-    /// The upper bits of an integer that count; those below are zero.
+    /// The number of upper bits of an integer that are in use; those below are zero.
     valid_bits: u32,
 }
 
@@ -52,12 +52,12 @@ impl SampleCode {
         }
     }
 
-    /// The same with the most significant byte first.
+    /// The same, with the most significant byte first if `big_endian`.
     pub fn big_endian(self, big_endian: bool) -> Self {
         Self { big_endian, ..self }
     }
 
-    /// The same with only the upper `bits` of an integer in use.
+    /// The same, with only the upper `bits` of an integer in use.
     pub fn valid_bits(self, bits: u32) -> Self {
         Self {
             valid_bits: bits,
@@ -80,7 +80,7 @@ impl SampleCode {
         (self.valid_bits, 8 * self.sample_bytes() as u32)
     }
 
-    /// The same where it is of integers.
+    /// The same for integers; none for floats.
     pub fn integers(self) -> Option<Self> {
         (!matches!(self.kind, Kind::F32 | Kind::F64)).then_some(self)
     }
@@ -91,7 +91,7 @@ impl SampleCode {
         (1.0 - step) as f32
     }
 
-    /// Codes of integers as they are decoded; none where one of them is no such code.
+    /// Codes of integers scaled as decoded samples are; none if one of them is no code of this kind.
     fn scaled(self, codes: [f32; 2]) -> Option<[f64; 2]> {
         let half = (f64::from(self.bits().1) - 1.0).exp2();
         let middle = match self.kind {
@@ -103,9 +103,9 @@ impl SampleCode {
         (is_code(codes[0], scaled[0]) && is_code(codes[1], scaled[1])).then_some(scaled)
     }
 
-    /// What is wrong with rails that are given for integers, which are scaled so that full scale is 1.
+    /// The warning about rails given for integers that do not fit their scale, on which full scale is 1.
     pub fn rails_warning(self, [low, high]: [f32; 2]) -> Option<String> {
-        // A little beyond is a way to have none.
+        // Rails a little beyond full scale are a way to have none.
         if low >= -2.0 && high <= 2.0 {
             return None;
         }
@@ -210,7 +210,7 @@ fn scale_16(code: i16) -> f32 {
 }
 
 fn scale_u16(code: u16) -> f32 {
-    // The upper bit turned over takes mid-scale off.
+    // Inverting the upper bit subtracts mid-scale.
     scale_16((code ^ 0x8000).cast_signed())
 }
 
@@ -218,7 +218,7 @@ fn scale_32(code: i32) -> f32 {
     code as f32 * (1.0 / 2_147_483_648.0)
 }
 
-/// One closure for every kind, so that each loop is compiled to vector instructions.
+/// Appends the whole pairs in `bytes`; generic in the closure, so that the loop of each kind is compiled to vector instructions.
 #[inline]
 fn push<const N: usize>(bytes: &[u8], pairs: &mut Vec<[f32; 2]>, value: impl Fn([u8; N]) -> f32) {
     let samples = bytes.as_chunks::<N>().0;

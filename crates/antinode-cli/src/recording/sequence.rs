@@ -1,37 +1,37 @@
-//! Recordings whose header tells the time of the first sample and the step: `X,CH1,CH2,Start,Increment`, with or without the column `X` that
-//! counts the lines, or `CH1V,CH2V,t0 = -1e-3, tInc = 1e-5`; and those whose settings tell the same.
+//! Times of samples that are counted from a start in equal steps, both given by the header, `X,CH1,CH2,Start,Increment`, with or without
+//! the column `X` that counts the lines, or `CH1V,CH2V,t0 = -1e-3, tInc = 1e-5`; or both given by settings.
 
 use super::number::number;
 
-/// The settings of LabVIEW and of Yokogawa: the time of the first sample, the step, what they are of, and that in s.
+/// The settings of LabVIEW and of Yokogawa: names of the start, of the step and of their quantity or unit, and its value for a time in s.
 const SETTINGS: [[&str; 4]; 2] = [
     ["X0", "Delta_X", "X_Dimension", "Time"],
     ["HOffset", "HResolution", "HUnit", "s"],
 ];
 
-/// The times of samples that are counted.
+/// The times of samples that are counted from a start in equal steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sequence {
     /// The time of the sample numbered 0, s.
     pub start: f64,
     /// From one sample to the next, s.
     pub step: f64,
-    /// Whether the first column has the samples' numbers, and not only their places.
+    /// Whether the first column has the samples' numbers; otherwise their order counts.
     pub is_counted: bool,
 }
 
-/// The columns of lines whose header tells a start and an increment behind their names.
+/// The columns under a header whose last two names are those of a start and an increment, or give them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Counted {
-    /// How many they are.
+    /// The number of columns before these two.
     pub columns: usize,
     /// Whether the first has the samples' numbers.
     pub has_numbers: bool,
-    /// The times, where the names themselves tell them, and not the line below.
+    /// The times, if the names themselves give start and increment, and not the line below.
     pub sequence: Option<Sequence>,
 }
 
-/// What these names tell, where the last are those of the start and the increment, or tell these.
+/// Looks for a start and an increment, or their values, in the last two of these names; none if there are none.
 pub(super) fn counted(names: &[String]) -> Option<Counted> {
     let names: Vec<String> = names.iter().map(|name| name.to_lowercase()).collect();
     match names.as_slice() {
@@ -58,7 +58,7 @@ pub(super) fn counted(names: &[String]) -> Option<Counted> {
     }
 }
 
-/// The number of seconds behind this label: `t0 =-1.0e-03` or `t0 = -0.001s`.
+/// The value in s behind this label: `t0 =-1.0e-03` or `t0 = -0.001s`.
 fn named(name: &str, label: &str) -> Option<f64> {
     let value = name.strip_prefix(label)?.trim_start().strip_prefix('=')?;
     let seconds = value.trim().trim_end_matches('s').trim_end();
@@ -66,7 +66,7 @@ fn named(name: &str, label: &str) -> Option<f64> {
 }
 
 impl Sequence {
-    /// What the line of units below these names tells; none where the first column holds times.
+    /// Reads start and step from the line of units below these names; none if the first column holds times.
     pub fn read(units: &[String], names: Counted, separator: u8) -> Option<Self> {
         let told = |place: usize| number::<f64>(units.get(place)?.as_bytes(), separator);
         let sequence = Self {
@@ -82,9 +82,9 @@ impl Sequence {
         self.start.is_finite() && self.step > 0.0 && self.step.is_finite()
     }
 
-    /// What settings tell of samples without times beside them; each of `settings` is a line's fields.
+    /// Reads start and step of samples without a time column from settings, each the fields of a line.
     pub fn of_settings(settings: &[&[&[u8]]], separator: u8) -> Option<Self> {
-        // One value a channel, which must be the same of all.
+        // A setting has one value for each channel, and all must be the same.
         let told = |label: &str| {
             let mut lines = settings.iter();
             let line = lines.find(|line| line.first() == Some(&label.as_bytes()))?;

@@ -1,6 +1,6 @@
-//! The units of the two signals, and what brings them together.
+//! The units of the two signals, and their conversion to a common one.
 
-/// What a signal may be measured in, in each spelling; in lower case too where that is no other unit.
+/// Units of signals, each with its spellings; lower case is one of them unless it is another unit.
 const BASES: [(&str, &[&str]); 10] = [
     (
         "V",
@@ -27,7 +27,7 @@ const BASES: [(&str, &[&str]); 10] = [
     ),
 ];
 
-/// Prefixes and their powers of ten. None beyond kilo: an `MV` that is meant is an `mV`.
+/// Prefixes and their powers of ten. None is beyond kilo: by `MV`, `mV` is meant.
 const PREFIXES: [(&str, i32); 18] = [
     ("", 0),
     ("k", 3),
@@ -52,18 +52,18 @@ const PREFIXES: [(&str, i32); 18] = [
 /// What to do about the units of two signals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Together {
-    /// They are the same, or not known.
+    /// Nothing: they are the same, or not known.
     Same,
-    /// Each is to be divided by this, which brings both to the larger unit.
+    /// Divide each signal by its number, which brings both to the larger unit.
     Divided([f32; 2]),
-    /// One is known, and the other may be the same.
+    /// Warn: one is known, and the other may be the same.
     Unsure,
-    /// They measure different things.
+    /// Refuse: they measure different things.
     Never,
 }
 
-/// What brings signals of these units together; `are_told` where they are surely units, and no labels.
-pub(super) fn together(units: [&str; 2], are_told: bool) -> Together {
+/// What to do about these units; `are_sure` if they are surely units and not labels.
+pub(super) fn together(units: [&str; 2], are_sure: bool) -> Together {
     let [c, d] = units.map(known);
     match (c, d) {
         (Some((c, _)), Some((d, _))) if c != d => Together::Never,
@@ -75,7 +75,7 @@ pub(super) fn together(units: [&str; 2], are_told: bool) -> Together {
         (None, None) => Together::Same,
         // `A` and `B` are labels.
         _ if units.iter().all(|unit| unit.chars().count() <= 1) => Together::Same,
-        _ if are_told && !units.contains(&"") => Together::Unsure,
+        _ if are_sure && !units.contains(&"") => Together::Unsure,
         _ => Together::Same,
     }
 }

@@ -1,4 +1,4 @@
-//! What a format of recordings implements to be read.
+//! What the reader of a format implements, gets and gives.
 
 use std::cell::Cell;
 use std::fs::{self, File};
@@ -13,10 +13,10 @@ use super::gaps::Gap;
 use super::not_finite::Written;
 use super::sample::SampleCode;
 
-/// As long as the shortest recording, `1,2` and an end of line in UTF-16.
+/// Bytes that show UTF-16 without a byte order mark: as many as the shortest recording has, `1,2` and an end of line.
 const UNMARKED_BYTES: usize = 8;
 
-/// Where the bytes come from.
+/// A stream of bytes to read a recording from.
 pub(super) type Stream = Box<dyn Read>;
 
 /// Opens a file or a pipe by its path; a directory is neither.
@@ -30,7 +30,7 @@ pub fn open_file(path: &Path) -> Result<File, InputError> {
     }
 }
 
-/// Text in UTF-8, whatever its byte order mark, or a zero in every other byte, says it is: Windows writes UTF-16, PowerShell by `>` too.
+/// Decodes text to UTF-8. UTF-16, as Windows and PowerShell's `>` write it, is known by a byte order mark or a zero in every other byte.
 pub fn in_utf8(mut text: impl Read) -> io::Result<impl Read> {
     let mut head = Vec::new();
     text.by_ref()
@@ -44,7 +44,7 @@ pub fn in_utf8(mut text: impl Read) -> io::Result<impl Read> {
         .build(text))
 }
 
-/// The byte order mark that UTF-16 of ASCII lacks, told from its first bytes.
+/// The byte order mark that is missing before these first bytes, if they are ASCII in UTF-16.
 pub(super) fn unmarked_utf_16(head: &[u8]) -> Option<&'static [u8]> {
     let is_ascii = |byte: u8| byte.is_ascii_graphic() || byte.is_ascii_whitespace();
     let (units, _) = head.get(..UNMARKED_BYTES)?.as_chunks();
@@ -73,15 +73,15 @@ impl Read for Counted {
     }
 }
 
-/// A format's way to deliver pairs.
+/// A source of pairs: the reader of one format.
 pub(super) trait Source {
-    /// Appends pairs until there are `capacity`; none at the end. Good pairs come before an error.
+    /// Appends pairs until there are `capacity`, fewer from a live stream, none at the end. Good pairs come before an error.
     fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), InputError>;
 
     /// The bytes read so far, the header included.
     fn bytes_read(&self) -> u64;
 
-    /// Pairs that are read, and not yet delivered.
+    /// Pairs that are read ahead and not yet delivered.
     fn ahead(&self) -> &[[f32; 2]] {
         &[]
     }
@@ -91,13 +91,13 @@ pub(super) trait Source {
         None
     }
 
-    /// Passes the next gap; it is told at the end, or not.
-    fn pass_gap(&mut self, _is_told: bool) {}
+    /// Passes the next gap, which is reported at the end or not.
+    fn pass_gap(&mut self, _is_reported: bool) {}
 
-    /// The pairs from `start` up to `end` are asked for: what is left out among them is told at the end.
+    /// Notes that the pairs from `start` up to `end` are asked for: lines left out among them are reported at the end.
     fn look(&mut self, _start: u64, _end: u64) {}
 
-    /// What to tell, at the end, of samples that are missing and of lines that are left out.
+    /// The error to report at the end for samples that are missing and lines that are left out.
     fn lost(&self) -> Option<InputError> {
         None
     }
@@ -107,7 +107,7 @@ pub(super) trait Source {
         None
     }
 
-    /// The first sample that is not a finite number, where there are lines.
+    /// The first sample that is not a finite number, with its place, in text.
     fn not_finite(&self) -> Option<Written> {
         None
     }
@@ -118,20 +118,20 @@ pub(super) trait Source {
 pub(super) struct Known {
     /// False for standard input.
     pub is_named: bool,
-    /// In lower case.
+    /// The extension in lower case; empty if there is none.
     pub extension: String,
-    /// Of a file.
+    /// The length of a file, bytes; none for a pipe.
     pub length: Option<u64>,
-    /// The file once more, to be sought in.
+    /// A second handle of a file, to seek in.
     pub again: Option<File>,
-    /// The bytes read so far of a text that is decoded, which are others than its format counts.
+    /// The bytes read so far of a UTF-16 text, before decoding; its reader counts those after.
     pub encoded: Rc<Cell<u64>>,
 }
 
 /// A source, and what its header tells.
 pub(super) struct Opened {
     pub source: Box<dyn Source>,
-    /// What it is, in words.
+    /// The format, in words.
     pub format: String,
     pub sample_rate: Option<f64>,
     /// The time of the first pair, s.
@@ -143,7 +143,7 @@ pub(super) struct Opened {
 }
 
 impl Opened {
-    /// Samples of so many pairs, where that is known, whose format does not tell their rate.
+    /// A source of binary samples, of `pairs` pairs if known, whose format does not tell their rate.
     pub fn of_samples(
         format: &str,
         code: SampleCode,

@@ -1,4 +1,4 @@
-//! Opening, and what every format has in common.
+//! Opening of recordings, and what all formats have in common.
 
 use std::fs;
 use std::io::{self, Cursor, Read};
@@ -52,12 +52,12 @@ pub(super) fn drain(recording: &mut Recording) -> (Vec<[f32; 2]>, Option<InputEr
     (all, fault)
 }
 
-/// What is said of a fault that must be there.
+/// The text of a fault, which must be there.
 pub(super) fn message(fault: Option<InputError>) -> String {
     fault.map(|fault| fault.to_string()).expect("a fault")
 }
 
-/// Writes a file into a directory that goes with the value returned.
+/// Writes a file into a directory that is deleted with the value returned.
 pub(super) fn file(name: &str, bytes: &[u8]) -> (tempfile::TempDir, std::path::PathBuf) {
     let directory = tempfile::tempdir().expect("a directory for the test");
     let path = directory.path().join(name);
@@ -65,12 +65,12 @@ pub(super) fn file(name: &str, bytes: &[u8]) -> (tempfile::TempDir, std::path::P
     (directory, path)
 }
 
-/// Opens what is written to a file of this name, and reads all of it.
+/// Writes a file of this name, opens it as a recording, and reads all of it.
 pub(super) fn read(name: &str, bytes: &[u8]) -> (Vec<[f32; 2]>, Option<String>) {
     read_with(name, bytes, &OpenOptions::default())
 }
 
-/// The same, with the path left out of the message but for the name. What is told at the end counts as a fault.
+/// [`read`] with options; the message has no path before the name. An error reported at the end counts as a fault.
 pub(super) fn read_with(
     name: &str,
     bytes: &[u8],
@@ -89,13 +89,13 @@ pub(super) fn read_with(
     (pairs, fault)
 }
 
-/// What is said of a fault, with the path of this directory left out.
+/// The text of a fault, with the path of this directory left out.
 pub(super) fn without(directory: &Path, fault: &dyn std::error::Error) -> String {
     let prefix = format!("{}{MAIN_SEPARATOR}", directory.display());
     fault.to_string().replace(&prefix, "")
 }
 
-/// What the user says of raw samples of this kind.
+/// The options for raw samples of this kind.
 pub(super) fn raw(kind: Kind) -> OpenOptions {
     OpenOptions {
         raw: Some(kind),
@@ -180,18 +180,18 @@ fn text_may_be_utf_16() {
             assert!(fault.as_ref().unwrap().starts_with(&expected), "{fault:?}");
         }
     }
-    // A zero in every other byte tells without the mark.
+    // Without a byte order mark, a zero in every other byte shows UTF-16.
     let little = "1,2\n".encode_utf16().flat_map(u16::to_le_bytes);
     let big = "1,2\n".encode_utf16().flat_map(u16::to_be_bytes);
     for bytes in [little.collect::<Vec<u8>>(), big.collect()] {
         for name in ["a.csv", "a.dat"] {
             assert_eq!(read(name, &bytes), (vec![[1.0, 2.0]], None));
         }
-        // Such are raw samples, too.
+        // Raw samples may begin so, too.
         let (pairs, _) = read_with("a", &bytes, &raw(Kind::I16));
         assert_eq!(pairs.len(), 2);
     }
-    // All of it is read, by the bytes that are in the file.
+    // Progress counts the bytes of the file, up to all of them.
     let (_directory, path) = file(
         "a.csv",
         &"\u{feff}1,2\n"
@@ -202,11 +202,11 @@ fn text_may_be_utf_16() {
     let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
     drain(&mut recording);
     assert_eq!(Some(recording.bytes_read()), recording.bytes_total());
-    // Raw samples may begin with any of them.
+    // Raw samples may begin with any of these marks.
     let options = raw(Kind::I16);
     let (pairs, fault) = read_with("a", b"\xff\xfe\0\x40", &options);
     assert_eq!((pairs, fault), (vec![[-257.0 / 32768.0, 0.5]], None));
-    // A text by its extension is none of these.
+    // A file with the extension of a text is decoded all the same.
     let text: Vec<u8> = "\u{feff}1,2\n"
         .encode_utf16()
         .flat_map(u16::to_le_bytes)
@@ -271,7 +271,7 @@ fn the_format_given_wins_over_a_name_and_not_over_the_content() {
             assert!(told(bytes).starts_with(&format!("{name}: {kind}")));
         }
     }
-    // Text is what is text by both, whatever its letters.
+    // A file is text if both name and content say so, in any encoding.
     for text in [&b"1,2\n"[..], b"x,y\n1,2\n", b"\xe9t\xe9,c,d\n0,1,2\n"] {
         assert_eq!(read_with("a.csv", text, &options).0, [[1.0, 2.0]]);
     }

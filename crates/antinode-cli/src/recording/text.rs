@@ -6,17 +6,17 @@ use super::Stream;
 use super::columns::is_time;
 use super::error::{InputError, LineFault};
 
-/// No line of a few numbers is as long; a file without ends of line must not fill the memory.
+/// Longest line read, bytes: a few numbers need less, and a file without ends of line must not fill the memory.
 pub(super) const MAX_LINE: usize = 1 << 16;
 
-/// Text whose lines end in `\n` alone, byte for byte: they may have ended in `\r\n` or in `\r`.
+/// Text with line ends converted to `\n` from `\r\n` or `\r`, byte for byte.
 ///
-/// A `\r` before a mark between fields ended a line of one of two files that stand side by side, and is a blank.
+/// A `\r` before a separator ended a line of a file that was pasted to the left of another: it becomes a blank.
 pub(super) struct LineEnds {
     stream: Stream,
-    /// True after a `\r`, which is a `\n` by now.
+    /// True after a `\r` that was converted to `\n`.
     is_after_return: bool,
-    /// A byte that is read and not yet given: what a `\r` is, the next one tells.
+    /// A byte that is read and not yet given: what becomes of a `\r` depends on the next byte.
     ahead: Option<u8>,
 }
 
@@ -29,7 +29,7 @@ impl LineEnds {
         }
     }
 
-    /// Reads what there is, and a byte ahead where it ends in a `\r`.
+    /// Reads what there is; of a `\r` at its end, the next byte must be known before it is given.
     fn read_on(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         let held = self.ahead.iter().len();
         let read = self.stream.read(&mut bytes[held..])?;
@@ -67,7 +67,7 @@ impl Read for LineEnds {
             bytes[place] = match byte {
                 b'\r' if is_inside => b' ',
                 b'\r' => b'\n',
-                // A blank before the next line does no harm.
+                // The `\n` of `\r\n` becomes a blank before the next line, where it does no harm.
                 b'\n' if self.is_after_return => b' ',
                 other => other,
             };
@@ -77,12 +77,12 @@ impl Read for LineEnds {
     }
 }
 
-/// Text as the CSV reader is to see it: its last line ends too, and none is endless.
+/// Text for the CSV reader: an end is added to a last line without one, and a line that is too long is an error.
 pub(super) struct Text {
     stream: Stream,
-    /// The bytes given.
+    /// The number of bytes given.
     given: u64,
-    /// The bytes of the line begun.
+    /// The number of bytes given of an unfinished line.
     line: usize,
     last: u8,
 }
@@ -97,7 +97,7 @@ impl Text {
         }
     }
 
-    /// The bytes of the whole lines given.
+    /// The number of bytes of whole lines given.
     pub fn lines_end(&self) -> u64 {
         self.given - self.line as u64
     }
@@ -130,8 +130,8 @@ impl Read for Text {
     }
 }
 
-/// The first line that is neither blank nor a comment, and perhaps the next, its number, and the bytes before it; with the names above it,
-/// where these begin with `#` for a count of lines, which is `n` then.
+/// The first line that is neither blank nor a comment, perhaps with the next, its number, and the bytes before it. If the line above
+/// holds names that begin with `#` for a count of lines, these come first, with `n` in place of `#`.
 pub(super) fn first_line(
     file: &str,
     stream: &mut impl BufRead,
@@ -185,19 +185,19 @@ pub(super) fn first_line(
     }
 }
 
-/// Whether a comment may be names, of which the first, `#`, is that of a count of lines.
+/// Whether a comment may be a line of names, the first of which, `#`, stands for a count of lines.
 fn has_count(line: &[u8]) -> bool {
     matches!(line, [b'#', b',' | b';' | b'\t', ..])
 }
 
-/// Whether one of these names behind a count of lines is that of a time.
+/// Whether one of these names that follow a count of lines is that of a time.
 fn has_time(names: &[u8]) -> bool {
     fields(names, names[1])
         .filter_map(|name| str::from_utf8(name).ok())
         .any(is_time)
 }
 
-/// Whether the first column of two lines counts them.
+/// Whether the first column of the first two of these lines counts them.
 fn are_counted(lines: &[u8]) -> bool {
     let counts = lines.split(|&byte| byte == b'\n').map(|line| {
         let first = fields(line, separator(line)).next()?;
@@ -207,14 +207,14 @@ fn are_counted(lines: &[u8]) -> bool {
     matches!(counts[..], [Some(one), Some(other)] if one.checked_add(1) == Some(other))
 }
 
-/// Whether two lines have as many fields, more than two.
+/// Whether two lines have the same number of fields, more than two.
 fn are_as_many(one: &[u8], other: &[u8]) -> bool {
     let separator = separator(other);
     let count = |line| fields(line, separator).count();
     count(one) == count(other) && count(one) > 2
 }
 
-/// So many of the next lines, comments and all; fewer at the end, or before one that is too long.
+/// The next `lines` lines, comments included; fewer at the end or at one that is too long, of which only the beginning is read.
 pub(super) fn next_lines(stream: &mut impl BufRead, lines: usize) -> io::Result<Vec<u8>> {
     let mut next = Vec::new();
     for _ in 0..lines {
@@ -227,7 +227,7 @@ pub(super) fn next_lines(stream: &mut impl BufRead, lines: usize) -> io::Result<
     Ok(next)
 }
 
-/// Text without the mark that some programs begin UTF-8 with.
+/// Text without the byte order mark that some programs begin UTF-8 with.
 pub(super) fn without_mark(text: &[u8]) -> &[u8] {
     text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text)
 }
@@ -254,14 +254,14 @@ pub(super) fn is_comment(line: &[u8]) -> bool {
     is_marked || is_sentence
 }
 
-/// The marks that separate fields, those first that go before others.
+/// The separators of fields other than blanks, in the order in which they are looked for.
 const MARKS: [u8; 3] = [b';', b'\t', b','];
 
 fn is_mark(byte: u8) -> bool {
     MARKS.contains(&byte)
 }
 
-/// What separates the fields: the first of `;`, tab and `,` that is there, or else blanks.
+/// The separator of a line's fields: the first of `;`, tab and `,` that is there, or else blanks.
 pub(super) fn separator(line: &[u8]) -> u8 {
     MARKS
         .into_iter()
@@ -269,10 +269,10 @@ pub(super) fn separator(line: &[u8]) -> u8 {
         .unwrap_or(b' ')
 }
 
-/// The fields of a line; of those between blanks, only those that are not empty.
+/// The fields of a line; where blanks separate them, only those that are not empty.
 pub(super) fn fields(line: &[u8], separator: u8) -> impl Iterator<Item = &[u8]> {
     let line = line.trim_ascii_end();
-    // One mark at the end of a line ends its last field; it does not begin another.
+    // A single separator at the end of a line does not begin another field.
     let line = line.strip_suffix(&[separator]).unwrap_or(line);
     let fields = line.split(move |&byte| byte == separator).map(bare);
     fields.filter(move |field| separator != b' ' || !field.is_empty())

@@ -1,4 +1,4 @@
-//! The time column of a text recording: its sample rate, and whether it keeps to it.
+//! The time column of a text recording: its sample rate, and the check that its times keep to that rate.
 
 mod late;
 
@@ -6,25 +6,25 @@ use super::error::TimeFault;
 use super::printed::Printed;
 use crate::digits::significant;
 
-/// How far a step may be off, in samples.
+/// Largest deviation of a step from whole samples, in samples.
 const STEP_TOLERANCE: f64 = 0.01;
 
-/// Times rounded by more than this many samples hide a lost one.
-const COARSE: f64 = 0.25;
+/// Rounding of times, in samples, beyond which it hides a lost sample.
+const MAX_ROUNDING: f64 = 0.25;
 
-/// So many times that stand in two lines each do so on purpose.
-const FEWEST_PAIRED: usize = 8;
+/// Fewest lines in which times that each stand twice are no accident.
+const MIN_PAIRED: usize = 8;
 
-/// So many uneven steps as far from each other as all others, to two lines, are no chance.
-const LEAST_REGULAR: usize = 6;
+/// Fewest uneven steps whose equal distances, to two lines, are no chance.
+const MIN_REGULAR: usize = 6;
 
-/// How many lines the rate is averaged over before it is compared.
+/// Number of samples over which the rate is averaged before it is compared.
 const RATE_LINES: u64 = 1 << 16;
 
-/// Rates that differ by no more than this are the same one.
+/// Largest relative difference of two rates that count as the same.
 const SAME_RATE: f64 = 1e-3;
 
-/// What a time column is, beside the rate that was asked for.
+/// The meaning of a time column in view of the rate asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Meaning {
     /// The samples' times.
@@ -33,12 +33,12 @@ pub(super) enum Meaning {
     PerhapsIndex,
     /// The numbers of the lines.
     Index,
-    /// Times of another rate.
+    /// Times of another rate than the one asked for; both in Hz.
     OtherRate { own: f64, asked: f64 },
 }
 
 impl Meaning {
-    /// Times of their `own` rate beside the one that was `asked` for.
+    /// The meaning of times with their `own` rate if a rate is `asked` for, both in Hz.
     pub fn of_rate(own: f64, asked: Option<f64>) -> Self {
         match asked {
             Some(asked) if (asked / own - 1.0).abs() > SAME_RATE => Self::OtherRate { own, asked },
@@ -47,32 +47,35 @@ impl Meaning {
     }
 }
 
-/// A sample rate as steady as a clock, and the last time that kept to it.
+/// The sample rate, which is as steady as a clock, and the last time that kept to it.
 pub(super) struct TimeAxis {
-    /// The rate of the first lines, and its uncertainty as a step.
+    /// The rate of the first lines, Hz, and its uncertainty as that of the step, s.
     rate: f64,
     rate_uncertainty: f64,
+    /// The first time, s.
     start: f64,
-    /// The lines after the first.
+    /// The number of samples after the first, lost ones included.
     count: u64,
-    /// The latest average of the rate that is no longer that of the first lines.
+    /// The latest average of the rate, Hz, if it is no longer that of the first lines.
     drifted: Option<f64>,
-    /// The step of the stretch before this one.
+    /// The average step of the stretch before this one, s.
     step: f64,
+    /// The last time, s.
     last: f64,
-    /// The step between numbers printed near the last.
+    /// The step between neighbouring printed times near the last, s.
     rounding: f64,
-    /// Where the current average of the rate begins.
+    /// The time at which the current stretch begins, s.
     anchor: f64,
+    /// The number of samples since then, lost ones included.
     lines: u64,
-    /// The uncertainty of `step` from the rounding of the first lines.
+    /// The uncertainty of `step` from the rounding of the first lines, s.
     uncertainty: f64,
-    /// Up to here, the rounding does no harm: the first steps are even in spite of it.
+    /// Rounding up to this, s, does no harm: the first steps are even in spite of it.
     harmless: f64,
 }
 
 impl TimeAxis {
-    /// The rate of the `first` times; none if there are not two, or if time mostly stands still.
+    /// Finds the rate of the `first` times; none if there are not two, or if time mostly stands still.
     pub fn of(first: &[f64], printed: Printed) -> Option<Self> {
         let [start, .., end] = first else { return None };
         let steps: Vec<f64> = first.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -92,15 +95,15 @@ impl TimeAxis {
         let uncertainty = runs * rounding / count;
         let mean = sum / count;
         let rate = roundest(1.0 / mean, uncertainty / mean / mean);
-        // A rate that changes makes many uneven steps too, but these are alike: of them the first counts.
+        // A change of the rate makes many uneven steps too, but these are alike: only the first of them counts.
         let is_off = |step: f64, usual: f64| ((step - usual) / mean).abs() > STEP_TOLERANCE;
         let ragged: Vec<usize> = (0..steps.len())
             .filter(|&at| is_off(steps[at], mean))
             .filter(|&at| at == 0 || is_off(steps[at], steps[at - 1]))
             .collect();
-        // Faults do not come in turn, as the last digit of a step that is no multiple of it does.
+        // Rounding makes uneven steps at equal distances if the step is no multiple of the last digit; faults do not.
         let apart = || ragged.windows(2).map(|pair| pair[1] - pair[0]);
-        let is_regular = ragged.len() >= LEAST_REGULAR
+        let is_regular = ragged.len() >= MIN_REGULAR
             && apart()
                 .max()
                 .zip(apart().min())
@@ -118,7 +121,7 @@ impl TimeAxis {
             anchor: *start,
             lines: 0,
             uncertainty,
-            // A few uneven steps are faults, many or regular ones are the work of the rounding.
+            // A few uneven steps are faults; many or regular ones come from the rounding.
             harmless: if is_regular || ragged.len() > 2 && 10 * ragged.len() > steps.len() {
                 0.0
             } else {
@@ -127,12 +130,12 @@ impl TimeAxis {
         })
     }
 
-    /// The sample rate of the first lines in Hz.
+    /// The sample rate of the first lines, Hz.
     pub fn rate(&self) -> f64 {
         self.rate
     }
 
-    /// What the column is beside the rate `asked` for.
+    /// The meaning of the column if the rate `asked` is asked for, Hz.
     pub fn meaning(&self, printed: Printed, asked: Option<f64>) -> Meaning {
         let meaning = Meaning::of_rate(self.rate, asked);
         // An index goes up by one whole a line; so may seconds.
@@ -144,14 +147,15 @@ impl TimeAxis {
         }
     }
 
-    /// The rate that the recording came to, where it is no longer that of the first lines, and how much later, s, its last line is than
-    /// by that.
+    /// The latest rate, Hz, if it is no longer that of the first lines, and how much later than by the rate of the first lines the last
+    /// time is, s.
     pub fn drift(&self) -> Option<(f64, f64)> {
         let late = self.last - self.start - self.count as f64 / self.rate;
         self.drifted.map(|rate| (rate, late))
     }
 
-    /// The rate of all lines, and how much later, s, the last one is than by another rate; none where rounding and half a sample explain that.
+    /// The rate of all lines, Hz, and how much later than by another `rate` the last time is, s; none if rounding and half a sample explain
+    /// the difference.
     pub fn beside(&self, rate: f64) -> Option<(f64, f64)> {
         let length = self.last - self.start;
         let late = length - self.count as f64 / rate;
@@ -167,7 +171,7 @@ impl TimeAxis {
         self.last
     }
 
-    /// Takes the next line and tells how many samples were lost before it, or says how it breaks the rate.
+    /// Checks the time of the next line: gives the number of samples lost before it, or how it breaks the rate.
     pub fn check(&mut self, now: f64, printed: Printed) -> Result<u64, TimeFault> {
         let step = now - self.last;
         let printed = printed.step(now);
@@ -187,7 +191,7 @@ impl TimeAxis {
         }
         let length = now - self.anchor;
         let lines = self.lines as f64;
-        // A few ppm of drift are the clock's; half a sample in this many is not.
+        // A clock may drift by a few ppm, but not by half a sample in so many.
         let is_off = |step: f64, uncertainty: f64| {
             let allowed = (0.5 + 2.0 * rounding) * step + 2.0 * lines * uncertainty;
             (length - lines * step).abs() > allowed
@@ -199,7 +203,7 @@ impl TimeAxis {
         if is_off(1.0 / self.rate, self.rate_uncertainty) {
             self.drifted = Some(lines / length);
         }
-        // A clock that warms up goes far in the end, but never at once.
+        // The next stretch is compared with this one: a clock that warms up drifts far in the end, but never at once.
         self.step = length / lines;
         self.uncertainty = 0.0;
         self.anchor = now;
@@ -207,13 +211,14 @@ impl TimeAxis {
         Ok(lost)
     }
 
-    /// How many samples were lost before a time that is off, or what else is wrong with it.
+    /// The number of samples lost before a time that is off, or what else is wrong with it.
     fn lost(&self, now: f64, rounding: f64) -> Result<u64, TimeFault> {
         let (from, to, usual) = (self.last, now, self.step);
         let step = to - from;
         let samples = step / usual;
-        let tolerance = STEP_TOLERANCE + rounding.min(COARSE) + samples * self.uncertainty / usual;
-        if rounding > COARSE && rounding * usual > self.harmless {
+        let tolerance =
+            STEP_TOLERANCE + rounding.min(MAX_ROUNDING) + samples * self.uncertainty / usual;
+        if rounding > MAX_ROUNDING && rounding * usual > self.harmless {
             Err(TimeFault::Coarse {
                 told: rounding * usual,
                 usual,
@@ -228,17 +233,17 @@ impl TimeAxis {
     }
 }
 
-/// Whether each of `times` stands in two lines, as of a minimum and a maximum; the first or the last may stand alone.
+/// Whether each of `times` stands in two lines, as for a minimum and a maximum; the first or the last may stand alone.
 pub(super) fn are_paired(times: &[f64]) -> bool {
     let steps = || times.windows(2).map(|pair| pair[1] - pair[0]);
     let are_turns = |first: usize| {
         let mut steps = steps().enumerate();
         steps.all(|(index, step)| (index % 2 == first) == (step == 0.0) && step >= 0.0)
     };
-    times.len() >= FEWEST_PAIRED && (are_turns(0) || are_turns(1))
+    times.len() >= MIN_PAIRED && (are_turns(0) || are_turns(1))
 }
 
-/// Which of `times` is the first that does not go up, and how.
+/// The index of the first of `times` that does not go up, and its fault.
 pub(super) fn standstill(times: &[f64], printed: Printed) -> Option<(usize, TimeFault)> {
     let at = 1 + times.windows(2).position(|pair| pair[1] <= pair[0])?;
     let (from, to) = (times[at - 1], times[at]);

@@ -5,14 +5,14 @@ use super::no_number::stand_in;
 use super::number::is_number;
 use super::signal_units::is_known;
 
-/// The power of ten that a unit of time makes of seconds: −3 for ms. `Some(None)` for times that are none, `None` for other units.
+/// The power of ten of a unit of time in seconds: −3 for ms. `Some(None)` for units of time that are not read, `None` for other units.
 pub(super) fn time_exponent(unit: &str) -> Option<Option<i32>> {
     match bare(unit).to_lowercase().as_str() {
         "s" | "sec" | "secs" | "second" | "seconds" | "sekunde" | "sekunden" | "с" | "сек"
         | "秒" => Some(Some(0)),
         "ms" | "timems" | "tms" | "msec" | "millis" | "millisecond" | "milliseconds" | "мс"
         | "毫秒" => Some(Some(-3)),
-        // Both letters of Unicode, and what is left of a µ in an older code.
+        // Both letters µ of Unicode, and the replacement of a µ in an older encoding.
         "us" | "µs" | "μs" | "\u{fffd}s" | "timeus" | "tus" | "usec" | "micros" | "microsecond"
         | "microseconds" | "мкс" | "微秒" => Some(Some(-6)),
         "ns" | "timens" | "tns" | "nsec" | "nanosecond" | "nanoseconds" | "нс" | "纳秒" => {
@@ -36,7 +36,7 @@ pub(super) fn of_name(name: &str) -> &str {
     unit.unwrap_or_default().trim()
 }
 
-/// The unit that a column's name surely tells: `U [V]`, `in s`, `C1 in V`; nothing where it tells none.
+/// The unit that a column's name surely tells: `U [V]`, `in s`, `C1 in V`; empty if there is none.
 pub(super) fn told_by(name: &str) -> &str {
     if is_bracketed(name) {
         return of_name(name);
@@ -60,31 +60,31 @@ pub(super) fn without_unit(name: &str) -> &str {
     name[..start.unwrap_or(name.len())].trim_end()
 }
 
-/// Whether the brackets at the end of a time column's name hold something that is no unit of time known.
+/// Whether the brackets at the end of a time column's name hold something that is no known unit of time.
 pub(super) fn has_unknown_unit(name: &str) -> bool {
     let unit = of_name(name);
     is_bracketed(name) && !unit.is_empty() && time_exponent(unit).is_none()
 }
 
-/// Whether all of these fields are in brackets or empty, and one is not: no samples are.
+/// Whether all of these fields are in brackets or empty, and not all empty: samples never are.
 pub(super) fn are_bracketed(fields: &[String]) -> bool {
     let is_in_brackets = |field: &String| field.starts_with(['(', '[']) && is_bracketed(field);
     let mut named = fields.iter().filter(|field| !field.is_empty()).peekable();
     named.peek().is_some() && named.all(is_in_brackets)
 }
 
-/// Whether a field may be a unit: a short word, or nothing.
+/// Whether a field may be a unit: a short word, or empty.
 fn is_unit(field: &str) -> bool {
     let is_sample = is_measured(field);
     let field = bare(field).to_lowercase();
-    // What stands for a number that is missing is none.
+    // A word that stands for a missing number is no unit.
     let is_missing = !field.is_empty() && stand_in(field.as_bytes()).is_some();
     let is_word = field.chars().any(|letter| !letter.is_ascii_digit());
     let is_short = field.chars().count() <= 8 || is_known(&field);
     !is_missing && !is_sample && is_short && (is_word || field.is_empty())
 }
 
-/// Whether fields may be units, all of them: short words, or nothing, and no numbers.
+/// Whether all fields may be units: short words or empty, and no numbers.
 pub(super) fn are_units(fields: &[String], separator: u8) -> bool {
     let mut fields = fields.iter();
     fields.all(|field| is_unit(field) && !is_number(field.as_bytes(), separator))

@@ -9,16 +9,16 @@ use super::sample::{Kind, SampleCode};
 use super::time::Meaning;
 use super::{OpenOptions, Opened, Stream};
 
-/// The end of every `KSDATAFORMAT_SUBTYPE`, whose beginning is a format tag.
+/// The last bytes of every `KSDATAFORMAT_SUBTYPE`, of which the first two are a format tag.
 const SUBTYPE_TAIL: [u8; 14] = *b"\x00\x00\x00\x00\x10\x00\x80\x00\x00\xaa\x00\x38\x9b\x71";
 
-/// The length SoX writes when it cannot go back to write the true one, cut down to whole pairs.
+/// The length of data, bytes, that SoX writes when it cannot go back to write the true one; it is rounded down to whole pairs.
 const SOX_UNKNOWN: u64 = 0x7fff_f000;
 
-/// The length arecord writes when it cannot go back.
+/// The length of data, bytes, that arecord writes when it cannot go back.
 const ARECORD_UNKNOWN: u64 = 0x8000_0000;
 
-/// The length of a chunk that is in the `ds64` chunk, or unknown.
+/// The length written for a chunk whose length stands in the `ds64` chunk or is unknown.
 const UNKNOWN: u64 = 0xffff_ffff;
 
 /// Opens a WAV file; `length` is that of the file, if it has one.
@@ -63,7 +63,7 @@ pub(super) fn open(
     })
 }
 
-/// Warns of a rate asked for that is not the header's own.
+/// The warning about a rate asked for that is not the header's own.
 fn rate_warning(own: f64, asked: Option<f64>) -> Option<String> {
     match Meaning::of_rate(own, asked) {
         Meaning::OtherRate { own, asked } => Some(format!(
@@ -92,7 +92,7 @@ impl Data {
     fn promised(&self, pair_bytes: u64, length: Option<u64>) -> Option<u64> {
         let sox = SOX_UNKNOWN - pair_bytes + 1..=SOX_UNKNOWN;
         let unknown = match self.data_bytes {
-            // A finished file of nothing tells its own size; an unfinished one does not.
+            // A finished file without samples states its own size correctly; an unfinished one does not.
             0 => length.is_none_or(|length| self.riff_bytes.saturating_add(8) != length),
             ARECORD_UNKNOWN | u64::MAX => true,
             bytes => sox.contains(&bytes) || (UNKNOWN - pair_bytes..=UNKNOWN).contains(&bytes),
@@ -126,7 +126,7 @@ impl Reader<'_> {
                     let chunk = self.chunk(size, 16)?;
                     let (sizes, _) = chunk.as_chunks::<8>();
                     riff_bytes = u64::from_le_bytes(sizes[0]);
-                    // 0 in a file that was never finished, as in the chunk of the data itself.
+                    // 0 in a file that was never finished, as is the size of the data chunk itself.
                     long_data = Some(u64::from_le_bytes(sizes[1]));
                 }
                 b"data" => {
@@ -176,7 +176,7 @@ impl Reader<'_> {
         Ok(words)
     }
 
-    /// The first `wanted` bytes of a chunk of `size` bytes; the others and the padding are left behind.
+    /// The first `wanted` bytes of a chunk of `size` bytes; the others and the padding are skipped.
     fn chunk(&mut self, size: u64, wanted: usize) -> Result<Vec<u8>, InputError> {
         if size < wanted as u64 {
             return Err(self.fault("a chunk is too short"));
@@ -199,7 +199,7 @@ impl Reader<'_> {
                 return Err(self.fault("its extensible format is of no known kind"));
             }
             tag = word(24);
-            // Some writers leave the valid bits out.
+            // Some writers leave the number of valid bits at 0.
             valid = if word(18) == 0 {
                 bits
             } else {

@@ -1,4 +1,4 @@
-//! Writing recordings: WAV, text and NPY, which appear under their name only once they are whole.
+//! Writing of recordings as WAV, text and NPY files, which appear under their name only once they are complete.
 
 mod encode;
 mod error;

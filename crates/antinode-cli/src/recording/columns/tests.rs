@@ -52,10 +52,10 @@ fn a_count_of_lines_is_no_clock() {
         let header = format!("{count},Time (ms),ADC1,ADC2");
         assert_eq!(places(&header, None), Ok([Some(1), Some(2), Some(3)]));
     }
-    // A unit of time says that it is one.
+    // With a unit of time it is a clock.
     let usual = Ok([Some(0), Some(1), Some(2)]);
     assert_eq!(places("Sample (s),ADC1,ADC2", None), usual);
-    // Of two columns none may be left out.
+    // With only two columns both are signals.
     assert_eq!(places("n,x", None), Ok([None, Some(0), Some(1)]));
 }
 
@@ -66,7 +66,7 @@ fn a_choice_is_by_name_or_number() {
         places("a,b,c,d", Some("1, b, d")),
         Ok([Some(0), Some(1), Some(3)])
     );
-    // Where names are numbers.
+    // The names are numbers.
     assert_eq!(places("t,1,2", Some("2,3")), Ok([None, Some(1), Some(2)]));
     assert_eq!(
         places("t,1,2", Some("t,1,2")),

@@ -4,11 +4,11 @@ use super::super::error::{InputError, LineFault, Place, Role, TimeFault};
 use super::super::header::Header;
 use super::super::lines::Lines;
 
-/// What a line has of what is asked for.
+/// The fields of a line that are to be read.
 pub(super) struct Fields<'a> {
-    /// The time and the two samples as they are written; nothing for what is not asked for, or not there for sure.
+    /// The time and the two samples as they are written; empty if not asked for, missing, or uncertain in a broken line.
     pub texts: [&'a [u8]; 3],
-    /// The fault of a line of too many or too few fields, and what it is in words.
+    /// The error for a line of too many or too few fields, and a description of the line.
     pub broken: Option<(InputError, String)>,
 }
 
@@ -24,7 +24,7 @@ pub(super) fn cut<'a>(file: &str, lines: &'a Lines, header: &Header) -> Fields<'
         }
         (count, last_is_blank) = (count + 1, field.is_empty());
     }
-    // One mark at the end of a line ends its last field; it does not begin another.
+    // A single separator at the end of a line does not begin another field.
     let is_long = count > header.width + usize::from(last_is_blank);
     let mut roles = 0..Role::ALL.len();
     let short = roles.find(|&role| header.places[role].is_some() && found[role].is_none());
@@ -38,7 +38,7 @@ pub(super) fn cut<'a>(file: &str, lines: &'a Lines, header: &Header) -> Fields<'
         short.map(|role| missing(file, header, place(lines, header, role), role))
     };
     for (text, place) in found.iter_mut().zip(header.places) {
-        // Of two lines run together nothing is sure; of one that is cut off, all but the field it is cut in.
+        // In two lines run together no field is certain; in a line cut off, all are but the one that is cut.
         if is_long || short.is_some() && place.is_some_and(|place| place + 1 == count) {
             *text = None;
         }
@@ -64,7 +64,7 @@ pub(super) fn place(lines: &Lines, header: &Header, role: usize) -> Place {
     }
 }
 
-/// The error for a line in which there is nothing of this `role`.
+/// The error for a line without a field of this `role`.
 pub(super) fn missing(file: &str, header: &Header, place: Place, role: usize) -> InputError {
     let fault = match Role::ALL[role] {
         Role::Time => header.time_fault(TimeFault::Missing),

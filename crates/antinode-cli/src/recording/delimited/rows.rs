@@ -13,17 +13,17 @@ use super::super::number::number;
 use super::super::printed::Printed;
 use super::fields::{cut, missing, place};
 
-/// How much of a bad field an error shows.
-const SHOWN_LETTERS: usize = 40;
+/// Characters of a bad field that an error shows, at most.
+const MAX_SHOWN: usize = 40;
 
-/// So many bad lines before the first good one are no glitch, but something other than samples.
-const NO_GLITCH: u64 = 2;
+/// Garbled lines before the first good one from which on the text is refused: fewer may be a glitch.
+const MIN_GARBLED_BEGINNING: u64 = 2;
 
-/// What a line is read as.
+/// The content of one line.
 pub(super) enum Row {
-    /// Its time, where there is a column of times, and its pair.
+    /// Its time, if there is a time column, and its pair.
     Pair(Option<f64>, [f32; 2]),
-    /// Nothing, for its time is not known.
+    /// Nothing: the line is left out, as its time is not known.
     LeftOut,
 }
 
@@ -40,11 +40,11 @@ pub(super) struct Rows {
     /// The lines read, and the pairs among them.
     pub read: u64,
     pairs: u64,
-    /// Those lines with a field that is no number and stands for none, or with too many or too few.
+    /// Lines among them with too many or too few fields, or one that is neither a number nor stands for a missing one.
     garbled: u64,
-    /// The first of those: the pairs before it, and what is wrong with it.
+    /// The first garbled line: the pairs before it, and its error.
     first_garbled: Option<(u64, InputError)>,
-    /// Those before the first that was good.
+    /// Garbled lines before the first good one.
     garbled_before: u64,
 }
 
@@ -68,12 +68,12 @@ impl Rows {
         })
     }
 
-    /// True where the first lines are garbled, and more of them than a glitch leaves.
+    /// True if the text begins with more garbled lines than a glitch leaves.
     pub fn begin_garbled(&self) -> bool {
-        self.garbled_before >= NO_GLITCH
+        self.garbled_before >= MIN_GARBLED_BEGINNING
     }
 
-    /// The first garbled line, told once, where most lines are: the pairs before it, and its fault.
+    /// If most lines are garbled, the first of them: the pairs before it, and its error. It is given only once.
     pub fn mostly_garbled(&mut self) -> Option<(u64, InputError)> {
         let are_most = 2 * self.garbled > self.read || self.begin_garbled();
         let first = self.first_garbled.take_if(|_| are_most);
@@ -83,13 +83,13 @@ impl Rows {
         first
     }
 
-    /// The next line's; none at the end.
+    /// The next line's row; none at the end.
     pub fn next(&mut self) -> Result<Option<Row>, InputError> {
         loop {
             if !self.lines.advance()? {
                 return Ok(None);
             }
-            // Without a time and a sample a line is blank, as spreadsheets fill it with marks; without a time for any it is a pair.
+            // Separators alone are a blank line of a spreadsheet if lines have a time; without a time column they are a missing pair.
             let is_blank = || self.lines.fields().all(<[u8]>::is_empty);
             if self.header.places[0].is_none() || !is_blank() {
                 break;
@@ -105,7 +105,7 @@ impl Rows {
         let mut time =
             number::<f64>(texts[0], self.lines.separator).filter(|time| time.is_finite());
         let mut pair = [f32::NAN; 2];
-        // The role of the field that is no finite number, and of the one that is nothing at all.
+        // The roles of the first field that is no finite number, and of the first that does not even stand for one.
         let (mut odd, mut garbled) = (None, None);
         for (channel, value) in pair.iter_mut().enumerate() {
             let (role, text) = (channel + 1, texts[channel + 1]);
@@ -168,7 +168,7 @@ impl Rows {
         place(&self.lines, &self.header, role)
     }
 
-    /// What is wrong with `text`, which is in the column of this `role` and no number.
+    /// The error for `text` in the column of this `role`, which is no number.
     fn no_number(&self, role: usize, text: &[u8]) -> InputError {
         if text.is_empty() {
             return missing(&self.file, &self.header, self.place(role), role);
@@ -188,7 +188,7 @@ impl Rows {
     }
 }
 
-/// What a field is that is no finite number, in words; `read` is the number that it holds all the same.
+/// Describes a field that is no finite number; `read` is the NaN or infinity that it was read as, if any.
 fn told(role: Role, text: &[u8], read: Option<f32>) -> String {
     let value = match read {
         _ if text.is_empty() => "missing".to_owned(),
@@ -201,15 +201,15 @@ fn told(role: Role, text: &[u8], read: Option<f32>) -> String {
     }
 }
 
-/// A bad field as an error shows it.
+/// A bad field as an error shows it: escaped and cut short.
 fn shown(field: &[u8]) -> String {
     let text = lossy(field);
     text.chars()
         .flat_map(|letter| {
-            // A quote stands for itself.
+            // A quote is shown without its backslash.
             let escape = usize::from(matches!(letter, '"' | '\''));
             letter.escape_debug().skip(escape)
         })
-        .take(SHOWN_LETTERS)
+        .take(MAX_SHOWN)
         .collect()
 }

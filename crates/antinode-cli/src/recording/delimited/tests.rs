@@ -16,13 +16,13 @@ fn good(text: &str) -> Vec<[f32; 2]> {
     pairs
 }
 
-/// The good pairs, and what is said of what follows.
+/// The number of good pairs, and the error that follows them.
 fn bad(text: &str) -> (usize, String) {
     let (pairs, fault) = read("a.csv", text.as_bytes());
     (pairs.len(), fault.unwrap_or_default())
 }
 
-/// Checks how many pairs are good, and how what is said of what follows begins; gives all of it.
+/// Checks how many pairs are good and how the error that follows begins; gives the whole error.
 fn check(text: &str, pairs: usize, expected: &str) -> String {
     let (count, fault) = bad(text);
     assert!(
@@ -135,7 +135,7 @@ fn faults_in_a_line_are_named_by_line_and_column() {
             "a.csv:1:1: S_C is `1x`, not a number; ",
         ),
         ("1,x\n", 0, "a.csv:1:2: S_D is `x`, not a number; "),
-        // Every line as the first, which is no name.
+        // Every line has the form of the first, which holds no names.
         (
             "0x0CEC,0x07F1\n0x0CED,0x07F0\n",
             0,

@@ -1,4 +1,4 @@
-//! What can be wrong with a line of text.
+//! Errors of single lines of text.
 
 use std::fmt;
 use std::num::NonZeroU32;
@@ -11,7 +11,7 @@ use crate::recording::forms::remedy;
 pub struct Place {
     /// The line.
     pub line: u64,
-    /// The column, where the fault is in one.
+    /// The column, if the fault is in a single one.
     pub column: Option<usize>,
 }
 
@@ -23,13 +23,13 @@ impl fmt::Display for Place {
     }
 }
 
-/// From so many columns on, they are hardly channels.
+/// Number of columns from which on a line probably holds all samples of one channel.
 const MANY_COLUMNS: usize = 100;
 
-/// Why a line of text cannot be taken for a pair of samples.
+/// Why a line of text cannot be read as a pair of samples.
 #[derive(Debug, thiserror::Error)]
 pub enum LineFault {
-    /// Not lines of text.
+    /// No end of line within the limit: not lines of text.
     #[error(
         "more than {limit} bytes without an end of line; give text with one sample pair a line"
     )]
@@ -49,31 +49,31 @@ pub enum LineFault {
         if *.are_words { "; if this line is a title, delete it or begin it with #" } else { "" }
     )]
     ColumnCount { found: usize, are_words: bool },
-    /// What was identified already.
+    /// Rows that were identified already.
     #[error(
         "these are rows as this program prints them, no samples; give the recording, or the rows to `antinode plot`, `resonator` \
          or `calibrate`"
     )]
     Rows,
-    /// One signal beside its time.
+    /// A time and only one signal.
     #[error(
         "found the time and one signal, but both are needed, S_C and S_D: export both channels into one file, or put \
          the files of both side by side, `paste -d, c.csv d.csv`, and name the columns with --columns TIME,C,D; if there \
          are two signals and no time, --columns C,D"
     )]
     OneSignal,
-    /// A column asked for that is not there.
+    /// A chosen column that does not exist.
     #[error("there is no column `{wanted}`; choose among {known} with --columns")]
     ColumnUnknown { wanted: String, known: String },
-    /// One column for two of the time and the signals.
+    /// One column chosen for two of the time, S_C and S_D.
     #[error(
         "column {number} is chosen twice; choose one each of the time, S_C and S_D with --columns"
     )]
     ColumnTwice { number: usize },
-    /// A field too few.
+    /// Too few fields.
     #[error("{role} is missing here; complete or delete the line")]
     FieldMissing { role: Role },
-    /// A field too many.
+    /// Too many fields.
     #[error(
         "found {found} fields where the first line has {expected}; use another separator \
          than the decimal mark, and the same one in every line{}",
@@ -86,31 +86,31 @@ pub enum LineFault {
         remedy(text).unwrap_or("correct or delete the line, or begin it with # if it is a comment")
     )]
     Number { role: Role, text: String },
-    /// Signals that are none of the same.
+    /// Units of different quantities.
     #[error(
         "S_C is in {} and S_D in {}, which have no common unit; record both alike, mend the units, or choose other columns \
          with --columns",
         units[0], units[1]
     )]
     Units { units: [String; 2] },
-    /// The time is at fault; the samples are in the columns named.
+    /// A fault of the time; `samples` names the columns to read without it.
     #[error("{fault}, or ignore the time column with --columns {samples} --rate HZ")]
     Time { fault: TimeFault, samples: String },
 }
 
-/// Why the time of a line cannot be taken.
+/// Why the time of a line cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum TimeFault {
-    /// Time in something other than seconds.
+    /// A time in a unit other than s, ms, us and ns.
     #[error("the time column `{name}` is not in s, ms, us or ns; convert it to seconds")]
     Unit { name: String },
-    /// A unit of time that settings tell, and the samples do not.
+    /// A unit of time that the settings name, but not the header of the samples.
     #[error(
         "the settings tell a time in `{unit}`, but the samples tell no unit; write the true one behind the time's name above \
          them, as `TIME [ms]`"
     )]
     UnitUnsure { unit: String },
-    /// No time.
+    /// A line without a time.
     #[error("the time is missing here; complete or delete the line")]
     Missing,
     /// A time that is no finite number.
@@ -125,13 +125,13 @@ pub enum TimeFault {
          recording here, print the time with more digits: what follows is not read"
     )]
     Backwards { from: f64, to: f64 },
-    /// Each time in two lines.
+    /// Each time stands in two lines.
     #[error(
         "each time stands in two lines: where these are a minimum and a maximum (peak detect, envelope), record or export single \
          samples; where times are rounded, print them with more digits"
     )]
     Paired,
-    /// A gap of whole samples, the first of so many gaps with so many samples in all: told once all is read.
+    /// A gap of `lost` whole samples, the first of `gaps` gaps with `all` samples in all; reported once all is read.
     #[error(
         "{lost} {} lost before this line (time goes from {from} s to {to} s){}{}; rows of windows with a gap are missing, the \
          others are good: record it again without loss",
@@ -147,7 +147,7 @@ pub enum TimeFault {
         to: f64,
         gaps: u32,
         all: u64,
-        /// Pairs from each to the next, where that are as many.
+        /// Pairs from each gap to the next, if they are always as many.
         every: Option<NonZeroU32>,
     },
     /// A step that is no whole number of samples.
@@ -156,13 +156,13 @@ pub enum TimeFault {
          rate, resample it to one"
     )]
     Uneven { step: f64, usual: f64 },
-    /// The rate creeps away.
+    /// The average sample rate has changed.
     #[error(
         "the sample rate has gone from {from:.3} Hz to {to:.3} Hz; sample at a constant rate, \
          resample it to one"
     )]
     Drift { from: f64, to: f64 },
-    /// Time with too few digits.
+    /// Times printed with too few digits.
     #[error(
         "time is told to {told:.0e} s only, too coarse for samples {usual:.4e} s apart; print \
          it with more digits"
@@ -180,7 +180,7 @@ pub enum Role {
 }
 
 impl Role {
-    /// In the order the columns are kept: time, S_C, S_D.
+    /// All roles, in the order in which columns are kept: time, S_C, S_D.
     pub(in crate::recording) const ALL: [Self; 3] = [
         Self::Time,
         Self::Signal(Channel::C),

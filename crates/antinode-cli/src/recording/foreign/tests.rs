@@ -1,4 +1,4 @@
-//! What is told of files that are not read.
+//! Recognition and remedies of formats that are not read.
 
 use std::io::Cursor;
 
@@ -7,7 +7,7 @@ use super::super::tests::{message, raw, read, read_with};
 use super::super::{Kind, OpenOptions, by_content, source::Known};
 use super::*;
 
-/// A file that begins as one of these does.
+/// The beginning of a file of this format.
 fn beginning(known: &Foreign) -> Vec<u8> {
     let mut head = vec![0; known.at];
     head.extend(known.mark);
@@ -72,7 +72,7 @@ fn whatever_else_is_known_of_it() {
     // Raw samples may begin with any bytes.
     let (pairs, _) = read_with("a.gz", &gzip[..4], &raw(Kind::I16));
     assert_eq!(pairs.len(), 1);
-    // By its name.
+    // Recognised by the name.
     let (_, fault) = read("a.mat", &[0; 20]);
     assert!(fault.is_some_and(|fault| fault.starts_with("a.mat: this is a MATLAB file, ")));
 }

@@ -3,14 +3,14 @@
 use super::Line;
 use crate::recording::number::number;
 
-/// How far the longest step of a time may exceed the shortest, which rounding makes uneven.
-pub(super) const UNEVEN: f64 = 1.5;
+/// Largest ratio of the longest step of a time to the shortest, which rounding makes uneven.
+pub(super) const MAX_STEP_RATIO: f64 = 1.5;
 
-/// The same where nothing else speaks for a time: a wave bends more within these lines, at 1024 samples a period too.
-pub(super) const UNBENT: f64 = 1.0001;
+/// The same if nothing else suggests a time: a wave bends more within these lines, even at 1024 samples a period.
+pub(super) const MAX_STEP_RATIO_ALONE: f64 = 1.0001;
 
-/// Whether a column goes up by the same step from each of these lines to the next.
-pub(super) fn is_clock(rows: &[Line], column: usize, separator: u8, uneven: f64) -> bool {
+/// Whether a column goes up by the same step, within `max_ratio`, from each of these lines to the next.
+pub(super) fn is_clock(rows: &[Line], column: usize, separator: u8, max_ratio: f64) -> bool {
     let time = |line: &Line| number::<f64>(line.fields.get(column)?, separator);
     let times: Option<Vec<f64>> = rows.iter().map(time).collect();
     let Some(times) = times else { return false };
@@ -19,5 +19,5 @@ pub(super) fn is_clock(rows: &[Line], column: usize, separator: u8, uneven: f64)
         steps().fold(f64::INFINITY, f64::min),
         steps().fold(0.0, f64::max),
     );
-    least > 0.0 && most <= uneven * least
+    least > 0.0 && most <= max_ratio * least
 }

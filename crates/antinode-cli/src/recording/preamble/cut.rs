@@ -1,12 +1,12 @@
 //! A first line that lacks its beginning, as where a logger is attached in the middle of one.
 //!
-//! It is known only where all lines below it hold samples in the same columns, so that no other can be lost.
+//! It is recognised only if all lines below it hold samples in the same columns, so that no other line can be lost.
 
 use super::super::heading::is_header;
 use super::super::number::number;
-use super::{Line, Start, UNBENT, UNEVEN, has_samples, is_clock, is_sample};
+use super::{Line, MAX_STEP_RATIO, MAX_STEP_RATIO_ALONE, Start, has_samples, is_clock, is_sample};
 
-/// Where the lines behind such a first line begin; none where it is whole.
+/// Finds where the lines below such a first line begin; none if the first line is whole.
 pub(super) fn start(lines: &[Line], numbers: &[usize], separator: u8) -> Option<Start> {
     let [first, rows @ ..] = lines else {
         return None;
@@ -21,15 +21,15 @@ pub(super) fn start(lines: &[Line], numbers: &[usize], separator: u8) -> Option<
         cut: Some(first.before),
         lines: rows[0].before,
         bytes: rows[0].start,
-        is_surely_clocked: is_clock(rows, numbers[0], separator, UNBENT),
+        is_surely_clocked: is_clock(rows, numbers[0], separator, MAX_STEP_RATIO_ALONE),
         numbers: numbers.to_vec(),
-        // As without the line: a signal may go up as evenly as a clock.
+        // As in a text without a preamble: a signal may go up as evenly as this.
         is_clocked: false,
         ..Start::default()
     })
 }
 
-/// Whether fields are fewer than so many, and all samples but for what the first may lack.
+/// Whether there are fewer than `width` fields, all of them samples but the first, which may be the end of one.
 fn lacks_fields(fields: &[&[u8]], width: usize, separator: u8) -> bool {
     let is_part = |field: &[u8]| {
         let has_digit = field.iter().any(u8::is_ascii_digit);
@@ -42,7 +42,7 @@ fn lacks_fields(fields: &[&[u8]], width: usize, separator: u8) -> bool {
     fields.len() < width && is_part(part) && whole.iter().all(|field| is_sample(field, separator))
 }
 
-/// Whether a line's time is no more than the end of the one that those below lead back to; none where that is not known.
+/// Whether a line's time is only the last digits of the one extrapolated from the lines below; none if that is not known.
 fn lacks_digits(line: &Line, rows: &[Line], separator: u8) -> Option<bool> {
     let text = |line: &Line| Some(str::from_utf8(line.fields.first()?).ok()?.to_owned());
     let time = |line: &Line| number::<f64>(line.fields.first()?, separator);
@@ -54,14 +54,14 @@ fn lacks_digits(line: &Line, rows: &[Line], separator: u8) -> Option<bool> {
     // What is printed without the 0 before its point is whole.
     let is_other = time(line).is_none_or(|own| (own - whole).abs() > 0.5 * (third - second));
     let is_end = printed.ends_with(&own.replace(',', "."));
-    Some(is_other && is_end && is_clock(rows, 0, separator, UNEVEN))
+    Some(is_other && is_end && is_clock(rows, 0, separator, MAX_STEP_RATIO))
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::{Start, find};
 
-    /// What is seen of these lines behind a first one, where that is cut.
+    /// What is found in rows below a first line, if that is recognised as cut.
     fn cut(first: &str, row: impl Fn(usize) -> String) -> Option<Start> {
         let rows: String = (1..20).map(|k| row(k) + "\n").collect();
         let start = find(format!("{first}\n{rows}").as_bytes(), false)?;
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_cut_anywhere_is_known() {
+    fn a_line_cut_anywhere_is_recognised() {
         let whole = "12.00340,0.2,-0.2";
         for at in 1..whole.len() {
             let first = &whole[at..];
@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_lines_and_names_are_not() {
+    fn whole_lines_and_names_are_not_taken_for_cut_ones() {
         for first in [
             "12.00340,0.2,-0.2",
             "12.00339,0.2,-0.2",
@@ -105,7 +105,7 @@ mod tests {
         ] {
             assert_eq!(cut(first, three), None, "{first}");
         }
-        // Numbers of the columns, and of the lines below.
+        // Column numbers in place of names.
         let wave = |k: usize| (0.9 * k as f64 + 1.0).sin_cos();
         assert_eq!(
             cut("0,1,2", |k| format!(
@@ -131,7 +131,7 @@ mod tests {
         assert_eq!(cut("0,0.5", |k| format!("{},0.5", 10 + k)), None);
         let signals = |k: usize| format!("{},0.5,0.5", [7, 27, 37].get(k).unwrap_or(&9));
         assert_eq!(cut(&signals(0), signals), None);
-        // Names, or another line of fewer fields.
+        // Names below, or rows of fewer fields.
         assert_eq!(cut("5\nc,d", two), None);
         assert_eq!(cut("5\n7", two), None);
     }

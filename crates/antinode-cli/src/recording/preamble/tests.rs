@@ -1,8 +1,8 @@
-//! Where samples are seen to begin.
+//! Where samples are found to begin.
 
 use super::*;
 
-/// The lines that are skipped above so many of samples.
+/// The number of lines skipped `above` rows of samples.
 fn skipped(above: &str, row: impl Fn(usize) -> String) -> Option<usize> {
     let rows = (0..20).map(|k| row(k) + "\n");
     let text = format!("{above}{}", rows.collect::<String>());
@@ -74,7 +74,7 @@ fn more_lines_are_asked_for_until_samples_are_seen() {
         find("Model,X\n".repeat(300).as_bytes(), false),
         Some(Start::default())
     );
-    // Blank lines and comments are no more than that either.
+    // Blank lines and comments count too, up to a limit.
     for above in ["\n", "# a comment\n", "%\n"] {
         let text = |count| "Model,X\n".to_owned() + &above.repeat(count);
         assert_eq!(find(text(4000).as_bytes(), false), None, "{above}");
@@ -86,7 +86,7 @@ fn more_lines_are_asked_for_until_samples_are_seen() {
     }
     let long = "Model,X\n".to_owned() + &("#".repeat(60_000) + "\n").repeat(70);
     assert_eq!(find(long.as_bytes(), false), Some(Start::default()));
-    // Numbers at the front are samples: a pipe does not wait for more.
+    // Numbers at the front are samples: no more of a pipe is waited for.
     assert_eq!(
         find("1,x\n".repeat(3).as_bytes(), false),
         Some(Start::default())
@@ -94,7 +94,7 @@ fn more_lines_are_asked_for_until_samples_are_seen() {
 }
 
 #[test]
-fn the_columns_of_numbers_are_told() {
+fn the_columns_of_numbers_are_found() {
     let row = |k: usize| format!("{},{k}e-5,,0.{k},,", ["a,x", "b,1", ",", ","][k % 4]);
     let text: String = (0..17).map(|k| row(k) + "\n").collect();
     let start = find(text.as_bytes(), false).unwrap();

@@ -5,8 +5,8 @@ use crate::recording::header::lossy;
 use crate::recording::signal_units::is_known;
 use crate::recording::units::time_exponent;
 
-/// Whether a line above these rows is a title, and nothing that tells their columns: of another number of words than they have fields, or of
-/// one field.
+/// Whether a line above these rows is a title, which tells nothing of their columns: it has another number of words than they have
+/// fields, or a single field.
 pub(super) fn is_title(line: &Line, rows: &[Line], separator: u8) -> bool {
     let has_time = rows.iter().any(|row| row.fields.len() > 2);
     if has_time && tells_time_unit(line) || tells_signal_units(line) {
@@ -17,7 +17,7 @@ pub(super) fn is_title(line: &Line, rows: &[Line], separator: u8) -> bool {
             let is_other = |row: &Line| row.fields.len() != line.fields.len();
             !has_role(line) && rows.iter().all(is_other)
         }
-        b',' => line.fields.len() == 1 && are_apart(rows),
+        b',' => line.fields.len() == 1 && commas_separate(rows),
         _ => line.fields.len() == 1,
     }
 }
@@ -28,7 +28,7 @@ fn tells_time_unit(line: &Line) -> bool {
     words(line).iter().any(is_unit)
 }
 
-/// Whether there are two units of signals that differ.
+/// Whether two words are units of signals that differ.
 fn tells_signal_units(line: &Line) -> bool {
     let words = words(line);
     let mut units = words.iter().filter(|word| is_known(word));
@@ -43,8 +43,8 @@ fn words(line: &Line) -> Vec<String> {
     words.map(str::to_owned).collect()
 }
 
-/// Whether no comma in these rows is a decimal one: behind each place of one, some row has a sign or a point.
-fn are_apart(rows: &[Line]) -> bool {
+/// Whether every comma in these rows separates fields and is no decimal mark: behind each, some row has a sign or a point.
+fn commas_separate(rows: &[Line]) -> bool {
     let width = rows.iter().map(|row| row.fields.len()).max().unwrap_or(0);
     let is_whole = |field: &&[u8]| field.starts_with(b"-") || field.contains(&b'.');
     (1..width).all(|place| {
@@ -57,14 +57,14 @@ fn are_apart(rows: &[Line]) -> bool {
 mod tests {
     use super::super::find;
 
-    /// The lines that are skipped above samples that are written so.
+    /// The number of lines skipped `above` samples that are written so.
     fn skipped(above: &str, row: impl Fn(usize) -> String) -> Option<usize> {
         let rows: String = (0..20).map(|k| row(k) + "\n").collect();
         find(format!("{above}{rows}").as_bytes(), false).map(|start| start.lines)
     }
 
     #[test]
-    fn titles_are_skipped_where_they_tell_no_columns() {
+    fn titles_that_tell_nothing_of_the_columns_are_skipped() {
         for mark in ["\t", ";", " ", ",", ", "] {
             let row = |k: usize| format!("0.{k}{mark}-0.{k}");
             for (above, expected) in [
@@ -72,7 +72,7 @@ mod tests {
                 ("Teensy ADC dump v1.3\nfs=100000\n\n", 3),
                 ("HRG run 4\nADC ready at 100 kHz\n", 2),
                 ("HRG run four\nready\n", 2),
-                // These may be names, or a sample.
+                // These may be names or samples.
                 ("d c\n", 0),
                 ("low\n5\n", 0),
             ] {
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn titles_above_decimal_commas_are_skipped_where_these_separate_no_fields() {
+    fn titles_above_decimal_commas_are_skipped_if_commas_separate_no_fields() {
         for mark in ["\t", ";"] {
             let row = |k: usize| format!("0,{k}{mark}-0,{k}");
             assert_eq!(skipped("ready\n", row), Some(1));

@@ -105,7 +105,7 @@ fn half_a_pair_at_the_end_is_an_error_after_the_good_data() {
 }
 
 #[test]
-fn not_finite_samples_pass_and_are_told() {
+fn not_finite_samples_pass_and_are_reported() {
     let mut values = [0.5f32; 40];
     values[30] = f32::NEG_INFINITY;
     values[33] = f32::NAN;
@@ -124,7 +124,7 @@ fn not_finite_samples_pass_and_are_told() {
 }
 
 #[test]
-fn a_live_stream_is_handed_over_as_it_comes() {
+fn a_live_stream_is_delivered_as_it_comes() {
     let mut recording = raw(vec![0; 64], Kind::I16);
     assert_eq!(recording.read(&mut Vec::with_capacity(100)).ok(), Some(1));
 }
@@ -144,7 +144,7 @@ fn a_fault_of_the_pipe_comes_after_the_good_data() {
 }
 
 #[test]
-fn the_step_is_told_behind_a_silent_beginning() {
+fn the_step_is_found_behind_a_silent_beginning() {
     let options = tests::raw(Kind::I16);
     // 12 bits in 16, behind silence with a code of noise.
     let code = |k: usize, silent: usize| match k {
@@ -157,13 +157,13 @@ fn the_step_is_told_behind_a_silent_beginning() {
         let (_directory, path) = file("a.raw", &bytes);
         let mut recording = Recording::open(&path, &options).unwrap();
         let step = recording.resolution().map(|step| step * 32_768.0);
-        // What was looked at is delivered too.
+        // The samples read ahead are delivered too.
         assert_eq!(drain(&mut recording).0.len(), silent + 50_000);
         step
     };
     for silent in [0, 10_000, 100_000, 240_000] {
         assert_eq!(resolution(silent), Some(16.0), "{silent}");
     }
-    // Beyond what is read ahead, it is that of all bits.
+    // Behind a silence longer than what is read ahead, the step is that of all bits.
     assert_eq!(resolution(300_000), Some(1.0));
 }

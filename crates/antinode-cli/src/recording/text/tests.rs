@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn the_separator_is_told_from_the_line() {
+fn the_separator_is_found_in_the_line() {
     assert_eq!(separator(b"1,5;2,5"), b';');
     assert_eq!(separator(b"1,5\t2,5"), b'\t');
     assert_eq!(separator(b"1.5, 2.5"), b',');
@@ -11,7 +11,7 @@ fn the_separator_is_told_from_the_line() {
 }
 
 #[test]
-fn comments_are_told_from_fields() {
+fn comments_are_distinguished_from_fields() {
     for line in ["# a", " %a", "//", "; Samplerate: 1 MHz", "; CSV by x"] {
         assert!(is_comment(line.as_bytes()), "{line}");
     }

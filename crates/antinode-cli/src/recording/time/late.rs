@@ -1,9 +1,9 @@
-//! What a time column turns out to be once all of it is read.
+//! What can be said of a time column only once all of it is read.
 
 use super::TimeAxis;
 
 impl TimeAxis {
-    /// What is told of a rate that drifts, or is another than the one `used`, if any is by these times.
+    /// The warning about a rate that drifts or differs from the one `used`, Hz, which is none if the rate in use is not that of the times.
     pub fn late_warning(&self, used: Option<f64>) -> Option<String> {
         let side = |late: f64| if late < 0.0 { "before" } else { "after" };
         if let Some((rate, late)) = self.drift() {

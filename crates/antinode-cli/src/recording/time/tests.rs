@@ -1,4 +1,4 @@
-//! Times as programs print them, true and false.
+//! Times as programs print them, correct and faulty.
 
 mod change;
 
@@ -6,7 +6,7 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::*;
 
-/// The rate of times as they are printed, the first `head` of them read ahead; what is lost counts as a fault.
+/// The rate of printed times, the first `head` of them read ahead; lost samples count as a fault.
 fn run(times: &[String], head: usize) -> Result<Option<f64>, (usize, String)> {
     let (axis, gaps) = axis(times, head)?;
     match gaps.first() {
@@ -15,10 +15,10 @@ fn run(times: &[String], head: usize) -> Result<Option<f64>, (usize, String)> {
     }
 }
 
-/// Where samples are lost, and how many.
+/// The indices of times before which samples are lost, and how many.
 type Gaps = Vec<(usize, u64)>;
 
-/// What is left when all of them are read.
+/// The axis and the gaps once all printed times are read; or the index and the text of a fault.
 fn axis(times: &[String], head: usize) -> Result<(TimeAxis, Gaps), (usize, String)> {
     let mut printed = Printed::default();
     let mut first = Vec::new();
@@ -116,7 +116,7 @@ fn lost_samples_are_counted() {
 
 #[test]
 fn gaps_do_no_harm_to_what_follows() {
-    // One after the other, in a clock that is 12 ppm off in the end.
+    // Several gaps, two of them adjacent, by a clock that is 12 ppm off in the end.
     let mut text: Vec<String> = (0..600_000)
         .map(f64::from)
         .map(|k| format!("{:.9}", 7.0 + k * 1e-5 * (1.0 - 1e-11 * k)))
@@ -210,7 +210,7 @@ fn single_precision_is_not_uneven_sampling() {
             let text = times(3_000_000, 100_000.0, start, single);
             let found = run(&text, HEAD).unwrap().unwrap();
             assert!((found / 100_000.0 - 1.0).abs() < 1e-5, "{found}");
-            // What is lost is told all the same.
+            // A lost sample is found all the same.
             let mut text = text;
             text.remove(2_000_000);
             let (index, fault) = run(&text, HEAD).unwrap_err();
@@ -225,7 +225,7 @@ fn single_precision_is_not_uneven_sampling() {
 }
 
 #[test]
-fn a_rate_that_creeps_away_is_named() {
+fn a_rate_that_drifts_too_fast_is_named() {
     let text: Vec<String> = (0..300_000)
         .map(f64::from)
         .map(|k| format!("{:.12}", k * 1e-5 * (1.0 + 2e-9 * k)))
@@ -241,8 +241,8 @@ fn a_rate_that_creeps_away_is_named() {
 }
 
 #[test]
-fn a_slow_drift_is_followed_and_told() {
-    // Parts of the rate by which it grows from line to line.
+fn a_slow_drift_is_followed_and_reported() {
+    // Times of a rate whose relative growth from line to line is `growth`.
     let times = |growth: f64, count: usize| -> Vec<String> {
         let time = |k: f64| 7.0 + k * 1e-5 * (1.0 - 0.5 * growth * k);
         (0..count)
@@ -262,7 +262,7 @@ fn a_slow_drift_is_followed_and_told() {
             "{rate}"
         );
         assert!((late / late_off - 1.0).abs() < 0.01, "{late} {late_off}");
-        // What is lost or doubled shows all the same.
+        // A lost or doubled sample is found all the same.
         let doubled = text[count - 1000].clone();
         text.insert(count - 1000, doubled);
         assert_eq!(run(&text, HEAD).unwrap_err().0, count - 999);
@@ -278,8 +278,8 @@ fn a_slow_drift_is_followed_and_told() {
 }
 
 #[test]
-fn a_rate_that_is_nearly_round_is_told_by_all_lines() {
-    // Of the first lines, at a microsecond, 100 kHz may be; and by a tenth of a sample in all of them too.
+fn a_rate_that_is_nearly_round_is_found_from_all_lines() {
+    // By the first lines, told to a microsecond, the rate may be 100 kHz; a tenth of a sample in all lines leaves it so.
     for (rate, count, told) in [
         (100_000.2, 1_000_000, Some(100_000.2)),
         (100_000.0, 1_000_000, None),

@@ -27,7 +27,7 @@ fn format(tag: u16, channels: u16, bits: u16) -> Vec<u8> {
     format
 }
 
-/// The extensible form: `bits` of which `valid` count.
+/// The extensible form: `bits` of which `valid` are in use.
 fn extensible(tag: u16, bits: u16, valid: u16) -> Vec<u8> {
     let mut format = format(0xfffe, 2, bits);
     for word in [22, valid, 3, 0, tag] {
@@ -125,7 +125,7 @@ fn the_header_tells_rate_size_and_rail() {
     );
     assert_eq!(
         (recording.bytes_total(), recording.bytes_read()),
-        // Its first samples are looked at.
+        // A file's first samples are looked at, which a pipe's are not.
         (Some(84), 84)
     );
     assert_eq!(recording.full_scale(), Some(32_767.0 / 32_768.0));
@@ -146,7 +146,7 @@ fn other_chunks_are_passed_over() {
     padded.before = b"LIST\x03\0\0\0abc\0".to_vec();
     padded.after = b"LIST\x03\0\0\0abc\0".to_vec();
     assert_eq!(padded.read(), (vec![[0.5, -1.0]], None));
-    // What stands in a chunk behind the samples is its own affair, however often the end is read.
+    // The content of a chunk behind the samples does not matter, however often the end is read.
     padded.after = [&b"cue \x1c\0\0\0\x01\0\0\0\x01\0\0\0"[..], &[0x80; 20]].concat();
     let mut recording = padded.open();
     let mut pairs = Vec::new();
@@ -156,7 +156,7 @@ fn other_chunks_are_passed_over() {
 }
 
 #[test]
-fn a_length_that_was_never_filled_in_means_to_the_end() {
+fn data_of_a_length_never_filled_in_go_on_to_the_end() {
     for size in [0, 0xffff_ffff, 0xffff_fffc, 0x7fff_f000, 0x8000_0000] {
         let mut streamed = wav(format(1, 2, 16), &[PAIR_16; 3].concat());
         streamed.size = size;
@@ -214,7 +214,7 @@ fn a_pipe_needs_no_length() {
     };
     assert_eq!(open(&piped).pairs(), None);
     assert_eq!(drain(&mut open(&piped)).0.len(), 500);
-    // What is there is not held back for what is still to come.
+    // Samples that have come are not held back for those still to come.
     assert_eq!(
         open(&piped).read(&mut Vec::with_capacity(500)).ok(),
         Some(1)

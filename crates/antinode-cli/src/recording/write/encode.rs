@@ -1,4 +1,4 @@
-//! From pairs of numbers to the bytes of each format.
+//! Encoding of pairs of numbers in each format.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -6,13 +6,13 @@ use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use clap::ValueEnum;
 use hound::{WavSpec, WavWriter};
 
-/// A WAV file's sizes are 32-bit numbers, which count the longest header too.
+/// Most bytes of samples in a WAV file: its sizes are 32-bit numbers, which count the header of up to 60 bytes too.
 pub(super) const MAX_WAV_DATA: u64 = u32::MAX as u64 - 60;
 
-/// As long as the header of any (N, 2) array, so that N can be put in at the end.
+/// Bytes of the NPY header: enough for any (N, 2) array, so that N can be filled in at the end.
 const NPY_HEADER: usize = 128;
 
-/// Enough that a system call is made for thousands of pairs.
+/// Bytes buffered: enough for thousands of pairs in each system call.
 const BUFFER_BYTES: usize = 1 << 18;
 
 /// How samples are stored: in a WAV file as they are, in others as numbers of this resolution.
@@ -48,7 +48,7 @@ impl SampleFormat {
         }
     }
 
-    /// True for samples that end at full scale.
+    /// True for integers, whose range ends at full scale.
     pub fn is_integer(self) -> bool {
         !matches!(self, Self::F32 | Self::F64)
     }
@@ -57,7 +57,7 @@ impl SampleFormat {
         u64::from(self.bits() / 4)
     }
 
-    /// The code of 1.0.
+    /// The code of 1.0, one more than the largest.
     fn scale(self) -> f64 {
         f64::from(self.bits() - 1).exp2()
     }
@@ -112,7 +112,7 @@ impl Format {
     }
 }
 
-/// A file begun.
+/// A file that is being written.
 pub(super) struct Encoder {
     sample: SampleFormat,
     rate: f64,
@@ -177,7 +177,7 @@ impl Encoder {
         }
     }
 
-    /// Writes what is known only now that all `pairs` are written.
+    /// Completes the file by what is known only once all `pairs` are written.
     pub fn finish(self, pairs: u64) -> io::Result<()> {
         match self.output {
             Output::Wav(wav) => wav.finalize().map_err(wav_fault),
@@ -221,7 +221,7 @@ fn write_wav(wav: &mut WavWriter<BufWriter<File>>, value: Stored) -> io::Result<
     written.map_err(wav_fault)
 }
 
-/// The fewest digits that read back as the same number.
+/// Writes the fewest digits that read back as the same number.
 fn write_text(output: &mut impl Write, sample: SampleFormat, value: Stored) -> io::Result<()> {
     match value {
         Stored::Code(code) => write!(output, "{:?}", f64::from(code) / sample.scale()),
@@ -235,7 +235,7 @@ fn write_npy(output: &mut impl Write, sample: SampleFormat, value: Stored) -> io
         Stored::Code(code) if sample == SampleFormat::I16 => {
             output.write_all(&(code as i16).to_le_bytes())
         }
-        // There are no 24-bit numbers: they take the upper bits of 32.
+        // NPY has no 24-bit numbers: they take the upper bits of 32.
         Stored::Code(code) => output.write_all(&(code << (32 - sample.bits())).to_le_bytes()),
         Stored::F32(value) => output.write_all(&value.to_le_bytes()),
         Stored::F64(value) => output.write_all(&value.to_le_bytes()),

@@ -1,4 +1,4 @@
-//! What can go wrong in writing a recording or a figure, told as `FILE: what is wrong; remedy`.
+//! Errors in writing a recording or a figure, each worded as `FILE: what is wrong; remedy`.
 
 use std::io;
 
@@ -13,15 +13,15 @@ pub enum OutputError {
     /// A device, a pipe or a directory.
     #[error("{file}: this exists and is not a file; give the path of a file")]
     NotAFile { file: String },
-    /// A file that its owner does not want changed.
+    /// A read-only file that would be replaced.
     #[error(
         "{file}: this file is read-only, and stays as it is; give another name, or make it writable"
     )]
     ReadOnly { file: String },
-    /// A file that stands in the way of the new one.
+    /// A file to be replaced that another program holds open.
     #[error("{file}: another program has this file open; close it there, or give another name")]
     Held { file: String },
-    /// All is written, but not under this name.
+    /// All is written, but the file could not be given its name.
     #[error(
         "{file}: cannot be given this name: {fault}; what was written stands beside it as `{kept}`: check what is there, and whether \
          another program has it open"
@@ -31,7 +31,7 @@ pub enum OutputError {
         fault: io::Error,
         kept: String,
     },
-    /// The directory that the file would stand in is not there.
+    /// The directory for the file does not exist.
     #[error("{file}: there is no directory `{directory}`; make it first, or correct the path")]
     NoDirectory { file: String, directory: String },
     /// The system failed to write.
@@ -39,7 +39,7 @@ pub enum OutputError {
         "{file}: cannot be written: {fault}; check that its directory exists, may be written and has room"
     )]
     Io { file: String, fault: io::Error },
-    /// No rate, or one the format cannot hold.
+    /// A sample rate that is not positive, or that the format cannot hold.
     #[error("{file}: this format cannot hold a sample rate of {rate} Hz; {remedy}")]
     Rate {
         file: String,
@@ -56,7 +56,7 @@ pub enum OutputError {
         "{file}: after {pairs} sample pairs: a WAV file holds no more than 4 GiB; write a .npy file, or fewer pairs"
     )]
     Full { file: String, pairs: u64 },
-    /// A sample that is no number.
+    /// A sample that is not a finite number.
     #[error(
         "{file}: sample pair {pair} (from 0), {channel}: {value} is not a finite number; mend what makes it"
     )]
@@ -69,13 +69,13 @@ pub enum OutputError {
 }
 
 impl OutputError {
-    /// What the system said about `file`.
+    /// The error for what the system said about `file`.
     pub fn io(file: &str, fault: io::Error) -> Self {
         let file = file.to_owned();
         Self::Io { file, fault }
     }
 
-    /// True where what was asked can never be written, whatever the disk holds.
+    /// True if the command line asks for something that can never be written, on any disk.
     pub fn is_usage(&self) -> bool {
         matches!(
             self,

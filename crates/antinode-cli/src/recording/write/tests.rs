@@ -1,4 +1,4 @@
-//! What is written is read back, here and by `scipy` and `numpy`.
+//! Written files are read back, here and by `scipy` and `numpy`.
 
 use std::fs;
 use std::process::Command;
@@ -113,7 +113,7 @@ fn text_has_the_fewest_digits_that_read_back() {
 }
 
 #[test]
-fn what_cannot_be_written_is_named() {
+fn recordings_that_cannot_be_written_are_named() {
     let pairs = signal(3);
     let f32s = SampleFormat::F32;
     assert!(
@@ -178,7 +178,7 @@ fn a_full_wav_file_can_still_be_finished() {
 }
 
 #[test]
-fn what_is_there_stays_until_the_new_file_is_whole() {
+fn the_old_file_stays_until_the_new_one_is_whole() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("a.csv");
     fs::write(&path, "good").unwrap();
@@ -197,7 +197,7 @@ fn what_is_there_stays_until_the_new_file_is_whole() {
 }
 
 #[test]
-fn what_cannot_have_its_name_is_kept() {
+fn a_file_that_cannot_have_its_name_is_kept() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("a.csv");
     let mut writer = RecordingWriter::create(&path, 1.0, SampleFormat::F64).unwrap();

@@ -1,4 +1,4 @@
-//! Files that take their name only once they are whole.
+//! Files that get their name only once they are complete.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -8,19 +8,19 @@ use tempfile::{PathPersistError, TempPath};
 
 use super::OutputError;
 
-/// No line of what is written is longer, bytes.
-const LONGEST_LINE: u64 = 1 << 16;
+/// Longest line of a text that is written, bytes.
+const MAX_LINE: u64 = 1 << 16;
 
-/// A file under a temporary name beside the one it will have; whatever is there stays until then.
+/// A file under a temporary name in the directory of its final one; whatever has that name stays until the new file is complete.
 pub struct WholeFile {
     file: String,
     target: PathBuf,
-    /// Deleted unless it is to be given its name.
+    /// Deleted when dropped, unless it is given its name.
     temporary: TempPath,
 }
 
 impl WholeFile {
-    /// Begins a file, and gives what writes to it.
+    /// Begins a file, and gives the handle to write to it.
     pub fn create(path: &Path) -> Result<(Self, File), OutputError> {
         let file = path.display().to_string();
         let there = fs::metadata(path).ok();
@@ -30,7 +30,7 @@ impl WholeFile {
                 return Err(OutputError::ReadOnly { file });
             }
             Some(_) if is_held(path) => return Err(OutputError::Held { file }),
-            // A link keeps leading to the file it leads to.
+            // A link is kept: the file that it leads to is replaced.
             Some(_) => fs::canonicalize(path).map_err(|fault| OutputError::io(&file, fault))?,
             None => path.to_owned(),
         };
@@ -41,19 +41,19 @@ impl WholeFile {
             return Err(OutputError::NoDirectory { file, directory });
         }
         let mut builder = tempfile::Builder::new();
-        // Encoders tell the format by the ending.
+        // Encoders choose the format by the extension.
         let ending = target.extension().map_or(String::new(), |ending| {
             format!(".{}", ending.to_string_lossy())
         });
         let suffix = format!(".tmp{ending}");
         builder.prefix(".antinode-").suffix(&suffix);
-        // Those of any new file, not those of a secret one.
+        // The permissions of an ordinary new file: temporary files are private by default.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         // The temporary name would tell the user nothing.
         let plain = |fault: io::Error| OutputError::io(&file, fault.kind().into());
         let (output, temporary) = builder.tempfile_in(directory).map_err(plain)?.into_parts();
-        // Before there is anything in it that others may not read.
+        // Set while the file is empty, as others may not be allowed to read its content.
         if let Some(there) = there {
             output.set_permissions(there.permissions()).map_err(plain)?;
         }
@@ -65,7 +65,7 @@ impl WholeFile {
         Ok((whole, output))
     }
 
-    /// A file of this text, whole but without its name yet.
+    /// Writes a file of this text, still without its name.
     pub fn text(path: &Path, text: &str) -> Result<Self, OutputError> {
         let (whole, mut output) = Self::create(path)?;
         match output.write_all(text.as_bytes()) {
@@ -74,14 +74,14 @@ impl WholeFile {
         }
     }
 
-    /// Gives the file its name, or leaves it under its temporary one where it cannot have it; dropped without this, it leaves nothing behind.
+    /// Gives the file its name, or keeps it under its temporary one if it cannot have it; dropped without this, it leaves nothing behind.
     pub fn finish(self) -> Result<(), OutputError> {
         let Self {
             file,
             target,
             temporary,
         } = self;
-        // On the disk before it replaces what may be a good file.
+        // It must be on the disk before it replaces a file that may be good.
         let synced = File::options().write(true).open(&temporary);
         synced
             .and_then(|output| output.sync_all())
@@ -89,7 +89,7 @@ impl WholeFile {
         let Err(PathPersistError { error, path }) = temporary.persist(target) else {
             return Ok(());
         };
-        // It may be the work of hours.
+        // The file is kept: it may be the work of hours.
         Err(match path.keep() {
             Ok(kept) => OutputError::Unnamed {
                 file,
@@ -100,7 +100,7 @@ impl WholeFile {
         })
     }
 
-    /// Leaves off what follows its last end of line, as of a disk that became full; false where no line is whole.
+    /// Cuts off an unfinished last line, as a full disk leaves one; false if no line is whole.
     pub fn cut(&self) -> Result<bool, OutputError> {
         self.cut_to_lines()
             .map_err(|fault| OutputError::io(&self.file, fault))
@@ -111,7 +111,7 @@ impl WholeFile {
             .read(true)
             .write(true)
             .open(&self.temporary)?;
-        let from = output.metadata()?.len().saturating_sub(LONGEST_LINE);
+        let from = output.metadata()?.len().saturating_sub(MAX_LINE);
         output.seek(SeekFrom::Start(from))?;
         let mut last = Vec::new();
         output.read_to_end(&mut last)?;
@@ -122,7 +122,7 @@ impl WholeFile {
         Ok(true)
     }
 
-    /// Where it is until then.
+    /// The temporary path of the file.
     pub fn temporary(&self) -> &Path {
         &self.temporary
     }
@@ -133,13 +133,13 @@ impl WholeFile {
     }
 }
 
-/// True where another program has the file open, and does not let it be replaced: that happens on Windows only.
+/// True if another program has the file open and does not let it be replaced, which happens on Windows only.
 #[cfg(windows)]
 fn is_held(path: &Path) -> bool {
     use std::os::windows::fs::OpenOptionsExt;
-    /// What a file is opened for to be replaced.
+    /// The right to delete a file, which it takes to replace it.
     const DELETE: u32 = 0x0001_0000;
-    /// What the system says then.
+    /// The error code where another program does not share this right.
     const SHARING_VIOLATION: i32 = 32;
     let opened = File::options().access_mode(DELETE).open(path);
     opened.is_err_and(|fault| fault.raw_os_error() == Some(SHARING_VIOLATION))

@@ -1,4 +1,4 @@
-//! Lines that are broken: each costs itself or its pair, and is told.
+//! Broken lines: each costs itself or its pair, and is reported.
 
 use super::super::super::tests::{drain, file};
 use super::super::super::{OpenOptions, Recording};
@@ -42,7 +42,7 @@ fn a_line_without_a_known_time_is_left_out() {
             3,
             "a.csv:4: a line of 2 fields where the first has 3: the line is left out; rows",
         ),
-        // A time that the line ends in may be cut.
+        // A time at the end of a line may be cut off.
         (
             "c,time,d\n1,0,2\n1,10,2\n1,2\n1,30,2\n1,40,2\n",
             4,
@@ -91,7 +91,7 @@ fn a_broken_line_whose_place_is_known_is_a_pair_without_its_samples() {
             vec!["1 2", "5 6", "NaN NaN"],
             "a.csv:3: sample pair 2 (from 0), a line of 1 field where the first has 2, so no finite number, the first of 2; rows",
         ),
-        // The last field of what is left may be cut.
+        // The last field of a line cut off may be cut itself.
         (
             "0,1,2\n1,15\n2,5,6\n",
             vec!["1 2", "NaN NaN", "5 6"],
@@ -154,7 +154,7 @@ fn text_that_is_mostly_broken_is_refused() {
         ),
     ] {
         check(text, pairs, expected);
-        // It is told once.
+        // The error is given only once.
         let (_directory, path) = file("a.csv", text.as_bytes());
         if let Ok(mut recording) = Recording::open(&path, &OpenOptions::default()) {
             assert!(drain(&mut recording).1.is_some() && recording.lost().is_none());
@@ -163,7 +163,7 @@ fn text_that_is_mostly_broken_is_refused() {
 }
 
 #[test]
-fn only_lines_among_the_pairs_looked_at_are_told() {
+fn only_lines_among_the_pairs_looked_at_are_reported() {
     let text: String = (0..100_000)
         .map(|k| match k {
             10 | 80_000 | 80_001 | 90_000 => "x\n".to_owned(),

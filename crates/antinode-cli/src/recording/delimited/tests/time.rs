@@ -1,4 +1,4 @@
-//! Text recordings with a time column: the rate it gives, and what is said where it gives none.
+//! Text recordings with a time column: the sample rate it gives, and the errors if it gives none.
 
 use super::super::super::tests::file;
 use super::super::super::{OpenOptions, Recording};
@@ -41,15 +41,15 @@ fn the_time_may_have_a_unit() {
             "{header}"
         );
     }
-    // A µ of an older code.
+    // A µ of an older encoding.
     let (_directory, path) = file("a.csv", b"time,c,d\n(\xb5s),V,V\n0,1,2\n4.000,3,4\n");
     let recording = Recording::open(&path, &OpenOptions::default()).unwrap();
     assert_eq!(recording.sample_rate(), Some(250e3));
 }
 
 #[test]
-fn gaps_as_regular_as_packets_are_told_as_such() {
-    // Packets of so many pairs, told to take longer than their pairs do.
+fn gaps_as_regular_as_packets_are_reported_as_such() {
+    // Packets of equal size, whose own times make each last longer than its pairs do.
     let told = |packets: &[usize]| {
         let mut text = String::new();
         let mut time = 0.0;

@@ -33,7 +33,7 @@ fn every_type_is_read_in_both_byte_orders() {
     ] {
         let found = read("a.npy", &npy(descr, false, "(3, 2)", &data));
         assert_eq!(found, (PAIRS.to_vec(), None), "{descr}");
-        // The same numbers in columns, one behind the other.
+        // The same numbers, one channel after the other.
         let size = data.len() / 6;
         let samples: Vec<&[u8]> = data.chunks(size).collect();
         let planes = [0, 2, 4, 1, 3, 5].map(|place| samples[place]).concat();

@@ -3,9 +3,9 @@
 use super::*;
 
 #[test]
-fn a_rate_that_changes_is_not_told_as_rounding() {
+fn a_rate_that_changes_is_not_taken_for_rounding() {
     for decimals in [5, 6] {
-        // So many hundreds of steps of one length, then of the other.
+        // Hundreds of steps of one length, then of the other.
         let text = |counts: [usize; 2], lengths: [f64; 2]| -> Vec<String> {
             let steps = (0..2).flat_map(|part| vec![lengths[part]; 100 * counts[part]]);
             let mut sum = 0.0;

@@ -1,4 +1,4 @@
-//! What is said of WAV files that are not as they should be.
+//! The errors of WAV files that are not as they should be.
 
 use super::{PAIR_16, Wav, extensible, format, wav};
 use crate::recording::tests::read;
@@ -147,7 +147,7 @@ fn not_finite_and_padding_are_named() {
 }
 
 #[test]
-fn another_wav_behind_the_samples_is_told() {
+fn another_wav_behind_the_samples_is_reported() {
     for magic in [b"RIFF", b"RF64"] {
         let one = wav(format(1, 2, 16), &[PAIR_16; 3].concat());
         let mut both = one.clone();

@@ -37,7 +37,7 @@ fn what_hound_writes_is_read_alike() {
     }
 }
 
-/// Has a program make its file.
+/// Runs a program that writes a file.
 fn make(program: &str, arguments: &[&str]) {
     let status = Command::new(program).args(arguments).status().unwrap();
     assert!(status.success(), "{program} {arguments:?}");

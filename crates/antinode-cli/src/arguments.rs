@@ -1,11 +1,11 @@
-//! Arguments as clap takes them.
+//! Preparation of the arguments for clap: wildcards are expanded, negative numbers written out.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
 
 use glob::{MatchOptions, glob_with};
 
-/// The files that `*` and `?` stand for, in quotes too, as a name with spaces needs them; the argument itself where there is none.
+/// The files that match a pattern with `*` or `?`, which may be quoted, as names with spaces are; the argument itself if none does.
 pub(crate) fn matches(argument: OsString) -> Vec<OsString> {
     let files = argument.to_str().map_or_else(Vec::new, files);
     if files.is_empty() {
@@ -18,7 +18,7 @@ fn files(pattern: &str) -> Vec<PathBuf> {
     if !pattern.contains(['*', '?']) {
         return Vec::new();
     }
-    // Brackets are part of a name: `ring[1].wav` is not `ring1.wav`.
+    // Brackets are literal: `ring[1].wav` does not match `ring1.wav`.
     let literal = |letter| match letter {
         '[' | ']' => format!("[{letter}]"),
         _ => String::from(letter),
@@ -32,7 +32,7 @@ fn files(pattern: &str) -> Vec<PathBuf> {
     glob_with(&pattern, options).map_or_else(|_| Vec::new(), |found| found.flatten().collect())
 }
 
-/// Writes out what clap would take for an option: `-9e-05`, as other programs print small numbers, and `-.5`.
+/// Writes out in plain decimals a negative number that clap would take for an option: `-9e-05`, as other programs print it, or `-.5`.
 pub(crate) fn written_out(argument: OsString) -> OsString {
     let number = argument
         .to_str()
@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_pattern_is_the_files_it_stands_for() {
+    fn a_pattern_becomes_the_files_that_match_it() {
         let directory = tempfile::tempdir().unwrap();
         let here = directory.path().join("both ways [2]");
         fs::create_dir(&here).unwrap();

@@ -1,48 +1,50 @@
-//! Numbers to the digits that mean something: for reading, those that their deviation leaves, in fixed notation unless they are small.
+//! Numbers printed to their meaningful digits: for reading, to two digits of the standard deviation, in fixed notation unless they are
+//! small.
 
-/// Decimals beyond these are below any deviation that single precision leaves.
-const MOST_DECIMALS: f64 = 9.0;
-/// The same of double precision.
-const MOST_OF_DOUBLE: f64 = 17.0;
-/// Digits of a number that double precision has.
+/// Most decimals shown: further ones are below any standard deviation that single precision leaves.
+const MAX_DECIMALS: f64 = 9.0;
+/// The same for values known in double precision.
+const MAX_DECIMALS_OF_DOUBLE: f64 = 17.0;
+/// Significant decimal digits of double precision.
 const DIGITS_OF_DOUBLE: usize = 16;
-/// Deviations below this have fewer than two digits in as many decimals.
-const LEAST_STD: f64 = 1e-8;
-/// Values from this on show digits enough in as many decimals, whatever their deviation.
-const LEAST_VALUE: f64 = 1e-3;
+/// Standard deviations below this show fewer than two digits in [`MAX_DECIMALS`] decimals.
+const MIN_FIXED_STD: f64 = 1e-8;
+/// Values from this on show enough digits in [`MAX_DECIMALS`] decimals, whatever their standard deviation.
+const MIN_FIXED_VALUE: f64 = 1e-3;
 
-/// A number rounded to so many digits, 1 or more, whatever its size.
+/// A number rounded to `digits` significant digits, 1 or more.
 pub fn significant(x: f64, digits: usize) -> f64 {
     format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
 }
 
-/// A number rounded to so many digits, or to as many more as show two digits of its deviation, if double precision has them.
+/// A number rounded to `digits` significant digits, or to more if it takes more to show two digits of its standard deviation, up to
+/// those of double precision.
 pub fn significant_or_known(x: f64, digits: usize, std: f64) -> f64 {
-    // A number of 0 asks for none.
+    // −∞ for a value of 0, which becomes 0 digits.
     let known = exponent(x) - exponent(std) + 2.0;
     let known = if std > 0.0 { known as usize } else { digits };
     significant(x, known.clamp(digits, DIGITS_OF_DOUBLE))
 }
 
-/// The place of a number's first digit: 0 of 1 to 9.
+/// The decimal exponent of a number: 0 from 1 to below 10.
 fn exponent(x: f64) -> f64 {
     x.abs().log10().floor()
 }
 
-/// The decimals that show two digits of a standard deviation.
+/// The number of decimals that shows two digits of a standard deviation; 6 if it is unknown or 0.
 pub fn decimals(std: f64) -> usize {
-    decimals_up_to(MOST_DECIMALS, std)
+    decimals_up_to(MAX_DECIMALS, std)
 }
 
-fn decimals_up_to(most: f64, std: f64) -> usize {
+fn decimals_up_to(max: f64, std: f64) -> usize {
     if std > 0.0 && std.is_finite() {
-        (1.0 - std.log10()).ceil().clamp(0.0, most) as usize
+        (1.0 - std.log10()).ceil().clamp(0.0, max) as usize
     } else {
         6
     }
 }
 
-/// A number to so many decimals, without a sign where that leaves nothing but zeros.
+/// A number in fixed notation, without a sign if it rounds to zero.
 pub fn fixed(decimals: usize, x: f64) -> String {
     let text = format!("{x:.decimals$}");
     match text.strip_prefix('-') {
@@ -51,17 +53,17 @@ pub fn fixed(decimals: usize, x: f64) -> String {
     }
 }
 
-/// A value with its standard deviation, the value to the right and the deviation to the left of one place.
+/// A value and its standard deviation, aligned at the ± between them.
 pub fn with_std(value: f64, std: f64) -> String {
-    with_std_up_to(MOST_DECIMALS, value, std)
+    with_std_up_to(MAX_DECIMALS, value, std)
 }
 
-/// The same of a value that is known beyond single precision.
+/// [`with_std`] for a value that is known beyond single precision.
 pub fn with_small_std(value: f64, std: f64) -> String {
-    with_std_up_to(MOST_OF_DOUBLE, value, std)
+    with_std_up_to(MAX_DECIMALS_OF_DOUBLE, value, std)
 }
 
-fn with_std_up_to(most: f64, value: f64, std: f64) -> String {
+fn with_std_up_to(max: f64, value: f64, std: f64) -> String {
     if is_small(value, std) {
         format!(
             "{:>9} ±{:<7}",
@@ -69,23 +71,23 @@ fn with_std_up_to(most: f64, value: f64, std: f64) -> String {
             format!("{std:.1e}")
         )
     } else {
-        with_std_to(decimals_up_to(most, std), value, std)
+        with_std_to(decimals_up_to(max, std), value, std)
     }
 }
 
-/// Whether fixed notation would leave a value with this deviation as little but zeros.
+/// Whether fixed notation would show hardly more than zeros of a value with this standard deviation.
 fn is_small(value: f64, std: f64) -> bool {
-    std > 0.0 && std < LEAST_STD && value.abs() < LEAST_VALUE
+    std > 0.0 && std < MIN_FIXED_STD && value.abs() < MIN_FIXED_VALUE
 }
 
-/// A value with an exponent, to two digits of its deviation.
+/// A value in exponential notation, to two digits of its standard deviation.
 fn exponential(value: f64, std: f64) -> String {
-    // One digit at the least, of zero too.
+    // At least one digit, also for a value of zero.
     let decimals = (exponent(value) - exponent(std) + 1.0).max(0.0) as usize;
     format!("{value:.decimals$e}")
 }
 
-/// [`with_std`] to so many decimals.
+/// [`with_std`] with a given number of decimals.
 pub fn with_std_to(decimals: usize, value: f64, std: f64) -> String {
     if std > 0.0 && std.is_finite() {
         format!(
@@ -98,7 +100,7 @@ pub fn with_std_to(decimals: usize, value: f64, std: f64) -> String {
     }
 }
 
-/// A value to stand under [`with_std`], and by how many deviations it differs from the one there.
+/// A value to be printed below one of [`with_std`], and its difference from that one in standard deviations.
 pub fn with_sigmas(value: f64, std: f64, sigmas: f64) -> String {
     let value = if is_small(value, std) {
         exponential(value, std)
@@ -106,7 +108,7 @@ pub fn with_sigmas(value: f64, std: f64, sigmas: f64) -> String {
         fixed(decimals(std), value)
     };
     let digits = usize::from(sigmas.abs() < 99.95);
-    // Beyond what the column holds only the size matters.
+    // Of a difference too wide for the column only the order of magnitude is shown.
     let sigmas = if sigmas.abs() < 9999.5 {
         format!("{sigmas:+.digits$}σ")
     } else {
@@ -115,12 +117,12 @@ pub fn with_sigmas(value: f64, std: f64, sigmas: f64) -> String {
     format!("{value:>9} {sigmas:<8}")
 }
 
-/// A value alone, to stand under [`with_std_to`].
+/// A value without a standard deviation, aligned with those of [`with_std_to`].
 pub fn without_std(decimals: usize, value: f64) -> String {
     format!("{:>9}{:9}", fixed(decimals, value), "")
 }
 
-/// The heading of a column of [`with_std`].
+/// The heading of a column of [`with_std`], right-aligned to its width.
 pub fn heading(name: &str) -> String {
     format!("{name:>18}")
 }
@@ -174,7 +176,7 @@ mod tests {
         assert_eq!(with_std(3e-15, 2e-12), "    3e-15 ±2.0e-12");
         assert_eq!(with_std(0.0, 2e-12), "      0e0 ±2.0e-12");
         assert_eq!(with_sigmas(5e-10, 2e-12, 7.83), "5.000e-10 +7.8σ   ");
-        // Digits enough, of the value or the deviation.
+        // Fixed notation shows enough digits of the value or of the deviation.
         assert_eq!(with_std(0.001, 2e-9), "0.001000000 ±0.000000002");
         assert_eq!(with_std(2e-5, 1e-8), "0.000020000 ±0.000000010");
     }

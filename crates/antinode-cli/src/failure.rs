@@ -1,4 +1,4 @@
-//! Why the command ends without success.
+//! The reasons for which the command fails, and their exit codes.
 
 use std::io;
 
@@ -6,13 +6,13 @@ use antinode::SettingsError;
 
 use crate::recording::{InputError, OutputError};
 
-/// What Windows says where no process is on the other end of a pipe, and the standard library has no kind for.
+/// Windows' error code for a pipe without a process on its other end, for which `io::ErrorKind` has no kind.
 const PIPE_NOT_CONNECTED: i32 = 233;
 
-/// A failure, and so an exit code: 1 for what was found in the data or the system, 2 for what was asked, 130 for an interruption.
+/// A failure, which sets the exit code: 1 for a fault in the data or the system, 2 for a wrong command line, 130 for an interruption.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
-    /// A recording is at fault.
+    /// A recording cannot be opened or read further.
     #[error(transparent)]
     Input(#[from] InputError),
     /// A recording or a figure could not be written.
@@ -21,16 +21,16 @@ pub enum Failure {
     /// Anything else that is wrong with a file, a port or the system: the message names it and the remedy.
     #[error("{0}")]
     Fault(String),
-    /// What was asked makes no sense.
+    /// The command line asks for something that makes no sense.
     #[error("{0}")]
     Usage(String),
-    /// Ctrl-C, or the system, came before this file was whole.
+    /// Ctrl-C or a signal from the system came before this file was complete.
     #[error("{file}: interrupted, and not written; run it again")]
     Interrupted { file: String },
-    /// Ctrl-C, or the system, came before a recording was read to its end.
+    /// Ctrl-C or a signal from the system came before a recording was read to its end.
     #[error("interrupted: the rows up to there are good")]
     Stopped,
-    /// The reader of our output has gone: nothing is wrong.
+    /// The reader of the output has gone, as `head` does: nothing is wrong, and the exit code is 0.
     #[error("")]
     Closed,
     /// The system failed while writing rows.
@@ -44,7 +44,7 @@ impl Failure {
         match self {
             Self::Closed => 0,
             Self::Usage(_) => 2,
-            // What a shell says of Ctrl-C; which signal it was is not known.
+            // A shell's code for Ctrl-C, also for other signals: which one came is not known here.
             Self::Interrupted { .. } | Self::Stopped => 130,
             Self::Output(error) if error.is_usage() => 2,
             _ => 1,
@@ -110,8 +110,8 @@ fn simulate_option(field: &str) -> String {
 
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
-        let is_left = cfg!(windows) && error.raw_os_error() == Some(PIPE_NOT_CONNECTED);
-        if error.kind() == io::ErrorKind::BrokenPipe || is_left {
+        let is_disconnected = cfg!(windows) && error.raw_os_error() == Some(PIPE_NOT_CONNECTED);
+        if error.kind() == io::ErrorKind::BrokenPipe || is_disconnected {
             Self::Closed
         } else {
             Self::Rows(error)

@@ -1,10 +1,10 @@
-//! Ctrl-C, or the system's wish that the command end.
+//! Handling of Ctrl-C and of the system's signals to end the command.
 
 use std::io;
 
 use crate::failure::Failure;
 
-/// Lets `handler` be called when it comes; once in a process.
+/// Has `handler` called at each Ctrl-C or signal to end; to be installed only once in a process.
 pub fn on_interrupt(handler: impl FnMut() + Send + 'static) -> Result<(), Failure> {
     catch(handler).map_err(|error| Failure::Fault(format!("Ctrl-C cannot be caught: {error}")))
 }
@@ -14,9 +14,9 @@ fn catch(mut handler: impl FnMut() + Send + 'static) -> Result<(), io::Error> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
 
-    // SIGINT even where it was ignored, as in a shell script's background: `kill -INT` ends a recorder there, and on Windows too.
+    // SIGINT is caught even if it was ignored, as in a shell script's background: `kill -INT` ends a recorder there, and on Windows too.
     let mut signals = Signals::new([SIGINT, SIGTERM])?;
-    // A command begun by `nohup` goes on when its terminal is closed.
+    // A command started by `nohup` must go on when its terminal is closed.
     if !is_ignored(SIGHUP) {
         signals.add_signal(SIGHUP)?;
     }
@@ -24,10 +24,10 @@ fn catch(mut handler: impl FnMut() + Send + 'static) -> Result<(), io::Error> {
     Ok(())
 }
 
-/// True where the process was begun with this signal ignored, as far as the system tells.
+/// True if the process was started with this signal ignored; false if the system does not tell.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
-    // Only Linux does; there is no safe way to ask others.
+    // Only Linux tells; other systems cannot be asked without `unsafe`.
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mut ignored = status
         .lines()

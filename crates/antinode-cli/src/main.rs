@@ -35,7 +35,7 @@ use options::{Command, Options};
 
 fn main() -> ExitCode {
     let arguments = env::args_os().flat_map(|argument| {
-        // Windows leaves it to the program what `*.wav` is.
+        // A Windows shell does not expand `*.wav`: the program must.
         if cfg!(windows) {
             arguments::matches(argument)
         } else {

@@ -13,7 +13,7 @@ use crate::resonator::Resonator;
 use crate::simulate::Simulate;
 use crate::study::Study;
 
-/// Under the help of the whole; lists fit 80 columns, and a paragraph is one line, which the terminal's width wraps.
+/// Text below the main help: lists fit 80 columns, and each paragraph is one line, which clap wraps to the terminal's width.
 const EXAMPLES: &str = "\
 Examples:
   antinode                                              the demonstration
@@ -149,14 +149,14 @@ pub enum Format {
     Jsonl,
 }
 
-/// A skew in the core's unit.
+/// Converts a skew from ns to the core's unit, s.
 pub fn seconds(skew_ns: f32) -> f32 {
-    // By way of f64: the limit of 1 ms stays what it is.
+    // Computed in f64, so that 1000000 ns gives exactly the core's limit of 1 ms.
     (f64::from(skew_ns) * 1e-9) as f32
 }
 
 impl Corrected {
-    /// The same in the core's units.
+    /// The calibration in the core's units.
     pub fn calibration(&self) -> Calibration {
         Calibration {
             gain_ratio: self.gain_ratio,

@@ -4,7 +4,7 @@ use clap::CommandFactory;
 
 use super::Options;
 
-/// The helps of the command and all commands in it, as wide terminals show them: their texts, and what stands under them.
+/// The help texts of the command and of all its subcommands in a terminal of this width, each with the text below it.
 fn helps(width: usize) -> Vec<(String, String)> {
     let mut all = Options::command().term_width(width);
     all.build();
@@ -35,7 +35,7 @@ fn help_fits_terminals_of_80_and_of_100_columns() {
             for line in under.lines().filter(|line| line.starts_with(' ')) {
                 assert!(lines.contains(&line), "{width}: {line}");
             }
-            // A paragraph's line ends where the next word does not fit.
+            // A line of a paragraph ends only if the next word does not fit.
             for pair in lines.windows(2) {
                 let word = pair[1].split(' ').next().unwrap_or_default();
                 let room = width.saturating_sub(pair[0].chars().count());

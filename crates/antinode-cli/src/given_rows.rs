@@ -30,7 +30,7 @@ impl GivenRows {
     }
 }
 
-/// The failure where none of the rows has one of these times, but only some from a first one to a last one, s.
+/// The failure if no row lies within the times asked for; the rows' own times go from `first` to `last`, s.
 pub fn none_within(names: &str, [first, last]: [f64; 2]) -> Failure {
     Failure::Fault(format!(
         "{names}: no row lies within --from and --to: their times go from {first} s to {last} s"

@@ -1,4 +1,4 @@
-//! Rows as `antinode identify` prints them as CSV or JSON lines, from a file or standard input, and what is told where they are not.
+//! Reading of rows that `antinode identify` printed as CSV or JSON lines, from a file or standard input, and the errors of other files.
 
 mod lines;
 mod objects;
@@ -15,17 +15,17 @@ use crate::rows::MAIN_AMPLITUDE;
 use lines::{Lines, is_skipped};
 
 const STANDARD_INPUT: &str = "standard input";
-/// No header of rows is longer, bytes.
-const LONGEST_HEADER: u64 = 1 << 16;
-/// Lines that may stand above the heading of a table.
-const ABOVE_TABLE: usize = 4;
-/// What separates fields: spreadsheets whose decimal mark is a comma take a semicolon, and a tab where they write text.
+/// Longest header of rows, bytes.
+const MAX_HEADER: u64 = 1 << 16;
+/// Most lines above the heading of a table.
+const MAX_ABOVE_TABLE: usize = 4;
+/// Separators of fields: spreadsheets write a semicolon if their decimal mark is a comma, and a tab in files of text.
 const MARKS: [u8; 3] = [b',', b';', b'\t'];
 
-/// Lines, and those that were looked at before.
+/// All lines, beginning with those that were looked at to find the header.
 type Source<R> = Lines<Chain<Cursor<Vec<u8>>, BufReader<R>>>;
 
-/// How rows are written.
+/// The records of a file, in either form.
 enum Records<R: Read> {
     Fields(Box<Reader<Source<R>>>),
     Objects(Source<R>),
@@ -37,7 +37,7 @@ pub struct RowFile<R: Read> {
     records: Records<R>,
     header: StringRecord,
     record: StringRecord,
-    /// True for the table that is for reading.
+    /// True if the file holds the table for reading, in place of rows.
     is_table: bool,
 }
 
@@ -96,17 +96,17 @@ impl<R: Read> RowFile<R> {
         })
     }
 
-    /// As messages call it.
+    /// The file's name in messages.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Where a column stands that rows may lack.
+    /// The index of a column that rows may lack.
     pub fn place(&self, column: &str) -> Option<usize> {
         self.header.iter().position(|name| name == column)
     }
 
-    /// Where a column stands that rows must have.
+    /// The index of a column that rows must have.
     pub fn needed(&self, column: &str) -> Result<usize, Failure> {
         self.place(column).ok_or_else(|| {
             let name = &self.name;
@@ -141,14 +141,14 @@ impl<R: Read> RowFile<R> {
                 }
                 Err(error) => return Err(self.unreadable(&error)),
             };
-            // Files that were put together bring their headers along.
+            // Files that were joined contain their headers, which are no rows.
             if !more || self.record != self.header {
                 return Ok(more.then_some(&self.record));
             }
         }
     }
 
-    /// What is told where the last row cannot be used.
+    /// The failure if the row last read cannot be used; `what` says why.
     pub fn fault(&self, what: &str) -> Failure {
         Failure::Fault(format!(
             "{}, line {}: {what}; leave the line out",
@@ -173,15 +173,13 @@ impl<R: Read> RowFile<R> {
     }
 }
 
-/// The first lines, and where the first that may be a header begins; where that is none, as many as may stand above a table.
+/// The first lines, up to the one that may be a header, and where that begins; if it is none, also the lines that may stand above a
+/// table's heading.
 fn head(source: &mut impl BufRead) -> io::Result<(Vec<u8>, usize)> {
     let mut head = Vec::new();
     let mut line = |head: &mut Vec<u8>| {
         let begun = head.len();
-        let read = source
-            .by_ref()
-            .take(LONGEST_HEADER)
-            .read_until(b'\n', head)?;
+        let read = source.by_ref().take(MAX_HEADER).read_until(b'\n', head)?;
         io::Result::Ok((begun, read > 0))
     };
     loop {
@@ -190,7 +188,7 @@ fn head(source: &mut impl BufRead) -> io::Result<(Vec<u8>, usize)> {
             continue;
         }
         if !holds(&head[begun..], "time_s") {
-            for _ in 0..ABOVE_TABLE {
+            for _ in 0..MAX_ABOVE_TABLE {
                 line(&mut head)?;
             }
         }
@@ -198,7 +196,7 @@ fn head(source: &mut impl BufRead) -> io::Result<(Vec<u8>, usize)> {
     }
 }
 
-/// Whether these words stand in a text.
+/// Whether a text contains these words.
 fn holds(text: &[u8], words: &str) -> bool {
     text.windows(words.len())
         .any(|text| text == words.as_bytes())
@@ -211,16 +209,16 @@ pub fn number(row: &StringRecord, place: usize) -> Option<f64> {
     number.or_else(|| text.replacen(',', ".", 1).parse().ok())
 }
 
-/// The flags in a row's column of that name; those of no known name are none.
+/// The flags that a row's column of flags names; unknown names are ignored.
 pub fn flags(column: &str) -> Flags {
     let flags = column.split('+').filter_map(Flags::from_name);
     flags.fold(Flags::empty(), Flags::with)
 }
 
-/// What is told where there are no rows, or a line is none.
+/// The failure if a file holds no rows, or a line is none.
 fn unreadable(name: &str, line: u64, error: &csv::Error) -> Failure {
     Failure::Fault(match error.kind() {
-        // Of the header there is no other line to leave out.
+        // The header cannot be left out.
         ErrorKind::Utf8 { .. } if line <= 1 => {
             format!("{name}: this is no text; {REMEDY}")
         }
@@ -236,7 +234,7 @@ fn unreadable(name: &str, line: u64, error: &csv::Error) -> Failure {
     })
 }
 
-/// Whether a row ends too soon.
+/// Whether a row is incomplete, as where writing was stopped.
 fn is_unfinished(error: &csv::Error) -> bool {
     match error.kind() {
         ErrorKind::UnequalLengths {
@@ -247,12 +245,12 @@ fn is_unfinished(error: &csv::Error) -> bool {
     }
 }
 
-/// What is told where a line is no JSON object.
+/// The failure if a line is no JSON object.
 fn no_object(name: &str, line: u64, fault: &io::Error) -> Failure {
     Failure::Fault(format!(
         "{name}, line {line}: this is no JSON object: {fault}; leave the line out"
     ))
 }
 
-/// How to come by rows.
+/// The remedy for files that hold no rows.
 const REMEDY: &str = "give the rows that `antinode identify --output csv RECORDING` prints";

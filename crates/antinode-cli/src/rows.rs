@@ -41,10 +41,10 @@ struct Row<'a> {
 
 impl<'a> Row<'a> {
     fn new(file: &'a str, flags: &'a str, e: &Estimate) -> Self {
-        // Nine decimals of an angle are beyond every bound, and twelve of a time beyond every clock; more would be digits of nothing.
+        // Nine decimals of an angle are finer than any bound, and twelve of a time finer than any clock: more would mean nothing.
         let to = |x: f64, unit: f64| (x * unit).round() / unit;
         let mut time = to(e.time, 1e12);
-        // Fifteen digits a double always holds; a date's time, in s since 1970, needs what it holds beyond them.
+        // A double always holds fifteen digits; a time in s since 1970 needs the few that it may hold beyond them.
         if time.abs() < 1e4 {
             time = significant(time, 15);
         }
@@ -55,7 +55,7 @@ impl<'a> Row<'a> {
             quadrature_amplitude: e.quadrature_amplitude,
             angle_rad: to(e.angle, 1e9),
             phase_rad: e.phase,
-            // A share of the rate, which may be 1 Hz or 10 GHz.
+            // Significant digits, not decimals: the sample rate may be 1 Hz or 10 GHz.
             frequency_hz: significant(e.frequency, 13),
             angle_rate_rad_s: e.angle_rate,
             decay_rate_s: e.decay_rate,
@@ -94,25 +94,25 @@ enum Sink<W: Write> {
 /// Prints estimates to a stream.
 pub struct Rows<W: Write> {
     sink: Sink<W>,
-    /// Rows printed of the present recording, and of those before.
+    /// Rows printed of the present recording, and of all those before.
     count: u64,
     before: u64,
-    /// True where each row has the methods' columns too.
+    /// True if each row has the methods' columns too.
     wide: bool,
-    /// True once the header of a wide CSV stands.
+    /// True once the header of a wide CSV is written.
     headed: bool,
-    /// What stands above the next table.
+    /// The line above the next table, if it is not yet written.
     title: Option<String>,
     /// Tables begun.
     tables: u64,
 }
 
 impl<W: Write> Rows<W> {
-    /// Rows of a format; `wide` ones have the methods' columns too.
+    /// Prints rows to `out` in this format; `wide` ones have the methods' columns too.
     pub fn new(out: W, format: Format, wide: bool) -> Self {
         let sink = match format {
             Format::Table => Sink::Table(out),
-            // Headers of nested rows are written by hand.
+            // The CSV writer cannot tell the header of nested rows: it is written by hand.
             Format::Csv => Sink::Csv(Box::new(
                 csv::WriterBuilder::new()
                     .has_headers(!wide)
@@ -200,7 +200,7 @@ impl<W: Write> Rows<W> {
         self.before + self.count
     }
 
-    /// Hands on what is buffered.
+    /// Writes out what is buffered.
     pub fn flush(&mut self) -> io::Result<()> {
         match &mut self.sink {
             Sink::Table(out) | Sink::Jsonl(out) => out.flush(),

@@ -1,4 +1,4 @@
-//! The serial line to a device: a command goes out, again where no answer comes, and its answer is waited for.
+//! The serial line to a device: sends a command, again if no answer comes, and waits for its answer.
 
 use std::io;
 use std::path::Path;
@@ -13,29 +13,30 @@ use serialport::SerialPort;
 use super::port;
 use crate::failure::Failure;
 
-/// How often a command is sent that changes no more the second time than the first.
+/// How often an unanswered command is sent, unless sending it again would act again.
 const SENDS: u32 = 3;
 
 /// The line to a device.
 pub struct Line {
     name: String,
     port: Box<dyn SerialPort>,
+    /// How long an answer is waited for.
     patience: Duration,
     baud: u32,
     receiver: Receiver,
     bytes: u64,
 }
 
-/// What came of a command.
+/// What the device answered to a command.
 #[derive(Default)]
 struct Heard {
     hello: Option<Hello>,
-    /// True when it was acknowledged.
+    /// True once the command is acknowledged.
     is_done: bool,
 }
 
 impl Heard {
-    /// Takes a report after this command was sent.
+    /// Takes a report that came after this command was sent.
     fn take(&mut self, report: Report, asked: CommandFrame) -> Result<(), CommandError> {
         match report {
             Report::Hello(told) => self.hello = Some(told),
@@ -43,7 +44,7 @@ impl Heard {
                 answer.result?;
                 self.is_done = true;
             }
-            // Its acknowledgement was damaged, or a slow line had no time for it.
+            // The acknowledgement was damaged, or a slow line had no time for it.
             Report::State(State::Started(Cause::Command)) if asked.command == Command::Restart => {
                 self.is_done = true;
             }
@@ -54,7 +55,7 @@ impl Heard {
 }
 
 impl Line {
-    /// Opens the port; an answer is waited for with this patience.
+    /// Opens the port; `patience` is how long an answer is waited for.
     pub fn open(path: &Path, baud: u32, patience: Duration) -> Result<Self, Failure> {
         Ok(Self {
             name: path.display().to_string(),
@@ -66,7 +67,7 @@ impl Line {
         })
     }
 
-    /// Who the device is.
+    /// Asks for the device's version and configuration.
     pub fn hello(&mut self) -> Result<Hello, Failure> {
         self.ask(Command::Get, true)?.ok_or_else(|| {
             Failure::Fault(format!(
@@ -76,9 +77,9 @@ impl Line {
         })
     }
 
-    /// Sends a command and waits for its answer; gives the Hello that came on the way, and waits for one where it is wanted.
+    /// Sends a command and waits for its acknowledgement; gives the Hello that came meanwhile, and if one is `wanted`, waits for it too.
     pub fn ask(&mut self, command: Command, wanted: bool) -> Result<Option<Hello>, Failure> {
-        // One id for all: a late answer to the first is good for the others.
+        // The same id every time: a late answer to the first sending is good for all.
         let asked = CommandFrame {
             id: fresh_id(),
             command,
@@ -101,7 +102,7 @@ impl Line {
                 for report in self.read()? {
                     match heard.take(report, asked) {
                         Ok(()) => {}
-                        // It may be busy with the same command, whose answer was lost.
+                        // The device may be busy with this very command, sent before.
                         Err(CommandError::Busy) if send < sends => {}
                         Err(error) => return Err(self.refused(error)),
                     }
@@ -149,7 +150,7 @@ impl Line {
         ))
     }
 
-    /// Nothing was acknowledged: what did come tells why.
+    /// The failure if no acknowledgement came, with the likely cause by what did come.
     fn silent(&self, sends: u32) -> Failure {
         let (reports, bytes) = (self.receiver.reports(), self.bytes);
         let why = if bytes == 0 {
@@ -177,7 +178,7 @@ impl Line {
     }
 }
 
-/// An id that the command before did not have: 1 to 65535, as 0 is the monitor's.
+/// An id, 1 to 65535, that the command before did not have, by the clock and the process; 0 is the monitor's.
 fn fresh_id() -> u16 {
     let now = SystemTime::now().duration_since(UNIX_EPOCH);
     let nanoseconds = now.map_or(0, |time| time.subsec_nanos());

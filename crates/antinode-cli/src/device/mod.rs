@@ -7,5 +7,5 @@ mod port;
 mod source;
 mod told;
 
-/// Bits a second where none are asked for: ST-LINK's virtual port and every USB bridge have it, and it carries 800 estimates a second.
+/// Default speed of a port, baud: ST-LINK's virtual port and every USB bridge have it, and it carries 800 estimates a second.
 const BAUD: u32 = 921_600;

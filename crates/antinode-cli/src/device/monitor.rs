@@ -1,4 +1,4 @@
-//! `antinode monitor`: what a device reports, as it comes.
+//! `antinode monitor`: prints what a device reports, as it comes.
 
 use std::io::{self, BufWriter, Write};
 use std::mem;
@@ -31,10 +31,10 @@ pub struct Monitor {
 /// The id of the Get that greets a device.
 const GREETING: u16 = 0;
 
-/// Damage is told this often at the most, at a wrong baud rate nothing else comes; and so are lost reports, on a line that is too slow.
-const TOLD: Duration = Duration::from_secs(1);
+/// Shortest time between messages about damage, which is all that comes at a wrong baud rate, and about reports lost on a slow line.
+const MESSAGE_INTERVAL: Duration = Duration::from_secs(1);
 
-/// A port that says nothing for so long is told of.
+/// Silence of a port, from its opening on, after which a message says so.
 const SILENCE: Duration = Duration::from_secs(3);
 
 /// Prints what a device reports until its bytes end or the user interrupts.
@@ -53,8 +53,8 @@ pub fn run(options: &Monitor) -> Result<(), Failure> {
         receiver: Receiver::new(),
         estimates: 0,
         bytes: 0,
-        // A port may be opened within a frame; a file has what was saved.
-        is_amidst: source.is_port,
+        // A port may be opened in the middle of a frame; a file is taken to begin with one.
+        is_within_frame: source.is_port,
         excused: 0,
         damage: None,
         told: Instant::now(),
@@ -85,7 +85,7 @@ pub fn run(options: &Monitor) -> Result<(), Failure> {
     )))
 }
 
-/// Takes bytes until they end.
+/// Takes input until it ends.
 fn follow(source: &Source, screen: &mut Screen<impl Write>) -> Result<(), Failure> {
     let first = source.is_port.then(|| first(source)).flatten();
     for input in first.into_iter().chain(&source.input) {
@@ -95,7 +95,7 @@ fn follow(source: &Source, screen: &mut Screen<impl Write>) -> Result<(), Failur
                 screen.finish();
                 break;
             }
-            // What has begun would have gone on.
+            // An unfinished frame is no damage here: it would have gone on.
             Input::Interrupted => break,
             Input::Fault(error) => {
                 screen.finish();
@@ -113,7 +113,7 @@ fn follow(source: &Source, screen: &mut Screen<impl Write>) -> Result<(), Failur
     Ok(())
 }
 
-/// What comes from a port within some seconds; `None`, and a word about it, where nothing does.
+/// The first input from a port within [`SILENCE`]; `None`, and a message, if there is none.
 fn first(source: &Source) -> Option<Input> {
     match source.input.recv_timeout(SILENCE) {
         Ok(input) => Some(input),
@@ -127,24 +127,24 @@ fn first(source: &Source) -> Option<Input> {
     }
 }
 
-/// What the user sees.
+/// The output for the user: rows on standard output, all else on standard error.
 struct Screen<W: Write> {
     rows: Rows<W>,
     name: String,
     receiver: Receiver,
     estimates: u64,
     bytes: u64,
-    /// True until a first delimiter has come where the bytes may begin within a frame.
-    is_amidst: bool,
-    /// Damage that is none: the frame that they began within.
+    /// True until the first frame ends, if the bytes may begin in the middle of one.
+    is_within_frame: bool,
+    /// Damage that is not counted: the frame in whose middle the bytes began.
     excused: u64,
-    /// Damage that is not told yet: how often, and the last.
+    /// Damage that is not yet reported: how often, and the last.
     damage: Option<(u64, Damage)>,
-    /// When damage was told last.
+    /// When damage was last reported.
     told: Instant,
-    /// Lost reports that are not told yet.
+    /// The number of lost reports that are not yet reported.
     lost: u64,
-    /// When such were told last.
+    /// When lost reports were last reported.
     lost_told: Option<Instant>,
 }
 
@@ -156,19 +156,22 @@ impl<W: Write> Screen<W> {
             let Some(result) = self.receiver.push(byte) else {
                 continue;
             };
-            let is_amidst = mem::take(&mut self.is_amidst);
+            let is_within_frame = mem::take(&mut self.is_within_frame);
             match result {
-                Err(_) if is_amidst => self.excused = 1,
+                Err(_) if is_within_frame => self.excused = 1,
                 Err(damage) => {
                     self.damaged(damage);
-                    if self.told.elapsed() >= TOLD {
+                    if self.told.elapsed() >= MESSAGE_INTERVAL {
                         self.tell_damage();
                     }
                 }
                 Ok(report) => {
                     self.tell_damage();
                     self.lost += self.receiver.lost() - lost;
-                    if self.lost_told.is_none_or(|told| told.elapsed() >= TOLD) {
+                    if self
+                        .lost_told
+                        .is_none_or(|told| told.elapsed() >= MESSAGE_INTERVAL)
+                    {
                         self.tell_lost();
                     }
                     self.show(report)?;
@@ -225,14 +228,14 @@ impl<W: Write> Screen<W> {
         }
     }
 
-    /// The bytes end, and with them what has begun.
+    /// Ends the bytes: an unfinished frame is damaged.
     fn finish(&mut self) {
         if let Some(damage) = self.receiver.finish() {
             self.damaged(damage);
         }
     }
 
-    /// What remains to be told once all has come.
+    /// Reports what is not yet reported, and the totals.
     fn end(&mut self, time: Duration) {
         if self.lost > 0 {
             eprintln!("lost: {} more", self.lost);

@@ -1,4 +1,4 @@
-//! Serial ports, and what to do where one does not open.
+//! Serial ports, and advice if one does not open.
 
 #[cfg(unix)]
 use std::fs;
@@ -10,8 +10,8 @@ use serialport::{ErrorKind, SerialPort, available_ports};
 
 use crate::failure::Failure;
 
-/// How long a read waits for a byte before it looks around.
-const PATIENCE: Duration = Duration::from_millis(100);
+/// How long a read waits for a byte before it gives up for the time being.
+const READ_TIMEOUT: Duration = Duration::from_millis(100);
 
 /// True where a path can only be a port: a character device, or on Windows a name such as `COM3`, which is in no folder.
 pub fn is_port(path: &Path) -> bool {
@@ -41,13 +41,13 @@ fn is_port_of_windows(name: &str) -> bool {
 pub fn open(path: &Path, baud: u32) -> Result<Box<dyn SerialPort>, Failure> {
     let name = path.display();
     let error = match serialport::new(path.to_string_lossy(), baud)
-        .timeout(PATIENCE)
+        .timeout(READ_TIMEOUT)
         .open()
     {
         Ok(port) => return Ok(port),
         Err(error) => error,
     };
-    // Windows ends it as a sentence.
+    // Windows ends its descriptions with a full stop.
     let told = error.description.trim_end_matches('.');
     let what = match error.kind {
         ErrorKind::Io(io::ErrorKind::PermissionDenied) => {
@@ -66,7 +66,7 @@ pub fn open(path: &Path, baud: u32) -> Result<Box<dyn SerialPort>, Failure> {
     Err(Failure::Fault(format!("{name}: {what}")))
 }
 
-/// The ports of this computer, as a remedy.
+/// The advice to use one of this computer's ports, which it names.
 pub fn ports() -> String {
     // Where there is no such folder, as in some containers, looking for ports would panic.
     let can_look = cfg!(not(target_os = "linux")) || Path::new("/sys/class/tty").is_dir();

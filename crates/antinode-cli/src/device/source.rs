@@ -1,4 +1,4 @@
-//! Where the device's bytes come from: a port, a file, or standard input, read beside the thread that prints.
+//! The source of a device's bytes: a port, a file, or standard input, read in a thread beside the one that prints.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -21,7 +21,7 @@ pub enum Input {
     End,
     /// No more, and this is why.
     Fault(io::Error),
-    /// The user has had enough.
+    /// The user pressed Ctrl-C.
     Interrupted,
 }
 
@@ -29,7 +29,7 @@ pub enum Input {
 pub struct Source {
     /// What to call it in messages.
     pub name: String,
-    /// True for a port, with a device that may have run for long.
+    /// True for a port, whose device may have been running before.
     pub is_port: bool,
     /// Its bytes.
     pub input: Receiver<Input>,
@@ -45,7 +45,7 @@ impl Source {
             let name = path.display().to_string();
             if is_port {
                 let mut port = port::open(path, baud)?;
-                // A line that only receives is good enough to listen.
+                // To listen, a line need not be able to send.
                 let _ = port.write_all(greeting);
                 (name, Box::new(port))
             } else if path.is_file() || path.is_dir() {
@@ -59,7 +59,7 @@ impl Source {
                 )));
             }
         };
-        // A few chunks ahead: a file of any size keeps memory as it is.
+        // Only a few chunks are read ahead, so that memory does not grow with the file.
         let (sender, input) = sync_channel(4);
         end_on_interrupt(sender.clone())?;
         thread::spawn(move || read(from, &sender));
@@ -71,7 +71,7 @@ impl Source {
     }
 }
 
-/// A named pipe, which opens once somebody writes into it: whoever reads first waits for that, and whoever opens it need not.
+/// A named pipe. Opening it waits for a writer, so the first read does that, in the thread that reads.
 enum Pipe {
     Named(PathBuf),
     Open(File),
@@ -89,11 +89,11 @@ impl Read for Pipe {
     }
 }
 
-/// Ends the input at Ctrl-C, after what was read before it; at the next one the command.
+/// Has the first Ctrl-C end the input, after what was read before it, and the next one end the command.
 fn end_on_interrupt(sender: SyncSender<Input>) -> Result<(), Failure> {
     let mut is_asked = false;
     on_interrupt(move || {
-        // Whoever reads the rows may have stopped: then they wait for ever.
+        // Where nobody reads the rows any more, printing them waits for ever, and the input's end is never seen.
         if mem::replace(&mut is_asked, true) {
             process::exit(Failure::Stopped.code().into());
         }
@@ -102,7 +102,7 @@ fn end_on_interrupt(sender: SyncSender<Input>) -> Result<(), Failure> {
     })
 }
 
-/// Reads until the end, or until nobody listens any more.
+/// Reads `from` a source until it ends or the receiver has gone.
 fn read(mut from: impl Read, to: &SyncSender<Input>) {
     let mut buffer = vec![0; 1 << 16];
     loop {
@@ -110,7 +110,7 @@ fn read(mut from: impl Read, to: &SyncSender<Input>) {
             Ok(0) => Input::End,
             Ok(length) => Input::Bytes(buffer[..length].to_vec()),
             Err(error) => match error.kind() {
-                // A silent line.
+                // The line is silent, or a signal came.
                 io::ErrorKind::TimedOut | io::ErrorKind::Interrupted => continue,
                 _ => Input::Fault(error),
             },

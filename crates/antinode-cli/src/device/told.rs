@@ -1,4 +1,4 @@
-//! What a device tells, in words.
+//! A device's reports in words.
 
 use antinode::Detection;
 use antinode_telemetry::{Configuration, Counters, FrontEnd, Hello, Methods};
@@ -6,7 +6,7 @@ use antinode_telemetry::{Configuration, Counters, FrontEnd, Hello, Methods};
 use crate::digits::significant;
 use crate::methods::table::DISAGREE;
 
-/// Who the device is and what it is set to, in one line.
+/// The device's version and configuration in one line.
 pub fn hello(hello: &Hello) -> String {
     let Configuration {
         settings: s,
@@ -48,12 +48,12 @@ pub fn hello(hello: &Hello) -> String {
     )
 }
 
-/// A hop's length.
+/// The length of a hop in words.
 pub fn blocks(count: u16) -> String {
     format!("{count} block{}", if count == 1 { "" } else { "s" })
 }
 
-/// A skew in ns, to the digits that single precision keeps of any number: as it was typed.
+/// A skew in ns, rounded to the digits that single precision keeps of any number, so that it reads as it was typed.
 pub fn nanoseconds(skew: f32) -> f64 {
     significant(f64::from(skew) * 1e9, f32::DIGITS as usize)
 }
@@ -70,7 +70,7 @@ fn source(front_end: FrontEnd) -> &'static str {
     }
 }
 
-/// What happened, in one line: counts of trouble only where there was some.
+/// The counters in one line; those of faults only if they are not 0.
 pub fn counters(c: &Counters) -> String {
     let mut line = format!(
         "up {:.1} s, {} sample pairs",

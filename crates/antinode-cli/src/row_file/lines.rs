@@ -1,25 +1,25 @@
-//! Lines of rows, counted, without those that are none: comments, and what spreadsheets add.
+//! Lines of rows with their numbers, without comments and the lines that spreadsheets add.
 
 use std::io::{self, BufRead, Read};
 
-/// A line that spreadsheets take for the mark between fields.
+/// The beginning of a line that tells spreadsheets the separator of fields.
 const MARK: &[u8] = b"sep=";
 
-/// Whether a line holds no row: a comment, fields of nothing, or a spreadsheet's note of the mark between fields.
+/// Whether a line holds no row: it is a comment, has only empty fields, or tells spreadsheets the separator.
 pub(super) fn is_skipped(line: &[u8]) -> bool {
     let is_empty = line.iter().all(|byte| b",;\t \"\r\n".contains(byte));
     is_empty || line.starts_with(b"#") || line.starts_with(MARK)
 }
 
-/// Lines that end in `\n` alone, each by itself: a reader that ends a row has no byte of the next line.
+/// Lines that end in `\n` alone, given one at a time: a reader at the end of a row has no byte of the next.
 pub(super) struct Lines<R> {
     source: R,
     line: Vec<u8>,
-    /// How much of the line is read.
+    /// The number of bytes of the line that are given.
     read: usize,
-    /// Its number.
+    /// The line's number, from 1.
     pub number: u64,
-    /// True where it is the last one and does not end.
+    /// True if the line is the last one and has no end.
     pub is_cut: bool,
 }
 
@@ -47,7 +47,7 @@ impl<R: BufRead> Lines<R> {
                 break;
             }
         }
-        // Old files have `\r` alone, and one line for this count.
+        // Old files end lines in `\r` alone, and are one line here.
         self.is_cut = !self.line.contains(&b'\n') && !self.line.contains(&b'\r');
         if self.line.ends_with(b"\r\n") {
             let end = self.line.len() - 2;

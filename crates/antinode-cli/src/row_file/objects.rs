@@ -7,7 +7,7 @@ use serde_json::{Map, Value};
 
 use super::lines::Lines;
 
-/// The names of an object.
+/// The names in an object, which are the columns.
 pub(super) fn names(line: &[u8]) -> serde_json::Result<StringRecord> {
     let object: Map<String, Value> = serde_json::from_slice(line)?;
     Ok(object.keys().map(String::as_str).collect())
@@ -28,7 +28,7 @@ pub(super) fn read(
     for name in names {
         match object.get(name) {
             None => record.push_field(""),
-            // What JSON has for what is no number.
+            // JSON has `null` in place of NaN and infinities.
             Some(Value::Null) => record.push_field("NaN"),
             Some(Value::String(text)) => record.push_field(text),
             Some(other) => record.push_field(&other.to_string()),
@@ -42,7 +42,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_number_is_null() {
+    fn null_is_not_a_number() {
         let first = b"{\"time_s\":0.1,\"flags\":\"lost\"}\n";
         let names = names(first).unwrap();
         let text = [&first[..], b"{\"flags\":\"\",\"time_s\":null}\n"].concat();

@@ -1,15 +1,15 @@
-//! Recordings of more channels than two, and WAV files that go on behind the end that their header tells.
+//! Recordings of more channels than two, and WAV files that go on behind the end by their header.
 
 use std::fs;
 use std::path::Path;
 
 use crate::common::{WAVE, fault, npy, raw, rows, run, wav};
 
-/// A WAV header of so many channels in place of two, and the samples of these frames.
+/// A WAV file of `channels` channels in place of two, with these bytes of samples.
 fn wav_of(channels: u8, bytes: &[u8]) -> Vec<u8> {
     let mut file = wav(&[]);
     file[22] = channels;
-    // Bytes a second are not looked at.
+    // The bytes of a frame; those of a second are not looked at.
     file[32] = 2 * channels;
     file[40..44].copy_from_slice(&(bytes.len() as u32).to_le_bytes());
     file.extend(bytes);
@@ -24,7 +24,7 @@ fn npy_of(shape: &str, fortran: &str, bytes: &[u8]) -> Vec<u8> {
         &format!("'fortran_order': {fortran}"),
     );
     let mut file = npy(&[])[..10].to_vec();
-    // Blanks before the end of the line make up for what is longer.
+    // Blanks pad the header, which ends in a line feed, to its length.
     let header = format!("{:<117}\n", header.trim_end());
     file.extend(header.bytes());
     file.extend(bytes);
@@ -35,7 +35,7 @@ fn bytes(codes: impl Iterator<Item = i16>) -> Vec<u8> {
     codes.flat_map(i16::to_le_bytes).collect()
 }
 
-/// One channel before S_C, and one between it and S_D.
+/// Frames with one channel before S_C and one between S_C and S_D.
 fn frames(codes: &[[i16; 2]]) -> impl Iterator<Item = [i16; 4]> {
     codes.iter().zip(0i16..).map(|(&[c, d], k)| [k, c, 77, d])
 }
@@ -76,7 +76,7 @@ fn two_of_many_channels_are_chosen_by_their_numbers() {
     ] {
         assert_eq!(numbers(options), of_two, "{options}");
     }
-    // The other way round the pattern turns the other way.
+    // With the channels swapped the pattern turns the other way.
     for row in rows(here, "two.wav --columns 2,1") {
         assert!((row.number("quadrature_amplitude") + WAVE.quadrature).abs() < 0.01);
     }
@@ -101,7 +101,7 @@ fn two_of_many_channels_are_chosen_by_their_numbers() {
 }
 
 #[test]
-fn samples_behind_the_end_that_a_header_tells_are_not_lost_silently() {
+fn samples_behind_the_end_by_the_header_are_not_lost_silently() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let codes = WAVE.codes(20_000);
@@ -120,7 +120,7 @@ fn samples_behind_the_end_that_a_header_tells_are_not_lost_silently() {
         ],
     );
     assert!(found.len() > 45);
-    // What else may stand there.
+    // Another chunk, padding, or a rest too short for a chunk may stand there.
     for (name, tail) in [
         ("list.wav", &b"LIST\x04\x00\x00\x00INFO"[..]),
         ("padded.wav", &[0; 500]),
@@ -159,7 +159,7 @@ fn two_of_many_raw_channels_are_chosen_by_their_numbers() {
     ] {
         assert_eq!(numbers(&format!("{options} {raw}")), swapped, "{options}");
     }
-    // What goes with a pipe, and a frame that is cut off: rows up to it, and where it was.
+    // A frame cut off in a pipe: the rows before it, and an error that says where it was.
     let cut = four[..8 * 15_000 + 5].to_vec();
     let options = format!("- {raw} --channels 4 --columns 2,4");
     let told =

@@ -14,9 +14,9 @@ fn identified(here: &Path, name: &str, simulate: &str, identify: &str) -> Vec<Ro
 }
 
 #[test]
-fn their_steps_count_in_the_deviations() {
+fn steps_of_few_bits_count_in_the_deviations() {
     let directory = tempfile::tempdir().unwrap();
-    // Next to 20 samples a period, so that 12-bit codes repeat, and a tenth of a code of noise, too little to break that up.
+    // Almost 20 samples a period, so that 12-bit codes repeat; noise of a tenth of a code is too little to prevent that.
     let simulate = "--seconds 1 --bits 12 --frequency 5000.01 --noise 5e-5";
     for (name, sample, rate) in [
         ("a.wav", "--sample i16", ""),
@@ -40,7 +40,7 @@ fn their_steps_count_in_the_deviations() {
 }
 
 #[test]
-fn their_own_rail_is_a_rail_unless_others_are_given() {
+fn the_largest_code_of_few_bits_is_the_rail_unless_rails_are_given() {
     let directory = tempfile::tempdir().unwrap();
     for (amplitude, option, is_clipped) in [
         (0.99, "", false),
@@ -59,14 +59,14 @@ fn their_own_rail_is_a_rail_unless_others_are_given() {
             .iter()
             .filter(|row| row.text("flags").contains("clipped"));
         let share = clipped.count() as f64 / rows.len() as f64;
-        // Not every window has a sample next to a crest.
+        // Not every window has a sample close to a crest.
         let expected = if is_clipped { 0.9..=1.0 } else { 0.0..=0.0 };
         assert!(expected.contains(&share), "{amplitude} {option}: {share}");
     }
 }
 
 #[test]
-fn both_rails_of_a_converter_without_sign_are_told() {
+fn both_rails_of_an_unsigned_converter_are_told() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let mut codes = "c,d\n".to_owned();
@@ -87,7 +87,7 @@ fn both_rails_of_a_converter_without_sign_are_told() {
         assert!(rows.len() > 90);
         let clipped = rows.iter().filter(|row| row.text("flags") == "clipped");
         let share = clipped.count() as f64 / rows.len() as f64;
-        // Not every window has a sample next to a crest.
+        // Not every window has a sample close to a crest.
         let expected = if is_clipped { 0.9..=1.0 } else { 0.0..=0.0 };
         assert!(expected.contains(&share), "{option}: {share}");
     }
@@ -97,7 +97,7 @@ fn both_rails_of_a_converter_without_sign_are_told() {
 fn rails_that_are_codes_are_told_as_the_samples_have_them() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // 12-bit codes from 0 to 4095 that are cut off, in 16 bits without sign.
+    // 12-bit codes from 0 to 4095 that are cut off, in unsigned integers of 16 bits.
     let bytes = (0..20_000u32).flat_map(|k| {
         let s = (TAU * 0.0532 * f64::from(k)).cos();
         [2048.0 + 2200.0 * s, 2048.0 + 500.0 * s].map(|code| code.round().clamp(0.0, 4095.0) as u16)
@@ -182,7 +182,7 @@ fn unsigned(codes: &[[i16; 2]]) -> Vec<u8> {
     bytes
 }
 
-/// A wave of so many codes about the middle of a 12-bit converter that counts from 0, which saturates.
+/// A wave with an amplitude of `codes` codes about the middle of a 12-bit converter that counts from 0 and saturates.
 fn counted(codes: f64) -> Vec<[i16; 2]> {
     let wave = Wave {
         main: codes / 32_768.0,
@@ -220,7 +220,7 @@ fn codes_from_0_are_one_wave_in_signed_and_in_unsigned_integers() {
                     "{name}: {off}"
                 );
             }
-            // Mid-scale of all 16 bits is 0.
+            // 0 stands for mid-scale of all 16 bits.
             assert!((found.number("offset_c") - (2048.0 / 32_768.0 - 1.0)).abs() < 1e-4);
         }
     }
@@ -234,7 +234,7 @@ fn codes_from_0_are_one_wave_in_signed_and_in_unsigned_integers() {
 }
 
 #[test]
-fn a_few_codes_tell_a_step_where_sampling_is_locked_to_the_wave() {
+fn a_few_codes_show_the_step_if_sampling_is_locked_to_the_wave() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for (samples, sample) in [(4, "i16"), (5, "i16"), (4, "i24"), (5, "i24"), (8, "i16")] {
@@ -272,10 +272,10 @@ fn a_few_codes_tell_a_step_where_sampling_is_locked_to_the_wave() {
 }
 
 #[test]
-fn a_step_that_shows_only_at_the_end_is_told() {
+fn a_step_that_shows_only_at_the_end_is_warned_of() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // Six codes, by two bits: too few to tell a step by.
+    // Six codes with two unused bits: too few to show the step at once.
     let simulate = "simulate -o a.wav --seconds 1 --bits 14 --rate 21328";
     assert_eq!(run(here, simulate).code, 0);
     let raw = fs::read(here.join("a.wav")).unwrap()[44..].to_vec();
@@ -295,7 +295,7 @@ fn a_step_that_shows_only_at_the_end_is_told() {
         .err,
         ""
     );
-    // A pipe is told of after a second, and once.
+    // In a pipe the warning comes after a second, and only once.
     let piped = run_with(
         here,
         "identify --frequency 5332 --raw i16 --rate 21328 -",
@@ -309,7 +309,7 @@ fn a_step_that_shows_only_at_the_end_is_told() {
     );
     let start = "warning: standard input: so far all samples are multiples of 0.00012207031, ";
     assert!(piped.err.starts_with(start), "{}", piped.err);
-    // Noise of a step breaks its rounding up.
+    // Noise of several steps makes the rounding random: no warning.
     let noisy = format!("{simulate} --noise 0.0005");
     assert_eq!(run(here, &noisy).code, 0);
     let raw = fs::read(here.join("a.wav")).unwrap()[44..].to_vec();
@@ -322,7 +322,7 @@ fn a_step_that_shows_only_at_the_end_is_told() {
 }
 
 #[test]
-fn a_few_values_of_text_are_told_where_no_step_is() {
+fn a_few_values_of_text_without_a_known_step_are_warned_of() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let simulate = "simulate -o a.csv --seconds 0.2 --bits 12 --rate 26660";
@@ -336,7 +336,7 @@ fn a_few_values_of_text_are_told_where_no_step_is() {
     );
     let given = "identify --frequency 5332 --resolution 0.00048828125 a.csv";
     assert_eq!(run(here, given).err, "");
-    // As whole numbers they tell their step.
+    // Whole numbers show their step.
     let text = fs::read_to_string(here.join("a.csv")).unwrap();
     let whole = text.lines().skip(1).map(|line| {
         let mut fields = line.split(',').map(|field| field.parse::<f64>().unwrap());

@@ -1,4 +1,4 @@
-//! `antinode identify` on bad input: what is wrong, where and what to do, after the rows found before it.
+//! `antinode identify` on bad input: the rows before the fault, then what is wrong, where, and what to do.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 use crate::common::{RATE, Row, WAVE, fault, npy, raw, rows, run, wav};
 
 #[test]
-fn what_is_not_a_recording_is_told() {
+fn input_that_is_no_recording_is_refused() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let write = |name, bytes: &[u8]| fs::write(here.join(name), bytes).unwrap();
@@ -107,7 +107,7 @@ fn a_truncated_recording_gives_its_good_rows() {
         "copy or record it again",
     ];
     same(fault(here, "cut.wav", Vec::new(), &promise));
-    // In the middle of a pair.
+    // Cut in the middle of a pair.
     fs::write(here.join("half.wav"), &wav(&codes)[..46 + 4 * good]).unwrap();
     same(fault(
         here,
@@ -170,7 +170,7 @@ fn a_bad_file_does_not_keep_the_good_ones_from_being_read() {
 }
 
 #[test]
-fn a_reader_that_goes_ends_the_command_quietly() {
+fn the_command_ends_quietly_if_the_reader_of_its_output_goes() {
     let directory = tempfile::tempdir().unwrap();
     // More rows than a pipe holds.
     fs::write(directory.path().join("a.wav"), wav(&WAVE.codes(300_000))).unwrap();
@@ -187,7 +187,7 @@ fn a_reader_that_goes_ends_the_command_quietly() {
             .spawn()
             .unwrap();
         let mut first = String::new();
-        // Dropped at the end of the statement: the pipe has no reader any more.
+        // The reader is dropped at the end of the statement, and the pipe has none any more.
         BufReader::new(child.stdout.take().unwrap())
             .read_line(&mut first)
             .unwrap();
@@ -210,7 +210,7 @@ fn a_time_without_a_name_is_no_signal() {
     fs::write(here.join("one.csv"), lines(&|k| k as f64 / RATE)).unwrap();
     let told = ["one.csv:1: found the time and one signal", "--columns C,D"];
     assert!(fault(here, "one.csv --rate 100000", Vec::new(), &told).is_empty());
-    // A wave as slow as can be goes up for as long, without noise, but not as evenly.
+    // The slowest possible wave, without noise, goes up for as long, but not as evenly.
     let slow = |k: usize| (k as f64 / RATE * 614.0).sin();
     fs::write(here.join("two.csv"), lines(&slow)).unwrap();
     let run = run(here, "identify two.csv --rate 100000");

@@ -15,7 +15,7 @@ const PAIRS: usize = 15_000_000;
 #[test]
 fn a_long_recording_takes_little_memory() {
     let directory = tempfile::tempdir().unwrap();
-    // 75 pairs are four periods, so that the same bytes go on and on.
+    // 75 pairs are four periods, so that the same bytes can be repeated.
     let steady = Wave {
         frequency: 16_000.0 / 3.0,
         angle_rate: 0.0,
@@ -46,7 +46,7 @@ fn a_long_recording_takes_little_memory() {
     let mut looks = 0;
     while child.try_wait().unwrap().is_none() {
         let text = fs::read_to_string(&status).unwrap_or_default();
-        // A process that has just ended has no memory to tell of.
+        // A process that has just ended reports no memory.
         if let Some(line) = text.lines().find_map(|line| line.strip_prefix("VmHWM:")) {
             peak = peak.max(line.trim().trim_end_matches(" kB").parse().unwrap());
             looks += 1;

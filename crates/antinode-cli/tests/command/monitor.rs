@@ -1,4 +1,4 @@
-//! `antinode monitor` on recorded bytes: rows, counts, and what damage costs.
+//! `antinode monitor` on recorded bytes: rows, counts, and the cost of damage.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -80,14 +80,14 @@ fn hurt(estimates: &[Estimate]) -> Vec<u8> {
         ..Counters::default()
     }));
     device.send(Report::State(State::Fault(Cause::Overrun)));
-    // The power goes within a frame.
+    // The power fails in the middle of a frame.
     let last = device.frame(Report::State(State::Tracking));
     device.wire.extend(&last[..4]);
     device.wire
 }
 
 #[test]
-fn rows_are_those_of_identify_but_for_what_was_hurt() {
+fn rows_are_those_of_identify_but_for_damaged_and_missing_ones() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let codes = WAVE.codes(5000);
@@ -187,7 +187,7 @@ fn fault(directory: &Path, arguments: &str, input: Vec<u8>, told: &[&str]) {
 }
 
 #[test]
-fn what_is_no_telemetry_is_told() {
+fn bytes_that_are_no_telemetry_are_refused() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     fault(
@@ -242,7 +242,7 @@ fn a_row_is_there_as_soon_as_its_frame_and_a_reader_may_leave() {
     }
     drop(lines);
     let frame = device.frame(estimate.into());
-    // The command may be gone before the last of it.
+    // The command may have ended before it reads all of this.
     while input.write_all(&frame).is_ok() {}
     assert_eq!(child.wait().unwrap().code(), Some(0));
 }

@@ -101,7 +101,7 @@ fn rows_before_and_after_are_there_and_clean() {
 }
 
 #[test]
-fn the_search_recovers_from_one_among_the_first() {
+fn the_search_recovers_from_a_sample_that_is_not_finite() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let good: Vec<[f32; 2]> = WAVE
@@ -115,7 +115,7 @@ fn the_search_recovers_from_one_among_the_first() {
             pairs[at][1] = value;
             let place = format!("sample pair {at} (from 0), S_D (right): the value is {value}");
             let found = fault(here, "- --raw f32 --rate 1e5", floats(&pairs), &[&place]);
-            // At 18.8 samples a period, a window or two are gone.
+            // At 18.8 samples a period, only a window or two are lost.
             assert!(found.len() >= 24, "{at}: {}", found.len());
             assert!(found.iter().all(|row| row.text("flags").is_empty()));
         }
@@ -123,7 +123,7 @@ fn the_search_recovers_from_one_among_the_first() {
 }
 
 #[test]
-fn a_fault_behind_it_is_told_too() {
+fn a_fault_behind_such_a_sample_is_reported_too() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let endless = "5".repeat(70_000);

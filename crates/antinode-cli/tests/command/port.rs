@@ -13,7 +13,7 @@ use antinode_telemetry::{Cause, Command as Asked, MAX_FRAME, Report, Reporter, S
 #[test]
 fn commands_are_done_and_acknowledged() {
     let device = Device::start(true);
-    // Nothing is asked again, however slow this computer is.
+    // The timeout is long enough that nothing is asked twice on a slow computer.
     let command = |arguments: &str| device.command(&format!("{arguments} --timeout 20"));
     let cases = [
         ("window 20", "window of 20 periods: done\n"),
@@ -25,12 +25,12 @@ fn commands_are_done_and_acknowledged() {
             "calibration --gain-ratio 1.25 --pick-off-angle -0.01",
             "calibration: gain ratio 1.25, skew 0 ns, pick-off angle -0.01 rad: done\n",
         ),
-        // What is not given stays.
+        // Values that are not given stay.
         (
             "calibration --skew-ns -250",
             "calibration: gain ratio 1.25, skew -250 ns, pick-off angle -0.01 rad: done\n",
         ),
-        // As it was typed, though the device has it in s and single precision.
+        // Shown as typed, though the device has it in s and single precision.
         (
             "calibration --skew-ns 15",
             "calibration: gain ratio 1.25, skew 15 ns, pick-off angle -0.01 rad: done\n",
@@ -62,12 +62,12 @@ fn commands_are_done_and_acknowledged() {
     assert!(get.contains("no hop, methods off"), "{get}");
     let asked: Vec<_> = device.asked.try_iter().collect();
     assert_eq!(asked[0], Asked::SetWindow { periods: 20 });
-    // Each calibration asks what there is first.
+    // Each `calibration` first asks for the present values.
     assert_eq!(asked.len(), cases.len() + 3 + 4);
 }
 
 #[test]
-fn what_the_device_refuses_is_told_with_the_remedy() {
+fn a_refusal_of_the_device_is_printed_with_the_remedy() {
     let device = Device::start(false);
     let run = device.command("window 63 --timeout 20");
     assert_eq!((run.code, run.out.as_str()), (1, ""));
@@ -88,17 +88,17 @@ fn what_the_device_refuses_is_told_with_the_remedy() {
     ] {
         assert_eq!(device.command(arguments).code, 2, "{arguments}");
     }
-    // Not how to write it so that it would be taken for a number.
+    // The error does not suggest a spelling that would pass it as a value.
     for arguments in ["window -3", "hop -3"] {
         let run = device.command(arguments);
         assert!(run.code == 2 && run.err.contains("65535"), "{}", run.err);
     }
-    // What makes no sense is not sent.
+    // Commands that make no sense are not sent.
     assert_eq!(device.asked.try_iter().count(), 1);
 }
 
 #[test]
-fn silence_is_told_after_the_time_out() {
+fn silence_is_reported_after_the_timeout() {
     let (_port, path) = pair();
     let start = Instant::now();
     let asked = run(
@@ -126,7 +126,7 @@ fn a_command_that_is_not_heard_is_sent_again() {
     let get = deaf.command("--timeout 0.1 get");
     let told = "no acknowledgement within 0.1 s, asked 3 times; nothing came";
     assert!(get.code == 1 && get.err.contains(told), "{}", get.err);
-    // A second reset is not the same as one.
+    // `restart` is not repeated: two resets are not the same as one.
     let deaf = Device::hearing(false, 1);
     let restart = deaf.command("--timeout 0.1 restart");
     assert!(
@@ -138,10 +138,10 @@ fn a_command_that_is_not_heard_is_sent_again() {
 }
 
 #[test]
-fn a_restart_whose_acknowledgement_is_lost_is_told_by_the_start_that_follows() {
+fn a_restart_whose_acknowledgement_is_lost_is_known_by_the_start_that_follows() {
     let (mut port, path) = pair();
     let device = thread::spawn(move || {
-        // While nobody holds the other end, reading fails.
+        // Reading fails until somebody opens the other end.
         while port.read(&mut [0; 64]).is_err() {
             thread::sleep(Duration::from_millis(2));
         }

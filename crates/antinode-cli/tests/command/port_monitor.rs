@@ -1,4 +1,4 @@
-//! `antinode monitor` on a port, or on a pipe.
+//! `antinode monitor` on a port or a pipe that stays open.
 #![cfg(unix)]
 
 use std::io::{BufRead, BufReader, Read, Write};
@@ -20,7 +20,7 @@ fn estimate() -> Estimate {
         .expect("a window")
 }
 
-/// A monitor on this port, or on anything else that comes to it.
+/// A monitor of this port or pipe.
 fn monitor(path: &str) -> Child {
     Command::new(env!("CARGO_BIN_EXE_antinode"))
         .args(["monitor", path, "--format", "csv"])
@@ -30,7 +30,7 @@ fn monitor(path: &str) -> Child {
         .unwrap()
 }
 
-/// What a command that has ended, or is about to, says.
+/// The standard error of a command that has ended or is about to.
 fn told(child: &mut Child) -> String {
     let mut told = String::new();
     let mut err = child.stderr.take().unwrap();
@@ -38,7 +38,7 @@ fn told(child: &mut Child) -> String {
     told
 }
 
-/// True where a command ends within 10 s; it is gone then in any case.
+/// True if a command ends within 10 s; otherwise it is killed.
 fn ends(child: &mut Child) -> bool {
     for _ in 0..500 {
         if child.try_wait().unwrap().is_some() {
@@ -80,7 +80,7 @@ fn a_monitor_on_a_port_shows_what_comes_until_it_is_interrupted() {
 fn frames_that_a_monitor_begins_or_ends_within_are_not_damaged() {
     let (mut port, path) = pair();
     let mut child = monitor(&path);
-    // Its greeting: it listens.
+    // Once its greeting has come, it listens.
     while port.read(&mut [0; 64]).is_err() {
         thread::sleep(Duration::from_millis(2));
     }
@@ -103,7 +103,7 @@ fn frames_that_a_monitor_begins_or_ends_within_are_not_damaged() {
 }
 
 #[test]
-fn a_silent_port_is_told_of_while_it_is_waited_for() {
+fn a_silent_port_is_reported_while_it_is_waited_for() {
     let (mut port, path) = pair();
     let mut child = monitor(&path);
     let mut err = BufReader::new(child.stderr.take().unwrap()).lines();
@@ -132,7 +132,7 @@ fn a_monitor_of_a_pipe_that_nobody_writes_into_is_interrupted() {
             .unwrap()
             .success()
     );
-    // As a shell script begins what it runs in the background.
+    // Started as a shell script starts a job in the background: with SIGINT ignored.
     let mut child = Command::new("sh")
         .args(["-c", "trap '' INT; exec \"$0\" monitor \"$1\""])
         .arg(env!("CARGO_BIN_EXE_antinode"))

@@ -1,4 +1,4 @@
-//! The digits of rows: those that mean something, and no sign of zeros.
+//! The digits of rows: only meaningful ones, and no sign of zeros.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use crate::common::{RATE, WAVE, Wave, printed, rows, run, wav};
 fn a_table_has_no_sign_of_zeros() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // Rates of nothing but noise, to either side of zero.
+    // Rates that are only noise, of either sign.
     let still = Wave {
         angle_rate: 0.0,
         decay_rate: 0.0,
@@ -31,7 +31,7 @@ fn a_table_has_no_sign_of_zeros() {
 }
 
 #[test]
-fn a_time_has_no_digits_of_nothing() {
+fn a_time_has_no_meaningless_digits() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let text = printed("time,C,D\n", &WAVE.codes(20_000), |k, [c, d]| {
@@ -39,7 +39,7 @@ fn a_time_has_no_digits_of_nothing() {
     });
     fs::write(here.join("a.csv"), text).unwrap();
     for row in rows(here, "a.csv") {
-        // A sample lasts 10 µs, and the middle of a window is half of one at the least.
+        // A sample lasts 10 µs, so that the middle of a window is a multiple of 5 µs.
         let (_, decimals) = row.text("time_s").split_once('.').unwrap();
         assert!(decimals.len() <= 6, "{}", row.text("time_s"));
     }

@@ -1,11 +1,11 @@
-//! `antinode identify -o`: what becomes of the file of rows, and of what stood there.
+//! `antinode identify -o`: the file of rows, and what becomes of an earlier one of that name.
 
 use std::fs;
 use std::path::Path;
 
 use crate::common::{Row, WAVE, run, wav};
 
-/// A recording `a.wav`, and `none.wav`, which holds none.
+/// Writes a recording `a.wav`, and one of silence, `none.wav`.
 fn recordings(here: &Path) {
     fs::write(here.join("a.wav"), wav(&WAVE.codes(20_000))).unwrap();
     fs::write(here.join("none.wav"), wav(&[[0; 2]; 2000])).unwrap();
@@ -26,7 +26,7 @@ fn rows_of_earlier_recordings_are_kept() {
     assert!(rows.len() > 90 && rows.iter().all(|row| row.text("file") == "a.wav"));
     let told = format!("rows.csv: {} rows\n", rows.len());
     assert!(mixed.err.contains(&told), "{}", mixed.err);
-    // Where there is no row at all, what was there stays, and that is told.
+    // If there is no row at all, the earlier file stays, and a message says so.
     let none = run(here, "identify none.wav -o rows.csv");
     assert_eq!(none.code, 1);
     let told = "rows.csv: not written, for there is no row\n";
@@ -35,7 +35,7 @@ fn rows_of_earlier_recordings_are_kept() {
 }
 
 #[test]
-fn the_ending_of_the_name_is_the_format() {
+fn the_extension_of_the_name_sets_the_format() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     recordings(here);
@@ -82,12 +82,12 @@ mod windows {
     use super::*;
 
     #[test]
-    fn a_file_that_another_program_has_open_is_told_before_anything_is_read() {
+    fn a_file_that_another_program_has_open_is_refused_before_anything_is_read() {
         let directory = tempfile::tempdir().unwrap();
         let here = directory.path();
         recordings(here);
         fs::write(here.join("rows.csv"), "good").unwrap();
-        // To be read by others, and by a spreadsheet not even to be written.
+        // Shared for reading only, as spreadsheets do, and for reading and writing.
         for share in [1, 3] {
             let mut options = fs::File::options();
             let held = options.read(true).share_mode(share);
@@ -174,9 +174,9 @@ mod unix {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        // Open until the command has ended.
+        // Standard input stays open until the command has ended.
         let input = child.stdin.take();
-        // It has the rows of the first, and waits for the second.
+        // Wait until the rows of the first recording are written; the command waits for the second.
         let begun = Instant::now();
         let written = || {
             let mut files = fs::read_dir(here).unwrap().map(|file| file.unwrap());

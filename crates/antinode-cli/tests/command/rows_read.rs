@@ -1,4 +1,4 @@
-//! Rows as `resonator`, `calibrate` and `plot` read them: whatever a spreadsheet, another program or a stop left of them.
+//! Rows as `resonator`, `calibrate` and `plot` read them, even if a spreadsheet, another program or an interruption changed them.
 
 use std::fs;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::common::ring_downs::rows;
 use crate::common::{run, run_with};
 
-/// What `resonator` prints and tells of rows, none of which it may leave out.
+/// Standard output and standard error of `resonator`, which may leave out none of these rows.
 fn resonator(here: &Path, rows: impl Into<Vec<u8>>) -> (String, String) {
     let found = run_with(here, "resonator - --output csv", rows.into());
     assert!(
@@ -17,7 +17,7 @@ fn resonator(here: &Path, rows: impl Into<Vec<u8>>) -> (String, String) {
     (found.out, found.err)
 }
 
-/// Rows of a ring-down in a file, and as a text.
+/// Writes rows of a ring-down to a file, and gives them as text.
 fn ring_down(here: &Path) -> String {
     let simulated = "--seconds 2 --noise 0.002 --decay-rate 0.5 --angle 0.4";
     rows(here, simulated, "--periods 200");
@@ -126,7 +126,7 @@ fn a_last_line_that_does_not_end_is_left_out() {
         let (out, err) = resonator(here, &whole[..last]);
         assert_eq!((found.code, found.err), (0, told + &err));
         assert_eq!(found.out, out);
-        // A whole line need not have an end.
+        // A complete last line need not have an end.
         let whole = whole.trim_end();
         assert_eq!(
             resonator(here, whole),
@@ -136,7 +136,7 @@ fn a_last_line_that_does_not_end_is_left_out() {
 }
 
 #[test]
-fn a_table_is_told_from_rows() {
+fn a_table_is_distinguished_from_rows() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     ring_down(here);
@@ -158,7 +158,7 @@ fn a_table_is_told_from_rows() {
             );
         }
     }
-    // Of what are no rows it is not said that they are a recording.
+    // Other CSV is not called a table.
     fs::write(here.join("log.csv"), "time,C,D\n0,0.1,0.2\n").unwrap();
     let found = run(here, "resonator log.csv");
     assert_eq!(

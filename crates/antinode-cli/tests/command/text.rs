@@ -1,4 +1,4 @@
-//! `antinode identify` on text: where it may come from, and how it is told.
+//! `antinode identify` on text: where it may come from, and how it is recognised.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -15,7 +15,7 @@ fn good(directory: &Path, arguments: &str, input: &str) -> Vec<Row> {
     Row::all(&run.out)
 }
 
-/// The rows but for the name of the file.
+/// Asserts that the rows are equal but for the name of the file.
 fn same(found: &[Row], expected: &[Row]) {
     assert_eq!(found.len(), expected.len());
     for (found, expected) in found.iter().zip(expected) {
@@ -24,7 +24,7 @@ fn same(found: &[Row], expected: &[Row]) {
 }
 
 #[test]
-fn it_may_come_from_anywhere() {
+fn text_may_come_from_anywhere() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let whole = text(&WAVE.codes(5000));
@@ -39,7 +39,7 @@ fn it_may_come_from_anywhere() {
     same(&good(here, "-", &whole), &expected);
     same(&good(here, "-", body), &expected);
     same(&good(here, "- --columns 2,3 --rate 1e5", body), &expected);
-    // Columns make text of what no first line tells, a name for the file among them.
+    // With --columns a stream is text, even if its first line does not show it; the line names one of the columns.
     let odd = format!("at {}\n{body}", "level ".repeat(2));
     same(
         &good(here, "- --columns at,2,3", &odd.replace(',', " ")),
@@ -50,7 +50,7 @@ fn it_may_come_from_anywhere() {
 }
 
 #[test]
-fn what_is_neither_is_told() {
+fn input_that_is_no_pairs_of_numbers_is_refused() {
     let directory = tempfile::tempdir().unwrap();
     for (input, told) in [
         ("these are no samples at all", "give it with --raw"),

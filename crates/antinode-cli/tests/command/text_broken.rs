@@ -1,4 +1,4 @@
-//! `antinode identify` on text with broken lines: each costs no more than the rows about it, and is told once all is read.
+//! `antinode identify` on text with broken lines: each costs no more than the rows about it, and is reported once all is read.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -18,7 +18,7 @@ fn lines(directory: &Path) -> (Vec<String>, Vec<Row>) {
     )
 }
 
-/// All rows are there as they were, but for so many at most, which are missing or flagged.
+/// Asserts that all rows are there and right, but for at most `lost`, which are missing or flagged.
 fn are_kept(found: &[Row], expected: &[Row], lost: usize) {
     let good: Vec<&Row> = found
         .iter()
@@ -87,7 +87,7 @@ fn a_line_in_the_place_of_another_costs_the_rows_about_it() {
         let place = format!("error: a.csv:{place}");
         let found = fault(here, "a.csv", Vec::new(), &[&place, told]);
         are_kept(&found, &expected, 2);
-        // A pipe is no different.
+        // The same from a pipe.
         let place = place.replace("a.csv", "standard input");
         let piped = fault(here, "-", text.into_bytes(), &[&place, told]);
         assert_eq!(piped.len(), found.len());
@@ -111,7 +111,7 @@ fn a_line_between_others_costs_no_row() {
     for (found, expected) in found.iter().zip(&expected) {
         assert_eq!(found.unnamed(), expected.unnamed());
     }
-    // Outside of the span that is asked for it is not told.
+    // Outside of the span that is asked for it is not reported.
     let part = rows(here, "a.csv --from 0.13 --to 0.14");
     assert_eq!(
         part.len(),
@@ -213,7 +213,7 @@ fn a_decimal_comma_between_commas_is_refused() {
 
 #[test]
 fn a_pipe_gives_its_rows_before_a_broken_line_is_followed() {
-    // Behind the lines that are read ahead.
+    // The broken line is beyond those that are read ahead.
     let count = 1 << 16;
     let whole = text(&WAVE.codes(count + 5000));
     let mut run = Command::new(assert_cmd::cargo::cargo_bin("antinode"))

@@ -1,4 +1,4 @@
-//! `antinode identify` on numbers as other programs write them: read where they are sure, or refused with a command that makes plain ones.
+//! `antinode identify` on numbers as other programs write them: read if unambiguous, else refused with a command that makes plain ones.
 
 use std::fs;
 
@@ -14,7 +14,7 @@ fn pairs() -> Vec<[String; 2]> {
     text.lines().skip(1).map(pair).collect()
 }
 
-/// The lines that these become.
+/// The lines that `write` makes of them.
 fn lines(write: impl Fn(usize, &[String; 2]) -> String) -> String {
     let pairs = pairs();
     let lines = pairs
@@ -24,7 +24,7 @@ fn lines(write: impl Fn(usize, &[String; 2]) -> String) -> String {
     lines.collect()
 }
 
-/// The rows of the pairs in a line for each, without a time.
+/// The rows of the pairs in plain text, one a line, without a time.
 fn expected() -> Vec<Row> {
     let directory = tempfile::tempdir().unwrap();
     let plain = lines(|_, [c, d]| format!("{c},{d}"));
@@ -100,7 +100,7 @@ fn the_head_of_a_putty_log_is_no_title() {
     same_later(&found, &expected, 0.0);
 }
 
-/// Runs the command that the message names, up to its pipe, on the file.
+/// Runs the command that the message names, without its pipe to `antinode`, on the file.
 #[cfg(unix)]
 fn converted(here: &std::path::Path, told: &str) -> String {
     let command = told.rsplit('`').nth(1).unwrap();
@@ -118,7 +118,7 @@ fn converted(here: &std::path::Path, told: &str) -> String {
 
 #[cfg(unix)]
 #[test]
-fn the_command_named_makes_numbers_of_others() {
+fn the_command_in_the_message_makes_plain_numbers() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let expected = expected();

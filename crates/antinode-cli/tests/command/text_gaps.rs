@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::common::{Row, WAVE, beside_flagged, fault, rows, text};
 
-/// The lines of a recording of so many pairs, and the rows of the whole.
+/// The lines of a whole recording of `pairs` pairs, and its rows.
 fn whole(directory: &Path, pairs: usize) -> (Vec<String>, Vec<Row>) {
     let text = text(&WAVE.codes(pairs));
     fs::write(directory.join("whole.csv"), &text).unwrap();
@@ -13,7 +13,7 @@ fn whole(directory: &Path, pairs: usize) -> (Vec<String>, Vec<Row>) {
     (lines, rows(directory, "whole.csv"))
 }
 
-/// Rows keep to the truth and have no flag, but for those about a gap; none is far from the times of the others.
+/// Asserts that rows are true and without a flag, but for those about a gap, and end at the same time.
 fn go_on(found: &[Row], expected: &[Row]) {
     assert!(found.len() + 4 >= expected.len(), "{}", found.len());
     let flagged = found.iter().filter(|row| !row.text("flags").is_empty());
@@ -46,7 +46,7 @@ fn a_missing_line_costs_the_rows_about_it() {
     for (found, expected) in found.iter().zip(&expected).take(40) {
         assert_eq!(found.unnamed()[..15], expected.unnamed()[..15]);
     }
-    // A pipe is no different, nor is a wave whose frequency is known.
+    // The same from a pipe, and with a known frequency.
     let input = lines.join("\n").into_bytes();
     let told = ["standard input:9002: 1 sample is lost"];
     assert_eq!(fault(here, "-", input, &told).len(), found.len());
@@ -60,7 +60,7 @@ fn a_missing_line_costs_the_rows_about_it() {
 fn all_that_is_missing_is_counted() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // Far beyond the lines that are read ahead.
+    // The gaps are far beyond the lines that are read ahead.
     let (mut lines, expected) = whole(here, 150_000);
     lines.drain(140_001..140_301);
     lines.drain(9_001..9_004);
@@ -80,7 +80,7 @@ fn the_paper_s_methods_go_on_too() {
     fs::write(here.join("a.csv"), lines.join("\n")).unwrap();
     let found = fault(here, "a.csv --methods all", Vec::new(), &["100 samples"]);
     assert!(found.len() > 95);
-    // The first window after it has no samples before it.
+    // The first window behind the gap has no sample before it.
     let is_without = |row: &&Row| row.text("method4_main_amplitude").is_empty();
     assert!(found.iter().filter(is_without).count() <= 1);
     for row in found.iter().filter(|row| !is_without(row)) {
@@ -90,7 +90,7 @@ fn the_paper_s_methods_go_on_too() {
 }
 
 #[test]
-fn a_missing_line_and_a_bad_sample_are_both_told() {
+fn a_missing_line_and_a_bad_sample_are_both_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let (mut lines, _) = whole(here, 20_000);

@@ -10,7 +10,7 @@ fn lines() -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
-/// One row is flagged, about the pair 12000, and all are there.
+/// Asserts that all `count` rows are there, and only the one about pair 12000 is flagged.
 fn one_is_flagged(found: &[Row], count: usize) {
     assert_eq!(found.len(), count);
     let flagged: Vec<&Row> = found
@@ -23,7 +23,7 @@ fn one_is_flagged(found: &[Row], count: usize) {
 }
 
 #[test]
-fn what_stands_for_no_sample_costs_a_row() {
+fn a_field_without_a_number_costs_a_row() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     fs::write(here.join("good.csv"), lines().join("\n")).unwrap();
@@ -37,7 +37,7 @@ fn what_stands_for_no_sample_costs_a_row() {
         ("overrange", "the value is `overrange`"),
         ("---", "the value is `---`"),
         ("#N/A", "the value is `#N/A`"),
-        // What stands for nothing at all.
+        // A field that does not even stand for a missing number.
         ("0.1x7", "the value is `0.1x7`"),
     ] {
         let mut lines = lines();
@@ -58,7 +58,7 @@ fn what_stands_for_no_sample_costs_a_row() {
 }
 
 #[test]
-fn recordings_may_begin_with_what_is_missing() {
+fn recordings_may_begin_with_missing_samples() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for word in ["", "OVER", "x.1", "-∞"] {
@@ -71,7 +71,7 @@ fn recordings_may_begin_with_what_is_missing() {
 }
 
 #[test]
-fn lines_that_are_mostly_no_numbers_are_no_recording() {
+fn text_that_is_mostly_no_numbers_is_no_recording() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for every in [1, 3] {

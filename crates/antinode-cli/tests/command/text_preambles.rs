@@ -18,7 +18,7 @@ const SIGLENT: &str = "Record Length,Analog:5000\nSample Interval,CH1:0.00001000
     Vertical Scale,CH1:0.05 CH2:0.10,,\nVertical Offset,CH1:-0.15000 CH2:0.20000,,\nHorizontal Units,us,,\nHorizontal Scale,0.0005,,\n\
     Model Number,SDS1202X-E,,\nSerial Number,SDS00001121687,,\nSoftware Version,3.01.01.31R16,,\n\nSource,CH1,CH2\nSecond,Volt,Volt\n";
 
-/// The same by the maker's own converter.
+/// The same, written by Siglent's own converter.
 const SIGLENT_CONVERTED: &str = "Record Length,Analog:5000\nSample Rate,100000.0\nVertical Scale,CH1: 0.05 CH2: 0.10\n\
     Vertical Offset,CH1:0.00000 CH2:0.00000\nHorizontal Scale, 0.000010000\nSecond,Volt,Volt\n";
 
@@ -40,7 +40,7 @@ const KEYSIGHT: &str = "points/segment = 5000\nx-axis,1,2\nsecond,Volt,Volt\n";
 const HIOKI: &str = "\"COMMENT\",\"8807 MEM DATA\"\n\"DATE\",\"01-01-1999\"\n\"TIME\",\"15:26:55\"\n\"NUM_SIGS\",3\n\"INTERVAL\",1.000E-05\n\
     \"HORZ_UNITS\", \"S\"\n\"VERT_UNITS\", \"S\", \"V    \", \"V    \"\n\"SIGNAL\", \"TIME\", \"ACH1\", \"ACH2\"\n\"DATA\"\n";
 
-/// LabVIEW's measurement file, with so many columns of time.
+/// LabVIEW's measurement file; `columns` says which have a time of their own.
 fn labview(columns: &str, names: &str) -> String {
     format!(
         "LabVIEW Measurement\t\nWriter_Version\t2\nReader_Version\t2\nSeparator\tTab\nDecimal_Separator\t.\nMulti_Headings\tNo\n\
@@ -73,7 +73,7 @@ const BESIDE: [&str; 18] = [
     "Firmware Version,FV:v22.11,",
 ];
 
-/// A recording behind these lines, each of its own as `print` has its number, its time and its samples.
+/// A recording below these lines; `print` makes its lines of their number, their time and their samples.
 fn recording(above: &str, print: impl Fn(usize, f64, [f64; 2]) -> String) -> String {
     let mut text = above.to_owned();
     for (k, pair) in WAVE.codes(5000).iter().enumerate() {
@@ -84,7 +84,7 @@ fn recording(above: &str, print: impl Fn(usize, f64, [f64; 2]) -> String) -> Str
     text
 }
 
-/// Its time and samples with this mark between them.
+/// Prints time and samples with this separator between them.
 fn timed(mark: char) -> impl Fn(usize, f64, [f64; 2]) -> String {
     move |_, time, [c, d]| format!("{time:.5}{mark}{c}{mark}{d}")
 }
@@ -103,7 +103,7 @@ fn pasted(c: &str, d: &str) -> String {
     both.collect()
 }
 
-/// The rows are those expected, from a file and from a pipe, and nothing is said.
+/// Asserts that the rows are those expected, from a file and from a pipe, without a message.
 fn same(here: &Path, text: &str, arguments: &str, expected: &[Row], later: f64) {
     same_later(&rows_of(here, text, arguments), expected, later);
     let arguments = format!("identify --output csv - {arguments}");
@@ -113,7 +113,7 @@ fn same(here: &Path, text: &str, arguments: &str, expected: &[Row], later: f64) 
 }
 
 #[test]
-fn settings_above_the_samples_are_skipped_and_no_sample() {
+fn settings_above_the_samples_are_skipped_but_no_sample() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
@@ -136,7 +136,7 @@ fn settings_above_the_samples_are_skipped_and_no_sample() {
 }
 
 #[test]
-fn the_columns_of_labview_are_told_by_their_numbers() {
+fn the_columns_of_labview_are_found_by_their_numbers() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
@@ -144,14 +144,14 @@ fn the_columns_of_labview_are_told_by_their_numbers() {
     for tail in ["", "\t"] {
         let text = recording(&one, |_, time, [c, d]| format!("{time:.5}\t{c}\t{d}{tail}"));
         same(here, &text, "", &expected, START);
-        // The decimal mark of half the world.
+        // With decimal commas.
         same(here, &text.replace('.', ","), "", &expected, START);
     }
     let none = labview("No", "X_Value\tUntitled\tUntitled 1\tComment");
     let text = recording(&none, |_, _, [c, d]| format!("\t{c}\t{d}"));
     same(here, &text, "", &expected, 0.0);
     same(here, &text.replace('.', ","), "", &expected, 0.0);
-    // With a third channel none of them is a time.
+    // Of three channels none is taken for a time.
     let text = recording(
         &none.replace("Untitled 1", "Untitled 1\tUntitled 2"),
         |_, _, [c, d]| format!("\t{c}\t{d}\t{c}"),
@@ -175,7 +175,7 @@ fn the_columns_of_labview_are_told_by_their_numbers() {
 }
 
 #[test]
-fn one_channel_a_file_is_told_and_two_side_by_side_are_read() {
+fn a_file_of_one_channel_is_refused_and_two_side_by_side_are_read() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
@@ -191,7 +191,7 @@ fn one_channel_a_file_is_told_and_two_side_by_side_are_read() {
     });
     fault(here, "- --rate 1e5", c.clone().into(), &["input:5: ", told]);
     same(here, &pasted(&c, &d), "--columns 1,2,4", &expected, START);
-    // Of Windows, where each has its own end of line.
+    // Files of Windows, where each keeps its own end of line.
     let windows = pasted(&c, &d).replace('\n', "\r\n");
     let windows: String = windows
         .lines()
@@ -200,7 +200,7 @@ fn one_channel_a_file_is_told_and_two_side_by_side_are_read() {
         .collect();
     assert!(windows.contains("\r,"));
     same(here, &windows, "--columns 1,2,4", &expected, START);
-    // Without a name above them.
+    // Without a name above the samples.
     let above = HIOKI.replace(", \"ACH2\"", "");
     let text = recording(&above, |_, time, [c, _]| format!("{time:.5}, {c}"));
     fault(here, "- --rate 1e5", text.into(), &["input:10: ", told]);
@@ -215,7 +215,7 @@ fn the_last_setting_may_have_more_than_one_field() {
         &recording("c,d\n", |_, _, [c, d]| format!("{c},{d}")),
         "--rate 1e5",
     );
-    // Yokogawa's DL850, by a converter.
+    // Yokogawa's DL850, written by a converter.
     let above = "TraceName, CH1, CH2\nVUnit, V, V\nHResolution, 1e-5\nHOffset, -0.01\nHUnit, s\nBlockSize, 5000\nModel, DL850E\n\
         Date, 2026-06-30\n";
     let text = recording(above, |_, _, [c, d]| format!(",{c},{d}"));
@@ -230,12 +230,12 @@ fn the_last_setting_may_have_more_than_one_field() {
     let told = "by its settings the sample rate is 100000 Hz, but --rate makes it 50000 Hz, and takes precedence";
     let run = run_with(here, "identify - --rate 5e4", text.into_bytes());
     assert!(run.code == 0 && run.err.contains(told), "{}", run.err);
-    // And by the maker's viewer, where units of time stand over both signals.
+    // And written by Yokogawa's viewer, where units of time stand above both signals.
     let above = "\"Model\",\"Xviewer\"\n\"BlockNumber\",\"1\"\n\"TraceName\",\"CH1\",\"CH2\",\nBlockSize,5000,5000,\nVUnit,V,V,\n\
         HResolution,1e-05,1e-05,\nHOffset,-1e-02,-1e-02,\nHUnit,s,s,\n";
     let text = recording(above, |_, _, [c, d]| format!(",{c},{d}"));
     same(here, &text, "", &expected, START);
-    // Channels that tell different steps tell none.
+    // If the channels have different steps, the sample rate is not known.
     let text = text.replace("1e-05,1e-05", "1e-05,2e-05");
     same(here, &text, "--rate 1e5", &expected, 0.0);
     fault(here, "-", text.into(), &["the sample rate is not known"]);
@@ -290,7 +290,7 @@ fn lines_count_from_the_first_of_the_settings() {
         text.into(),
         &["input:3021:3: sample pair 2999 (from 0), S_D"],
     );
-    // Where samples begin with one that is garbled, it stays one of them.
+    // A garbled sample near the beginning is still a sample.
     let text = recording(TEKTRONIX, |k, time, [c, d]| match k {
         1 => format!("{time:.5},OVER,x"),
         _ => format!("{time:.5},{c},{d}"),
@@ -300,7 +300,7 @@ fn lines_count_from_the_first_of_the_settings() {
 }
 
 #[test]
-fn a_unit_that_only_settings_tell_is_not_guessed() {
+fn a_unit_of_time_that_only_settings_name_is_not_assumed() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for above in [TEKTRONIX, HIOKI] {
@@ -322,10 +322,10 @@ fn a_unit_that_only_settings_tell_is_not_guessed() {
 }
 
 #[test]
-fn what_may_be_samples_is_never_skipped() {
+fn lines_that_may_be_samples_are_never_skipped() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // Numbers among the settings, in all columns that have them later or at the front.
+    // Among the settings, a line with numbers in all columns of the samples, or with one at its front.
     for line in ["0.5,0.1,0.2", "Offset,1,0.1,0.2", "1e-5,s"] {
         let above = TEKTRONIX.replace("Gating,0.0% to 100.0%,,", line);
         let extra = line.starts_with("Offset");

@@ -1,4 +1,4 @@
-//! `antinode identify` on the CSV of newer oscilloscopes of Rigol, whose first line tells the time of the first sample and the step.
+//! `antinode identify` on the CSV of newer oscilloscopes of Rigol, whose first line gives the time of the first sample and the step.
 
 use crate::common::{Row, WAVE, fault, printed, rows_of, run_with, same_later, text};
 
@@ -25,7 +25,7 @@ fn recording(header: &str) -> String {
 }
 
 #[test]
-fn the_step_in_the_names_tells_the_rate() {
+fn the_step_in_the_names_gives_the_rate() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
@@ -45,7 +45,7 @@ fn the_step_in_the_names_tells_the_rate() {
 }
 
 #[test]
-fn another_rate_than_the_names_tell_is_warned_of() {
+fn another_rate_than_that_of_the_names_is_warned_of() {
     let directory = tempfile::tempdir().unwrap();
     let told = "by its settings the sample rate is 100000 Hz, but --rate makes it 50000 Hz, and takes precedence";
     let arguments = "identify - --rate 5e4";
@@ -62,13 +62,13 @@ fn start_and_step_are_no_columns() {
     };
     let one = "CH1V,t0 =-5e-02, tInc = 1e-05,\n0.1,,\n0.2,,\n";
     refused(one.to_owned(), "input:1: found 1 column, but two");
-    // Of three channels none is the time.
+    // Of three channels none is taken for a time.
     let three = MHO.replace("CH2V", "CH2V,CH3V");
     let three = recording(MHO)
         .replace(MHO, &three)
         .replace(",,\n", ",0.5,,\n");
     refused(three, "input:1: found 3 columns, but two");
-    // What tells no step is a name like others.
+    // A name without a step is a column's name like any other.
     for step in ["tInc = 0", "tInc = -1e-05", "tInc = auto", "tInc"] {
         let text = recording(&MHO.replace("tInc = 1.000000e-05", step));
         refused(text, "input:1: found 4 columns, but two");

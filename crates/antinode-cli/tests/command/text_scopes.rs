@@ -5,7 +5,7 @@ use std::fs;
 
 use crate::common::{Row, WAVE, fault, printed, rows_of, run, same_later, text};
 
-/// A recording under another header, each line as `print` has its number and its samples.
+/// A recording under another header; `print` makes its lines of their number and their samples.
 fn recording(header: &str, print: impl Fn(usize, [f64; 2]) -> String) -> String {
     printed(header, &WAVE.codes(5000), print)
 }
@@ -55,7 +55,7 @@ fn a_sequence_has_the_rate_of_its_increment() {
             -0.05,
         );
     }
-    // A number that is left out is a sample that is lost.
+    // A number left out of the sequence is a lost sample.
     let text = recording(header, |k, [c, d]| format!("{},{c},{d},", k + k / 2000));
     fs::write(here.join("gap.csv"), text).unwrap();
     let gap = run(here, "identify gap.csv --output csv");
@@ -66,7 +66,7 @@ fn a_sequence_has_the_rate_of_its_increment() {
         gap.err
     );
     assert!(Row::all(&gap.out).len() > 22);
-    // Of one channel there is no pair.
+    // One channel alone is refused.
     fs::write(
         here.join("one.csv"),
         "X,CH1,Start,Increment,\nSequence,Volt,0,1e-5\n0,0.1,\n1,0.2,\n",
@@ -82,7 +82,7 @@ fn a_sequence_has_the_rate_of_its_increment() {
 }
 
 #[test]
-fn lines_may_end_in_a_mark() {
+fn lines_may_end_in_a_separator() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
@@ -100,18 +100,18 @@ fn lines_may_end_in_a_mark() {
 }
 
 #[test]
-fn a_line_of_marks_is_blank_where_lines_tell_their_time() {
+fn a_line_of_separators_is_blank_if_lines_have_a_time() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
-    // As a spreadsheet fills PicoScope's blank line, and others.
+    // As a spreadsheet fills PicoScope's blank line, and blank lines elsewhere.
     let header = "Time;Channel A;Channel B\n(ms);(V);(V)\n;;\n";
     let filled = recording(header, |k, [c, d]| {
         let more = if k % 1000 == 999 { "\n;;" } else { "" };
         format!("{:.5};{c};{d}{more}", k as f64 * 1e-2)
     });
     same_later(&rows_of(here, &filled, ""), &expected, 0.0);
-    // Where they tell none, it is a pair that is missing.
+    // Without a time column it is a missing pair.
     let header = "Channel A;Channel B\n;\n";
     let untimed = recording(header, |_, [c, d]| format!("{c};{d}"));
     let told = "2:1: sample pair 0 (from 0), S_C (left): the value is missing";
@@ -119,7 +119,7 @@ fn a_line_of_marks_is_blank_where_lines_tell_their_time() {
 }
 
 #[test]
-fn an_increment_tells_the_rate_without_a_column_for_it() {
+fn an_increment_gives_the_rate_without_a_column_of_numbers() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
@@ -128,7 +128,7 @@ fn an_increment_tells_the_rate_without_a_column_for_it() {
     for arguments in ["", "--rate 1e5", "--columns CH1,CH2"] {
         same_later(&rows_of(here, &text, arguments), &expected, -0.05);
     }
-    // Of three channels none is the time.
+    // Of three channels none is taken for a time.
     let header = "CH1,CH2,CH3,Start,Increment,\nVolt,Volt,Volt,-5.00000e-02,1.00000e-05\n";
     let text = recording(header, |_, [c, d]| format!("1.5,{c},{d},"));
     fault(
@@ -138,7 +138,7 @@ fn an_increment_tells_the_rate_without_a_column_for_it() {
         &["1: found 3 columns, but two"],
     );
     same_later(&rows_of(here, &text, "--columns 2,3"), &expected, -0.05);
-    // Without what the names promise.
+    // Without the start and the increment that the names promise.
     let text = recording("CH1,CH2,Start,Increment,\n", |_, [c, d]| {
         format!("{c},{d},")
     });
@@ -173,12 +173,12 @@ fn a_time_is_known_by_its_unit() {
         );
         assert!(rows.is_empty(), "{header}");
     }
-    // It need not be the first.
+    // The time need not be the first column.
     let last = recording("CH1 [V],CH2 [V],Zeit [ms]\n", |k, [c, d]| {
         format!("{c},{d},{:.5}", k as f64 * 1e-2)
     });
     same_later(&rows_of(here, &last, ""), &expected, 0.0);
-    // Two times are none.
+    // With two units of time, no column is taken for the time.
     let both = recording("up [s],down [s]\n", |_, [c, d]| format!("{c},{d}"));
     same_later(&rows_of(here, &both, "--rate 1e5"), &expected, 0.0);
 }
@@ -199,7 +199,7 @@ fn a_count_of_lines_is_no_signal_beside_a_time() {
     });
     let told = "input:1: found the time and one signal, but both are needed";
     fault(here, "- --rate 1e5", one.into(), &[told]);
-    // A comment has other columns than the samples, or names no time.
+    // Names after `#` are a comment if their number differs from that of the columns, or if none is a time.
     for comment in ["#,Time,c,d\n", "#,c,d\n", "#\n#,\n"] {
         let commented = recording(comment, |k, [c, d]| {
             format!("{:.5},{c},{d}", k as f64 * 1e-5)
@@ -225,7 +225,7 @@ fn a_count_of_lines_is_no_clock() {
 }
 
 #[test]
-fn pairs_of_the_same_time_are_told_for_what_they_are() {
+fn times_that_each_stand_in_two_lines_are_refused_as_peak_detect() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for odd in [0, 1] {
@@ -271,7 +271,7 @@ fn names_may_be_numbers() {
 fn a_first_sample_is_never_taken_for_names() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // Codes of a converter, and a wave of 1 in shortest form, which begin as numbers of columns do.
+    // Codes of a converter, and a wave of amplitude 1 in shortest form: both begin as numbered columns do.
     let wave = |scale: f64, digits: usize| {
         let mut text = String::new();
         for k in 0..2000 {

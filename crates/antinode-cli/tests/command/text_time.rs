@@ -1,11 +1,11 @@
-//! `antinode identify` on text with a time column: what it makes of it, and how it is left out.
+//! `antinode identify` on text with a time column: how it is used, and how it can be ignored.
 
 use std::fs;
 use std::path::Path;
 
 use crate::common::{RATE, Row, WAVE, rows, rows_of, run, same_later, text};
 
-/// The pairs of [`WAVE`] with the time of each as `print` has it.
+/// The pairs of [`WAVE`], each with its time as `print` gives it.
 fn timed(header: &str, pairs: usize, print: impl Fn(f64) -> String) -> String {
     let mut lines = header.to_owned();
     for (k, line) in text(&WAVE.codes(pairs)).lines().skip(1).enumerate() {
@@ -16,7 +16,7 @@ fn timed(header: &str, pairs: usize, print: impl Fn(f64) -> String) -> String {
 }
 
 #[test]
-fn a_time_from_so_far_back_that_it_does_not_tell_the_phase_is_told() {
+fn times_too_large_to_resolve_the_phase_are_warned_of() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
@@ -64,12 +64,12 @@ fn single_precision_is_as_good() {
 }
 
 #[test]
-fn a_clock_that_warms_up_is_told_and_costs_no_row() {
+fn a_clock_that_warms_up_is_warned_of_and_costs_no_row() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let steady = text(&WAVE.codes(400_000));
     let expected = rows_of(here, &steady, "");
-    // 3 ppm a second: 12 ppm in the end.
+    // The clock drifts by 3 ppm a second, 12 ppm in the end.
     let text = timed("time,c,d\n", 400_000, |t| {
         format!("{:.9}", t - 1.5e-6 * t * t)
     });
@@ -92,7 +92,7 @@ fn a_clock_that_warms_up_is_told_and_costs_no_row() {
 }
 
 #[test]
-fn a_rate_that_is_nearly_round_is_told_with_its_option() {
+fn a_rate_that_is_nearly_round_is_warned_of_with_its_option() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let text = timed("time,c,d\n", 600_000, |t| format!("{:.6}", t / 1.000_002));
@@ -142,7 +142,7 @@ fn every_fault_of_the_time_names_the_way_around_it() {
         assert!(fault.err.contains(told), "{}", fault.err);
         let way = "ignore the time column with --columns 2,3 --rate HZ\n";
         assert!(fault.err.ends_with(way), "{}", fault.err);
-        // And it is a way.
+        // The way around works.
         assert!(rows(here, "a.csv --columns 2,3 --rate 1e5").len() > 20);
     }
 }
@@ -167,14 +167,14 @@ fn an_index_is_warned_of() {
     let (told, _) = warned(here, "");
     assert!(told.starts_with("warning: a.csv: the time column goes up by 1 a line"));
     assert!(told.ends_with("with --columns 2,3 --rate HZ\n"), "{told}");
-    // A rate makes it an index, whose start is no time.
+    // With --rate it is an index, and times begin at 0.
     let (told, rows) = warned(here, "--rate 1e5");
     assert!(
         told.contains("taken for an index") && told.contains("from the first sample on"),
         "{told}"
     );
     same_later(&rows, &expected, 0.0);
-    // And the rate of seconds leaves it seconds.
+    // With --rate 1 the column is still seconds.
     let seconds = crate::common::rows(here, "a.csv --rate 1");
     assert!(seconds[0].number("time_s") > 500_000.0);
 }
@@ -207,10 +207,10 @@ fn times_that_contradict_the_rate_are_warned_of() {
 }
 
 #[test]
-fn a_rate_that_changes_is_told_as_what_it_is() {
+fn a_halved_rate_is_reported_as_lost_samples() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // From the sample 3000 on, every other one.
+    // From sample 3000 on, every other one is missing.
     let lines: Vec<String> = text(&WAVE.codes(6000))
         .lines()
         .enumerate()

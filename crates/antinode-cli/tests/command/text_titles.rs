@@ -1,4 +1,4 @@
-//! `antinode identify` on text that a serial logger printed: its greeting above the samples, the time in its own words.
+//! `antinode identify` on text that a serial logger printed: with a greeting above the samples, and its own name for the time.
 
 use crate::common::{WAVE, rows_of, same_later, text};
 
@@ -19,7 +19,7 @@ fn a_greeting_above_the_samples_changes_nothing() {
 }
 
 #[test]
-fn the_time_of_an_arduino_is_known_by_its_functions_name() {
+fn the_time_of_an_arduino_is_known_by_the_name_of_its_function() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let plain = text(&WAVE.codes(5000));

@@ -1,10 +1,10 @@
-//! `antinode identify` on text whose two signals are told in different units.
+//! `antinode identify` on text whose two signals have different units.
 
 use std::fs;
 
 use crate::common::{Row, WAVE, rows, run, text};
 
-/// A recording under a header, its signals times these.
+/// A recording under a header, with its times and signals multiplied by these.
 fn scaled(header: &str, time: f64, scales: [f64; 2]) -> String {
     let mut text = header.to_owned();
     for (k, pair) in WAVE.codes(5000).iter().enumerate() {
@@ -83,7 +83,7 @@ fn units_of_different_quantities_are_refused() {
 }
 
 #[test]
-fn equal_units_and_mere_names_say_nothing() {
+fn equal_units_and_mere_names_give_no_warning() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for header in [
@@ -102,7 +102,7 @@ fn equal_units_and_mere_names_say_nothing() {
 }
 
 #[test]
-fn a_unit_that_is_not_known_beside_one_that_is_is_warned_of() {
+fn an_unknown_unit_beside_a_known_one_is_warned_of() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let text = scaled("time,c,d\ns,V,MV\n", 1.0, [1.0, 1.0]);
@@ -140,7 +140,7 @@ fn units_are_known_in_russian_too() {
 }
 
 #[test]
-fn a_time_in_brackets_of_no_known_unit_is_no_seconds() {
+fn an_unknown_unit_of_time_in_brackets_is_not_taken_for_seconds() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for units in [
@@ -161,7 +161,7 @@ fn a_time_in_brackets_of_no_known_unit_is_no_seconds() {
 }
 
 #[test]
-fn a_time_whose_name_tells_no_known_unit_is_told_to_be_read_as_seconds() {
+fn a_time_with_an_unknown_unit_in_its_name_is_read_as_seconds_with_a_warning() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for (name, units) in [
@@ -181,7 +181,7 @@ fn a_time_whose_name_tells_no_known_unit_is_told_to_be_read_as_seconds() {
         );
         assert!(Row::all(&run.out).len() > 20);
     }
-    // A line of units, or the settings above, tell it.
+    // A line of units, or the settings above, name the unit.
     for header in ["Zeit [Sekunden],c,d\n", "time [relative],c,d\ns,V,V\n"] {
         fs::write(here.join("a.csv"), scaled(header, 1.0, [1.0, 1.0])).unwrap();
         assert!(rows(here, "a.csv").len() > 20, "{header}");

@@ -1,4 +1,4 @@
-//! A port, a pseudo-terminal, with a device at its other end.
+//! A pseudo-terminal as a port, with a simulated device at its other end.
 
 use std::io::{Read, Write};
 use std::path::Path;
@@ -18,13 +18,13 @@ use serialport::{SerialPort, TTYPort};
 pub struct Device {
     /// The port's path.
     pub path: String,
-    /// What the device was asked for.
+    /// The commands that the device received.
     pub asked: Receiver<Asked>,
-    /// What it reports of itself.
+    /// Reports for the device to send unasked.
     pub reports: Sender<Report>,
 }
 
-/// The port's two ends; the path is open again to whoever wants it alone.
+/// The device's end of a port, and the path of the other end, which nobody has open.
 pub fn pair() -> (TTYPort, String) {
     let (mut port, other) = TTYPort::pair().unwrap();
     port.set_timeout(Duration::from_millis(10)).unwrap();
@@ -32,12 +32,12 @@ pub fn pair() -> (TTYPort, String) {
 }
 
 impl Device {
-    /// A device with a ring of 64 blocks; `loud` ones say other things before every answer.
+    /// A device with a ring of 64 blocks; a `loud` one sends other bytes and reports before every answer.
     pub fn start(loud: bool) -> Self {
         Self::hearing(loud, 0)
     }
 
-    /// The same, that does not hear so many of its first commands.
+    /// The same, which ignores its first `unheard` commands.
     pub fn hearing(loud: bool, mut unheard: u32) -> Self {
         let (mut port, path) = pair();
         let (asked_sender, asked) = channel();
@@ -56,7 +56,7 @@ impl Device {
                     send(&mut port, report);
                 }
                 let mut buffer = [0; 64];
-                // While nobody holds the other end, reading fails.
+                // Reading fails while nobody has the other end open.
                 let Ok(length) = port.read(&mut buffer) else {
                     thread::sleep(Duration::from_millis(2));
                     continue;
@@ -72,7 +72,7 @@ impl Device {
                     if loud {
                         let _ = port.write_all(b"noise\0");
                         send(&mut port, Report::State(State::Tracking));
-                        // The answer to somebody else.
+                        // The answer to another program's command.
                         let other = Acknowledgement {
                             id: !id,
                             result: Err(CommandError::Busy),
@@ -80,7 +80,7 @@ impl Device {
                         send(&mut port, Report::Acknowledgement(other));
                     }
                     let new = configuration.after(&command, 64);
-                    // Told before it is acknowledged: whoever has the answer finds it here.
+                    // Passed on before the acknowledgement: a test that has the answer finds it there.
                     if asked_sender.send(command).is_err() {
                         return;
                     }

@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn what_rounds_to_zero_has_no_sign() {
+    fn values_that_round_to_zero_have_no_sign() {
         assert_eq!(with_std(-4e-5, 0.0101), "    0.000 ±0.010  ");
         assert_eq!(with_std(-0.0006, 0.0101), "   -0.001 ±0.010  ");
         assert_eq!(without_std(1, -0.04), "      0.0         ");

@@ -215,7 +215,7 @@ pub fn flags(column: &str) -> Flags {
     flags.fold(Flags::empty(), Flags::with)
 }
 
-/// The failure if a file holds no rows, or a line is none.
+/// The failure if a file holds no rows, or one of its lines is none.
 fn unreadable(name: &str, line: u64, error: &csv::Error) -> Failure {
     Failure::Fault(match error.kind() {
         // The header cannot be left out.

@@ -112,7 +112,7 @@ impl<W: Write> Rows<W> {
     pub fn new(out: W, format: Format, wide: bool) -> Self {
         let sink = match format {
             Format::Table => Sink::Table(out),
-            // The CSV writer cannot tell the header of nested rows: it is written by hand.
+            // The CSV writer cannot make the header of nested rows: it is written by hand.
             Format::Csv => Sink::Csv(Box::new(
                 csv::WriterBuilder::new()
                     .has_headers(!wide)

@@ -8,7 +8,7 @@ use antinode_telemetry::Command;
 use clap::{Args, Subcommand, ValueEnum, value_parser};
 
 use super::line::Line;
-use super::{BAUD, told};
+use super::{BAUD, describe};
 use crate::failure::Failure;
 use crate::{options, ranges};
 
@@ -100,7 +100,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     let mut line = Line::open(&options.port, options.baud, patience)?;
     let command = match options.ask {
         Ask::Get => {
-            println!("{}", told::hello(&line.hello()?));
+            println!("{}", describe::hello(&line.hello()?));
             return Ok(());
         }
         Ask::Window { periods } => Command::SetWindow { periods },
@@ -137,11 +137,11 @@ fn words(command: &Command) -> String {
         Command::SetHop { blocks: None } => "no hop".to_owned(),
         Command::SetHop {
             blocks: Some(blocks),
-        } => format!("hop of {}", told::blocks(*blocks)),
+        } => format!("hop of {}", describe::blocks(*blocks)),
         Command::SetCalibration(c) => format!(
             "calibration: gain ratio {}, skew {} ns, pick-off angle {} rad",
             c.gain_ratio,
-            told::nanoseconds(c.skew),
+            describe::nanoseconds(c.skew),
             c.pick_off_angle
         ),
         Command::SetMethods { on: true } => "methods on".to_owned(),

@@ -123,7 +123,7 @@ impl Line {
         Failure::Fault(format!("{}: refused: {error}", self.name))
     }
 
-    /// The reports that have come, after waiting a little where none have.
+    /// The reports that have come; waits a little if none have.
     fn read(&mut self) -> Result<Vec<Report>, Failure> {
         let mut buffer = [0; 4096];
         match self.port.read(&mut buffer) {

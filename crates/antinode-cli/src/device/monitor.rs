@@ -9,7 +9,7 @@ use antinode_telemetry::{Command, CommandFrame, Damage, MAX_FRAME, Receiver, Rep
 use clap::Args;
 
 use super::source::{Input, Source};
-use super::{BAUD, told};
+use super::{BAUD, describe};
 use crate::failure::Failure;
 use crate::options::Format;
 use crate::rows::Rows;
@@ -190,12 +190,12 @@ impl<W: Write> Screen<W> {
             }
             // Other formats have rows for estimates alone.
             Report::Methods(methods) => {
-                self.rows.under(&told::methods(&methods))?;
+                self.rows.under(&describe::methods(&methods))?;
                 self.rows.flush()?;
             }
-            Report::Hello(hello) => eprintln!("device: {}", told::hello(&hello)),
+            Report::Hello(hello) => eprintln!("device: {}", describe::hello(&hello)),
             Report::State(state) => eprintln!("state: {state}"),
-            Report::Counters(counters) => eprintln!("counters: {}", told::counters(&counters)),
+            Report::Counters(counters) => eprintln!("counters: {}", describe::counters(&counters)),
             Report::Acknowledgement(answer) if answer.id == GREETING => {}
             Report::Acknowledgement(answer) => match answer.result {
                 Ok(()) => eprintln!("command {}: done", answer.id),

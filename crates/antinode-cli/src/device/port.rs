@@ -13,7 +13,7 @@ use crate::failure::Failure;
 /// How long a read waits for a byte before it gives up for the time being.
 const READ_TIMEOUT: Duration = Duration::from_millis(100);
 
-/// True where a path can only be a port: a character device, or on Windows a name such as `COM3`, which is in no folder.
+/// True if a path can only be a port: a character device, or on Windows a name such as `COM3`, without a folder.
 pub fn is_port(path: &Path) -> bool {
     #[cfg(unix)]
     {

@@ -24,7 +24,7 @@ pub(super) fn of_integers(pairs: &[[f32; 2]], unit: f32) -> Option<f32> {
     step(pairs, unit, 1.0, true)
 }
 
-/// The step of samples that are multiples of `unit` and at most `largest`; if this `is_full_scale`, it tells the converter's bits.
+/// The step of samples that are multiples of `unit` and at most `largest`; if this `is_full_scale`, the converter's bits follow from it.
 fn step(pairs: &[[f32; 2]], unit: f32, largest: f32, is_full_scale: bool) -> Option<f32> {
     let channels = [0, 1].map(|channel| codes(pairs.iter().map(|pair| pair[channel]), unit));
     let all = sorted(channels.concat());

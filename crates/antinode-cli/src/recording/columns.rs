@@ -6,7 +6,7 @@ use std::str::FromStr;
 use super::error::{LineFault, Role};
 use super::preamble::Start;
 use super::signal_units;
-use super::units::{bare, time_exponent, told_by, without_unit};
+use super::units::{bare, sure_unit_of, time_exponent, without_unit};
 
 /// The columns to read, chosen by the user: `c,d` or `time,c,d`, each a name from the header or a number from 1.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -155,7 +155,7 @@ impl FirstLine<'_> {
     /// The one column of these with a unit of time, provided that the others have no unit or that of a signal.
     fn timed(&self, columns: &[usize]) -> Option<usize> {
         let names = self.names?;
-        let unit = |place: usize| match told_by(&names[place]) {
+        let unit = |place: usize| match sure_unit_of(&names[place]) {
             "" => self.units.get(place).map_or("", |unit| bare(unit)),
             unit => unit,
         };

@@ -271,13 +271,13 @@ impl Source for Delimited {
     }
 
     fn lost(&self) -> Option<InputError> {
-        if let Some((first, count)) = self.rows.left_out.told() {
+        if let Some((first, count)) = self.rows.left_out.reported() {
             return Some(InputError::LeftOut {
                 file: self.file.clone(),
                 place: first.place,
-                told: first.told.clone(),
+                told: first.description.clone(),
                 count,
-                lost: self.gaps.told(),
+                lost: self.gaps.reported(),
             });
         }
         let (line, fault) = self.gaps.fault()?;

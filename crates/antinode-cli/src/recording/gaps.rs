@@ -80,7 +80,7 @@ impl Gaps {
     }
 
     /// The line of the first gap to be reported, and the number of samples lost in all.
-    pub fn told(&self) -> Option<(u64, u64)> {
+    pub fn reported(&self) -> Option<(u64, u64)> {
         Some((self.first?.line, self.lost))
     }
 

@@ -25,7 +25,7 @@ pub(super) struct Header {
     units: ([String; 2], Together),
     /// The name of a time column whose brackets hold no unit of time.
     unknown: Option<String>,
-    /// What the names tell about a start and an increment, if they do.
+    /// The start and the increment that the names announce or give, if they do.
     counted: Option<Counted>,
     /// The number of a first line that is left out, as it lacks its beginning.
     cut: Option<usize>,
@@ -33,7 +33,7 @@ pub(super) struct Header {
 
 /// What was found in the names and a line of units below them.
 #[derive(Default)]
-struct Told {
+struct FoundUnits {
     /// Whether the time's unit was found.
     has_unit: bool,
     /// The line with the signals' units, and whether they are surely units.
@@ -94,14 +94,14 @@ impl Header {
             counted,
             cut: start.cut,
         };
-        let told = match names {
+        let found = match names {
             Some(names) => header.read_units(file, lines, names)?,
             None => {
                 lines.back();
-                Told::default()
+                FoundUnits::default()
             }
         };
-        if !told.has_unit {
+        if !found.has_unit {
             // Only now do the settings matter: beside a unit in the header, theirs may be that of the screen.
             let is_other = |unit: &str| time_exponent(unit).is_some_and(|own| own != Some(0));
             if let Some((unit, line)) = &start.unit
@@ -115,8 +115,8 @@ impl Header {
             header.unknown = name.filter(|name| has_unknown_unit(name)).cloned();
         }
         header
-            .bring_together(told.are_signals)
-            .map_err(|fault| InputError::line(file, told.line, fault))?;
+            .bring_together(found.are_signals)
+            .map_err(|fault| InputError::line(file, found.line, fault))?;
         Ok(header)
     }
 
@@ -126,25 +126,25 @@ impl Header {
         file: &str,
         lines: &mut Lines,
         names: &[String],
-    ) -> Result<Told, InputError> {
+    ) -> Result<FoundUnits, InputError> {
         let name = |role: usize| self.places[role].map_or("", |place| &names[place]);
         let (time, signals) = (name(0), [name(1), name(2)]);
-        let mut told = Told {
+        let mut found = FoundUnits {
             has_unit: false,
             line: lines.number(),
             // Outside of brackets, the end of a name may be a label.
             are_signals: signals.iter().all(|name| is_bracketed(name)),
         };
         self.units.0 = signals.map(|name| of_name(name).to_owned());
-        told.has_unit = self
+        found.has_unit = self
             .set_unit(of_name(time), time)
-            .map_err(|fault| self.of_time(file, told.line, fault))?;
+            .map_err(|fault| self.of_time(file, found.line, fault))?;
         if !lines.advance()? {
-            return Ok(told);
+            return Ok(found);
         }
         let Some(unit) = self.units(lines) else {
             lines.back();
-            return Ok(told);
+            return Ok(found);
         };
         let line = lines.number();
         match self.set_unit(&unit, &unit) {
@@ -152,14 +152,14 @@ impl Header {
             Ok(false) if is_bracketed(&unit) => {
                 return Err(self.of_time(file, line, TimeFault::Unit { name: unit }));
             }
-            Ok(is_told) => told.has_unit |= is_told,
+            Ok(is_told) => found.has_unit |= is_told,
             Err(fault) => return Err(self.of_time(file, line, fault)),
         }
         let own = [1, 2].map(|role| self.field(lines, role));
         if own.iter().any(|unit| !unit.is_empty()) {
-            (self.units.0, told.line, told.are_signals) = (own, line, true);
+            (self.units.0, found.line, found.are_signals) = (own, line, true);
         }
-        Ok(told)
+        Ok(found)
     }
 
     /// The error for a fault of the time in this line.

@@ -124,7 +124,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_told_from_samples() {
+    fn names_are_distinguished_from_samples() {
         for (first, next, expected) in [
             ("c,d", "1,2\n", true),
             ("OVER,OVER", "1,2\n", false),

@@ -55,7 +55,7 @@ impl LeftOut {
     }
 
     /// The first line to be reported, and how many there are, with those just behind the last pair looked at.
-    pub fn told(&self) -> Option<(&Written, u64)> {
+    pub fn reported(&self) -> Option<(&Written, u64)> {
         let behind = self.ahead.front();
         let behind = behind.filter(|run| run.first.pair == self.looked);
         let first = self.first.as_ref().or(behind.map(|run| &run.first))?;

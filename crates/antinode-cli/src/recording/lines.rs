@@ -37,7 +37,7 @@ impl Lines {
     pub fn open(file: &str, stream: Stream) -> Result<(Self, Beginning), InputError> {
         let mut stream = BufReader::with_capacity(MAX_LINE, LineEnds::new(stream));
         let (mut begun, line, before) = text::first_line(file, &mut stream)?;
-        // Reading these lines ahead delays no row of a pipe: each needs at least as many.
+        // Reading these lines ahead delays no row of a pipe: each row needs at least as many lines.
         let mut is_quoted = false;
         let mut start = loop {
             let next = text::next_lines(&mut stream, STEADY_LINES)

@@ -230,7 +230,7 @@ impl Recording {
             file: self.name.clone(),
             place: written.as_ref().map(|written| written.place),
             pair: first.pair,
-            told: written.map_or_else(|| first.told(), |written| written.told),
+            told: written.map_or_else(|| first.describe(), |written| written.description),
             count: self.not_finite.count,
         })
     }

@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_stands_for_a_sample_is_known() {
+    fn stand_ins_for_a_sample_are_known() {
         for text in [
             "",
             "--",

@@ -13,7 +13,7 @@ pub(super) struct First {
 
 impl First {
     /// A description of it.
-    pub fn told(self) -> String {
+    pub fn describe(self) -> String {
         format!(
             "{}: the value is {}, not a finite number",
             self.channel, self.value
@@ -28,7 +28,7 @@ pub(super) struct Written {
     pub pair: u64,
     pub place: Place,
     /// A description of it.
-    pub told: String,
+    pub description: String,
 }
 
 /// The samples seen so far that are not finite numbers.

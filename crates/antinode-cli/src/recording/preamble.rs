@@ -120,7 +120,7 @@ fn is_sample(field: &[u8], separator: u8) -> bool {
     is_number(field, separator) || stand_in(field).is_some()
 }
 
-/// Whether a line has samples in all of these columns, and a number in one.
+/// Whether a line has samples in all of these columns, and a number in at least one.
 fn has_samples(line: &Line, columns: &[usize], separator: u8) -> bool {
     let field = |&column: &usize| line.fields.get(column).copied();
     let are_samples = columns

@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn decimal_commas_are_told_from_those_of_thousands() {
+    fn decimal_commas_are_distinguished_from_those_between_thousands() {
         for (text, expected) in [
             ("\"0,498\",\"-1,234\"\n", true),
             ("1,\"-12,34\",\"1,234\"", true),

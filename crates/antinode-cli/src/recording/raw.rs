@@ -125,7 +125,7 @@ impl Interleaved {
         self
     }
 
-    /// Whether to hand over what is there instead of waiting for more.
+    /// The same, which if `live` delivers what is there instead of waiting for more.
     pub fn live(self, live: bool) -> Self {
         Self { live, ..self }
     }

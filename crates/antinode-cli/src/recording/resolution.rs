@@ -51,7 +51,7 @@ fn is_silent(pairs: &[[f32; 2]]) -> bool {
             if !values.contains(&sample) {
                 values.push(sample);
             }
-            // Usually after as many samples, so that nothing need be sorted.
+            // Usually reached within a few samples, so that nothing need be sorted.
             if values.len() == MIN_VALUES {
                 return false;
             }

@@ -31,7 +31,7 @@ pub(super) struct Counted {
     pub sequence: Option<Sequence>,
 }
 
-/// Looks for a start and an increment, or their values, in the last two of these names; none if there are none.
+/// Looks for a start and an increment, or their values, in the last two of these names; none without these.
 pub(super) fn counted(names: &[String]) -> Option<Counted> {
     let names: Vec<String> = names.iter().map(|name| name.to_lowercase()).collect();
     match names.as_slice() {

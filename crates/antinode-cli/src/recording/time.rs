@@ -191,7 +191,7 @@ impl TimeAxis {
         }
         let length = now - self.anchor;
         let lines = self.lines as f64;
-        // A clock may drift by a few ppm, but not by half a sample in so many.
+        // A clock may drift by a few ppm, but not by half a sample in [`RATE_LINES`].
         let is_off = |step: f64, uncertainty: f64| {
             let allowed = (0.5 + 2.0 * rounding) * step + 2.0 * lines * uncertainty;
             (length - lines * step).abs() > allowed

@@ -37,7 +37,7 @@ pub(super) fn of_name(name: &str) -> &str {
 }
 
 /// The unit that a column's name surely tells: `U [V]`, `in s`, `C1 in V`; empty if there is none.
-pub(super) fn told_by(name: &str) -> &str {
+pub(super) fn sure_unit_of(name: &str) -> &str {
     if is_bracketed(name) {
         return of_name(name);
     }
@@ -131,7 +131,7 @@ mod tests {
             ("time_ms", ""),
             ("time", ""),
         ] {
-            assert_eq!(told_by(name), unit, "{name}");
+            assert_eq!(sure_unit_of(name), unit, "{name}");
         }
     }
 

@@ -74,14 +74,14 @@ fn rate_warning(own: f64, asked: Option<f64>) -> Option<String> {
     }
 }
 
-/// What the `fmt ` chunk tells.
+/// The content of the `fmt ` chunk.
 struct Format {
     code: SampleCode,
     channels: usize,
     rate: u32,
 }
 
-/// What the header tells about the size of the data.
+/// The sizes of the file and of its data by the header.
 struct Data {
     riff_bytes: u64,
     data_bytes: u64,

@@ -66,7 +66,7 @@ fn the_largest_code_of_few_bits_is_the_rail_unless_rails_are_given() {
 }
 
 #[test]
-fn both_rails_of_an_unsigned_converter_are_told() {
+fn an_unsigned_converter_is_clipped_only_if_both_rails_are_given() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let mut codes = "c,d\n".to_owned();
@@ -94,7 +94,7 @@ fn both_rails_of_an_unsigned_converter_are_told() {
 }
 
 #[test]
-fn rails_that_are_codes_are_told_as_the_samples_have_them() {
+fn rails_given_as_codes_are_warned_of_with_their_scaled_values() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     // 12-bit codes from 0 to 4095 that are cut off, in unsigned integers of 16 bits.
@@ -135,7 +135,7 @@ fn rails_that_are_codes_are_told_as_the_samples_have_them() {
 }
 
 #[test]
-fn a_wave_that_is_cut_off_where_no_rail_is_known_is_told() {
+fn a_wave_cut_off_without_a_known_rail_is_warned_of() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for (level, is_told) in [(2090.0, true), (1e9, false)] {
@@ -159,7 +159,7 @@ fn a_wave_that_is_cut_off_where_no_rail_is_known_is_told() {
 }
 
 #[test]
-fn a_step_coarser_than_the_noise_is_told_where_rows_scatter() {
+fn a_step_coarser_than_the_noise_is_named_if_rows_scatter() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let step = "(angle 1.45 times): the converter's step of 3.9e-3 is coarser than the noise";

@@ -1,4 +1,4 @@
-//! `antinode identify` on a pipe that stays open: what is wrong with its samples is told all the same.
+//! `antinode identify` on a pipe that stays open: faults of its samples are reported all the same.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, Command, Stdio};
@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use crate::common::{WAVE, raw};
 
-/// Long beyond what a machine under load takes for a second of samples.
+/// Far longer than a loaded machine needs for a second of samples.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 fn start() -> Child {
@@ -21,7 +21,7 @@ fn start() -> Child {
         .unwrap()
 }
 
-/// What is told while the pipe is open behind these samples, and once it is closed behind as many more.
+/// The first message, which comes while the pipe stays open behind these samples, and those once it is closed behind the same again.
 fn told(codes: &[[i16; 2]]) -> [String; 2] {
     let mut run = start();
     let mut input = run.stdin.take().unwrap();
@@ -59,7 +59,7 @@ fn samples_that_hold_one_value_are_told() {
     let expected =
         "warning: standard input: so far S_C and S_D hold one and the same value all the time, ";
     assert!(first.starts_with(expected), "{first}");
-    // There is no row, and why is told.
+    // There is no row, and a message says why.
     assert_eq!(rest.lines().count(), 1, "{rest}");
     assert!(
         rest.starts_with("error: standard input: no period found in 240000 "),

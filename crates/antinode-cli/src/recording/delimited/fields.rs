@@ -44,7 +44,7 @@ pub(super) fn cut<'a>(file: &str, lines: &'a Lines, header: &Header) -> Fields<'
         }
     }
     let fields = if count == 1 { "field" } else { "fields" };
-    let told = || {
+    let description = || {
         format!(
             "a line of {count} {fields} where the first has {}",
             header.width
@@ -52,7 +52,7 @@ pub(super) fn cut<'a>(file: &str, lines: &'a Lines, header: &Header) -> Fields<'
     };
     Fields {
         texts: found.map(Option::unwrap_or_default),
-        broken: fault.map(|fault| (fault, told())),
+        broken: fault.map(|fault| (fault, description())),
     }
 }
 

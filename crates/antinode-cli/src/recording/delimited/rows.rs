@@ -97,7 +97,7 @@ impl Rows {
         }
         let line = cut(&self.file, &self.lines, &self.header);
         let texts = line.texts;
-        let (broken, told_broken) = line.broken.unzip();
+        let (broken, broken_line) = line.broken.unzip();
         let of_line = Place {
             line: self.lines.number(),
             column: None,
@@ -130,15 +130,18 @@ impl Rows {
         if let Some((role, read)) = odd
             && (is_left_out || self.not_finite.is_none())
         {
-            let (place, told) = match told_broken {
-                Some(told) if is_left_out => (of_line, told),
-                Some(told) => (of_line, format!("{told}, so no finite number")),
-                None => (self.place(role), told(Role::ALL[role], texts[role], read)),
+            let (place, description) = match broken_line {
+                Some(broken) if is_left_out => (of_line, broken),
+                Some(broken) => (of_line, format!("{broken}, so no finite number")),
+                None => (
+                    self.place(role),
+                    describe(Role::ALL[role], texts[role], read),
+                ),
             };
             let written = Written {
                 pair: self.pairs,
                 place,
-                told,
+                description,
             };
             if is_left_out {
                 self.left_out.add(written);
@@ -189,7 +192,7 @@ impl Rows {
 }
 
 /// Describes a field that is no finite number; `read` is the NaN or infinity that it was read as, if any.
-fn told(role: Role, text: &[u8], read: Option<f32>) -> String {
+fn describe(role: Role, text: &[u8], read: Option<f32>) -> String {
     let value = match read {
         _ if text.is_empty() => "missing".to_owned(),
         Some(read) => read.to_string(),

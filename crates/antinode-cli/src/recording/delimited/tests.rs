@@ -1,4 +1,4 @@
-//! Text recordings: what is understood, and what is said of what is not.
+//! Text recordings: the forms that are understood, and the errors of others.
 
 mod broken;
 mod time;

@@ -35,7 +35,7 @@ fn settings_are_skipped_down_to_the_names() {
 }
 
 #[test]
-fn names_and_what_may_be_samples_stay() {
+fn names_and_possible_samples_stay() {
     for above in [
         "",
         "time,c,d\n",

@@ -84,7 +84,7 @@ mod tests {
         let above = "Audio   2 channels (stereo)\nSample Rate: 100000 Hz.  Sample values on linear scale.\n\
             Length processed: 4000 samples 0.04000 seconds.\n\n";
         assert_eq!(skipped(above, row), Some(4));
-        // As many words as columns, or one that tells what a column holds.
+        // As many words as columns, or one that is a known name of a column.
         let row = |k: usize| format!("0.{k} -0.{k} 7");
         for (above, expected) in [
             ("Signal one two\n", 0),

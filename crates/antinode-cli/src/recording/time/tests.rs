@@ -279,7 +279,7 @@ fn a_slow_drift_is_followed_and_reported() {
 
 #[test]
 fn a_rate_that_is_nearly_round_is_found_from_all_lines() {
-    // By the first lines, told to a microsecond, the rate may be 100 kHz; a tenth of a sample in all lines leaves it so.
+    // By the first lines, printed to a microsecond, the rate may be 100 kHz; a tenth of a sample in all lines leaves it so.
     for (rate, count, told) in [
         (100_000.2, 1_000_000, Some(100_000.2)),
         (100_000.0, 1_000_000, None),

@@ -39,7 +39,7 @@ fn fault(name: &str, rate: f64, sample: SampleFormat, pairs: &[[f64; 2]]) -> Str
 }
 
 #[test]
-fn what_is_written_is_read_back() {
+fn written_recordings_are_read_back() {
     let directory = tempfile::tempdir().unwrap();
     let pairs = signal(1000);
     for name in ["a.wav", "a.CSV", "a.npy"] {

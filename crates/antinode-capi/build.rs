@@ -1,4 +1,4 @@
-//! Gives the shared library its name for the dynamic linker.
+//! Sets the shared library's soname.
 
 use std::env;
 

@@ -1,9 +1,9 @@
-# find_package(antinode) gives
-#   antinode::antinode   the static library: of this PC, or of the core that a cross build is for
+# find_package(antinode) defines
+#   antinode::antinode   the static library: for this PC, or for the core of a cross build
 #   antinode::shared     the shared library, on a PC
-# A cross build names the Rust target in ANTINODE_TARGET (README.md has which: thumbv7em-none-eabihf, ...); where it
-# does not, the target follows from -mcpu and -mfloat-abi in CMAKE_C_FLAGS, CMAKE_CXX_FLAGS or add_compile_options(), of
-# which the last counts; the float ABI, where no -mfloat-abi says it, from clang's triple (--target=...eabihf).
+# A cross build names the Rust target in ANTINODE_TARGET (README.md lists them: thumbv7em-none-eabihf, ...). If it does not, the
+# target follows from the last -mcpu and -mfloat-abi in CMAKE_C_FLAGS, CMAKE_CXX_FLAGS or add_compile_options(), and, without
+# -mfloat-abi, the float ABI follows from clang's triple (--target=...eabihf).
 get_filename_component(_antinode_prefix "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 set(_antinode_lib "${_antinode_prefix}/lib")
 if(CMAKE_CROSSCOMPILING)
@@ -11,7 +11,7 @@ if(CMAKE_CROSSCOMPILING)
     if(NOT _antinode_target)
         get_directory_property(_antinode_options COMPILE_OPTIONS)
         set(_antinode_flags " ${CMAKE_C_FLAGS} ${CMAKE_CXX_FLAGS} ${_antinode_options} ")
-        # CMake gives a compiler its triple before all flags.
+        # CMake puts the triple before all other flags.
         foreach(_antinode_language C CXX)
             if(CMAKE_${_antinode_language}_COMPILER_TARGET)
                 set(_antinode_flags " --target=${CMAKE_${_antinode_language}_COMPILER_TARGET}${_antinode_flags}")
@@ -33,7 +33,7 @@ if(CMAKE_CROSSCOMPILING)
                 set(_antinode_core nodsp)
             endif()
         endif()
-        # Never across float ABIs: the linker may not see it, and arguments would go astray.
+        # Never an archive with another float ABI: the linker may accept it, and arguments would be passed in the wrong registers.
         if(_antinode_abi MATCHES "hard")
             if(_antinode_core MATCHES "${_antinode_has_dsp}")
                 set(_antinode_target thumbv7em-none-eabihf)

@@ -7,12 +7,12 @@
     clean = windows[windows["flags"] == 0]
     clean["angle_rad"], clean["angle_std_rad"]     # fields as antinode_estimate_t has them
 
-The command `antinode identify` takes the converter's step and rails from the format of a recording: here give `resolution`, `rail_low` and
-`rail_high`, such as 1/32768 and ±32767/32768 for 16 bits. Windows have 50 periods at most, and periods 200 samples.
+The command `antinode identify` takes the converter's step and rails from the format of a recording; here give `resolution`, `rail_low` and
+`rail_high`, such as 1/32768 and ±32767/32768 for 16 bits. A window has at most 50 periods, and a period at most 200 samples.
 
-Needs numpy, and the shared library: `crates/antinode-capi/install PREFIX`, on Linux. ANTINODE_LIBRARY names it where the system does not
-find it: PREFIX/lib/libantinode.so. Elsewhere `cargo rustc --profile capi -p antinode-capi --lib --crate-type cdylib` makes it, in
-target/capi; made together with the static library, as `cargo build` does, it would not load on Linux.
+Needs numpy and the shared library. On Linux `crates/antinode-capi/install PREFIX` installs it; if the system does not find it, name it in
+ANTINODE_LIBRARY: PREFIX/lib/libantinode.so. Elsewhere `cargo rustc --profile capi -p antinode-capi --lib --crate-type cdylib` builds it in
+target/capi. Built together with the static library, as by `cargo build`, it would not load on Linux.
 """
 
 import ctypes
@@ -20,7 +20,7 @@ import os
 
 import numpy
 
-#: The header that this file was written for.
+#: The version of the header that this file was written for, the words of an antinode_float_t, and ANTINODE_ESTIMATE.
 VERSION = 256
 STATE_WORDS = 1352
 WINDOW_ENDED = 2
@@ -46,7 +46,7 @@ FLAGS = ("clipped", "lost", "phase_jump", "step", "circular", "misfit", "dead_ch
 
 
 class _Settings(ctypes.Structure):
-    """antinode_settings_t, and antinode_calibration_t where it stands within."""
+    """antinode_settings_t, with the fields of its antinode_calibration_t in their place."""
 
     _fields_ = [
         ("sample_rate_hz", ctypes.c_double),
@@ -93,20 +93,20 @@ class Gyro:
     """One stream of sample pairs, identified window by window."""
 
     def __init__(self, sample_rate_hz, **settings):
-        """Cold, at this sample rate in Hz; `settings` are those of antinode_settings_t and antinode_calibration_t, by name."""
+        """Starts from cold, at this sample rate in Hz; `settings` are those of antinode_settings_t and antinode_calibration_t, by name."""
         wanted = _library.antinode_settings_default(sample_rate_hz)
         for name, value in settings.items():
             if name not in dict(_Settings._fields_):
                 raise TypeError(f"no setting is called {name}")
             setattr(wanted, name, value)
-            # An integer too large would wrap around.
+            # ctypes wraps integers that are too large.
             if isinstance(getattr(wanted, name), int) and getattr(wanted, name) != value:
                 raise ValueError(f"{name} cannot be {value}")
         self._state = numpy.zeros(STATE_WORDS, "u8")
         _check(_library.antinode_float_init(ctypes.c_void_p(self._state.ctypes.data), ctypes.byref(wanted)))
 
     def push(self, samples):
-        """The windows that these sample pairs complete, an array of WINDOW; samples of shape (N, 2), in any unit."""
+        """Returns the windows that these sample pairs complete, an array of WINDOW; samples have shape (N, 2) and any unit."""
         pairs = numpy.ascontiguousarray(samples, "f4")
         if pairs.ndim != 2 or pairs.shape[1] != 2:
             raise ValueError(f"samples are to be of shape (N, 2), not {pairs.shape}")
@@ -121,13 +121,13 @@ class Gyro:
 
     @property
     def has_wave(self):
-        """Whether the last window showed a wave; where none is found there are no windows, and this alone tells."""
+        """Whether the last window showed a wave. If no wave is found there are no windows, and only this shows it."""
         health = _Health()
         _check(_library.antinode_float_health(self._state.ctypes.data, ctypes.byref(health)))
         return bool(health.has_wave)
 
     def skip(self, pairs):
-        """Tells that so many sample pairs were lost before the next, fewer than 2**32."""
+        """Reports that so many sample pairs, fewer than 2**32, were lost before the next one."""
         if not 0 <= pairs < 1 << 32:
             raise ValueError(f"{pairs} pairs cannot be skipped at once")
         _check(_library.antinode_float_skip(self._state.ctypes.data, pairs))

@@ -23,7 +23,7 @@ static unsigned long little(const unsigned char *bytes, int count)
     return value;
 }
 
-/* Finds the samples of a WAV file; gives their count in bytes and the sample rate, or 0 where it is no such file. */
+/* Finds the samples of a WAV file; returns their length in bytes and sets the sample rate, or returns 0 if it is no such file. */
 static unsigned long open_wav(FILE *file, double *sample_rate_hz)
 {
     unsigned char head[16];
@@ -95,7 +95,7 @@ int main(int argc, char **argv)
         return 1;
     }
 
-    /* Full scale reads as 1; the largest code lies one step below it. */
+    /* Samples are scaled so that full scale is 1; the largest code lies one step below it. */
     settings = antinode_settings_default(sample_rate_hz);
     settings.resolution = 1.0f / 32768.0f;
     settings.rail_high = 32767.0f / 32768.0f;

@@ -1,4 +1,4 @@
-//! What the Rust core makes of the codes that `bare_metal.c` works on, and those codes themselves.
+//! Prints the Rust core's estimates from the codes that `bare_metal.c` identifies, or writes those codes.
 //!
 //! `reference codes > codes.bin`; `reference fixed`, `reference float`: one line a window, every number as its bits.
 

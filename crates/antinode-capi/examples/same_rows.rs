@@ -1,8 +1,8 @@
-//! `same_rows ours.csv theirs.csv`: tells whether two tables hold the same numbers, to the last bit of their precision.
+//! `same_rows ours.csv theirs.csv`: checks whether two tables hold the same numbers, to the last bit of their precision.
 
 use std::process::ExitCode;
 
-/// Columns in double precision: time, angle, frequency.
+/// Indices of the columns in double precision: time, angle, frequency.
 const DOUBLE: [usize; 3] = [0, 4, 6];
 
 fn same(column: usize, ours: &str, theirs: &str) -> bool {

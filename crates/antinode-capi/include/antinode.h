@@ -16,34 +16,36 @@
 // for ideal pick-offs without offset, which gives the signs of angle, quadrature, phase and pick-off angle, is
 //     S_C = A cos 2theta - B sin 2theta,   A = a_A cos tau,   tau = omega t - alpha, omega = 2pi f,
 //     S_D = A sin 2theta + B cos 2theta,   B = a_B sin tau,   t = 0 at the window's middle.
-// Codes are two's complement of 16 bits. Unsigned codes of up to 15 bits (a 12-bit converter, aligned to the right) are the same
-// numbers: the offset is found. Unsigned codes of 16 bits, oversampled or aligned to the left, would wrap around at half scale, and
-// with `watch` 0 no flag tells: invert the highest bits, word ^ 0x80008000, which takes 32768 from the offsets and from the rails.
+// Codes are two's complement of 16 bits. Unsigned codes of up to 15 bits (a 12-bit converter, aligned to the right) go in as they are:
+// their offset is found. Unsigned codes of 16 bits, oversampled or aligned to the left, would wrap around at half scale, and with
+// `watch` 0 no flag shows it: invert the highest bits, word ^ 0x80008000, and subtract 32768 from the rails; offsets are then 32768 less.
 //
-// Memory: a state is the caller's, static or on a stack; there is no heap, no global and no callback. Zeroed memory is not an
+// Memory: the caller provides each state, static or on a stack; there is no heap, no global and no callback. Zeroed memory is not an
 // initialised state. A state may be copied or moved while nobody uses it.
 //
 // Concurrency, without a lock:
 //  - Interrupt side: _push, _push_block*, _skip. One of them at a time: interrupts that call them must have the same priority. They
 //    put finished blocks in a queue inside the state.
 //  - Thread side: _solve, _search, _set_calibration. One of them at a time. They take blocks from the queue.
-//  - One call of each side may be under way at once: the interrupt may break into the thread anywhere, or run on another core that
-//    shares coherent memory.
+//  - One call of each side may be under way at the same time: the interrupt may break into the thread anywhere, or run on another core
+//    that shares coherent memory.
 //  - _health may be called from anywhere at any time except during _init and _reset; the functions without a state at any time.
 //  - _init, _reset and _identify use both sides: no other call on that state may be under way, except _health during _identify, and,
 //    during _init and _reset, those of an interrupt of the same core, whose samples are refused.
 //  - States are independent of each other.
 //
-// The interrupt's cost on a Cortex-M4: during the search for a period 200 to 460 instructions a sample pair, up to 600 over a
-// half-buffer of a signal that looks like a wave but is not, such as two tones; afterwards 10 to 80, or 70 to 180 with _push. These
-// are means: a single _push may take 1900 during the search, and 1100 (fixed) or 2000 (float) afterwards; half-buffers never take
-// that many a pair. The interrupt's stack on a Cortex-M4 is up to 0.8 KiB, or 1.0 KiB (fixed) or 1.3 KiB (float) with _push_block; on
-// a Cortex-M3 or M0 up to 1.2 KiB, or 1.5 or 1.8 KiB with _push_block. The search uses floating-point registers, even in fixed point,
-// if the core has them: what saves them for threads must save them for this interrupt too (lazy stacking; Zephyr: CONFIG_FPU_SHARING).
+// Cost of the interrupt:
+//  - Instructions a sample pair on a Cortex-M4: 200 to 460 during the search for a period, up to 600 over a half-buffer of a signal that
+//    looks like a wave but is not, such as two tones; afterwards 10 to 80, or 70 to 180 with _push. These are means: a single _push may
+//    take 1900 during the search, and 1100 (fixed) or 2000 (float) afterwards; half-buffers never take that many a pair.
+//  - Stack: on a Cortex-M4 up to 0.8 KiB, or 1.0 KiB (fixed) or 1.3 KiB (float) with _push_block; on a Cortex-M3 or M0 up to 1.2 KiB,
+//    or 1.5 or 1.8 KiB with _push_block.
+//  - Floating-point registers: if the core has them, the search uses them, even in fixed point. What saves them for threads must save
+//    them for this interrupt too (lazy stacking; Zephyr: CONFIG_FPU_SHARING).
 //
-// Errors: a NULL or misaligned pointer, a state that was not initialised and a value out of range give a status below 0, and
-// nothing is done; but a state whose _init failed is no longer initialised. A pointer that is neither NULL nor misaligned must point
-// to what its type says; a state must be changed by these functions only. Any sample is valid, NaN too. No function panics, aborts or
+// Errors: a NULL or misaligned pointer, a state that is not initialised and a value out of range give a status below 0, and nothing is
+// done; but a state whose _init failed is no longer initialised. A pointer that is neither NULL nor misaligned must point to what its
+// type says; a state must be changed by these functions only. Any sample is valid, NaN included. No function panics, aborts or
 // blocks.
 
 
@@ -54,8 +56,8 @@
 #include <stdint.h>
 
 // The shortest period that is searched for, sample pairs. If no frequency is given, a wave whose period is not between this and
-// ANTINODE_LONGEST_PERIOD is not found, unless sampling folds it to one that is: no estimate, no flag and no status tells, only `has_wave`
-// of antinode_health_t, which stays 0. Watch it.
+// ANTINODE_LONGEST_PERIOD is not found, unless sampling folds it to one that is. Then there is no estimate, and no flag and no status
+// shows why; only `has_wave` of antinode_health_t, which stays 0, shows it: watch it.
 #define ANTINODE_SHORTEST_PERIOD 4
 
 // The longest period, sample pairs.
@@ -64,10 +66,10 @@
 // The most periods a window may have.
 #define ANTINODE_MOST_PERIODS 50
 
-// Finished blocks that the queue holds, including the one being solved. A block is two periods, or a fifth of a window if that is less;
-// half of this with a hop; at most ANTINODE_LONGEST_PERIOD sample pairs; and perhaps a little less, so that whole blocks fit a window. No
-// more than 15 blocks should be finished between two calls of a `_solve` function, nor by one call of a `_push_block` function: at 18.75
-// samples a period these are 540 pairs in windows of ten periods and more, but 90 in windows of two.
+// Finished blocks that the queue holds, including the one being solved. A block is two periods long, or a fifth of a window if that is
+// less; with a hop, half of this. It has at most ANTINODE_LONGEST_PERIOD sample pairs, and may be a little shorter, so that whole blocks
+// fit a window. No more than 15 blocks should be finished between two calls of a `_solve` function, nor by one call of a `_push_block`
+// function: at 18.75 samples a period these are 540 pairs in windows of ten periods and more, but 90 in windows of two.
 #define ANTINODE_QUEUE_BLOCKS 16
 
 // 64-bit words of an `antinode_fixed_t`.
@@ -76,7 +78,7 @@
 // 64-bit words of an `antinode_float_t`.
 #define ANTINODE_FLOAT_WORDS 1352
 
-// Samples at the converter's rail, or flattened crests, or the third harmonic that a limiter leaves: amplitudes are wrong.
+// Samples at the converter's rail, flattened crests, or the third harmonic that a limiter leaves: amplitudes are wrong.
 #define ANTINODE_FLAG_CLIPPED 1u
 
 // No significant wave: no number of the estimate means anything, and some may be NaN or infinite.
@@ -85,39 +87,39 @@
 // The phase does not continue that of the last window without a misfit: samples are missing between the two windows or within one.
 #define ANTINODE_FLAG_PHASE_JUMP 4u
 
-// Amplitude, angle or offset stepped between the window before and this one.
+// Amplitude, angle or offset stepped between the previous window and this one.
 #define ANTINODE_FLAG_STEP 8u
 
 // Main and quadrature amplitude are about equal: the pattern is circular and the angle has no meaning.
 #define ANTINODE_FLAG_CIRCULAR 16u
 
-// The samples are not one wave with steady rates plus noise: a step, a dropout, a second tone within the window.
+// The samples are not one wave with steady rates plus noise: there is a step, a dropout or a second tone within the window.
 #define ANTINODE_FLAG_MISFIT 32u
 
-// A pick-off gave one and the same value, or lost its wave while the other kept it. Half of such losses are seen if the wave lost was 25
-// deviations of an amplitude, and all if it was 35. After a new search a dead pick-off looks like a pattern on the other's axis, and is
-// not flagged.
+// A pick-off gave a constant value, or lost its wave while the other kept it. Half of such losses are flagged if the lost wave was 25
+// standard deviations of an amplitude, and all if it was 35. After a new search a dead pick-off looks like a pattern on the other
+// pick-off's axis, and is not flagged.
 #define ANTINODE_FLAG_DEAD_CHANNEL 64u
 
-// First window after the wave was lost, or after a gap or misfits in which the pattern may have turned unseen: the angle is known modulo
-// pi/2 only. Also the first window after a new calibration, unless it is the first of all. The flag stands up to and in the first window
-// without a misfit, whose angle later windows continue.
+// The angle is known modulo pi/2 only: set on the first window after the wave was lost, or after a gap or misfits in which the pattern may
+// have turned unseen, and on the first window after a new calibration, unless it is the first of all. The flag stays set up to and
+// including the first window without MISFIT, NOT_FINITE and DEAD_CHANNEL, whose angle later windows continue.
 #define ANTINODE_FLAG_REACQUIRED 128u
 
 // A sample is NaN or infinite, or so large that its sums are not finite.
 #define ANTINODE_FLAG_NOT_FINITE 256u
 
-// The period is found by the squared difference, in about three periods, with offsets of up to 100 amplitudes, and with noise of 20 % and
+// The period is found from the squared difference, in about three periods, with offsets of up to 100 amplitudes, and in noise of 20 % and
 // more.
 #define ANTINODE_DETECTION_DIFFERENCE 0u
 
-// The period is found by the return of the running sum, in about eleven periods, for signals with little noise.
+// The period is found from the return of the running sum, in about eleven periods; for signals with little noise.
 #define ANTINODE_DETECTION_MEAN_RETURN 1u
 
 // The version of this header: major x 65536 + minor x 256 + patch.
 #define ANTINODE_VERSION 256u
 
-// What a function answers: zero or above, it was done; below zero, nothing was.
+// What a function returns: zero or above if it was done; below zero if it failed and nothing was done.
 enum
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
     antinode_status_t : int32_t
@@ -129,14 +131,14 @@ enum
     ANTINODE_READY = 1,
     // Done, and an estimate was written.
     ANTINODE_ESTIMATE = 2,
-    // Done, and blocks wait as after ANTINODE_READY; but the queue was full and at least one finished block was dropped, which leaves a
-    // gap as a `_skip` function does: call `_solve` more often, or push fewer pairs at once, see ANTINODE_QUEUE_BLOCKS.
+    // Done, and blocks wait as after ANTINODE_READY; but the queue was full, and at least one finished block was dropped, which leaves a
+    // gap as a `_skip` function does. Call `_solve` more often, or push fewer pairs at once: see ANTINODE_QUEUE_BLOCKS.
     ANTINODE_DROPPED = 3,
     // A pointer is NULL.
     ANTINODE_ERROR_NULL = -1,
     // A pointer is not aligned as its type demands.
     ANTINODE_ERROR_ALIGNMENT = -2,
-    // The state was never initialised, its last `_init` failed, or it is a state of the other arithmetic.
+    // The state was never initialised, its last `_init` failed, or it belongs to the other arithmetic.
     ANTINODE_ERROR_NOT_INITIALISED = -3,
     // An array would be larger than the address space.
     ANTINODE_ERROR_COUNT = -4,
@@ -186,8 +188,8 @@ typedef struct {
 typedef struct {
     // Gain of channel D over that of channel C. 0.1 to 10; 1 is ideal.
     float gain_ratio;
-    // How much later than C channel D is sampled, s. Within +-0.001; 0 is ideal. If it is more than a tenth of a window, the uncertainty of
-    // the frequency adds to those of a_B and the angle, and the stated deviations do not include it.
+    // How much later channel D is sampled than channel C, s. Within +-0.001; 0 is ideal. If it is more than a tenth of a window, the
+    // uncertainty of the frequency adds to those of a_B and the angle, and the stated deviations do not include it.
     float skew_s;
     // Pick-off D stands at 45 degrees plus this angle from C, rad. Within +-0.3; 0 is ideal.
     float pick_off_angle_rad;
@@ -198,42 +200,43 @@ typedef struct {
     // Sample rate, Hz. 1 to 1e10.
     double sample_rate_hz;
     // Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10. A window is a whole number of blocks, a block a whole number of
-    // samples, so its length may be up to a tenth off, and more if a known frequency has few samples a period: 2 periods of 2.6 samples
-    // become 2.31.
+    // samples: so the length may be off by up to a tenth, and by more if a known frequency has few samples a period: 2 periods of 2.6
+    // samples become 2.31.
     uint32_t periods;
-    // Blocks from the start of one window to the start of the next; a block is then about a period, or a tenth of a window of less than
-    // ten periods, rounded to whole samples: 0.9 to 1.25 periods if these are short. 1 to 65535. For windows that follow each other
-    // without gap or overlap give 0, the default, not the number of periods.
+    // Blocks from the start of one window to the start of the next, 1 to 65535; a block is then about a period, or a tenth of a window of
+    // less than ten periods, rounded to whole samples: 0.9 to 1.25 periods if these are short. For windows that follow each other without
+    // gap or overlap give 0, the default, not the number of periods.
     uint32_t hop_blocks;
-    // The first window's angle is chosen within pi/4 of this one, rad. Within +-10000, so take whole turns off a greater one; default pi/4,
-    // which puts the first angle in 0 to pi/2.
+    // The first window's angle is chosen within pi/4 of this angle, rad. Within +-10000: subtract whole turns from a greater one. Default
+    // pi/4, which puts the first angle in 0 to pi/2.
     float start_angle_rad;
-    // The least sample that the converter gives, input units: at or below it a window is flagged as clipped. Default 0,
-    // which is that of a converter with unsigned codes.
+    // The least value that the converter gives, input units: a window with a sample at or below it is flagged as clipped. Default 0, as
+    // for a converter with unsigned codes.
     float rail_low;
-    // The greatest sample that the converter gives, input units, above `rail_low`: 4095 for 12 bits. Both 0, the default: not known.
+    // The greatest value that the converter gives, input units, above `rail_low`: 4095 for 12 bits. Both rails 0, the default: not known.
     float rail_high;
-    // Step between neighbouring codes of the converter, input units, > 0: standard deviations then include its share. 0, the default: not
-    // known.
+    // Step between neighbouring codes of the converter, input units, > 0: standard deviations then include the error of rounding to it. 0,
+    // the default: not known.
     float resolution;
     // The wave's frequency, Hz, if it is known, and stays so, within 5 %: it is then never searched for, and the first window begins with
     // the first sample. `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5; 0, the default: the period is found as `detection` says.
     float frequency_hz;
     // How the period is found: ANTINODE_DETECTION_DIFFERENCE, the default, or ANTINODE_DETECTION_MEAN_RETURN.
     uint32_t detection;
-    // 1, the default: the third harmonic and the extremes of the samples are watched. 0: not, which about halves the work at sample rate;
-    // ANTINODE_FLAG_CLIPPED is then never set, ANTINODE_FLAG_DEAD_CHANNEL only when a wave is lost, and ANTINODE_FLAG_MISFIT hardly ever
-    // for a second tone or a wave at another frequency.
+    // 1, the default: the third harmonic and the extremes of the samples are watched. 0: they are not, which about halves the work at
+    // sample rate; ANTINODE_FLAG_CLIPPED is then never set, ANTINODE_FLAG_DEAD_CHANNEL only when a wave is lost, and ANTINODE_FLAG_MISFIT
+    // hardly ever for a second tone or a wave at another frequency.
     uint32_t watch;
-    // How the pick-offs differ from ideal ones. Default: not at all.
+    // How the pick-offs differ from ideal ones. Default: ideal.
     antinode_calibration_t calibration;
-    // 1 if the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what only moves
-    // an offset is neither noise nor a fault. Windows must have at least 5 periods for it, or 10 with a hop. 0, the default: not.
+    // 1 if the signals carry hum or another slow wander: each block, of a period or more, then has an offset of its own, and what only
+    // moves offsets is neither noise nor a fault. Windows must then have at least 5 periods, or 10 with a hop. 0, the default: they do
+    // not.
     uint32_t hum;
-    // 1 if the noise is not white. Behind a tuned front end, or a filter that ends below three times the frequency, noise there has less
-    // than a sixteenth of its power about the wave: with this setting that is no fault, and blocks have offsets of their own as with
-    // `hum`. In return, what is in every window is not flagged: a second tone counts as noise, and so does a fault in the first window. 0,
-    // the default: not.
+    // 1 if the noise is not white. Behind a tuned front end, or a filter that cuts off below three times the wave's frequency, noise at
+    // three times the frequency has less than a sixteenth of its power about the wave: with this setting that is no fault, and blocks have
+    // offsets of their own, as with `hum`. In return, what is in every window is not flagged: a second tone counts as noise, and so does a
+    // fault in the first window. 0, the default: the noise is white.
     uint32_t coloured;
 } antinode_settings_t;
 
@@ -249,7 +252,7 @@ typedef struct {
     double frequency_hz;
     // Sample pairs in the window.
     uint32_t samples;
-    // What is wrong: a sum of ANTINODE_FLAG_* bits; 0 when clean.
+    // What is wrong with the window: a sum of ANTINODE_FLAG_* bits; 0 when clean.
     uint32_t flags;
     // Amplitude a_A of the main standing wave, > 0, input units.
     float main_amplitude;
@@ -263,7 +266,7 @@ typedef struct {
     float decay_rate_s;
     // Offset of S_C, input units.
     float offset_c;
-    // Offset of S_D, input units, as it came: before `gain_ratio` is applied.
+    // Offset of S_D as sampled, input units: before `gain_ratio` is applied.
     float offset_d;
     // Standard deviation of a_A, input units.
     float main_amplitude_std;
@@ -279,19 +282,19 @@ typedef struct {
     float angle_rate_std_rad_s;
     // Standard deviation of the decay rate, 1/s.
     float decay_rate_std_s;
-    // Rms of what the wave does not explain, per sample and channel, input units: it equals the noise if that is white. S_D counts as it
-    // came: before `gain_ratio` is applied.
+    // Rms of the residual, which is what the wave does not explain, per sample and channel, input units: it equals the noise if that is
+    // white. S_D counts as sampled: before `gain_ratio` is applied.
     float residual_rms;
     // Always 0: the struct ends at a multiple of eight bytes on every machine.
     uint32_t reserved;
 } antinode_estimate_t;
 
-// How an identification fares, from counters that either side may read.
+// How an identification is doing, from counters that either side may read.
 typedef struct {
     // 1 while a period is searched for, 0 while blocks are gathered; always 0 if `frequency_hz` is given.
     uint32_t searching;
-    // 1 from the moment that the first window that shows a wave is solved, to the first that shows none. If it stays 0 there is no wave,
-    // or none within the periods that are searched for, or none at the frequency given: nothing else tells.
+    // 1 once a window that shows a wave has been solved, until one that shows none. If it stays 0 there is no wave, or none with a period
+    // that is searched for, or none at the frequency given: nothing else shows this.
     uint32_t has_wave;
     // Finished blocks that wait to be solved, 0 to ANTINODE_QUEUE_BLOCKS.
     uint32_t waiting;
@@ -308,24 +311,25 @@ typedef struct {
 extern "C" {
 #endif // __cplusplus
 
-// Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised. Call it before
-// anything else, and while neither side runs; only an interrupt of the same core may break in: ANTINODE_ERROR_NOT_INITIALISED tells it
-// that its pairs were not taken. To go on with other settings call it again, with `start_angle_rad` the last angle and `frequency_hz` the
-// last frequency: no search is needed then; times begin at 0 again.
+// Initialises a state from cold. Returns ANTINODE_OK, or what is wrong with the settings; the state is then not initialised. Call it
+// before any other function, while neither side runs. Only an interrupt of the same core may break in; ANTINODE_ERROR_NOT_INITIALISED
+// tells it that its pairs were not taken. To go on with other settings call it again, with the last angle as `start_angle_rad` and the
+// last frequency as `frequency_hz`, so that no search is needed; times begin at 0 again.
 antinode_status_t antinode_fixed_init(antinode_fixed_t *state,
                                       const antinode_settings_t *settings);
 
-// Makes a state as it was after its initialisation, but with its present calibration. When it may be called is as for the initialisation.
+// Returns a state to what it was after its initialisation, except for the calibration, which is kept. It may be called when
+// antinode_fixed_init() may.
 antinode_status_t antinode_fixed_reset(antinode_fixed_t *state);
 
-// Interrupt side. Takes one sample pair, converter codes. ANTINODE_OK; ANTINODE_READY when it finished a block;
-// ANTINODE_DROPPED when that block had to be dropped.
+// Interrupt side. Takes one sample pair, converter codes. Returns ANTINODE_OK; ANTINODE_READY if the pair finished a block;
+// ANTINODE_DROPPED if that block had to be dropped.
 antinode_status_t antinode_fixed_push(antinode_fixed_t *state, int16_t c, int16_t d);
 
-// Interrupt side. Takes `count` sample pairs from two arrays, converter codes. Answers as antinode_fixed_push().
+// Interrupt side. Takes `count` sample pairs from two arrays, converter codes. Returns the same as antinode_fixed_push().
 antinode_status_t antinode_fixed_push_block(antinode_fixed_t *state, const int16_t *c, const int16_t *d, size_t count);
 
-// Interrupt side. Takes `count` sample pairs from one array of 2 x `count` samples, C and D in turn, converter codes. Answers as
+// Interrupt side. Takes `count` sample pairs from one array of 2 x `count` samples, C and D in turn, converter codes. Returns the same as
 // antinode_fixed_push(). Pairs are read as words: if the core traps unaligned words (CCR.UNALIGN_TRP), `samples` must begin at a multiple
 // of four bytes.
 antinode_status_t antinode_fixed_push_block_interleaved(antinode_fixed_t *state,
@@ -333,90 +337,100 @@ antinode_status_t antinode_fixed_push_block_interleaved(antinode_fixed_t *state,
                                                         size_t count);
 
 // Interrupt side. Takes `count` sample pairs of 16-bit codes, C in the low half of a word and D in the high half, as a dual
-// converter's DMA leaves them; unsigned ones of 16 bits as `word ^ 0x80008000`, see the head of the header. Answers as
+// converter's DMA leaves them; pass unsigned codes of 16 bits as `word ^ 0x80008000`, see the head of the header. Returns the same as
 // antinode_fixed_push().
-antinode_status_t antinode_fixed_push_block_packed(antinode_fixed_t *state, const uint32_t *words, size_t count);
+antinode_status_t antinode_fixed_push_block_packed(antinode_fixed_t *state,
+                                                   const uint32_t *words,
+                                                   size_t count);
 
-// Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is dropped,
-// and time goes on. After a gap so long that the turning of the pattern is known no better than to 0.13 rad (one standard deviation), the
-// angle is known modulo pi/2 only: ANTINODE_FLAG_REACQUIRED says so.
+// Interrupt side. Reports that `count` sample pairs were lost before the next one: the window that they would have been part of is
+// dropped, and time advances by them. After a gap so long that the turn of the pattern meanwhile is known to no better than 0.13 rad (one
+// standard deviation), the angle is known modulo pi/2 only, and ANTINODE_FLAG_REACQUIRED says so.
 antinode_status_t antinode_fixed_skip(antinode_fixed_t *state,
                                       uint32_t count);
 
-// Thread side. Solves finished blocks up to the next estimate: ANTINODE_ESTIMATE when one was written, and then there may be more;
-// ANTINODE_OK when no block is left, and then `estimate` is unchanged. A lost wave is searched for anew without a call.
+// Thread side. Solves finished blocks up to the next estimate. Returns ANTINODE_ESTIMATE if one was written: there may then be more.
+// Returns ANTINODE_OK if no block is left: `estimate` is then unchanged. A lost wave is searched for anew without a call.
 antinode_status_t antinode_fixed_solve(antinode_fixed_t *state,
                                        antinode_estimate_t *estimate);
 
-// Thread side. Drops the wave and searches anew; the angle goes on from the last one, modulo pi/2.
+// Thread side. Drops the wave and searches anew; the angle continues from the last one, modulo pi/2.
 antinode_status_t antinode_fixed_search(antinode_fixed_t *state);
 
-// Thread side. Changes the calibration, from the next block on; the window begun is dropped, and the next is flagged
+// Thread side. Changes the calibration from the next block on; the window begun is dropped, and the next one is flagged
 // ANTINODE_FLAG_REACQUIRED. A calibration out of range changes nothing.
 antinode_status_t antinode_fixed_set_calibration(antinode_fixed_t *state, const antinode_calibration_t *calibration);
 
-// Either side. Tells how the identification fares.
+// Either side. Reads the state of the identification: whether it searches, has a wave, and loses blocks.
 antinode_status_t antinode_fixed_health(const antinode_fixed_t *state, antinode_health_t *health);
 
 // Both sides in one call, for use without an interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a window, and
-// writes how many to `taken`. ANTINODE_ESTIMATE when a window ended and its estimate was written; ANTINODE_OK when all `count` pairs were
-// taken without one. Call it again with the rest. `samples` as for antinode_fixed_push_block_interleaved().
+// writes how many it took to `taken`. Returns ANTINODE_ESTIMATE if a window ended and its estimate was written: call it again with the
+// rest. Returns ANTINODE_OK if all `count` pairs were taken without an estimate. `samples` must be aligned as for
+// antinode_fixed_push_block_interleaved().
 antinode_status_t antinode_fixed_identify(antinode_fixed_t *state,
                                           const int16_t *samples,
                                           size_t count,
                                           size_t *taken,
                                           antinode_estimate_t *estimate);
 
-// Makes a state ready, from cold: ANTINODE_OK, or what is wrong with the settings, and then the state is not initialised. Call it before
-// anything else, and while neither side runs; only an interrupt of the same core may break in: ANTINODE_ERROR_NOT_INITIALISED tells it
-// that its pairs were not taken. To go on with other settings call it again, with `start_angle_rad` the last angle and `frequency_hz` the
-// last frequency: no search is needed then; times begin at 0 again.
+// Initialises a state from cold. Returns ANTINODE_OK, or what is wrong with the settings; the state is then not initialised. Call it
+// before any other function, while neither side runs. Only an interrupt of the same core may break in; ANTINODE_ERROR_NOT_INITIALISED
+// tells it that its pairs were not taken. To go on with other settings call it again, with the last angle as `start_angle_rad` and the
+// last frequency as `frequency_hz`, so that no search is needed; times begin at 0 again.
 antinode_status_t antinode_float_init(antinode_float_t *state,
                                       const antinode_settings_t *settings);
 
-// Makes a state as it was after its initialisation, but with its present calibration. When it may be called is as for the initialisation.
+// Returns a state to what it was after its initialisation, except for the calibration, which is kept. It may be called when
+// antinode_float_init() may.
 antinode_status_t antinode_float_reset(antinode_float_t *state);
 
-// Interrupt side. Takes one sample pair, in any unit. ANTINODE_OK; ANTINODE_READY when it finished a block;
-// ANTINODE_DROPPED when that block had to be dropped.
-antinode_status_t antinode_float_push(antinode_float_t *state, float c, float d);
+// Interrupt side. Takes one sample pair, in any unit. Returns ANTINODE_OK; ANTINODE_READY if the pair finished a block; ANTINODE_DROPPED
+// if that block had to be dropped.
+antinode_status_t antinode_float_push(antinode_float_t *state,
+                                      float c,
+                                      float d);
 
-// Interrupt side. Takes `count` sample pairs from two arrays, in any unit. Answers as antinode_float_push().
+// Interrupt side. Takes `count` sample pairs from two arrays, in any unit. Returns the same as antinode_float_push().
 antinode_status_t antinode_float_push_block(antinode_float_t *state, const float *c, const float *d, size_t count);
 
-// Interrupt side. Takes `count` sample pairs from one array of 2 x `count` samples, C and D in turn, in any unit. Answers as
+// Interrupt side. Takes `count` sample pairs from one array of 2 x `count` samples, C and D in turn, in any unit. Returns the same as
 // antinode_float_push().
-antinode_status_t antinode_float_push_block_interleaved(antinode_float_t *state, const float *samples, size_t count);
+antinode_status_t antinode_float_push_block_interleaved(antinode_float_t *state,
+                                                        const float *samples,
+                                                        size_t count);
 
 // Interrupt side. Takes `count` sample pairs of 16-bit codes, C in the low half of a word and D in the high half, as a dual
-// converter's DMA leaves them; unsigned ones of 16 bits as `word ^ 0x80008000`, see the head of the header. Answers as
+// converter's DMA leaves them; pass unsigned codes of 16 bits as `word ^ 0x80008000`, see the head of the header. Returns the same as
 // antinode_float_push().
-antinode_status_t antinode_float_push_block_packed(antinode_float_t *state, const uint32_t *words, size_t count);
+antinode_status_t antinode_float_push_block_packed(antinode_float_t *state,
+                                                   const uint32_t *words,
+                                                   size_t count);
 
-// Interrupt side. Tells that `count` sample pairs were lost before the next one: the window that they would have been part of is dropped,
-// and time goes on. After a gap so long that the turning of the pattern is known no better than to 0.13 rad (one standard deviation), the
-// angle is known modulo pi/2 only: ANTINODE_FLAG_REACQUIRED says so.
+// Interrupt side. Reports that `count` sample pairs were lost before the next one: the window that they would have been part of is
+// dropped, and time advances by them. After a gap so long that the turn of the pattern meanwhile is known to no better than 0.13 rad (one
+// standard deviation), the angle is known modulo pi/2 only, and ANTINODE_FLAG_REACQUIRED says so.
 antinode_status_t antinode_float_skip(antinode_float_t *state,
                                       uint32_t count);
 
-// Thread side. Solves finished blocks up to the next estimate: ANTINODE_ESTIMATE when one was written, and then there may be more;
-// ANTINODE_OK when no block is left, and then `estimate` is unchanged. A lost wave is searched for anew without a call.
+// Thread side. Solves finished blocks up to the next estimate. Returns ANTINODE_ESTIMATE if one was written: there may then be more.
+// Returns ANTINODE_OK if no block is left: `estimate` is then unchanged. A lost wave is searched for anew without a call.
 antinode_status_t antinode_float_solve(antinode_float_t *state,
                                        antinode_estimate_t *estimate);
 
-// Thread side. Drops the wave and searches anew; the angle goes on from the last one, modulo pi/2.
+// Thread side. Drops the wave and searches anew; the angle continues from the last one, modulo pi/2.
 antinode_status_t antinode_float_search(antinode_float_t *state);
 
-// Thread side. Changes the calibration, from the next block on; the window begun is dropped, and the next is flagged
+// Thread side. Changes the calibration from the next block on; the window begun is dropped, and the next one is flagged
 // ANTINODE_FLAG_REACQUIRED. A calibration out of range changes nothing.
 antinode_status_t antinode_float_set_calibration(antinode_float_t *state, const antinode_calibration_t *calibration);
 
-// Either side. Tells how the identification fares.
+// Either side. Reads the state of the identification: whether it searches, has a wave, and loses blocks.
 antinode_status_t antinode_float_health(const antinode_float_t *state, antinode_health_t *health);
 
 // Both sides in one call, for use without an interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a window, and
-// writes how many to `taken`. ANTINODE_ESTIMATE when a window ended and its estimate was written; ANTINODE_OK when all `count` pairs were
-// taken without one. Call it again with the rest.
+// writes how many it took to `taken`. Returns ANTINODE_ESTIMATE if a window ended and its estimate was written: call it again with the
+// rest. Returns ANTINODE_OK if all `count` pairs were taken without an estimate.
 antinode_status_t antinode_float_identify(antinode_float_t *state,
                                           const float *samples,
                                           size_t count,

@@ -1,7 +1,7 @@
-//! Where C's pointers become references: each is looked at before, and each side of a state gets its own part only.
+//! Turns C's pointers into references: each pointer is checked first, and each side of a state gets its own part only.
 #![allow(
     unsafe_code,
-    reason = "pointers from C; this, the queue and the exported names are all there is"
+    reason = "pointers from C; besides this, only the queue and the exported names need it"
 )]
 
 use core::mem::MaybeUninit;
@@ -18,7 +18,7 @@ use crate::status::Status;
 
 type Checked<T> = Result<T, Status>;
 
-/// Looks at a pointer.
+/// Refuses a pointer that is NULL or misaligned.
 #[inline]
 fn check<T>(pointer: *const T) -> Checked<()> {
     if pointer.is_null() {
@@ -30,15 +30,15 @@ fn check<T>(pointer: *const T) -> Checked<()> {
     }
 }
 
-/// The inside of an initialised state.
+/// An opaque state as its inner type, if it is initialised.
 ///
 /// # Safety
-/// `opaque` is NULL, misaligned, or points to a whole state of the caller's.
+/// `opaque` is NULL, misaligned, or points to memory of the caller's for a whole state.
 #[inline]
 unsafe fn open<S: Arithmetic, O>(opaque: *mut O) -> Checked<*mut State<S>> {
     check(opaque)?;
     let state = opaque.cast::<State<S>>();
-    // SAFETY: the memory is the caller's and large enough; any bits are a number. No order is needed: by the contract an
+    // SAFETY: the memory is the caller's and large enough, and any bits are a valid number. Relaxed order will do: by the contract an
     // initialisation is over before any other call begins.
     let magic = unsafe { (*state).magic.load(Ordering::Relaxed) };
     if magic == S::MAGIC {
@@ -48,7 +48,7 @@ unsafe fn open<S: Arithmetic, O>(opaque: *mut O) -> Checked<*mut State<S>> {
     }
 }
 
-/// The interrupt's part.
+/// The interrupt's part of a state, and the part that both sides share.
 ///
 /// # Safety
 /// As [`open`]; no other call of the interrupt's side is under way.
@@ -60,7 +60,7 @@ unsafe fn interrupt<'a, S: Arithmetic, O>(
     unsafe { open(opaque).map(|state| (&mut (*state).interrupt, &(*state).shared)) }
 }
 
-/// The thread's part.
+/// The thread's part of a state, and the part that both sides share.
 ///
 /// # Safety
 /// As [`open`]; no other call of the thread's side is under way.
@@ -80,7 +80,7 @@ unsafe fn slice<'a, T>(first: *const T, count: usize) -> Checked<&'a [T]> {
     if count > isize::MAX as usize / size_of::<T>().max(1) {
         return Err(Status::ErrorCount);
     }
-    // SAFETY: aligned, there, and no larger than an object may be.
+    // SAFETY: aligned, not NULL, and no larger than an object may be.
     Ok(unsafe { core::slice::from_raw_parts(first, count) })
 }
 
@@ -89,14 +89,14 @@ fn status(result: Checked<Status>) -> Status {
 }
 
 /// # Safety
-/// `opaque` as in [`open`], `settings` NULL, misaligned or there; nobody else uses the state.
+/// `opaque` as in [`open`], `settings` NULL, misaligned or readable; nobody else uses the state.
 pub(crate) unsafe fn init<S: Arithmetic, O>(opaque: *mut O, settings: *const Settings) -> Status {
     status((|| {
         check(opaque)?;
-        // SAFETY: the memory is the caller's. Settings that are refused must not leave an older state behind.
+        // SAFETY: the memory is the caller's. Before the settings are checked: if they are refused, no older state may remain in use.
         unsafe { close::<S>(opaque.cast()) };
         check(settings)?;
-        // SAFETY: looked at.
+        // SAFETY: checked.
         let settings = unsafe { &*settings }.checked(RING_BLOCKS)?;
         // SAFETY: the caller's contract.
         unsafe { start::<S>(opaque.cast(), settings) }
@@ -115,7 +115,7 @@ pub(crate) unsafe fn reset<S: Arithmetic, O>(opaque: *mut O) -> Status {
     })
 }
 
-/// Makes a state one that is not initialised, before anything else of it is written: an interrupt that breaks in leaves it alone.
+/// Marks a state as not initialised before anything else in it is written: calls from an interrupt that breaks in are then refused.
 ///
 /// # Safety
 /// `state` points to memory for one.
@@ -126,7 +126,7 @@ unsafe fn close<S: Arithmetic>(state: *mut State<S>) {
     compiler_fence(Ordering::SeqCst);
 }
 
-/// Writes a closed state part by part, each in its place.
+/// Initialises a closed state part by part, each in place, so that none passes over the stack.
 ///
 /// # Safety
 /// `state` points to memory for one that nobody else uses.
@@ -134,7 +134,7 @@ unsafe fn start<S: Arithmetic>(
     state: *mut State<S>,
     settings: antinode::Settings,
 ) -> Checked<Status> {
-    // SAFETY: the memory is there and aligned; what was in it needs no drop.
+    // SAFETY: the memory is writable and aligned; what was in it needs no drop.
     unsafe {
         Shared::write(&raw mut (*state).shared, settings.frequency.is_none());
         Interrupt::write(&raw mut (*state).interrupt, settings)?;
@@ -153,7 +153,7 @@ pub(crate) unsafe fn push<S: Arithmetic, O>(opaque: *mut O, pair: [S; 2]) -> Sta
 }
 
 /// # Safety
-/// As [`interrupt`] and [`slice`].
+/// As [`interrupt`] and [`slice()`].
 #[inline]
 pub(crate) unsafe fn push_pairs<S: Arithmetic, O, P: SamplePair<S>>(
     opaque: *mut O,
@@ -168,7 +168,7 @@ pub(crate) unsafe fn push_pairs<S: Arithmetic, O, P: SamplePair<S>>(
 }
 
 /// # Safety
-/// As [`interrupt`] and [`slice`].
+/// As [`interrupt`] and [`slice()`].
 pub(crate) unsafe fn push_words<O>(opaque: *mut O, words: *const u32, count: usize) -> Status {
     if cfg!(target_endian = "big") {
         // SAFETY: the caller's contract.
@@ -179,8 +179,8 @@ pub(crate) unsafe fn push_words<O>(opaque: *mut O, words: *const u32, count: usi
         let (side, shared) = unsafe { interrupt::<i16, O>(opaque)? };
         // SAFETY: the caller's contract.
         let words = unsafe { slice(words, count)? };
-        // Word by word the same bytes as C and D in turn: one piece of code serves both.
-        // SAFETY: as many bytes, and no stricter an alignment; one caller at a time.
+        // In little-endian order a word has the same bytes as C and D in turn: the same code serves both.
+        // SAFETY: a pair has as many bytes as a word and no stricter alignment; one caller at a time.
         Ok(unsafe {
             let pairs = core::slice::from_raw_parts(words.as_ptr().cast::<[i16; 2]>(), count);
             side.push(shared, pairs)
@@ -189,7 +189,7 @@ pub(crate) unsafe fn push_words<O>(opaque: *mut O, words: *const u32, count: usi
 }
 
 /// # Safety
-/// As [`interrupt`] and [`slice`], for both arrays.
+/// As [`interrupt`] and [`slice()`], for both arrays.
 pub(crate) unsafe fn push_separate<S: Arithmetic, O>(
     opaque: *mut O,
     c: *const S,
@@ -207,7 +207,7 @@ pub(crate) unsafe fn push_separate<S: Arithmetic, O>(
             for (pair, (&c, &d)) in pairs.0.iter_mut().zip(c.iter().zip(d)) {
                 pair.write([c, d]);
             }
-            // SAFETY: as many were just written (a chunk has at most AT_ONCE), and the caller's contract.
+            // SAFETY: so many pairs were just written (a chunk has at most AT_ONCE); else the caller's contract.
             let one = unsafe {
                 let first = pairs.0.as_ptr().cast::<[S; 2]>();
                 side.push(
@@ -241,7 +241,7 @@ pub(crate) unsafe fn solve<S: Arithmetic, O>(opaque: *mut O, estimate: *mut Esti
         // SAFETY: the caller's contract.
         Ok(match unsafe { side.solve(shared) } {
             Some(found) => {
-                // SAFETY: looked at.
+                // SAFETY: checked.
                 unsafe { estimate.write(found) };
                 Status::Estimate
             }
@@ -261,7 +261,7 @@ pub(crate) unsafe fn search<S: Arithmetic, O>(opaque: *mut O) -> Status {
 }
 
 /// # Safety
-/// As [`thread`]; `calibration` NULL, misaligned or there.
+/// As [`thread`]; `calibration` NULL, misaligned or readable.
 pub(crate) unsafe fn calibrate<S: Arithmetic, O>(
     opaque: *mut O,
     calibration: *const Calibration,
@@ -270,7 +270,7 @@ pub(crate) unsafe fn calibrate<S: Arithmetic, O>(
         // SAFETY: the caller's contract.
         let (side, _) = unsafe { thread::<S, O>(opaque)? };
         check(calibration)?;
-        // SAFETY: looked at.
+        // SAFETY: checked.
         side.calibrate(unsafe { *calibration }.into())?;
         Ok(Status::Ok)
     })())
@@ -280,17 +280,17 @@ pub(crate) unsafe fn calibrate<S: Arithmetic, O>(
 /// As [`open`]; `health` NULL, misaligned or writable.
 pub(crate) unsafe fn health<S: Arithmetic, O>(opaque: *const O, health: *mut Health) -> Status {
     status((|| {
-        // SAFETY: the caller's contract; only atomic counters are read.
+        // SAFETY: the caller's contract; only atomics are read.
         let state = unsafe { open::<S, O>(opaque.cast_mut())? };
         check(health)?;
-        // SAFETY: looked at, both.
+        // SAFETY: both are checked.
         unsafe { health.write((*state).shared.health()) };
         Ok(Status::Ok)
     })())
 }
 
 /// # Safety
-/// As [`interrupt`], [`thread`] and [`slice`]; `taken` and `estimate` NULL, misaligned or writable.
+/// As [`interrupt`], [`thread`] and [`slice()`]; `taken` and `estimate` NULL, misaligned or writable.
 pub(crate) unsafe fn identify_pairs<S: Arithmetic, O>(
     opaque: *mut O,
     pairs: *const [S; 2],
@@ -305,16 +305,16 @@ pub(crate) unsafe fn identify_pairs<S: Arithmetic, O>(
         let pairs = unsafe { slice(pairs, count)? };
         check(taken)?;
         check(estimate)?;
-        // SAFETY: two parts of one initialised state that nobody else uses, and the third, which `health` may read meanwhile.
+        // SAFETY: nobody else uses the interrupt's and the thread's part of this state; `health` reads only atomics of the shared part.
         let (count, found) = unsafe {
             let (interrupt, thread) = (&mut (*state).interrupt, &mut (*state).thread);
             identify((interrupt, thread, &(*state).shared), pairs)
         };
-        // SAFETY: looked at.
+        // SAFETY: checked.
         unsafe { taken.write(count) };
         Ok(match found {
             Some(found) => {
-                // SAFETY: looked at.
+                // SAFETY: checked.
                 unsafe { estimate.write(found) };
                 Status::Estimate
             }

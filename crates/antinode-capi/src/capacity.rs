@@ -1,25 +1,24 @@
-//! How much a state can hold, and so its size. Capacities are chosen here, and the first two in `slow/src/lib.rs` too; the header
-//! follows.
+//! Capacities of a state, which give its size. Those that `slow/src/lib.rs` repeats must agree, which is checked below; the header follows.
 
 use core::mem::{align_of, size_of};
 
 use crate::state::State;
 
 /// The shortest period that is searched for, sample pairs. If no frequency is given, a wave whose period is not between this and
-/// ANTINODE_LONGEST_PERIOD is not found, unless sampling folds it to one that is: no estimate, no flag and no status tells, only `has_wave`
-/// of antinode_health_t, which stays 0. Watch it.
+/// ANTINODE_LONGEST_PERIOD is not found, unless sampling folds it to one that is. Then there is no estimate, and no flag and no status
+/// shows why; only `has_wave` of antinode_health_t, which stays 0, shows it: watch it.
 pub const ANTINODE_SHORTEST_PERIOD: usize = 4;
 /// The longest period, sample pairs.
 pub const ANTINODE_LONGEST_PERIOD: usize = 200;
 /// The most periods a window may have.
 pub const ANTINODE_MOST_PERIODS: usize = 50;
-/// Finished blocks that the queue holds, including the one being solved. A block is two periods, or a fifth of a window if that is less;
-/// half of this with a hop; at most ANTINODE_LONGEST_PERIOD sample pairs; and perhaps a little less, so that whole blocks fit a window. No
-/// more than 15 blocks should be finished between two calls of a `_solve` function, nor by one call of a `_push_block` function: at 18.75
-/// samples a period these are 540 pairs in windows of ten periods and more, but 90 in windows of two.
+/// Finished blocks that the queue holds, including the one being solved. A block is two periods long, or a fifth of a window if that is
+/// less; with a hop, half of this. It has at most ANTINODE_LONGEST_PERIOD sample pairs, and may be a little shorter, so that whole blocks
+/// fit a window. No more than 15 blocks should be finished between two calls of a `_solve` function, nor by one call of a `_push_block`
+/// function: at 18.75 samples a period these are 540 pairs in windows of ten periods and more, but 90 in windows of two.
 pub const ANTINODE_QUEUE_BLOCKS: usize = 16;
 
-/// Blocks of the ring that windows are cut from: a little more than the periods of a window.
+/// Blocks of the ring that windows are cut from: two more than the periods of the longest window.
 pub(crate) const RING_BLOCKS: usize = ANTINODE_MOST_PERIODS + 2;
 
 const _: () = assert!(

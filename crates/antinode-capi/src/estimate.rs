@@ -2,32 +2,32 @@
 
 use antinode::Flags;
 
-// With the type at the number: the header's constants are then unsigned, and `flags & ~ANTINODE_FLAG_…` is too.
+// The numbers have a type suffix so that the header's constants are unsigned, and with them `flags & ~ANTINODE_FLAG_…`.
 
-/// Samples at the converter's rail, or flattened crests, or the third harmonic that a limiter leaves: amplitudes are wrong.
+/// Samples at the converter's rail, flattened crests, or the third harmonic that a limiter leaves: amplitudes are wrong.
 pub const ANTINODE_FLAG_CLIPPED: u32 = 0x001_u32;
 /// No significant wave: no number of the estimate means anything, and some may be NaN or infinite.
 pub const ANTINODE_FLAG_LOST: u32 = 0x002_u32;
 /// The phase does not continue that of the last window without a misfit: samples are missing between the two windows or within one.
 pub const ANTINODE_FLAG_PHASE_JUMP: u32 = 0x004_u32;
-/// Amplitude, angle or offset stepped between the window before and this one.
+/// Amplitude, angle or offset stepped between the previous window and this one.
 pub const ANTINODE_FLAG_STEP: u32 = 0x008_u32;
 /// Main and quadrature amplitude are about equal: the pattern is circular and the angle has no meaning.
 pub const ANTINODE_FLAG_CIRCULAR: u32 = 0x010_u32;
-/// The samples are not one wave with steady rates plus noise: a step, a dropout, a second tone within the window.
+/// The samples are not one wave with steady rates plus noise: there is a step, a dropout or a second tone within the window.
 pub const ANTINODE_FLAG_MISFIT: u32 = 0x020_u32;
-/// A pick-off gave one and the same value, or lost its wave while the other kept it. Half of such losses are seen if the wave lost was 25
-/// deviations of an amplitude, and all if it was 35. After a new search a dead pick-off looks like a pattern on the other's axis, and is
-/// not flagged.
+/// A pick-off gave a constant value, or lost its wave while the other kept it. Half of such losses are flagged if the lost wave was 25
+/// standard deviations of an amplitude, and all if it was 35. After a new search a dead pick-off looks like a pattern on the other
+/// pick-off's axis, and is not flagged.
 pub const ANTINODE_FLAG_DEAD_CHANNEL: u32 = 0x040_u32;
-/// First window after the wave was lost, or after a gap or misfits in which the pattern may have turned unseen: the angle is known modulo
-/// π/2 only. Also the first window after a new calibration, unless it is the first of all. The flag stands up to and in the first window
-/// without a misfit, whose angle later windows continue.
+/// The angle is known modulo π/2 only: set on the first window after the wave was lost, or after a gap or misfits in which the pattern may
+/// have turned unseen, and on the first window after a new calibration, unless it is the first of all. The flag stays set up to and
+/// including the first window without MISFIT, NOT_FINITE and DEAD_CHANNEL, whose angle later windows continue.
 pub const ANTINODE_FLAG_REACQUIRED: u32 = 0x080_u32;
 /// A sample is NaN or infinite, or so large that its sums are not finite.
 pub const ANTINODE_FLAG_NOT_FINITE: u32 = 0x100_u32;
 
-/// The bits that the header names are those of the core, and all of them.
+// The header names exactly the core's bits.
 const _: () = {
     let pairs = [
         (ANTINODE_FLAG_CLIPPED, Flags::CLIPPED),
@@ -63,7 +63,7 @@ pub struct Estimate {
     pub frequency_hz: f64,
     /// Sample pairs in the window.
     pub samples: u32,
-    /// What is wrong: a sum of ANTINODE_FLAG_… bits; 0 when clean.
+    /// What is wrong with the window: a sum of ANTINODE_FLAG_… bits; 0 when clean.
     pub flags: u32,
     /// Amplitude a_A of the main standing wave, > 0, input units.
     pub main_amplitude: f32,
@@ -77,7 +77,7 @@ pub struct Estimate {
     pub decay_rate_s: f32,
     /// Offset of S_C, input units.
     pub offset_c: f32,
-    /// Offset of S_D, input units, as it came: before `gain_ratio` is applied.
+    /// Offset of S_D as sampled, input units: before `gain_ratio` is applied.
     pub offset_d: f32,
     /// Standard deviation of a_A, input units.
     pub main_amplitude_std: f32,
@@ -93,8 +93,8 @@ pub struct Estimate {
     pub angle_rate_std_rad_s: f32,
     /// Standard deviation of the decay rate, 1/s.
     pub decay_rate_std_s: f32,
-    /// Rms of what the wave does not explain, per sample and channel, input units: it equals the noise if that is white. S_D counts as it
-    /// came: before `gain_ratio` is applied.
+    /// Rms of the residual, which is what the wave does not explain, per sample and channel, input units: it equals the noise if that is
+    /// white. S_D counts as sampled: before `gain_ratio` is applied.
     pub residual_rms: f32,
     /// Always 0: the struct ends at a multiple of eight bytes on every machine.
     pub reserved: u32,

@@ -12,16 +12,16 @@ use antinode_capi_slow::{Front, Slow};
 use crate::state::Shared;
 use crate::status::Status;
 
-/// Pairs that are put into one form at a time, on the stack.
+/// Pairs converted to one form at a time, on the stack.
 pub(crate) const AT_ONCE: usize = 64;
-/// The same for the search, which calls deep: more would take stack and save nothing beside its hundreds of instructions a pair.
+/// The same during the search, whose calls are deep: more would take stack, and save little beside its hundreds of instructions a pair.
 const SEARCHED_AT_ONCE: usize = 16;
 
-/// Pairs at a multiple of four bytes: those of codes are read as words, and a core may trap words elsewhere.
+/// Pairs aligned to four bytes: pairs of codes are read as words, and a core may trap unaligned words.
 #[repr(align(4))]
 pub(crate) struct Words<T>(pub T);
 
-/// What belongs to the interrupt alone.
+/// The part of a state that belongs to the interrupt alone.
 pub(crate) struct Interrupt<S: Sample> {
     front: Front<S>,
 }
@@ -33,7 +33,7 @@ impl<S: Slow> Interrupt<S> {
     /// `place` is writable and nobody else's.
     #[inline(never)]
     pub(crate) unsafe fn write(place: *mut Self, settings: Settings) -> Result<(), Status> {
-        // What is all zeros is cleared where it stands: the stack never holds it.
+        // `UNSET` is all zeros, so it is cleared in place and never passes over the stack.
         // SAFETY: the caller's contract.
         let interrupt = unsafe {
             (&raw mut (*place).front).write(Front::UNSET);
@@ -43,17 +43,17 @@ impl<S: Slow> Interrupt<S> {
         Ok(())
     }
 
-    /// Searches anew where the thread has asked for it.
+    /// Searches anew if the thread has asked for it.
     #[inline]
     fn obey(&mut self, shared: &Shared<S>) {
-        // The number is all that is told: nothing else of the thread's is looked at.
+        // Relaxed order will do: the number is all that the thread passes.
         let wanted = shared.wanted.load(Ordering::Relaxed);
         if wanted != self.front.search_number() {
             self.search_anew(shared, wanted);
         }
     }
 
-    /// Rare: its code is out of the way of the rest.
+    /// Searches anew under this number. Rare, so its code is kept out of the pushes.
     #[cold]
     #[inline(never)]
     fn search_anew(&mut self, shared: &Shared<S>, wanted: u32) {
@@ -81,7 +81,7 @@ impl<S: Slow> Interrupt<S> {
         shared.status_since(before)
     }
 
-    /// Takes all pairs and queues the blocks that they finish. One piece of code for each form of pairs, with the sums inlined in it.
+    /// Takes all pairs and queues the blocks that they finish. Compiled once for each form of pairs, with the sums inlined.
     ///
     /// # Safety
     /// One caller at a time.
@@ -108,7 +108,8 @@ impl<S: Slow> Interrupt<S> {
         shared.status_since(before)
     }
 
-    /// Searches a period in the first pairs; gives how many it took. Apart, so that pairs of a known period do not pay for it.
+    /// Searches for a period in the first pairs; returns how many it took. A function of its own, so that once the period is known nothing
+    /// is paid for it.
     #[inline(never)]
     fn search_some<P: SamplePair<S>>(&mut self, shared: &Shared<S>, pairs: &[P]) -> usize {
         let mut buffer = Words([[S::default(); 2]; SEARCHED_AT_ONCE]);
@@ -120,7 +121,7 @@ impl<S: Slow> Interrupt<S> {
         self.search_in(shared, buffer.0.get(..count).unwrap_or(&[]))
     }
 
-    /// As [`Self::search_some`], where pairs need no copy.
+    /// As [`Self::search_some`], for pairs that need no conversion.
     fn search_in(&mut self, shared: &Shared<S>, pairs: &[[S; 2]]) -> usize {
         let taken = S::search(&mut self.front, pairs);
         self.tell(shared);

@@ -1,4 +1,4 @@
-//! The C ABI of [`antinode`]: `include/antinode.h` is made from this crate.
+//! The C ABI of [`antinode`]: `include/antinode.h` is generated from this crate.
 //!
 //! | C type | samples | arithmetic at sample rate |
 //! |---|---|---|
@@ -9,7 +9,7 @@
 //! them a queue of finished blocks that needs no lock. Memory is the caller's; nothing here allocates, calls back, or keeps a global.
 //!
 //! Built with `panic = "abort"` (always on bare metal, and in the profile `capi` on a PC), it is `no_std` and holds no panic: nothing in it
-//! can reach the handler below, and `check` makes sure that the linker agrees.
+//! can reach the handler below, and `check` makes sure that the linker drops it.
 #![cfg_attr(any(target_os = "none", panic = "abort"), no_std)]
 
 mod boundary;
@@ -33,7 +33,7 @@ pub use settings::*;
 pub use state::Health;
 pub use status::*;
 
-/// Demanded by the linker of every `no_std` library; unreachable, and so dropped.
+/// Every `no_std` library must have one; nothing reaches it, so the linker drops it.
 #[cfg(any(target_os = "none", panic = "abort"))]
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo) -> ! {

@@ -1,14 +1,14 @@
-//! Copying, moving and clearing memory, as compilers call it: the run-time ABI of the ARM architecture, 4.3.4.
+//! The functions that compilers call to copy, move and clear memory: 4.3.4 of the run-time ABI of the ARM architecture.
 //!
-//! In the place of the functions of Rust's run-time library, which take 3 KB of flash, unrolled for long runs: here most have some ten
-//! words, and are copied as fast. Weak, as those are, and before them; `install` hides them, so that a program's own calls get its own
-//! functions. The instructions are those of every Cortex-M.
+//! They replace those of Rust's run-time library, which take 3 KB of flash because they are unrolled for long runs; most runs here have
+//! some ten words, and are copied as fast. They are weak, as Rust's are, and found first; `install` hides them, so that a program's own
+//! calls get its own functions. Only instructions of every Cortex-M are used.
 
 #![allow(unsafe_code, reason = "functions in assembly, with names of the ABI")]
 
 use core::arch::global_asm;
 
-// r0: target, r1: source, r2: count of bytes. Any of them may change, and r3, ip and lr.
+// r0: target, r1: source, r2: count of bytes. These, r3, ip and lr may be changed.
 global_asm!(
     ".macro function name:vararg",
     ".irp each, \\name",
@@ -19,7 +19,7 @@ global_asm!(
     ".endr",
     ".endm",
     ".section .text.__aeabi_memcpy4, \"ax\", %progbits",
-    // Of words, the last bytes apart. Overlapping runs are copied soundly where the target lies before the source.
+    // Copies words, then the last bytes. Right for overlapping runs too if the target lies before the source.
     ".balign 4",
     "function __aeabi_memcpy4, __aeabi_memcpy8",
     "1:  push    {{r4, r5, r6, lr}}",
@@ -42,7 +42,7 @@ global_asm!(
     "7:  subs    r2, #1",
     "    bhs     6b",
     "    pop     {{r4, r5, r6, pc}}",
-    // Of words, the last first where the target begins within the source.
+    // Copies words, the last first if the target begins within the source.
     ".balign 4",
     "function __aeabi_memmove4, __aeabi_memmove8",
     "    subs    r3, r0, r1",
@@ -59,7 +59,7 @@ global_asm!(
     "10: subs    r2, #4",
     "    bhs     9b",
     "    bx      lr",
-    // Of bytes at any address, the last first: in most calls fewer than ten.
+    // Copies bytes at any address, the last first: most calls have fewer than ten.
     ".section .text.__aeabi_memcpy, \"ax\", %progbits",
     ".balign 4",
     "function __aeabi_memmove",
@@ -81,7 +81,7 @@ global_asm!(
     "12: subs    r2, #1",
     "    bhs     11b",
     "    bx      lr",
-    // Zeros into r1 bytes.
+    // Clears r1 bytes.
     ".section .text.__aeabi_memclr4, \"ax\", %progbits",
     ".balign 4",
     "function __aeabi_memclr4, __aeabi_memclr8",

@@ -1,4 +1,4 @@
-//! Finished blocks on their way from the interrupt to the thread: a ring for one producer and one consumer, without a lock.
+//! The queue of finished blocks from the interrupt to the thread: a ring for one producer and one consumer, without a lock.
 //!
 //! Loads and stores of words are all it needs, so it serves cores without exclusive access too (Cortex-M0).
 #![allow(
@@ -14,7 +14,7 @@ use antinode::{Block, Sample};
 
 use crate::capacity::ANTINODE_QUEUE_BLOCKS;
 
-/// Counters run freely; a slot is their value modulo the length.
+/// A ring of blocks. Its counters run freely; a counter modulo the ring's length is a slot.
 pub(crate) struct Queue<S: Sample> {
     /// Blocks ever put in; written by the producer only.
     put: AtomicU32,
@@ -48,13 +48,13 @@ impl<S: Sample> Queue<S> {
         }
     }
 
-    /// The slot of a counter's value.
+    /// The slot that a counter points to.
     #[inline]
     fn slot(&self, counter: u32) -> *mut MaybeUninit<Block<S>> {
         self.slots[counter as usize % ANTINODE_QUEUE_BLOCKS].get()
     }
 
-    /// How many blocks wait. From any context, also one that both sides break into.
+    /// Blocks that wait. Callable from any context, even one that both sides may interrupt.
     pub(crate) fn len(&self) -> u32 {
         waiting(
             || self.put.load(Ordering::Acquire),
@@ -62,7 +62,7 @@ impl<S: Sample> Queue<S> {
         )
     }
 
-    /// Blocks ever put in; it wraps. For the producer.
+    /// Blocks ever put in; it wraps. For the producer only.
     #[inline]
     pub(crate) fn count(&self) -> u32 {
         self.put.load(Ordering::Relaxed)
@@ -78,15 +78,15 @@ impl<S: Sample> Queue<S> {
         if put.wrapping_sub(self.taken.load(Ordering::Acquire)) >= ANTINODE_QUEUE_BLOCKS as u32 {
             return false;
         }
-        // SAFETY: the slot is free: the consumer has done with what was in it and reads it no more before `put` moves on.
+        // SAFETY: the slot is free: the consumer has finished with what was in it, and reads it again only after `put` has moved on.
         unsafe {
             let place = self.slot(put).cast::<Block<S>>();
-            // Field by field: each is moved in registers, while a whole block would be a call of memcpy.
+            // Field by field, which is done in registers; a whole block would be copied by a call of memcpy.
             (&raw mut (*place).start).write(block.start);
             (&raw mut (*place).search).write(block.search);
             (&raw mut (*place).layout).write(block.layout);
             (&raw mut (*place).sums).write(block.sums);
-            // Where nothing is watched there is nothing to move.
+            // Written in two branches so that nothing is copied if nothing is watched.
             let watch = &raw mut (*place).watch;
             match block.watch {
                 Some(channels) => watch.write(Some(channels)),
@@ -97,7 +97,7 @@ impl<S: Sample> Queue<S> {
         true
     }
 
-    /// Looks at the oldest block where it lies, by `look`, and frees its slot; `None` when there is none.
+    /// Passes the oldest block to `look` in place, then frees its slot; `None` if the queue is empty.
     ///
     /// # Safety
     /// One caller at a time, beside one caller of [`Queue::put`].
@@ -114,11 +114,11 @@ impl<S: Sample> Queue<S> {
     }
 }
 
-/// Blocks between two counters that may move on between the looks: of those seen put in, what is not taken yet.
+/// Blocks that wait, from two counters that may advance between the two reads: of the blocks read as put in, those not taken yet.
 fn waiting(put: impl FnOnce() -> u32, taken: impl FnOnce() -> u32) -> u32 {
-    // This order, or entries that came since would count, and more than there is room for.
+    // `put` is read first: blocks put in between the reads would count otherwise, and the result could exceed the queue's length.
     let count = put().wrapping_sub(taken());
-    // More were taken since than were seen.
+    // Between the reads more blocks were taken than the first read saw: the difference has wrapped.
     if count > ANTINODE_QUEUE_BLOCKS as u32 {
         0
     } else {
@@ -136,10 +136,10 @@ mod tests {
 
     struct Shared(Queue<f32>);
 
-    // SAFETY: as the state of a C program that an interrupt and a thread share.
+    // SAFETY: like the state of a C program that an interrupt and a thread share.
     unsafe impl Sync for Shared {}
 
-    /// A block that begins at `start`, of a search of the same number.
+    /// A block that begins at `start`, and whose search number is `start` too.
     fn block(start: u32) -> Block<f32> {
         let step = PhaseStep::from_period(4.0);
         let mut demodulator = Demodulator::<f32, 2>::new(step, 1, u64::from(start), false);
@@ -173,33 +173,33 @@ mod tests {
             // SAFETY: one thread.
             assert!(unsafe { queue.put(&block(i)) });
         }
-        // An interrupt that comes meanwhile.
+        // As by an interrupt during `take`.
         // SAFETY: one caller of each.
         let seen = unsafe { queue.take(|taken| (queue.put(&block(99)), taken.start)) };
         assert_eq!(seen, Some((false, 0)));
     }
 
     #[test]
-    fn what_waits_is_told_though_both_sides_go_on_between_the_looks() {
+    fn the_count_of_waiting_blocks_is_right_though_both_sides_go_on_between_the_reads() {
         const FULL: u32 = ANTINODE_QUEUE_BLOCKS as u32;
         let (put, taken) = (Cell::new(0u32), Cell::new(0u32));
-        // A full queue, of which `since` are solved after the first look, and as many come anew.
-        let told = |since: u32| {
+        // The count of a full queue when after each read `since` blocks are taken and as many are put in.
+        let count = |since: u32| {
             taken.set(u32::MAX - 3);
             put.set(taken.get().wrapping_add(FULL));
             let go_on = || {
                 put.set(put.get().wrapping_add(since));
                 taken.set(taken.get().wrapping_add(since));
             };
-            let look = |counter: &Cell<u32>| {
+            let read = |counter: &Cell<u32>| {
                 let seen = counter.get();
                 go_on();
                 seen
             };
-            waiting(|| look(&put), || look(&taken))
+            waiting(|| read(&put), || read(&taken))
         };
         assert_eq!(
-            [0, 5, FULL, FULL + 1, 3 * FULL].map(told),
+            [0, 5, FULL, FULL + 1, 3 * FULL].map(count),
             [FULL, FULL - 5, 0, 0, 0]
         );
     }
@@ -219,7 +219,7 @@ mod tests {
                     }
                 }
             });
-            // Counted, not asserted: a consumer that stopped would leave the producer waiting for ever.
+            // Counted, not asserted: if the consumer panicked, the producer would wait for ever.
             let mut wrong = 0;
             for i in 0..COUNT {
                 let block = loop {

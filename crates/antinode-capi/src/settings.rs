@@ -1,14 +1,14 @@
-//! The settings as a C struct, and what becomes of them.
+//! The settings as C structs, and their conversion to the core's.
 
 use antinode as core_crate;
 use core_crate::Calibration as CoreCalibration;
 
 use crate::status::Status;
 
-/// The period is found by the squared difference, in about three periods, with offsets of up to 100 amplitudes, and with noise of 20 % and
+/// The period is found from the squared difference, in about three periods, with offsets of up to 100 amplitudes, and in noise of 20 % and
 /// more.
 pub const ANTINODE_DETECTION_DIFFERENCE: u32 = 0_u32;
-/// The period is found by the return of the running sum, in about eleven periods, for signals with little noise.
+/// The period is found from the return of the running sum, in about eleven periods; for signals with little noise.
 pub const ANTINODE_DETECTION_MEAN_RETURN: u32 = 1_u32;
 
 /// How pick-off D differs from an ideal one that stands 45° from C, has C's gain and is sampled with C.
@@ -17,8 +17,8 @@ pub const ANTINODE_DETECTION_MEAN_RETURN: u32 = 1_u32;
 pub struct Calibration {
     /// Gain of channel D over that of channel C. 0.1 to 10; 1 is ideal.
     pub gain_ratio: f32,
-    /// How much later than C channel D is sampled, s. Within ±0.001; 0 is ideal. If it is more than a tenth of a window, the uncertainty of
-    /// the frequency adds to those of a_B and the angle, and the stated deviations do not include it.
+    /// How much later channel D is sampled than channel C, s. Within ±0.001; 0 is ideal. If it is more than a tenth of a window, the
+    /// uncertainty of the frequency adds to those of a_B and the angle, and the stated deviations do not include it.
     pub skew_s: f32,
     /// Pick-off D stands at 45° plus this angle from C, rad. Within ±0.3; 0 is ideal.
     pub pick_off_angle_rad: f32,
@@ -31,42 +31,43 @@ pub struct Settings {
     /// Sample rate, Hz. 1 to 1e10.
     pub sample_rate_hz: f64,
     /// Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10. A window is a whole number of blocks, a block a whole number of
-    /// samples, so its length may be up to a tenth off, and more if a known frequency has few samples a period: 2 periods of 2.6 samples
-    /// become 2.31.
+    /// samples: so the length may be off by up to a tenth, and by more if a known frequency has few samples a period: 2 periods of 2.6
+    /// samples become 2.31.
     pub periods: u32,
-    /// Blocks from the start of one window to the start of the next; a block is then about a period, or a tenth of a window of less than
-    /// ten periods, rounded to whole samples: 0.9 to 1.25 periods if these are short. 1 to 65535. For windows that follow each other
-    /// without gap or overlap give 0, the default, not the number of periods.
+    /// Blocks from the start of one window to the start of the next, 1 to 65535; a block is then about a period, or a tenth of a window of
+    /// less than ten periods, rounded to whole samples: 0.9 to 1.25 periods if these are short. For windows that follow each other without
+    /// gap or overlap give 0, the default, not the number of periods.
     pub hop_blocks: u32,
-    /// The first window's angle is chosen within π/4 of this one, rad. Within ±10000, so take whole turns off a greater one; default π/4,
-    /// which puts the first angle in 0…π/2.
+    /// The first window's angle is chosen within π/4 of this angle, rad. Within ±10000: subtract whole turns from a greater one. Default
+    /// π/4, which puts the first angle in 0…π/2.
     pub start_angle_rad: f32,
-    /// The least sample that the converter gives, input units: at or below it a window is flagged as clipped. Default 0,
-    /// which is that of a converter with unsigned codes.
+    /// The least value that the converter gives, input units: a window with a sample at or below it is flagged as clipped. Default 0, as
+    /// for a converter with unsigned codes.
     pub rail_low: f32,
-    /// The greatest sample that the converter gives, input units, above `rail_low`: 4095 for 12 bits. Both 0, the default: not known.
+    /// The greatest value that the converter gives, input units, above `rail_low`: 4095 for 12 bits. Both rails 0, the default: not known.
     pub rail_high: f32,
-    /// Step between neighbouring codes of the converter, input units, > 0: standard deviations then include its share. 0, the default: not
-    /// known.
+    /// Step between neighbouring codes of the converter, input units, > 0: standard deviations then include the error of rounding to it. 0,
+    /// the default: not known.
     pub resolution: f32,
     /// The wave's frequency, Hz, if it is known, and stays so, within 5 %: it is then never searched for, and the first window begins with
     /// the first sample. `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5; 0, the default: the period is found as `detection` says.
     pub frequency_hz: f32,
     /// How the period is found: ANTINODE_DETECTION_DIFFERENCE, the default, or ANTINODE_DETECTION_MEAN_RETURN.
     pub detection: u32,
-    /// 1, the default: the third harmonic and the extremes of the samples are watched. 0: not, which about halves the work at sample rate;
-    /// ANTINODE_FLAG_CLIPPED is then never set, ANTINODE_FLAG_DEAD_CHANNEL only when a wave is lost, and ANTINODE_FLAG_MISFIT hardly ever
-    /// for a second tone or a wave at another frequency.
+    /// 1, the default: the third harmonic and the extremes of the samples are watched. 0: they are not, which about halves the work at
+    /// sample rate; ANTINODE_FLAG_CLIPPED is then never set, ANTINODE_FLAG_DEAD_CHANNEL only when a wave is lost, and ANTINODE_FLAG_MISFIT
+    /// hardly ever for a second tone or a wave at another frequency.
     pub watch: u32,
-    /// How the pick-offs differ from ideal ones. Default: not at all.
+    /// How the pick-offs differ from ideal ones. Default: ideal.
     pub calibration: Calibration,
-    /// 1 if the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what only moves
-    /// an offset is neither noise nor a fault. Windows must have at least 5 periods for it, or 10 with a hop. 0, the default: not.
+    /// 1 if the signals carry hum or another slow wander: each block, of a period or more, then has an offset of its own, and what only
+    /// moves offsets is neither noise nor a fault. Windows must then have at least 5 periods, or 10 with a hop. 0, the default: they do
+    /// not.
     pub hum: u32,
-    /// 1 if the noise is not white. Behind a tuned front end, or a filter that ends below three times the frequency, noise there has less
-    /// than a sixteenth of its power about the wave: with this setting that is no fault, and blocks have offsets of their own as with
-    /// `hum`. In return, what is in every window is not flagged: a second tone counts as noise, and so does a fault in the first window. 0,
-    /// the default: not.
+    /// 1 if the noise is not white. Behind a tuned front end, or a filter that cuts off below three times the wave's frequency, noise at
+    /// three times the frequency has less than a sixteenth of its power about the wave: with this setting that is no fault, and blocks have
+    /// offsets of their own, as with `hum`. In return, what is in every window is not flagged: a second tone counts as noise, and so does a
+    /// fault in the first window. 0, the default: the noise is white.
     pub coloured: u32,
 }
 
@@ -110,7 +111,7 @@ impl From<Calibration> for CoreCalibration {
 impl Settings {
     /// The core's settings, checked for a ring of `blocks`.
     pub(crate) fn checked(&self, blocks: usize) -> Result<core_crate::Settings, Status> {
-        // By their bits, which are in the order of numbers above zero, with all else beyond: no comparison in f64 is linked in.
+        // Compared as bits, whose order is that of positive numbers, with all others beyond: this links in no comparison of f64.
         if !(1f64.to_bits()..=1e10f64.to_bits()).contains(&self.sample_rate_hz.to_bits()) {
             return Err(Status::ErrorSampleRate);
         }
@@ -141,7 +142,7 @@ impl Settings {
     }
 }
 
-/// False of 0, true of 1.
+/// A switch: false for 0, true for 1, and `None` for any other number.
 fn switched(value: u32) -> Option<bool> {
     (value < 2).then_some(value == 1)
 }

@@ -1,4 +1,4 @@
-//! What is inside an opaque state, and what its two sides do with it.
+//! The inside of an opaque state, and the work of its two sides.
 #![allow(
     unsafe_code,
     reason = "parts are written in place, and each side hands its own contract on to the queue"
@@ -14,9 +14,9 @@ use crate::interrupt::Interrupt;
 use crate::queue::Queue;
 use crate::status::Status;
 
-/// An arithmetic that states can have.
+/// The arithmetic of a state: fixed point or single precision.
 pub(crate) trait Arithmetic: Slow {
-    /// What the first word of an initialised state holds.
+    /// The first word of an initialised state.
     const MAGIC: u32;
 }
 
@@ -28,7 +28,7 @@ impl Arithmetic for f32 {
     const MAGIC: u32 = 0xa2_7e_32_f2;
 }
 
-/// All of a state. Its parts are borrowed one by one, never the whole.
+/// A whole state. Its parts are borrowed one by one, never the whole.
 #[repr(C)]
 pub(crate) struct State<S: Sample> {
     pub magic: AtomicU32,
@@ -37,12 +37,12 @@ pub(crate) struct State<S: Sample> {
     pub thread: Thread,
 }
 
-/// What the two sides tell each other.
+/// What the two sides pass to each other.
 pub(crate) struct Shared<S: Sample> {
     queue: Queue<S>,
     /// The search whose blocks the thread wants. Written by the thread.
     pub wanted: AtomicU32,
-    /// 1 while a period is searched. Written by the interrupt.
+    /// 1 while a period is searched for. Written by the interrupt.
     pub searching: AtomicU32,
     /// 1 while there is a wave. Written by the thread.
     has_wave: AtomicU32,
@@ -50,19 +50,19 @@ pub(crate) struct Shared<S: Sample> {
     pub dropped: AtomicU32,
 }
 
-/// What belongs to the thread alone.
+/// The part of a state that belongs to the thread alone.
 pub(crate) struct Thread {
     tracker: Tracker,
 }
 
-/// How an identification fares, from counters that either side may read.
+/// How an identification is doing, from counters that either side may read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(C)]
 pub struct Health {
     /// 1 while a period is searched for, 0 while blocks are gathered; always 0 if `frequency_hz` is given.
     pub searching: u32,
-    /// 1 from the moment that the first window that shows a wave is solved, to the first that shows none. If it stays 0 there is no wave,
-    /// or none within the periods that are searched for, or none at the frequency given: nothing else tells.
+    /// 1 once a window that shows a wave has been solved, until one that shows none. If it stays 0 there is no wave, or none with a period
+    /// that is searched for, or none at the frequency given: nothing else shows this.
     pub has_wave: u32,
     /// Finished blocks that wait to be solved, 0 to ANTINODE_QUEUE_BLOCKS.
     pub waiting: u32,
@@ -71,7 +71,7 @@ pub struct Health {
 }
 
 impl<S: Sample> Shared<S> {
-    /// Writes an empty queue and counters at rest, of a front that searches or does not.
+    /// Writes an empty queue and counters at zero; `searching` is whether the front will search.
     ///
     /// # Safety
     /// `place` is writable and nobody else's.
@@ -101,13 +101,13 @@ impl<S: Sample> Shared<S> {
         }
     }
 
-    /// Blocks ever queued and ever dropped, as the interrupt knows them.
+    /// Blocks ever queued and ever dropped. For the interrupt only.
     #[inline]
     pub(crate) fn counts(&self) -> [u32; 2] {
         [self.queue.count(), self.dropped.load(Ordering::Relaxed)]
     }
 
-    /// What the interrupt answers when the counts were these before.
+    /// The status of a push, from the counts before it.
     #[inline]
     pub(crate) fn status_since(&self, before: [u32; 2]) -> Status {
         let [queued, dropped] = self.counts();
@@ -137,7 +137,7 @@ impl Thread {
     /// `place` is writable and nobody else's.
     #[inline(never)]
     pub(crate) unsafe fn write(place: *mut Self, settings: Settings) -> Result<(), Status> {
-        // As the interrupt's front.
+        // In place, as the interrupt's front.
         // SAFETY: the caller's contract.
         let thread = unsafe {
             (&raw mut (*place).tracker).write(Tracker::UNSET);
@@ -147,7 +147,7 @@ impl Thread {
         Ok(())
     }
 
-    /// The settings that it works by.
+    /// The settings in use.
     pub(crate) fn settings(&self) -> &Settings {
         self.tracker.settings()
     }
@@ -187,7 +187,7 @@ impl Thread {
     }
 
     pub(crate) fn calibrate(&mut self, calibration: Calibration) -> Result<(), Status> {
-        // Whole, and then one part: of all parts but one the compiler copies some at odd addresses.
+        // Copied as a whole and then changed: with `..` the compiler would copy some parts at unaligned addresses.
         let mut settings = *self.settings();
         settings.calibration = calibration;
         antinode_capi_slow::change(&mut self.tracker, &settings)?;
@@ -195,7 +195,7 @@ impl Thread {
     }
 }
 
-/// Takes pairs up to the next estimate, in one thread; gives how many it took.
+/// Takes pairs up to the next estimate, in one thread; returns how many it took.
 ///
 /// # Safety
 /// No other call of this state at the same time.

@@ -1,4 +1,4 @@
-//! What a function answers, and which library it is.
+//! The status that functions return, and the version of the library.
 
 use core::ffi::{CStr, c_char};
 
@@ -6,10 +6,10 @@ use antinode::SettingsError;
 
 use crate::capacity::ANTINODE_MOST_PERIODS;
 
-// The text of ErrorPeriods has the number.
+// The text of ErrorPeriods states this number.
 const _: () = assert!(ANTINODE_MOST_PERIODS == 50);
 
-/// What a function answers: zero or above, it was done; below zero, nothing was.
+/// What a function returns: zero or above if it was done; below zero if it failed and nothing was done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(i32)]
 pub enum Status {
@@ -19,14 +19,14 @@ pub enum Status {
     Ready = 1,
     /// Done, and an estimate was written.
     Estimate = 2,
-    /// Done, and blocks wait as after ANTINODE_READY; but the queue was full and at least one finished block was dropped, which leaves a
-    /// gap as a `_skip` function does: call `_solve` more often, or push fewer pairs at once, see ANTINODE_QUEUE_BLOCKS.
+    /// Done, and blocks wait as after ANTINODE_READY; but the queue was full, and at least one finished block was dropped, which leaves a
+    /// gap as a `_skip` function does. Call `_solve` more often, or push fewer pairs at once: see ANTINODE_QUEUE_BLOCKS.
     Dropped = 3,
     /// A pointer is NULL.
     ErrorNull = -1,
     /// A pointer is not aligned as its type demands.
     ErrorAlignment = -2,
-    /// The state was never initialised, its last `_init` failed, or it is a state of the other arithmetic.
+    /// The state was never initialised, its last `_init` failed, or it belongs to the other arithmetic.
     ErrorNotInitialised = -3,
     /// An array would be larger than the address space.
     ErrorCount = -4,
@@ -143,7 +143,7 @@ impl From<SettingsError> for Status {
             SettingsError::Skew(_) => Self::ErrorSkew,
             SettingsError::PickOffAngle(_) => Self::ErrorPickOffAngle,
             SettingsError::HumPeriods { .. } => Self::ErrorHum,
-            // The enum may grow; the sample rate is what is left today.
+            // `SettingsError` may grow; today only the errors of the sample rate remain.
             _ => Self::ErrorSampleRate,
         }
     }

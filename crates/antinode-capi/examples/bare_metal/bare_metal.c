@@ -1,6 +1,7 @@
 /*
- * Identification on a bare Cortex-M: half-buffers of packed codes as a converter's DMA leaves them, pushed as in its interrupt, solved
- * as in the thread. Prints one line a window through semihosting, every number as its bits: the Rust core on a PC prints the same.
+ * Identification on a bare Cortex-M: half-buffers of packed codes, as a converter's DMA leaves them, are pushed as its interrupt would, and
+ * windows solved as a thread would. Prints one line a window through semihosting, every number as its bits: the Rust core on a PC
+ * (examples/reference.rs) prints the same.
  *
  * Make it with -DFLOAT for single precision; the default is fixed point.
  */
@@ -20,7 +21,7 @@
 
 enum { RING = 1406, HALF_BUFFER = 128, PAIRS = 20000 };
 
-/* The codes of one ring, repeated without end: codes.bin, made part of the image by the Makefile. */
+/* One ring of codes, repeated without end: codes.bin, which the Makefile links into the image. */
 extern const uint32_t _binary_codes_bin_start[RING];
 
 static STATE gyro;

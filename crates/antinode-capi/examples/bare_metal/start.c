@@ -1,4 +1,4 @@
-/* Vector table and reset: the FPU on where there is one, then newlib's own start, which leaves through semihosting after main. */
+/* Vector table and reset: turns the FPU on, if there is one, and calls newlib's start-up, which exits through semihosting after main. */
 #include <stdint.h>
 
 extern uint32_t stack_top[];
@@ -20,7 +20,7 @@ static void stop(void)
         ;
 }
 
-/* A program's own, where it has one. */
+/* Replaced by the program's own handler, if it has one. */
 void SysTick_Handler(void) __attribute__((weak, alias("stop")));
 
 __attribute__((section(".vectors"), used)) static const struct {

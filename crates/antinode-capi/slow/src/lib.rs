@@ -1,7 +1,7 @@
-//! What the C ABI does below sample rate: the search for a period, and the solution of windows.
+//! The part of the C ABI that does not run for each sample once the period is known: the search for a period, and the solution of windows.
 //!
-//! A crate of its own, because crates are what profiles optimise: `antinode-capi` has the sums at sample rate and is compiled for
-//! speed, this one for size. Nothing here is generic, or it would be compiled over there.
+//! A crate of its own, because profiles set the optimisation by crate: `antinode-capi` has the sums at sample rate and is compiled for
+//! speed, this one for size. Nothing here is generic: generic code would be compiled in `antinode-capi`.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -12,23 +12,23 @@ pub const LONGEST_PERIOD: usize = 200;
 /// Blocks of the ring that windows are cut from.
 pub const RING_BLOCKS: usize = 52;
 
-/// The part at sample rate.
+/// The core's part at sample rate.
 pub type Front<S> = antinode::Front<S, LONGEST_PERIOD>;
-/// The part at window rate.
+/// The core's part at window rate.
 pub type Tracker = antinode::Tracker<RING_BLOCKS>;
 
-/// Samples of the C ABI.
+/// The samples of the C ABI, with the calls that are compiled for size.
 pub trait Slow: Sample {
     /// Drops the period and searches anew, with this number.
     fn search_wanted(front: &mut Front<Self>, number: u32);
 
-    /// Searches a period in pairs; gives how many it took.
+    /// Searches for a period in pairs; returns how many it took.
     fn search(front: &mut Front<Self>, pairs: &[[Self; 2]]) -> usize;
 
-    /// Tells that `count` pairs were lost.
+    /// Reports that `count` pairs were lost.
     fn skip(front: &mut Front<Self>, count: u32);
 
-    /// Takes a block; gives the estimate of the window that it completes.
+    /// Takes a block; returns the estimate of the window that it completes, if any.
     fn solve(tracker: &mut Tracker, block: &Block<Self>) -> Option<Estimate>;
 }
 
@@ -43,7 +43,7 @@ macro_rules! slow {
 
             #[inline(never)]
             fn search(front: &mut Front<Self>, pairs: &[[Self; 2]]) -> usize {
-                // Always so; the compiler thus learns that there is nothing to sum.
+                // Callers have checked this; it lets the compiler leave out the sums.
                 if !front.is_searching() {
                     return 0;
                 }
@@ -66,7 +66,7 @@ macro_rules! slow {
 slow!(i16);
 slow!(f32);
 
-/// Changes the settings, of which the calibration may differ.
+/// Changes the settings; only the calibration may differ from the present ones.
 ///
 /// # Errors
 ///

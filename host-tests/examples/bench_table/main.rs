@@ -21,10 +21,14 @@ const HEAD: &str = "\
 
 Written by `cargo bench-table --bless`; `cargo bench-table` fails where a cost is more than 3 % above this table.
 
-Instructions and cycles are of one sample pair, of one window of 10 periods, or of the longest call that takes one pair. *of idsp's*: instructions over those of the same four
-sums of the same codes with the crate idsp. Cycles: by the core's timing table, without wait states of the flash; a star marks
-those of an earlier run. Flash: bytes of the image beyond those of `nothing`, which has codes, marks and report alone. State: bytes
-kept from call to call. Stack: bytes at the deepest below the caller, from the first sample on, the state not among them.
+| column | meaning |
+|---|---|
+| unit | what instructions and cycles are counted for: one sample pair, one window of 10 periods, or the longest call that takes one pair |
+| of idsp's | instructions, divided by those of the same four sums of the same codes with the crate idsp |
+| cycles | by the core's timing table, without the flash's wait states; a star marks those of an earlier run |
+| flash | bytes of the image beyond those of `nothing`, which has only the codes, the marks and the report |
+| state | bytes kept from call to call |
+| stack | the most bytes below the caller, from the first sample on, without the state |
 
 ";
 

@@ -14,10 +14,10 @@ pub struct GivenRows {
     /// Rows that `antinode identify` or `antinode monitor` printed with --output csv or jsonl; `-` is standard input.
     #[arg(required = true, value_name = "ROWS")]
     pub rows: Vec<PathBuf>,
-    /// Only rows from this time on, s, as in their `time_s`.
+    /// Use only rows from this time on, s, by their `time_s`.
     #[arg(long, value_name = "S", value_parser = ranges::time)]
     pub from: Option<f64>,
-    /// Only rows before this time, s.
+    /// Use only rows before this time, s.
     #[arg(long, value_name = "S", value_parser = ranges::time)]
     pub to: Option<f64>,
 }

@@ -33,7 +33,7 @@ command line, and 130 after Ctrl-C.";
 
 /// Identifies the standing wave of a hemispherical resonator gyro, window by window, in recordings of its two pick-offs.
 ///
-/// Without a command: simulates a ring-down, streams it through the identification, and shows the results beside the truth.
+/// Without a command: simulates a ring-down, streams it through the identification, and prints the results beside the true values.
 #[derive(Debug, Parser)]
 #[command(name = "antinode", version, max_term_width = 100, after_help = EXAMPLES)]
 pub struct Options {
@@ -47,56 +47,56 @@ pub struct Options {
 pub enum Command {
     /// Identifies the wave in recordings, one row per window.
     ///
-    /// A row's time is the middle of its window, in s from the first sample, plus the first value of the recording's time column. If --rate
-    /// is given, a column that increases by 1 per line is an index, not a time.
+    /// A row's time is the middle of its window, in s from the first sample, plus the first value of the recording's time column, if it
+    /// has one. If --rate is given, a column that increases by 1 per line is an index, not a time.
     ///
-    /// Rows go to standard output; remarks, such as how many are flagged and why, go to standard error. The exit code is 0 if all was read,
-    /// flagged or not, 1 if something is wrong with a recording, 2 if something is wrong with the command line, and 130 after
-    /// Ctrl-C.
+    /// Rows go to standard output; messages, such as how many rows are flagged and why, go to standard error. The exit code is 0 if all was
+    /// read, flagged or not, 1 if something is wrong with a recording, 2 if something is wrong with the command line, and 130 after Ctrl-C.
     Identify(Box<Identify>),
     /// Finds the calibration of the pick-offs from rows of a gyro whose pattern turned, and prints it as options.
     ///
-    /// Let the gyro ring down on a turning table until the pattern has turned by 90° or more, and repeat the other way around;
-    /// identify both recordings in windows that do not overlap. Energy and quadrature then depend on the angle only through the flaws of
-    /// the pick-offs. Only the options go to standard output; their deviations go to standard error.
+    /// Let the gyro ring down on a turning table until the pattern has turned by 90° or more, and repeat with the table turning the other
+    /// way; identify both recordings in windows that do not overlap. Energy and quadrature then depend on the angle only through the flaws
+    /// of the pick-offs. Only the options go to standard output; their deviations go to standard error.
     ///
-    /// If the rows were identified with a calibration, give it here too; what is printed replaces it.
+    /// If the rows were identified with a calibration, give it here too; the printed one replaces it.
     Calibrate(Calibrate),
     /// Finds the resonator's quality factor and the splits of its damping and frequency from rows of ring-downs.
     ///
     /// Calibrate the pick-offs first, and identify in windows that do not overlap; in a recording of hours, windows may be long, provided
     /// that the pattern turns by less than 22.5° within one. A pattern at rest gives the decay time at its own angle only. Ring-downs at
-    /// pattern angles of 0°, 22.5° and 45°, or of a pattern that turns, give both splits too: how far the decay rates and the
-    /// frequencies of the two modes are apart, and the pattern angle at which each is greatest; and how fast rotation turns each run's
-    /// pattern. Give ring-downs that turn both ways: if all turn one way, flaws that a calibration leaves look like splits.
+    /// pattern angles of 0°, 22.5° and 45°, or of a pattern that turns, also give both splits, which are the differences between the decay
+    /// rates and between the frequencies of the two modes, the pattern angles at which damping and frequency are greatest, and how fast
+    /// rotation turns each run's pattern. Give ring-downs that turn both ways: if all turn one way, flaws that a calibration leaves look
+    /// like splits.
     ///
     /// If a shell's stiffness depends on the amplitude, its pattern turns in proportion to a_A·a_B and its frequency moves with a_A² +
-    /// a_B²: both are printed, per input unit squared, if they exceed their noise, the former by three deviations. The deviation of the
-    /// latter allows for a drift with time, as with temperature, unless none is seen and the turning agrees; if the latter may be a drift,
-    /// a line says so instead.
+    /// a_B². Both effects are printed, per input unit squared, if they exceed their noise, the turning by three deviations. The deviation
+    /// of the frequency's part allows for a drift with time, as with temperature, unless none is seen and the turning agrees; if that part
+    /// may be a drift, a line says so instead.
     ///
-    /// Deviations are those of noise. They do not include nonlinearity of pick-offs or converter, which looks like damping that depends on
-    /// the amplitude: a cubic part of 1e-4 S³ shortens the decay time of a wave of a_A = 0.8 by 2e-5 of itself in a recording of four decay
-    /// times, and by 5e-5 in one of a third of a decay time.
+    /// Deviations are those due to noise. They do not include nonlinearity of pick-offs or converter, which looks like damping that depends
+    /// on the amplitude: a cubic part of 1e-4 S³ shortens the decay time found for a wave of a_A = 0.8 by 2e-5 of itself in a recording of
+    /// four decay times, and by 5e-5 in one of a third of a decay time.
     ///
-    /// A run ends where the wave is lost or jumps: one recording may hold several ring-downs, and missing samples do not bias the rates. Runs
-    /// in which the wave grows or is held, while it decays in others, are left out, which is told.
+    /// A run ends where the wave is lost or jumps: so one recording may hold several ring-downs, and missing samples do not bias the rates.
+    /// Runs in which the wave grows or is held, while it decays in others, are left out, and a message says so.
     Resonator(Resonator),
     /// Draws rows over time: both amplitudes, pattern angle, frequency and residual, with their deviations and flags.
     ///
     /// Bands extend one standard deviation to either side; red marks at the bottom of a panel are flagged rows. A line ends where rows are
-    /// missing or flagged `lost`. Axes fit the unflagged rows with at most three times the median deviation, and, if only a few rows are
-    /// such, all but the outermost; an arrow at a panel's edge marks what lies far beyond, such as the last rows of a ring-down. Of more
-    /// than six recordings the colours follow their order.
+    /// missing or flagged `lost`. Axes fit the unflagged rows with at most three times the median deviation; if such rows are few, axes fit
+    /// flagged ones too, except the outermost. An arrow at a panel's edge marks rows that lie far beyond, such as the last ones of a
+    /// ring-down. With more than six recordings, colours follow the order of the recordings.
     Plot(Plot),
-    /// Writes a simulated recording, and the truth beside it as JSON.
+    /// Writes a simulated recording, and its true values beside it as JSON.
     Simulate(Box<Simulate>),
     /// Recomputes the paper's comparison of its four methods: figures, tables, and a check of its conclusions.
     Study(Study),
-    /// Shows what a device reports over its serial port, live: estimates as rows, all else on standard error.
+    /// Shows what a device reports over its serial port, live: estimates as rows, everything else on standard error.
     ///
-    /// Damaged and missing reports are counted, and the counts are printed at the end. A device on a port is first asked for its configuration.
-    /// Ctrl-C ends the command, a second one at once.
+    /// Damaged and missing reports are counted, and the counts are printed at the end. A device on a port is first asked for its
+    /// configuration. Ctrl-C ends the command, a second one at once.
     Monitor(monitor::Monitor),
     /// Sends a command to a device over its serial port, and waits for its acknowledgement.
     #[command(name = "command")]

@@ -48,7 +48,7 @@ pub enum Ask {
         #[arg(value_name = "BLOCKS|none", value_parser = blocks)]
         blocks: Blocks,
     },
-    /// Changes the correction of the pick-offs; what is not given stays as it is.
+    /// Changes the calibration of the pick-offs; what is not given stays as it is.
     #[command(allow_negative_numbers = true, arg_required_else_help = true)]
     Calibration {
         /// Gain of pick-off D over that of C, 0.1 to 10.
@@ -61,9 +61,9 @@ pub enum Ask {
         #[arg(long, value_name = "RAD", value_parser = ranges::pick_off_angle)]
         pick_off_angle: Option<f32>,
     },
-    /// Turns reporting of the paper's four methods beside every estimate on or off.
+    /// Turns reports of the paper's four methods, beside every estimate, on or off.
     Methods {
-        /// Whether they are reported.
+        /// Whether the methods are reported.
         #[arg(value_enum)]
         switch: Switch,
     },

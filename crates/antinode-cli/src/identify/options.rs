@@ -23,55 +23,56 @@ const MOST_CHANNELS: u8 = 64;
 pub struct Identify {
     /// Recordings: WAV (left S_C, right S_D), CSV, NPY, told apart by their content; `-` is standard input.
     ///
-    /// Integers are scaled so that full scale is 1; mid-scale of unsigned ones is 0. Codes from 0 to 4095 in 16 bits are then a wave about an
-    /// offset, which does no harm, unless the wave has less than 60 codes: store such codes as signed integers.
+    /// Integers are scaled so that full scale is 1; mid-scale of unsigned ones is 0. Codes from 0 to 4095 in 16 bits are then a wave about
+    /// an offset, which does no harm, unless the wave is smaller than 60 codes: store such codes as signed integers.
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Sample rate, Hz, 1 to 1e10 [default: the recording's own].
     #[arg(long, value_name = "HZ", value_parser = ranges::rate, help_heading = "Recording")]
     pub rate: Option<f64>,
-    /// Only samples from this time on, s, as the rows' `time_s` counts: by the recording's time column, or else from the first sample.
+    /// Identify only samples from this time on, s, on the scale of `time_s`: the recording's time column, or else the time since the first
+    /// sample.
     #[arg(long, value_name = "S", value_parser = ranges::time, help_heading = "Recording")]
     pub from: Option<f64>,
-    /// Only samples before this time, s.
+    /// Identify only samples before this time, s, on the same scale.
     #[arg(long, value_name = "S", value_parser = ranges::time, help_heading = "Recording")]
     pub to: Option<f64>,
-    /// Sample format of recordings without a header: little-endian, S_C and S_D interleaved, or two of the --channels.
+    /// Sample format of recordings without a header: little-endian and interleaved, S_C and S_D alone or among --channels.
     /// WAV and NPY are still read as such, and so are lines of numbers in a file named .csv, .tsv, .txt or .lvm.
     #[arg(long, value_enum, value_name = "FORMAT", help_heading = "Recording")]
     pub raw: Option<Kind>,
     /// How many channels raw samples have, 2 to 64; if more than two, --columns picks S_C and S_D [default: 2].
     #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(2..=i64::from(MOST_CHANNELS)), help_heading = "Recording")]
     pub channels: Option<u8>,
-    /// Where S_C and S_D are: columns of text by name or number from 1, as C,D or TIME,C,D; channels of WAV, NPY and raw samples by number, as
-    /// C,D [default: by the names of columns, or all where there are two or three].
+    /// Where S_C and S_D are: columns of text by name or number from 1, as C,D or TIME,C,D; channels of WAV, NPY and raw samples by number,
+    /// as C,D [default: by the names of columns, or all where there are two or three].
     ///
     /// If only two columns of text are named, the file's own time is ignored, and --rate gives the rate. With --columns, anything but WAV
     /// and NPY is read as text, unless --raw is given. Lines that begin with #, % or // are comments, and settings above the samples are
     /// skipped; a line of units may follow the header, and a time in ms, us or ns is understood.
     #[arg(long, value_name = "COLUMNS", help_heading = "Recording")]
     pub columns: Option<Columns>,
-    /// The converter's rails, where samples are flagged `clipped`: ±LEVEL, or LOW,HIGH, such as 0,4095 [default: known for integers, none
-    /// for others].
+    /// The converter's rails, at which samples are flagged `clipped`: ±LEVEL, or LOW,HIGH, such as 0,4095 [default: known for integers,
+    /// none for others].
     ///
     /// They are in the unit of the samples; integers of WAV, NPY and raw samples are scaled so that full scale is 1.
     #[arg(long, value_name = "LEVEL|LOW,HIGH", value_parser = ranges::rails, allow_hyphen_values = true, help_heading = "Recording")]
     pub full_scale: Option<[f32; 2]>,
     /// The converter's step from code to code, above 0, in the unit of the samples [default: found in the first samples].
     ///
-    /// Deviations need it where noise is less than half of a step. It is found if the first samples are all multiples of one step, even in
-    /// integers, which may come from a converter with fewer bits; a file may begin with up to 250 000 pairs of silence. From a pipe it
-    /// is found only in text with a time column; integers from a pipe are taken to use all their bits. A warning says if all integers of a
-    /// recording turn out to be multiples of a coarser step.
+    /// Deviations are right only with it if noise is less than half a step. It is found if the first samples are all multiples of one step,
+    /// even in integers, which may come from a converter with fewer bits; a file may begin with up to 250 000 pairs of silence. From a pipe
+    /// it is found only in text with a time column; integers from a pipe are taken to use all their bits. A warning says if all integers of
+    /// a recording turn out to be multiples of a coarser step.
     #[arg(long, value_name = "STEP", value_parser = ranges::positive, help_heading = "Recording")]
     pub resolution: Option<f32>,
     /// Periods per window, 2 to 1022.
     #[arg(long, default_value_t = 10, value_name = "N", value_parser = value_parser!(u16).range(2..=i64::from(MOST_PERIODS)), help_heading = "Windows")]
     pub periods: u16,
-    /// Begin a window every so many blocks [default: where the one before ends].
+    /// Blocks from the start of one window to the start of the next [default: a window begins where the last one ends].
     ///
     /// With --hop a block is a period, or a tenth of the window if that has fewer than ten periods. Fewer blocks than a window has make
-    /// windows overlap, more leave gaps.
+    /// windows overlap, more leave gaps between them.
     #[arg(long, value_name = "BLOCKS", value_parser = value_parser!(u16).range(1..), help_heading = "Windows")]
     pub hop: Option<u16>,
     /// The wave's frequency, Hz, if it is known within 5 %: it is then not searched for, and the first window begins with the first
@@ -81,10 +82,10 @@ pub struct Identify {
     /// search needs 4 to 200.
     #[arg(long, value_name = "HZ", value_parser = ranges::positive, conflicts_with = "detector", help_heading = "Windows")]
     pub frequency: Option<f32>,
-    /// How the period is searched for: if one way finds none, as a second tone may hide it, try the other.
+    /// How the period is searched for. If one detector finds none, because a second tone may hide it, try the other.
     #[arg(long, value_enum, default_value_t = Detector::Difference, help_heading = "Windows")]
     pub detector: Detector,
-    /// The pattern angle at the start, rad, to within π/4, as samples give it only modulo π/2; within ±10000 [default: π/4, so that the
+    /// The pattern angle at the start, rad, known to π/4, because samples give it only modulo π/2; within ±10000 [default: π/4, so that the
     /// first window's angle lies in 0…π/2].
     #[arg(long, value_name = "RAD", value_parser = ranges::start_angle, help_heading = "Windows")]
     pub start_angle: Option<f32>,
@@ -95,8 +96,8 @@ pub struct Identify {
     pub hum: bool,
     /// Allow for noise that is not white, such as behind a tuned front end or a filter that cuts off below three times the frequency.
     ///
-    /// Less noise at three times the frequency is then no fault. In windows of 5 periods or more (10 with --hop) noise at low frequencies
-    /// is removed, as with --hum. A second tone that is always present counts as noise.
+    /// Less noise at three times the frequency is then not taken for a fault. In windows of 5 periods or more (10 with --hop) noise at low
+    /// frequencies is removed, as with --hum. A second tone that is always present counts as noise.
     #[arg(long, help_heading = "Noise")]
     pub coloured: bool,
     #[command(flatten)]
@@ -110,7 +111,7 @@ pub struct Identify {
         help_heading = "Output"
     )]
     pub output: Option<Format>,
-    /// Write rows to this file in place of standard output, `-`: CSV if it ends in .csv, JSON lines if in .jsonl, unless --output says
+    /// Write rows to this file instead of standard output, `-`: CSV if it ends in .csv, JSON lines if in .jsonl, unless --output says
     /// otherwise.
     #[arg(short = 'o', long, value_name = "FILE", help_heading = "Output")]
     pub out: Option<PathBuf>,

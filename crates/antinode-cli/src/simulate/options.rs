@@ -19,7 +19,7 @@ const MOST_PAIRS: f64 = 1e12;
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true, mut_args = told_as_number)]
 pub struct Simulate {
-    /// The recording to write: .wav, .csv or .npy. The truth goes beside it, with .json appended to the name.
+    /// The recording to write: .wav, .csv or .npy. The true values go beside it, with .json appended to the name.
     #[arg(short = 'o', long, value_name = "FILE")]
     pub out: PathBuf,
     /// Length, s.
@@ -45,7 +45,7 @@ pub struct Simulate {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Wave")]
 struct WaveOptions {
-    /// Main amplitude at the start; integer samples saturate at 1.
+    /// Main amplitude at the start. Integer samples saturate at 1.
     #[arg(long, default_value_t = 0.5, value_name = "LEVEL")]
     main_amplitude: f64,
     /// Quadrature amplitude at the start, signed.
@@ -90,11 +90,11 @@ struct FlawOptions {
     /// White noise, rms per sample and channel, in the units of the amplitudes.
     #[arg(long, default_value_t = 0.0, value_name = "RMS")]
     noise: f64,
-    /// Noise beside it behind a low-pass of first order, rms per sample and channel, in the units of the amplitudes.
+    /// Additional noise behind a first-order low-pass, rms per sample and channel, in the units of the amplitudes.
     #[arg(long, default_value_t = 0.0, value_name = "RMS")]
     coloured_noise: f64,
-    /// Corner of that low-pass, Hz: noise is white below and 1/f² in power above; some Hz for an offset that wanders, some kHz for a front
-    /// end.
+    /// Corner of the low-pass of --coloured-noise, Hz: below it the noise is white, above it its power falls as 1/f². Some Hz imitate an
+    /// offset that wanders, some kHz a front end.
     #[arg(long, default_value_t = 1000.0, value_name = "HZ")]
     coloured_corner: f64,
     /// Offset of S_C, in the units of the amplitudes.
@@ -136,7 +136,7 @@ struct FlawOptions {
     /// Jitter of the sampling instants, rms, ns.
     #[arg(long, default_value_t = 0.0, value_name = "NS")]
     jitter_ns: f64,
-    /// Sample pairs lost, COUNT of them from INDEX on (from 0); may be repeated.
+    /// Lost sample pairs: COUNT of them from INDEX on, which counts from 0; may be repeated.
     #[arg(long, value_name = "INDEX:COUNT", value_parser = fields::loss)]
     lost: Vec<Loss>,
     /// A dropout between two times, s; may be repeated.

@@ -31,8 +31,8 @@ Files in the folder:
   figure-1.csv ...         every point of every curve, and what was simulated;
                            value_is and x_is give the units
 
-Without options that say otherwise the wave, the rate, and the noise and windows of figure 3 are the \
-paper's. Its conclusions are checked only then. The same options give the same numbers.";
+By default the wave, the rate, and the noise and windows of figure 3 are the paper's; only then are its \
+conclusions checked. The same options give the same numbers.";
 
 /// `antinode study`.
 #[derive(Debug, Args)]

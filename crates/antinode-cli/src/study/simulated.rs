@@ -15,7 +15,7 @@ pub const STEPS: u32 = 20;
 #[derive(Debug, Clone, Copy, PartialEq, Args)]
 #[command(next_help_heading = "What is simulated", allow_negative_numbers = true)]
 pub struct Simulated {
-    /// Quadrature amplitude, signed, beside a main amplitude of 2.
+    /// Quadrature amplitude, signed, for a main amplitude of 2.
     #[arg(long, default_value_t = Self::PAPER.quadrature_amplitude, value_name = "LEVEL", value_parser = ranges::quadrature_beside_two)]
     pub quadrature_amplitude: f64,
     /// Pattern angle, rad [default: π/6].
@@ -24,7 +24,7 @@ pub struct Simulated {
     /// Phase at the first sample of a window, rad [default: π/6].
     #[arg(long, default_value_t = Self::PAPER.phase, hide_default_value = true, value_name = "RAD", value_parser = ranges::angle)]
     pub phase: f64,
-    /// Sample rate, Hz, beside a frequency of 5332 Hz; figure 2 has 1 to 10 times as much.
+    /// Sample rate, Hz, for a frequency of 5332 Hz; figure 2 has 1 to 10 times this rate.
     #[arg(long, default_value_t = Self::PAPER.rate, value_name = "HZ", value_parser = ranges::rate_of_study)]
     pub rate: f64,
     /// Periods in a window of figure 3, 1 to 100.

@@ -1,4 +1,4 @@
-//! The committed header is what the pinned cbindgen makes of the sources.
+//! The committed header is the one that the pinned cbindgen generates from the sources.
 
 use std::path::Path;
 
@@ -26,7 +26,7 @@ fn the_committed_header_is_that_of_the_sources() {
     );
 }
 
-/// MISRA C, rule 3.1.
+/// MISRA C, rule 3.1: no `/*` or `//` within a comment.
 #[test]
 fn no_comment_holds_the_mark_of_another() {
     let text = include_str!("../include/antinode.h");
@@ -39,11 +39,11 @@ fn no_comment_holds_the_mark_of_another() {
     }
 }
 
-/// Constants by their names in C, and letters that every C compiler reads.
+/// The header with the constants' names in C, and in ASCII.
 fn in_c(text: String) -> String {
     let spellings = [
         ("ANTINODE_STATUS_T_", "ANTINODE_"),
-        // In C the enum has no tag, as its typedef is a number: one name for both is none in C++.
+        // In C the enum has no tag, because its typedef is a number: C++ does not allow one name for both.
         ("enum antinode_status_t\n#if", "enum\n#if"),
         ("\n  : int32_t\n", "\n    antinode_status_t : int32_t\n"),
         ("ANTINODE_FLAG_…", "ANTINODE_FLAG_*"),

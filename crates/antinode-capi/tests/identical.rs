@@ -1,4 +1,4 @@
-//! The C ABI gives what the core gives, to the bit, however samples reach it, and refuses what the header says.
+//! The C ABI gives the core's rows, bit for bit, however samples reach it, and refuses what the header says it refuses.
 #![allow(unsafe_code, reason = "the functions of a C ABI")]
 
 use std::mem::MaybeUninit;
@@ -7,7 +7,7 @@ use std::ptr::{null, null_mut};
 use antinode::{Identifier, Sample, SamplePair};
 use antinode_capi::*;
 
-/// A ringing gyro in 16-bit codes, with a pause and a wave of another frequency behind it.
+/// A ringing gyro in 16-bit codes, followed by a pause and a wave of another frequency.
 fn codes() -> Vec<[i16; 2]> {
     let mut seed = 7u32;
     (0..30_000)
@@ -30,7 +30,7 @@ fn codes() -> Vec<[i16; 2]> {
         .collect()
 }
 
-/// What the core makes of the pairs, where the frequency is known or is not.
+/// The core's rows for the pairs, with a known frequency or without.
 fn core<S: Sample, P: SamplePair<S>>(pairs: &[P], frequency: Option<f32>) -> Vec<Estimate> {
     let settings = antinode::Settings {
         frequency,
@@ -42,7 +42,7 @@ fn core<S: Sample, P: SamplePair<S>>(pairs: &[P], frequency: Option<f32>) -> Vec
     );
     let mut all = Vec::new();
     identifier.extend(pairs, |estimate| all.push(estimate.into()));
-    // The second wave is nowhere near a known one.
+    // With a known frequency the second wave is not found.
     assert!(all.len() > if frequency.is_some() { 60 } else { 120 });
     all
 }
@@ -50,7 +50,7 @@ fn core<S: Sample, P: SamplePair<S>>(pairs: &[P], frequency: Option<f32>) -> Vec
 fn same(name: &str, ours: &[Estimate], cores: &[Estimate]) {
     assert_eq!(ours.len(), cores.len(), "{name}");
     for (our, core) in ours.iter().zip(cores) {
-        // Text, so that NaN equals NaN.
+        // Compared as text, so that NaN equals NaN.
         assert_eq!(format!("{our:?}"), format!("{core:?}"), "{name}");
     }
 }
@@ -77,7 +77,7 @@ macro_rules! arithmetic {
                 // SAFETY: the state is there, and this thread alone uses it.
                 unsafe {
                     assert_eq!($init(state, &settings), Status::Ok);
-                    // One by one: the loss of a wave is heard of at the same sample as in one thread.
+                    // Pairs go in one by one, so that the search after a loss begins at the same sample as in one thread.
                     let run = |name: &str, feed: &dyn Fn(usize) -> Status, step: usize| {
                         assert_eq!($reset(state), Status::Ok);
                         let (mut all, mut estimate) = (Vec::new(), MaybeUninit::uninit());
@@ -160,7 +160,7 @@ fn settings_out_of_range_are_named() {
     let mut refused = |change: &dyn Fn(&mut Settings)| {
         let mut settings = antinode_settings_default(1e5);
         change(&mut settings);
-        // SAFETY: both are there.
+        // SAFETY: both exist.
         unsafe { antinode_fixed_init(&mut *state, &settings) }
     };
     assert_eq!(refused(&|_| ()), Status::Ok);
@@ -204,8 +204,8 @@ fn settings_out_of_range_are_named() {
     );
 }
 
-/// What no call tells.
-const UNTOLD: Health = Health {
+/// Values that no call writes.
+const UNWRITTEN: Health = Health {
     searching: 9,
     has_wave: 9,
     waiting: 9,
@@ -215,11 +215,11 @@ const UNTOLD: Health = Health {
 #[test]
 fn a_known_frequency_is_not_searched() {
     let mut state = Box::new(Fixed::ZERO);
-    let mut health = UNTOLD;
+    let mut health = UNWRITTEN;
     let mut settings = antinode_settings_default(1e5);
     for (frequency, searching) in [(0.0, 1), (5_300.0, 0), (0.0, 1)] {
         settings.frequency_hz = frequency;
-        // SAFETY: all are there.
+        // SAFETY: all exist.
         unsafe {
             assert_eq!(antinode_fixed_init(&mut *state, &settings), Status::Ok);
             assert_eq!(antinode_fixed_health(&*state, &mut health), Status::Ok);
@@ -229,9 +229,9 @@ fn a_known_frequency_is_not_searched() {
 }
 
 #[test]
-fn health_tells_whether_there_is_a_wave_whether_or_not_it_is_searched() {
+fn health_shows_whether_there_is_a_wave_with_and_without_a_search() {
     let mut state = Box::new(Fixed::ZERO);
-    let mut health = UNTOLD;
+    let mut health = UNWRITTEN;
     let mut estimate = MaybeUninit::uninit();
     let mut settings = antinode_settings_default(1e5);
     let pairs = codes();
@@ -263,7 +263,7 @@ fn health_tells_whether_there_is_a_wave_whether_or_not_it_is_searched() {
 #[test]
 fn a_full_queue_drops_blocks_and_says_so() {
     let mut state = Box::new(Fixed::ZERO);
-    let mut health = UNTOLD;
+    let mut health = UNWRITTEN;
     let settings = antinode_settings_default(1e5);
     let pairs = codes();
     // SAFETY: all is there, and this thread alone uses it.
@@ -276,14 +276,14 @@ fn a_full_queue_drops_blocks_and_says_so() {
         assert_eq!((health.searching, health.waiting), (0, 16));
         assert!((230..260).contains(&health.dropped), "{health:?}");
         let mut estimate = MaybeUninit::uninit();
-        // Of 16 blocks three windows are made.
+        // 16 blocks make three windows.
         for _ in 0..3 {
             assert_eq!(
                 antinode_fixed_solve(&mut *state, estimate.as_mut_ptr()),
                 Status::Estimate
             );
         }
-        // What follows a gap is a new window.
+        // The block after the gap begins a new window.
         assert_eq!(
             antinode_fixed_solve(&mut *state, estimate.as_mut_ptr()),
             Status::Ok
@@ -326,7 +326,7 @@ fn a_new_calibration_is_used_and_keeps_the_angle() {
         );
         let right = run(&mut state, &pairs[6_000..]);
         assert!((right.angle_rad - 0.35).abs() < 1e-3, "{right:?}");
-        // A reset keeps it.
+        // A reset keeps the calibration.
         assert_eq!(antinode_fixed_reset(&mut *state), Status::Ok);
         let again = run(&mut state, &pairs);
         assert!((again.angle_rad - 0.35).abs() < 1e-3, "{again:?}");
@@ -334,13 +334,13 @@ fn a_new_calibration_is_used_and_keeps_the_angle() {
 }
 
 #[test]
-fn pointers_and_states_are_looked_at() {
+fn bad_pointers_and_states_are_refused() {
     let mut state = Box::new(Float::ZERO);
     let odd = (&raw mut *state)
         .cast::<u8>()
         .wrapping_add(1)
         .cast::<Float>();
-    // SAFETY: what does not point anywhere is refused.
+    // SAFETY: bad pointers are refused.
     unsafe {
         assert_eq!(antinode_float_push(null_mut(), 0.0, 0.0), Status::ErrorNull);
         assert_eq!(antinode_float_push(odd, 0.0, 0.0), Status::ErrorAlignment);
@@ -361,7 +361,7 @@ fn pointers_and_states_are_looked_at() {
             antinode_float_push_block_packed(&mut *state, &one, usize::MAX),
             Status::ErrorCount
         );
-        // Settings that are refused leave no state.
+        // Refused settings leave the state not initialised.
         let mut wrong = settings;
         wrong.periods = 1;
         assert_eq!(

@@ -1,4 +1,4 @@
-//! A calibration that is changed while it runs.
+//! A calibration that is changed during identification.
 
 use antinode_capi::*;
 
@@ -11,7 +11,7 @@ const NEW: Calibration = Calibration {
     pick_off_angle_rad: 0.05,
 };
 
-/// Nothing at its default, so that a reset to defaults would show.
+/// Settings that differ from the defaults, so that a reset to defaults would be noticed.
 fn settings() -> Settings {
     Settings {
         periods: 7,
@@ -34,7 +34,7 @@ fn one_out_of_range_changes_nothing<S: Arithmetic>() {
         Status::ErrorSkew,
         Status::ErrorPickOffAngle,
     );
-    // Good values stand beside each bad one: they must not be taken either.
+    // Beside each bad value stand good new ones, which must not be adopted either.
     let of_gain = |gain_ratio| Calibration { gain_ratio, ..good };
     let of_skew = |skew_s| Calibration { skew_s, ..good };
     let of_angle = |pick_off_angle_rad| Calibration {
@@ -77,7 +77,7 @@ fn a_new_one_holds_from_the_next_block_on<S: Arithmetic>() {
     let settings = settings();
     let mut gyro = Gyro::<S>::new(&settings);
     let mut ours = gyro.run(Way::Interleaved, 100, &codes[..3_000]);
-    // Blocks that wait are solved with it too.
+    // Blocks that wait at the change are solved with the new calibration.
     gyro.push(Way::Interleaved, &codes[3_000..3_400]);
     assert!(gyro.health().waiting > 5);
     assert_eq!(gyro.set_calibration(NEW), Status::Ok);
@@ -100,7 +100,7 @@ fn a_new_one_holds_from_the_next_block_on<S: Arithmetic>() {
     expected.extend(core.run(&codes[3_000..]));
     same("changed", &ours, &expected);
 
-    // A reset keeps it, and all else that was set at first.
+    // A reset keeps the new calibration, and all other settings.
     let expected = rows::<S>(
         &Settings {
             calibration: NEW,

@@ -1,4 +1,4 @@
-//! What the core makes of the same codes, and when rows of both are the same.
+//! The core's rows for the same codes, and their comparison with those of the C ABI.
 
 use antinode::Block;
 use antinode_capi::*;
@@ -13,7 +13,7 @@ const RING: usize = ANTINODE_MOST_PERIODS + 2;
 pub type Identifier<S> = antinode::Identifier<S, ANTINODE_LONGEST_PERIOD, RING>;
 type CoreRow = antinode::Estimate;
 
-/// A wave in 16-bit codes, its pattern turning, with noise.
+/// A wave with noise in 16-bit codes; its pattern turns.
 pub fn codes(count: usize, frequency: f64) -> Vec<[i16; 2]> {
     let mut seed = 7u32;
     (0..count)
@@ -32,7 +32,7 @@ pub fn codes(count: usize, frequency: f64) -> Vec<[i16; 2]> {
         .collect()
 }
 
-/// The core's settings for settings of C, written here anew: a field that is left out over there is seen.
+/// The core's settings for settings of C, converted independently of the library, so that a field which that leaves out is noticed.
 pub fn core_settings(settings: &Settings) -> antinode::Settings {
     antinode::Settings {
         sample_rate: settings.sample_rate_hz,
@@ -61,7 +61,7 @@ pub fn core_calibration(calibration: Calibration) -> antinode::Calibration {
     }
 }
 
-/// All rows of the core.
+/// All rows of the core for these codes.
 pub fn rows<S: Arithmetic>(settings: &Settings, codes: &[[i16; 2]]) -> Vec<CoreRow> {
     let mut identifier = Box::new(Identifier::<S>::new(core_settings(settings)).unwrap());
     let mut all = Vec::new();
@@ -69,7 +69,7 @@ pub fn rows<S: Arithmetic>(settings: &Settings, codes: &[[i16; 2]]) -> Vec<CoreR
     all
 }
 
-/// The halves of the core, with what lies between them at hand.
+/// The two halves of the core, with access to the blocks between them.
 pub struct Halves<S: Arithmetic> {
     pub front: Box<antinode::Front<S, ANTINODE_LONGEST_PERIOD>>,
     pub tracker: Box<antinode::Tracker<RING>>,
@@ -84,7 +84,7 @@ impl<S: Arithmetic> Halves<S> {
         }
     }
 
-    /// The blocks that the pairs finish, of the search that is wanted.
+    /// The blocks that the pairs finish, after a search if the tracker wants one.
     pub fn blocks(&mut self, codes: &[[i16; 2]]) -> Vec<Block<S>> {
         self.front.search_if_wanted(self.tracker.wanted_search());
         let pairs = samples::<S>(codes);
@@ -107,11 +107,11 @@ impl<S: Arithmetic> Halves<S> {
     }
 }
 
-/// Rows are the same, bit for bit.
+/// Asserts that rows are equal bit for bit.
 pub fn same(name: &str, ours: &[Estimate], cores: &[CoreRow]) {
     assert_eq!(ours.len(), cores.len(), "{name}");
     for (our, core) in ours.iter().zip(cores) {
-        // Text, so that NaN equals NaN, and 0 is not −0.
+        // Compared as text, so that NaN equals NaN, and 0 differs from −0.
         assert_eq!(
             format!("{:?}", numbers(our)),
             format!("{:?}", core_numbers(core)),
@@ -120,7 +120,7 @@ pub fn same(name: &str, ours: &[Estimate], cores: &[CoreRow]) {
     }
 }
 
-/// Every number of a row; f64 holds each of them.
+/// Every number of a row; f64 holds each exactly.
 fn numbers(row: &Estimate) -> [f64; 22] {
     [
         row.start as f64,

@@ -24,7 +24,7 @@ pub struct Abi<S, State> {
         unsafe extern "C" fn(*mut State, *const S, usize, *mut usize, *mut Estimate) -> Status,
 }
 
-/// Samples that the ABI takes, and what it does with them.
+/// A type of samples that the ABI takes, with its state and its functions.
 pub trait Arithmetic: Sample + From<i16> {
     type State;
     const COLD: Self::State;
@@ -88,25 +88,25 @@ impl Way {
     ];
 }
 
-/// What nothing was written to: no function leaves a row like it.
+/// A value of `reserved` that no function writes: it marks an estimate that was not written.
 pub const UNWRITTEN: u32 = 77;
 
-/// A state that this thread alone uses.
+/// A state that only this thread uses.
 pub struct Gyro<S: Arithmetic> {
-    /// As in C, where a pointer to what is constant keeps nobody else from writing.
+    /// In an `UnsafeCell`, because in C a pointer to const keeps nobody else from writing.
     state: Box<UnsafeCell<S::State>>,
 }
 
-// SAFETY, of every call here: the state and all that is pointed to are there, and `&mut` says that nobody else uses them.
+// SAFETY, of every call here: the state and whatever is pointed to exist, and `&mut` guarantees that nobody else uses the state.
 impl<S: Arithmetic> Gyro<S> {
-    /// Zeroed memory.
+    /// A state of zeroed memory, not initialised.
     pub fn cold() -> Self {
         Self {
             state: Box::new(UnsafeCell::new(S::COLD)),
         }
     }
 
-    /// Memory as a stack leaves it.
+    /// A state not initialised, of memory filled with a byte, as a stack may leave it.
     pub fn filled(byte: u8) -> Self {
         let gyro = Self::cold();
         // SAFETY: a state is numbers, whatever they are.
@@ -120,7 +120,7 @@ impl<S: Arithmetic> Gyro<S> {
         gyro
     }
 
-    /// The same state at another address.
+    /// A copy of the state at another address.
     pub fn copy(&self) -> Self {
         let copy = Self::cold();
         // SAFETY: two states of the same type.
@@ -128,12 +128,12 @@ impl<S: Arithmetic> Gyro<S> {
         copy
     }
 
-    /// For what only pointers can do.
+    /// The state's address, for calls with bad pointers.
     pub fn pointer(&mut self) -> *mut S::State {
         self.state.get()
     }
 
-    /// With NULL where there are no settings.
+    /// Initialises the state, with NULL for `None`.
     pub fn init(&mut self, settings: Option<&Settings>) -> Status {
         let settings = settings.map_or(std::ptr::null(), |settings| &raw const *settings);
         // SAFETY: see above.
@@ -145,7 +145,7 @@ impl<S: Arithmetic> Gyro<S> {
         unsafe { (S::ABI.reset)(self.state.get()) }
     }
 
-    /// Pairs by one call, or one by one: then the answer is the gravest.
+    /// Pushes pairs by one call, or one by one and then returns the gravest status.
     pub fn push(&mut self, way: Way, codes: &[[i16; 2]]) -> Status {
         let state = self.state.get();
         let samples: Vec<[S; 2]> = codes.iter().map(|pair| pair.map(S::from)).collect();
@@ -184,7 +184,7 @@ impl<S: Arithmetic> Gyro<S> {
         unsafe { (S::ABI.set_calibration)(self.state.get(), &calibration) }
     }
 
-    /// What it answered and what the estimate holds then.
+    /// Calls `_solve`; returns its status and the estimate after the call.
     pub fn solve(&mut self) -> (Status, Estimate) {
         let mut estimate = unwritten();
         // SAFETY: see above.
@@ -204,7 +204,7 @@ impl<S: Arithmetic> Gyro<S> {
         .collect()
     }
 
-    /// Pairs in pieces, solved after each: no block may be dropped.
+    /// Pushes pairs in pieces of `step` and solves after each; fails if a block is dropped.
     pub fn run(&mut self, way: Way, step: usize, codes: &[[i16; 2]]) -> Vec<Estimate> {
         let mut all = Vec::new();
         for piece in codes.chunks(step) {
@@ -231,7 +231,7 @@ impl<S: Arithmetic> Gyro<S> {
         health
     }
 
-    /// What it answered, how many pairs it says it took (of all ones where it says nothing), and what the estimate holds then.
+    /// Calls `_identify`; returns its status, the count of pairs that it says it took (all ones if it says nothing), and the estimate.
     pub fn identify(&mut self, codes: &[[i16; 2]]) -> (Status, usize, Estimate) {
         let samples: Vec<[S; 2]> = codes.iter().map(|pair| pair.map(S::from)).collect();
         let (mut taken, mut estimate) = (usize::MAX, unwritten());
@@ -258,7 +258,7 @@ pub fn unwritten() -> Estimate {
     estimate
 }
 
-/// Pairs as the core takes them.
+/// Codes as sample pairs of the core.
 pub fn samples<S: Arithmetic>(codes: &[[i16; 2]]) -> Vec<[S; 2]> {
     codes.iter().map(|pair| pair.map(S::from)).collect()
 }

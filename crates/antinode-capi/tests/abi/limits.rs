@@ -15,7 +15,7 @@ fn defaults_are_those_that_the_header_states() {
     assert_eq!(default.detection, ANTINODE_DETECTION_DIFFERENCE);
 }
 
-/// One end of a range: how it is set, a value at the end, and one just beyond.
+/// One end of a setting's range: how the setting is changed, a value at the end, and one just beyond.
 type End = (fn(&mut Settings, f32), f32, f32);
 
 const ENDS: [End; 14] = [
@@ -77,7 +77,7 @@ fn periods_are_found_within_the_bounds_in_both() {
     periods_are_found_within_the_bounds::<f32>();
 }
 
-/// What the header says at `periods` and `hop_blocks`: a window in periods, and the step between two in periods a block.
+/// As the header says at `periods` and `hop_blocks`: the length of a window in periods, and of a hop's block in periods.
 #[test]
 fn windows_and_blocks_are_as_long_as_the_header_says() {
     let run = |period: f64, settings: Settings| {
@@ -115,7 +115,7 @@ fn windows_and_blocks_are_as_long_as_the_header_says() {
             );
         }
     }
-    // A known frequency of few samples a period.
+    // A known frequency with few samples a period.
     let known = |period: f64| Settings {
         periods: 2,
         frequency_hz: (RATE / period) as f32,
@@ -125,7 +125,7 @@ fn windows_and_blocks_are_as_long_as_the_header_says() {
     assert!((2.3..2.32).contains(&length), "{length}");
 }
 
-/// Of 18.75 samples a period, as at ANTINODE_QUEUE_BLOCKS: blocks of a tenth more or less than 37.5 pairs, and of six in windows of two.
+/// With 18.75 samples a period, as at ANTINODE_QUEUE_BLOCKS: blocks have 37.5 pairs, give or take a tenth, or 6 in windows of two periods.
 #[test]
 fn fifteen_blocks_at_once_fit_the_queue() {
     let codes = codes(20_000, RATE / 18.75);
@@ -146,7 +146,7 @@ fn fifteen_blocks_at_once_fit_the_queue() {
         assert_eq!(gyro.health().dropped, 0, "windows of {periods}");
         let status = gyro.push(Way::Packed, &codes[..too_many]);
         assert_eq!(status, Status::Dropped, "windows of {periods}");
-        // And not Ready, though blocks wait.
+        // The status was not Ready, though blocks wait.
         assert!(gyro.health().waiting > 0, "windows of {periods}");
     }
 }

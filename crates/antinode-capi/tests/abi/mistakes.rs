@@ -8,14 +8,14 @@ use antinode_capi::*;
 use crate::core_rows::{RATE, codes, rows, same};
 use crate::gyro::{Arithmetic, Gyro, Way, unwritten};
 
-/// One byte further on, where nothing of more than one byte may lie.
+/// A pointer moved by one byte, which misaligns it for any type larger than a byte.
 fn odd<T>(pointer: *const T) -> *const T {
     pointer.wrapping_byte_add(1)
 }
 
 static WORD: u32 = 0x0123_4567;
 
-/// Every function that takes more than a state, with each of its arguments wrong in each way.
+/// Calls every function that takes more than a state, with each of its arguments wrong in each way.
 fn make_mistakes<S: Arithmetic>(gyro: &mut Gyro<S>) {
     use Status::{ErrorAlignment, ErrorCount, ErrorNull};
     let abi = S::ABI;
@@ -25,7 +25,7 @@ fn make_mistakes<S: Arithmetic>(gyro: &mut Gyro<S>) {
     let (mut taken, mut estimate) = (99, unwritten());
     let (taken, estimate) = (&raw mut taken, &raw mut estimate);
     let most = usize::MAX;
-    // SAFETY: what points nowhere, or to less than the count says, is refused before it is looked at.
+    // SAFETY: a pointer that is bad, or points to less than the count says, is refused before it is read.
     unsafe {
         for (wrong, status) in [(null(), ErrorNull), (odd(one), ErrorAlignment)] {
             assert_eq!((abi.separate)(state, wrong, one, 1), status);
@@ -57,7 +57,7 @@ fn make_mistakes<S: Arithmetic>(gyro: &mut Gyro<S>) {
         let wrong = odd(&raw const calibration);
         assert_eq!((abi.set_calibration)(state, wrong), ErrorAlignment);
         assert_eq!((abi.health)(state, null_mut()), ErrorNull);
-        // No pairs at all are no mistake.
+        // A count of 0 is no mistake.
         assert_eq!((abi.separate)(state, one, one, 0), Status::Ok);
         assert_eq!((abi.interleaved)(state, one, 0), Status::Ok);
         assert_eq!((abi.packed)(state, word, 0), Status::Ok);
@@ -73,7 +73,7 @@ fn a_mistake_does_nothing<S: Arithmetic>() {
     for piece in codes.chunks(250) {
         make_mistakes(&mut gyro);
         gyro.push(Way::Packed, piece);
-        // Blocks wait: none may be taken for nothing.
+        // Blocks wait now, and none may be lost.
         make_mistakes(&mut gyro);
         ours.extend(gyro.rows());
     }

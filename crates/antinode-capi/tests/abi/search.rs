@@ -1,4 +1,4 @@
-//! A search that the thread asks for, by a call or by the loss of the wave: the wave is dropped, and found again.
+//! A new search, by a call of the thread or after the loss of the wave: the wave is dropped, and found again.
 
 use antinode_capi::*;
 
@@ -7,7 +7,7 @@ use crate::gyro::{Arithmetic, Gyro, Way};
 
 fn a_wave_is_dropped_and_found_again<S: Arithmetic>(frequency: f32) {
     let codes = codes(10_000, 5_332.0);
-    // Far from where a first window would be put.
+    // The start angle is far from the default, to which a first window's angle would go.
     let settings = Settings {
         frequency_hz: frequency,
         start_angle_rad: 10.0,
@@ -35,7 +35,7 @@ fn a_wave_is_dropped_and_found_again<S: Arithmetic>(frequency: f32) {
         ..asked
     };
     assert_eq!(gyro.health(), heard);
-    // What waited was of the wave before.
+    // The blocks that waited belong to the old search, and are discarded.
     assert_eq!(gyro.solve().0, Status::Ok);
     let dropped = Health {
         waiting: 0,
@@ -84,7 +84,7 @@ fn a_lost_wave_is_searched_by_itself<S: Arithmetic>() {
     let mut core = Halves::<S>::new(&settings);
     let (mut ours, mut expected) = (Vec::new(), Vec::new());
     let mut dropped = Vec::new();
-    // A thread that comes late: the loss is seen with blocks behind it, and the interrupt hears of it with the next piece.
+    // The thread is late: it sees the loss while later blocks wait, and the interrupt learns of it with the next piece.
     for piece in codes.chunks(400) {
         let found = expected.len();
         let blocks = core.blocks(piece);
@@ -118,7 +118,7 @@ fn a_lost_wave_is_searched_by_itself_in_both() {
     a_lost_wave_is_searched_by_itself::<f32>();
 }
 
-fn any_call_of_the_interrupt_hears_of_it<S: Arithmetic>() {
+fn any_call_of_the_interrupt_obeys_a_search<S: Arithmetic>() {
     let codes = codes(1_000, 5_332.0);
     let calls: [fn(&mut Gyro<S>) -> Status; 5] = [
         |gyro| gyro.skip(100),
@@ -138,7 +138,7 @@ fn any_call_of_the_interrupt_hears_of_it<S: Arithmetic>() {
 }
 
 #[test]
-fn any_call_of_the_interrupt_hears_of_it_in_both() {
-    any_call_of_the_interrupt_hears_of_it::<i16>();
-    any_call_of_the_interrupt_hears_of_it::<f32>();
+fn any_call_of_the_interrupt_obeys_a_search_in_both() {
+    any_call_of_the_interrupt_obeys_a_search::<i16>();
+    any_call_of_the_interrupt_obeys_a_search::<f32>();
 }

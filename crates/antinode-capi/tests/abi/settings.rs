@@ -1,4 +1,4 @@
-//! Every setting reaches the core, and those that are refused leave no state.
+//! Every setting reaches the core, and refused settings leave the state not initialised.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use crate::gyro::{Arithmetic, Gyro, UNWRITTEN, Way};
 
 type Change = fn(&mut Settings);
 
-/// One of each field.
+/// A change of each field, and one of both rails.
 const CHANGES: [(&str, Change); 16] = [
     ("sample rate", |s| s.sample_rate_hz = 90_000.0),
     ("periods", |s| s.periods = 13),
@@ -36,7 +36,7 @@ const CHANGES: [(&str, Change); 16] = [
 fn every_setting_reaches_the_core<S: Arithmetic>() {
     let mut codes = codes(8_000, 5_332.0);
     for (k, pair) in codes.iter_mut().enumerate() {
-        // Hum, and crests cut off: without these, nothing would tell `hum`, `coloured` and `watch`.
+        // Hum and clipped crests, without which `hum`, `coloured` and `watch` would make no difference.
         let hum = 200.0 * (TAU * 300.0 / RATE * k as f64).sin();
         *pair = pair.map(|code| (code / 2).clamp(-8_000, 8_000) + hum as i16);
     }
@@ -85,7 +85,7 @@ fn refused_settings_leave_no_state<S: Arithmetic>() {
     ];
     let mut gyro = Gyro::<S>::new(&plain);
     let mut is_refused = |settings: Option<&Settings>, status: Status| {
-        // A state that served before.
+        // A state that was in use before.
         assert_eq!(gyro.init(Some(&plain)), Status::Ok);
         assert_eq!(gyro.push(Way::Interleaved, &codes), Status::Ready);
         assert_eq!(gyro.init(settings), status);

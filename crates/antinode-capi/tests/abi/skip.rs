@@ -1,11 +1,11 @@
-//! Pairs that were lost move time on and begin a window, as in the core.
+//! After lost pairs time has advanced and a new window begins, as in the core.
 
 use antinode_capi::*;
 
 use crate::core_rows::{Identifier, RATE, codes, core_settings, same};
 use crate::gyro::{Arithmetic, Gyro, Way, samples};
 
-/// Before which pair how many are lost: before the first, while a period is searched, none, twice in a row, and for long.
+/// Index of a pair, and the count of pairs lost before it: before the first, during the search, none, twice in a row, and many.
 const SKIPS: [(usize, u32); 8] = [
     (0, 5),
     (20, 7),
@@ -36,7 +36,7 @@ fn gaps_are_those_of_the_core<S: Arithmetic>(frequency: f32) {
         core.extend(&samples::<S>(&codes[at..end]), |row| expected.push(row));
         ours.extend(gyro.run(Way::Interleaved, 16, &codes[at..end]));
     }
-    // Both stages had skips.
+    // There were skips both during the search and after it.
     assert_eq!(searching[1], frequency == 0.0);
     assert!(!searching[3]);
     assert!(expected.len() > 50);

@@ -1,4 +1,4 @@
-//! What a program may do with states as a whole.
+//! Operations on whole states: copying, `_identify`, initialisation of any memory, reset.
 
 use antinode_capi::*;
 
@@ -10,12 +10,12 @@ fn a_copy_goes_on_by_itself<S: Arithmetic>() {
     let (ours, others) = (codes(8_000, 5_332.0), codes(8_000, 4_100.0));
     let mut gyro = Gyro::<S>::new(&settings);
     let mut rows_here = gyro.run(Way::Interleaved, 100, &ours[..4_000]);
-    // Blocks in the queue go along.
+    // The copy includes blocks in the queue.
     gyro.push(Way::Interleaved, &ours[4_000..4_300]);
     let mut copy = gyro.copy();
     assert_eq!(copy.health(), gyro.health());
     let mut rows_there = rows_here.clone();
-    // Another state in between: none of the three knows of the others.
+    // A third state is used in between: none of the three affects another.
     let mut other = Gyro::<S>::new(&settings);
     let mut rows_other = other.run(Way::Interleaved, 100, &others[..4_300]);
     rows_there.extend(copy.rows());
@@ -53,7 +53,7 @@ fn identify_takes_what_waits_first<S: Arithmetic>() {
         if status == Status::Estimate {
             before += u32::from(taken == 0);
             ours.push(row);
-            // It stops where the window does: no more pairs are taken than those.
+            // It takes no pairs beyond the window's end.
             let window = row.start + u64::from(row.samples);
             assert!(taken == 0 || window == at as u64, "{row:?} {at}");
         } else {
@@ -106,7 +106,7 @@ fn a_reset_is_as_from_cold<S: Arithmetic>() {
     let codes = codes(3_000, 5_332.0);
     let settings = antinode_settings_default(RATE);
     let mut gyro = Gyro::<S>::new(&settings);
-    // All that a reset has to undo: lost pairs, a wave, blocks that wait, blocks dropped, and a search not yet heard of.
+    // All that a reset has to undo: lost pairs, a wave, blocks that wait, blocks dropped, and a search not yet obeyed.
     for is_asked in [false, true] {
         gyro.run(Way::Interleaved, 100, &codes);
         gyro.skip(1_000_000);

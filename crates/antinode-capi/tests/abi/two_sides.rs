@@ -1,4 +1,4 @@
-//! Both sides at once, on two threads, while a third looks on: whatever the thread asks for, rows are sound.
+//! Both sides at once, on two threads, while a third calls `_health`: whatever the thread side asks for, rows are right.
 #![allow(unsafe_code, reason = "the functions of a C ABI, from several threads")]
 
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,7 +9,7 @@ use antinode_capi::*;
 use crate::core_rows::{RATE, TURN, codes};
 use crate::gyro::{Arithmetic, Gyro, unwritten};
 
-/// How often the thread asks for something, and the rows it takes after each.
+/// How often the thread side asks for a search or a calibration, and the rows that it takes after each.
 const ASKED: usize = 60;
 const AFTER: usize = 4;
 
@@ -27,12 +27,12 @@ impl<T> Shared<T> {
             waiting: 99,
             dropped: 9,
         };
-        // SAFETY: from anywhere; a refusal leaves what no state is like.
+        // SAFETY: `_health` may be called from anywhere; a refused call leaves values that no state has.
         unsafe { (S::ABI.health)(self.0, &mut health) };
         health
     }
 
-    /// Pushes as a converter does, but waits for the thread; true where every answer was good.
+    /// Pushes as a converter does, but waits for the thread side; true if every status was good.
     fn interrupt<S: Arithmetic<State = T>>(
         &self,
         samples: &[[S; 2]],
@@ -55,7 +55,7 @@ impl<T> Shared<T> {
         false
     }
 
-    /// Asks for a search or gives a calibration in turn, and takes rows after each, until pairs end.
+    /// In turn asks for a search and sets a calibration, and takes rows after each, until the pairs end.
     fn thread<S: Arithmetic<State = T>>(&self, is_at_end: &AtomicBool) -> Vec<Vec<Estimate>> {
         let calibration = antinode_settings_default(RATE).calibration;
         let mut all = Vec::new();
@@ -91,7 +91,7 @@ fn rows_are_sound_whatever_is_asked<S: Arithmetic>() {
     let mut gyro = Gyro::<S>::new(&antinode_settings_default(RATE));
     let shared = &Shared(gyro.pointer());
     let (is_over, is_at_end) = (&AtomicBool::new(false), &AtomicBool::new(false));
-    // Nothing is asserted before all threads are back: one that stopped would leave the others waiting.
+    // Nothing is asserted before all threads have ended: a thread that panicked would leave the others waiting.
     let (were_good, were_sound, rows) = scope(|scope| {
         let interrupt = scope.spawn(move || {
             let were_good = shared.interrupt::<S>(&samples, is_over);
@@ -124,7 +124,7 @@ fn rows_are_sound_whatever_is_asked<S: Arithmetic>() {
             assert!(row.start >= end, "asked {i}, row {k}: {row:?}");
             end = row.start + u64::from(row.samples);
             let off = row.angle_rad - (0.35 + TURN * row.time_s);
-            // Modulo π/2 as it was at first.
+            // The angle is continued: not even a quarter turn is lost.
             assert!(off.abs() < 1e-3, "asked {i}, row {k}: {off} {row:?}");
         }
     }

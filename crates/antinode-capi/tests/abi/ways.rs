@@ -1,11 +1,11 @@
-//! Every way in takes every pair, however many a call, and answers alike.
+//! Every push function takes every pair, however many a call has, and returns the same status.
 
 use antinode_capi::*;
 
 use crate::core_rows::{Halves, RATE, codes, rows, same};
 use crate::gyro::{Arithmetic, Gyro, Way};
 
-/// What a push answers that brought the state from one health to the next.
+/// The status of a push that took the state from one health to another.
 fn answer(before: Health, after: Health) -> Status {
     if after.dropped != before.dropped {
         Status::Dropped
@@ -17,7 +17,7 @@ fn answer(before: Health, after: Health) -> Status {
 }
 
 fn pieces_of_any_length_give_the_cores_rows<S: Arithmetic>() {
-    // A slow wave, of which a thousand pairs are half a queue.
+    // A slow wave: a thousand pairs of it fill half the queue.
     let codes = codes(30_000, 1_670.0);
     let settings = antinode_settings_default(RATE);
     let expected = rows::<S>(&settings, &codes);
@@ -36,11 +36,12 @@ fn pieces_of_any_length_give_the_cores_rows_in_both() {
     pieces_of_any_length_give_the_cores_rows::<f32>();
 }
 
-fn a_call_tells_of_all_its_blocks<S: Arithmetic>(way: Way) {
+fn the_status_of_a_call_covers_all_its_blocks<S: Arithmetic>(way: Way) {
     let codes = codes(900, 5_332.0);
     let mut gyro = Gyro::<S>::new(&antinode_settings_default(RATE));
     let mut seen = Vec::new();
-    // From a call that finishes no block to one that fills the queue early and finishes none at its end; what waits already does not count.
+    // From a call that finishes no block to one that fills the queue early and finishes none at its end. Blocks that already wait must not
+    // count.
     for count in 1..800 {
         for first in [0, 100] {
             assert_eq!(gyro.reset(), Status::Ok);
@@ -58,10 +59,10 @@ fn a_call_tells_of_all_its_blocks<S: Arithmetic>(way: Way) {
 }
 
 #[test]
-fn a_call_tells_of_all_its_blocks_in_both() {
+fn the_status_of_a_call_covers_all_its_blocks_in_both() {
     for way in Way::ALL {
-        a_call_tells_of_all_its_blocks::<i16>(way);
-        a_call_tells_of_all_its_blocks::<f32>(way);
+        the_status_of_a_call_covers_all_its_blocks::<i16>(way);
+        the_status_of_a_call_covers_all_its_blocks::<f32>(way);
     }
 }
 
@@ -71,7 +72,7 @@ fn a_full_queue_keeps_the_oldest_blocks<S: Arithmetic>() {
     let mut core = Halves::<S>::new(&settings);
     let blocks = core.blocks(&codes[..10_000]);
     let mut expected = core.solve(&blocks[..ANTINODE_QUEUE_BLOCKS]);
-    // A gap, which only the next block shows.
+    // The dropped blocks leave a gap, which shows only at the next block.
     expected.extend(core.run(&codes[10_000..]));
     assert!(expected.len() > 20);
     for way in Way::ALL {

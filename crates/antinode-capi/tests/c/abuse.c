@@ -37,7 +37,7 @@ static antinode_health_t health;
 static antinode_settings_t settings;
 static size_t taken;
 
-/* Every function but _init answers `expected` on this state. */
+/* Checks that every function except _init returns `expected` on this state. */
 static void all_answer(state_t *state, antinode_status_t expected)
 {
     CHECK(CALL(reset)(state) == expected);
@@ -132,7 +132,7 @@ static void bad_settings(state_t *state)
     REFUSED(calibration.pick_off_angle_rad, nanf(""), ANTINODE_ERROR_PICK_OFF_ANGLE);
 }
 
-/* Any samples at all, by every way in; the states stand, whatever they say. */
+/* Pushes any samples at all by every function; whatever they are, the states must remain usable. */
 static void hard_samples(state_t *state, sample_t high, sample_t low, uint32_t detection, uint32_t periods, uint32_t watch)
 {
     int round, i;
@@ -168,7 +168,7 @@ static void hard_samples(state_t *state, sample_t high, sample_t low, uint32_t d
 
 int main(void)
 {
-    /* On the heap, so that a byte beyond its end is seen. */
+    /* On the heap, so that a write beyond its end is detected. */
     state_t *state = malloc(sizeof *state);
     int i;
 

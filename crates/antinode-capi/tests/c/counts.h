@@ -1,4 +1,4 @@
-/* What the counts share: the arithmetic they are built for, the codes, ticks, and a gauge of the stack. */
+/* Common to the programs that count costs: the arithmetic they are built for, the codes, a clock, and a gauge of the stack. */
 #ifndef COUNTS_H
 #define COUNTS_H
 
@@ -18,11 +18,11 @@ typedef antinode_fixed_t state_t;
 #define NAME "fixed"
 #endif
 
-/* Pairs of the ring of codes, of a measurement, and of a half-buffer. */
+/* Sample pairs of the ring of codes, of a measurement, and of a half-buffer. */
 enum { RING = 1406, PAIRS = 16384, HALF_BUFFER = 128 };
 extern const uint32_t _binary_codes_bin_start[RING];
 
-/* Pairs that come next at pair `at` of the endless stream: a half-buffer, or up to `to` or the ring's end. */
+/* How many pairs to push next at pair `at` of the endless stream: a half-buffer, but not beyond `to` or the ring's end. */
 static inline uint32_t next_pairs(uint32_t at, uint32_t to)
 {
     const uint32_t left = RING - at % RING, count = to - at < HALF_BUFFER ? to - at : HALF_BUFFER;
@@ -32,11 +32,11 @@ static inline uint32_t next_pairs(uint32_t at, uint32_t to)
 #define SYSTICK ((volatile uint32_t *)0xE000E010u)
 static inline uint32_t now(void) { return SYSTICK[2]; }
 
-/* Words below the stack pointer that are painted, more than any call takes. */
+/* Words painted below the stack pointer: more than any call takes. */
 enum { PAINTED = 2560 };
 static const uint32_t PAINT = 0x5afe5afeu;
 
-/* Paints what lies below the stack pointer, and gives where that begins. */
+/* Paints the words below the stack pointer, and returns the stack pointer. */
 static inline __attribute__((always_inline)) volatile uint32_t *paint_stack(void)
 {
     volatile uint32_t *top, *word;
@@ -46,7 +46,7 @@ static inline __attribute__((always_inline)) volatile uint32_t *paint_stack(void
     return top;
 }
 
-/* Bytes below `top` that are no longer as they were painted. */
+/* Bytes from `top` down to the lowest word whose paint is gone: the stack that was taken. */
 static inline __attribute__((always_inline)) uint32_t stack_taken(volatile uint32_t *top)
 {
     volatile uint32_t *word;

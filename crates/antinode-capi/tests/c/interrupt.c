@@ -1,6 +1,6 @@
 /*
- * An interrupt that pushes half-buffers at random phases while the thread solves: whatever it breaks into, and whatever is lost, an
- * estimate is right or flagged. SysTick is the interrupt, in QEMU with -icount shift=0,align=off,sleep=off.
+ * An interrupt pushes half-buffers at random phases while the thread solves: wherever it breaks in, and whatever is lost, every estimate
+ * is right or flagged. SysTick is the interrupt, in QEMU with -icount shift=0,align=off,sleep=off.
  */
 #include <math.h>
 #include <string.h>
@@ -31,7 +31,7 @@ void SysTick_Handler(void)
         return;
     left--;
     SYSTICK[1] = most_ticks / 2 + random_below(most_ticks / 2);
-    /* One in twenty comes too late. */
+    /* One interrupt in twenty comes too late, after the loss of a half-buffer. */
     if (lost != 0 && left % 20 == 0) {
         at += lost;
         if (is_told)
@@ -47,7 +47,7 @@ void SysTick_Handler(void)
     CALL(push_block_packed)(&other, codes, HALF_BUFFER);
 }
 
-/* The interrupt comes so many times from now. */
+/* Lets the interrupt come `times` times from now on. */
 static void start(uint32_t times)
 {
     SYSTICK[1] = most_ticks;
@@ -56,7 +56,7 @@ static void start(uint32_t times)
     SYSTICK[0] = 7; /* on, at the core's clock, with its interrupt */
 }
 
-/* Solves what is queued, and compares it with the wave of the codes, 75 periods a ring. */
+/* Solves the queued blocks, and compares clean estimates with the wave of the codes, 75 periods a ring. */
 static void solve(void)
 {
     while (CALL(solve)(&gyro, &estimate) == ANTINODE_ESTIMATE) {
@@ -69,7 +69,7 @@ static void solve(void)
     }
 }
 
-/* Prints what came of it; 1 where that is not what is wanted. */
+/* Prints and clears the counts of windows; returns 1 if an estimate was wrong, or too few or too many were clean. */
 static int failed(const char *what, uint32_t most_clean)
 {
     const int is = wrong != 0 || clean < 100 || clean > most_clean;
@@ -86,7 +86,7 @@ int main(void)
     uint32_t i, stall;
     int bad = 0;
 
-    /* Two gyros at any phase. */
+    /* Two gyros, with interrupts at any phase of the thread. */
     bad |= CALL(init)(&gyro, &settings) != ANTINODE_OK || CALL(init)(&other, &settings) != ANTINODE_OK;
     for (start(600); left != 0;) {
         const uint32_t before = windows;
@@ -107,7 +107,7 @@ int main(void)
     bad |= dropping == 0;
     bad |= failed("with stalls", UINT32_MAX);
 
-    /* Half-buffers are lost, told and not told. */
+    /* Half-buffers are lost, with and without a _skip. */
     lost = HALF_BUFFER;
     for (is_told = 0; is_told < 2; is_told++) {
         CALL(reset)(&gyro);
@@ -117,7 +117,7 @@ int main(void)
     }
     lost = 0;
 
-    /* It breaks into initialisation and reset again and again. */
+    /* The interrupt breaks into initialisation and reset again and again. */
     for (i = 0; i < 120; i++) {
         uint32_t again;
         most_ticks = 600 + 13 * i;

@@ -1,4 +1,4 @@
-/* A program with copying, texts and mathematics of its own beside the library's: `check` looks where the linker found each. */
+/* A program that calls memory, string and mathematical functions beside the library's: `check` sees where the linker found each. */
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@ char to[16], from[16] = "text";
 antinode_float_t state;
 
 #if defined(__arm__)
-/* What a compiler makes of an assignment of structs, of doubles, and of 64-bit division. */
+/* Functions that a compiler calls to assign structs. */
 void __aeabi_memcpy(void *, const void *, size_t);
 void __aeabi_memcpy4(void *, const void *, size_t);
 #endif

@@ -1,7 +1,7 @@
 /*
- * What a core costs that is given as TARGET: instructions per sample pair of _push_block_packed, without the watch and with it, and
- * thousands of instructions per window of _solve, of 10 and of 50 periods; and the stack, in bytes, of _init, of _solve, of every way to
- * push and of _identify, with whatever settings take most. All with unaligned accesses trapped: one would end in the fault handler.
+ * Costs on the core of TARGET: instructions per sample pair of _push_block_packed, without the watch and with it; thousands of instructions
+ * of _solve per window of 10 and of 50 periods; and the stack, in bytes, of _init, of _solve, of every push function and of _identify, with
+ * the settings that take most. Unaligned accesses are trapped: one would end in the fault handler.
  *
  * In QEMU with -icount shift=0,align=off,sleep=off every instruction takes 1 ns, and SysTick counts the 168 MHz of the core.
  */
@@ -12,11 +12,11 @@ enum { FIRST = 2000 };
 enum form { SINGLE, SEPARATE, INTERLEAVED, PACKED, FORMS };
 
 static state_t gyro;
-/* Arrays of codes need no alignment of a word, but for pairs in turn. */
+/* Separate arrays of codes need no alignment to words; those with C and D in turn do. */
 static sample_t interleaved[2 * HALF_BUFFER] __attribute__((aligned(4))), arrays[2 * HALF_BUFFER + 1] __attribute__((aligned(4)));
 static sample_t *const c = arrays + 1, *const d = arrays + 1 + HALF_BUFFER;
 static antinode_estimate_t estimate;
-/* The most that a call took, bytes. */
+/* The most stack that a call took, bytes. */
 static uint32_t stack_of_init, stack_of_solve, stack_of_push[FORMS], stack_of_identify;
 
 static void trap_unaligned(int on)
@@ -35,7 +35,7 @@ static __attribute__((noinline)) antinode_status_t init(const antinode_settings_
     return status;
 }
 
-/* Solves what is queued; gives the windows that it solved. */
+/* Solves the queued blocks; returns how many windows that gave. */
 static __attribute__((noinline)) uint32_t solve(uint64_t *ticks)
 {
     volatile uint32_t *top = paint_stack();
@@ -88,7 +88,7 @@ static __attribute__((noinline)) void push(enum form form, const uint32_t *words
         stack_of_push[form] = taken;
 }
 
-/* The codes from pair `at` of the endless stream on, in every array. */
+/* Fills every array with the codes from pair `at` of the endless stream on. */
 static void fill(uint32_t at)
 {
     uint32_t i;
@@ -99,7 +99,7 @@ static void fill(uint32_t at)
     }
 }
 
-/* Every way in, from cold to a full queue, with a search on the way; gives 1 where windows came of it. */
+/* Pushes by one function, from cold to a full queue, with a search on the way; returns 1 if that gave windows. */
 static int push_by(enum form form, const antinode_settings_t *settings)
 {
     uint32_t at, count, windows = 0;
@@ -119,7 +119,7 @@ static int push_by(enum form form, const antinode_settings_t *settings)
     return windows > 50;
 }
 
-/* Identifies from cold; gives the windows found. */
+/* Identifies from cold; returns how many windows that gave. */
 static __attribute__((noinline)) uint32_t identify(void)
 {
     volatile uint32_t *top = paint_stack();
@@ -138,7 +138,7 @@ static __attribute__((noinline)) uint32_t identify(void)
     return windows;
 }
 
-/* What takes more stack than the usual settings: offsets of each block's own, and the other detector. Gives 1 where windows come of it. */
+/* Runs with settings that take more stack than the usual ones: block offsets, and the other detector. Returns 1 if that gave windows. */
 static int call_with(uint32_t hum, uint32_t detection)
 {
     antinode_settings_t settings = antinode_settings_default(100e3);
@@ -150,7 +150,7 @@ static int call_with(uint32_t hum, uint32_t detection)
     return identify() > 0;
 }
 
-/* The functions that are called now and then; gives 1 where each did its work. */
+/* Calls the functions that are called only now and then; returns 1 if each did its work. */
 static int call_the_others(void)
 {
     antinode_health_t health;

@@ -1,6 +1,6 @@
 /*
- * What the _push_block functions cost on a Cortex-M4: instructions per sample pair, from half-buffers of a tracked wave, blocks queued
- * and the queue emptied by _solve, which is not counted. firmware/examples/push_block.rs is the same in Rust.
+ * Cost of the _push_block functions on a Cortex-M4: instructions per sample pair, from half-buffers of a tracked wave, with blocks queued;
+ * _solve empties the queue, and is not counted. firmware/examples/push_block.rs is the same in Rust.
  *
  * In QEMU with -icount shift=0,align=off,sleep=off every instruction takes 1 ns, and SysTick counts the 168 MHz of the core.
  */
@@ -13,7 +13,7 @@ enum form { PACKED, INTERLEAVED, SEPARATE };
 static state_t gyro;
 static sample_t interleaved[2 * RING], c[RING], d[RING];
 
-/* Ticks that pushing took, of pairs `at` to `to` of the endless stream. */
+/* Ticks that it took to push pairs `at` to `to` of the endless stream. */
 static uint32_t run(enum form form, uint32_t at, uint32_t to)
 {
     uint32_t ticks = 0;

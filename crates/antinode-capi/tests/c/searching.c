@@ -1,8 +1,8 @@
 /*
- * What the interrupt side takes of a Cortex-M4: instructions a sample pair while a period is searched, in noise and in signals that are
- * never found from half-buffers, and in a wave pair by pair, the most of one _push, and the most stack of any call, the processor's own frame not counted.
- * Counted as in push_block.c. In fixed point the floating-point unit is off once the period is known: an instruction of it would end in
- * the fault handler.
+ * Costs of the interrupt side on a Cortex-M4: instructions a sample pair during the search for a period, from half-buffers of noise and of
+ * tones that are never found, and pair by pair in a wave; the most instructions of one _push; and the most stack of any call, without the
+ * processor's own frame. Counted as in push_block.c. In fixed point the floating-point unit is off once the period is known: an instruction
+ * of it would end in the fault handler.
  */
 #include "counts.h"
 
@@ -15,7 +15,7 @@ static sample_t interleaved[2 * HALF_BUFFER], c[HALF_BUFFER], d[HALF_BUFFER];
 static antinode_estimate_t estimate;
 static antinode_health_t health;
 static uint32_t ticks, pairs, most_stack, most_ticks;
-static int is_told; /* to search anew, which the next call does */
+static int is_told; /* true if the next call of the interrupt side searches anew, because the thread side asked for it */
 
 static void fpu(int on)
 {
@@ -23,7 +23,7 @@ static void fpu(int on)
     __asm volatile("dsb\n isb" ::: "memory");
 }
 
-/* Pushes, and sees how much of the painted stack is no longer as it was. */
+/* Pushes `count` pairs, and measures instructions and stack. */
 static __attribute__((noinline)) void push(enum form form, uint32_t count)
 {
     volatile uint32_t *top;
@@ -72,8 +72,8 @@ static float sine(uint32_t phase)
 }
 
 /*
- * Pushes half-buffers of two tones alike, of so many hundredths of a pair a period, and gives the most instructions a pair of one
- * half-buffer; 0 where a wave is found in them.
+ * Pushes half-buffers of two tones of equal amplitude, whose periods are in hundredths of a sample pair; returns the most instructions a
+ * pair that a half-buffer took, or 0 if a wave is found in them.
  */
 static uint32_t tones(const antinode_settings_t *settings, uint32_t period, uint32_t other)
 {
@@ -99,7 +99,7 @@ static uint32_t tones(const antinode_settings_t *settings, uint32_t period, uint
     return most;
 }
 
-/* Prints the instructions a pair since the last time. */
+/* Prints the instructions a pair since the last call. */
 static void print(const char *what)
 {
     const uint32_t thousandths = (uint32_t)((uint64_t)ticks * 1000000 / 168 / pairs);
@@ -142,7 +142,7 @@ int main(void)
             taken = tones(&settings, at, at * i / 100);
             most = taken > most ? taken : most;
         }
-    /* Nothing is found in 142 of these 182. */
+    /* In 142 of these 182 pairs of tones no wave is found. */
     if (searched < 140)
         return 1;
     printf("%s tones, most %lu\n", NAME, (unsigned long)most);
@@ -155,7 +155,7 @@ int main(void)
         }
     }
     print("wave");
-    /* Noise has trials that fail at once, another frequency in each pick-off such that fail late, and the wave blocks that begin. */
+    /* In noise trial periods fail at once; with another frequency in each pick-off they fail late; and in the wave blocks begin. */
     CALL(init)(&gyro, &settings);
     for (at = 0; at < PAIRS; at++) {
         const uint32_t kind = at / 1024 % 4, period = 5 + at / 4096 * 7;
@@ -166,7 +166,7 @@ int main(void)
             noise[0] |= (uint32_t)(uint16_t)(int16_t)(1500 * sine(at * (0xffffffffu / period / 10 * (kind * 4 + 1)))) << 16;
         }
         take(kind == 1 ? _binary_codes_bin_start + at % RING : noise, 1);
-        is_told = 1; /* where noise has no wave, _solve tells */
+        is_told = 1; /* _solve asks for a search when it finds no wave in noise */
         push(SINGLE, 1);
         while (CALL(solve)(&gyro, &estimate) == ANTINODE_ESTIMATE)
             ;
@@ -174,7 +174,7 @@ int main(void)
     printf("%s single, at once %lu\n", NAME, (unsigned long)(most_ticks * 1000ull / 168));
 
     most_stack = 0;
-    /* Every way in, from cold to a full queue, with a search on the way. */
+    /* Every push function, from cold to a full queue, with a search on the way. */
     for (form = PACKED; form <= SINGLE; form++) {
         CALL(init)(&gyro, &settings);
         for (at = 0; at < 4 * PAIRS; at += count) {

@@ -1,4 +1,4 @@
-/* The table of what the ABI fixes; the same on every machine. */
+/* Prints the sizes that the ABI fixes, the same on every machine, as README.md's table. */
 #include <stdio.h>
 
 #include "antinode.h"

@@ -1,4 +1,5 @@
-# Says which library Zephyr's module links:  cmake -DCONFIG_…=y -DANTINODE_PREFIX=PREFIX -P zephyr.cmake, with as much of Zephyr as it asks.
+# Prints which library Zephyr's module links:  cmake -DCONFIG_…=y -DANTINODE_PREFIX=PREFIX -P zephyr.cmake.
+# The functions below stand in for those of Zephyr.
 set(CONFIG_ANTINODE y)
 function(zephyr_get)
 endfunction()

@@ -1,67 +1,71 @@
-//! Period by the squared difference of the signals from themselves a lag before, formula (10).
+//! Period by formula (10): the squared difference between the signals and themselves one lag earlier.
 //!
 //! D(T) = Σ |S(t) − S(t−T)|² over both pick-offs has its first minimum after its first maximum at the period, whatever the
-//! offsets. All lags from 4 to 200 samples would cost hundreds of products a sample. Here the stream is halved again and again,
-//! each octave sees lags of 1 to 10 of its own samples, and so all octaves together cost no more than twenty lags.
+//! offsets. All lags from 4 to 200 samples would cost hundreds of products a sample. Here the stream is decimated by two again and
+//! again, each octave compares lags of 1 to 10 of its own samples, and all octaves together cost no more than twenty lags.
 
 use super::PERIODS;
 use super::attempt::{Attempt, Verdict};
 use super::octave::Octave;
 use crate::sample::{Sample, SamplePair};
 
-/// Octaves: periods of 4 to 8, 8 to 16, … 128 to 256 samples.
+/// Count of octaves, for periods of 4 to 8, 8 to 16, … 128 to 256 samples.
 const OCTAVES: usize = 6;
-/// Power lost by halving beyond the wave's own, as a share of the wave's: noise of 20 % loses 0.2.
-const STRANGER: f32 = 0.4;
+/// Most power that halving may take besides the wave's own, as a share of the wave's; of noise of 20 % it takes 0.2.
+const MAX_FOREIGN_LOSS: f32 = 0.4;
 
-/// What a refused trial adds to the weariness of a search: looks that find nothing, or are left out, take 1 each.
+/// What a trial adds to the weariness of a search. A look that finds nothing, or is left out, takes 1 away.
 const REFUSED: u8 = 6;
-/// Weariness above which looks are left out: five trials refused in a row. Signals that look like a wave for ever, as two tones do, would
-/// otherwise be on trial for ever.
-const WEARY: u8 = 24;
+/// Weariness above which looks are left out, as after five refused trials in a row. Signals that look like a wave for ever, such as two
+/// tones, would otherwise be on trial for ever.
+const MAX_WEARINESS: u8 = 24;
 
-/// A frame under trial, and what it was found under.
+/// A frame under trial, and the octave where it was found.
 #[derive(Debug, Clone)]
 struct Candidate<S: Sample> {
     is_open: bool,
     halvings: u8,
-    /// Power that the octaves below lost.
+    /// Power that halving took in the faster octaves.
     lost: f32,
     attempt: Attempt<S>,
 }
 
 impl<S: Sample> Candidate<S> {
-    /// The period in samples of the stream, where halving took little of the wave found: it takes all of a faster one that folds
-    /// down to the same period or hides it.
+    /// Period in samples of the stream, if halving took little more than its part of the wave found. It would have taken nearly all
+    /// of a faster wave that folds down to the same period or hides it.
     fn accept(&self, period: f32, power: f32) -> Option<f32> {
         let scale = (1u32 << self.halvings) as f32;
         let found = period * scale;
-        // cos ½t cos ¼t … is sin t over all halvings of t and the sine of what is left: both are series, for t is below 0.86.
+        // Halvings multiply the amplitude by cos ½t cos ¼t … = sin t/(n sin t/n), n = 2^halvings: series do, as t is below 0.86.
         let turn = core::f32::consts::PI / period;
         let square = turn * turn;
         let rest = square / (scale * scale);
-        let taken =
+        let attenuation =
             (1.0 - rest * (1.0 / 6.0)) / (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)));
-        let is_whole = self.lost < power * (taken * taken - 1.0 + STRANGER);
+        let is_whole = self.lost < power * (attenuation * attenuation - 1.0 + MAX_FOREIGN_LOSS);
         (is_whole && PERIODS.contains(&found)).then_some(found)
     }
 }
 
-/// The streaming detector of formula (10): periods of 4 to 200 samples, from cold, with offsets of up to 100 a_A.
+/// Streaming detector of formula (10): periods of 4 to 200 samples, from cold, with offsets of up to 100 a_A.
 ///
-/// Work a sample: ten lags in each of two octaves on average, and a few samples of a trial while there is a candidate; on codes all but the
-/// trial is done in integers. White noise is taken for a wave with a chance of 3·10⁻⁸ a frame, and codes are never taken to leave less than
-/// their own rounding. If samples come in steps, in f32 or of several codes, noise of less than half a step has but a few values: it is
-/// taken for a wave some 3·10⁻⁶ times a pair, and the first window tells that it is none. A wave of a dozen codes is found a third of a
-/// period later than a greater one; one of four may not be found at all, nor one of eight in i32. A wave in 20 % noise is found within
-/// three periods on average and 6.5 at the latest, one with a tone of 20 % beside it within five, and never at a fraction or a multiple of
-/// its period. A signal that looks like a wave for ever but is none, such as two tones, is looked at less often after five trials: it takes
-/// at most 2.4 times the work of a wave, and a wave that begins then is found at most a fraction of a period later.
+/// - Work: ten lags in each of two octaves per sample on average, and a few samples of a trial while there is a candidate; on codes all
+///   but the trial is done in integers.
+/// - False alarms: white noise is taken for a wave with a probability of 3·10⁻⁸ per frame; the residual of codes is never taken to be
+///   below their own rounding. If f32 samples have coarse steps, or codes come in steps of several, noise below half a step has only a
+///   few values. It is taken for a wave some 3·10⁻⁶ times per pair, and the first window shows that it is none.
+/// - Small waves: one of a dozen codes is found a third of a period later than a greater one; one of four codes may not be found at all,
+///   nor one of eight in i32.
+/// - Speed: a wave in 20 % noise is found within three periods on average and 6.5 at the latest, one with a tone of 20 % beside it within
+///   five, and never at a fraction or a multiple of its period.
+/// - Other signals: one that looks like a wave for ever, such as two tones, is examined less often after five trials. It then takes at
+///   most 2.4 times the work of a wave, and a wave that begins meanwhile is found at most a fraction of a period later.
 #[derive(Debug, Clone)]
 pub struct DifferenceDetector<S: Sample> {
     octaves: [Octave<S>; OCTAVES],
-    /// The octaves that are still to take two samples into their D(T), as bits.
+    /// Octaves that have yet to take two samples into their D(T), one bit each.
     waiting: u8,
+    /// Grows with each trial: see [`MAX_WEARINESS`].
     weariness: u8,
     candidate: Candidate<S>,
 }
@@ -92,10 +96,10 @@ impl<S: Sample> DifferenceDetector<S> {
         }
     }
 
-    /// Takes a sample pair; gives the period in samples once it is sure.
+    /// Takes a sample pair, and gives the period in samples once it is certain.
     ///
-    /// In one call one octave at most takes samples into its D(T) and is looked at, the lowest first: an octave has half of the work
-    /// of the one below, so all of them are done before their next samples come.
+    /// One call updates and examines at most one octave, the fastest first: each octave has half the work of the one before it, so all
+    /// are done before their next samples come.
     #[must_use = "the period is given once"]
     pub fn push(&mut self, pair: impl SamplePair<S>) -> Option<f32> {
         let [first, ..] = &mut self.octaves;
@@ -116,8 +120,8 @@ impl<S: Sample> DifferenceDetector<S> {
         None
     }
 
-    /// Lets the lowest octave that waits take two samples into its D(T), and the next one keep their mean. Gives it where it is to be
-    /// looked at.
+    /// Takes two samples into the D(T) of the fastest octave that waits, and passes their mean to the next octave. Gives the octave if
+    /// it is due to be examined.
     #[inline(never)]
     fn compare(&mut self) -> Option<usize> {
         let halvings = self.waiting.trailing_zeros() as usize;
@@ -133,10 +137,10 @@ impl<S: Sample> DifferenceDetector<S> {
         is_due.then_some(halvings)
     }
 
-    /// Looks at D(T) of an octave, unless the search is weary.
+    /// Searches an octave's D(T) for a period, unless the search is weary.
     #[inline(never)]
     fn look(&mut self, halvings: usize) {
-        if self.weariness <= WEARY {
+        if self.weariness <= MAX_WEARINESS {
             let octave = self.octaves.get_mut(halvings);
             if let Some(period) = octave.and_then(Octave::period) {
                 return self.propose(halvings, period);
@@ -145,7 +149,7 @@ impl<S: Sample> DifferenceDetector<S> {
         self.weariness = self.weariness.saturating_sub(1);
     }
 
-    /// Puts the frame of an octave on trial: by itself, so that a look that finds nothing is short.
+    /// Puts the frame of an octave on trial: a function of its own, so that a look that finds nothing stays short.
     #[inline(never)]
     fn propose(&mut self, halvings: usize, period: f32) {
         if let Some((below, [octave, ..])) = self.octaves.split_at_checked(halvings) {
@@ -158,7 +162,7 @@ impl<S: Sample> DifferenceDetector<S> {
         }
     }
 
-    /// Goes on with the trial of the candidate.
+    /// Continues the trial of the candidate; gives the period if it is accepted.
     #[inline(never)]
     fn attempt(&mut self) -> Option<f32> {
         let candidate = &mut self.candidate;
@@ -185,7 +189,7 @@ mod tests {
     use crate::phase::PhaseStep;
 
     #[test]
-    fn looks_are_left_out_after_two_tones_were_refused() {
+    fn two_tones_are_on_trial_for_less_than_a_quarter_of_the_time() {
         let tones = [18.75, 11.3].map(PhaseStep::from_period);
         let mut detector = DifferenceDetector::<f32>::new();
         let (mut on_trial, pairs) = (0, 20_000);
@@ -195,7 +199,7 @@ mod tests {
             assert!(detector.push(pair).is_none());
             on_trial += i64::from(detector.candidate.is_open);
         }
-        // It would be for a third of the time if no look were left out.
+        // If no look were left out, it would be a third of the time.
         assert!(
             on_trial > 0 && 4 * on_trial < pairs,
             "{on_trial} of {pairs}"

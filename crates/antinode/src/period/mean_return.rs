@@ -1,9 +1,9 @@
 //! Period by the return of the running sum to zero, formula (9).
 //!
-//! Summed from any start, a centred wave returns to zero after every whole period, moving as it did at the start; the one inner
-//! zero of each period is crossed the other way, and is skipped by that. An offset makes the sum run away, so the mean over two
-//! whole periods is taken off first, (4). The return rests on few samples: with noise it is rougher than formula (10), and it
-//! takes about eleven periods; formula (10) is the default.
+//! The sum of a centred wave, from any start, returns to zero after every whole period, in the direction in which it left; its one
+//! zero within a period is crossed in the other direction, and so is told apart. An offset would make the sum run away, so the mean
+//! over two whole periods is subtracted first, (4). The return depends on few samples: in noise it is less precise than formula (10),
+//! the default, and it takes about eleven periods.
 
 use core::f32::consts::TAU;
 
@@ -12,14 +12,14 @@ use super::trial::Trial;
 use crate::block::Pair;
 use crate::scalar::{greater, lesser};
 
-/// Whole periods that the mean and the return are measured over.
+/// Whole periods over which the mean and the return are measured.
 const SPAN: u16 = 2;
-/// Periods that the found period is tried on.
-const TRIED: f32 = 3.0;
-/// Samples of the longest stage: beyond it there is no period.
-const LONGEST: u16 = 800;
+/// Length of the trial of a period found, in periods.
+const TRIAL_PERIODS: f32 = 3.0;
+/// Samples that a stage may take: after more, the search begins anew.
+const MAX_STAGE: u16 = 800;
 
-/// Tells when a signal has crossed zero upwards, by more than a margin on both sides.
+/// Detects upward crossings of zero that exceed a margin on both sides.
 #[derive(Debug, Clone, Copy, Default)]
 struct Upward {
     below: bool,
@@ -33,7 +33,7 @@ impl Upward {
     }
 }
 
-/// What the detector does with the stronger signal.
+/// Stage of the search; all but the first follow the stronger signal.
 #[derive(Debug, Clone)]
 enum Stage {
     /// Finds the range of both signals, until one of them has crossed its middle twice.
@@ -43,7 +43,7 @@ enum Stage {
         upward: [Upward; 2],
         crossings: [u8; 2],
     },
-    /// Takes the mean from one upward crossing of the middle to another.
+    /// Measures the mean between two upward crossings of the middle.
     Mean {
         middle: f32,
         swing: f32,
@@ -51,15 +51,15 @@ enum Stage {
         crossings: u16,
         before: f32,
         area: f32,
-        lead: f32,
+        first_overshoot: f32,
     },
-    /// Waits until `samples` have passed: the crest, where the sum leaves and meets zero steeply.
+    /// Waits `samples` samples, until the crest: a sum that begins there leaves and meets zero steeply.
     Crest {
         mean: f32,
         margin: f32,
         samples: u16,
     },
-    /// Sums until the sum has returned.
+    /// Sums until the sum has returned to zero.
     Sum {
         mean: f32,
         margin: f32,
@@ -67,18 +67,18 @@ enum Stage {
         sum: f32,
         returns: u16,
     },
-    /// Tries the period found.
+    /// Fits a wave of the period found.
     Try,
 }
 
-/// The streaming detector of formula (9): periods of 4 to 200 samples. Bounded work a sample: a few additions.
+/// Streaming detector of formula (9): periods of 4 to 200 samples. The work per sample is bounded: a few additions.
 #[derive(Debug, Clone)]
 pub struct MeanReturnDetector {
     stage: Stage,
     channel: usize,
-    /// Samples in this stage.
+    /// Samples since this stage began, or since the first crossing in `Stage::Mean`.
     time: u16,
-    /// Beside the stage, where it is begun in place.
+    /// Not in `Stage::Try`, so that it can be begun in place.
     trial: Trial,
 }
 
@@ -107,7 +107,7 @@ impl MeanReturnDetector {
         self.time = 0;
     }
 
-    /// Takes a sample pair; gives the period in samples once it is sure.
+    /// Takes a sample pair, and gives the period in samples once it is certain.
     #[must_use = "the period is given once"]
     pub fn push(&mut self, pair: Pair) -> Option<f32> {
         self.time += 1;
@@ -126,7 +126,7 @@ impl MeanReturnDetector {
                     swing[i] = 0.5 * (high[i] - low[i]);
                     let height = pair[i] - 0.5 * (high[i] + low[i]);
                     let crossed = upward[i].crossed(height, 0.25 * swing[i]);
-                    // Those of the weaker pick-off, which may only seem to swing, have no end.
+                    // Saturating: the weaker pick-off, in which there may be only noise, can cross any number of times.
                     crossings[i] = crossings[i].saturating_add(u8::from(crossed));
                 }
                 let strong = usize::from(swing[1] > swing[0]);
@@ -141,7 +141,7 @@ impl MeanReturnDetector {
                     crossings: 0,
                     before: 0.0,
                     area: 0.0,
-                    lead: 0.0,
+                    first_overshoot: 0.0,
                 }
             }
             Stage::Mean {
@@ -151,7 +151,7 @@ impl MeanReturnDetector {
                 crossings,
                 before,
                 area,
-                lead,
+                first_overshoot,
             } => {
                 let height = value - *middle;
                 let rise = height - *before;
@@ -160,25 +160,25 @@ impl MeanReturnDetector {
                 if !upward.crossed(height, 0.25 * *swing) {
                     return self.wait();
                 }
-                // The crossing itself lies on the line through the last two samples, so long before this one.
-                let late = height / rise;
-                let triangle = 0.5 * height * late;
+                // Time from the crossing to this sample, by the line through the last two samples.
+                let overshoot = height / rise;
+                let triangle = 0.5 * height * overshoot;
                 *crossings += 1;
                 if *crossings == 1 {
-                    (*area, *lead) = (triangle, late);
+                    (*area, *first_overshoot) = (triangle, overshoot);
                     self.time = 0;
                 }
                 if *crossings <= SPAN {
                     return self.wait();
                 }
-                let span = f32::from(self.time) + *lead - late;
+                let span = f32::from(self.time) + *first_overshoot - overshoot;
                 let mean = *middle + (*area - triangle) / span;
                 let period = span / f32::from(SPAN);
                 Stage::Crest {
                     mean,
                     margin: 0.25 * *swing * period / TAU,
-                    // The sum's first sample is to stand half a sample past the crest after the next.
-                    samples: (1.25 * period - late) as u16,
+                    // The sum's first sample should lie half a sample past the second crest from here.
+                    samples: (1.25 * period - overshoot) as u16,
                 }
             }
             Stage::Crest {
@@ -215,10 +215,10 @@ impl MeanReturnDetector {
                 if *returns < SPAN {
                     return self.wait();
                 }
-                // Of the step that took the sum over zero.
-                let late = *sum / step;
-                let period = (f32::from(self.time) - late) / f32::from(SPAN);
-                let length = (TRIED * period) as usize + 1;
+                // Part of the last step that lies beyond zero.
+                let overshoot = *sum / step;
+                let period = (f32::from(self.time) - overshoot) / f32::from(SPAN);
+                let length = (TRIAL_PERIODS * period) as usize + 1;
                 self.trial.begin(period, length.max(12));
                 Stage::Try
             }
@@ -237,9 +237,9 @@ impl MeanReturnDetector {
         None
     }
 
-    /// Stays in the stage, unless that has taken too long.
+    /// Stays in the stage, or restarts if it has taken too long.
     fn wait(&mut self) -> Option<f32> {
-        if self.time > LONGEST {
+        if self.time > MAX_STAGE {
             self.restart();
         }
         None

@@ -1,4 +1,4 @@
-//! The period of a wave from cold, formulas (9) and (10): what a [`Front`](crate::Front) searches with; it can be used by itself too.
+//! Detectors of a wave's period from cold, formulas (9) and (10): a [`Front`](crate::Front) searches with them; they also work alone.
 //!
 //! # Example
 //!
@@ -24,5 +24,5 @@ pub use difference::DifferenceDetector;
 pub use mean_return::MeanReturnDetector;
 pub(crate) use octave::{FRAME, LAGS, Lags};
 
-/// Periods found, in samples: 4 to 200 and a little more.
+/// Periods that a detector accepts, in samples: 4 to 200 with a little margin.
 const PERIODS: core::ops::RangeInclusive<f32> = 3.9..=210.0;

@@ -1,25 +1,26 @@
-//! One octave of the stream, and its D(T).
+//! One octave of the search: the stream decimated by a power of two, and its D(T).
 
 use num_complex::Complex32;
 
 use crate::phase::{Phase, argument};
 use crate::sample::{Arithmetic, Sample, Zero};
 
-/// Lags of an octave.
+/// Lags compared in an octave.
 pub(crate) const LAGS: usize = 10;
-/// Samples of a frame: more than three of the longest periods of its octave.
+/// Samples of a frame: more than three of the longest periods that its octave finds.
 pub(crate) const FRAME: usize = 32;
-/// Periods that an octave answers for, in its own samples: wider than an octave, so that neighbours overlap.
-const RANGE: core::ops::RangeInclusive<f32> = 3.7..=9.2;
-/// Periods that a frame must hold before it is tried.
-const HELD: f32 = 2.2;
-/// Samples of a frame before its D(T) is looked at, and while it is looked at with every second one; later with every fourth.
-const LEAST: u16 = 10;
-const OFTEN: u16 = 22;
+/// Periods that an octave may find, in its own samples: more than a factor of two, so that neighbours overlap.
+const PERIODS: core::ops::RangeInclusive<f32> = 3.7..=9.2;
+/// Periods that a frame must hold before it is put on trial.
+const MIN_PERIODS: f32 = 2.2;
+/// Samples of a frame from which on its D(T) is examined.
+const MIN_SAMPLES: u16 = 10;
+/// Samples of a frame up to which its D(T) is examined after every second one; later after every fourth.
+const DENSE_UP_TO: u16 = 22;
 
-/// D(1)…D(10), not yet divided by the count of pairs in each.
+/// D(1)…D(10), not divided by their counts of differences.
 pub(crate) type Lags<S> = [<S as Arithmetic>::Square; LAGS];
-/// Two sample pairs that follow each other.
+/// Two successive sample pairs.
 pub(super) type Two<S> = [[S; 2]; 2];
 /// The samples of a frame.
 pub(super) type Frame<S> = [Two<S>; FRAME / 2];
@@ -28,12 +29,12 @@ pub(super) type Frame<S> = [Two<S>; FRAME / 2];
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Octave<S: Sample> {
     pub frame: Frame<S>,
-    /// Samples in the frame; of an odd count the last is not in D(T) yet.
+    /// Samples in the frame; if the count is odd, the last is not in D(T) yet.
     pub count: u16,
     /// D(T) over the frame so far.
     differences: Lags<S>,
-    /// Power that halving took away in the last frame.
-    last: f32,
+    /// Power that halving lost in the last frame.
+    last_lost: f32,
 }
 
 impl<S: Sample> Octave<S> {
@@ -43,7 +44,7 @@ impl<S: Sample> Octave<S> {
             frame: [[[S::ZERO; 2]; 2]; FRAME / 2],
             count: 0,
             differences: [S::Square::ZERO; LAGS],
-            last: 0.0,
+            last_lost: 0.0,
         }
     }
 
@@ -52,7 +53,7 @@ impl<S: Sample> Octave<S> {
         self.count = 0;
     }
 
-    /// Keeps a sample; true when it is the second of two, which are to be taken into D(T) before the next comes.
+    /// Stores a sample; true if it is the second of two, which [`compare`](Self::compare) must take before the next one comes.
     #[inline(always)]
     pub(super) fn keep(&mut self, sample: [S; 2]) -> bool {
         let place = usize::from(self.count) % FRAME;
@@ -61,7 +62,7 @@ impl<S: Sample> Octave<S> {
         place % 2 == 1
     }
 
-    /// Takes the last two samples into D(T): what is before them is read once for both. Gives their mean.
+    /// Takes the last two samples into D(T), in one pass over the samples before them. Gives their mean.
     #[inline(always)]
     pub(super) fn compare(&mut self) -> Option<[S; 2]> {
         let (&two, before) = self
@@ -71,16 +72,16 @@ impl<S: Sample> Octave<S> {
         let [first, second] = two;
         add_lags::<S>(&mut self.differences, two, before);
         if usize::from(self.count) == FRAME {
-            self.last = self.lost_so_far();
+            self.last_lost = self.lost_so_far();
         }
         Some(S::mean(first, second))
     }
 
-    /// Power that halving takes away: the mean square of half a difference of neighbours.
+    /// Power that halving loses: the mean square of half the difference of neighbours. Of a short frame it is that of the last one.
     #[inline(never)]
     pub(super) fn lost(&self) -> f32 {
         if self.count < 8 {
-            self.last
+            self.last_lost
         } else {
             self.lost_so_far()
         }
@@ -91,13 +92,13 @@ impl<S: Sample> Octave<S> {
         0.25 * S::square_to_f32(self.differences[0]) / (f32::from(self.count) - 1.0)
     }
 
-    /// True when enough samples are new to look at D(T), after an even count of them.
+    /// True if D(T) is to be examined now. To be asked after an even count of samples.
     #[inline(always)]
     pub(super) fn is_due(&self) -> bool {
-        self.count >= LEAST && (self.count <= OFTEN || self.count.is_multiple_of(4))
+        self.count >= MIN_SAMPLES && (self.count <= DENSE_UP_TO || self.count.is_multiple_of(4))
     }
 
-    /// The first minimum of D(T) after its first maximum, between samples, where the frame is long enough for it.
+    /// The period by the first minimum of D(T) after its first maximum, interpolated, if the frame is long enough for it.
     #[inline(never)]
     pub(super) fn period(&mut self) -> Option<f32> {
         let (shift, count) = (S::shift(&self.differences), usize::from(self.count));
@@ -105,15 +106,14 @@ impl<S: Sample> Octave<S> {
             let sum = self.differences.get(lag - 1).copied();
             S::level(sum.unwrap_or(S::Square::ZERO), shift, count - lag)
         };
-        // Of a wave that is too slow for this octave D(T) still rises at its fourth lag, and at its sixth is not yet below its third: of
-        // one that the next octave cannot hold, of less than 7.4 samples, D(6) is below 0.4 of D(3). The frame begins anew, for a
-        // wave that began late in it looks slow as well.
+        // Of a wave too slow for this octave, D(4) > D(3) and D(6) > D(3); one too fast for the next octave, below 7.4 samples, has
+        // D(6) < 0.4 D(3). The frame begins anew, as a wave that began late in it looks slow as well.
         if level(4) > level(3) && level(6) > level(3) {
-            self.last = self.lost_so_far();
+            self.last_lost = self.lost_so_far();
             self.count = 0;
             return None;
         }
-        // A minimum lies within 0.6 of its lag: beyond these the frame cannot hold enough of it.
+        // A minimum lies within 0.6 of its lag: the frame does not hold enough periods of greater lags.
         let most = ((5 * count + 7) / 12).min(LAGS - 1);
         let (mut before, mut here) = (level(1), level(1));
         let mut greatest = here;
@@ -132,7 +132,7 @@ impl<S: Sample> Octave<S> {
         None
     }
 
-    /// The minimum of D(T) about a lag.
+    /// The minimum of D(T) near `lag`, from the levels there and at both neighbours.
     #[inline(never)]
     fn between(&self, lag: f32, levels: [S::Level; 3]) -> Option<f32> {
         let [before, here, after] = levels.map(S::level_to_f32);
@@ -141,11 +141,12 @@ impl<S: Sample> Octave<S> {
         let omega = core::f32::consts::TAU / (lag - 0.5 * ratio);
         let half = Phase::from_radians(0.5 * omega).unit();
         let period = lag - argument(Complex32::new(half.re, ratio * half.im)) / omega;
-        (RANGE.contains(&period) && HELD * period <= f32::from(self.count)).then_some(period)
+        (PERIODS.contains(&period) && MIN_PERIODS * period <= f32::from(self.count))
+            .then_some(period)
     }
 }
 
-/// Adds the squared differences of two samples from all those before them. A lag that is there for the first time begins its sum.
+/// Adds the squared differences between the two samples `now` and all those before them. A lag met for the first time begins its sum.
 #[inline(always)]
 fn add_lags<S: Sample>(sums: &mut Lags<S>, now: Two<S>, before: &[Two<S>]) {
     const { assert!(LAGS.is_multiple_of(2), "lags are taken in twos") };
@@ -155,7 +156,7 @@ fn add_lags<S: Sample>(sums: &mut Lags<S>, now: Two<S>, before: &[Two<S>]) {
     for (sums, before) in twos.iter_mut().zip(before.iter().rev()) {
         last = add_two_lags::<S>(sums, now, before, last);
     }
-    // The next two lags begin here: no sum is cleared beforehand.
+    // The next two lags begin here, so that no sum needs clearing beforehand.
     if let Some(new) = twos.get_mut(before.len()) {
         let oldest = before.first().map_or(first, |&[oldest, _]| oldest);
         *new = [S::Square::ZERO; 2];
@@ -163,8 +164,8 @@ fn add_lags<S: Sample>(sums: &mut Lags<S>, now: Two<S>, before: &[Two<S>]) {
     }
 }
 
-/// Adds to an odd lag and the even one after it, from what is the even lag before the first sample and what is the odd one before
-/// it; `last` came after those. Gives what the next two lags need of them.
+/// Adds to an odd lag and the even one after it: `near` lies the odd lag before `first`, `far` the even lag, and `last` follows `near`.
+/// Gives `far`, which is the `last` of the next two lags.
 #[inline(always)]
 fn add_two_lags<S: Sample>(
     [odd, even]: &mut [S::Square; 2],
@@ -172,7 +173,7 @@ fn add_two_lags<S: Sample>(
     &[[far_c, far_d], near]: &Two<S>,
     last: [S; 2],
 ) -> [S; 2] {
-    // Number by number: as a pair it would be loaded into a register of whole numbers.
+    // Number by number: a pair would be loaded into an integer register.
     let far = [far_c, far_d];
     S::add_difference(odd, first, near);
     S::add_difference(odd, second, last);

@@ -1,33 +1,33 @@
-//! Says whether what a trial's fit leaves is noise, or a second tone.
+//! Decides whether the residuals of a trial's fit are noise or a second tone.
 
 use super::trial::{Fitted, Row, Trial};
 use crate::block::Pair;
 
-/// What a fit leaves of its samples, and the correlation of that with the samples one and two before.
+/// Correlations of the residuals of a fit at lags of 0, 1 and 2 samples.
 #[derive(Debug, Clone)]
-pub(super) struct Rests {
+pub(super) struct Residuals {
     row: Row,
     sums: [f32; 3],
-    /// Of each pick-off the last one of the first samples, the one before it, and the same of the last samples, which come from the end.
+    /// The last two residuals of each pick-off, newest first: two of the first half, then two of the last half, which runs backwards.
     before: [[f32; 4]; 2],
 }
 
-impl Rests {
-    /// Those of no samples.
+impl Residuals {
+    /// Residuals of no samples.
     pub(super) const NONE: Self = Self {
         row: Row::NONE,
         sums: [0.0; 3],
         before: [[0.0; 4]; 2],
     };
 
-    /// Makes these the ones of a trial that is whole, in place.
+    /// Begins the residuals of a completed trial, in place.
     pub(super) fn begin(&mut self, trial: &Trial) {
         trial.restart(&mut self.row);
         self.sums = [0.0; 3];
         self.before = [[0.0; 4]; 2];
     }
 
-    /// Takes pairs of the first samples and, from the last one back, as many of the last ones, less what was fitted.
+    /// Adds samples less the fit: in each item the next one from the start, and the next one from the end backwards.
     #[inline(always)]
     pub(super) fn push_ends(&mut self, ends: impl Iterator<Item = [Pair; 2]>, fitted: &Fitted) {
         let Self {
@@ -39,7 +39,7 @@ impl Rests {
             let [cosine, sine, u_cosine, u_sine] = row.next();
             for (channel, before) in before.iter_mut().enumerate() {
                 let [c, s, uc, us, offset] = fitted.parameters[channel];
-                // Both rows differ in nothing there, and in their sign here.
+                // Of both rows the even columns are equal, the odd ones opposite.
                 let even = c * cosine + us * u_sine + offset;
                 let odd = s * sine + uc * u_cosine;
                 let a = samples[0][channel] - (even + odd);
@@ -58,7 +58,7 @@ impl Rests {
         };
     }
 
-    /// The correlations, over all samples: the last of both ends are neighbours.
+    /// Correlations over all samples, with those across the middle, where the last samples of both halves are neighbours.
     fn correlations(&self) -> [f32; 3] {
         let [all, mut one, mut two] = self.sums;
         for [a_1, a_2, b_1, b_2] in self.before {
@@ -68,7 +68,7 @@ impl Rests {
         [all, one, two]
     }
 
-    /// True when they are noise: a second tone slower than twice the wave has one correlation or the other.
+    /// True if the residuals are noise: a second tone of less than twice the wave's frequency shows in one correlation or the other.
     pub(super) fn are_noise(&self) -> bool {
         let [all, one, two] = self.correlations();
         one <= 0.5 * all && two >= -0.6 * all
@@ -81,7 +81,7 @@ mod tests {
     use crate::phase::PhaseStep;
 
     #[test]
-    fn rests_are_correlated_as_neighbours_are() {
+    fn correlations_from_both_ends_equal_those_in_order_of_time() {
         let mut seed = 1u32;
         let mut random = || {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -100,16 +100,16 @@ mod tests {
             let (first, last) = samples.split_at(length / 2);
             trial.push_ends(first.iter().zip(last.iter().rev()).map(|(&a, &b)| [a, b]));
             let fitted = trial.fitted(0.0).expect("a wave");
-            let mut rests = Rests::NONE;
-            rests.begin(&trial);
-            // In two parts, as a search takes them.
+            let mut residuals = Residuals::NONE;
+            residuals.begin(&trial);
+            // In two parts, as in a search.
             let ends: std::vec::Vec<[Pair; 2]> = (first.iter().zip(last.iter().rev()))
                 .map(|(&a, &b)| [a, b])
                 .collect();
             let (inner, outer) = ends.split_at(length / 4);
-            rests.push_ends(inner.iter().copied(), &fitted);
-            rests.push_ends(outer.iter().copied(), &fitted);
-            // As they are defined, one sample after the other.
+            residuals.push_ends(inner.iter().copied(), &fitted);
+            residuals.push_ends(outer.iter().copied(), &fitted);
+            // The same by definition, sample after sample.
             let mut row = Row::NONE;
             trial.restart(&mut row);
             let left: std::vec::Vec<Pair> = samples
@@ -123,11 +123,11 @@ mod tests {
                     })
                 })
                 .collect();
-            for (lag, sum) in rests.correlations().iter().enumerate() {
+            for (lag, sum) in residuals.correlations().iter().enumerate() {
                 let pairs = left[lag..].iter().zip(&left);
                 let expected: f32 = pairs.map(|(x, y)| x[0] * y[0] + x[1] * y[1]).sum();
                 assert!(
-                    (sum - expected).abs() < 1e-4 * rests.sums[0],
+                    (sum - expected).abs() < 1e-4 * residuals.sums[0],
                     "{length} samples, lag {lag}: {sum}, not {expected}"
                 );
             }

@@ -1,4 +1,4 @@
-//! Says whether a stretch of samples is one wave of about the period proposed, and refines the period.
+//! Decides whether a stretch of samples is one wave of about the proposed period, and refines the period.
 
 use num_complex::Complex32;
 
@@ -6,20 +6,21 @@ use crate::block::Pair;
 use crate::phase::PhaseStep;
 use crate::scalar::greater;
 
-/// The share of the signal's power that a wave may leave unexplained; 20 % noise leaves 14 %.
-const UNEXPLAINED: f32 = 0.3;
-/// The chance that white noise passes is this times up to 600, for each trial: see [`by_chance`].
+/// Share of the signal's power that a wave may leave unexplained; 20 % noise leaves 14 %.
+const MAX_UNEXPLAINED: f32 = 0.3;
+/// Limit of [`chance`]: white noise passes a trial with a probability of up to 600 times this.
 const FALSE_ALARM: f32 = 1e-11;
-/// Unexplained share above which the rest must look like noise, not like a second tone.
-const TONE: f32 = 2e-3;
-/// The same for a stretch of so many periods, in which a wave with a tone of 20 % beside it is told from two that are alike.
-const LOUD_TONE: f32 = 0.1;
-const LONG: f32 = 2.6;
+/// Unexplained share above which the residuals must be shown to be noise, not a second tone.
+const TONE_SHARE: f32 = 2e-3;
+/// The same for stretches of [`LONG_PERIODS`], which tell a wave with a tone of 20 % beside it from two equal tones.
+const LOUD_TONE_SHARE: f32 = 0.1;
+/// Periods from which on a stretch is long.
+const LONG_PERIODS: f32 = 2.6;
 
-/// A wave, its slope and an offset, fitted to a stretch of samples of known length.
+/// Least-squares fit of a wave, its linear change and an offset to a stretch of samples of known length.
 ///
-/// About the middle of the stretch the design is (cos φ, −sin φ, u cos φ, −u sin φ, 1): its even and odd columns do not mix, and
-/// samples as far before the middle as after it need its row once.
+/// The columns of the design are cos φ, −sin φ, u cos φ, −u sin φ and 1, with φ and u from the middle of the stretch: even and odd
+/// columns are orthogonal, and two samples equally far from the middle share a row.
 #[derive(Debug, Clone)]
 pub(crate) struct Trial {
     step: PhaseStep,
@@ -28,22 +29,22 @@ pub(crate) struct Trial {
     sums: Sums,
 }
 
-/// What a trial adds up.
+/// Sums of a trial.
 #[derive(Debug, Clone, Copy)]
 struct Sums {
     row: Row,
-    /// Squares and products of the even columns: (0,0), (0,3), (3,3), (0,4), (3,4). Those of the odd ones follow from them.
+    /// Squares and products of the even columns: (0,0), (0,3), (3,3), (0,4), (3,4). Those of the odd columns follow from them.
     even: [f32; 5],
     gradient: [[f32; 5]; 2],
     square: f32,
 }
 
 impl Sums {
-    /// Takes the next row of the design, which is that of `rows` samples but for signs: `sum` and `difference` of those.
+    /// Adds the next row of the design for `rows` samples, one or two: `sum` for the even columns, `difference` for the odd ones.
     #[inline]
     fn add(&mut self, rows: f32, sum: Pair, difference: Pair) {
         let [c, s, uc, us] = self.row.next();
-        // The products of a row count for all its samples.
+        // A row's products count once for each of its samples.
         let (all_c, all_us) = (rows * c, rows * us);
         // Written out: compiled for size, loops over arrays would take twice as long.
         self.even[0] += all_c * c;
@@ -57,7 +58,7 @@ impl Sums {
     }
 }
 
-/// Adds a row to the gradient of one pick-off.
+/// Adds a row to the right-hand sides of one pick-off.
 #[inline(always)]
 fn add(gradient: &mut [f32; 5], [c, s, uc, us]: [f32; 4], sum: f32, difference: f32) {
     gradient[0] += c * sum;
@@ -67,13 +68,13 @@ fn add(gradient: &mut [f32; 5], [c, s, uc, us]: [f32; 4], sum: f32, difference: 
     gradient[4] += sum;
 }
 
-/// A symmetric 2×2 matrix made ready for solving.
+/// Inverse of a symmetric 2×2 matrix.
 struct Inverse {
     entries: [f32; 3],
 }
 
 impl Inverse {
-    /// From (0,0), (0,1), (1,1); none where it is singular.
+    /// Inverse of the matrix with entries (0,0), (0,1), (1,1); `None` if it is nearly singular.
     fn new([a, b, d]: [f32; 3]) -> Option<Self> {
         let determinant = a * d - b * b;
         (determinant > 1e-5 * a * d).then(|| {
@@ -91,7 +92,7 @@ impl Inverse {
     }
 }
 
-/// The design, from sample to sample.
+/// Rows of the design, one after another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
     /// cos φ − j sin φ.
@@ -123,7 +124,7 @@ impl Row {
         self.u = -0.5 * before_middle as f32 * self.advance;
     }
 
-    /// The columns but for the last, which is one.
+    /// The next row, without its last column, which is 1.
     #[inline]
     pub(super) fn next(&mut self) -> [f32; 4] {
         let (Complex32 { re, im }, u) = (self.unit, self.u);
@@ -133,17 +134,17 @@ impl Row {
     }
 }
 
-/// The fit of a trial that may be a wave.
+/// Fit of a stretch that may be a wave.
 #[derive(Debug, Clone)]
 pub(crate) struct Fitted {
     /// Period in samples.
     pub period: f32,
     /// Variance of the samples, both pick-offs together.
     pub power: f32,
-    /// What the wave leaves, as a share of the power, beyond what may be left without doubt: above 0 it must still be shown to be noise,
+    /// Unexplained share of the power, less the share that needs no second look: above 0 the residuals must still be shown to be noise,
     /// not a second tone.
     pub doubt: f32,
-    /// Of each pick-off: cos φ, −sin φ, u cos φ, −u sin φ, 1.
+    /// Coefficients of cos φ, −sin φ, u cos φ, −u sin φ and 1, for each pick-off.
     pub parameters: [[f32; 5]; 2],
 }
 
@@ -161,7 +162,7 @@ impl Trial {
         },
     };
 
-    /// Makes this one a trial of `period` samples over a stretch of `length`, in place.
+    /// Begins a trial of a period of `period` samples over a stretch of `length` samples, in place.
     pub(crate) fn begin(&mut self, period: f32, length: usize) {
         self.step = PhaseStep::from_period(period);
         self.length = length;
@@ -180,13 +181,13 @@ impl Trial {
         self.count += 1;
     }
 
-    /// True when all samples are taken.
+    /// True once all samples are taken.
     #[cfg(feature = "mean-return")]
     pub(crate) fn is_whole(&self) -> bool {
         self.count >= self.length
     }
 
-    /// Takes pairs of the first samples and, from the last one back, as many of the last ones.
+    /// Takes samples in twos: the next one from the start, and the next one from the end backwards.
     #[inline(always)]
     pub(crate) fn push_ends(&mut self, ends: impl Iterator<Item = [Pair; 2]>) {
         let mut sums = self.sums;
@@ -201,14 +202,14 @@ impl Trial {
         self.sums = sums;
     }
 
-    /// The parameters of both pick-offs; none where the stretch does not tell them apart.
+    /// Coefficients of both pick-offs; `None` if the stretch does not determine them.
     fn parameters(&self) -> Option<[[f32; 5]; 2]> {
         let [cc, cus, usus, c1, us1] = self.sums.even;
         let n = self.length as f32;
         let per_sample = 1.0 / n;
-        // cos² + sin² is one, and u² adds up to (n² − 1)/3n.
+        // From cos² + sin² = 1, and Σ u² = (n² − 1)/3n.
         let odd = Inverse::new([n - cc, cus, (n - per_sample) / 3.0 - usus])?;
-        // The offset is taken out of the even columns, then they are two as well.
+        // With the offset eliminated, the even columns are two as well.
         let (mean_c, mean_us) = (c1 * per_sample, us1 * per_sample);
         let even = Inverse::new([cc - c1 * mean_c, cus - c1 * mean_us, usus - us1 * mean_us])?;
         Some(self.sums.gradient.map(|[c, s, uc, us, sum]| {
@@ -219,7 +220,7 @@ impl Trial {
         }))
     }
 
-    /// The wave, once the stretch is whole and holds one. It is taken to leave no less than `rounding` of each pair's power.
+    /// The wave, if the completed stretch holds one. Its residual is taken to be at least `rounding` in power per pair.
     pub(crate) fn fitted(&self, rounding: f32) -> Option<Fitted> {
         let parameters = self.parameters()?;
         let n = self.length as f32;
@@ -238,15 +239,19 @@ impl Trial {
             return None;
         }
         let left = self.sums.square - explained;
-        // Of numbers with but a few values a wave leaves nothing now and then, and that is by chance.
+        // Samples with only a few values are now and then fitted without residual by chance.
         let rest = greater(rounding * n, left) / power;
         let drift = turned / size;
-        if !(rest < UNEXPLAINED && by_chance(rest, self.length) < FALSE_ALARM && drift.abs() < 1.0)
+        if !(rest < MAX_UNEXPLAINED && chance(rest, self.length) < FALSE_ALARM && drift.abs() < 1.0)
         {
             return None;
         }
         let period = self.step.shifted(2.0 * drift / n).period();
-        let tone = if n < LONG * period { TONE } else { LOUD_TONE };
+        let tone = if n < LONG_PERIODS * period {
+            TONE_SHARE
+        } else {
+            LOUD_TONE_SHARE
+        };
         Some(Fitted {
             period,
             power: power / n,
@@ -255,17 +260,18 @@ impl Trial {
         })
     }
 
-    /// Makes `row` the first one of the design, for a second pass over the same samples.
+    /// Sets `row` to the first one of the design, for a second pass over the same samples.
     pub(super) fn restart(&self, row: &mut Row) {
         *row = self.sums.row;
         row.restart(self.step, self.length);
     }
 }
 
-/// The chance that noise leaves less than `rest` of 2n numbers less their means and eight parameters more, but for a factor: rest^(n−5).
+/// Probability that a fit of white noise, of n pairs, leaves an unexplained share below `rest`, but for a factor: rest^(n−5).
 ///
-/// The share follows Beta(n − 5, 4). At the limit the factor, a polynomial of the third degree in 1 − rest, is 50 to 600 for n of 10 to 24.
-fn by_chance(rest: f32, n: usize) -> f32 {
+/// Of 2n numbers, their means and eight parameters are fitted, so the share follows Beta(n − 5, 4). At the limit the factor, a polynomial
+/// of the third degree in 1 − rest, is 50 to 600 for n of 10 to 24.
+fn chance(rest: f32, n: usize) -> f32 {
     let (mut chance, mut power) = (1.0, rest);
     let mut left = n.saturating_sub(5);
     while left > 0 {

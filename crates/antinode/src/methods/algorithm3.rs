@@ -6,8 +6,8 @@ use super::wave::Shape;
 
 /// a_A, a_B and θ by (21), (5) and (22).
 ///
-/// (22) gives |a_B|; its sign is that of `sign`: Q of (24), [`Products::q`](super::Products::q), or −q of (16). Noise of σ a sample
-/// adds 2σ² to both squared amplitudes.
+/// (22) gives |a_B| only: a_B takes the sign of `sign`, which is Q of (24), [`Products::q`](super::Products::q), or −q of (16). Noise of
+/// σ a sample adds 2σ² to both squared amplitudes.
 pub fn shape(moments: &Moments, sign: f64) -> Shape {
     let (cc, dd, cd) = moments.means();
     let angle = 0.25 * libm::atan2(2.0 * cd, cc - dd);

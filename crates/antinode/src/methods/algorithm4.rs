@@ -1,14 +1,14 @@
 //! Algorithm 4: digital demodulation, formulas (24) and (25).
 //!
-//! It holds exactly only where the window fits the period, condition (8); elsewhere leakage remains: up to 1.3 % of a_A for a window
-//! of 19 samples at 18.75 a period, 0.36 % of the paper's wave. The window solution of the [`Tracker`](crate::Tracker) is its exact counterpart and has none.
+//! It is exact only if the window fits the period, condition (8). Otherwise leakage remains: up to 1.3 % of a_A for a window of 19
+//! samples at 18.75 a period, 0.36 % of the paper's wave. The [`Tracker`](crate::Tracker)'s window solution is its exact counterpart.
 
 use super::functional::root;
 use super::phase;
 use super::products::Products;
 use super::wave::{Shape, Wave};
 
-/// The wave by (25), with 2Φ = atan2(L, M) so that the quadrant is right, and Φ or Φ + π by (5).
+/// The wave by (25), with 2Φ = atan2(L, M), M = C_x² + C_y² − S_x² − S_y², so that the quadrant is right, and Φ or Φ + π by (5).
 ///
 /// The reference is φ = ωt, that is φ₀ = 0: α = Φ.
 pub fn wave(products: &Products) -> Wave {

@@ -1,4 +1,4 @@
-//! All four methods beside the exact solution: their differences, whom to trust, and whether something is wrong.
+//! All four methods beside the exact solution: their differences, their ranks, and whether a fault shows.
 //!
 //! # Example
 //!
@@ -53,53 +53,53 @@ use super::scatter::{Scatter, changing, difference};
 use super::wave::{Shape, Wave};
 use super::{algorithm1, algorithm2, algorithm3, algorithm4, functional, phase};
 
-/// Beyond this many deviations from what its own leakage and bias explain, a method tells of a fault.
+/// Limit of a method's unexplained differences, in deviations: beyond it a method shows a fault of the signal.
 ///
 /// In white noise of up to 20 % of a_A none of 176 000 windows of 2 to 50 periods reached it, with |a_B| up to 0.9 a_A.
 pub const DISAGREEMENT: f64 = 6.0;
 
-/// The place of algorithm 1.
+/// Index of algorithm 1.
 pub(super) const NO_QUADRATURE: usize = 0;
-/// The place of algorithm 2.
+/// Index of algorithm 2.
 pub(super) const DELAY: usize = 1;
-/// The place of algorithm 3.
+/// Index of algorithm 3.
 const AXES: usize = 2;
 
-/// The sums of one window, all of it centred, (4).
+/// Sums over one window of centred samples, (4).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sums {
     /// Second moments.
     pub moments: Moments,
-    /// Delayed products, as many as the window has pairs: the first of them reach back to the pairs before it. If they are of other pairs,
-    /// the conditions (17) and (20) fail without reason.
+    /// Delayed products, as many as the window has pairs: the first of them reach back to the pairs before the window. With products of
+    /// other pairs, the conditions (17) and (20) fail without reason.
     pub delayed: Delayed,
     /// Products with the reference, at the wave's frequency.
     pub products: Products,
 }
 
-/// One method in a window.
+/// Result of one method in a window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Method {
-    /// What it found.
+    /// The wave it found, its angle near that of the exact solution.
     pub wave: Wave,
     /// J of (6) at the frequency of the sums' products, input units squared.
     pub j: f64,
-    /// a_A, a_B and θ less those of the exact solution, in its standard deviations.
+    /// a_A, a_B and θ less those of the exact solution, in the latter's standard deviations.
     pub differences: [f64; 3],
-    /// What is left of them after what leakage and noise explain, in units of what may be left: beyond [`DISAGREEMENT`] the signal is not what the model says.
+    /// a_A, a_B and θ less what leakage and noise predict, in deviations: beyond [`DISAGREEMENT`] the model does not fit the signal.
     pub unexplained: [f64; 3],
-    /// Which of the paper's conditions hold to within the noise.
+    /// Which of the paper's conditions hold within the noise.
     pub conditions: Conditions,
-    /// 1: to be trusted most. Methods whose own conditions hold come first, (8) being one for all; among equals the smaller J.
+    /// Rank from 1, to be trusted most, to 4. Methods whose own conditions hold, (8) not counted, come first; then the smaller J decides.
     pub rank: u8,
 }
 
-/// All methods of a window.
+/// Results of all methods in a window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Comparison {
-    /// Algorithms 1 to 4; 2 with the fractional delay.
+    /// Algorithms 1 to 4; algorithm 2 with the fractional delay.
     pub methods: [Method; 4],
-    /// Condition (8): |⟨e^{2jωt}⟩| over the window, 0 where it fits the period.
+    /// Condition (8): |⟨e^{2jωt}⟩| over the window, 0 if the window fits the period.
     pub leakage: f64,
     /// (17) at the whole-sample delay, as a share of ⟨S_C² + S_D²⟩: about cos ωt₃.
     pub imbalance: f64,
@@ -111,10 +111,11 @@ pub struct Comparison {
     pub phase_difference: f64,
     /// (20) less the phase difference of the exact solution, in its own deviations.
     pub phase_excess: f64,
-    /// True where methods part company beyond noise.
+    /// True if a method differs beyond [`DISAGREEMENT`] from what is expected of it.
     pub disagree: bool,
 }
 
+/// The waves of algorithms 1 to 4.
 fn waves(sums: &Sums) -> [Wave; 4] {
     let Sums {
         moments,
@@ -130,6 +131,7 @@ fn waves(sums: &Sums) -> [Wave; 4] {
     ]
 }
 
+/// a_A, a_B and θ of `a` less those of `b`, in multiples of `unit`; angles modulo π/2.
 fn apart(a: &Shape, b: &Shape, unit: &[f64; 3]) -> [f64; 3] {
     let turn = a.angle - b.angle;
     let quarter = core::f64::consts::FRAC_PI_2;
@@ -140,7 +142,7 @@ fn apart(a: &Shape, b: &Shape, unit: &[f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// Compares the methods over one window. It costs some thousand f64 operations, at window rate.
+/// Compares the methods over one window, at a cost of some thousand f64 operations.
 pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
     let (omega, count) = (sums.products.omega, sums.products.count);
     let exact = &reference.wave;
@@ -162,7 +164,7 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
     } = exact.shape;
     let window = 0.5 * a * leakage < of_a.max(0.5 * a * of_angle);
     let changing = changing(leakage, omega, count);
-    // Of the very samples: blocks that do not fit the period leave the estimate less exact.
+    // Fitted to these very samples: if blocks do not fit the period, the estimate is less exact.
     let fitted = super::exact::at(&sums.products, &sums.moments).wave;
     let OfDelay {
         excesses: [imbalance_excess, phase_excess],
@@ -177,7 +179,7 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
     let conditions = |i: usize| Conditions {
         window,
         no_quadrature: i != NO_QUADRATURE || b.abs() < 2.0 * of_b,
-        // Not a number fails.
+        // NaN fails.
         delay: i != DELAY || imbalance_excess.abs() <= CONDITION,
         monitor: i != DELAY || phase_excess.abs() <= CONDITION,
     };
@@ -194,15 +196,15 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
         let explained = expected.get(i).copied().unwrap_or(*exact);
         let mut seen = wave.shape;
         if i == AXES {
-            // (22) gives |a_B|: near zero its borrowed sign may be the other one in noise.
+            // (22) gives |a_B|: near zero, noise may invert the sign that it borrows.
             let own = explained.shape.quadrature_amplitude;
             seen.quadrature_amplitude = libm::copysign(seen.quadrature_amplitude, own);
         }
         if i == NO_QUADRATURE {
-            // So is the side of the pick-off's axis on which (12) sees the wave.
+            // Noise may also invert the sign of the angle of (12), which is that of ⟨S_C S_D⟩.
             seen.angle = libm::copysign(seen.angle, explained.shape.angle);
         }
-        // 2 has its angle from the same sums as 3.
+        // Algorithm 2 has its angle from the same sums as algorithm 3.
         let angle_of = expected.get(i.max(AXES)).copied().unwrap_or(*exact).shape;
         let unit = scatter.of(i, &explained.shape, difference(&angle_of));
         Method {
@@ -215,13 +217,13 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
         }
     });
     rank(&mut methods);
-    let beyond = |method: &Method| {
+    let is_faulty = |method: &Method| {
         let within = |x: &f64| x.abs() <= DISAGREEMENT;
-        // Not a number is beyond.
+        // NaN is beyond it.
         !method.unexplained.iter().all(within)
     };
     Comparison {
-        disagree: methods.iter().any(beyond),
+        disagree: methods.iter().any(is_faulty),
         methods,
         leakage,
         imbalance,
@@ -234,7 +236,7 @@ pub fn compare(sums: &Sums, reference: &Reference) -> Comparison {
     }
 }
 
-/// Ranks methods: those whose own conditions hold come first, and among equals the smaller J, or else the one before.
+/// Ranks methods: those whose own conditions hold come first, then the smaller J, then the lower number.
 fn rank(methods: &mut [Method; 4]) {
     let keys = methods.map(|method| {
         // A method that found nothing comes last.

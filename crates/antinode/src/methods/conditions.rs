@@ -1,4 +1,4 @@
-//! The paper's conditions for its methods, each held against what white noise may do to it in a window.
+//! The paper's conditions for its methods, each tested against the effect of white noise in a window.
 
 use core::fmt;
 
@@ -8,33 +8,33 @@ use super::moments::Moments;
 use super::reference::Reference;
 use super::scatter::slow;
 
-/// (17) and (20) fail beyond this many of their deviations.
+/// Limit of (17) and (20), in their own deviations: beyond it they fail.
 pub const CONDITION: f64 = 3.0;
 
-/// Which conditions hold for a method; one that the paper does not ask of the method holds.
+/// Which conditions hold for a method; those that the paper does not demand of the method hold.
 ///
-/// [`Display`](fmt::Display) gives the formulas of those that fail, joined by `+`: `(8)+(17)`; nothing where all hold.
+/// [`Display`](fmt::Display) gives the formulas of those that fail, joined by `+`: `(8)+(17)`; nothing if all hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Conditions {
-    /// (8), asked of all: the window fits the period so well that the leakage |⟨e^{2jωt}⟩| is below two deviations of a_A, as a share of
+    /// (8), demanded of all: the window fits the period so well that the leakage |⟨e^{2jωt}⟩| is below two deviations of a_A, as a share of
     /// a_A, or below one of θ, rad. Half of it leaks into the a_A of algorithms 1 to 3, as a share of a_A, and all of it into that of 4;
     /// a_B/a_A times as much leaks into θ, rad.
     pub window: bool,
-    /// (12), asked of algorithm 1: |a_B| is below two of its deviations.
+    /// (12), demanded of algorithm 1: |a_B| is below two of its deviations.
     pub no_quadrature: bool,
-    /// (17), asked of algorithm 2: ⟨S(t) S(t − t₃)⟩ vanishes at a quarter period.
+    /// (17), demanded of algorithm 2: ⟨S(t) S(t − t₃)⟩ vanishes at a quarter period.
     pub delay: bool,
-    /// (20), asked of algorithm 2: the phase difference of the pick-offs is that of the exact solution.
+    /// (20), demanded of algorithm 2: the phase difference of the pick-offs is that of the exact solution.
     pub monitor: bool,
 }
 
 impl Conditions {
-    /// True where all hold.
+    /// True if all hold.
     pub fn hold(self) -> bool {
         self.window && self.of_the_method_hold()
     }
 
-    /// True where all hold that not all methods share: these decide the rank before J does.
+    /// True if all but (8), which all methods share, hold: these decide the rank before J does.
     pub fn of_the_method_hold(self) -> bool {
         self.no_quadrature && self.delay && self.monitor
     }
@@ -59,7 +59,7 @@ impl fmt::Display for Conditions {
     }
 }
 
-/// What the delayed sums say.
+/// Conditions of the delayed sums.
 pub(super) struct OfDelay {
     /// (17) and (20) less what the exact solution expects of them, each in its own deviations.
     pub excesses: [f64; 2],
@@ -67,10 +67,10 @@ pub(super) struct OfDelay {
     pub q_deviation: f64,
 }
 
-/// (17), (20) and q beside what the exact solution expects of them.
+/// (17), (20) and q compared with what the exact solution predicts for them.
 ///
-/// Both rest on the delayed sums, and on noise that a quarter period makes independent: hum, a second tone or coloured noise shows
-/// in (17) on a pick-off itself, in (20) between the two. The grid's part of the delay is known and taken out.
+/// Both conditions use the delayed sums and assume noise that is independent after a quarter period. Hum, a second tone or coloured
+/// noise shows in (17) within a pick-off, in (20) between the two. The known error of the whole-sample delay is removed.
 pub(super) fn of_delay(
     found: &Sums,
     expected_moments: &Moments,
@@ -87,7 +87,7 @@ pub(super) fn of_delay(
     let (count, lag) = (f64::from(delayed.count), f64::from(delayed.lag));
     let (sine, cosine) = libm::sincos(products.omega * lag);
     let [noise_c, noise_d, _] = reference.noise.moments;
-    // The exact fit leaves its residual no part along the wave, but where the delay reaches over the window's ends.
+    // The residual of the exact fit is orthogonal to the wave, except where the delay reaches over the window's ends.
     let (cc, dd, _) = expected_moments.means();
     let ends = 2.0 * lag / (count * count);
     let (c, d) = ((cc - noise_c).max(0.0), (dd - noise_d).max(0.0));
@@ -96,7 +96,7 @@ pub(super) fn of_delay(
     let of_power = level * level + 2.0 * squares;
     let own = ends * (noise_c * c + noise_d * d) + squares + cosine * cosine * of_power;
     let between = ends * noise_d * c + (1.0 + cosine * cosine) * noise_c * noise_d / count;
-    // A rate that is lost in noise may be as large as its deviation. Turning and decay go on during the delay.
+    // A rate below the noise may be as large as its deviation. Turning and decay go on during the delay.
     let [of_turn, of_decay] = reference.change_deviations;
     let (turn, decay) = (
         libm::hypot(reference.turn, of_turn),
@@ -119,7 +119,7 @@ pub(super) fn of_delay(
     };
     let (x, y) = vector(moments, delayed);
     let (u, v) = vector(expected_moments, expected_delayed);
-    // The angle between the two times their size: on a pick-off's axis without quadrature Δφ itself has no meaning.
+    // The angle between both vectors times their length: on a pick-off's axis without quadrature Δφ itself has no meaning.
     let turn = libm::atan2(y * u - x * v, x * u + y * v);
     let across = deviation(between);
     OfDelay {

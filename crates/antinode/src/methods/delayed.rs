@@ -1,10 +1,10 @@
-//! Products of the pick-offs with themselves a quarter of a period before: the sums of algorithm 2.
+//! Products of the pick-offs with their samples a quarter period before: the sums of algorithm 2.
 
 use super::moments::Moments;
 use crate::block::Pair;
 use crate::sample::{Arithmetic, Sample, SamplePair};
 
-/// Delayed products of a window. Those of two windows with one lag add.
+/// Delayed products of a window. Those of several windows at the same lag can be added.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Delayed {
     /// t₃ in samples.
@@ -13,12 +13,13 @@ pub struct Delayed {
     pub count: u32,
     /// Σ S_C(t) S_D(t − t₃), input units squared.
     pub cd: f64,
-    /// Σ S_C(t) S_C(t − t₃) + S_D(t) S_D(t − t₃), which (17) wants to vanish.
+    /// Σ S_C(t) S_C(t − t₃) + S_D(t) S_D(t − t₃), 0 by (17) at a quarter period.
     pub own: f64,
 }
 
 impl Delayed {
-    /// Of the centred sample pairs from `start` on, each with the one `lag` before it; pairs before the slice are left out.
+    /// Products of the centred sample pairs from index `start` on, each with the pair `lag` before it; those that would need pairs before
+    /// the slice are left out.
     pub fn of(pairs: &[Pair], start: usize, lag: u16) -> Self {
         let shift = usize::from(lag);
         let from = start.max(shift);
@@ -40,7 +41,7 @@ impl Delayed {
         }
     }
 
-    /// The products of this window and `other` as one; the lag is this one's.
+    /// Products of this window and `other` together; the lag is this one's.
     #[must_use = "it gives the sum, and changes neither"]
     pub fn with(&self, other: &Self) -> Self {
         Self {
@@ -51,12 +52,12 @@ impl Delayed {
         }
     }
 
-    /// q = ⟨S_C(t) S_D(t − t₃)⟩ of (16) at the lag as it is; NaN for an empty window.
+    /// q = ⟨S_C(t) S_D(t − t₃)⟩ of (16) at the whole-sample lag; NaN for an empty window.
     pub fn q(&self) -> f64 {
         self.cd / f64::from(self.count)
     }
 
-    /// q at an exact quarter of a period: what is left of the whole-sample lag's grid error is taken out.
+    /// q at an exact quarter period: the error of the whole-sample lag is removed.
     ///
     /// r(t₃) = ⟨S_C(t) S_D(t − t₃)⟩ is a sinusoid of t₃, r(0) = ⟨S_C S_D⟩, so q = [r(t₃) − r(0) cos ωt₃]/sin ωt₃. `omega` is in
     /// rad a sample; the lag must not be near a multiple of half a period.
@@ -66,31 +67,30 @@ impl Delayed {
         (self.q() - cd * cosine) / sine
     }
 
-    /// How far (17) is from zero: ⟨S(t) S(t − t₃)⟩ over both pick-offs, as a share of ⟨S_C² + S_D²⟩; it is about cos ωt₃.
+    /// Deviation of (17) from zero: ⟨S(t) S(t − t₃)⟩ over both pick-offs, as a share of ⟨S_C² + S_D²⟩; it is about cos ωt₃.
     pub fn imbalance(&self, moments: &Moments) -> f64 {
         self.own / f64::from(self.count) / moments.power()
     }
 }
 
-/// Gathers [`Delayed`] at sample rate: about as much work as [`MomentSums`](super::MomentSums), and a delay line of up to `LAGS` pairs.
+/// Accumulates [`Delayed`] at sample rate, with about the work of [`MomentSums`](super::MomentSums) and a delay line of up to `LAGS` pairs.
 ///
-/// A quarter of the longest period, 200 samples, takes 50. It runs over the whole stream: a window's first products take pairs before
-/// the window.
+/// A period of 200 samples, the longest, needs `LAGS` of 50. Push the whole stream: a window's first products use pairs before it.
 #[derive(Debug, Clone)]
 pub struct DelayedSums<const LAGS: usize, S: Sample = f32> {
     offsets: S::Centred,
     lag: u16,
     line: [S::Centred; LAGS],
-    /// Place in the line of the oldest pair.
+    /// Index of the oldest pair in the line.
     place: u16,
-    /// Pairs in the line, up to the lag.
+    /// Pairs in the line, at most the lag.
     filled: u16,
     count: u32,
     sums: [S::Product; 2],
 }
 
 impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
-    /// Empty sums at a lag in samples, brought into 1…`LAGS`; `offsets` of S_C and S_D, in input units, are taken off every sample,
+    /// Empty sums at a lag in samples, limited to 1…`LAGS`; `offsets` of S_C and S_D, in input units, are subtracted from every sample,
     /// (4).
     pub fn new(lag: u16, offsets: [f32; 2]) -> Self {
         Self {
@@ -124,7 +124,8 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
         self.count += 1;
     }
 
-    /// Adds the pairs of a slice, to the bit as [`push`](Self::push) would: beyond its first pairs it is its own delay line.
+    /// Adds the pairs of a slice, with the same result bit for bit as [`push`](Self::push). After its first pairs the slice serves as its
+    /// own delay line.
     #[inline]
     pub fn extend<P: SamplePair<S>>(&mut self, pairs: &[P]) {
         let lag = usize::from(self.lag);
@@ -149,7 +150,7 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
             let [now, before] = [now, before].map(|pair| S::centred(pair.pair(), offsets));
             S::add_delayed(&mut sums, now, before);
         };
-        // In eights: the loop itself costs as much as a pair.
+        // In eights, as the loop's own overhead is as much as a pair's work.
         let (now, now_rest) = rest.as_chunks::<8>();
         let (before, _) = pairs.as_chunks::<8>();
         for (now, before) in now.iter().zip(before) {
@@ -169,13 +170,13 @@ impl<const LAGS: usize, S: Sample> DelayedSums<LAGS, S> {
         self.place = 0;
     }
 
-    /// The products since the last call; the sums start anew, the line goes on.
+    /// Takes the products since the last call; the sums restart, the delay line continues.
     pub fn take(&mut self) -> Delayed {
         let sums = core::mem::take(&mut self.sums).map(S::product_to_f64);
         Delayed::new(self.lag, core::mem::take(&mut self.count), sums)
     }
 
-    /// Tells that samples are missing before the next pair: the line is filled anew.
+    /// Refills the delay line, as is necessary if samples are missing before the next pair.
     pub fn restart(&mut self) {
         self.filled = 0;
         self.place = 0;

@@ -14,7 +14,7 @@ use super::products::{Products, mean_harmonic};
 use super::wave::Wave;
 use crate::block::Pair;
 
-/// What a window holds at one frequency.
+/// Least-squares wave and offsets of a window at one frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solution {
     /// The wave; its phase stands at the window's first sample.
@@ -27,12 +27,12 @@ pub struct Solution {
     pub residual: f64,
 }
 
-/// The least-squares wave and offsets at the frequency of `products`; `moments` of the same samples. More than 3 samples.
+/// The least-squares wave and offsets at the frequency of `products`, with `moments` of the same samples, of which there are more than 3.
 pub fn at(products: &Products, moments: &Moments) -> Solution {
     let (omega, count) = (products.omega, products.count);
     let g1 = mean_harmonic(1, omega, count);
     let g2 = mean_harmonic(2, omega, count);
-    // All sums are over n: p and q are half those of the text over n/2.
+    // All sums are divided by n, and so are p and q.
     let p = 0.5 * (1.0 - g1.norm_sqr());
     let q = (g2 - g1 * g1) * 0.5;
     let scale = 1.0 / (p * p - q.norm_sqr());
@@ -45,7 +45,7 @@ pub fn at(products: &Products, moments: &Moments) -> Solution {
         let z = (x * p - q * x.conj()) * scale;
         *offset = products.mean[i] - (z * g1.conj()).re;
         residual -= products.mean[i] * products.mean[i] + (z * x.conj()).re;
-        // (25) sees the very phasor: z = 2⟨S e^{−jωt}⟩ of a window that fits.
+        // (25) then gives the wave of phasor z, as z = 2⟨S e^{−jωt}⟩ in a window that fits the period.
         fitted.cosine[i] = 0.5 * z.re;
         fitted.sine[i] = -0.5 * z.im;
     }
@@ -57,7 +57,8 @@ pub fn at(products: &Products, moments: &Moments) -> Solution {
     }
 }
 
-/// The least-squares solution of a window of sample pairs, from `start` rad a sample, within a third of 2π/n of the truth.
+/// The least-squares solution of a window of n sample pairs. The search begins at `start`, rad a sample, within a third of 2π/n of the
+/// truth.
 pub fn solve(pairs: &[Pair], start: f64) -> Solution {
     let moments = Moments::of(pairs);
     let solution = |omega: f64| at(&Products::of(pairs, omega), &moments);

@@ -1,6 +1,6 @@
-//! What a wave makes of a window's sums when there is no other noise than white: closed forms, no samples.
+//! Expected sums of a window from a wave in white noise, in closed form.
 //!
-//! With these each method's own leakage and bias is known beforehand, so that it is not taken for a fault.
+//! They predict each method's own leakage and bias, so that these are not taken for a fault.
 
 use super::delayed::Delayed;
 use super::moments::Moments;
@@ -9,15 +9,15 @@ use super::reference::Noise;
 use super::wave::Wave;
 
 impl Moments {
-    /// Those of `wave` at `omega` rad a sample over `count` pairs, in `noise`, while the pattern turns by `turn` rad from the first
-    /// sample to the last: turning blurs the angle.
+    /// Expected moments of `wave` at `omega` rad a sample over `count` pairs, in `noise`, while the pattern turns by `turn` rad from the
+    /// first sample to the last: turning blurs the angle.
     pub fn expected(wave: &Wave, omega: f64, count: u32, noise: &Noise, turn: f64) -> Self {
         let means = Means::new(omega, count);
         let (u, v) = wave.quadratures();
         let n = f64::from(count);
         let [cc, dd] = [0, 1].map(|i: usize| means.product(u[i], v[i], u[i], v[i]));
         let cd = means.product(u[0], v[0], u[1], v[1]);
-        // 4θ runs over ±2 turn: its mean unit vector is shorter by sin x/x.
+        // 4θ sweeps ±2 turn, which shortens the mean of its unit vector to sin x/x.
         let x = 2.0 * turn;
         let blur = if x.abs() < 1e-4 {
             1.0 - x * x / 6.0
@@ -35,7 +35,7 @@ impl Moments {
 }
 
 impl Products {
-    /// Those of `wave` at its own frequency over `count` pairs.
+    /// Expected products of `wave` at its own frequency over `count` pairs.
     pub fn expected(wave: &Wave, omega: f64, count: u32) -> Self {
         let means = Means::new(omega, count);
         let first = mean_harmonic(1, omega, count);
@@ -51,7 +51,7 @@ impl Products {
 }
 
 impl Delayed {
-    /// Those of `wave` over `count` pairs in `noise` at a delay of `lag` samples, with samples before the window.
+    /// Expected products of `wave` over `count` pairs in `noise` at a delay of `lag` samples, with the samples before the window.
     pub fn expected(wave: &Wave, omega: f64, count: u32, noise: &Noise, lag: u16) -> Self {
         let means = Means::new(omega, count);
         let (u, v) = wave.quadratures();

@@ -1,7 +1,7 @@
 //! J → min(ω): the frequency at which a wave explains its window best.
 //!
-//! J has one valley within about fs/n Hz of the truth, n samples a window. Both searches go downhill from a start in it, which (9) or
-//! (10) gives. `j` maps ω in rad a sample to J.
+//! Within about fs/n Hz of the truth, with n samples a window, J has a single valley. Both searches descend from a start within it, which
+//! (9) or (10) gives. `j` maps ω in rad a sample to J.
 
 /// The paper's search: the lowest J on a grid of `step` rad a sample about `start`, within `reach` steps of it.
 ///
@@ -15,7 +15,7 @@ pub fn on_grid(start: f64, step: f64, reach: u32, mut j: impl FnMut(f64) -> f64)
         for direction in [stride, -stride] {
             while (place + direction).abs() <= reach {
                 let value = j(start + (place + direction) as f64 * step);
-                // Not a number is no way down.
+                // False for NaN.
                 if value < lowest {
                     lowest = value;
                     place += direction;
@@ -31,7 +31,8 @@ pub fn on_grid(start: f64, step: f64, reach: u32, mut j: impl FnMut(f64) -> f64)
 /// The minimum itself, to about 10⁻⁸/`count` rad a sample for a smooth J over `count` samples; `start` within 0.5/`count` of it or
 /// so, as [`on_grid`] leaves it. [`functional::absolutes`](super::functional::absolutes) is not smooth: leave it at the grid.
 ///
-/// Parabolas through three points, each about the vertex of the last, with ever smaller arms. A start with no valley comes back.
+/// Fits parabolas through three points, each about the vertex of the last one, with ever smaller arms. A start without a valley is
+/// returned as it is.
 pub fn exact(start: f64, count: u32, mut j: impl FnMut(f64) -> f64) -> f64 {
     let mut omega = start;
     for arm in [0.3, 0.1, 1e-2, 1e-3, 1e-4] {

@@ -19,7 +19,7 @@ pub fn squares(wave: &Wave, moments: &Moments, products: &Products) -> f64 {
     j
 }
 
-/// Zero for what rounding left below it; what is not a number stays so.
+/// Zero for negative values, which are due to rounding; NaN stays NaN.
 pub(super) fn above_zero(squares: f64) -> f64 {
     if squares < 0.0 { 0.0 } else { squares }
 }
@@ -29,9 +29,9 @@ pub(super) fn root(squares: f64) -> f64 {
     libm::sqrt(above_zero(squares))
 }
 
-/// (15), input units: the mean of |residual| of both pick-offs, at `omega` rad a sample. It takes the samples themselves, centred.
+/// (15), input units: the mean over samples of the absolute residuals of both pick-offs, at `omega` rad a sample. `pairs` are centred.
 ///
-/// Printed for algorithm 1, it serves any wave.
+/// The paper has it for algorithm 1; here it serves any wave.
 pub fn absolutes(wave: &Wave, pairs: &[Pair], omega: f64) -> f64 {
     let (u, v) = wave.quadratures();
     let (step_sine, step_cosine) = libm::sincos(omega);

@@ -1,18 +1,18 @@
-//! The paper's four methods, each a pure function of a window's sums, and what they share.
+//! The paper's four methods, each a pure function of a window's sums, and the functions and sums that they share.
 //!
-//! The paper advises running all four side by side, ranked, and showing the operator all of them, as they treat noise differently. Where
-//! they part company beyond noise, something is wrong. This module is for that, and for the paper's study. The identification itself,
-//! [`Tracker`](crate::Tracker), needs none of it.
+//! The paper advises running all four side by side, ranked, and showing the operator all of them, as they treat noise differently. If
+//! they differ by more than noise explains, something is wrong. This module serves that purpose and the study of the paper; the
+//! identification itself, [`Tracker`](crate::Tracker), uses none of it.
 //!
-//! | sums of a window | gathered by | a sample costs | used by |
+//! | sums of a window | gathered by | work per sample pair | used by algorithms |
 //! |---|---|---|---|
 //! | [`Moments`]: ⟨S_C²⟩, ⟨S_D²⟩, ⟨S_C S_D⟩ | [`MomentSums`] | 3 products: of f32, each with a compensated addition of 4 operations; of codes, added exactly | 1, 2, 3 |
 //! | [`Delayed`]: ⟨S_C(t) S_D(t − t₃)⟩ and (17) | [`DelayedSums`] | 3 again, two of them added together, and a delay line | 2, sign of 3 |
 //! | [`Products`]: CC, CS, DC, DS of (14) | the [`block`](crate::block)s of the demodulator | nothing more | phases, 4 |
 //! | [`Ratio`]: ⟨S_D/S_C⟩ of (13) | itself | one division | (13) only |
 //!
-//! Sample by sample everything is f32; the functions of a window's sums are f64, because ⟨S_B²⟩ of (22) is a small difference of
-//! large sums. A window's own time starts at its first sample, and so does its phase α. Signals must be centred, (4).
+//! Work at sample rate is in f32; the functions of a window's sums are in f64, because ⟨S_B²⟩ of (22) is a small difference of large
+//! sums. Time, and so the phase α, counts from the window's first sample. Signals must be centred, (4).
 //!
 //! | step | formulas | where |
 //! |---|---|---|

@@ -3,7 +3,7 @@
 use crate::block::Pair;
 use crate::sample::{Sample, SamplePair};
 
-/// Second moments of a window. Those of two windows add.
+/// Second moments of a window. Those of several windows can be added.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Moments {
     /// Sample pairs.
@@ -17,7 +17,7 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// Of a slice of centred sample pairs.
+    /// Moments of a slice of centred sample pairs.
     pub fn of(pairs: &[Pair]) -> Self {
         let mut sums = MomentSums::<f32>::new([0.0; 2]);
         for &pair in pairs {
@@ -26,7 +26,7 @@ impl Moments {
         sums.take()
     }
 
-    /// The moments of this window and `other` as one.
+    /// Moments of this window and `other` together.
     #[must_use = "it gives the sum, and changes neither"]
     pub fn with(&self, other: &Self) -> Self {
         Self {
@@ -50,12 +50,12 @@ impl Moments {
     }
 }
 
-/// Gathers [`Moments`] at sample rate from samples of type `S`.
+/// Accumulates [`Moments`] at sample rate from samples of type `S`.
 ///
-/// | `S` | a pair costs | |
+/// | `S` | work per pair | range and accuracy |
 /// |---|---|---|
-/// | `f32` | 3 multiplications, 14 additions | \|sample\| up to 10¹⁵ over 10⁶ pairs stays in range |
-/// | `i16` | 3 multiply-accumulates | exact, except that offsets are rounded to whole codes; they, and samples less offsets, are limited to −32 768 to 32 767. What is left of the offsets adds at most ¼ code² to a mean, where the converter's own steps add 1/12; up to 2³² pairs a window |
+/// | `f32` | 3 multiplications, 14 additions | 10⁶ pairs of samples up to 10¹⁵ in magnitude stay in range |
+/// | `i16` | 3 multiply-accumulates | exact, except that offsets are rounded to whole codes; they, and samples less offsets, are limited to −32 768 to 32 767. The rounding of offsets adds at most ¼ code² to a mean, the converter's own steps 1/12; up to 2³² pairs a window |
 /// | `i32` | as `f32` | codes are rounded to 24 bits |
 #[derive(Debug, Clone)]
 pub struct MomentSums<S: Sample = f32> {
@@ -65,7 +65,7 @@ pub struct MomentSums<S: Sample = f32> {
 }
 
 impl<S: Sample> MomentSums<S> {
-    /// Empty sums; `offsets` of S_C and S_D, in input units, are taken off every sample, (4).
+    /// Empty sums; `offsets` of S_C and S_D, in input units, are subtracted from every sample, (4).
     pub fn new(offsets: [f32; 2]) -> Self {
         Self {
             offsets: S::offsets(offsets),
@@ -82,7 +82,7 @@ impl<S: Sample> MomentSums<S> {
         self.count += 1;
     }
 
-    /// Adds the pairs of a slice: the sums stay in registers.
+    /// Adds the pairs of a slice, with the sums in registers.
     #[inline]
     pub fn extend<P: SamplePair<S>>(&mut self, pairs: &[P]) {
         let (offsets, mut sums) = (self.offsets, self.sums);
@@ -90,7 +90,7 @@ impl<S: Sample> MomentSums<S> {
             let pair = S::centred(pair.pair(), offsets);
             S::add_products(&mut sums, pair);
         };
-        // In eights: the loop itself costs as much as a pair.
+        // In eights, as the loop's own overhead is as much as a pair's work.
         let (eights, rest) = pairs.as_chunks::<8>();
         for eight in eights {
             eight.iter().copied().for_each(&mut add);
@@ -100,7 +100,7 @@ impl<S: Sample> MomentSums<S> {
         self.count += pairs.len() as u32;
     }
 
-    /// The moments since the last call; the sums start anew.
+    /// Takes the moments since the last call; the sums restart.
     pub fn take(&mut self) -> Moments {
         let [cc, dd, cd] = core::mem::take(&mut self.sums).map(S::product_to_f64);
         let count = core::mem::take(&mut self.count);

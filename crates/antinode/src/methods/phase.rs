@@ -1,4 +1,4 @@
-//! The phase that fits a shape best: (14), and (19) from (18); the half period that an arctangent leaves open, (5).
+//! The phase with which a shape fits best, (14) and (19), and the choice between α and α + π, (5).
 
 use core::f64::consts::PI;
 
@@ -7,7 +7,7 @@ use super::wave::{Shape, Wave};
 
 /// α by (19): ∂J/∂α = 0 of (18) or (23) under condition (8). For a_B = 0 it is (14).
 ///
-/// The two sums go into an atan2, so that of α and α + π it is the one of smaller J.
+/// By atan2 of both sums, it is the one of α and α + π that has the smaller J.
 pub fn align(shape: &Shape, products: &Products) -> Wave {
     let (s2, c2) = libm::sincos(2.0 * shape.angle);
     let (a_cosine, a_sine) = products.along(c2, s2);
@@ -19,7 +19,7 @@ pub fn align(shape: &Shape, products: &Products) -> Wave {
     }
 }
 
-/// Of α and α + π the one that makes the main wave a_A cos(ωt − α) with a_A > 0, (5): the one of smaller J.
+/// Chooses between α and α + π, by (5): the one with which the main wave is a_A cos(ωt − α) with a_A > 0, and J smaller.
 pub(super) fn resolve_half_period(wave: Wave, products: &Products) -> Wave {
     let (s2, c2) = libm::sincos(2.0 * wave.shape.angle);
     let (cosine, sine) = products.along(c2, s2);

@@ -1,4 +1,4 @@
-//! Mean products of the pick-offs with a reference: CC, CS, DC, DS of (14), and with a factor of 2 the C and S of (24).
+//! Mean products of the pick-offs with a reference: CC, CS, DC, DS of (14) and, times 2, the C and S of (24).
 
 use num_complex::Complex64;
 
@@ -21,7 +21,8 @@ pub struct Products {
 }
 
 impl Products {
-    /// Of a slice of centred sample pairs, in f64: for one frequency of a search, or on a PC. An empty slice gives NaN.
+    /// Products of a slice of centred sample pairs at `omega` rad a sample, in f64: for one frequency of a search, or on a PC. An empty
+    /// slice gives NaN.
     pub fn of(pairs: &[Pair], omega: f64) -> Self {
         let (sine, cosine) = libm::sincos(omega);
         let advance = Complex64::new(cosine, -sine);
@@ -39,7 +40,7 @@ impl Products {
         Self::new(pairs.len() as u32, omega, sums, mean)
     }
 
-    /// Of blocks of one layout that follow each other: the demodulator's own sums, at its own frequency. No block gives `None`.
+    /// Products of successive blocks of one layout, from the demodulator's sums at its frequency. `None` if there is no block.
     pub fn from_blocks<'a, S: Sample>(
         blocks: impl IntoIterator<Item = &'a Block<S>>,
     ) -> Option<Self> {
@@ -52,7 +53,7 @@ impl Products {
         let mut mean = [0.0; 2];
         let mut count = 0;
         for block in blocks {
-            // Phase of the block's middle about the window's first sample.
+            // From the window's first sample to the block's middle.
             let samples = block.start.wrapping_sub(first.start) as f64
                 + 0.5 * (f64::from(block.layout.length) - 1.0);
             let (sine, cosine) = libm::sincos(omega * samples);
@@ -79,7 +80,7 @@ impl Products {
         }
     }
 
-    /// These products with `offsets` of S_C and S_D taken off every sample, (4).
+    /// These products after `offsets` of S_C and S_D are subtracted from every sample, (4).
     #[must_use = "it gives others, and changes none"]
     pub fn centred(&self, offsets: [f64; 2]) -> Self {
         let unit = mean_harmonic(1, self.omega, self.count);
@@ -97,7 +98,7 @@ impl Products {
         8.0 * (self.sine[1] * self.cosine[0] - self.sine[0] * self.cosine[1])
     }
 
-    /// The products seen along an axis: ⟨S cos ωt⟩ and ⟨S sin ωt⟩ for S = x S_C + y S_D.
+    /// Products of a combination of the pick-offs: ⟨S cos ωt⟩ and ⟨S sin ωt⟩ for S = x S_C + y S_D.
     pub fn along(&self, x: f64, y: f64) -> (f64, f64) {
         (
             x * self.cosine[0] + y * self.cosine[1],
@@ -106,11 +107,11 @@ impl Products {
     }
 }
 
-/// What the weights of a block are instead of cosine and sine: whole numbers, of integer samples.
+/// Correction for the weights of a block of integer samples, which are cosine and sine rounded to whole numbers.
 struct Weights {
     /// Σ cos²/Σ w cos and Σ sin²/Σ w sin.
     gains: [f64; 2],
-    /// Σ w and Σ cos of the cosine, for each sample.
+    /// ⟨w⟩ and ⟨cos⟩ over the block, of the cosine's weights w.
     levels: [f64; 2],
 }
 
@@ -146,7 +147,7 @@ impl Weights {
         }
     }
 
-    /// Σ S e^{−jφ} of a block, from its sums.
+    /// Σ S e^{−jφ} of a block, from its sums with rounded weights.
     fn unrounded(&self, cosine: f64, sine: f64, sum: f64) -> Complex64 {
         let [weights, wave] = self.levels;
         Complex64::new(
@@ -170,7 +171,7 @@ pub(super) fn mean_harmonic(m: u32, omega: f64, count: u32) -> Complex64 {
     Complex64::new(size * cosine, -size * sine)
 }
 
-/// ⟨cos²⟩, ⟨sin²⟩ and ⟨sin cos⟩ of ωt over a window: Dirichlet sums, not (8).
+/// ⟨cos²⟩, ⟨sin²⟩ and ⟨sin cos⟩ of ωt over a window: exact by Dirichlet sums, without the assumption (8).
 pub(super) struct Means {
     cosines: f64,
     sines: f64,

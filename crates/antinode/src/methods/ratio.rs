@@ -1,8 +1,8 @@
-//! The mean ratio of the pick-offs, formula (13).
+//! Mean ratio of the pick-offs, formula (13).
 
 use crate::block::Pair;
 
-/// Running sum of S_D/S_C over a window, with small S_C left out.
+/// Running sum of S_D/S_C over a window, without samples of small S_C.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ratio {
     least: f32,
@@ -20,7 +20,7 @@ impl Ratio {
         }
     }
 
-    /// Of a slice of centred sample pairs.
+    /// The ratio of a slice of centred sample pairs, without those of |S_C| below `least`.
     pub fn of(pairs: &[Pair], least: f32) -> Self {
         let mut ratio = Self::new(least);
         for &pair in pairs {
@@ -38,7 +38,7 @@ impl Ratio {
         }
     }
 
-    /// ⟨S_D/S_C⟩, and NaN where every sample was left out.
+    /// ⟨S_D/S_C⟩; NaN if every sample was left out.
     pub fn mean(&self) -> f64 {
         self.sum / f64::from(self.count)
     }

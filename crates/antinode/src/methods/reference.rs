@@ -1,19 +1,19 @@
-//! The exact solution that the methods are held against, and the noise that it leaves.
+//! The exact solution that the methods are compared with, and its residual noise.
 
 use super::wave::{Shape, Wave};
 use crate::estimate::Estimate;
 
-/// White noise as a window's sums see it, input units squared.
+/// White noise in the sums of a window, input units squared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Noise {
     /// ⟨n_C²⟩, ⟨n_D²⟩ and ⟨n_C n_D⟩.
     pub moments: [f64; 3],
-    /// ⟨n_D(t) n_D(t − t₃)⟩: 0, unless S_D was made from samples that lie t₃ apart.
+    /// ⟨n_D(t) n_D(t − t₃)⟩: 0, unless S_D was computed from samples t₃ apart.
     pub delayed: f64,
 }
 
 impl Noise {
-    /// Noise of one variance on both pick-offs, independent from sample to sample: what a converter gives.
+    /// Noise of equal variance in both pick-offs, independent from sample to sample, as a converter gives it.
     pub fn alike(variance: f64) -> Self {
         Self {
             moments: [variance, variance, 0.0],
@@ -22,33 +22,33 @@ impl Noise {
     }
 }
 
-/// The exact solution that the methods are held against.
+/// The exact solution that the methods are compared with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reference {
-    /// The wave, its phase about the window's first sample.
+    /// The wave, with its phase at the window's first sample.
     pub wave: Wave,
     /// Standard deviations of a_A and a_B, input units, and θ, rad; all > 0.
     pub deviations: [f64; 3],
-    /// Noise of the samples that the sums were taken of.
+    /// Noise of the samples that went into the sums.
     pub noise: Noise,
-    /// Standard deviation of a noise variance, as a share of it.
+    /// Standard deviation of a noise variance, relative to it.
     pub noise_uncertainty: f64,
-    /// How far the pattern turns in the window, rad.
+    /// Turn of the pattern within the window, rad; 0 if it is lost in noise.
     pub turn: f64,
-    /// The share of its amplitude that the wave loses in the window.
+    /// Share of its amplitude that the wave loses within the window; 0 if it is lost in noise.
     pub decay: f64,
-    /// Standard deviations of `turn` and `decay`: both are 0 where they are lost in these.
+    /// Standard deviations of `turn` and `decay`.
     pub change_deviations: [f64; 2],
 }
 
 impl Reference {
-    /// The reference of an estimate at a sample rate in Hz, for sums of the samples as they came: a calibration that mixes or scales
-    /// samples changes [`Noise`] too.
+    /// Reference of an estimate, at a sample rate in Hz, for sums of uncalibrated samples: a calibration that mixes or scales samples
+    /// changes [`Noise`] too.
     pub fn of(estimate: &Estimate, sample_rate: f64) -> Self {
         let omega = core::f64::consts::TAU * estimate.frequency / sample_rate;
         let samples = f64::from(estimate.samples);
         let seconds = samples / sample_rate;
-        // A rate that is lost in noise is none.
+        // A rate below three deviations counts as none.
         let change = |rate: f32, deviation: f32| {
             let significant = rate.abs() > 3.0 * deviation;
             f64::from(if significant { rate } else { 0.0 }) * seconds
@@ -59,8 +59,8 @@ impl Reference {
             estimate.angle_std,
         ];
         let noise = f64::from(estimate.residual_rms);
-        // The core sees noise in three sums a block of each pick-off, less ten unknowns: blocks of two periods, as without a hop, and five
-        // at the least; with one they may be twice as many, and the deviation here is too large by up to √2.
+        // The core estimates noise from three sums per block and pick-off, less ten unknowns. Blocks of two periods, at least five, hold
+        // without a hop; with one there may be twice as many blocks, and the deviation here is too large by up to √2.
         let blocks = (0.5 * samples * omega / core::f64::consts::TAU).max(5.0);
         Self {
             wave: Wave {
@@ -69,7 +69,7 @@ impl Reference {
                     quadrature_amplitude: estimate.quadrature_amplitude.into(),
                     angle: estimate.angle,
                 },
-                // The estimate's phase stands at the middle of the window.
+                // The estimate's phase is that at the middle of the window.
                 phase: f64::from(estimate.phase) + 0.5 * omega * (samples - 1.0),
             },
             deviations: deviations.map(|x| f64::from(x.max(f32::MIN_POSITIVE))),

@@ -1,56 +1,56 @@
-//! What the methods may differ by from what is expected of them, without a fault.
+//! How far the methods may differ from their expected results without a fault.
 
 use super::comparison::{DELAY, DISAGREEMENT, NO_QUADRATURE};
 use super::reference::Reference;
 use super::wave::Shape;
 
-/// What turning by `turn` rad, a loss of `decay`, and f32 rounding leave in a window's sums, as a share of them.
+/// Error of a window's sums from a turn of `turn` rad, a loss of the share `decay`, and f32 rounding, relative to the sums.
 pub(super) fn slow(turn: f64, decay: f64, changing: f64) -> f64 {
     let (turn, decay) = (2.0 * turn, decay);
-    // What leaks changes over the window at first order.
+    // Their change over the window leaks at first order.
     (turn * turn + decay * decay) / 12.0 + changing * (turn.abs() + decay.abs()) + 1e-6
 }
 
-/// How much of a steady change leaks: as much as of what is constant, or |⟨t e^{2jωt}⟩| with t in windows from the middle, which does
-/// not vanish where a window fits the period.
+/// Leakage of a steady change: that of a constant, or |⟨t e^{2jωt}⟩| with t in windows from the middle if that is more, as it does not
+/// vanish if the window fits the period.
 pub(super) fn changing(leakage: f64, omega: f64, count: u32) -> f64 {
     let x = omega * f64::from(count);
     let (sine, cosine) = libm::sincos(x);
     leakage.max(0.5 * (cosine - sine / x).abs() / x)
 }
 
-/// By how much of itself a noise variance may be above what was found, in parts of [`DISAGREEMENT`]: the quantile that a chi-square of
-/// such an uncertainty, 0.3 and less, is below in 1 of 300 000 windows, by Wilson and Hilferty.
+/// How far a noise variance may exceed the one found, relative to it and in parts of [`DISAGREEMENT`]: by the chi-square quantile of 1 in
+/// 300 000 windows, from the Wilson–Hilferty approximation, for an `uncertainty` of up to 0.3.
 fn above(uncertainty: f64) -> f64 {
     let third = uncertainty / 3.0;
     let least = (1.0 - third * (third + 4.5)).max(0.1);
     (1.0 / (least * least * least) - 1.0) / DISAGREEMENT
 }
 
-/// What `square` may be off by in its root, by `deviation` of its own, in parts of [`DISAGREEMENT`].
+/// Error of the root of `square` for an error of `deviation` in `square`, in parts of [`DISAGREEMENT`].
 fn of_root(square: f64, deviation: f64) -> f64 {
-    let most = DISAGREEMENT * deviation;
+    let error = DISAGREEMENT * deviation;
     let root = libm::sqrt(square);
-    let below = root - libm::sqrt((square - most).max(0.0));
-    below.max(libm::sqrt(square + most) - root) / DISAGREEMENT
+    let below = root - libm::sqrt((square - error).max(0.0));
+    below.max(libm::sqrt(square + error) - root) / DISAGREEMENT
 }
 
-/// What may separate the methods of one window without a fault.
+/// Deviations by which the methods of one window may differ without a fault.
 pub(super) struct Scatter<'a> {
     pub reference: &'a Reference,
     /// Sample pairs.
     pub count: u32,
-    /// How much of a steady change leaks, by [`changing`].
+    /// Leakage of a steady change, by [`changing`].
     pub changing: f64,
     /// Deviation of q of (16) at the quarter, input units squared.
     pub q_deviation: f64,
 }
 
 impl Scatter<'_> {
-    /// By how much the method of this place may differ from `explained`: the exact solution's own deviations, how little the noise and
-    /// its mean square over the window are known, and what turning, decay and f32 rounding leave.
+    /// Deviations of a_A, a_B and θ of the method of index `place` from `explained`: those of the exact solution, the uncertainty of the
+    /// noise variance and of its mean square over the window, and the errors from turning, decay and f32 rounding.
     ///
-    /// `seen` is the a_A² − a_B² that the method has its angle from.
+    /// `seen` is the a_A² − a_B² from which the method computes its angle.
     pub fn of(&self, place: usize, explained: &Shape, seen: f64) -> [f64; 3] {
         let (reference, changing) = (self.reference, self.changing);
         let [of_c, of_d, _] = reference.noise.moments;
@@ -61,10 +61,10 @@ impl Scatter<'_> {
         let [a, b, angle] = reference.deviations;
         let quadrature = explained.quadrature_amplitude.abs().max(b);
         let sum = |x: f64, y: f64, z: f64| libm::sqrt(x * x + y * y + z * z);
-        // What leaks of the exact solution's deviations.
+        // Leakage of the exact solution's deviations.
         let leaks = 4.0 * changing * size * a;
         let of_angle = if place == NO_QUADRATURE {
-            // (12) takes the angle from roots of mean squares, and one is all noise where a pick-off sees nothing else.
+            // (12) takes the angle from roots of mean squares: on a pick-off's axis one of them is all noise.
             let (sine, cosine) = libm::sincos(2.0 * explained.angle);
             let whole = core::f64::consts::FRAC_1_SQRT_2 * explained.main_amplitude;
             let root = |share: f64| of_root((share * whole) * (share * whole), noise);
@@ -73,10 +73,10 @@ impl Scatter<'_> {
         } else {
             let own = angle * difference(&reference.wave.shape);
             let deviation = libm::hypot(own, rest * size * size + leaks);
-            // An angle that rests on less than that means nothing.
+            // With a smaller a_A² − a_B² the angle has no meaning: its deviation is infinite.
             deviation / (seen - DISAGREEMENT * deviation).max(0.0)
         };
-        // (16) takes a_A − |a_B| from the root of a difference, which is small where the pattern is near a circle.
+        // (16) takes a_A − |a_B| from the root of a difference, which is small near a circle.
         let of_amplitudes = if place == DELAY {
             let root = explained.main_amplitude - explained.quadrature_amplitude.abs();
             let exact = size - reference.wave.shape.quadrature_amplitude.abs();
@@ -86,7 +86,7 @@ impl Scatter<'_> {
         } else {
             0.0
         };
-        // (22) adds the noise's square to a_B's: a small quadrature and a little excess make a large difference.
+        // (22) adds the noise's square to that of a_B: with a small quadrature, a slight excess of noise makes a large difference.
         [
             sum(libm::hypot(a, of_amplitudes), noise / size, rest * size),
             sum(
@@ -99,7 +99,7 @@ impl Scatter<'_> {
     }
 }
 
-/// a_A² − a_B², which the angle rests on.
+/// a_A² − a_B², which scales the angle's accuracy.
 pub(super) fn difference(shape: &Shape) -> f64 {
     let (a, b) = (shape.main_amplitude, shape.quadrature_amplitude);
     a * a - b * b

@@ -1,6 +1,6 @@
-//! What every method gives.
+//! Results of every method: a wave's shape and phase.
 
-/// The standing wave without its phase: three of the five numbers of (1).
+/// A standing wave without its phase: three of the five parameters of (1).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shape {
     /// a_A, input units, ≥ 0.
@@ -11,17 +11,17 @@ pub struct Shape {
     pub angle: f64,
 }
 
-/// The standing wave with its phase.
+/// A standing wave with its phase.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wave {
     /// Amplitudes and angle.
     pub shape: Shape,
-    /// α in rad, (−π, π], about the window's first sample, paired with the angle.
+    /// α in rad, (−π, π], at the window's first sample; it belongs to this angle: see [`Wave::near`].
     pub phase: f64,
 }
 
 impl Wave {
-    /// The same motion under the angle that is nearest to `angle`, rad: θ moves by quarter turns, α by as many halves.
+    /// The same motion with its angle nearest to `angle`, rad: θ changes by quarter turns, α by as many half turns.
     #[must_use = "it gives another, and changes none"]
     pub fn near(self, angle: f64) -> Self {
         use core::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_near_angle_names_the_same_motion() {
+    fn the_nearest_angle_describes_the_same_motion() {
         let wave = Wave {
             shape: Shape {
                 main_amplitude: 1.0,

@@ -1,4 +1,4 @@
-//! Two 16-bit products an instruction: the DSP extension of ARMv7E-M.
+//! Kernels for 16-bit codes by the DSP extension of ARMv7E-M, which multiplies two pairs of halves in one instruction.
 
 use core::arch::{asm, naked_asm};
 
@@ -8,7 +8,7 @@ use crate::sample::SamplePair;
 /// SMLAD.
 #[inline(always)]
 pub fn dual_multiply_add(a: u32, b: u32, mut sum: u32) -> u32 {
-    // SAFETY: reads and writes the named registers, and the flag Q.
+    // SAFETY: it reads and writes only the named registers and the flag Q.
     unsafe {
         asm!("smlad {sum}, {a}, {b}, {sum}", sum = inout(reg) sum, a = in(reg) a, b = in(reg) b,
             options(pure, nomem, nostack));
@@ -28,7 +28,7 @@ pub fn half_difference(a: u32, b: u32) -> u32 {
     out
 }
 
-/// The low and the high words of sums.
+/// Splits sums into their low and high words.
 #[inline(always)]
 fn halves<const N: usize>(sums: [i64; N]) -> [[u32; N]; 2] {
     [
@@ -37,7 +37,7 @@ fn halves<const N: usize>(sums: [i64; N]) -> [[u32; N]; 2] {
     ]
 }
 
-/// Sums from their words.
+/// Joins sums from their low and high words.
 #[inline(always)]
 fn whole<const N: usize>(low: [u32; N], high: [u32; N]) -> [i64; N] {
     core::array::from_fn(|i| ((u64::from(high[i]) << 32) | u64::from(low[i])) as i64)
@@ -105,7 +105,7 @@ pub fn add_pairs<P: SamplePair<i16>>(
 ) {
     const { assert!(size_of::<P>() == 4 && size_of::<[ChannelSums<i16>; 2]>() == 24) };
     if let Some(place) = place(pairs.len(), weights.len(), index) {
-        // SAFETY: the pairs are words of memory, weights for them are there, and the sums are six words.
+        // SAFETY: each pair is one word, `place` has found weights for all pairs, and the sums are six words.
         unsafe { add_words(sums, pairs.as_ptr().cast(), weights.as_ptr(), place) };
     }
 }
@@ -120,22 +120,22 @@ pub fn watch_pairs<P: SamplePair<i16>>(
 ) {
     const { assert!(size_of::<P>() == 4 && size_of::<[ChannelWatch<i16>; 2]>() == 24) };
     if let Some(place) = place(pairs.len(), weights.len(), index) {
-        // SAFETY: the pairs are words of memory, weights for them are there, and the watch is six words: two sums and the halves
-        // low and high, twice.
+        // SAFETY: each pair is one word, `place` has found weights for all pairs, and the watch is six words: two sums and a word of
+        // lowest and highest sample, for each pick-off.
         unsafe { watch_words(watch, pairs.as_ptr().cast(), weights.as_ptr(), place) };
     }
 }
 
-/// The index of the first pair in the low half and the count of pairs in the high half, where there are weights for all.
+/// A word of the index of the first pair in its low half and the count of pairs in its high half; `None` if weights are missing.
 #[inline(always)]
 fn place(count: usize, weights: usize, index: u16) -> Option<u32> {
     let is_within = usize::from(index) + count <= weights & !1 && count <= usize::from(u16::MAX);
     is_within.then_some((count as u32) << 16 | u32::from(index))
 }
 
-/// r0: six sums; r1: words of pairs, which need no alignment; r2: the block's weights; r3: what `place` gives.
+/// r0: six sums; r1: pairs as words, unaligned or not; r2: the block's weights; r3: the word from `place`.
 ///
-/// Two pairs are turned into a word of samples for each channel, and six SMLADs add them.
+/// Two pairs are rearranged into one word of samples per channel, and added by six SMLADs.
 #[unsafe(naked)]
 unsafe extern "C" fn add_words(
     sums: *mut [ChannelSums<i16>; 2],
@@ -144,7 +144,7 @@ unsafe extern "C" fn add_words(
     place: u32,
 ) {
     naked_asm!(
-        // Samples of C in r12, of D in \\d, with their cosines in r0 and their sines in \\sine.
+        // Adds samples of C in r12 and of D in \\d; cosines are in r0, sines in \\sine, two ones in lr.
         ".macro ADD d, sine",
         "smlad r4, r12, r0, r4",
         "smlad r7, \\d, r0, r7",
@@ -168,7 +168,7 @@ unsafe extern "C" fn add_words(
         "mov lr, #0x00010001",
         "lsls r12, r3, #16",
         "bne 6f",
-        // The block begins: with sums of two pairs, where there are eight.
+        // The block begins. If there are eight pairs, the products of the first two begin the sums.
         "subs r3, #0x80000",
         "blo 7f",
         "LOAD_TWO",
@@ -198,7 +198,7 @@ unsafe extern "C" fn add_words(
         "ADD_TWO",
         "subs r3, #0x80000",
         "bhs 2b",
-        // Four are left where C, two where N.
+        // Flag C: four more pairs are left. Flag N: two more.
         "3:",
         "lsls r3, r3, #14",
         "bcc 4f",
@@ -210,7 +210,7 @@ unsafe extern "C" fn add_words(
         "5:",
         "lsls r3, r3, #1",
         "bpl 5f",
-        // A last pair alone: the high halves are zero.
+        // A single last pair: the high halves are zero.
         "ldr r10, [r1]",
         "ldrd r0, r11, [r2]",
         "uxth r12, r10",
@@ -241,7 +241,7 @@ unsafe extern "C" fn add_words(
     )
 }
 
-/// As `add_words`, of a watch: four SMLADs, and extremes by SSUB16 with SEL.
+/// As `add_words`, for the watch: four SMLADs, and extremes by SSUB16 with SEL.
 #[unsafe(naked)]
 unsafe extern "C" fn watch_words(
     watch: *mut [ChannelWatch<i16>; 2],
@@ -292,7 +292,7 @@ unsafe extern "C" fn watch_words(
         "WATCH_TWO",
         "subs r3, #0x40000",
         "bhs 2b",
-        // Two are left where C, one where N.
+        // Flag C: two more pairs are left. Flag N: one more.
         "3:",
         "lsls r3, r3, #15",
         "bcc 4f",
@@ -316,7 +316,7 @@ unsafe extern "C" fn watch_words(
         "pop {{r4-r11, pc}}",
         "6:",
         "ldmia r0, {{r4-r9}}",
-        // r6: extremes of C, r9: of D; made words of low and of high.
+        // r6 has both extremes of C, r9 those of D: rearranged into highest in r8 and lowest in r9.
         "mov r10, r6",
         "mov r6, r7",
         "mov r7, r8",
@@ -327,7 +327,7 @@ unsafe extern "C" fn watch_words(
         "bcc 1b",
         "cmp r3, #0x10000",
         "blo 5b",
-        // A first pair of odd index.
+        // A first pair of odd index: the low halves are zero.
         "ldr r10, [r1], #4",
         "SEE r10, r10",
         "ldrd r0, r11, [r2], #8",

@@ -1,4 +1,4 @@
-//! Kernels in f32 by the single-precision floating-point unit.
+//! Kernels in f32, by the single-precision floating-point unit.
 
 use core::arch::naked_asm;
 
@@ -10,8 +10,8 @@ use crate::sample::{Form, SamplePair};
 #[inline(always)]
 pub fn square_root(x: f32) -> f32 {
     let mut bits = x.to_bits();
-    // SAFETY: `s15` is said to be lost; on this core Rust lets nothing else be said of a register of its class. IEEE 754 rounding, as the
-    // portable twin.
+    // SAFETY: only `s15`, declared as clobbered, is changed: Rust has no operands of this register class for this core. Rounding is that
+    // of IEEE 754, as in the portable twin.
     unsafe {
         core::arch::asm!("vmov s15, {x}", "vsqrt.f32 s15, s15", "vmov {x}, s15",
             x = inout(reg) bits, out("s15") _, options(pure, nomem, nostack, preserves_flags));
@@ -31,19 +31,19 @@ pub fn add_floats<P: SamplePair<f32>>(
     let Some(by) = portable::weights_from(weights, index, pairs.len()) else {
         return;
     };
-    // The first pairs of a block begin its sums.
+    // The lowest bit asks for new sums, at the first pair of a block.
     let count = pairs.len() << 1 | usize::from(index == 0);
     let (from, by) = (pairs.as_ptr(), by.as_ptr());
     match P::FORM {
-        // SAFETY: the pairs are words of memory, weights for all are there, and the sums are six words.
+        // SAFETY: each pair is one word, there are weights for all pairs, and the sums are six words.
         Form::Codes => unsafe { add_codes(sums, from.cast(), by, count) },
-        // SAFETY: as above, and a pair is two words.
+        // SAFETY: as above, except that each pair is two words.
         Form::Floats => unsafe { add_pairs(sums, from.cast(), by, count) },
         Form::Other => portable::add_floats(sums, pairs, weights, index),
     }
 }
 
-/// Adds a pair to the sums, s0 to s5.
+/// Macro that adds a pair to the sums, s0 to s5.
 macro_rules! add {
     () => {
         ".macro ADD cosine, sine, c, d
@@ -61,8 +61,8 @@ macro_rules! add {
     };
 }
 
-/// r0: six sums; r1: words of two codes, which need no alignment; r2: weights; r3: pairs, at least one, doubled, and one more where the
-/// sums begin.
+/// r0: six sums; r1: words of two codes, unaligned or not; r2: weights; r3: twice the count of pairs, which is at least one, plus one if
+/// the sums begin.
 #[unsafe(naked)]
 unsafe extern "C" fn add_codes(
     sums: *mut [ChannelSums<f32>; 2],
@@ -76,7 +76,7 @@ unsafe extern "C" fn add_codes(
         ".macro LOAD c, d, word, high",
         "asr \\high, \\word, #16",
         "vmov \\c, \\d, \\word, \\high",
-        // Of 16 bits: it takes the low half of the register as it is.
+        // A conversion of 16 bits: it reads only the low half of the register.
         "vcvt.f32.s16 \\c, \\c, #0",
         "vcvt.f32.s16 \\d, \\d, #0",
         ".endm",
@@ -127,7 +127,7 @@ unsafe extern "C" fn add_codes(
     )
 }
 
-/// As `add_codes`, of pairs of f32.
+/// As `add_codes`, for pairs of f32.
 #[unsafe(naked)]
 unsafe extern "C" fn add_pairs(
     sums: *mut [ChannelSums<f32>; 2],

@@ -1,11 +1,11 @@
-//! Instructions of the Cortex-M4 that Rust has no stable name for, and the kernels at sample rate in its assembly, each with a portable twin
-//! that agrees with it bit for bit.
+//! Cortex-M4 instructions without a stable Rust intrinsic, and the sample-rate kernels in assembly. Each has a portable twin that agrees
+//! with it bit for bit.
 //!
-//! This is the only module with `unsafe` code. A word holds two 16-bit codes: the first in its low half.
+//! This is the only module with `unsafe` code. A word holds two 16-bit codes, the first in its low half.
 
 #![allow(
     unsafe_code,
-    reason = "instructions by name, and sums over slices whose bounds are checked before"
+    reason = "single instructions, and sums over slices with bounds checked beforehand"
 )]
 
 #[cfg(has_dsp)]
@@ -46,7 +46,7 @@ mod tests {
     use super::portable::*;
 
     #[test]
-    fn extremes_of_the_halves() {
+    fn extreme_halves_are_halved_limited_and_multiplied_without_overflow() {
         let (least, most) = (0x8000_8000, 0x7fff_7fff);
         assert_eq!(half_difference(most, least), 0x7fff_7fff);
         assert_eq!(half_difference(least, most), 0x8000_8000);

@@ -1,4 +1,4 @@
-//! The portable twins: what runs where the instructions are not there, and what they are tested against.
+//! Portable twins of the kernels: they run on cores without the instructions, and are the reference of their tests.
 
 use crate::block::{ChannelSums, ChannelWatch};
 use crate::sample::SamplePair;
@@ -55,10 +55,10 @@ pub fn square_root(x: f32) -> f32 {
     libm::sqrtf(x)
 }
 
-/// Adds pairs to the sums, of which the first is sample `index` of its block: at 0 the sums begin anew. `weights` are the whole
-/// block's, words of two cosines and of two sines in turn.
+/// Adds pairs to the sums. The first pair is sample `index` of its block: at 0 the sums begin anew. `weights` are those of the whole
+/// block, alternately a word of two cosines and one of two sines.
 ///
-/// Nothing is done where there are weights for fewer.
+/// Does nothing if weights are missing.
 #[inline(always)]
 pub fn add_pairs<P: SamplePair<i16>>(
     sums: &mut [ChannelSums<i16>; 2],
@@ -82,7 +82,7 @@ pub fn add_pairs<P: SamplePair<i16>>(
     }
 }
 
-/// Watches pairs, as [`add_pairs`] adds them.
+/// Adds pairs to the watch, with the arguments of [`add_pairs`].
 #[inline(always)]
 pub fn watch_pairs<P: SamplePair<i16>>(
     watch: &mut [ChannelWatch<i16>; 2],
@@ -107,7 +107,7 @@ pub fn watch_pairs<P: SamplePair<i16>>(
     }
 }
 
-/// As [`add_pairs`] in f32, each product rounded before it is added: `weights` are cosine and sine of each sample of the block.
+/// As [`add_pairs`], in f32, with each product rounded before it is added; `weights` are cosine and sine of each sample of the block.
 #[inline(always)]
 pub fn add_floats<P: SamplePair<f32>>(
     sums: &mut [ChannelSums<f32>; 2],
@@ -133,7 +133,7 @@ pub fn add_floats<P: SamplePair<f32>>(
     *sums = now;
 }
 
-/// Adds pairs as [`add_floats`] does, and watches them.
+/// Adds pairs to the sums, as [`add_floats`] does, and to the watch.
 #[inline(never)]
 pub fn watch_floats<P: SamplePair<f32>>(
     sums: &mut [ChannelSums<f32>; 2],
@@ -165,14 +165,14 @@ pub fn watch_floats<P: SamplePair<f32>>(
     }
 }
 
-/// The weights from sample `index` on, where there is a pair and there are weights for all `count` of them.
+/// The weights from sample `index` on; `None` if there is no pair, or if weights are missing for some of the `count` pairs.
 #[inline(always)]
 pub fn weights_from<W>(weights: &[W], index: u16, count: usize) -> Option<&[W]> {
     let weights = weights.get(usize::from(index)..)?;
     (count > 0 && count <= weights.len()).then_some(weights)
 }
 
-/// Pairs with a cosine and a sine for each, where there are weights for all.
+/// Pairs, each with its cosine and sine; `None` if weights are missing.
 #[inline(always)]
 fn weighted<P: Copy>(
     pairs: &[P],
@@ -191,10 +191,12 @@ fn weighted<P: Copy>(
     Some(pairs.iter().copied().zip(each.skip(odd)))
 }
 
+/// The signed halves of a word, the low one first.
 fn halves(word: u32) -> [i32; 2] {
     [i32::from(word as i16), (word as i32) >> 16]
 }
 
+/// A word of `of` both low halves and of both high halves.
 fn both(a: u32, b: u32, of: impl Fn(i32, i32) -> i32) -> u32 {
     let ([a_low, a_high], [b_low, b_high]) = (halves(a), halves(b));
     (of(a_low, b_low) as u32 & 0xffff) | ((of(a_high, b_high) as u32) << 16)

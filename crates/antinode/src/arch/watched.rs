@@ -1,4 +1,4 @@
-//! Sums and the watch in f32, in one pass: the floating-point unit, and for 16-bit codes the DSP extension beside it.
+//! Sums and watch in f32 in one pass, by the floating-point unit and, for 16-bit codes, the DSP extension.
 
 use core::arch::naked_asm;
 
@@ -24,7 +24,7 @@ pub fn watch_floats<P: SamplePair<f32>>(
     let (from, by) = (pairs.as_ptr(), by.as_ptr());
     let place = (pairs.len() as u32) << 16 | u32::from(index);
     if P::FORM == Form::Codes {
-        // SAFETY: the pairs are words of memory, weights for all are there, sums and watch are what their names say.
+        // SAFETY: each pair is one word, `begin` has found weights for all pairs, and the sizes of sums and watch are asserted below.
         let extremes = unsafe { watch_codes(sums, from.cast(), by, place, watch) };
         let halves = |word: u32| [f32::from(word as i16), f32::from((word >> 16) as i16)];
         let (most, least) = (halves(extremes as u32), halves((extremes >> 32) as u32));
@@ -32,7 +32,7 @@ pub fn watch_floats<P: SamplePair<f32>>(
             watch.reach(low, high);
         }
     } else {
-        // SAFETY: as above, and a pair is two words.
+        // SAFETY: as above, except that each pair is two words.
         unsafe { watch_pairs(sums, from.cast(), by, place, watch) };
     }
     if let Some(last) = pairs.last() {
@@ -42,8 +42,8 @@ pub fn watch_floats<P: SamplePair<f32>>(
     }
 }
 
-/// Begins sums and watch where a block begins, and looks whether the first pair is equal to the last. Gives the weights, where they are
-/// there for all.
+/// Begins sums and watch at the start of a block, and compares the first pair with the last one before it. Gives the weights from sample
+/// `index` on; `None` if there is no pair or if weights are missing.
 #[inline(always)]
 fn begin<'w, P: SamplePair<f32>>(
     sums: &mut [ChannelSums<f32>; 2],
@@ -66,13 +66,13 @@ fn begin<'w, P: SamplePair<f32>>(
     Some(by)
 }
 
-/// Bytes of what is watched of one pick-off.
+/// Size of the watch of one pick-off, in bytes.
 const WATCH: u32 = 40;
 
 const _: () = assert!(size_of::<ChannelWatch<f32>>() == WATCH as usize);
 const _: () = assert!(size_of::<[ChannelSums<f32>; 2]>() == 24);
 
-/// Sees the second of two pairs, of which a sample, or both, are equal to those of the first.
+/// Counts the second of two pairs as repeated, in each pick-off where it equals the first.
 extern "C" fn see_again<P: SamplePair<f32>>(
     watch: &mut [ChannelWatch<f32>; 2],
     pairs: &[P; 2],
@@ -86,7 +86,7 @@ extern "C" fn see_again<P: SamplePair<f32>>(
     }
 }
 
-/// Adds a pair to the sums, s16 to s21, and to those of the third harmonic, s22 to s25; three and one are in s26 and s27.
+/// Macro that adds a pair to the sums, s16 to s21, and to those of the third harmonic, s22 to s25; s26 and s27 hold 3 and 1.
 macro_rules! add {
     () => {
         ".macro ADD cosine, sine, c, d
@@ -116,11 +116,10 @@ macro_rules! add {
     };
 }
 
-/// r0: six sums; r1: at least one word of two codes, which need no alignment; r2: their weights; r3: the count of pairs in
-/// the high half, and the index of the first in the low half; on the stack: the watch.
+/// r0: six sums; r1: at least one word of two codes, unaligned or not; r2: their weights; r3: the count of pairs in the high half, and
+/// the index of the first in the low half; on the stack: the watch.
 ///
-/// Gives the greatest of the codes in r0 and the least in r1. Of runs it sees all but the first pair, of which it does not know what
-/// was before.
+/// Gives the highest codes in r0 and the lowest in r1. The first pair is not compared with the one before it: `begin` does that.
 #[unsafe(naked)]
 unsafe extern "C" fn watch_codes(
     sums: *mut [ChannelSums<f32>; 2],
@@ -135,18 +134,18 @@ unsafe extern "C" fn watch_codes(
         ".macro CONVERT c, d, word",
         "asr r12, \\word, #16",
         "vmov \\c, \\d, \\word, r12",
-        // Of 16 bits: it takes the low half of the register as it is.
+        // A conversion of 16 bits: it reads only the low half of the register.
         "vcvt.f32.s16 \\c, \\c, #0",
         "vcvt.f32.s16 \\d, \\d, #0",
         ".endm",
-        // r7, r8: greatest and least.
+        // r7: highest codes, r8: lowest.
         ".macro REACH most, least",
         "ssub16 r12, \\most, r7",
         "sel r7, \\most, r7",
         "ssub16 r12, r8, \\least",
         "sel r8, \\least, r8",
         ".endm",
-        // r4: pairs, r5: weights, r6: how many are left, r9: the pair before, r10: two ones, r11: the index.
+        // r4: pairs, r5: weights, r6: count of pairs left, r9: previous pair, r10: two ones, r11: index.
         "push {{r0, r4-r11, lr}}",
         "vpush {{s16-s27}}",
         "mov r4, r1",
@@ -169,7 +168,7 @@ unsafe extern "C" fn watch_codes(
         "1:",
         "ldr r1, [r4, #4]",
         "ldr r0, [r4], #8",
-        // A half of the difference that is zero leaves a one.
+        // Of halves that equal those before, the exclusive or is 0 and leaves a one.
         "eor r2, r0, r9",
         "eor r3, r1, r0",
         "uqsub16 r2, r10, r2",
@@ -214,7 +213,7 @@ unsafe extern "C" fn watch_codes(
         "mov r1, r8",
         "vpop {{s16-s27}}",
         "pop {{r3, r4-r11, pc}}",
-        // What a call keeps is all that is needed of the pairs.
+        // Repeated samples. The call clobbers r0 to r3: both pairs are loaded again.
         "6:",
         "cbz r2, 8f",
         "ldr r0, [sp, #88]",
@@ -244,7 +243,7 @@ unsafe extern "C" fn watch_codes(
     )
 }
 
-/// As `watch_codes`, of pairs of f32; it sees the extremes itself. What is not a number is none.
+/// As `watch_codes`, for pairs of f32, but it updates the extremes in the watch itself. NaN is no extreme.
 #[unsafe(naked)]
 unsafe extern "C" fn watch_pairs(
     sums: *mut [ChannelSums<f32>; 2],
@@ -266,8 +265,8 @@ unsafe extern "C" fn watch_pairs(
         "it gt",
         "vmovgt.f32 \\most, \\sample",
         ".endm",
-        // s28, s29: least and greatest of C; s30, s31: of D; s14, s15: the pair before. r4: pairs, r5: weights, r6: how many are
-        // left, r7: the watch, r8: the index, r9: sums.
+        // s28, s29: lowest and highest of C; s30, s31: of D; s14, s15: previous pair; r4: pairs, r5: weights, r6: count of pairs left,
+        // r7: watch, r8: index, r9: sums.
         "push {{r4-r9, lr}}",
         "ldr r7, [sp, #28]",
         "sub sp, #4",
@@ -318,7 +317,7 @@ unsafe extern "C" fn watch_pairs(
         "vpop {{s16-s31}}",
         "add sp, #4",
         "pop {{r4-r9, pc}}",
-        // A call keeps no sample.
+        // Repeated samples. The call clobbers s0 to s15, and the pair is loaded again.
         "3:",
         "mov r0, r7",
         "sub r1, r4, #16",

@@ -1,8 +1,7 @@
-//! What samples cost in Rust where C would call a `_push_block` function: instructions per sample pair, from half-buffers of a tracked
-//! wave, blocks queued and the queue emptied by a tracker, which is not counted. `tests/c/push_block.c` of `antinode-capi` is the
-//! same in C.
+//! Instructions per sample pair in Rust, where C would call a `_push_block` function: samples come in half-buffers of a tracked wave, and
+//! blocks go to a queue. The tracker that empties it is not counted. `tests/c/push_block.c` of `antinode-capi` is the same in C.
 //!
-//! In QEMU with `-icount shift=0,align=off,sleep=off` every instruction takes 1 ns, and SysTick counts the 168 MHz of the core.
+//! In QEMU with `-icount shift=0,align=off,sleep=off` every instruction takes 1 ns, and SysTick counts at the core's 168 MHz.
 #![no_std]
 #![no_main]
 
@@ -17,11 +16,12 @@ use firmware::codes::{Codes, HALF_BUFFER, RING};
 use firmware::marks;
 use heapless::spsc::Queue;
 
-/// Pairs before the measurement, and of it.
-const FIRST: usize = 2_000;
+/// Pairs before the measurement.
+const WARM_UP: usize = 2_000;
+/// Pairs of the measurement.
 const PAIRS: usize = 16_384;
 
-/// The interrupt's work: samples become queued blocks.
+/// The interrupt's work: it turns samples into queued blocks.
 #[inline(never)]
 fn interrupt<S: Sample, P: SamplePair<S>>(
     front: &mut Front<S, 200>,
@@ -33,8 +33,8 @@ fn interrupt<S: Sample, P: SamplePair<S>>(
     room
 }
 
-/// The same from two arrays, one call a pair: `extend_separate`, which takes 19 to 69 instructions, would share the code of pairs in turn, and
-/// neither would be as in an image that needs one of them.
+/// The same from two arrays, in one call per pair: `extend_separate`, which takes 19 to 69 instructions, would share code with interleaved
+/// pairs, and neither would be as in an image that needs only one of them.
 #[inline(never)]
 fn interrupt_separate<S: Sample>(
     front: &mut Front<S, 200>,
@@ -50,7 +50,7 @@ fn interrupt_separate<S: Sample>(
     room
 }
 
-/// Prints the instructions a pair that `interrupt` takes; it is given a range of the ring.
+/// Prints the instructions per pair that `interrupt` takes; its last argument is a range of the ring.
 fn measure<S: Sample>(
     name: [&str; 2],
     watch: bool,
@@ -79,8 +79,8 @@ fn measure<S: Sample>(
         }
         ticks
     };
-    run(0, FIRST);
-    let ticks = u64::from(run(FIRST, FIRST + PAIRS));
+    run(0, WARM_UP);
+    let ticks = u64::from(run(WARM_UP, WARM_UP + PAIRS));
     let thousandths = ticks * 1_000_000 / 168 / PAIRS as u64;
     let [arithmetic, form] = name;
     let watch = if watch { "watch" } else { "plain" };
@@ -88,7 +88,7 @@ fn measure<S: Sample>(
     hprintln!("{} {} {} {}.{:03}", arithmetic, watch, form, whole, rest);
 }
 
-/// Every form of the codes, without and with the watch.
+/// Measures every form of the codes, without and with the watch.
 fn all<S: Sample>(arithmetic: &str, codes: &[Packed])
 where
     Packed: SamplePair<S>,

@@ -1,6 +1,6 @@
-//! The kernels that the bench images measure, each between the marks over [`PAIRS`] sample pairs. `name` is the image's.
+//! Kernels that the bench images measure, most of them over [`PAIRS`] sample pairs between the marks. `name` is that of the image.
 //!
-//! Samples arrive as packed codes; slices are half-buffers of 128 pairs. `S` decides the arithmetic: `i16` or `f32`.
+//! Samples arrive as packed codes, in half-buffers of 128 pairs. `S` selects the arithmetic: `i16` or `f32`.
 
 use core::hint::black_box;
 use core::ops::RangeInclusive;
@@ -13,15 +13,15 @@ use crate::codes::{Codes, Flaw, HALF_BUFFER, PERIOD};
 use crate::gauge::{Gauge, apart};
 use crate::marks::leave;
 
-/// Sample pairs that a bench works through.
+/// Sample pairs that a bench processes.
 pub const PAIRS: usize = 16_384;
-/// Calls of which the longest is looked for, of each wave.
-const LONGEST_OF: usize = 2_000;
-/// Periods in 1406 pairs of those waves: 4.3 to 176 samples a period.
-const WAVES: RangeInclusive<u64> = 8..=327;
+/// Calls timed for each wave by [`longest`].
+const CALLS_PER_WAVE: usize = 2_000;
+/// Periods in the ring of 1406 pairs, of the waves of [`longest`]: 4.3 to 176 samples a period.
+const PERIODS_IN_RING: RangeInclusive<u64> = 8..=327;
 
 pub(crate) fn demodulator<S: Sample>(watch: bool) -> Demodulator<S, 200> {
-    // Two periods, as those of a window of 10.
+    // Blocks of two periods, as in a window of 10 periods.
     Demodulator::new(PhaseStep::from_period(PERIOD), 38, 0, watch)
 }
 
@@ -90,13 +90,13 @@ where
     demodulator.push(pair)
 }
 
-/// Everything, with or without the watch: samples, blocks, and a solved, tracked window every 10 periods.
+/// The whole core, with or without the watch: samples, blocks, and a solved, tracked window every 10 periods.
 pub fn pipeline<S: Sample>(name: &'static str, watch: bool) -> !
 where
     Packed: SamplePair<S>,
 {
     let codes = Codes::new();
-    // In place, as an image does it: what is given back is copied, on the stack and by code of its own.
+    // Configured in place, as in an image: a returned identifier would be copied, at a cost in stack and code.
     let mut identifier = Identifier::<S, 200, 16>::UNSET;
     let settings = Settings {
         watch,
@@ -116,7 +116,7 @@ where
         }
     };
     let mut gauge = Gauge::new(name, PAIRS, size_of::<Identifier<S, 200, 16>>());
-    // From cold to a tracked wave before the marks.
+    // The search and the first windows come before the marks.
     run(0, 2_000);
     gauge.start();
     apart(|| run(2_000, 2_000 + PAIRS));
@@ -142,13 +142,13 @@ where
             return *block;
         }
     };
-    // Of the tracker alone, from its first window on.
+    // The stack is that of the tracker alone, from its first window on.
     let mut gauge = Gauge::new(name, 1, size_of::<Tracker<16>>());
     for _ in 0..100 {
         let block = next();
         black_box(tracker.push(&block));
     }
-    // One by one into this frame: what gathers an array would be deeper than the tracker.
+    // One by one into this frame: code that fills an array would need more stack than the tracker.
     let blocks = [next(), next(), next(), next(), next()];
     gauge.start();
     apart(|| {
@@ -159,7 +159,7 @@ where
     gauge.finish()
 }
 
-/// The search for a period from cold to its end, again and again, from half-buffers.
+/// The search for a period from cold until it is found, repeatedly, from half-buffers.
 pub fn acquire<S: Sample>(name: &'static str) -> !
 where
     Packed: SamplePair<S>,
@@ -187,7 +187,7 @@ where
     gauge.finish()
 }
 
-/// Gives how many pairs the search took.
+/// Searches, and gives the count of pairs taken.
 #[inline(never)]
 fn search<S: Sample>(front: &mut Front<S, 200>, pairs: &[Packed]) -> usize
 where
@@ -198,8 +198,8 @@ where
     taken
 }
 
-/// The longest single call in an interrupt that hands over one pair at a time, from cold through the search into the tracking: of many
-/// waves, which may be clipped, or come in steps.
+/// The longest call of an interrupt that hands over one pair at a time, from cold through the search into tracking, over many waves, with
+/// and without flaws.
 pub fn longest<S: Sample>(name: &'static str) -> !
 where
     Packed: SamplePair<S>,
@@ -210,9 +210,9 @@ where
         leave()
     };
     let mut gauge = Gauge::new(name, 1, size_of::<Front<S, 200>>());
-    // Which call it is: they are the same in every run.
+    // The longest call is found first, then repeated between the marks: every run takes the same calls.
     let (mut longest, mut call) = (0, None);
-    for periods in WAVES.step_by(7) {
+    for periods in PERIODS_IN_RING.step_by(7) {
         for flaw in [
             Flaw::None,
             Flaw::Clipped,
@@ -224,7 +224,7 @@ where
             if front.configure(settings).is_err() {
                 leave()
             }
-            for index in 0..LONGEST_OF {
+            for index in 0..CALLS_PER_WAVE {
                 if let [pair] = *codes.slice(index, 1) {
                     let lap = gauge.lap(|| push_front(&mut front, pair));
                     if lap > longest {

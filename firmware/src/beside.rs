@@ -1,4 +1,4 @@
-//! What the kernels of [`bench`](crate::bench) are compared with, over the same codes between the same marks.
+//! Kernels to compare those of [`bench`](crate::bench) with, over the same codes between the same marks.
 
 use core::hint::black_box;
 use core::num::Wrapping;
@@ -11,15 +11,15 @@ use crate::bench::{PAIRS, demodulator};
 use crate::codes::{Codes, HALF_BUFFER, PERIOD};
 use crate::gauge::{Gauge, apart};
 
-/// The four sums of (24) as one would write them with idsp: a phase accumulator, `cossin`, and products added in 64 bits.
+/// The four sums of (24), written with idsp: a phase accumulator, `cossin`, and products added in 64 bits.
 struct IdspSums {
     phase: Accu<Wrapping<i32>>,
-    /// Of S_C, then S_D: with the cosine, with the sine.
+    /// S_C times cosine and sine, then S_D times cosine and sine.
     sums: [i64; 4],
 }
 
 impl IdspSums {
-    // In a function of its own the loop has more registers.
+    // Not inlined, so that the loop has more registers.
     #[inline(never)]
     fn extend(&mut self, pairs: &[Packed]) {
         // Copies stay in registers.
@@ -36,7 +36,7 @@ impl IdspSums {
     }
 }
 
-/// The sums with idsp, of half-buffers.
+/// The sums of half-buffers with idsp.
 pub fn idsp_sums(name: &'static str) -> ! {
     let codes = Codes::new();
     let step = (4_294_967_296.0 / PERIOD) as u32 as i32;
@@ -53,7 +53,7 @@ pub fn idsp_sums(name: &'static str) -> ! {
     gauge.finish()
 }
 
-/// The block sums with the sums of all four methods beside them: `bench_block_f32` and `_fixed` are the demodulator alone.
+/// The block sums together with the sums of all four methods; `bench_block_f32` and `_fixed` measure the demodulator alone.
 pub fn methods<S: Sample>(name: &'static str) -> !
 where
     Packed: SamplePair<S>,
@@ -62,13 +62,13 @@ where
     let offsets = [20.0, -15.0];
     let mut demodulator = demodulator::<S>(false);
     let mut moments = MomentSums::<S>::new(offsets);
-    // A quarter of a period; a line for one of the longest.
+    // A lag of a quarter period, in a delay line for the longest period.
     let mut delayed = DelayedSums::<50, S>::new(5, offsets);
     let state = size_of_val(&demodulator) + size_of_val(&moments) + size_of_val(&delayed);
     let mut gauge = Gauge::new(name, PAIRS, state);
     let mut blocks = 0;
     let mut run = |pairs: &[Packed]| {
-        // The methods' sums run on from block to block, as far as the window's end.
+        // The methods' sums take several blocks at once, up to the end of a window.
         let (mut at, mut window) = (0, 0);
         while at < pairs.len() {
             let (taken, block) = demodulator.push_slice(pairs.get(at..).unwrap_or(&[]));
@@ -95,7 +95,7 @@ where
     gauge.finish()
 }
 
-/// Nothing but the codes: what an image has without a kernel.
+/// No kernel: the cost that every bench image has.
 pub fn nothing(name: &'static str) -> ! {
     let codes = Codes::new();
     let mut gauge = Gauge::new(name, PAIRS, 0);

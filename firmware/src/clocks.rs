@@ -1,4 +1,4 @@
-//! The clocks' frequencies and what is divided from them, without registers: tested on the host.
+//! Clock frequencies and dividers, without registers, so that they can be tested on the host.
 
 /// Core clock, Hz.
 pub const CORE: u32 = 168_000_000;
@@ -8,10 +8,10 @@ pub const APB2: u32 = CORE / 2;
 pub const APB1_TIMERS: u32 = CORE / 2;
 /// Clock of the timers on APB2, Hz: twice the bus.
 pub const APB2_TIMERS: u32 = CORE;
-/// Frequency of the chip's own oscillator, MHz: within a percent at 25 °C, several off elsewhere in its range (data sheet, HSI).
+/// Frequency of the internal oscillator, HSI, MHz: within 1 % at 25 °C, several per cent off elsewhere in its range (data sheet).
 pub const HSI_MHZ: u32 = 16;
 
-/// The PLL's factors that vary: what it divides an oscillator by, and what it multiplies that with.
+/// The PLL's factors that depend on the oscillator: its frequency is divided by `m`, then multiplied by `n`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pll {
     /// PLLCFGR.PLLM, 2 to 63.
@@ -20,8 +20,8 @@ pub struct Pll {
     pub n: u16,
 }
 
-/// The factors that make 336 MHz of an oscillator of 4 to 26 MHz: by way of 2 MHz, which jitters least, where that divides it, else of
-/// 1 MHz (RM0090, 7.3.2).
+/// Factors for 336 MHz from an oscillator of 4 to 26 MHz: via 2 MHz, which gives the least jitter, if that divides it, else via 1 MHz
+/// (RM0090, 7.3.2).
 pub const fn pll(oscillator_mhz: u32) -> Pll {
     let input_mhz = if oscillator_mhz.is_multiple_of(2) {
         2
@@ -34,23 +34,24 @@ pub const fn pll(oscillator_mhz: u32) -> Pll {
     }
 }
 
-/// USART1's BRR: the divider in sixteenths of 16 samples a bit, that is APB2's clock over the baud rate, rounded.
+/// USART1's BRR for a baud rate: APB2's clock over the rate, rounded. The register counts sixteenths of a divider to 16 samples a bit.
 pub const fn usart_divider(baud: u32) -> u32 {
     (APB2 + baud / 2) / baud
 }
 
-/// What the divider makes of a baud rate, less that rate, in its millionths.
+/// Error of the baud rate that the divider makes, in magnitude and millionths of the rate.
 pub const fn baud_error_ppm(baud: u32) -> u32 {
     let made = APB2 as u64 * 1_000_000 / usart_divider(baud) as u64;
     (made.abs_diff(baud as u64 * 1_000_000) / baud as u64) as u32
 }
 
-/// How long the line takes for so many bytes at a baud rate, ms, in ten bits each.
+/// Time to send `bytes` bytes at a baud rate, in ten bits each, ms, rounded up.
 pub const fn sending_ms(bytes: usize, baud: u32) -> u32 {
     (bytes as u64 * 10_000).div_ceil(baud as u64) as u32
 }
 
-/// How long a restart may wait for an outbox of so many bytes, ms: its acknowledgement goes last. At a dead line it waits no longer.
+/// Longest time, ms, that a restart may wait for an outbox of `outbox` bytes, in which its acknowledgement is last: a dead line must not
+/// delay it for ever.
 pub const fn restart_ms(outbox: usize, baud: u32) -> u32 {
     let twice = 2 * sending_ms(outbox, baud);
     if twice < 100 { 100 } else { twice }
@@ -72,7 +73,7 @@ mod tests {
             let input = mhz / m;
             assert_eq!(mhz % m, 0);
             assert_eq!(input, if mhz % 2 == 0 { 2 } else { 1 }, "{mhz} MHz");
-            // Within the PLL; divided by 2 for the core, by 7 for what wants 48 MHz.
+            // 336 MHz within the PLL: divided by 2 for the core, by 7 for peripherals at 48 MHz.
             assert_eq!(input * n, 336, "{mhz} MHz");
         }
         assert_eq!(336 / 2 * 1_000_000, CORE);
@@ -81,14 +82,14 @@ mod tests {
     #[test]
     fn buses_are_within_the_data_sheet() {
         // RM0090, 7.2: APB1 42 MHz, APB2 84 MHz. The timers have twice their bus.
-        let most = (42_000_000, 84_000_000);
-        assert!(APB1_TIMERS / 2 <= most.0 && APB2 <= most.1 && APB2_TIMERS == 2 * APB2);
+        let max = (42_000_000, 84_000_000);
+        assert!(APB1_TIMERS / 2 <= max.0 && APB2 <= max.1 && APB2_TIMERS == 2 * APB2);
     }
 
     #[test]
     fn usual_baud_rates_are_met() {
-        // A receiver puts up with 3 % and more (RM0090, 30.3.5), of which the other end has its share.
-        for (baud, divider, most) in [
+        // A receiver tolerates 3 % and more (RM0090, 30.3.5), part of which the other end may use up.
+        for (baud, divider, max) in [
             (115_200, 729, 300),
             (460_800, 182, 1700),
             (921_600, 91, 1700),
@@ -98,7 +99,7 @@ mod tests {
         ] {
             assert_eq!(usart_divider(baud), divider);
             assert!(
-                baud_error_ppm(baud) <= most,
+                baud_error_ppm(baud) <= max,
                 "{baud}: {}",
                 baud_error_ppm(baud)
             );

@@ -1,4 +1,4 @@
-//! Realistic codes for the benches: what a 12-bit dual converter's DMA leaves of a ringing gyro.
+//! Realistic codes for the benches: a ringing gyro as a 12-bit dual converter's DMA stores it.
 
 use antinode::Packed;
 
@@ -13,18 +13,18 @@ pub const HALF_BUFFER: usize = 128;
 /// Period of the wave, in samples.
 pub const PERIOD: f32 = RING as f32 / PERIODS as f32;
 
-/// What may be wrong with a wave.
+/// Flaw of a wave.
 #[derive(Clone, Copy)]
 pub enum Flaw {
-    /// Nothing.
+    /// No flaw.
     None,
-    /// It is clipped.
+    /// Clipped crests.
     Clipped,
-    /// Every pair comes twice.
+    /// Every pair twice.
     Held,
-    /// Another tone is nearly as large.
+    /// A second tone, about as large as the wave.
     Tone,
-    /// There is none, only noise as large.
+    /// No wave, but noise as large as one.
     Noise,
 }
 
@@ -43,7 +43,7 @@ impl Codes {
         codes
     }
 
-    /// Computes those of a wave of so many periods in 1406 pairs.
+    /// Computes the codes of a wave of `periods` periods in the ring of 1406 pairs.
     pub fn make(&mut self, periods: u64, flaw: Flaw) {
         let mut seed = 1u32;
         let mut random = || {
@@ -77,7 +77,7 @@ impl Codes {
         }
     }
 
-    /// A slice of `length` pairs that begins at pair `from` of the endless stream, as far as the ring's end.
+    /// The slice of `length` pairs from pair `from` of the endless stream, or fewer if the ring ends before.
     pub fn slice(&self, from: usize, length: usize) -> &[Packed] {
         let from = from % RING;
         let to = (from + length).min(RING);

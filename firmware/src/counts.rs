@@ -1,8 +1,8 @@
-//! What the interrupt counts and the main loop reports, and which search the main loop wants.
+//! Counters of the interrupt, which the main loop reports, and the search that the main loop wants.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
-/// A count with one writer and any readers; it wraps.
+/// A wrapping count with one writer and any number of readers.
 #[derive(Debug, Default)]
 pub struct Count(AtomicU32);
 
@@ -12,7 +12,7 @@ impl Count {
         Self(AtomicU32::new(0))
     }
 
-    /// Adds; only one context may do so.
+    /// Adds `more`; only one context may call it.
     #[inline]
     pub fn add(&self, more: u32) {
         let count = self.0.load(Ordering::Relaxed);
@@ -26,7 +26,7 @@ impl Count {
     }
 }
 
-/// What the interrupt half counts, and which search it is to have.
+/// Counts of the interrupt half, and the search that it should be in.
 #[derive(Debug, Default)]
 pub struct Counts {
     /// [`antinode::Tracker::wanted_search`], which the main loop writes.
@@ -37,13 +37,13 @@ pub struct Counts {
     pub pairs_lost: Count,
     /// Sample pairs at a rail.
     pub saturated_pairs: Count,
-    /// Blocks with such a pair.
+    /// Blocks with a pair at a rail.
     pub saturated_blocks: Count,
-    /// Times that samples were not fetched in time.
+    /// Overruns: samples were not fetched in time.
     pub overruns: Count,
-    /// Blocks that found no room in the queue.
+    /// Blocks dropped because the queue was full.
     pub blocks_dropped: Count,
-    /// Times that sampling was started anew.
+    /// Restarts of sampling.
     pub restarts: Count,
 }
 

@@ -1,4 +1,4 @@
-//! The interrupt half of the pipeline: a source's pairs become blocks in a queue.
+//! The interrupt half of the pipeline: turns a source's pairs into blocks in a queue.
 
 use core::mem::MaybeUninit;
 use core::sync::atomic::Ordering;
@@ -13,27 +13,27 @@ use crate::methods::{Extra, Gathering, Tuning};
 use crate::sampling::{Lapse, Ready, Source};
 use crate::settings::LONGEST_PERIOD;
 
-/// What the interrupt hands to the main loop.
+/// Item from the interrupt to the main loop.
 #[derive(Debug, Clone, Copy)]
 #[allow(
     clippy::large_enum_variant,
     reason = "nearly every item is a block; there is no heap"
 )]
 pub enum Item<S: Sample> {
-    /// The next block, and what goes with it.
+    /// The next block, and the methods' sums over it.
     Block(Block<S>, Extra<S>),
     /// Sample pairs are missing before the next block.
     Lapse(Lapse),
 }
 
-/// What the main loop asks of the interrupt.
+/// Request from the main loop to the interrupt.
 #[derive(Debug, Clone, Copy)]
 pub enum Request {
-    /// Go on with other settings.
+    /// Continue with other settings.
     Configure(Settings),
-    /// Gather the methods' sums too, or no longer.
+    /// Gather the methods' sums with this tuning, or with `None` no longer.
     Tune(Option<Tuning>),
-    /// Start sampling anew: no pair came for too long.
+    /// Restart sampling, because no pair has come for too long.
     Resample,
 }
 
@@ -41,14 +41,14 @@ pub enum Request {
 struct Outlet<'q, S: Sample> {
     items: Producer<'q, Item<S>>,
     counts: &'q Counts,
-    /// What found no room in the queue yet: it goes before any block.
+    /// A lapse that awaits room in the queue: it goes before any block.
     lapse: Option<Lapse>,
-    /// True where the block begun has a pair at a rail.
+    /// True if the unfinished block has a pair at a rail.
     saturated: bool,
 }
 
 impl<S: Sample> Outlet<'_, S> {
-    /// False where no sample of the block can be at a rail, the converter's least or greatest code.
+    /// False if no sample of the block can be at a rail, the converter's lowest or highest code.
     #[inline]
     fn may_be_saturated(block: &Block<S>, [low, high]: [S; 2]) -> bool {
         let watched = |[c, d]: &[ChannelWatch<S>; 2]| {
@@ -57,7 +57,7 @@ impl<S: Sample> Outlet<'_, S> {
         block.watch.as_ref().is_none_or(watched)
     }
 
-    /// Counts pairs at a rail, which are of a block or of none.
+    /// Counts pairs at a rail, which may belong to a block or, during a search, to none.
     #[cold]
     fn saturate(&mut self, pairs: usize, are_of_block: bool) {
         self.counts.saturated_pairs.add(pairs as u32);
@@ -69,19 +69,19 @@ impl<S: Sample> Outlet<'_, S> {
         if core::mem::take(&mut self.saturated) {
             self.counts.saturated_blocks.add(1);
         }
-        // The tracker sees the hole by the next block's start, and begins a new window after it.
-        if !self.pay() || !self.items.ready() {
+        // The tracker detects the gap from the next block's start, and begins a new window after it.
+        if !self.deliver_lapse() || !self.items.ready() {
             self.counts.blocks_dropped.add(1);
             return;
         }
         self.put(block, extra);
     }
 
-    /// Copies a block into the queue, which has room: the queue's own check would have it copied twice.
+    /// Copies a block into the queue, which must have room: with the queue's own check it would be copied twice.
     #[allow(unsafe_code, reason = "there must be room")]
     #[inline]
     fn put(&mut self, block: &Block<S>, extra: Extra<S>) {
-        // Part by part: of few words each, they go through registers, not through memcpy.
+        // Field by field: a few words each go through registers, not through memcpy.
         let &Block {
             start,
             search,
@@ -96,38 +96,38 @@ impl<S: Sample> Outlet<'_, S> {
             sums,
             watch,
         };
-        // SAFETY: the caller has asked whether there is room, and nobody else fills it.
+        // SAFETY: the caller has checked that there is room, and nobody else fills it.
         unsafe { self.items.enqueue_unchecked(Item::Block(block, extra)) };
     }
 
-    /// Tells of what is missing; false while there is no room for it.
+    /// Queues the lapse that waits, if any; false while there is no room for it.
     #[inline]
-    fn pay(&mut self) -> bool {
-        self.lapse.is_none_or(|lapse| self.pay_out(lapse))
+    fn deliver_lapse(&mut self) -> bool {
+        self.lapse.is_none_or(|lapse| self.enqueue_lapse(lapse))
     }
 
     #[cold]
-    fn pay_out(&mut self, lapse: Lapse) -> bool {
-        let paid = self.items.enqueue(Item::Lapse(lapse)).is_ok();
-        if paid {
+    fn enqueue_lapse(&mut self, lapse: Lapse) -> bool {
+        let done = self.items.enqueue(Item::Lapse(lapse)).is_ok();
+        if done {
             self.lapse = None;
         }
-        paid
+        done
     }
 
-    fn owe(&mut self, lapse: Lapse) {
+    fn note_lapse(&mut self, lapse: Lapse) {
         self.saturated = false;
         self.counts.pairs_lost.add(lapse.lost);
         self.counts.restarts.add(1);
         if lapse.cause == Cause::Overrun {
             self.counts.overruns.add(1);
         }
-        let before = self.lapse.map_or(0, |owed| owed.lost);
+        let before = self.lapse.map_or(0, |earlier| earlier.lost);
         self.lapse = Some(Lapse {
             lost: lapse.lost.wrapping_add(before),
             ..lapse
         });
-        self.pay();
+        self.deliver_lapse();
     }
 }
 
@@ -140,8 +140,8 @@ pub struct Gatherer<'q, S: Sample> {
 }
 
 impl<'q, S: Sample> Gatherer<'q, S> {
-    /// Makes in `place` a gatherer of a front that has its settings.
-    // Not inlined, nor is the instrument's: the stack holds one part at a time.
+    /// Constructs in `place` a gatherer for a configured front.
+    // Not inlined, like the instrument's: the stack then holds one of them at a time.
     #[cold]
     #[inline(never)]
     pub fn make(
@@ -164,7 +164,7 @@ impl<'q, S: Sample> Gatherer<'q, S> {
         })
     }
 
-    /// Serves the source's interrupt: obeys requests, searches where the main loop wants it, then takes what the source has.
+    /// Serves the source's interrupt: executes requests, begins a search if the main loop wants one, then takes the source's pairs.
     #[inline]
     pub fn serve<R: Source>(&mut self, source: &mut R)
     where
@@ -190,7 +190,7 @@ impl<'q, S: Sample> Gatherer<'q, S> {
         while let Some(request) = self.requests.dequeue() {
             match request {
                 Request::Configure(settings) => {
-                    // The main loop has checked them: an error, which never is, leaves the old ones.
+                    // The main loop has checked the settings; on an error, which cannot occur, the old ones would remain.
                     let _ = self.front.configure(settings);
                     self.begin_anew();
                 }
@@ -203,14 +203,14 @@ impl<'q, S: Sample> Gatherer<'q, S> {
         }
     }
 
-    /// The block begun is no more.
+    /// Discards the unfinished block.
     #[cold]
     fn begin_anew(&mut self) {
         self.methods.restart();
         self.outlet.saturated = false;
     }
 
-    // Not inlined, and nor is what follows: its stack need not hold that of the requests too.
+    // Not inlined: its stack then need not hold that of `obey` too.
     #[inline(never)]
     fn gather<R: Source>(&mut self, source: &mut R)
     where
@@ -231,16 +231,16 @@ impl<'q, S: Sample> Gatherer<'q, S> {
             let (done, after) = rest.split_at_checked(taken).unwrap_or((rest, &[]));
             rest = after;
             let extra = methods.add(done, block);
-            // A watched block tells by its extremes whether it has pairs at a rail: they are looked for only there.
+            // The extremes of a watched block show whether pairs at a rail need to be counted.
             if block.is_none_or(|block| Outlet::may_be_saturated(block, rails)) {
                 let pairs = done.iter().filter(|&&pair| source.is_at_rail(pair)).count();
                 outlet.saturate(pairs, !is_searching);
             }
-            // Asked before the block is handed over: what was overwritten meanwhile must not be taken for a wave.
+            // Checked before the block is handed over: pairs overwritten meanwhile must not pass for a wave.
             if !source.is_intact() {
                 let left = rest.len() as u32;
                 if is_searching {
-                    // A period found in it would be kept.
+                    // A period found in overwritten pairs would otherwise be kept.
                     front.search();
                 }
                 let lapse = source.restart(Cause::Overrun);
@@ -256,11 +256,11 @@ impl<'q, S: Sample> Gatherer<'q, S> {
         }
     }
 
-    /// Goes on after missing pairs, in the same count of pairs.
+    /// Continues after missing pairs, which are counted as time passed.
     #[cold]
     fn skip(&mut self, lapse: Lapse) {
         self.front.skip(u64::from(lapse.lost));
         self.methods.restart();
-        self.outlet.owe(lapse);
+        self.outlet.note_lapse(lapse);
     }
 }

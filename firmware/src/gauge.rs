@@ -1,11 +1,10 @@
-//! What an image measures of itself and prints as its last act: instructions or cycles, state, stack.
+//! An image's measurement of itself, printed at its end: instructions or cycles, state, stack.
 //!
-//! On hardware the core's cycle counter counts. An emulator has none: there the system timer runs on the clock of the emulated
-//! instructions.
+//! Hardware has a cycle counter. The emulator has none, but its system timer runs in step with the emulated instructions.
 
 #![allow(
     unsafe_code,
-    reason = "paints the free stack, and looks at it afterwards"
+    reason = "paints the free stack, and examines it afterwards"
 )]
 
 use core::ptr::{read_volatile, write_volatile};
@@ -18,18 +17,18 @@ use cortex_m::register::msp;
 use crate::marks::{leave, mark_begin, mark_end};
 use crate::text::TextLine;
 
-/// What no frame is likely to leave in a word.
+/// Paint of the free stack: a word that no frame is likely to leave.
 const PAINT: u32 = 0x5aa5_c33c;
-/// More than the frame of the function that paints: the least depth that is seen.
+/// Bytes left unpainted for the frame of the painting function: the smallest depth that can be measured.
 const FRAME: u32 = 48;
-/// Counts of the system timer.
+/// Period of the system timer, in counts.
 const TIMER: u32 = 1 << 24;
-/// `-M netduinoplus2 -icount shift=0` takes 1 ns an instruction and has a clock of 168 MHz: 21 counts are 125 instructions.
+/// With `-M netduinoplus2 -icount shift=0` an instruction takes 1 ns, and the timer counts at 168 MHz: 21 counts are 125 instructions.
 const INSTRUCTIONS: u32 = 125;
 const COUNTS: u32 = 21;
 
 unsafe extern "C" {
-    /// The lowest address that the stack may grow to: the linker's.
+    /// The lowest address that the stack may reach, from the linker.
     static mut _stack_end: u32;
 }
 
@@ -46,13 +45,13 @@ pub struct Gauge {
 }
 
 impl Gauge {
-    /// Paints the stack that is free; the deepest place that loses its paint from here on is the kernel's worst stack.
+    /// Paints the free stack: the deepest word that loses its paint from here on gives the kernel's worst stack.
     ///
-    /// `name`: of the image. `units`: what the count is for, sample pairs or windows. `state`: bytes that the kernel keeps from
-    /// call to call.
+    /// `name` is the image's; `units` are the sample pairs or windows that are counted for; `state` is the size in bytes of what the
+    /// kernel keeps from call to call.
     #[inline(always)]
     pub fn new(name: &'static str, units: usize, state: usize) -> Self {
-        // Inlined: the pointer is the bench's own, and the kernel's frames begin below it.
+        // Inlined, so that this is the stack pointer of the bench, below which the kernel's frames begin.
         let base = msp::read();
         paint();
         let mut peripherals = Peripherals::take();
@@ -67,18 +66,18 @@ impl Gauge {
         }
     }
 
-    /// Begins to count, and marks where.
+    /// Starts counting, and marks the begin.
     #[inline(always)]
     pub fn start(&mut self) {
         if let Some(peripherals) = &mut self.peripherals {
-            // The flag tells of what was before too: it is read away.
+            // Reading clears the flag, which may be set from before.
             peripherals.SYST.has_wrapped();
         }
         self.began = self.count();
         mark_begin();
     }
 
-    /// How long `work` takes, in counts of whatever counts: to be compared with another.
+    /// Duration of `work` in counts of the counter at hand, for comparison with others.
     #[inline(always)]
     pub fn lap(&self, work: impl FnOnce()) -> u32 {
         let before = self.count();
@@ -91,12 +90,12 @@ impl Gauge {
         }
     }
 
-    /// Marks the end, prints what was measured, and leaves.
+    /// Marks the end, prints the measurement, and leaves the emulator.
     #[inline(always)]
     pub fn finish(self) -> ! {
         mark_end();
         let ended = self.count();
-        // Before any larger frame, such as that of the report, spoils the paint.
+        // First, before a larger frame, such as that of the report, spoils the paint.
         let depth = self.base.saturating_sub(deepest(self.base));
         self.report(ended, depth)
     }
@@ -112,7 +111,7 @@ impl Gauge {
         if self.counts_cycles {
             line.field("cycles", ended.wrapping_sub(self.began));
         } else if wrapped {
-            // More than 10⁸ instructions: no number rather than a wrong one.
+            // Beyond 10⁸ instructions no number is printed rather than a wrong one.
             line.text(" too long for the timer");
         } else {
             // The timer counts down. The product fits: 2²⁴ × 125 < 2³¹.
@@ -136,13 +135,13 @@ impl Gauge {
     }
 }
 
-/// The work in a frame of its own, so that its stack is seen.
+/// Runs `work` in a stack frame of its own, so that its stack is measured.
 #[inline(never)]
 pub fn apart<R>(work: impl FnOnce() -> R) -> R {
     work()
 }
 
-/// Starts both counters; true where the one of cycles counts.
+/// Starts both counters; true if the cycle counter counts.
 fn start_counters(peripherals: &mut Peripherals) -> bool {
     peripherals.DCB.enable_trace();
     peripherals.DWT.enable_cycle_counter();
@@ -153,7 +152,7 @@ fn start_counters(peripherals: &mut Peripherals) -> bool {
     timer.enable_counter();
     let before = DWT::cycle_count();
     cortex_m::asm::delay(100);
-    // The flag tells of the first reload too: it is read away.
+    // Reading clears the flag, which the first reload sets.
     timer.has_wrapped();
     DWT::cycle_count() != before
 }
@@ -161,10 +160,10 @@ fn start_counters(peripherals: &mut Peripherals) -> bool {
 #[inline(never)]
 fn paint() {
     let mut word = &raw mut _stack_end;
-    // What is above is not free, nor is this frame: the pointer may be read before the frame is made.
+    // The margin spares this function's frame, as the pointer may be read before the frame is made.
     let end = msp::read().saturating_sub(FRAME);
     while (word as u32) < end {
-        // SAFETY: a word of RAM between what is linked and the stack pointer belongs to nobody, and no interrupt is enabled.
+        // SAFETY: words of RAM between the linked data and the stack pointer are unused, and no interrupt is enabled.
         unsafe { write_volatile(word, PAINT) };
         word = word.wrapping_add(1);
     }
@@ -174,7 +173,7 @@ fn paint() {
 #[inline(never)]
 fn deepest(base: u32) -> u32 {
     let mut word = &raw const _stack_end;
-    // SAFETY: words of RAM below the stack pointer of the bench.
+    // SAFETY: these words of RAM lie below the stack pointer of the bench.
     while (word as u32) < base && unsafe { read_volatile(word) } == PAINT {
         word = word.wrapping_add(1);
     }

@@ -1,4 +1,4 @@
-//! What an image does where nothing else is left to do: it restarts, and says why.
+//! Handlers of panics, hard faults and a stopped crystal: each restarts the device, with a note of the cause.
 
 use core::panic::PanicInfo;
 

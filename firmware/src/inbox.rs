@@ -1,18 +1,18 @@
-//! Bytes on their way from the line to the main loop: a ring that a DMA can fill.
+//! Bytes from the line to the main loop, in a ring that a DMA can fill.
 
 use core::sync::atomic::{AtomicU8, AtomicUsize, Ordering};
 
 use crate::settings::INBOX;
 
-/// The ring. Bytes that nobody took in time are overwritten, which their frames' checksums tell.
+/// The ring. Bytes that are not taken in time are overwritten, which the checksums of their frames reveal.
 pub struct Inbox {
     bytes: [AtomicU8; INBOX],
-    /// Where the next byte goes.
+    /// Index of the next byte to come.
     end: AtomicUsize,
 }
 
 impl Inbox {
-    /// No bytes.
+    /// An empty ring.
     pub const fn new() -> Self {
         Self {
             bytes: [const { AtomicU8::new(0) }; INBOX],
@@ -20,18 +20,18 @@ impl Inbox {
         }
     }
 
-    /// Where a DMA writes, from the first place on, round and round.
+    /// The memory that a DMA writes to, in circular mode from the first place on.
     pub const fn places(&self) -> &[AtomicU8; INBOX] {
         &self.bytes
     }
 
-    /// Says how many places are left before the DMA's round ends: none is as good as all.
+    /// Takes the count of places left before the DMA's round ends; 0 means the same as all.
     pub fn left(&self, places: usize) {
         let end = INBOX.wrapping_sub(places) % INBOX;
         self.end.store(end, Ordering::Release);
     }
 
-    /// Adds a byte by hand.
+    /// Adds a byte by software.
     pub fn put(&self, byte: u8) {
         let end = self.end.load(Ordering::Relaxed);
         if let Some(place) = self.bytes.get(end) {
@@ -40,7 +40,7 @@ impl Inbox {
         self.end.store((end + 1) % INBOX, Ordering::Release);
     }
 
-    /// The byte at a place, which moves on; `None` where no byte has come yet.
+    /// The byte at index `at`, which is advanced; `None` if no byte has come yet.
     pub fn take(&self, at: &mut usize) -> Option<u8> {
         if *at == self.end.load(Ordering::Acquire) {
             return None;

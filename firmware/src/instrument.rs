@@ -1,4 +1,4 @@
-//! The thread half of the pipeline: blocks are solved and tracked, reports sent, commands obeyed.
+//! The main loop's half of the pipeline: it solves and tracks blocks, sends reports, and executes commands.
 
 mod commands;
 
@@ -19,18 +19,18 @@ use crate::sampling::Lapse;
 use crate::settings::{COUNTERS_MS, OUTBOX, QUEUE, RESTART_MS, RING, SOONEST_MS};
 use crate::supervision::Liveness;
 
-/// What is worth a line in the log.
+/// Event for the log.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
-    /// The device does something else from now on.
+    /// The device is in another state.
     State(State),
     /// Sample pairs are missing.
     Lapse(Lapse),
     /// A command was answered.
     Answered {
-        /// Its id.
+        /// Id of the command.
         id: u16,
-        /// True where it was done.
+        /// True if it was executed.
         done: bool,
     },
 }
@@ -46,23 +46,23 @@ pub struct Instrument<'q, S: Sample> {
     history: History<S>,
     tuning: Option<Tuning>,
     state: State,
-    /// When a command asked for a restart, ms.
+    /// Time at which a command asked for a restart, ms.
     restart: Option<u32>,
-    /// True where the source's interrupt must be called: it will not come by itself.
-    asks: bool,
+    /// True if the source's interrupt must be pended, as it does not come by itself.
+    needs_source: bool,
     answered: u32,
     liveness: Liveness,
     counters: Counters,
-    /// True where something went wrong that the counters have not told yet.
-    fresh: bool,
-    /// When the counters were last reported, ms.
+    /// True if something went wrong that has not been reported by the counters yet.
+    has_news: bool,
+    /// Time of the last report of the counters, ms.
     reported: u32,
     now: u32,
 }
 
 impl<'q, S: Sample> Instrument<'q, S> {
-    /// Makes in `place` an instrument that has seen nothing, of a tracker that has the configuration's settings; it says hello, and why it
-    /// has started.
+    /// Constructs in `place` an instrument with a tracker that has the configuration's settings; it sends a hello and the cause of the
+    /// start.
     #[cold]
     #[inline(never)]
     pub fn make(
@@ -85,12 +85,12 @@ impl<'q, S: Sample> Instrument<'q, S> {
             tuning: None,
             state: State::Started(cause),
             restart: None,
-            asks: false,
+            needs_source: false,
             answered: 0,
             liveness: Liveness::new(),
             counters: Counters::default(),
-            fresh: false,
-            // Nor need what goes wrong at the start wait.
+            has_news: false,
+            // Faults at the start can then be reported without delay.
             reported: 0_u32.wrapping_sub(SOONEST_MS),
             now: 0,
         });
@@ -99,9 +99,9 @@ impl<'q, S: Sample> Instrument<'q, S> {
         instrument
     }
 
-    /// One round of the main loop at `now`, ms since the start: everything that waits is worked off, but not what comes meanwhile.
+    /// One round of the main loop at `now`, ms since the start: it processes all that waits, but not what arrives meanwhile.
     ///
-    /// True when the pipeline is alive: pairs arrive and this loop turns.
+    /// True if the pipeline is alive, that is if pairs have arrived since the last round.
     pub fn poll(&mut self, now: u32, mut log: impl FnMut(Event)) -> bool {
         let passed = now.wrapping_sub(self.now);
         self.counters.uptime_ms += u64::from(passed);
@@ -110,32 +110,36 @@ impl<'q, S: Sample> Instrument<'q, S> {
             let done = self.answer(frame);
             log(Event::Answered { id: frame.id, done });
         }
-        // A device that does not sample goes on saying so.
+        // Only from `Tracking`: a device that does not sample must keep its `Fault`.
         if self.wants_search() && self.state == State::Tracking {
             self.enter(State::Searching, &mut log);
         }
-        // No more than the queue holds: under overload it is never empty, and the line and the watchdog must have their turn.
+        // No more than the queue holds: under overload it is never empty, and line and watchdog need their turn.
         let _ = (1..QUEUE).all(|_| self.take(&mut log));
         if matches!(self.state, State::Started(_)) {
             self.enter(State::Searching, &mut log);
         }
         self.update();
-        let due = if self.fresh { SOONEST_MS } else { COUNTERS_MS };
+        let due = if self.has_news {
+            SOONEST_MS
+        } else {
+            COUNTERS_MS
+        };
         if now.wrapping_sub(self.reported) >= due {
             self.report_counters();
         }
         let alive = self.liveness.sees(self.counts.pairs.get());
-        self.asks = self.liveness.stalled(now);
-        if self.asks {
-            // Where the queue is full, the interrupt that is asked for empties it, and the next stall finds room.
+        self.needs_source = self.liveness.stalled(now);
+        if self.needs_source {
+            // If the queue is full, the interrupt that is pended empties it, and the next stall finds room.
             let _ = self.ask(Request::Resample);
         }
         alive
     }
 
-    /// Asks something of the interrupt; [`CommandError::Busy`] where the queue to it is full.
+    /// Sends a request to the interrupt; [`CommandError::Busy`] if the queue is full.
     fn ask(&mut self, request: Request) -> Result<(), CommandError> {
-        // Nothing samples, so that nobody would take it from the queue.
+        // Without sampling there is no interrupt to take it from the queue.
         if matches!(self.state, State::Fault(_)) {
             return Ok(());
         }
@@ -143,7 +147,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
         asked.map_err(|_| CommandError::Busy)
     }
 
-    /// Takes the next item; false where there is none.
+    /// Takes the next item; false if there is none.
     fn take(&mut self, log: &mut impl FnMut(Event)) -> bool {
         let mut estimate = None;
         match self.items.peek() {
@@ -159,7 +163,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
                 self.link.send(&Report::State(restarted));
             }
         }
-        // Only now: a block is read where it lies.
+        // Not before: the block is read in place.
         self.items.dequeue();
         if let Some(estimate) = estimate {
             self.enter(State::Tracking, log);
@@ -175,15 +179,15 @@ impl<'q, S: Sample> Instrument<'q, S> {
         true
     }
 
-    /// Tells the interrupt which search is wanted; true where it is another one.
+    /// Publishes the wanted search to the interrupt; true if it is a new one.
     fn wants_search(&mut self) -> bool {
-        let (wanted, told) = (self.tracker.wanted_search(), &self.counts.wanted_search);
-        let is_new = wanted != told.load(Ordering::Relaxed);
-        told.store(wanted, Ordering::Relaxed);
+        let (wanted, published) = (self.tracker.wanted_search(), &self.counts.wanted_search);
+        let is_new = wanted != published.load(Ordering::Relaxed);
+        published.store(wanted, Ordering::Relaxed);
         is_new
     }
 
-    /// The methods over an estimate's window, where they are wanted and neither the line nor the blocks that wait are in a hurry.
+    /// The methods over an estimate's window, if they are wanted and neither the blocks' queue nor the outbox is filling up.
     fn methods(&mut self, estimate: &Estimate) -> Option<Methods> {
         let rate = self.configuration.settings.sample_rate;
         if !AVAILABLE || !self.configuration.methods {
@@ -214,7 +218,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
         }
     }
 
-    /// Says that the device does not sample, and why.
+    /// Reports that the device does not sample, and why.
     pub fn fault(&mut self, cause: Cause, mut log: impl FnMut(Event)) {
         self.enter(State::Fault(cause), &mut log);
     }
@@ -224,11 +228,11 @@ impl<'q, S: Sample> Instrument<'q, S> {
         self.link.send(&Report::Hello(hello));
     }
 
-    /// Brings the counters up to date.
+    /// Updates the counters.
     fn update(&mut self) {
         let (counts, c) = (self.counts, &mut self.counters);
         let before = *c;
-        // The interrupt counts in 32 bits, which wrap: the difference does not.
+        // The interrupt's 32-bit counts wrap, their differences do not.
         for (total, count) in [
             (&mut c.pairs, &counts.pairs),
             (&mut c.pairs_lost, &counts.pairs_lost),
@@ -242,30 +246,30 @@ impl<'q, S: Sample> Instrument<'q, S> {
         c.restarts = counts.restarts.get();
         c.commands_damaged = self.link.damaged();
         c.reports_dropped = self.link.dropped();
-        self.fresh |= c.blocks_dropped != before.blocks_dropped || c.restarts != before.restarts;
+        self.has_news |= c.blocks_dropped != before.blocks_dropped || c.restarts != before.restarts;
     }
 
-    /// Sends the counters as they are; where there is no room they are still due.
+    /// Sends the current counters; if there is no room they remain due.
     pub fn report_counters(&mut self) {
         self.update();
         if self.link.send(&Report::Counters(self.counters)) {
-            self.fresh = false;
+            self.has_news = false;
             self.reported = self.now;
         }
     }
 
-    /// True once a command asked for a restart and its acknowledgement was sent, or [`RESTART_MS`] have passed.
+    /// True once a command has asked for a restart, and all reports are sent or [`RESTART_MS`] have passed.
     pub fn wants_restart(&self) -> bool {
         self.restart
             .is_some_and(|asked| self.link.is_empty() || self.now.wrapping_sub(asked) >= RESTART_MS)
     }
 
-    /// True where the source's interrupt must be pended, because no pairs have come for too long.
+    /// True if the source's interrupt must be pended, because no pairs have come for too long.
     pub fn asks_for_source(&self) -> bool {
-        self.asks
+        self.needs_source
     }
 
-    /// True when all reports were sent.
+    /// True if all reports are sent.
     pub fn is_flushed(&self) -> bool {
         self.link.is_empty()
     }

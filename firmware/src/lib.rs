@@ -1,4 +1,4 @@
-//! antinode on a gyro controller with an STM32F405: the parts that its images are made of.
+//! antinode on a gyro controller with an STM32F405: the modules from which the firmware images are built.
 //!
 //! ```text
 //! interrupt:  Source ── pairs ──► Gatherer ── blocks ──► queue
@@ -13,37 +13,37 @@
 //! | `bench_block_*`, `bench_watch_*` | codes in memory: block sums from half-buffers, without and with the watch |
 //! | `bench_push_*` | block sums from one call a pair |
 //! | `bench_acquire_*` | the search for a period |
-//! | `bench_longest_*` | the longest call that takes one pair, of searching and of tracking |
+//! | `bench_longest_*` | the longest call that takes one pair, while searching or tracking |
 //! | `bench_solution_*` | the solution of one window |
 //! | `bench_pipeline_*`, `bench_unwatched_*` | the whole core, with and without the watch |
-//! | `bench_methods_*` | block sums with the sums of the paper's four methods beside them |
-//! | `bench_interrupt`, `bench_application` | the instrument's interrupt alone, and all of the instrument |
-//! | `bench_idsp_sums` | the peer: the same sums with the crate idsp |
-//! | `bench_nothing` | what every other bench has beside its kernel |
-//! | `check_arch` | compares the core's kernels in instructions with their portable twins |
-//! | `check_memory` | proves that memory is copied, moved and cleared as the ABI wants it |
+//! | `bench_methods_*` | block sums together with the sums of the paper's four methods |
+//! | `bench_interrupt`, `bench_application` | the instrument's interrupt alone, and the whole instrument |
+//! | `bench_idsp_sums` | for comparison: the same sums with the crate idsp |
+//! | `bench_nothing` | the part that every bench has besides its kernel |
+//! | `check_arch` | compares the core's assembly kernels with their portable twins |
+//! | `check_memory` | verifies that memory is copied, moved and cleared as the ABI demands |
 //!
-//! A bench works between `mark_begin` and `mark_end`, where a counting tool may look too, and at its end prints one line over
-//! semihosting: `NAME instructions=… units=… state=… stack=…`, with `cycles` for `instructions` on hardware, whose cycle counter
-//! counts. `cargo bench-table` runs all of them in QEMU.
+//! A bench works between `mark_begin` and `mark_end`, which other counting tools may use too, and at its end prints one line over
+//! semihosting: `NAME instructions=… units=… state=… stack=…`. On hardware, which has a cycle counter, it prints `cycles` instead of
+//! `instructions`. `cargo bench-table` runs all of them in QEMU.
 //!
-//! | module | what it is |
+//! | module | content |
 //! |---|---|
 //! | [`settings`] | everything that the owner of another gyro may want to change |
-//! | [`sampling`] | the seam: a source of simultaneous pairs, and what can go wrong with one |
+//! | [`sampling`] | the interface between converters and pipeline: a source of simultaneous pairs, and its failures |
 //! | [`gather`] | the interrupt's half: pairs become blocks |
-//! | [`instrument`] | the main loop's half: blocks become reports; commands are obeyed |
-//! | [`link`], [`inbox`] | reports out, commands in, neither ever waited for |
+//! | [`instrument`] | the main loop's half: blocks become reports; commands are executed |
+//! | [`link`], [`inbox`] | reports out and commands in, without blocking |
 //! | [`pipeline`] | both halves and the queues between them, for images and tests |
-//! | [`supervision`] | whether the pipeline lives, and why the device started |
+//! | [`supervision`] | whether the pipeline is alive, and why the device started |
 //! | [`methods`] | the paper's four methods beside every estimate, with the feature `methods` |
-//! | `counts`, `wav`, `clocks` | the interrupt's counters; where a WAV file's samples lie; frequencies and dividers |
+//! | `counts`, `wav`, `clocks` | the interrupt's counters; the position of samples in a WAV file; frequencies and dividers |
 //! | `hardware` | clocks, converters, DMA, line, watchdog, log, main loop: registers by their names in RM0090 |
 //! | `replay` | the emulator's source |
-//! | `bench`, `beside`, `load`, `codes` | what is measured, and of what |
-//! | `marks`, `gauge`, `text` | where a bench begins and ends; its counters and painted stack; the line that it prints |
+//! | `bench`, `beside`, `load`, `codes` | kernels to measure, others to compare with, the whole pipeline, and samples for all of them |
+//! | `marks`, `gauge`, `text` | begin and end of a measurement; counters and stack paint; the printed line |
 //!
-//! All but the last four lines know no hardware, and are tested on the host too: `cargo test --release -p firmware --lib` and
+//! The modules above `hardware` do not depend on hardware, and are tested on the host too: `cargo test --release -p firmware --lib` and
 //! `cargo test --release -p host-tests --test firmware`. Pins and ranges are in `firmware/docs/wiring.md`.
 #![no_std]
 

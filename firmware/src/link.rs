@@ -1,4 +1,4 @@
-//! The serial line's side of the main loop: reports go out while there is room, commands come in byte by byte.
+//! The main loop's end of the serial line: reports go out while there is room, commands come in byte by byte.
 
 use antinode_telemetry::{CommandFrame, Decoder, MAX_FRAME, Report, Reporter};
 use bbqueue::nicknames::Churrasco;
@@ -8,13 +8,13 @@ use crate::counts::Count;
 use crate::inbox::Inbox;
 use crate::settings::OUTBOX;
 
-/// Bytes that counters leave free: two frames, such as an acknowledgement and the hello before it, and one that may not fit before the
-/// ring's end. Estimates and methods leave one more, for counters: on a busy line these tell what is dropped.
+/// Bytes that a report of counters leaves free: two frames, such as an acknowledgement and the hello before it, and one for a frame that
+/// does not fit before the ring's end. Estimates and methods leave one more, for counters: on a busy line these report what is dropped.
 const RESERVE: usize = 3 * MAX_FRAME;
 
-/// Bytes on their way to the line; they lie in runs that a DMA can fetch.
+/// Bytes for the line, in contiguous runs that a DMA can fetch.
 pub type Outbox = Churrasco<OUTBOX>;
-/// A run of bytes for the line.
+/// A contiguous run of bytes for the line.
 pub type Run<'q> = StreamGrantR<&'q Outbox>;
 
 /// The line's end of the outbox.
@@ -24,7 +24,7 @@ pub struct Outgoing<'q> {
 }
 
 impl<'q> Outgoing<'q> {
-    /// The end of an outbox, which counts the bytes that were `sent`.
+    /// The line's end of `outbox`; it adds the bytes sent to `sent`.
     pub fn new(outbox: &'q Outbox, sent: &'q Count) -> Self {
         Self {
             runs: outbox.stream_consumer(),
@@ -37,7 +37,7 @@ impl<'q> Outgoing<'q> {
         self.runs.read().ok()
     }
 
-    /// Gives back a run that was sent.
+    /// Frees a run that was sent.
     pub fn release(&mut self, run: Run<'q>) {
         let length = run.len();
         run.release(length);
@@ -50,11 +50,11 @@ pub struct Link<'q> {
     out: StreamProducer<&'q Outbox>,
     sent: &'q Count,
     inbox: &'q Inbox,
-    /// Where the next byte lies in it.
+    /// Index in the inbox of the next byte to take.
     at: usize,
     reporter: Reporter,
     decoder: Decoder<CommandFrame>,
-    /// Bytes put into the outbox; they wrap.
+    /// Count of bytes put into the outbox; it wraps.
     put: u32,
     dropped: u32,
     damaged: u32,
@@ -62,7 +62,7 @@ pub struct Link<'q> {
 }
 
 impl<'q> Link<'q> {
-    /// A link whose next report is number 0.
+    /// A link whose first report is number 0.
     pub fn new(outbox: &'q Outbox, sent: &'q Count, inbox: &'q Inbox) -> Self {
         Self {
             out: outbox.stream_producer(),
@@ -78,8 +78,8 @@ impl<'q> Link<'q> {
         }
     }
 
-    /// Sends a report; false where there is no room for any frame, or none beside the reserve: a slow reader stalls nothing. The report is
-    /// dropped then and counted, but for counters, which come again.
+    /// Sends a report; false if there is no room for a frame of any length and the reserve, so that a slow reader stalls nothing. The
+    /// report is then dropped and counted, except for counters, which will be sent later.
     pub fn send(&mut self, report: &Report) -> bool {
         if self.closed {
             return false;
@@ -98,7 +98,7 @@ impl<'q> Link<'q> {
             }
             return false;
         };
-        // It never fails with that much room.
+        // Never fails, as there is room for the longest frame.
         let length = self
             .reporter
             .frame(report, &mut room)
@@ -108,12 +108,12 @@ impl<'q> Link<'q> {
         true
     }
 
-    /// Sends no more reports than those that wait already.
+    /// Closes the link: only reports that wait already are still sent.
     pub fn close(&mut self) {
         self.closed = true;
     }
 
-    /// The next command that has arrived whole.
+    /// The next command that has arrived completely.
     pub fn command(&mut self) -> Option<CommandFrame> {
         while let Some(byte) = self.inbox.take(&mut self.at) {
             match self.decoder.push(byte) {
@@ -125,7 +125,7 @@ impl<'q> Link<'q> {
         None
     }
 
-    /// True when all bytes were sent.
+    /// True if all bytes are sent.
     pub fn is_empty(&self) -> bool {
         self.put == self.sent.get()
     }
@@ -135,12 +135,12 @@ impl<'q> Link<'q> {
         self.put.wrapping_sub(self.sent.get()) as usize
     }
 
-    /// Reports that found no room.
+    /// Reports dropped for lack of room.
     pub fn dropped(&self) -> u32 {
         self.dropped
     }
 
-    /// Command frames that were damaged.
+    /// Damaged command frames.
     pub fn damaged(&self) -> u32 {
         self.damaged
     }

@@ -1,4 +1,4 @@
-//! What the pipeline costs: its interrupt fed with half-buffers of codes, alone and with the main loop, between the marks.
+//! Benches of the pipeline: its interrupt, fed with half-buffers of codes, alone and with the main loop.
 
 #![allow(unsafe_code, reason = "the bench takes the USART for itself")]
 
@@ -15,19 +15,19 @@ use crate::codes::{Codes, RING};
 use crate::counts::Counts;
 use crate::gather::Gatherer;
 use crate::gauge::Gauge;
-use crate::hardware::line::{By, Line};
+use crate::hardware::line::{Line, Transfer};
 use crate::marks::leave;
 use crate::methods::AVAILABLE;
 use crate::pipeline::{Places, Queues};
 use crate::sampling::{DUAL_ADC_RAILS, Lapse, Ready, Source, both, is_at_rail_12};
 use crate::settings::{Arithmetic, HALF, QUEUE, REQUESTS, configuration};
 
-/// Codes without end, half a ring of the DMA at a time.
+/// A source of endless codes, half of a DMA ring at a time.
 struct Endless {
     ring: [Packed; RING],
     from: usize,
     to: usize,
-    /// Pairs given out.
+    /// Pairs handed out so far.
     total: usize,
 }
 
@@ -36,7 +36,7 @@ impl Endless {
         let codes = Codes::new();
         let mut ring = [Packed(0); RING];
         for (to, from) in ring.iter_mut().zip(codes.slice(0, RING)) {
-            // About the middle of twelve bits, as the converters give them.
+            // The 12-bit converters give codes about mid-scale.
             let unipolar = |code: u32| u32::from((code as u16).wrapping_add(2048));
             *to = Packed(unipolar(from.0) | unipolar(from.0 >> 16) << 16);
         }
@@ -80,13 +80,13 @@ impl Source for Endless {
     }
 }
 
-/// The interrupt's work, not inlined, as a handler is not.
+/// The interrupt's work; not inlined, like a handler.
 #[inline(never)]
 fn interrupt(gatherer: &mut Gatherer<'_, Arithmetic>, source: &mut Endless) {
     gatherer.serve(source);
 }
 
-/// [`PAIRS`] pairs between the marks, after a tenth of a second from cold.
+/// Measures [`PAIRS`] pairs, after 10 000 pairs (0.1 s) from cold.
 fn measure(name: &'static str, state: usize, mut half: impl FnMut() -> usize) -> ! {
     let mut gauge = Gauge::new(name, PAIRS, state);
     while half() < 10_000 {}
@@ -95,7 +95,7 @@ fn measure(name: &'static str, state: usize, mut half: impl FnMut() -> usize) ->
     gauge.finish()
 }
 
-/// The interrupt, and a main loop that only takes the blocks from the queue.
+/// The interrupt alone, with a main loop that only empties the queue.
 pub fn interrupt_alone(name: &'static str) -> ! {
     let mut source = Endless::new();
     let (mut items, mut requests) = (Queue::<_, QUEUE>::new(), Queue::<_, REQUESTS>::new());
@@ -116,7 +116,7 @@ pub fn interrupt_alone(name: &'static str) -> ! {
     })
 }
 
-/// The whole pipeline; with the feature `methods` they are on.
+/// The whole pipeline; with the feature `methods`, the methods are on.
 pub fn application(
     name: &'static str,
     queues: &'static mut Queues<Arithmetic>,
@@ -133,8 +133,14 @@ pub fn application(
     // SAFETY: nobody else uses the peripherals.
     let device = unsafe { Peripherals::steal() };
     let parts_size = size_of_val(&parts) + size_of::<Places<'static, Arithmetic>>();
-    // The emulator has no DMA: its registers read as those of a stream that has ended, and the bytes go nowhere.
-    let mut line = Line::new(device.USART1, &device.RCC, parts.out, parts.inbox, By::Dma);
+    // The emulator has no DMA: the registers look like those of a stream that has ended, and no bytes are sent.
+    let mut line = Line::new(
+        device.USART1,
+        &device.RCC,
+        parts.out,
+        parts.inbox,
+        Transfer::Dma,
+    );
     let mut now = 0;
     let state = size_of::<Queues<Arithmetic>>() + parts_size + size_of_val(&line);
     measure(name, state, || {

@@ -1,6 +1,6 @@
-//! The marks that measurements run between, and the way out of the emulator.
+//! The marks of a measurement's begin and end, and the exits from the emulator.
 
-// Marks must have the names that a counting tool looks for.
+// Counting tools find the marks by name.
 #![allow(unsafe_code, reason = "`no_mangle` is an unsafe attribute")]
 
 use cortex_m_semihosting::debug;
@@ -33,7 +33,7 @@ pub fn fail() -> ! {
     }
 }
 
-/// An image of one bench, which is called with the image's name and these arguments; it leaves the emulator where it panics too.
+/// The entry point of a bench image, which calls the bench with the image's name and these arguments. A panic leaves the emulator too.
 #[macro_export]
 macro_rules! bench_image {
     ($bench:expr $(, $argument:expr)*) => {

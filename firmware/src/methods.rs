@@ -1,8 +1,8 @@
-//! The paper's four methods beside every estimate, with the feature `methods`: their sums are gathered in the interrupt beside the
-//! front's, block by block, and compared in the main loop.
+//! The paper's four methods beside every estimate, with the feature `methods`: their sums are gathered in the interrupt, block by block
+//! like the front's, and compared in the main loop.
 //!
-//! The offsets and the delay that the sums need are those of the last estimate. Samples are taken as they come: a calibration other
-//! than the ideal one excludes the methods.
+//! The sums use offsets and a delay from an earlier estimate. Samples are not calibrated, so that the methods are excluded by a calibration
+//! other than the ideal one.
 
 use antinode::block::Demodulator;
 use antinode::methods::comparison::{Reference, Sums, compare};
@@ -14,22 +14,22 @@ use heapless::Deque;
 
 use crate::settings::{LONGEST_PERIOD, RING};
 
-/// True where the methods are built in.
+/// True if the methods are built in.
 pub const AVAILABLE: bool = true;
 
-/// What the sums need to know of the wave.
+/// Parameters of the sums, from an estimate of the wave.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tuning {
-    /// A quarter of the period, samples.
+    /// Delay of a quarter period, samples.
     lag: u16,
     /// Offsets, input units.
     offsets: [f32; 2],
-    /// The wave's own frequency.
+    /// Phase step of the wave's frequency, which the front's demodulator only approximates.
     step: PhaseStep,
 }
 
 impl Tuning {
-    /// That of an estimate at a sample rate in Hz.
+    /// The tuning by an estimate, at a sample rate in Hz.
     pub fn of(estimate: &Estimate, sample_rate: f64) -> Self {
         let step = PhaseStep::from_period((sample_rate / estimate.frequency) as f32);
         Self {
@@ -39,7 +39,7 @@ impl Tuning {
         }
     }
 
-    /// True where sums so tuned serve an estimate: its offsets have not moved beyond their noise, nor its phase within a window.
+    /// True if sums of this tuning serve for an estimate: neither its offsets nor its phase over a window differ beyond their noise.
     pub fn serves(&self, estimate: &Estimate, sample_rate: f64) -> bool {
         let now = Self::of(estimate, sample_rate);
         let samples = estimate.samples as f32;
@@ -65,10 +65,10 @@ pub struct BlockSums<S: Sample> {
     block: Block<S>,
 }
 
-/// What goes with each block.
+/// Sums that go with a block, if the methods are on.
 pub type Extra<S> = Option<BlockSums<S>>;
 
-/// The sums under way.
+/// Unfinished sums.
 struct Running<S: Sample> {
     tuning: Tuning,
     moments: MomentSums<S>,
@@ -89,7 +89,7 @@ impl<S: Sample> Default for Gathering<S> {
 }
 
 impl<S: Sample> Gathering<S> {
-    /// Gathers nothing until it is tuned.
+    /// A gathering that does nothing until it is tuned.
     pub const fn new() -> Self {
         Self {
             tuning: None,
@@ -97,18 +97,18 @@ impl<S: Sample> Gathering<S> {
         }
     }
 
-    /// Gathers for such a wave from the next block on, or nothing.
+    /// Gathers with this tuning from the next block on, or with `None` nothing.
     pub fn tune(&mut self, tuning: Option<Tuning>) {
         self.tuning = tuning;
         self.running = None;
     }
 
-    /// Tells that pairs are missing.
+    /// Discards the unfinished sums, as is necessary after missing pairs.
     pub fn restart(&mut self) {
         self.running = None;
     }
 
-    /// Adds pairs that the front has put into one block, and closes the sums with that block where it is finished.
+    /// Adds pairs that the front has put into one block, and gives their sums if `block` is finished.
     pub fn add<P: SamplePair<S>>(&mut self, pairs: &[P], block: Option<&Block<S>>) -> Extra<S> {
         let sums = self.running.as_mut().and_then(|running| running.add(pairs));
         let block = block?;
@@ -135,7 +135,7 @@ impl<S: Sample> Running<S> {
     fn add<P: SamplePair<S>>(&mut self, pairs: &[P]) -> Extra<S> {
         self.moments.extend(pairs);
         self.delayed.extend(pairs);
-        // Both begin and end blocks together.
+        // This demodulator's blocks begin and end with those of the front.
         let (_, block) = self.demodulator.push_slice(pairs);
         block.map(|&block| BlockSums {
             tuning: self.tuning,
@@ -156,12 +156,12 @@ impl<S: Sample> Default for History<S> {
 }
 
 impl<S: Sample> History<S> {
-    /// Nothing kept yet.
+    /// An empty history.
     pub const fn new() -> Self {
         Self(Deque::new())
     }
 
-    /// Keeps what came with a block.
+    /// Keeps the sums of a block; a block without sums clears the history.
     pub fn keep(&mut self, extra: &Extra<S>) {
         let Some(sums) = extra else {
             return self.0.clear();
@@ -172,7 +172,7 @@ impl<S: Sample> History<S> {
         let _ = self.0.push_back(*sums);
     }
 
-    /// The methods over the window of an estimate; `None` where its sums are not all here, or hold no wave.
+    /// The methods over the window of an estimate; `None` if the window is not covered by sums of one tuning, or holds no wave.
     pub fn compare(&self, estimate: &Estimate, sample_rate: f64) -> Option<Methods> {
         if estimate.flags.contains(Flags::LOST) {
             return None;
@@ -187,7 +187,7 @@ impl<S: Sample> History<S> {
             sums = (sums.0.with(&next.moments), sums.1.with(&next.delayed));
         }
         let (moments, delayed) = sums;
-        // The first products after a tuning are missing until the delay is filled.
+        // After a tuning, delayed products are missing until the delay line is filled.
         let whole = [moments.count, delayed.count] == [estimate.samples; 2];
         if !alike || !whole {
             return None;

@@ -1,17 +1,17 @@
-//! In the place of `methods.rs` without the feature `methods`: nothing, in no bytes and no cycles.
+//! Stands in for `methods.rs` without the feature `methods`, with the same interface, and takes no bytes and no cycles.
 
 use antinode::{Block, Estimate, Sample, SamplePair};
 use antinode_telemetry::Methods;
 
-/// True where the methods are built in.
+/// True if the methods are built in.
 pub const AVAILABLE: bool = false;
 
-/// What the sums need to know of the wave.
+/// No parameters.
 #[derive(Debug, Clone, Copy)]
 pub struct Tuning;
 
 impl Tuning {
-    /// That of an estimate.
+    /// The same for every estimate.
     pub fn of(_: &Estimate, _: f64) -> Self {
         Self
     }
@@ -22,7 +22,7 @@ impl Tuning {
     }
 }
 
-/// What goes with each block.
+/// Nothing goes with a block.
 pub type Extra<S> = core::marker::PhantomData<S>;
 
 /// Gathers nothing.

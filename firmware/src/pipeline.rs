@@ -1,4 +1,4 @@
-//! Both halves of the pipeline and what lies between them, for every image and for the tests.
+//! Both halves of the pipeline and the queues between them, for every image and for the tests.
 
 use core::mem::MaybeUninit;
 
@@ -13,7 +13,7 @@ use crate::instrument::Instrument;
 use crate::link::{Link, Outbox, Outgoing};
 use crate::settings::{LONGEST_PERIOD, QUEUE, REQUESTS, RING};
 
-/// The queues between the contexts; each image has one, in a static.
+/// Queues between the contexts; each image has one set, in a static.
 pub struct Queues<S: Sample> {
     items: Queue<Item<S>, QUEUE>,
     requests: Queue<Request, REQUESTS>,
@@ -23,7 +23,7 @@ pub struct Queues<S: Sample> {
     counts: Counts,
 }
 
-/// Where the large parts are made and stay; each image has one, in a static.
+/// Memory in which the large parts are constructed and stay; each image has one, in a static.
 pub struct Places<'q, S: Sample> {
     front: Front<S, LONGEST_PERIOD>,
     tracker: Tracker<RING>,
@@ -32,7 +32,7 @@ pub struct Places<'q, S: Sample> {
 }
 
 impl<S: Sample> Places<'_, S> {
-    /// Places for a pipeline that is still to come.
+    /// Places without parts.
     pub const fn new() -> Self {
         Self {
             front: Front::UNSET,
@@ -49,7 +49,7 @@ impl<S: Sample> Default for Places<'_, S> {
     }
 }
 
-/// The parts, each for one context.
+/// Parts of the pipeline, each for one context.
 pub struct Parts<'q, S: Sample> {
     /// For the source's interrupt.
     pub gatherer: &'q mut Gatherer<'q, S>,
@@ -74,7 +74,7 @@ impl<S: Sample> Queues<S> {
         }
     }
 
-    /// The parts of a pipeline that starts for `cause`.
+    /// Constructs the parts of a pipeline; `cause` is reported as that of the start.
     ///
     /// # Errors
     ///

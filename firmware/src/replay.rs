@@ -1,13 +1,13 @@
-//! A recording as a source, read through semihosting, half a ring at a time: a WAV file of two channels of 16 bits, S_C left, at any
-//! sample rate; or else 12-bit codes as the STM32F405's converters give them, 16 bits each, S_C and S_D in turn, lowest byte first. Of
-//! these `firmware/run` takes only files called `*.raw`: anything would pass for codes.
+//! A recording as a source for the emulator, read through semihosting, half a ring at a time: a WAV file of two 16-bit channels, S_C left,
+//! at any sample rate; or else 12-bit codes of the STM32F405's converters, 16 bits each, S_C and S_D in turn, lowest byte first. Of the
+//! latter `firmware/run` takes only files called `*.raw`, as any file would pass for codes.
 //!
-//! For the emulator. The command line of semihosting is the recording's name and, for tests, options that make things go wrong:
+//! The command line of semihosting is the recording's name and, for tests, options that cause faults:
 //!
-//! | option | what |
+//! | option | effect |
 //! |---|---|
-//! | `hold=N` | no pair before N commands are answered |
-//! | `slow=N` | N halves of the ring in each round of the main loop |
+//! | `hold=N` | no pair comes before N commands are answered |
+//! | `slow=N` | N halves of the ring come in each round of the main loop |
 //! | `shut=A:B` | the reader takes no byte from half A to half B |
 //! | `lapse=A:N` | N pairs are lost before half A, as by an overrun |
 //! | `panic=A` | a panic at half A |
@@ -26,9 +26,9 @@ use crate::sampling::{
 use crate::settings::{HALF, configuration};
 use crate::wav::{Wav, is_wav};
 
-/// Most bytes of the command line.
-const LINE: usize = 256;
-/// Semihosting: open for reading, as bytes.
+/// Longest command line, bytes.
+const MAX_LINE: usize = 256;
+/// Semihosting's mode to open a file for reading, in binary.
 const READ_BYTES: usize = 1;
 
 static ENDED: AtomicBool = AtomicBool::new(false);
@@ -44,26 +44,26 @@ pub fn halves() -> u32 {
     HALVES.load(Ordering::Relaxed)
 }
 
-/// What the command line asks for.
+/// Options of the command line.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Script {
-    /// Commands to be answered before the first pair.
+    /// Commands that must be answered before the first pair.
     pub hold: u32,
-    /// Halves in each round of the main loop, 1 and more.
+    /// Halves in each round of the main loop, 1 or more.
     pub slow: u32,
-    /// From which half to which the reader takes nothing.
+    /// Halves from the first of which to before the second the reader takes nothing.
     pub shut: [u32; 2],
-    /// Before which half pairs are lost, and how many.
+    /// Half before which pairs are lost, and their count.
     pub lapse: [u32; 2],
-    /// The half with a panic.
+    /// Half at which the image panics.
     pub panic: Option<u32>,
 }
 
 impl Script {
-    /// The script, and the recording's name at the start of the line with a zero behind it; `None` where there is none.
-    pub fn read(line: &mut [u8; LINE + 1]) -> Option<Self> {
+    /// Reads the command line into `line`, of which then the recording's name and a zero are left; `None` if it is not valid.
+    pub fn read(line: &mut [u8; MAX_LINE + 1]) -> Option<Self> {
         // SAFETY: the host writes at most as many bytes as it is told.
-        if unsafe { syscall!(GET_CMDLINE, line.as_mut_ptr(), LINE) } != 0 {
+        if unsafe { syscall!(GET_CMDLINE, line.as_mut_ptr(), MAX_LINE) } != 0 {
             return None;
         }
         let mut script = Self {
@@ -91,18 +91,18 @@ impl Script {
         Some(script)
     }
 
-    /// True where the reader takes bytes.
+    /// True if the reader takes bytes.
     pub fn is_open(&self) -> bool {
         !(self.shut[0]..self.shut[1]).contains(&halves())
     }
 }
 
 /// A line for [`Script::read`].
-pub const fn line() -> [u8; LINE + 1] {
-    [0; LINE + 1]
+pub const fn line() -> [u8; MAX_LINE + 1] {
+    [0; MAX_LINE + 1]
 }
 
-/// The recording.
+/// A recording as a source.
 pub struct Replay {
     file: usize,
     pairs: [Packed; HALF],
@@ -114,8 +114,8 @@ pub struct Replay {
 }
 
 impl Replay {
-    /// Opens the recording whose name is at the start of `line`, with a zero behind it; `None` where it cannot be.
-    pub fn open(line: &[u8; LINE + 1], script: Script) -> Option<Self> {
+    /// Opens the recording whose name, with a zero after it, is at the start of `line`; `None` if that is not possible.
+    pub fn open(line: &[u8; MAX_LINE + 1], script: Script) -> Option<Self> {
         let name = line.iter().position(|&byte| byte == 0)?;
         // SAFETY: the name and the zero behind it lie in `line`.
         let file = unsafe { syscall!(OPEN, line.as_ptr(), READ_BYTES, name) };
@@ -140,7 +140,7 @@ impl Replay {
         })
     }
 
-    /// What the device is set to for this recording.
+    /// The device's configuration for this recording.
     pub fn configuration(&self) -> Configuration {
         let mut configuration = configuration(FrontEnd::Synthetic, self.codes());
         if let Some(wav) = self.wav {
@@ -149,7 +149,7 @@ impl Replay {
         configuration
     }
 
-    /// The least and the greatest code.
+    /// The lowest and the highest code.
     fn codes(&self) -> [i16; 2] {
         if self.wav.is_some() {
             AD7380_RAILS
@@ -168,7 +168,7 @@ impl Replay {
     }
 }
 
-/// Fills a buffer from a place of a file on; false where it ends before.
+/// Fills a buffer from byte `at` of a file; false if the file is too short.
 fn read_at(file: usize, at: u32, buffer: &mut [u8]) -> bool {
     // SAFETY: the host writes at most as many bytes as the buffer has.
     unsafe {

@@ -1,7 +1,7 @@
 //! defmt over RTT (SEGGER's real-time transfer: a ring in RAM that the debugger reads).
 //!
-//! The usual crates for it link panics in, which this firmware must not have. A message that finds no room is dropped as a whole, and so
-//! is one within another.
+//! The usual crates for it link in panics, which this firmware must not have. A message that does not fit is dropped as a whole, and so is
+//! one nested within another.
 
 #![allow(
     unsafe_code,
@@ -15,10 +15,10 @@ use core::sync::atomic::{AtomicU8, AtomicU32, Ordering};
 use critical_section::RestoreState;
 use defmt::Encoder;
 
-/// Bytes that wait for the debugger.
+/// Size of the ring, bytes.
 const SIZE: usize = 512;
 
-/// RTT's control block, which a debugger finds by its id, with one channel up and none down.
+/// RTT's control block, which a debugger finds by its id, with one channel to the debugger and none from it.
 #[repr(C)]
 struct Control {
     id: [u8; 16],
@@ -27,29 +27,29 @@ struct Control {
     name: &'static CStrPointer,
     buffer: &'static [AtomicU8; SIZE],
     size: u32,
-    /// Where the next byte goes; ours.
+    /// Index of the next byte to write; only the firmware changes it.
     write: AtomicU32,
-    /// Where the debugger goes on to read; its own.
+    /// Index of the next byte to read; only the debugger changes it.
     read: AtomicU32,
     flags: AtomicU32,
 }
 
-/// The first byte of a name that ends with a zero.
+/// First byte of a zero-terminated name.
 #[repr(transparent)]
 struct CStrPointer(u8);
 
 const NAME: &CStr = c"defmt";
 static BUFFER: [AtomicU8; SIZE] = [const { AtomicU8::new(0) }; SIZE];
 
-// SAFETY: the name is the one that debuggers look for, and no other symbol's.
+// SAFETY: debuggers look for this name, and no other symbol has it.
 #[unsafe(export_name = "_SEGGER_RTT")]
-// SAFETY: a block that is written at run time belongs into `.data`.
+// SAFETY: data that is written at run time belongs in `.data`.
 #[unsafe(link_section = ".data._SEGGER_RTT")]
 static CONTROL: Control = Control {
     id: *b"SEGGER RTT\0\0\0\0\0\0",
     up_channels: 1,
     down_channels: 0,
-    // SAFETY: a byte of a string that lives for ever.
+    // SAFETY: a byte of a static string.
     name: unsafe { &*NAME.as_ptr().cast::<CStrPointer>() },
     buffer: &BUFFER,
     size: SIZE as u32,
@@ -59,20 +59,21 @@ static CONTROL: Control = Control {
     flags: AtomicU32::new(0),
 };
 
-/// The message under way.
+/// State of the unfinished message.
 struct State {
     encoder: Encoder,
     restore: RestoreState,
-    /// Messages within each other.
+    /// Nesting of messages.
     depth: u32,
-    /// Where its next byte goes, and whether all so far found room.
+    /// Index of the next byte.
     at: u32,
+    /// True if all bytes so far found room.
     fits: bool,
 }
 
 struct Shared(UnsafeCell<State>);
 
-// SAFETY: the cell is touched within critical sections only, on the one core.
+// SAFETY: the cell is used only within critical sections, on a single core.
 unsafe impl Sync for Shared {}
 
 static SHARED: Shared = Shared(UnsafeCell::new(State {
@@ -83,7 +84,7 @@ static SHARED: Shared = Shared(UnsafeCell::new(State {
     fits: false,
 }));
 
-/// Stages bytes behind those that the debugger may read already.
+/// Writes bytes after those that the debugger may already read; they become visible to it only with the whole message.
 fn stage(at: &mut u32, fits: &mut bool, bytes: &[u8]) {
     for &byte in bytes {
         let next = (*at + 1) % SIZE as u32;
@@ -98,7 +99,7 @@ fn stage(at: &mut u32, fits: &mut bool, bytes: &[u8]) {
 #[defmt::global_logger]
 struct Logger;
 
-// SAFETY: `acquire` opens a critical section that `release` closes, and what lies between writes to the one encoder.
+// SAFETY: `acquire` opens a critical section, which `release` closes; all writes between them go to the one encoder.
 unsafe impl defmt::Logger for Logger {
     fn acquire() {
         // SAFETY: closed by `release`.
@@ -131,7 +132,7 @@ unsafe impl defmt::Logger for Logger {
             if *fits {
                 CONTROL.write.store(*at, Ordering::Release);
             }
-            // SAFETY: that of the outermost `acquire`.
+            // SAFETY: this is the state saved by the outermost `acquire`.
             unsafe { critical_section::release(state.restore) };
         }
     }

@@ -1,23 +1,23 @@
-//! The seam between converters and the pipeline: embedded-hal 1.0 has no trait for a converter, so this one is ours.
+//! The interface between converters and the pipeline. It is a trait of this crate because embedded-hal 1.0 has none for converters.
 
 use antinode::{Packed, SamplePair};
 use antinode_telemetry::Cause;
 
 use crate::settings::HALF;
 
-/// Samples are missing: they were not fetched in time, or the converter stopped. Sampling goes on already.
+/// A gap in the samples: they were not fetched in time, or the converter stopped. Sampling has already been resumed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Lapse {
-    /// Why.
+    /// Cause of the gap.
     pub cause: Cause,
     /// Sample pairs that are missing between the last one handed out and the next one.
     pub lost: u32,
 }
 
-/// What a source's interrupt was about.
+/// Event of a source's interrupt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ready {
-    /// Nothing yet.
+    /// No new pairs.
     Nothing,
     /// The next pairs of the stream are in [`Source::pairs`].
     Pairs,
@@ -25,59 +25,59 @@ pub enum Ready {
     Lapse(Lapse),
 }
 
-/// A source of simultaneous sample pairs, in blocks, at a steady rate. All of it is called from the source's own interrupt.
+/// A source of simultaneous sample pairs, in buffers, at a steady rate. Its methods are called from the source's own interrupt only.
 ///
-/// What can go wrong is told: an overrun or a stopped converter as a [`Lapse`] with the number of pairs lost, pairs overwritten while
-/// they were read by [`Source::is_intact`], saturation by [`Source::is_at_rail`].
+/// Failures are reported: an overrun or a stopped converter by a [`Lapse`] with the number of pairs lost, pairs overwritten while they
+/// were read by [`Source::is_intact`], saturation by [`Source::is_at_rail`].
 pub trait Source {
-    /// A sample pair as the converter leaves it, S_C first.
+    /// A sample pair in the converter's format, S_C first.
     type Pair: Copy;
 
-    /// Acknowledges the interrupt and says what there is. After a lapse it has already started sampling anew.
+    /// Acknowledges the interrupt and gives its event. After a lapse it has already restarted sampling.
     fn next(&mut self) -> Ready;
 
     /// The pairs that the last [`Ready::Pairs`] announced.
     fn pairs(&self) -> &[Self::Pair];
 
-    /// True while the converter has not begun to overwrite [`Source::pairs`]: to be asked after they were read.
+    /// True if the converter has not begun to overwrite [`Source::pairs`]: to be checked after they are read.
     fn is_intact(&self) -> bool;
 
-    /// Stops, clears and starts sampling, and says what was lost since the last of [`Source::pairs`].
+    /// Stops, clears and restarts sampling, and gives the loss since the last of [`Source::pairs`].
     fn restart(&mut self, cause: Cause) -> Lapse;
 
-    /// The least and the greatest code of both converters, as pairs.
+    /// The lowest and the highest code, each as a pair for both converters.
     fn rails(&self) -> [Self::Pair; 2];
 
     /// True for a pair with a sample at either end of the converter's range.
     fn is_at_rail(&self, pair: Self::Pair) -> bool;
 }
 
-/// Pairs in a ring of two halves beyond the end of one of them, the first or the second, when `left` pairs of the round are to come.
+/// Count of pairs written beyond the end of one half of a ring, the first or the second, when `left` pairs of the round are to come.
 pub const fn beyond(second: bool, left: u32) -> u32 {
     let half = HALF as u32;
     let from_end = if second { 2 * half } else { 3 * half };
     from_end.wrapping_sub(left) % (2 * half)
 }
 
-/// True where pairs do not fit the triggers that they came by: each comes once after its trigger, and before the next one.
+/// True if the count of pairs does not match that of triggers: each pair comes after its trigger and before the next one.
 pub const fn has_slipped(triggers: u32, pairs: u32) -> bool {
     triggers.wrapping_sub(pairs) > 1
 }
 
-/// The pairs with one code on both channels, of each code.
+/// Both codes, each as a pair with that code in both channels.
 pub fn both([low, high]: [i16; 2]) -> [Packed; 2] {
     [low, high].map(|code| Packed::from([code; 2]))
 }
 
-/// Least and greatest code of the STM32F405's 12-bit converters.
+/// Lowest and highest code of the STM32F405's 12-bit converters.
 pub const DUAL_ADC_RAILS: [i16; 2] = [0, 4095];
-/// Least and greatest code of the AD7380.
+/// Lowest and highest code of the AD7380.
 pub const AD7380_RAILS: [i16; 2] = [i16::MIN, i16::MAX];
 
 /// True for a pair with a code of [`DUAL_ADC_RAILS`].
 #[inline]
 pub fn is_at_rail_12(pair: Packed) -> bool {
-    // One more, modulo 4096: 4095 becomes 0, and 0 becomes 1. A borrow comes out of the lower half only where that one is below 2.
+    // Plus 1 modulo 4096, the rails are 0 and 1. Subtracting 2 borrows for these only; a low half that borrows is at a rail itself.
     let next = pair.0.wrapping_add(0x0001_0001) & 0x0FFF_0FFF;
     next.wrapping_sub(0x0002_0002) & 0x8000_8000 != 0
 }
@@ -97,7 +97,7 @@ mod tests {
     fn pairs_beyond_a_half_are_counted_around_the_ring() {
         let half = HALF as u32;
         for pairs in 0..2 * half {
-            // Of a round that begins with the first half: as the DMA counts, which is never at 0 for long.
+            // The DMA's count in a round from the first half on; 0 is reloaded at once.
             let left = |end: u32| match (end + pairs) % (2 * half) {
                 0 => [2 * half, 0],
                 written => [2 * half - written; 2],
@@ -134,7 +134,7 @@ mod tests {
         for code in i16::MIN..=i16::MAX {
             let at_rail = code == i16::MIN || code == i16::MAX;
             let code = u32::from(code as u16);
-            // The bits of the rails themselves in the other half, but for one.
+            // The other half differs from a rail in one bit.
             for other in [0, 1, 0x7FFE, 0x8001, 0xFFFF] {
                 assert_eq!(is_at_rail_16(Packed(code << 16 | other)), at_rail);
                 assert_eq!(is_at_rail_16(Packed(other << 16 | code)), at_rail);

@@ -1,5 +1,5 @@
-//! Everything that an owner of another gyro may want to change, in one place, with units. Values that are not allowed do not compile, and
-//! the compiler says what is.
+//! Everything that the owner of another gyro may want to change, with units. Values that are not allowed do not compile, and the error
+//! message tells which are.
 
 use antinode::{Calibration, Settings, SettingsError};
 use antinode_telemetry::{Configuration, FrontEnd, MAX_FRAME};
@@ -7,66 +7,66 @@ use antinode_telemetry::{Configuration, FrontEnd, MAX_FRAME};
 use crate::clocks::restart_ms;
 use crate::sampling::DUAL_ADC_RAILS;
 
-/// Samples and their arithmetic: 16-bit codes, or the same codes in f32 with the feature `f32`.
+/// Arithmetic of the samples: 16-bit integers, or f32 with the feature `f32`. The samples are 16-bit codes in both cases.
 #[cfg(not(feature = "f32"))]
 pub type Arithmetic = i16;
-/// Samples and their arithmetic: 16-bit codes in f32.
+/// Arithmetic of the samples: 16-bit codes in f32.
 #[cfg(feature = "f32")]
 pub type Arithmetic = f32;
 
-/// Sample pairs a second, Hz: 1300 to 150 000, and a divisor of 21 MHz, for the converters of the chip; 2600 to 168 000, and a divisor
-/// of 168 MHz, for the AD7380. It is as exact as the crystal.
+/// Sample pairs a second, Hz: for the converters of the chip 1300 to 150 000, and a divisor of 21 MHz; for the AD7380 2600 to 168 000,
+/// and a divisor of 168 MHz. It is as exact as the crystal.
 pub const SAMPLE_RATE: u32 = 100_000;
-/// Periods a window at the start; 2 to `RING` − 2.
+/// Initial length of a window, periods; 2 to `RING` − 2.
 pub const PERIODS: u16 = 10;
-/// Blocks from window to window at the start; `None`: windows follow each other.
+/// Initial hop, blocks from window to window; with `None` windows follow each other.
 pub const HOP: Option<u16> = None;
-/// The wave's frequency, Hz, if it is known within 5 %, so that it need not be searched for; `None`: it is searched for.
+/// The wave's frequency, Hz, if it is known within 5 %; with `None` it is searched for.
 pub const FREQUENCY: Option<f32> = None;
-/// Whether the signals carry mains hum, or an offset that wanders.
+/// True if the signals carry mains hum, or an offset that wanders.
 pub const HUM: bool = false;
-/// Whether the noise is not white: a tuned front end, or a filter that cuts off below three times the wave's frequency.
+/// True if the noise is not white, as behind a tuned front end or a filter that cuts off below three times the wave's frequency.
 pub const COLOURED: bool = false;
 /// How the pick-offs differ from ideal ones: gain ratio, skew in s, angle in rad.
 pub const CALIBRATION: Calibration = Calibration::IDEAL;
 
-/// Sample pairs of half of the DMA's ring: 1.28 ms, the time that the interrupt has for them.
+/// Sample pairs in each half of the DMA's ring: they take 1.28 ms, the time that the interrupt has for them.
 pub const HALF: usize = 128;
-/// Longest period, sample pairs: 8 or more, even.
+/// Longest period, sample pairs: even, 8 or more.
 pub const LONGEST_PERIOD: usize = 200;
 /// Blocks that the tracker holds: two more than the periods of the longest window.
 pub const RING: usize = 24;
-/// Blocks that may wait for the main loop, and one more; 72 bytes each. A power of two: the interrupt divides by it. It hands over the
-/// blocks of `HALF` pairs at once, for which there is room if a block has 2 pairs or more; if it has 1, as with a hop in windows of 2
-/// periods of fewer than 7.5 samples, one block of 128 is dropped. Blocks of 6 pairs and more may wait out the 5 ms that methods take of
-/// the main loop. What is dropped is counted.
+/// One more than the blocks of 72 bytes that may wait for the main loop. A power of two, because the interrupt divides by it. The interrupt
+/// hands over the blocks of `HALF` pairs at once, for which there is room if a block has 2 pairs or more; if it has 1, as with a hop in
+/// windows of 2 periods of fewer than 7.5 samples, one block of 128 is dropped. Blocks of 6 pairs and more can wait out the 5 ms that the
+/// methods take in the main loop. Dropped blocks are counted.
 pub const QUEUE: usize = 128;
-/// Requests that may wait for the interrupt, and one more.
+/// One more than the requests that may wait for the interrupt.
 pub const REQUESTS: usize = 4;
-/// Bytes that may wait for the line: a dozen estimates of 110 bytes, 14 ms, and what goes before them. At least six frames.
+/// Bytes that may wait for the line: a dozen estimates of 110 bytes, 14 ms, and the reserve for more urgent reports. At least six frames.
 pub const OUTBOX: usize = 2048;
-/// Bytes that may wait for the main loop, and one more: two frames, 2.8 ms. At least a frame.
+/// One more than the bytes that may wait for the main loop: two frames, 2.8 ms. At least a frame.
 pub const INBOX: usize = 256;
 
-/// The serial line's rate, baud, 8N1. Every estimate takes 1100 bits: 921 600 baud carry 800 a second, and what is too much is left out
-/// and counted.
+/// The serial line's rate, baud, 8N1. An estimate takes 1100 bits: 921 600 baud carry 800 a second, and those in excess are dropped and
+/// counted.
 pub const BAUD: u32 = 921_600;
-/// The board's crystal, MHz: 4 to 26, whole. With another one at the pins every rate is wrong, that of the line too.
+/// Frequency of the board's crystal, MHz: 4 to 26, whole. If it is not that of the crystal, every rate is wrong, that of the line too.
 pub const CRYSTAL_MHZ: u32 = 8;
-/// Whether an oscillator drives PH0, rather than a crystal between PH0 and PH1; its frequency is `CRYSTAL_MHZ` then.
+/// True if an oscillator of `CRYSTAL_MHZ` drives PH0, rather than a crystal between PH0 and PH1.
 pub const OSCILLATOR: bool = false;
-/// Without a pair for so long, ms, sampling is started anew: longer than two halves of the ring take.
+/// Time without a pair after which sampling is restarted, ms: longer than two halves of the ring take.
 pub const STALL_MS: u32 = 20;
-/// Without a live pipeline for so long, ms, the watchdog resets the chip.
+/// Time without a live pipeline after which the watchdog resets the chip, ms.
 pub const WATCHDOG_MS: u32 = 250;
-/// A restart that was asked for waits for the line so long, ms, at most: twice what a full outbox takes, and 100 at least.
+/// Longest time that a requested restart waits for the line, ms: twice that of a full outbox, and at least 100.
 pub const RESTART_MS: u32 = restart_ms(OUTBOX, BAUD);
-/// From one report of the counters to the next, ms.
+/// Time between reports of the counters, ms.
 pub const COUNTERS_MS: u32 = 1000;
-/// The same, at least, if they tell that something went wrong, ms.
+/// Shortest time between reports of the counters, if they show a new fault, ms.
 pub const SOONEST_MS: u32 = 50;
 
-/// What an image is set to at its start, by its front end and the least and greatest code of its converters.
+/// The initial configuration of an image, by its front end and the lowest and highest code of its converters.
 pub const fn configuration(front_end: FrontEnd, rails: [i16; 2]) -> Configuration {
     let settings = Settings {
         periods: PERIODS,
@@ -82,7 +82,7 @@ pub const fn configuration(front_end: FrontEnd, rails: [i16; 2]) -> Configuratio
     Configuration::new(settings, front_end)
 }
 
-// What the tracker and the front would refuse only on the board.
+// Settings that tracker and front would otherwise refuse on the board only.
 const _: () = {
     match configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS)
         .settings
@@ -114,7 +114,7 @@ const _: () = {
     }
 };
 
-// Sizes and times that need each other.
+// Sizes and times that depend on each other.
 const _: () = {
     assert!(
         SAMPLE_RATE >= 1300 && SAMPLE_RATE <= 168_000,

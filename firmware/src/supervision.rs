@@ -1,15 +1,15 @@
-//! Whether the pipeline lives, and why the device started.
+//! Checks whether the pipeline is alive, and why the device started.
 
 use antinode_telemetry::Cause;
 
 use crate::settings::STALL_MS;
 
-/// Watches whether pairs arrive.
+/// Monitor of arriving pairs.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Liveness {
     pairs: u32,
-    fresh: bool,
-    /// When pairs last arrived, or sampling was last to be started anew, ms.
+    arrived: bool,
+    /// Time of the last arrival of pairs, or of the last request to restart sampling, ms.
     since: u32,
 }
 
@@ -18,21 +18,21 @@ impl Liveness {
     pub const fn new() -> Self {
         Self {
             pairs: 0,
-            fresh: false,
+            arrived: false,
             since: 0,
         }
     }
 
-    /// Takes the count of pairs; true where it has moved since it was last asked.
+    /// Takes the count of pairs; true if it has changed since the last call.
     pub fn sees(&mut self, pairs: u32) -> bool {
-        self.fresh = pairs != self.pairs;
+        self.arrived = pairs != self.pairs;
         self.pairs = pairs;
-        self.fresh
+        self.arrived
     }
 
-    /// True where sampling must be started anew: once in every [`STALL_MS`] without pairs.
+    /// True if sampling must be restarted: once in every [`STALL_MS`] without pairs.
     pub fn stalled(&mut self, now: u32) -> bool {
-        if self.fresh {
+        if self.arrived {
             self.since = now;
             return false;
         }
@@ -44,7 +44,7 @@ impl Liveness {
     }
 }
 
-/// The flags of RCC_CSR that tell a reset's cause, reference manual RM0090, 7.3.21.
+// Flags of RCC_CSR for the cause of a reset, reference manual RM0090, 7.3.21.
 const LPWRRSTF: u32 = 1 << 31;
 const WWDGRSTF: u32 = 1 << 30;
 const IWDGRSTF: u32 = 1 << 29;
@@ -53,12 +53,13 @@ const PORRSTF: u32 = 1 << 27;
 const PINRSTF: u32 = 1 << 26;
 const BORRSTF: u32 = 1 << 25;
 
-/// Why the chip was reset, by RCC_CSR; `noted` is what the firmware itself left behind, where it did.
+/// Cause of the chip's reset, by RCC_CSR and the note that the firmware itself may have left before it.
 ///
-/// Power-on sets BORRSTF and every reset sets PINRSTF, so the special ones are asked first. From the factory the brown-out reset is off:
-/// then every loss of power sets PORRSTF. BORRSTF comes alone where a level is set in the option bytes, see `firmware/docs/wiring.md`.
+/// Power-on also sets BORRSTF, and every reset sets PINRSTF, so that the more specific flags are checked first. By default the brown-out
+/// reset is off, and every loss of power sets PORRSTF. BORRSTF comes alone if a level is set in the option bytes, see
+/// `firmware/docs/wiring.md`.
 pub const fn cause(csr: u32, noted: Option<Cause>) -> Cause {
-    // Memory survives no loss of power: what it then seems to say is chance.
+    // Memory does not survive a loss of power: a note would be there by chance.
     if csr & PORRSTF != 0 {
         return Cause::PowerOn;
     }
@@ -68,7 +69,7 @@ pub const fn cause(csr: u32, noted: Option<Cause>) -> Cause {
     match noted {
         Some(cause) => cause,
         None if csr & BORRSTF != 0 => Cause::BrownOut,
-        // The firmware notes why it resets itself: this was a debug probe.
+        // The firmware leaves a note when it resets itself: without one it was a debug probe.
         None if csr & SFTRSTF != 0 => Cause::Software,
         None if csr & LPWRRSTF != 0 => Cause::Unknown,
         None if csr & PINRSTF != 0 => Cause::ResetPin,
@@ -76,7 +77,7 @@ pub const fn cause(csr: u32, noted: Option<Cause>) -> Cause {
     }
 }
 
-/// The number that stands for a cause over a reset; only those that the firmware notes have one.
+/// The number that encodes a cause over a reset, or 0 if the firmware leaves no note of it.
 pub const fn number(cause: Cause) -> u32 {
     match cause {
         Cause::Command => 1,
@@ -87,7 +88,7 @@ pub const fn number(cause: Cause) -> u32 {
     }
 }
 
-/// The cause of [`number`]; `None` for any other.
+/// The inverse of [`number`]; `None` for other numbers.
 pub const fn numbered(number: u32) -> Option<Cause> {
     match number {
         1 => Some(Cause::Command),
@@ -111,20 +112,20 @@ mod tests {
         assert!(!liveness.sees(128));
         assert!(!liveness.stalled(5 + STALL_MS - 1));
         assert!(liveness.stalled(5 + STALL_MS));
-        // Sampling is given as long again before it is started once more.
+        // The same time passes again before the next restart.
         assert!(!liveness.stalled(5 + STALL_MS + 1));
         assert!(liveness.stalled(5 + 2 * STALL_MS));
     }
 
     #[test]
-    fn causes_of_resets() {
+    fn causes_of_resets_follow_from_flags_and_notes() {
         assert_eq!(
             cause(PORRSTF | BORRSTF | PINRSTF, Some(Cause::Panic)),
             Cause::PowerOn
         );
         assert_eq!(cause(IWDGRSTF | PINRSTF, None), Cause::Watchdog);
         assert_eq!(cause(SFTRSTF | PINRSTF, Some(Cause::Panic)), Cause::Panic);
-        // What a probe leaves behind it, as after flashing.
+        // By a debug probe, as after flashing.
         assert_eq!(cause(SFTRSTF | PINRSTF, None), Cause::Software);
         assert_eq!(cause(LPWRRSTF | PINRSTF, None), Cause::Unknown);
         assert_eq!(cause(BORRSTF | PINRSTF, None), Cause::BrownOut);
@@ -132,7 +133,7 @@ mod tests {
         for noted in [Cause::Command, Cause::Panic, Cause::HardFault, Cause::Clock] {
             assert_eq!(numbered(number(noted)), Some(noted));
         }
-        // What no firmware notes has no number, and no other number is a cause.
+        // Causes without a note have no number, and other numbers no cause.
         for other in [
             Cause::PowerOn,
             Cause::Software,

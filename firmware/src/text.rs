@@ -1,15 +1,15 @@
-//! A line of text for the debugger or the emulator, put together without `core::fmt`, which would link panics in.
+//! A line of text for the debugger or the emulator, composed without `core::fmt`, which would link in panics.
 
 use cortex_m_semihosting::hio;
 
-/// A line of up to 128 bytes; what goes beyond is left out.
+/// A line of up to 128 bytes; further bytes are left out.
 pub struct TextLine {
     bytes: [u8; 128],
     length: usize,
 }
 
 impl TextLine {
-    /// Nothing yet.
+    /// An empty line.
     pub const fn new() -> Self {
         Self {
             bytes: [0; 128],
@@ -49,7 +49,7 @@ impl TextLine {
     pub fn print(mut self) {
         self.text("\n");
         if let (Ok(mut host), Some(bytes)) = (hio::hstdout(), self.bytes.get(..self.length)) {
-            // Nobody is there to be told where the host does not listen.
+            // An error means that no host listens: there is nobody to report it to.
             let _ = host.write_all(bytes);
         }
     }

@@ -1,24 +1,24 @@
-//! Where a WAV file's samples lie: of two channels of 16-bit PCM, S_C left and S_D right.
+//! The position of the samples in a WAV file of two channels of 16-bit PCM, S_C left and S_D right.
 
-/// The samples of a WAV file.
+/// Position and rate of the samples in a WAV file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Wav {
     /// Sample pairs a second, Hz.
     pub sample_rate: u32,
-    /// Byte at which they begin.
+    /// Byte at which the samples begin.
     pub start: u32,
-    /// Sample pairs at the most: the file may end before.
+    /// Sample pairs, at most: the file may end before.
     pub pairs: u32,
 }
 
-/// True for the first bytes of a WAV file; of 12-bit codes they cannot be.
+/// True if these are the first bytes of a WAV file; 12-bit codes cannot have these bytes.
 pub fn is_wav(first: &[u8; 4]) -> bool {
     first == b"RIFF"
 }
 
 impl Wav {
-    /// Looks for the samples, through a function that fills a buffer from a place of the file on, or fails; `None` where they are
-    /// not there, or not two channels of 16-bit PCM.
+    /// Finds the samples; `None` if there are none, or if they are not two channels of 16-bit PCM. `read` fills a buffer from a given byte
+    /// of the file on, and gives false if it cannot.
     pub fn find(mut read: impl FnMut(u32, &mut [u8]) -> bool) -> Option<Self> {
         let mut word = |at: u32| {
             let mut bytes = [0; 4];
@@ -34,7 +34,7 @@ impl Wav {
             match &id {
                 b"fmt " => {
                     let [coding, _, channels, _] = word(start)?;
-                    // 1: PCM; 0xFFFE: what the extension says, which for 16 bits is PCM.
+                    // 1: PCM. 0xFFFE: the extension tells, which for 16 bits means PCM.
                     if !matches!(coding, 0x01 | 0xFE)
                         || channels != 2
                         || word(start + 12)?[2..] != [16, 0]
@@ -47,7 +47,7 @@ impl Wav {
                     return Some(Self {
                         sample_rate: sample_rate?,
                         start,
-                        // A program that writes into a pipe leaves 0: then they go on to the file's end.
+                        // A program that writes to a pipe leaves 0: the samples then extend to the file's end.
                         pairs: if length == 0 { u32::MAX } else { length / 4 },
                     });
                 }

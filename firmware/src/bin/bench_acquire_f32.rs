@@ -1,4 +1,4 @@
-//! The period detector until its first period, again and again, in f32.
+//! The search for a period from cold until it is found, repeatedly, in f32.
 #![no_std]
 #![no_main]
 

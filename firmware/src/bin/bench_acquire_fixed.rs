@@ -1,4 +1,4 @@
-//! The period detector until its first period, again and again, in fixed point.
+//! The search for a period from cold until it is found, repeatedly, in fixed point.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! The peer: the sums of both pick-offs with the crate idsp, from half-buffers of codes.
+//! For comparison: the sums of both pick-offs with the crate idsp, from half-buffers of codes.
 #![no_std]
 #![no_main]
 

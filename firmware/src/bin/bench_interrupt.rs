@@ -1,4 +1,4 @@
-//! The interrupt half of the pipeline: half-buffers of codes become blocks, which are taken from its queue and thrown away.
+//! The interrupt half of the pipeline: it turns half-buffers of codes into blocks, which are taken from its queue and discarded.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Block sums with the sums of the paper's four methods beside them, in f32.
+//! Block sums together with the sums of the paper's four methods, in f32.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Block sums with the sums of the paper's four methods beside them, of 16-bit codes.
+//! Block sums together with the sums of the paper's four methods, of 16-bit codes.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Codes, marks and the report alone: what every other image has beside its kernel.
+//! Codes, marks and the report alone: the part that every other bench image has besides its kernel.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Everything: samples, blocks, and a solved, tracked window every 10 periods, in f32.
+//! The whole core: samples, blocks, and a solved, tracked window every 10 periods, in f32.
 #![no_std]
 #![no_main]
 

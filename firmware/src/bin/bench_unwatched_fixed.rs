@@ -1,4 +1,4 @@
-//! Everything but the watch: samples, blocks, and a solved, tracked window every 10 periods, in fixed point.
+//! The whole core without the watch: samples, blocks, and a solved, tracked window every 10 periods, in fixed point.
 #![no_std]
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Block sums from half-buffers of codes, with everything watched, in f32.
+//! Block sums from half-buffers of codes, with the watch, in f32.
 #![no_std]
 #![no_main]
 

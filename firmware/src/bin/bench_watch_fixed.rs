@@ -1,4 +1,4 @@
-//! Block sums from half-buffers of codes, with everything watched, in fixed point.
+//! Block sums from half-buffers of codes, with the watch, in fixed point.
 #![no_std]
 #![no_main]
 

@@ -1,16 +1,16 @@
-//! Proves on the target that every kernel of the core in instructions of its own gives what its portable twin gives, bit for bit:
-//! over extremes and random words. Leaves with success or failure and names the kernel that differs.
+//! Verifies on the target that every assembly kernel of the core agrees with its portable twin bit for bit, over extremes and random
+//! words. It leaves the emulator with success or failure and names the kernels that differ.
 #![no_std]
 #![no_main]
 
-// The core's own file: the module is none of its public parts.
+// The core's own file, as the module is not public.
 #[allow(
     dead_code,
-    reason = "what a kernel is built from is not called by itself"
+    reason = "the parts of kernels are not called by themselves"
 )]
 #[path = "../../../crates/antinode/src/arch/mod.rs"]
 mod arch;
-// Where that file looks for them.
+// The modules that this file imports from.
 mod block {
     pub use antinode::block::{ChannelSums, ChannelWatch};
 }
@@ -30,12 +30,13 @@ compile_error!("without the instructions there is nothing to compare with the tw
 
 /// Random words for each kernel on single words.
 const WORDS: u32 = 100_000;
-/// Slices for each kernel on slices, of up to [`LONGEST`] pairs.
+/// Slices for each kernel on slices.
 const SLICES: u32 = 4_000;
-const LONGEST: usize = 64;
-/// Halves where something may overflow or change its sign.
+/// Most pairs of a slice.
+const MAX_PAIRS: usize = 64;
+/// Halves at which sums or signs may overflow or change.
 const HALVES: [u16; 8] = [0, 1, 2, 0x7ffe, 0x7fff, 0x8000, 0x8001, 0xffff];
-/// Zeros, subnormals, the ends of the range, what is not a number.
+/// Zeros, subnormals, ones, the ends of the range, infinities, NaN.
 const FLOATS: [u32; 12] = [
     0,
     0x8000_0000,
@@ -62,7 +63,7 @@ impl Random {
         self.0
     }
 
-    /// A word, one time in four of extremes.
+    /// A random word, in one case of four with both halves extreme.
     fn rough_word(&mut self) -> u32 {
         let word = self.word();
         if self.word() & 3 == 0 {
@@ -97,7 +98,7 @@ fn extreme(choice: u32) -> u16 {
         .map_or(0, |&half| half)
 }
 
-/// Kernels on two words: all extremes, then random ones.
+/// Tries a kernel on two words and a third: all extremes, then random ones.
 fn on_words(random: &mut Random, agrees: impl Fn(u32, u32, u32) -> bool) -> bool {
     let extremes = || {
         HALVES
@@ -114,13 +115,13 @@ fn on_words(random: &mut Random, agrees: impl Fn(u32, u32, u32) -> bool) -> bool
         })
 }
 
-/// Kernels on slices: of every length, alignment and place in a block, with weights for all pairs, or for fewer.
+/// Tries a kernel on slices of every length, alignment and place in a block, with enough weights or too few.
 fn on_slices(
     random: &mut Random,
     mut agrees: impl FnMut(&mut Random, &[[i16; 2]], &[u32], u16) -> bool,
 ) -> bool {
-    let mut pairs = [[0; 2]; LONGEST + 1];
-    let mut weights = [0; 2 * LONGEST];
+    let mut pairs = [[0; 2]; MAX_PAIRS + 1];
+    let mut weights = [0; 2 * MAX_PAIRS];
     (0..SLICES).all(|_| {
         for pair in &mut pairs {
             let word = random.rough_word();
@@ -129,18 +130,18 @@ fn on_slices(
         for weight in &mut weights {
             *weight = random.rough_word();
         }
-        let length = random.word() as usize % (LONGEST + 1);
-        // A block begins one time in four.
-        let index = random.word() % LONGEST as u32;
+        let length = random.word() as usize % (MAX_PAIRS + 1);
+        // In one case of four the slice begins a block.
+        let index = random.word() % MAX_PAIRS as u32;
         let index = if random.word() & 3 == 0 { 0 } else { index };
-        let known = 2 * (random.word() as usize % (LONGEST + 1));
+        let known = 2 * (random.word() as usize % (MAX_PAIRS + 1));
         let enough = (index as usize + length).next_multiple_of(2);
         let known = if random.word() & 3 == 0 {
             known
         } else {
             enough
         };
-        // Pairs need not begin at a word.
+        // Pairs need not be aligned to words.
         let odd = random.word() as usize & 1;
         let halves = pairs.as_flattened().get(odd..).unwrap_or(&[]);
         match (halves.as_chunks().0.get(..length), weights.get(..known)) {
@@ -150,15 +151,20 @@ fn on_slices(
     })
 }
 
-/// The instruction's result, and the twin's.
+/// True if the instruction and its twin give the same root.
 fn same_root(bits: u32) -> bool {
     let x = f32::from_bits(bits);
     let (root, twin) = (arch::square_root(x), portable::square_root(x));
-    // What a NaN carries is left open by IEEE 754.
+    // The payload of a NaN is left open by IEEE 754.
     root.to_bits() == twin.to_bits() || root.is_nan() && twin.is_nan()
 }
 
-fn add(random: &mut Random, pairs: &[impl SamplePair<i16>], weights: &[u32], index: u16) -> bool {
+fn same_sums(
+    random: &mut Random,
+    pairs: &[impl SamplePair<i16>],
+    weights: &[u32],
+    index: u16,
+) -> bool {
     let mut sums = random.sums();
     let mut twin = sums;
     arch::add_pairs(&mut sums, pairs, weights, index);
@@ -166,14 +172,14 @@ fn add(random: &mut Random, pairs: &[impl SamplePair<i16>], weights: &[u32], ind
     sums == twin
 }
 
-/// Sums of codes and of floats: products and sums rounded one by one.
+/// Compares sums and watches in f32, of codes, of floats, and of floats with an extreme one.
 fn add_floats(random: &mut Random, codes: &[[i16; 2]], weights: &[u32], index: u16) -> bool {
     let small = |word: u32| word as i32 as f32 / 2_147_483_648.0;
-    let mut factors = [[0.0; 2]; 2 * LONGEST];
+    let mut factors = [[0.0; 2]; 2 * MAX_PAIRS];
     for (factor, &word) in factors.iter_mut().zip(weights) {
         *factor = [small(word), small(word.rotate_left(16))];
     }
-    let mut floats = [[0.0; 2]; LONGEST];
+    let mut floats = [[0.0; 2]; MAX_PAIRS];
     for (float, code) in floats.iter_mut().zip(codes) {
         *float = code.map(|code| small(random.word()) * f32::from(code));
     }
@@ -184,7 +190,7 @@ fn add_floats(random: &mut Random, codes: &[[i16; 2]], weights: &[u32], index: u
     });
     let factors = factors.get(..weights.len()).unwrap_or(&[]);
     let mut rough = floats;
-    if let Some(pair) = rough.get_mut(random.word() as usize % LONGEST) {
+    if let Some(pair) = rough.get_mut(random.word() as usize % MAX_PAIRS) {
         let any = FLOATS.get(random.word() as usize % FLOATS.len());
         *pair = [f32::from_bits(*any.unwrap_or(&0)), pair[0]];
     }
@@ -197,7 +203,7 @@ fn add_floats(random: &mut Random, codes: &[[i16; 2]], weights: &[u32], index: u
         && same_watch(random, rough, factors, index)
 }
 
-/// Pairs between others, half of which are so coarse that many are equal to those before.
+/// Compares watches of pairs between other ones, which in half of the cases are so coarse that many equal those before.
 fn same_watch(
     random: &mut Random,
     pairs: &[impl SamplePair<f32>],
@@ -209,7 +215,7 @@ fn same_watch(
     } else {
         0x8001_0003
     };
-    let mut coarse = [[0; 2]; LONGEST];
+    let mut coarse = [[0; 2]; MAX_PAIRS];
     for coarse in &mut coarse {
         let word = random.rough_word() & kept;
         *coarse = [word as i16, (word >> 16) as i16];
@@ -222,7 +228,7 @@ fn same_watch(
     portable::watch_floats(&mut twin.0, &mut twin.1, pairs, weights, index);
     arch::watch_floats(&mut state.0, &mut state.1, coarse, weights, index);
     portable::watch_floats(&mut twin.0, &mut twin.1, coarse, weights, index);
-    // What a NaN carries is left open by IEEE 754.
+    // The payload of a NaN is left open by IEEE 754.
     let bits = |x: f32| if x.is_nan() { 0 } else { x.to_bits() };
     let all = |(sums, watch): ([ChannelSums<f32>; 2], [ChannelWatch<f32>; 2])| {
         (
@@ -250,7 +256,12 @@ fn same_floats(
     bits(sums) == bits(twin)
 }
 
-fn watch(random: &mut Random, pairs: &[impl SamplePair<i16>], weights: &[u32], index: u16) -> bool {
+fn same_watch_of_codes(
+    random: &mut Random,
+    pairs: &[impl SamplePair<i16>],
+    weights: &[u32],
+    index: u16,
+) -> bool {
     let mut watch = random.watch();
     let mut twin = watch;
     arch::watch_pairs(&mut watch, pairs, weights, index);
@@ -309,9 +320,9 @@ fn main() -> ! {
             FLOATS.iter().all(|&bits| same_root(bits))
                 && (0..WORDS).all(|_| same_root(random.word())),
         ),
-        ("add_pairs", on_slices(random, add)),
+        ("add_pairs", on_slices(random, same_sums)),
         ("add_floats", on_slices(random, add_floats)),
-        ("watch_pairs", on_slices(random, watch)),
+        ("watch_pairs", on_slices(random, same_watch_of_codes)),
     ];
     let mut good = true;
     for (kernel, agrees) in checks {

@@ -1,5 +1,5 @@
-//! Proves on the target that memory is copied, moved and cleared as the ABI wants it: every count, at every distance of the two runs.
-//! Leaves with success or failure and names the function that errs.
+//! Verifies on the target that memory is copied, moved and cleared as the ABI demands: for every count, at every distance of source and
+//! target. It leaves the emulator with success or failure and names the functions that fail.
 #![no_std]
 #![no_main]
 #![allow(unsafe_code, reason = "functions of the ABI take addresses")]
@@ -22,41 +22,42 @@ unsafe extern "C" {
     fn __aeabi_memclr8(to: *mut u8, count: usize);
 }
 
-/// Bytes of the memory, and the most that are moved.
-const LENGTH: usize = 96;
-const MOST: usize = 50;
+/// Bytes of the memory.
+const SIZE: usize = 96;
+/// Counts that are tried are below this.
+const MAX_COUNT: usize = 50;
 
 #[repr(align(8))]
-struct Memory([u8; LENGTH]);
+struct Memory([u8; SIZE]);
 
-/// What a byte holds before.
+/// The initial value of a byte.
 fn before(index: usize) -> u8 {
     (index * 7 + 1) as u8
 }
 
-/// Lets `act` loose on bytes; true where each then is what `after` says. Byte by byte, by nothing that is under test.
-fn holds(act: impl FnOnce(*mut u8), after: impl Fn(usize) -> u8) -> bool {
-    let mut memory = Memory([0; LENGTH]);
+/// Runs `act` on the memory; true if each byte then has the value by `after`. It compares byte by byte, without the functions under test.
+fn leaves(act: impl FnOnce(*mut u8), after: impl Fn(usize) -> u8) -> bool {
+    let mut memory = Memory([0; SIZE]);
     let first = memory.0.as_mut_ptr();
-    // SAFETY: bytes of the memory, here and below.
-    (0..LENGTH).for_each(|i| unsafe { write_volatile(first.add(i), before(i)) });
+    // SAFETY: these are bytes of the memory, here and below.
+    (0..SIZE).for_each(|i| unsafe { write_volatile(first.add(i), before(i)) });
     act(first);
-    (0..LENGTH).all(|i| unsafe { read_volatile(first.add(i)) } == after(i))
+    (0..SIZE).all(|i| unsafe { read_volatile(first.add(i)) } == after(i))
 }
 
 type Copy = unsafe extern "C" fn(*mut u8, *const u8, usize);
 type Clear = unsafe extern "C" fn(*mut u8, usize);
 
-/// True where `copy` is right at all addresses that `step` divides; `overlapping`: wherever they are.
+/// True if `copy` is right at all addresses that are multiples of `step`; with `overlapping` also for runs that overlap.
 fn copies(copy: Copy, step: usize, overlapping: bool) -> bool {
-    let places = || (0..LENGTH - MOST).step_by(step);
+    let places = || (0..SIZE - MAX_COUNT).step_by(step);
     places().all(|to| {
         places().all(|from| {
-            (0..MOST).all(|count| {
+            (0..MAX_COUNT).all(|count| {
                 let apart = to.abs_diff(from) >= count;
                 (!apart && !overlapping)
-                    || holds(
-                        // SAFETY: both runs lie in the memory, as far apart as the function wants.
+                    || leaves(
+                        // SAFETY: both runs lie in the memory, and overlap only if the function allows it.
                         |first| unsafe { copy(first.add(to), first.add(from), count) },
                         |i| {
                             before(if (to..to + count).contains(&i) {
@@ -71,11 +72,11 @@ fn copies(copy: Copy, step: usize, overlapping: bool) -> bool {
     })
 }
 
-/// True where `clear` is right at all addresses that `step` divides.
+/// True if `clear` is right at all addresses that are multiples of `step`.
 fn clears(clear: Clear, step: usize) -> bool {
-    (0..LENGTH - MOST).step_by(step).all(|to| {
-        (0..MOST).all(|count| {
-            holds(
+    (0..SIZE - MAX_COUNT).step_by(step).all(|to| {
+        (0..MAX_COUNT).all(|count| {
+            leaves(
                 // SAFETY: the run lies in the memory.
                 |first| unsafe { clear(first.add(to), count) },
                 |i| {

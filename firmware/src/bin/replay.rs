@@ -13,7 +13,7 @@ mod app {
     use firmware::gather::Gatherer;
     use firmware::hardware::{
         clock,
-        line::{By, Line},
+        line::{Line, Transfer},
         log, reset,
     };
     use firmware::instrument::Instrument;
@@ -69,7 +69,7 @@ mod app {
             &c.device.RCC,
             parts.out,
             parts.inbox,
-            By::Hand,
+            Transfer::Software,
         );
         let local = Local {
             source,
@@ -107,7 +107,7 @@ mod app {
         }
     }
 
-    /// In the place of the DMA's interrupt, which the emulator lacks; the main loop pends it.
+    /// Stands in for the DMA's interrupt, which the emulator lacks; the main loop pends it.
     #[task(binds = DMA2_STREAM0, priority = 3, local = [source, gatherer])]
     fn samples(c: samples::Context) {
         c.local.gatherer.serve(c.local.source);

@@ -1,8 +1,8 @@
-//! The product: an STM32F405 with both pick-offs at its own converters. Pins and ranges: `firmware/docs/wiring.md`.
+//! The product: an STM32F405 with both pick-offs at its own converters. Pins and ranges are in `firmware/docs/wiring.md`.
 #![no_std]
 #![no_main]
 
-// Not in the library: an image has one of each, the benches other handlers, and `replay` another logger.
+// Not in the library: an image can have only one of each, and benches have other handlers, `replay` another logger.
 #[path = "../handlers.rs"]
 mod handlers;
 #[path = "../rtt.rs"]
@@ -14,7 +14,7 @@ mod app {
     use antinode_telemetry::{Cause, FrontEnd};
     use firmware::gather::Gatherer;
     use firmware::hardware::dual_adc::DualAdc;
-    use firmware::hardware::line::{By, Line};
+    use firmware::hardware::line::{Line, Transfer};
     use firmware::hardware::ring::Memory;
     use firmware::hardware::sampler::Sampler;
     use firmware::hardware::watchdog::Watchdog;
@@ -27,7 +27,7 @@ mod app {
 
     #[shared]
     struct Shared {
-        /// `None` where there is no clock to sample by.
+        /// `None` if there is no clock to sample by.
         #[lock_free]
         source: Option<Sampler<DualAdc>>,
         #[lock_free]
@@ -60,17 +60,17 @@ mod app {
         let pins = device.GPIOA.split(&mut rcc);
         let _ = (
             pins.pa9.into_alternate::<7>(),
-            // Pulled up: without a bridge it would float, and noise be bytes.
+            // Pulled up: without a serial bridge it would float, and noise be taken for bytes.
             pins.pa10.into_alternate::<7>().internal_pull_up(true),
         );
         let inputs = (pins.pa1.into_analog(), pins.pa2.into_analog());
 
         let settings = configuration(FrontEnd::DualAdc, DUAL_ADC_RAILS);
         let Ok(parts) = c.local.queues.split(c.local.places, settings, cause) else {
-            // Never: settings that cannot be do not compile.
+            // Never: invalid settings do not compile.
             reset::restart(Cause::Panic, line!())
         };
-        let line = Line::new(device.USART1, &rcc, parts.out, parts.inbox, By::Dma);
+        let line = Line::new(device.USART1, &rcc, parts.out, parts.inbox, Transfer::Dma);
         let source = crystal.then(|| {
             DualAdc::start(
                 (device.ADC1, device.ADC2, device.ADC_COMMON),
@@ -81,7 +81,7 @@ mod app {
             )
         });
         if source.is_none() {
-            // Nothing feeds the watchdog then: it tries again from the start.
+            // Nothing feeds the watchdog then, and its reset starts another attempt.
             parts.instrument.fault(Cause::Clock, log::event);
         }
         let shared = Shared {
@@ -117,13 +117,13 @@ mod app {
         }
     }
 
-    /// The main loop looks for bytes that have arrived, and may have some to send.
+    /// Pended by the main loop, for bytes that have arrived or wait to be sent.
     #[task(binds = USART1, priority = 2, shared = [line])]
     fn line(c: line::Context) {
         c.shared.line.serve(true);
     }
 
-    /// A run of bytes has left.
+    /// A run of bytes has been sent.
     #[task(binds = DMA2_STREAM7, priority = 2, shared = [line])]
     fn sent(c: sent::Context) {
         c.shared.line.serve(true);

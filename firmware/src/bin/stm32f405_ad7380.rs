@@ -1,8 +1,8 @@
-//! The same instrument with an AD7380 for the converters. Pins and ranges: `firmware/docs/wiring.md`.
+//! The same instrument with an AD7380 as its converters. Pins and ranges are in `firmware/docs/wiring.md`.
 #![no_std]
 #![no_main]
 
-// Not in the library: an image has one of each, the benches other handlers, and `replay` another logger.
+// Not in the library: an image can have only one of each, and benches have other handlers, `replay` another logger.
 #[path = "../handlers.rs"]
 mod handlers;
 #[path = "../rtt.rs"]
@@ -13,7 +13,7 @@ mod app {
     use antinode::Packed;
     use antinode_telemetry::{Cause, FrontEnd};
     use firmware::gather::Gatherer;
-    use firmware::hardware::line::{By, Line};
+    use firmware::hardware::line::{Line, Transfer};
     use firmware::hardware::ring::Memory;
     use firmware::hardware::sampler::Sampler;
     use firmware::hardware::spi_adc::SpiAdc;
@@ -34,7 +34,7 @@ mod app {
 
     #[local]
     struct Local {
-        /// `None` where there is no clock or no converter to sample by.
+        /// `None` if there is no clock to sample by, or no converter.
         source: Option<Sampler<SpiAdc>>,
         gatherer: &'static mut Gatherer<'static, Arithmetic>,
         instrument: &'static mut Instrument<'static, Arithmetic>,
@@ -59,17 +59,17 @@ mod app {
         let pins = device.GPIOA.split(&mut rcc);
         let _ = (
             pins.pa9.into_alternate::<7>(),
-            // Pulled up: without a bridge it would float, and noise be bytes.
+            // Pulled up: without a serial bridge it would float, and noise be taken for bytes.
             pins.pa10.into_alternate::<7>().internal_pull_up(true),
         );
-        // After a reset pins are at their slowest, which 10.5 MHz are too fast for. A slow SCK costs the last bit of each word, however
-        // slow the clock (ES0182, "Corrupted last bit of data"), and the edge of CS is when both inputs are sampled.
+        // After a reset pins have their slowest edges, too slow for 10.5 MHz. Slow edges of SCK corrupt the last bit of each word at any
+        // frequency (ES0182, "Corrupted last bit of data"), and the edge of CS is when both inputs are sampled.
         let data = (
             pins.pa5.into_alternate::<5>().speed(Speed::VeryHigh),
             pins.pa6.into_alternate::<5>(),
             pins.pa7.into_alternate::<5>().speed(Speed::High),
         );
-        // High from the first: as an output the pin would otherwise be low until the SPI is set up, and start a conversion.
+        // High from the beginning: an output would otherwise be low until the SPI is set up, and start a conversion.
         let cs = pins
             .pa8
             .into_push_pull_output_in_state(PinState::High)
@@ -77,10 +77,10 @@ mod app {
 
         let settings = configuration(FrontEnd::Spi, AD7380_RAILS);
         let Ok(parts) = c.local.queues.split(c.local.places, settings, cause) else {
-            // Never: settings that cannot be do not compile.
+            // Never: invalid settings do not compile.
             reset::restart(Cause::Panic, line!())
         };
-        let line = Line::new(device.USART1, &rcc, parts.out, parts.inbox, By::Dma);
+        let line = Line::new(device.USART1, &rcc, parts.out, parts.inbox, Transfer::Dma);
         let started = if crystal {
             SpiAdc::start(
                 device.SPI1,
@@ -95,7 +95,7 @@ mod app {
             Err(Cause::Clock)
         };
         if let Err(cause) = started {
-            // Nothing feeds the watchdog then: it tries again from the start.
+            // Nothing feeds the watchdog then, and its reset starts another attempt.
             parts.instrument.fault(cause, log::event);
         }
         let local = Local {
@@ -120,13 +120,13 @@ mod app {
         }
     }
 
-    /// The main loop looks for bytes that have arrived, and may have some to send.
+    /// Pended by the main loop, for bytes that have arrived or wait to be sent.
     #[task(binds = USART1, priority = 2, shared = [line])]
     fn line(c: line::Context) {
         c.shared.line.serve(true);
     }
 
-    /// A run of bytes has left.
+    /// A run of bytes has been sent.
     #[task(binds = DMA2_STREAM7, priority = 2, shared = [line])]
     fn sent(c: sent::Context) {
         c.shared.line.serve(true);

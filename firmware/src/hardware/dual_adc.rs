@@ -1,14 +1,14 @@
-//! Both pick-offs into the chip's own converters: S_C on PA1 into ADC1, S_D on PA2 into ADC2, sampled at the same instant.
+//! Both pick-offs at the chip's own converters: S_C on PA1 at ADC1, S_D on PA2 at ADC2, sampled at the same instant.
 //!
 //! Registers by their names in RM0090, chapter 13. TIM3's update is the trigger: in dual regular simultaneous mode ADC1's trigger
 //! starts ADC2 as well, and both results leave as one word of the common data register.
 //!
 //! # Skew
 //!
-//! Both sample-and-holds open by one and the same edge of the converters' clock. What is left between the channels is the mismatch of
-//! two apertures on one chip, well below a nanosecond, and that of the two anti-alias filters, which is the greater: two RC filters of 100 kHz
-//! whose time constants differ by 2 % delay a 5 kHz wave by 1.6 µs ± 16 ns each, and 32 ns are 1 mrad of its phase.
-//! [`Calibration::skew`](antinode::Calibration) takes the difference out: a wave with a known angle, or the same signal at both inputs, shows it.
+//! Both sample-and-holds open at the same edge of the converters' clock. The remaining skew is the mismatch of two apertures on one chip,
+//! well below a nanosecond, and the greater one of the two anti-alias filters: two RC filters of 100 kHz with time constants that differ by
+//! 2 % delay a 5 kHz wave by 1.6 µs ± 16 ns each, and 32 ns are 1 mrad of its phase. [`Calibration::skew`](antinode::Calibration) corrects
+//! it; it can be measured with a wave of known angle, or with the same signal at both inputs.
 
 use antinode::Packed;
 use stm32f4xx_hal::gpio::{Analog, PA1, PA2};
@@ -26,11 +26,11 @@ use crate::settings::SAMPLE_RATE;
 const TICKS: u32 = APB1_TIMERS / SAMPLE_RATE;
 /// The converters' clock, Hz: at most 36 MHz.
 const ADC_CLOCK: u32 = APB2 / 4;
-/// Ticks of TIM3 in one of the converters' clocks. A trigger that falls between two of these waits for the next.
+/// Ticks of TIM3 in a cycle of the converters' clock. A trigger within a cycle takes effect at the next one.
 const ADC_TICKS: u32 = APB1_TIMERS / ADC_CLOCK;
-/// A conversion: 84 cycles of sampling, ample for the source of 10 kΩ that the chip's accuracy is given for, and 12 for the 12 bits.
+/// Ticks of a conversion: 84 cycles of sampling, ample for a source of 10 kΩ, for which the accuracy is specified, and 12 for the 12 bits.
 const CONVERSION: u32 = (84 + 12) * ADC_TICKS;
-/// When nothing is under way, in ticks after a trigger: the conversion has ended, and the next trigger is a microsecond away.
+/// Idle time in ticks after a trigger: the conversion has ended, and the next trigger is at least a microsecond away.
 const QUIET: [u32; 2] = [CONVERSION + 40, TICKS.saturating_sub(84)];
 
 /// The two converters and their trigger.
@@ -46,7 +46,7 @@ pub type Pins = (PA1<Analog>, PA2<Analog>);
 
 impl DualAdc {
     /// Starts sampling into `memory`.
-    // Compiled for the image that calls it.
+    // `inline`, so that it is compiled only in images that call it.
     #[inline]
     pub fn start(
         (first, second, common): (ADC1, ADC2, ADC_COMMON),
@@ -55,7 +55,7 @@ impl DualAdc {
         _: Pins,
         rcc: &RCC,
     ) -> Sampler<Self> {
-        // AHB1ENR, APB1ENR, APB2ENR: the clocks of all of them.
+        // AHB1ENR, APB1ENR, APB2ENR: clocks of the DMA, the timer and the converters.
         rcc.ahb1enr().modify(|_, w| w.dma2en().set_bit());
         rcc.apb1enr().modify(|_, w| w.tim3en().set_bit());
         rcc.apb2enr()
@@ -86,17 +86,17 @@ impl DualAdc {
         Sampler::new(adc, Ring::new(dma, memory, origin), clock)
     }
 
-    /// Sets up both converters, which are as after a reset.
+    /// Sets up both converters, which must be in the state after a reset.
     #[allow(unsafe_code, reason = "the fields take any bits")]
     fn configure(&self) {
         // SAFETY: each value is one that RM0090 lists for its field.
         unsafe {
-            // CCR.ADCPRE 1: APB2 over 4. Between two triggers: the clock of what they start must not change under them (RM0090, 18.3.15).
-            // MULTI 0: each by itself while it is set up.
+            // CCR.ADCPRE 1: APB2 over 4. Between two triggers, as the clock must not change while they are active (RM0090, 18.3.15).
+            // MULTI 0: independent while they are set up.
             self.wait();
             self.common.ccr().write(|w| w.adcpre().bits(0b01));
-            // CR2.ADON: on, and three microseconds to settle. EOCS: without it, or CR2.DMA, an overrun raises no flag; ST's example
-            // ADC_DualModeInterleaved for the STM32F407 sets it in both, too.
+            // CR2.ADON: on, and three microseconds to settle. EOCS: without it or CR2.DMA an overrun raises no flag; ST's example
+            // ADC_DualModeInterleaved for the STM32F407 also sets it in both.
             for control in [self.first.cr2(), self.second.cr2()] {
                 control.write(|w| w.adon().set_bit().eocs().set_bit());
             }
@@ -106,13 +106,13 @@ impl DualAdc {
             self.second.smpr2().modify(|_, w| w.smp2().bits(0b100));
             self.first.sqr3().write(|w| w.sq1().bits(1));
             self.second.sqr3().write(|w| w.sq1().bits(2));
-            // CR1.OVRIE: an interrupt where a result is not fetched before the next.
+            // CR1.OVRIE: an interrupt if a result is not fetched before the next one.
             self.first.cr1().write(|w| w.ovrie().set_bit());
             self.second.cr1().write(|w| w.ovrie().set_bit());
         }
     }
 
-    /// Waits until nothing is under way.
+    /// Waits for the idle time between two triggers.
     fn wait(&self) {
         wait_for(QUIET, TICKS, || self.timer.cnt().read().bits());
     }
@@ -139,10 +139,10 @@ impl Converter for DualAdc {
     fn stop(&mut self) {
         // Between two triggers, as in `configure`.
         self.wait();
-        // SAFETY: after the start nothing else touches this register.
+        // SAFETY: after the start nothing else uses this register.
         let reset = unsafe { RCC::steal() };
-        // APB2RSTR.ADCRST: whatever became of them, both converters and what is between them begin anew as they did at the start. An
-        // overrun leaves requests blocked and triggers unheard until DMA and converters are set up again (RM0090, 13.8.1 and 13.9).
+        // APB2RSTR.ADCRST: puts both converters and their common part into the initial state, whatever theirs is. After an overrun,
+        // requests stay blocked and triggers ignored until DMA and converters are set up again (RM0090, 13.8.1 and 13.9).
         reset.apb2rstr().modify(|_, w| w.adcrst().set_bit());
         reset.apb2rstr().modify(|_, w| w.adcrst().clear_bit());
         clock::settle();
@@ -154,12 +154,12 @@ impl Converter for DualAdc {
         self.wait();
         // SAFETY: each value is one that RM0090 lists for its field.
         unsafe {
-            // CCR.MULTI 6: regular simultaneous mode. DMA 2: one word a pair, ADC2 in its upper half. DDS: requests go on after the
-            // DMA's last transfer, for it is circular (RM0090, 13.13.16).
+            // CCR.MULTI 6: regular simultaneous mode. DMA 2: one word a pair, ADC2 in its upper half. DDS: requests continue after the
+            // DMA's last transfer, as it is circular (RM0090, 13.13.16).
             self.common
                 .ccr()
                 .modify(|_, w| w.multi().bits(0b00110).dma().bits(0b10).dds().set_bit());
-            // CR2.EXTSEL 8: TIM3's TRGO. EXTEN 1: its rising edge. ADC2 has none of its own: ADC1 starts it (RM0090, 13.9).
+            // CR2.EXTSEL 8: TIM3's TRGO. EXTEN 1: its rising edge. ADC2 has no trigger of its own: ADC1 starts it (RM0090, 13.9).
             self.first
                 .cr2()
                 .modify(|_, w| w.extsel().bits(0b1000).exten().bits(0b01));

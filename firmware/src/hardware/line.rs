@@ -1,6 +1,6 @@
 //! The serial line: USART1, TX on PA9, RX on PA10, 8N1. Bytes leave by DMA in runs, and arrive by DMA in a ring.
 //!
-//! Not by an interrupt each: a byte takes 11 µs, the USART holds one, and the samples' interrupt takes up to half a millisecond.
+//! Interrupts per byte would lose bytes: one takes 11 µs, the USART holds one, and the samples' interrupt takes up to half a millisecond.
 
 #![allow(
     unsafe_code,
@@ -15,7 +15,7 @@ use crate::inbox::Inbox;
 use crate::link::{Outgoing, Run};
 use crate::settings::{BAUD, INBOX};
 
-/// BRR.
+/// Value of BRR.
 const DIVIDER: u32 = usart_divider(BAUD);
 
 const _: () = {
@@ -29,13 +29,13 @@ const _: () = {
     );
 };
 
-/// How bytes leave and arrive.
+/// How bytes are transferred.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum By {
+pub enum Transfer {
     /// Streams 7 and 5 of DMA2, channel 4 (RM0090, 10.3.3).
     Dma,
-    /// One after the other: the emulator has no DMA, its USART takes a byte at once, and keeps one until it is read.
-    Hand,
+    /// One by one by software, for the emulator: it has no DMA, and its USART takes a byte at once and keeps one until it is read.
+    Software,
 }
 
 /// The line's end of both queues.
@@ -43,35 +43,35 @@ pub struct Line {
     usart: USART1,
     out: Outgoing<'static>,
     inbox: &'static Inbox,
-    by: By,
-    /// What the DMA is sending.
+    transfer: Transfer,
+    /// Run that the DMA is sending.
     under_way: Option<Run<'static>>,
 }
 
 impl Line {
-    /// Starts the line; the pins must be set to their alternate function 7.
+    /// Starts the line; the pins must have their alternate function 7.
     pub fn new(
         usart: USART1,
         rcc: &RCC,
         out: Outgoing<'static>,
         inbox: &'static Inbox,
-        by: By,
+        transfer: Transfer,
     ) -> Self {
-        // APB2ENR.USART1EN, AHB1ENR.DMA2EN: their clocks.
+        // APB2ENR.USART1EN, AHB1ENR.DMA2EN: clocks on.
         rcc.apb2enr().modify(|_, w| w.usart1en().set_bit());
         rcc.ahb1enr().modify(|_, w| w.dma2en().set_bit());
         clock::settle();
         // SAFETY: the USART is off, and the divider within its 16 bits.
         usart.brr().write(|w| unsafe { w.bits(DIVIDER as u16) });
-        let by_dma = by == By::Dma;
+        let by_dma = transfer == Transfer::Dma;
         if by_dma {
             receive(inbox, usart.dr().as_ptr() as u32);
         }
-        // CR3.DMAT, DMAR: it asks the DMA for bytes, and to fetch those that arrive.
+        // CR3.DMAT, DMAR: DMA requests of the transmitter and of the receiver.
         usart
             .cr3()
             .write(|w| w.dmat().bit(by_dma).dmar().bit(by_dma));
-        // CR1: on, both ways, without DMA an interrupt for each byte that arrives.
+        // CR1: on, in both directions; without DMA an interrupt for each byte received.
         usart.cr1().write(|w| {
             w.ue().set_bit();
             w.te().set_bit();
@@ -82,20 +82,20 @@ impl Line {
             usart,
             out,
             inbox,
-            by,
+            transfer,
             under_way: None,
         }
     }
 
-    /// Serves the line's interrupts, of which the main loop pends one when there may be bytes to send; `open` false holds them back.
+    /// Serves the line's interrupts, one of which the main loop pends if there may be bytes to send; if `open` is false they are held back.
     pub fn serve(&mut self, open: bool) {
         let status = self.usart.sr().read();
-        if self.by == By::Dma {
+        if self.transfer == Transfer::Dma {
             if status.ore().bit_is_set() {
-                // SR.ORE: after an overrun nothing arrives any more until SR and then DR are read.
+                // SR.ORE: after an overrun nothing more is received until SR and then DR are read.
                 let _ = self.usart.dr().read();
             }
-            // NDTR: places left before the ring's end. What it counts has long been written when the main loop comes to it.
+            // NDTR: places left before the ring's end. Bytes that it counts are in memory long before the main loop reads them.
             self.inbox
                 .left(dma().st(5).ndtr().read().ndt().bits().into());
         } else if status.rxne().bit_is_set() {
@@ -113,7 +113,7 @@ impl Line {
             return;
         }
         while let Some(run) = self.out.run() {
-            if self.by == By::Dma {
+            if self.transfer == Transfer::Dma {
                 send(&run, self.usart.dr().as_ptr() as u32);
                 self.under_way = Some(run);
                 return;
@@ -126,22 +126,22 @@ impl Line {
     }
 }
 
-/// The controller, of which streams 5 and 7 are the line's.
+/// The DMA controller, of which the line uses streams 5 and 7.
 fn dma() -> DMA2 {
-    // SAFETY: nothing else touches streams 5 and 7, HISR, nor by HIFCR's write-one-to-clear bits the flags of stream 7.
+    // SAFETY: nothing else uses streams 5 and 7 or HISR, or clears the flags of stream 7, which are write-one-to-clear in HIFCR.
     unsafe { DMA2::steal() }
 }
 
-/// True once the stream has ended, by its last byte or by an error; clears its flags.
+/// True once stream 7 has ended, by its last byte or by an error; clears its flags.
 fn sent() -> bool {
     let dma = dma();
-    // First the flags: should it end right after, its interrupt comes again.
+    // Flags first: if the stream ends right after, its interrupt comes again.
     clear(&dma);
     // CR.EN: the stream clears it at its end.
     dma.st(7).cr().read().en().bit_is_clear()
 }
 
-/// HIFCR: forgets what stream 7 has done.
+/// Clears the flags of stream 7, by HIFCR.
 fn clear(dma: &DMA2) {
     dma.hifcr().write(|w| {
         w.ctcif7().set_bit();
@@ -152,11 +152,11 @@ fn clear(dma: &DMA2) {
     });
 }
 
-/// Starts stream 5, which fills the inbox for ever.
+/// Starts stream 5, which fills the inbox endlessly.
 fn receive(inbox: &'static Inbox, register: u32) {
     let dma = dma();
     let stream = dma.st(5);
-    // SAFETY: the inbox is there for ever, and its bytes may change at any time.
+    // SAFETY: the inbox is static, and its bytes are atomics, which may change at any time.
     unsafe {
         // PAR, M0AR, NDTR: from the USART's data register into the ring.
         stream.par().write(|w| w.bits(register));
@@ -164,14 +164,14 @@ fn receive(inbox: &'static Inbox, register: u32) {
             .m0ar()
             .write(|w| w.bits(inbox.places().as_ptr() as u32));
         stream.ndtr().write(|w| w.bits(INBOX as u32));
-        // CHSEL 4: USART1_RX. DIR 0: from the peripheral. MINC, CIRC: along the ring, round and round, byte by byte.
+        // CHSEL 4: USART1_RX. DIR 0: from the peripheral. MINC, CIRC: along the ring, circular, byte by byte.
         stream.cr().write(|w| {
             w.chsel().bits(4);
             w.minc().set_bit();
             w.circ().set_bit()
         });
     }
-    // EN: on, once all else stands (RM0090, 10.3.17).
+    // EN: on, after all else is set (RM0090, 10.3.17).
     stream.cr().modify(|_, w| w.en().set_bit());
 }
 
@@ -180,7 +180,7 @@ fn send(run: &Run<'static>, register: u32) {
     let dma = dma();
     clear(&dma);
     let stream = dma.st(7);
-    // SAFETY: the run's bytes stay where they are until it is released, which is after the stream has ended.
+    // SAFETY: the run's bytes stay in place until it is released, which is after the stream has ended.
     unsafe {
         // PAR, M0AR, NDTR: from the run to the USART's data register.
         stream.par().write(|w| w.bits(register));

@@ -1,11 +1,11 @@
-//! The log beside the telemetry, by defmt.
+//! The log, by defmt, in addition to the telemetry.
 
 use antinode_telemetry::{Cause, State};
 use stm32f4xx_hal::pac::FLASH;
 
 use crate::instrument::Event;
 
-/// Says why the device started; `place` is a line of source after a panic, an address after a fault, and nothing otherwise.
+/// Logs why the device started; `place` is the source line of a panic, the address of a fault, and unused otherwise.
 pub fn started(cause: Cause, place: u32) {
     match cause {
         Cause::Panic => defmt::info!("antinode started: panic, at line {=u32}", place),
@@ -16,15 +16,15 @@ pub fn started(cause: Cause, place: u32) {
     }
 }
 
-/// Warns where nothing resets the chip between 1.7 V and the 2.7 V that its clock needs.
+/// Warns if nothing resets the chip between 1.7 V and the 2.7 V that its clock needs.
 pub fn supply(flash: &FLASH) {
-    // OPTCR.BOR_LEV: 0 is level 3, as option bytes count.
+    // OPTCR.BOR_LEV: 0 means level 3.
     if flash.optcr().read().bor_lev().bits() != 0 {
         defmt::warn!("the brown-out level is not set: see firmware/docs/wiring.md");
     }
 }
 
-/// Says what happened.
+/// Logs an event.
 pub fn event(event: Event) {
     match event {
         Event::State(State::Searching) => defmt::info!("searching for a wave"),
@@ -34,7 +34,7 @@ pub fn event(event: Event) {
             defmt::warn!("sampling restarted: {=str}", cause.name());
         }
         Event::State(State::Fault(cause)) => defmt::error!("fault: {=str}", cause.name()),
-        // There is no other.
+        // There is no other state.
         Event::State(_) => {}
         Event::Lapse(lapse) => {
             defmt::warn!("{=u32} pairs lost: {=str}", lapse.lost, lapse.cause.name());

@@ -1,4 +1,4 @@
-//! The main loop of the images for a board.
+//! The main loop of the images for boards.
 
 use antinode::Sample;
 use antinode_telemetry::Cause;
@@ -11,7 +11,7 @@ use crate::clocks::CORE;
 use crate::instrument::Instrument;
 use crate::settings::BAUD;
 
-/// Lets the instrument work, feeds the watchdog while the pipeline lives, and sleeps from interrupt to interrupt.
+/// Polls the instrument, feeds the watchdog while the pipeline is alive, and sleeps from interrupt to interrupt.
 pub fn run<S: Sample>(instrument: &mut Instrument<'_, S>, watchdog: &mut Watchdog) -> ! {
     loop {
         if instrument.poll(clock::now(), log::event) {
@@ -22,7 +22,7 @@ pub fn run<S: Sample>(instrument: &mut Instrument<'_, S>, watchdog: &mut Watchdo
             NVIC::pend(Interrupt::DMA2_STREAM0);
         }
         if instrument.wants_restart() {
-            // The last two bytes are still in the USART, of ten bits each.
+            // The last two bytes, of ten bits each, are still in the USART.
             cortex_m::asm::delay(20 * (CORE / BAUD + 1));
             reset::restart(Cause::Command, 0);
         }

@@ -1,11 +1,11 @@
-//! What needs the chip: registers, interrupts, memory that a reset leaves alone.
+//! Code that depends on the chip: registers, interrupts, memory that survives a reset.
 
 pub mod clock;
 pub mod dual_adc;
 pub mod line;
 pub mod log;
 pub mod main_loop;
-// The same as for C: of every image all memory functions are these.
+// The memory functions of the C library replace the compiler's in every image.
 #[path = "../../../crates/antinode-capi/src/memory.rs"]
 mod memory;
 pub mod pair_clock;

@@ -1,26 +1,26 @@
-//! TIM2 counts the sampling timer's triggers: how many pairs there should be, whatever became of them.
+//! TIM2 counts the sampling timer's triggers, that is the pairs that should have come, even if they were lost.
 
 use stm32f4xx_hal::pac::{RCC, TIM2};
 
 use crate::hardware::clock;
 
-/// The timer whose update is the sampling trigger, as TIM2's internal trigger input (RM0090, 18.4.3).
+/// Timer whose update is the sampling trigger, by its number as TIM2's internal trigger input (RM0090, 18.4.3).
 #[derive(Debug, Clone, Copy)]
 pub enum Trigger {
-    /// ITR0. An update counts once though TIM1 has twice TIM2's clock, as in ST's example TIM_Synchronization for the STM32F407.
+    /// ITR0. An update counts once although TIM1 has twice TIM2's clock, as in ST's example TIM_Synchronization for the STM32F407.
     Tim1 = 0,
     /// ITR2.
     Tim3 = 2,
 }
 
-/// The count of triggers, in 32 bits, which wrap.
+/// Wrapping 32-bit count of triggers.
 pub struct PairClock(TIM2);
 
 impl PairClock {
-    /// Starts to count.
+    /// Starts counting.
     #[allow(unsafe_code, reason = "the fields take any bits")]
     pub fn new(timer: TIM2, rcc: &RCC, trigger: Trigger) -> Self {
-        // APB1ENR.TIM2EN: its clock.
+        // APB1ENR.TIM2EN: clock on.
         rcc.apb1enr().modify(|_, w| w.tim2en().set_bit());
         clock::settle();
         // SAFETY: SMCR.TS is the trigger's number, and SMS 7 external clock mode 1: each trigger counts.

@@ -1,4 +1,4 @@
-//! Why the device started, kept over the reset in memory that start-up code leaves alone.
+//! The cause of a reset, kept in memory that start-up code does not initialise.
 
 #![allow(unsafe_code, reason = "`link_section` is an unsafe attribute")]
 
@@ -12,15 +12,15 @@ use stm32f4xx_hal::pac::RCC;
 
 use crate::supervision::{cause, number, numbered};
 
-/// Marks a note that was written, and not found by chance after power-on.
+/// Distinguishes a note that was written from random memory after power-on.
 const MARK: u32 = 0x616e_7469;
 
-// SAFETY: `.uninit` is RAM that the linker script of cortex-m-rt sets aside and that start-up code does not write; any bits are valid
+// SAFETY: `.uninit` is RAM that the linker script of cortex-m-rt reserves and that start-up code does not write; any bits are valid
 // atomics.
 #[unsafe(link_section = ".uninit.NOTE")]
 static NOTE: [AtomicU32; 3] = [const { AtomicU32::new(0) }; 3];
 
-/// Leaves a note of the cause and of where it was, and resets the chip.
+/// Leaves a note of the cause and the place, and resets the chip.
 pub fn restart(cause: Cause, place: u32) -> ! {
     let number = number(cause);
     for (word, value) in NOTE.iter().zip([number, place, MARK ^ number]) {
@@ -29,8 +29,8 @@ pub fn restart(cause: Cause, place: u32) -> ! {
     SCB::sys_reset()
 }
 
-/// Why the chip was reset, and where the firmware stood: a line of source after a panic, an address after a fault. Asks once: the
-/// note and the chip's flags are cleared.
+/// Cause of the reset, and its place: the source line of a panic, the address of a fault, or else 0. To be called once, as it clears the
+/// note and the chip's flags.
 pub fn started(rcc: &RCC) -> (Cause, u32) {
     let [first, place, mark] = [0, 1, 2].map(|i: usize| {
         NOTE.get(i)
@@ -42,7 +42,7 @@ pub fn started(rcc: &RCC) -> (Cause, u32) {
         None
     };
     let csr = rcc.csr().read().bits();
-    // RMVF: the flags add up over resets until they are removed.
+    // RMVF: flags accumulate over resets until they are removed.
     rcc.csr().modify(|_, w| w.rmvf().set_bit());
     let place = if noted.is_some() { place } else { 0 };
     (cause(csr, noted), place)

@@ -1,4 +1,4 @@
-//! The DMA's ring of packed pairs: stream 0 of DMA2 in circular mode, an interrupt at its half and at its end.
+//! The DMA's ring of packed pairs: stream 0 of DMA2 in circular mode, with an interrupt at its half and at its end.
 
 #![allow(
     unsafe_code,
@@ -15,7 +15,7 @@ use crate::settings::HALF;
 /// The ring's memory: two halves.
 pub type Memory = [[Packed; HALF]; 2];
 
-/// What the stream has done since it was last asked.
+/// Events of the stream since the last call.
 #[derive(Debug, Clone, Copy)]
 pub struct Done {
     /// The first half is full.
@@ -26,14 +26,14 @@ pub struct Done {
     pub error: bool,
 }
 
-/// Where the words come from.
+/// Source of the words.
 #[derive(Debug, Clone, Copy)]
 pub struct Origin {
     /// The data register's address.
     pub register: u32,
     /// The request's channel on stream 0, RM0090, 10.3.3.
     pub channel: u8,
-    /// True where a pair comes as two words of 16 bits, S_C first, rather than as one of 32.
+    /// True if a pair comes as two words of 16 bits, S_C first, rather than as one of 32.
     pub by_halves: bool,
 }
 
@@ -44,11 +44,11 @@ pub struct Ring {
     origin: Origin,
 }
 
-// SAFETY: the memory is the ring's own for ever.
+// SAFETY: the ring owns the memory for ever.
 unsafe impl Send for Ring {}
 
 impl Ring {
-    /// A stopped ring. DMA2's clock must be on.
+    /// A stopped ring. DMA2's clock must be enabled.
     pub fn new(dma: DMA2, memory: &'static mut Memory, origin: Origin) -> Self {
         Self {
             dma,
@@ -57,10 +57,10 @@ impl Ring {
         }
     }
 
-    /// Stops the stream; only then may what it fetches from be switched off (RM0090, 10.3.17).
+    /// Stops the stream; its source may be switched off only after that (RM0090, 10.3.17).
     pub fn stop(&mut self) {
         let stream = self.dma.st(0);
-        // CR.EN: off; it reads as on until the transfer under way has ended, within some bus cycles.
+        // CR.EN: off; it reads as on until the current transfer has ended, within some bus cycles.
         stream.cr().modify(|_, w| w.en().clear_bit());
         let _ = (0..1000).any(|_| stream.cr().read().en().bit_is_clear());
     }
@@ -68,14 +68,14 @@ impl Ring {
     /// Starts the stopped stream at the ring's first word.
     pub fn start(&mut self) {
         let stream = self.dma.st(0);
-        // With flags left it could not be switched on.
+        // The stream cannot be enabled while flags are set.
         self.done();
         let transfers = if self.origin.by_halves {
             4 * HALF
         } else {
             2 * HALF
         };
-        // SAFETY: source and target are a data register and memory that is the DMA's for ever, of as many bytes as there are transfers.
+        // SAFETY: the source is a data register; the target is memory that belongs to the DMA for ever, of the size of a round.
         unsafe {
             // PAR, M0AR: from the data register into the ring. NDTR: transfers a round.
             stream.par().write(|w| w.bits(self.origin.register));
@@ -83,12 +83,12 @@ impl Ring {
             stream.ndtr().write(|w| w.bits(transfers as u32));
             let size = if self.origin.by_halves { 0b01 } else { 0b10 };
             stream.cr().write(|w| {
-                // CHSEL: the request. PL 3: no other stream goes first. MSIZE, PSIZE: 16 or 32 bits.
+                // CHSEL: the request. PL 3: highest priority. MSIZE, PSIZE: 16 or 32 bits.
                 w.chsel().bits(self.origin.channel);
                 w.pl().bits(0b11);
                 w.msize().bits(size);
                 w.psize().bits(size);
-                // MINC: along the ring. CIRC: round and round. DIR 0: from the peripheral.
+                // MINC: along the ring. CIRC: circular. DIR 0: from the peripheral.
                 w.minc().set_bit();
                 w.circ().set_bit();
                 // HTIE, TCIE, TEIE: interrupts at the half, at the end, and at an error of the bus.
@@ -101,7 +101,7 @@ impl Ring {
         stream.cr().modify(|_, w| w.en().set_bit());
     }
 
-    /// Pairs that are still to come in this round: NDTR. A pair of which one word has come is one.
+    /// Pairs still to come in this round, by NDTR, with one of which only the first word has come.
     pub fn left(&self) -> u32 {
         let transfers = self.dma.st(0).ndtr().read().bits();
         if self.origin.by_halves {
@@ -111,7 +111,7 @@ impl Ring {
         }
     }
 
-    /// Reads and clears what the stream has done: LISR, LIFCR.
+    /// Reads and clears the events of the stream: LISR, LIFCR.
     pub fn done(&self) -> Done {
         let status = self.dma.lisr().read();
         let done = Done {
@@ -123,19 +123,19 @@ impl Ring {
             w.chtif0().bit(done.first);
             w.ctcif0().bit(done.second);
             w.cteif0().bit(done.error);
-            // A direct-mode error or a FIFO error means nothing here: no word is lost by it.
+            // A direct-mode or FIFO error is ignored: no word is lost by it.
             w.cdmeif0().set_bit();
             w.cfeif0().set_bit()
         });
         done
     }
 
-    /// One of the halves; the DMA writes to the other one meanwhile, and the caller asks later whether it still did.
+    /// One of the halves. The DMA meanwhile writes to the other one; the caller checks afterwards that it did not reach this one.
     pub fn half(&self, second: bool) -> &[Packed] {
-        // What the DMA wrote before its flag is read after it.
+        // Reads the words only after the DMA's flag.
         fence(Ordering::Acquire);
-        // SAFETY: within the memory; nobody but the DMA writes, to the other half. Were it to come round too early, the words read
-        // would be valid but new, and `Source::is_intact` throws away what was made of them.
+        // SAFETY: the half lies within the memory, and only the DMA writes, to the other half. If it comes round too early, the words
+        // are valid but new, and by `Source::is_intact` their results are discarded.
         unsafe {
             core::slice::from_raw_parts(
                 self.memory.cast::<Packed>().add(usize::from(second) * HALF),

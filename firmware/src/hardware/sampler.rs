@@ -1,4 +1,4 @@
-//! A converter that is triggered by a timer and fetched by the DMA, as a source of pairs.
+//! A source of pairs: a converter that a timer triggers and the DMA reads.
 
 use core::sync::atomic::{Ordering, compiler_fence};
 
@@ -10,42 +10,42 @@ use crate::hardware::ring::Ring;
 use crate::sampling::{Lapse, Ready, Source, beyond, both, has_slipped};
 use crate::settings::HALF;
 
-/// A converter that follows a timer.
+/// A converter triggered by a timer.
 pub trait Converter {
-    /// Makes it give no more data, after the ring was stopped.
+    /// Stops the data; the ring must be stopped before.
     fn stop(&mut self);
 
-    /// Makes it give data from the next trigger on, after the ring was started. It returns between that trigger and the one before,
-    /// well away from both, so that the count of triggers tells which pair comes first.
+    /// Starts the data with the next trigger; the ring must be started before. It returns between that trigger and the one before, well
+    /// away from both, so that the count of triggers identifies the first pair.
     fn arm(&mut self);
 
-    /// True where it gave data that nobody fetched.
+    /// True if data were not fetched in time.
     fn has_overrun(&self) -> bool;
 
-    /// Fails to compile where it cannot have [`SAMPLE_RATE`](crate::settings::SAMPLE_RATE); evaluated for an image that samples with it.
+    /// Fails to compile if the converter cannot run at [`SAMPLE_RATE`](crate::settings::SAMPLE_RATE); evaluated only in images that use it.
     const RATE: ();
 
-    /// The least and the greatest code.
+    /// The lowest and the highest code.
     const RAILS: [i16; 2];
 
     /// True for a pair with a sample at either end of the range.
     fn is_at_rail(pair: Packed) -> bool;
 }
 
-/// Waits until a timer of `ticks` a period, which `count` reads, stands within `quiet`: at most two periods, and for ever neither, as a dead
-/// timer must not hang the interrupt.
+/// Waits until `count`, of a timer with a period of `ticks`, is within `quiet`. The wait is limited to a few periods, as a dead timer must
+/// not hang the interrupt.
 pub fn wait_for(quiet: [u32; 2], ticks: u32, count: impl Fn() -> u32) {
     let _ = (0..4 * ticks).any(|_| (quiet[0]..quiet[1]).contains(&count()));
 }
 
-/// The source: a converter, the ring that it fills, and the count of its triggers.
+/// A source of pairs: a converter, the ring that it fills, and the count of its triggers.
 pub struct Sampler<C: Converter> {
     converter: C,
     ring: Ring,
     clock: PairClock,
-    /// The count of triggers at the end of what was handed out.
+    /// Count of triggers at the end of the pairs handed out.
     taken: u32,
-    /// The half that was handed out last.
+    /// True if the second half was handed out last.
     second: bool,
 }
 
@@ -65,12 +65,13 @@ impl<C: Converter> Sampler<C> {
         }
     }
 
-    /// True where pairs were lost and no flag told: those beyond the end of a half do not fit the triggers beyond `taken`, the count there.
+    /// True if pairs were lost without a flag: the count of pairs beyond the end of a half does not match that of triggers beyond `taken`,
+    /// the count there.
     #[inline]
     fn has_slipped(&self, taken: u32, second: bool) -> bool {
         let look = || [self.clock.now(), self.ring.left()];
         let mut seen = look();
-        // A trigger between the two would count in one of them alone; the next is far away.
+        // A trigger between both reads would count in one of them only: then they are repeated, as the next trigger is far away.
         if self.clock.now() != seen[0] {
             seen = look();
         }
@@ -91,7 +92,7 @@ impl<C: Converter> Source for Sampler<C> {
         if self.converter.has_overrun() {
             return Ready::Lapse(self.restart(Cause::Overrun));
         }
-        // The halves take turns: neither twice, nor both at once.
+        // The halves must alternate: neither twice, nor both at once.
         match (done.first, done.second) {
             (false, false) => Ready::Nothing,
             (first, second) if first != second && second != self.second => {
@@ -113,15 +114,15 @@ impl<C: Converter> Source for Sampler<C> {
 
     #[inline]
     fn is_intact(&self) -> bool {
-        // The pairs are read before the clock is.
+        // Keeps the reads of the pairs before that of the clock.
         compiler_fence(Ordering::SeqCst);
-        // The other half holds the pairs after those handed out: one trigger more, and the DMA may come round.
+        // The other half holds the next `HALF` pairs: with one more trigger the DMA may come round.
         self.clock.now().wrapping_sub(self.taken) <= HALF as u32
     }
 
     #[cold]
     fn restart(&mut self, cause: Cause) -> Lapse {
-        // An overrun leaves the SPI deaf: no more pairs come, and no interrupt of the DMA that would have told of it.
+        // After an overrun the SPI gives no more pairs, and so the DMA no interrupt that would have reported it.
         let cause = if cause == Cause::Converter && self.converter.has_overrun() {
             Cause::Overrun
         } else {

@@ -1,16 +1,16 @@
-//! Both pick-offs into an AD7380 on SPI1: S_C at its input A, S_D at B, 16 bits each, sampled at the falling edge of CS.
+//! Both pick-offs at an AD7380 on SPI1: S_C at its input A, S_D at B, 16 bits each, sampled at the falling edge of CS.
 //!
-//! | pin | | |
+//! | pin | function | connection |
 //! |---|---|---|
 //! | PA5 | SPI1_SCK | 10.5 MHz |
 //! | PA6 | SPI1_MISO | the chip's SDOA |
 //! | PA7 | SPI1_MOSI | the chip's SDI |
 //! | PA8 | TIM1_CH1 | the chip's CS |
 //!
-//! The driver configures the chip over SPI by software. Then TIM1 drives CS without jitter, two of its compare events have the DMA
-//! write a zero each to SPI1 (32 clocks, of which the chip makes a pair), and a third stream takes the two words that come back. A
-//! comes first and so lies in the lower half of a word of memory: that is a [`Packed`] pair as it stands. Registers by their names in
-//! RM0090. A pair was sampled one frame before the one that carries it, so times are one sample period late.
+//! The driver configures the chip over SPI by software. Then TIM1 drives CS without jitter, and at two of its compare events the DMA
+//! writes a zero to SPI1: these 32 clocks fetch a pair from the chip, as two words that a third stream stores. A comes first and so lies in
+//! the lower half of a word of memory, which thus is a [`Packed`] pair. Registers by their names in RM0090. A frame carries the pair that
+//! was sampled one frame before, so times are one sample period late.
 
 #![allow(
     unsafe_code,
@@ -34,23 +34,23 @@ use crate::settings::SAMPLE_RATE;
 
 /// Ticks of TIM1 from frame to frame.
 const TICKS: u32 = APB2_TIMERS / SAMPLE_RATE;
-/// SPI clock, Hz: the chip's registers are sure up to about that.
+/// SPI clock, Hz: about the highest at which the chip's registers are reliable.
 const SCLK: u32 = APB2 / 8;
-/// When the two zeros go out, ticks after CS falls: the second waits in the SPI's buffer for the first to leave.
+/// Times of the two writes of zeros, in ticks after CS falls: the second zero waits in the SPI's buffer until the first is sent.
 const WRITES: [u32; 2] = [34, 134];
-/// When CS rises, in ticks: the clocks of a frame from the first write on, and 0.5 µs for the DMA.
+/// Time at which CS rises, in ticks: the clocks of a frame from the first write on, and 0.5 µs for the DMA.
 const RISES: u32 =
     WRITES[0] + ad7380::timing::FRAME_CLOCKS * (APB2_TIMERS / SCLK) + APB2_TIMERS / 2_000_000;
-/// When nothing is under way, in ticks.
+/// Idle time between frames, in ticks.
 const QUIET: [u32; 2] = [RISES + 84, TICKS.saturating_sub(168)];
 
-/// What the DMA sends: the chip's no-operation.
+/// Word that the DMA sends: a no-operation of the chip.
 static ZERO: u16 = 0;
 
 /// The SPI's data pins.
 pub type Pins = (PA5<Alternate<5>>, PA6<Alternate<5>>, PA7<Alternate<5>>);
 
-/// The SPI, its frames' timer, and the chip behind them.
+/// The SPI, the timer of its frames, and the chip.
 pub struct SpiAdc {
     spi: SPI1,
     timer: TIM1,
@@ -62,7 +62,7 @@ impl SpiAdc {
     /// # Errors
     ///
     /// Those of [`Ad7380::new`].
-    // Compiled for the image that calls it.
+    // `inline`, so that it is compiled only in images that call it.
     #[inline]
     pub fn start(
         spi: SPI1,
@@ -72,15 +72,15 @@ impl SpiAdc {
         mut cs: PA8<Output>,
         (rcc, system): (&RCC, &SYSCFG),
     ) -> Result<Sampler<Self>, ad7380::Error<ErrorKind>> {
-        // AHB1ENR, APB2ENR: the clocks of all of them.
+        // AHB1ENR, APB2ENR: clocks of the DMA, SPI, timer and SYSCFG.
         rcc.ahb1enr().modify(|_, w| w.dma2en().set_bit());
         rcc.apb2enr()
             .modify(|_, w| w.spi1en().set_bit().tim1en().set_bit().syscfgen().set_bit());
         clock::settle();
         // CMPCR.CMP_PD: on, so that fast pins make less noise on the supply (RM0090, 9.1).
-        // SAFETY: a register whose bit 0 is to be written, which the crate's description of the chip has left out.
+        // SAFETY: it writes bit 0 of a register, a field that the crate's description of the chip lacks.
         unsafe { system.cmpcr().as_ptr().write_volatile(1) };
-        // CR1: master, CPOL 1 and CPHA 0 (the chip's mode 2), BR 2: APB2 over 8. SSM, SSI: CS is ours. DFF 0: bytes.
+        // CR1: master, CPOL 1 and CPHA 0 (the chip's mode 2), BR 2: APB2 over 8. SSM, SSI: CS is driven separately. DFF 0: bytes.
         spi.cr1().write(|w| {
             w.mstr().set_bit();
             w.cpol().set_bit();
@@ -109,21 +109,21 @@ impl SpiAdc {
     }
 
     fn configure(&self, dma: &DMA2) {
-        // CR1.DFF: words of 16 bits; it may change while SPE is off.
+        // CR1.DFF: words of 16 bits; it may change only while SPE is off.
         self.spi.cr1().modify(|_, w| w.spe().clear_bit());
         self.spi
             .cr1()
             .modify(|_, w| w.dff().set_bit().spe().set_bit());
         // Streams 2 and 6, channel 6: TIM1's compare events 2 and 3 (RM0090, 10.3.3).
         for stream in [dma.st(2), dma.st(6)] {
-            // SAFETY: one half-word again and again from a static to the SPI's data register.
+            // SAFETY: the streams copy one half-word, a static, to the SPI's data register, repeatedly.
             unsafe {
                 stream
                     .par()
                     .write(|w| w.bits(self.spi.dr().as_ptr() as u32));
                 stream.m0ar().write(|w| w.bits(&raw const ZERO as u32));
                 stream.ndtr().write(|w| w.bits(1));
-                // DIR 1: to the peripheral. MSIZE, PSIZE 1: 16 bits. PL 2: after the words that come in.
+                // DIR 1: to the peripheral. MSIZE, PSIZE 1: 16 bits. PL 2: below the priority of received words.
                 stream.cr().write(|w| {
                     w.chsel().bits(6);
                     w.pl().bits(0b10);
@@ -143,7 +143,7 @@ impl SpiAdc {
             timer.ccr1().write(|w| w.bits(RISES));
             timer.ccr2().write(|w| w.bits(WRITES[0]));
             timer.ccr3().write(|w| w.bits(WRITES[1]));
-            // CCMR1.OC1M 7: PWM mode 2, low until CCR1, high after. CCER.CC1E and BDTR.MOE: out to the pin.
+            // CCMR1.OC1M 7: PWM mode 2, low until CCR1, high after it. CCER.CC1E and BDTR.MOE: output to the pin.
             timer.ccmr1_output().write(|w| w.oc1m().bits(0b111));
             timer.ccer().write(|w| w.cc1e().set_bit());
             timer.bdtr().write(|w| w.moe().set_bit());
@@ -152,7 +152,7 @@ impl SpiAdc {
         }
     }
 
-    /// Waits for the time between two frames.
+    /// Waits for the idle time between two frames.
     fn wait(&self) {
         wait_for(QUIET, TICKS, || self.timer.cnt().read().bits());
     }
@@ -196,7 +196,7 @@ impl Converter for SpiAdc {
             let _ = self.spi.sr().read();
         }
         self.spi.cr2().modify(|_, w| w.rxdmaen().set_bit());
-        // SR 0: the compare events of past frames are forgotten, lest they ask for their writes now.
+        // SR 0: clears compare events of past frames, which would otherwise request their writes now.
         self.timer.sr().reset();
         self.timer
             .dier()
@@ -214,7 +214,7 @@ impl Converter for SpiAdc {
     }
 }
 
-/// The chip on its bus, by software: for its configuration.
+/// The chip on its bus by software, for its configuration.
 struct Device<'a> {
     spi: &'a SPI1,
     cs: &'a mut PA8<Output>,
@@ -222,9 +222,9 @@ struct Device<'a> {
 
 impl Device<'_> {
     fn exchange(&mut self, byte: u8) -> Result<u8, ErrorKind> {
-        // DR takes a byte only by an access of its own width where DFF is 0: its upper half is ignored.
+        // DR allows only accesses of its own width; with DFF 0 the upper half is ignored.
         self.spi.dr().write(|w| w.dr().set(u16::from(byte)));
-        // SR.RXNE: the byte that came meanwhile. A frame takes 130 cycles; a dead bus must not hang the start.
+        // SR.RXNE: a byte has come back. That takes 130 cycles; a dead bus must not hang the start.
         if (0..CORE / 1_000_000).any(|_| self.spi.sr().read().rxne().bit_is_set()) {
             Ok(self.spi.dr().read().dr().bits() as u8)
         } else {
@@ -272,10 +272,10 @@ impl SpiDevice for Device<'_> {
             Ok(())
         };
         let result = run();
-        // SR.BSY: the last byte is there half a clock before its frame has ended.
+        // SR.BSY: the last byte has arrived half a clock before the end of its frame.
         let _ = (0..CORE / 1_000_000).any(|_| self.spi.sr().read().bsy().bit_is_clear());
         self.cs.set_high();
-        // CS is high for 10 ns at least.
+        // CS must be high for at least 10 ns.
         cortex_m::asm::delay(8);
         result
     }

@@ -1,4 +1,4 @@
-//! The independent watchdog: it has an oscillator of its own and cannot be stopped.
+//! The independent watchdog, which has its own oscillator and cannot be stopped.
 
 #![allow(unsafe_code, reason = "the registers take any bits")]
 
@@ -6,22 +6,22 @@ use stm32f4xx_hal::pac::{DBGMCU, IWDG};
 
 use crate::settings::WATCHDOG_MS;
 
-/// Ticks a millisecond: the 32 kHz oscillator over 32, within 47 %.
+/// Reload value in ticks of a millisecond, within 47 %: the 32 kHz oscillator over 32.
 const RELOAD: u16 = WATCHDOG_MS as u16;
 const _: () = assert!(
     WATCHDOG_MS > 0 && WATCHDOG_MS < 1 << 12,
     "WATCHDOG_MS must be 1 to 4095"
 );
 
-/// Looks at its status before it is fed unready, some 12 ms at the start's 16 MHz. Its registers take five or six cycles of its
-/// clock, which by ST's own driver (stm32f4xx_hal_iwdg.c) may be those behind the divider: 11 ms at 17 kHz.
-const PATIENCE: u32 = 40_000;
+/// Polls of the status before the watchdog is fed in any case, some 12 ms at the initial 16 MHz. Its registers need five or six cycles of
+/// its clock, by ST's own driver (stm32f4xx_hal_iwdg.c) perhaps after the divider: 11 ms at 17 kHz.
+const MAX_POLLS: u32 = 40_000;
 
 /// The running watchdog.
 pub struct Watchdog(IWDG);
 
 impl Watchdog {
-    /// Starts it; it stands still while a debugger halts the core.
+    /// Starts the watchdog; it pauses while a debugger halts the core.
     pub fn start(iwdg: IWDG, debug: &DBGMCU) -> Self {
         // APB1_FZ.DBG_IWDG_STOP.
         debug.apb1_fz().modify(|_, w| w.dbg_iwdg_stop().set_bit());
@@ -30,18 +30,18 @@ impl Watchdog {
             // KR 0xCCCC starts it, 0x5555 opens PR and RLR, 0xAAAA loads the counter.
             iwdg.kr().write(|w| w.bits(0xCCCC));
             iwdg.kr().write(|w| w.bits(0x5555));
-            // PR 3: over 32.
+            // PR 3: division by 32.
             iwdg.pr().write(|w| w.bits(3));
             iwdg.rlr().write(|w| w.bits(RELOAD));
         }
-        // SR.PVU, RVU: until both values are in, feeding would load the reset's, which last for seconds.
-        let _ = (0..PATIENCE).any(|_| iwdg.sr().read().bits() == 0);
+        // SR.PVU, RVU: until both values are updated, feeding would load the reset values, which last for seconds.
+        let _ = (0..MAX_POLLS).any(|_| iwdg.sr().read().bits() == 0);
         let mut watchdog = Self(iwdg);
         watchdog.feed();
         watchdog
     }
 
-    /// Gives another [`WATCHDOG_MS`]; only a live pipeline may.
+    /// Restarts the count of [`WATCHDOG_MS`]; to be called only while the pipeline is alive.
     pub fn feed(&mut self) {
         // SAFETY: the key that loads the counter.
         self.0.kr().write(|w| unsafe { w.bits(0xAAAA) });

@@ -1,4 +1,4 @@
-//! Commands are obeyed and acknowledged.
+//! Execution and acknowledgement of commands.
 
 use antinode::Sample;
 use antinode_telemetry::{Acknowledgement, Command, CommandError, CommandFrame, Report};
@@ -9,7 +9,7 @@ use crate::methods::AVAILABLE;
 use crate::settings::RING;
 
 impl<S: Sample> Instrument<'_, S> {
-    /// Obeys a command and acknowledges it; true where it was done.
+    /// Executes a command and acknowledges it; true if it succeeded.
     pub(super) fn answer(&mut self, CommandFrame { id, command }: CommandFrame) -> bool {
         let result = self.obey(&command);
         let acknowledgement = Acknowledgement { id, result };
@@ -21,7 +21,7 @@ impl<S: Sample> Instrument<'_, S> {
         result.is_ok()
     }
 
-    // Rare: the main loop's stack need not hold what it needs.
+    // Not inlined, as it is rare: the main loop's frame stays small.
     #[cold]
     #[inline(never)]
     fn obey(&mut self, command: &Command) -> Result<(), CommandError> {
@@ -40,11 +40,11 @@ impl<S: Sample> Instrument<'_, S> {
             }
             Command::SetWindow { .. } | Command::SetHop { .. } | Command::SetCalibration(_) => {
                 let configuration = self.configuration.after(command, RING)?;
-                // Blocks are as they were, but for their calibration.
+                // A calibration changes no block, so that none need be discarded.
                 let is_new = !matches!(command, Command::SetCalibration(_));
                 if is_new {
                     self.ask(Request::Configure(configuration.settings))?;
-                    // What waits was gathered with the settings before.
+                    // Discards the blocks that wait: they were gathered with the old settings.
                     self.tracker.search();
                 }
                 self.tracker.change(configuration.settings)?;

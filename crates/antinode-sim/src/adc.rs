@@ -1,4 +1,4 @@
-//! The quantiser.
+//! The quantiser of the converter.
 
 use crate::flaws::Flaws;
 
@@ -51,7 +51,7 @@ mod tests {
     }
 
     #[test]
-    fn full_scale_and_beyond() {
+    fn values_at_full_scale_and_beyond_give_the_last_codes() {
         for bits in 2..=32 {
             let adc = adc(bits, 2.5);
             let (low, high) = (-(1i64 << (bits - 1)), (1i64 << (bits - 1)) - 1);
@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_code_and_its_value() {
+    fn a_value_gives_its_nearest_code_and_that_codes_value() {
         let adc = adc(12, 2.048);
         for code in -2048..2048 {
             let value = f64::from(code) * 0.001;

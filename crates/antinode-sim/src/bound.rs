@@ -1,4 +1,4 @@
-//! The Cramér-Rao bound: what no unbiased identification of a window can beat.
+//! The Cramér-Rao bound on unbiased identification of a window.
 
 use std::f64::consts::TAU;
 
@@ -7,11 +7,10 @@ use nalgebra::SMatrix;
 
 use crate::wave::Wave;
 
-/// Least standard deviations that an unbiased estimate from one window can have, in white noise of one a sample and channel.
+/// Smallest standard deviations of an unbiased estimate from one window, in white noise of rms 1 per sample and channel.
 ///
-/// They grow in proportion to the noise: for noise of sigma rms, multiply each by sigma. The Fisher information of (1)-(3) is
-/// summed over the window's samples and inverted, so that the bound holds for any window, short ones too. An estimate with a bias
-/// may scatter less.
+/// They are proportional to the noise: for noise of sigma rms, multiply each by sigma. The Fisher information of (1)-(3) is summed over the
+/// window's samples and inverted, so that the bound holds for any window, short ones too. An estimate with a bias may scatter less.
 ///
 /// ```
 /// use antinode_sim::{Bound, Wave};
@@ -23,21 +22,21 @@ use crate::wave::Wave;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bound {
-    /// Of a_A, in units of the noise.
+    /// Standard deviation of a_A, in units of the noise.
     pub main_amplitude: f64,
-    /// Of a_B, in units of the noise.
+    /// Standard deviation of a_B, in units of the noise.
     pub quadrature_amplitude: f64,
-    /// Of theta, rad for noise of one.
+    /// Standard deviation of theta, rad for noise of 1.
     pub angle: f64,
-    /// Of f, Hz for noise of one.
+    /// Standard deviation of f, Hz for noise of 1.
     pub frequency: f64,
 }
 
 impl Bound {
-    /// The bound for `samples` sample pairs at `sample_rate` Hz about the time `middle` (s), with a_A, a_B, theta, omega, alpha and the
-    /// offsets of both channels unknown, and constant over the window as `wave` has them at `middle`.
+    /// The bound for `samples` sample pairs at `sample_rate` Hz about the time `middle` (s). The unknowns are a_A, a_B, theta, omega, alpha
+    /// and the offsets of both channels, constant over the window with the values that `wave` has at `middle`.
     ///
-    /// `None` where the samples do not determine all seven: fewer than four, less than about half a period, or a_A = |a_B|.
+    /// `None` if the samples do not determine all seven: fewer than four, less than about half a period, or a_A = |a_B|.
     pub fn new(wave: &Wave, samples: u32, middle: f64, sample_rate: f64) -> Option<Self> {
         Self::of(
             fisher(wave, samples, middle, sample_rate),
@@ -58,7 +57,7 @@ impl Bound {
         sample_rate: f64,
     ) -> Option<Self> {
         let factor = fisher.cholesky()?;
-        // A pivot that is only the rounding of its diagonal: two unknowns that the window cannot tell apart.
+        // A pivot within the rounding of its diagonal: two unknowns that the window cannot tell apart.
         let determined = |i: usize| factor.l_dirty()[(i, i)].powi(2) > 1e-12 * fisher[(i, i)];
         if !(0..N).all(determined) {
             return None;
@@ -74,7 +73,7 @@ impl Bound {
     }
 }
 
-/// The Fisher matrix for noise of one: a_A, a_B, theta, omega (rad a window), alpha at the middle, offsets.
+/// The Fisher matrix for noise of rms 1: a_A, a_B, theta, omega (rad a window), alpha at the middle, both offsets.
 fn fisher(wave: &Wave, samples: u32, middle: f64, sample_rate: f64) -> SMatrix<f64, 7, 7> {
     let truth = wave.at(middle);
     let omega = TAU * truth.frequency / sample_rate;
@@ -85,7 +84,7 @@ fn fisher(wave: &Wave, samples: u32, middle: f64, sample_rate: f64) -> SMatrix<f
     for k in 0..samples {
         let t = f64::from(k) - 0.5 * (n - 1.0);
         let (s, c) = sincos(omega * t - truth.phase);
-        // Derivatives of (1)-(3): by tau and theta, then by each unknown. A window long keeps the matrix well scaled.
+        // Derivatives of (1)-(3) by tau and theta, then by each unknown. Time in window lengths keeps the matrix well scaled.
         let c_tau = -a * s * c2 - b * c * s2;
         let d_tau = -a * s * s2 + b * c * c2;
         let c_angle = -2.0 * (a * c * s2 + b * s * c2);
@@ -107,7 +106,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn long_windows_have_the_closed_forms() {
+    fn in_long_windows_the_bound_equals_the_closed_forms() {
         let wave = Wave::default();
         let (n, rate) = (18_755, 100_000.0);
         let samples = f64::from(n);
@@ -134,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn unknown_offsets_cost_in_short_windows() {
+    fn unknown_offsets_raise_the_bound_in_short_windows_only() {
         let wave = Wave::default();
         let ratio = |n| {
             let [full, centred] = [Bound::new, Bound::centred].map(|bound| {
@@ -148,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_window_does_not_determine_has_no_bound() {
+    fn a_window_that_does_not_determine_the_wave_has_no_bound() {
         let wave = Wave::default();
         for samples in [0, 1, 2, 3] {
             assert_eq!(

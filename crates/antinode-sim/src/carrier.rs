@@ -1,13 +1,13 @@
-//! What the two pick-offs see, by complex rotation: no sine or cosine at sample rate.
+//! Clean pick-off signals by complex rotation, without a sine or cosine per sample.
 //!
-//! The standing wave is two waves that run against each other: with u = S_C + j S_D, (1)-(3) read
+//! The standing wave is the sum of two waves that travel in opposite directions: with u = S_C + j S_D, (1)-(3) read
 //!
 //! ```text
 //! u = (a_A + a_B)/2 exp(j(2 theta + tau)) + (a_A - a_B)/2 exp(j(2 theta - tau))
 //! ```
 //!
-//! and, as long as the frequency does not drift, each of them is multiplied by one complex constant a sample, whatever the
-//! precession and the decay; where the resonator has splits, both by a constant matrix.
+//! As long as the frequency does not drift, each of them is multiplied by a complex constant per sample, whatever the precession and the
+//! decay; if the resonator has splits, both are multiplied by a constant matrix.
 
 use crate::complex::{Complex, polar};
 use crate::time::Instant;
@@ -15,27 +15,27 @@ use crate::wave::Wave;
 use libm::exp;
 use std::f64::consts::TAU;
 
-/// Samples a block: the two waves are found anew at the head of each block, and carried through it by a table.
+/// Samples of a block: both waves are computed by the formulas at its head, and carried through it by a table.
 const BLOCK: u64 = 64;
 
-/// What can be carried through a block.
+/// A wave that can be carried through a block.
 pub(crate) trait Carried {
-    /// What moves, as it stands at the head of a block.
+    /// State of the travelling waves at the head of a block.
     type Waves: Copy;
-    /// What moves it on by a time.
+    /// Factor that advances them by a time.
     type Step;
 
     /// The waves at an instant.
     fn waves(&self, instant: Instant) -> Self::Waves;
 
-    /// What the time from t = 0 to an instant does to any waves.
+    /// The step from t = 0 to an instant, which is the same for any waves.
     fn step(&self, instant: Instant) -> Self::Step;
 
-    /// [S_C, S_D] when these waves have moved on by `step`.
+    /// [S_C, S_D] after these waves have advanced by `step`.
     fn pick_offs(waves: &Self::Waves, step: &Self::Step) -> [f64; 2];
 }
 
-/// The wave that runs forward (2 theta + tau) and the one that runs back (2 theta - tau).
+/// The wave that travels forward (2 theta + tau) and the one that travels back (2 theta - tau).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Running {
     forward: Complex,
@@ -45,7 +45,7 @@ pub(crate) struct Running {
 /// Without splits.
 impl Carried for Wave {
     type Waves = Running;
-    /// The running waves of a wave of unit running waves that starts with no angle and no phase.
+    /// Both waves, from unit waves without angle and phase at t = 0.
     type Step = Running;
 
     fn waves(&self, instant: Instant) -> Running {
@@ -139,7 +139,7 @@ mod tests {
         }
     }
 
-    /// The largest difference of a carrier from the formulas.
+    /// The largest difference between a carrier and the formulas.
     fn worst<W: Carried>(wave: &Wave, carried: W) -> f64 {
         let (rate, skew) = (100_000.0, 1.3e-6);
         let mut carrier = Carrier::new(carried, rate, skew);
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn without_skew_both_are_one() {
+    fn without_skew_both_pairs_are_equal() {
         let mut carrier = Carrier::new(Wave::default(), 100_000.0, 0.0);
         for index in [0, 1, 64, 130] {
             let (on_time, late) = carrier.at(index);

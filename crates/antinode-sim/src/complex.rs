@@ -1,4 +1,4 @@
-//! Complex numbers by `libm`: what [`Complex`] has of its own is the standard library's, which differs between platforms.
+//! Functions of complex numbers by `libm`: those of [`Complex`] itself use the standard library, which differs between platforms.
 
 use libm::{atan2, fabs, hypot, sincos, sqrt};
 
@@ -13,14 +13,14 @@ pub(crate) fn size(z: Complex) -> f64 {
     hypot(z.re, z.im)
 }
 
-/// -pi to pi; 0 of 0.
+/// The argument, -pi to pi; 0 for z = 0.
 pub(crate) fn angle(z: Complex) -> f64 {
     atan2(z.im, z.re)
 }
 
-/// The square root whose real part is 0 or more: 0 to the bit for a negative number.
+/// The square root with a real part of 0 or more; for a negative number it is exactly 0.
 pub(crate) fn root(z: Complex) -> Complex {
-    // The part that is not a difference of near numbers first.
+    // First the larger part, which is not a difference of nearly equal numbers.
     let large = sqrt(0.5 * (size(z) + fabs(z.re)));
     if large == 0.0 {
         return Complex::new(0.0, 0.0);
@@ -38,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn roots_are_roots() {
+    fn squares_of_roots_are_the_numbers() {
         for (re, im) in [
             (3.0, 4.0),
             (-3.0, 4.0),

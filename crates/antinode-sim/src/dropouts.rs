@@ -1,4 +1,4 @@
-//! Dropouts, made ready for the stream.
+//! Dropouts as spans of samples, with the values recorded in them.
 
 use crate::error::Error;
 use crate::flaws::Flaws;
@@ -6,7 +6,7 @@ use crate::front::{Front, Input};
 use crate::spans::{Span, Spans, check_apart};
 use crate::timed::{Channel, DropoutKind};
 
-/// What one channel records in a dropout.
+/// Value that a channel records in a dropout.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Fill {
     Constant(f64),
@@ -48,7 +48,7 @@ pub(crate) fn fills(
                 Some(before) => {
                     let Input { signal, floor } = front.at(before);
                     let (signal, floor) = (signal[channel as usize], floor[channel as usize]);
-                    // The sample before may itself stand in a dropout.
+                    // The sample before may itself lie in a dropout.
                     let last = filled.last().filter(|last| last.end == span.first);
                     last.map_or(signal, |last| last.what.value(floor))
                 }

@@ -1,6 +1,6 @@
-//! What can be wrong with the description of a gyro.
+//! Errors in the description of a gyro.
 
-/// Why a [`Gyro`](crate::Gyro) cannot be made: what was wrong, and (in the message) what would be right.
+/// Why a [`Gyro`](crate::Gyro) cannot be constructed; the message also says what would be right.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -30,7 +30,7 @@ pub enum Error {
         "one of {what} goes from {from} s to {to} s: it must end after it begins, and both ends must be finite"
     )]
     EmptySpan {
-        /// The list it stands in: `dropouts` or `clip_spans`.
+        /// The list with the span: `dropouts` or `clip_spans`.
         what: &'static str,
         /// Its beginning as given, s.
         from: f64,
@@ -45,7 +45,7 @@ pub enum Error {
         /// The index, in true time, of the first sample they share.
         index: u64,
     },
-    /// A loss that reaches beyond sample 2^53, where an index is no longer an exact `f64`.
+    /// A loss that reaches beyond sample 2^53, from which on an index is not always an exact `f64`.
     #[error("{count} samples are lost from sample {at} on: a loss must end before sample 2^53")]
     EndlessLoss {
         /// The index of the first sample lost.
@@ -53,12 +53,12 @@ pub enum Error {
         /// The number of samples lost.
         count: u64,
     },
-    /// ADC codes were asked of a gyro that has no ADC.
+    /// ADC codes were requested from a gyro without an ADC.
     #[error("there are no ADC codes without an ADC: set bits and full_scale")]
     NoBits,
 }
 
-/// Refuses a value that does not hold.
+/// An error for `value` unless `holds`.
 pub(crate) fn require(
     what: &'static str,
     value: f64,

@@ -1,12 +1,12 @@
-//! The flaws of the electronics, as they are asked for.
+//! The description of the electronics' flaws.
 
 use crate::error::{Error, finite, positive, require};
 use crate::timed::{ClipSpan, Dropout, Loss};
 use serde::{Deserialize, Serialize};
 
-/// Everything between the resonator and the record. The default is none of it.
+/// Flaws of everything between the resonator and the record; none by default.
 ///
-/// The flaws act in this order, each on what the one before it gives:
+/// They act in this order, each on the result of the one before:
 ///
 /// 1. the sampling instants move (`jitter`, both channels alike);
 /// 2. the pick-offs see the wave there (`skew`, `pick_off_angle`);
@@ -18,17 +18,17 @@ use serde::{Deserialize, Serialize};
 /// 8. the ADC quantises, and saturates (`bits`, `full_scale`);
 /// 9. samples are lost (`lost`).
 ///
-/// In the formulas below, to first order in the flaw, theta is the angle, E = a_A^2 + a_B^2, D = a_A^2 - a_B^2 and
-/// Q = 2 a_A a_B; they say what an exact identification of (1)-(3) finds too much of.
+/// The formulas below give, to first order in the flaw, the values that an exact identification of (1)-(3) then finds; theta is the true
+/// angle, E = a_A^2 + a_B^2, D = a_A^2 - a_B^2 and Q = 2 a_A a_B.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Flaws {
     /// Rms of the noise of (2): white, Gaussian, independent in the two channels. Input units, 0 or more.
     pub noise: f64,
-    /// Rms of noise beside it that is not white but that behind a low-pass of first order: white below `coloured_corner`, 1/f^2 in power
-    /// above. Gaussian, independent in the two channels, of the same rms from the first sample on. Input units, 0 or more.
+    /// Rms of additional noise behind a first-order low-pass: white below `coloured_corner`, 1/f^2 in power above it. Gaussian, independent
+    /// in the two channels, of the same rms from the first sample on. Input units, 0 or more.
     pub coloured_noise: f64,
-    /// Corner of that low-pass, Hz, above 0: some Hz for an offset that wanders, some kHz for a front end.
+    /// Corner of that low-pass, Hz, above 0: some Hz for a wandering offset, some kHz for a front end.
     pub coloured_corner: f64,
     /// Offset of channel C, input units.
     pub offset_c: f64,
@@ -42,7 +42,7 @@ pub struct Flaws {
     ///
     /// For 1 + g: a_A + g a_A (1 - cos 4 theta) / 2, theta + g (E/D) sin 4 theta / 4.
     pub gain_ratio: f64,
-    /// Channel D is sampled this much later than channel C, s, signed.
+    /// Delay of channel D's sampling after channel C's, s, signed.
     ///
     /// For psi = omega `skew`: a_B - psi a_A sin 4 theta / 2, theta + psi (Q/D) cos 4 theta / 4.
     pub skew: f64,
@@ -59,7 +59,7 @@ pub struct Flaws {
     /// For one channel alone with amplitude a above the limit c, r = c/a: the amplitude of its fundamental changes by the factor
     /// (2/pi) (asin r + r sqrt(1 - r^2)).
     pub clip: Option<f64>,
-    /// Clipping between two moments only. They must not overlap; the lower of this and `clip` counts.
+    /// Clipping during spans of time, which must not overlap; the lower of their level and `clip` applies.
     pub clip_spans: Vec<ClipSpan>,
     /// Resolution of the ADC, 2 to 32 bits: codes from -2^(bits-1) to 2^(bits-1) - 1. `None` = no ADC.
     pub bits: Option<u32>,
@@ -70,7 +70,7 @@ pub struct Flaws {
     pub jitter: f64,
     /// Samples that never reach the record, in both channels. Losses may overlap.
     pub lost: Vec<Loss>,
-    /// Times without a signal. Those of one channel must not overlap.
+    /// Spans of time without a signal. Those of one channel must not overlap.
     pub dropouts: Vec<Dropout>,
 }
 
@@ -107,7 +107,7 @@ impl Flaws {
             .map(|bits| self.full_scale / libm::exp2(f64::from(bits) - 1.0))
     }
 
-    /// Ranges of the single numbers (lists are checked where they are put in order).
+    /// Checks the ranges of single numbers; lists are checked when they are sorted.
     pub(crate) fn check(&self) -> Result<(), Error> {
         for (what, value) in [
             ("offset_c", self.offset_c),
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn the_step_of_the_adc() {
+    fn one_code_is_full_scale_over_half_the_codes() {
         assert_eq!(
             Flaws {
                 bits: Some(16),

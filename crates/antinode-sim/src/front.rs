@@ -11,20 +11,20 @@ use libm::sincos;
 /// The converter's input at one sample.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Input {
-    /// The whole of it.
+    /// Wave and floor together.
     pub signal: [f64; 2],
-    /// What is left of it without the wave: offset, hum and noise.
+    /// The signal without the wave: offset, hum and noise.
     pub floor: [f64; 2],
 }
 
-/// Where the clean signals come from.
+/// How the clean signals are computed.
 #[derive(Debug, Clone)]
 enum Source {
-    /// Even instants and a steady frequency: by complex rotation.
+    /// By complex rotation: without jitter and frequency drift.
     Steady(Box<Carrier<Wave>>),
-    /// The same of a resonator with splits.
+    /// The same for a resonator with splits.
     Split(Box<Carrier<SplitWave>>),
-    /// Anything else: by the formulas.
+    /// By the formulas, in all other cases.
     Formulas { jitter: Option<(f64, Normals)> },
 }
 

@@ -11,18 +11,18 @@ use crate::timed::Channel;
 use crate::wave::{Truth, Wave};
 
 /// The last index that is an exact `f64`.
-const LAST: u64 = 1 << 53;
+const MAX_INDEX: u64 = 1 << 53;
 
 /// A synthetic gyro: an endless iterator of its sample pairs, [S_C, S_D] of (2), input units.
 ///
-/// Sample `k` of true time is at `k` / sample rate s. It is a function of the arguments of [`Gyro::new`] and `k` alone:
-/// [`Iterator::nth`] and [`Iterator::skip`] jump at no cost, but that coloured noise is computed all the way, and lost samples change none of the others.
+/// Sample `k` of true time is at `k` / sample rate s. It is a function of the arguments of [`Gyro::new`] and `k` alone, so lost samples
+/// change none of the others. [`Iterator::nth`] and [`Iterator::skip`] jump at no cost, except that coloured noise is computed all the way.
 #[derive(Debug, Clone)]
 pub struct Gyro {
     wave: Wave,
     sample_rate: f64,
     front: Front,
-    /// Of C and of D.
+    /// Dropouts of C and of D.
     dropouts: [Spans<Fill>; 2],
     clip: f64,
     clip_spans: Spans<f64>,
@@ -38,7 +38,7 @@ impl Gyro {
     ///
     /// # Errors
     ///
-    /// The first fault found of those that [`Error`] names, but for [`Error::NoBits`].
+    /// The first of the faults listed in [`Error`] that is found, except [`Error::NoBits`].
     pub fn new(wave: Wave, flaws: Flaws, sample_rate: f64, seed: u64) -> Result<Gyro, Error> {
         positive("sample_rate", sample_rate)?;
         wave.check()?;
@@ -57,7 +57,7 @@ impl Gyro {
             .lost
             .iter()
             .map(|loss| match loss.at.checked_add(loss.count) {
-                Some(end) if end <= LAST => Ok(Span {
+                Some(end) if end <= MAX_INDEX => Ok(Span {
                     first: loss.at,
                     end,
                     what: (),
@@ -83,12 +83,12 @@ impl Gyro {
         Ok(gyro)
     }
 
-    /// The index, in true time, of the next sample that comes out (lost samples count, but never come out).
+    /// The index, in true time, of the next sample to be given (lost samples count, but are never given).
     pub fn index(&self) -> u64 {
         self.next
     }
 
-    /// The wave at sample `index` of true time, whether lost or not.
+    /// The true wave at sample `index` of true time, whether lost or not.
     pub fn truth_at(&self, index: u64) -> Truth {
         self.wave
             .at_instant(Instant::of_sample(index, self.sample_rate))
@@ -98,13 +98,13 @@ impl Gyro {
     ///
     /// # Errors
     ///
-    /// [`Error::NoBits`] where [`Flaws::bits`] is `None`.
+    /// [`Error::NoBits`] if [`Flaws::bits`] is `None`.
     pub fn codes(self) -> Result<Codes, Error> {
         let adc = self.adc.ok_or(Error::NoBits)?;
         Ok(Codes { gyro: self, adc })
     }
 
-    /// Moves `next` past the losses it stands in.
+    /// Moves `next` past the losses in which it lies.
     fn pass_lost(&mut self) {
         while let Some(span) = self.lost.at(self.next) {
             self.next = span.end;
@@ -130,7 +130,7 @@ impl Gyro {
         pair.map(|s| s.max(-level).min(level))
     }
 
-    /// Moves on by `count` samples that would have come out.
+    /// Skips `count` samples that would have been given.
     fn pass(&mut self, mut count: u64) {
         while let Some(loss) = self.lost.from(self.next)
             && loss.first - self.next <= count
@@ -172,7 +172,7 @@ pub struct Codes {
 }
 
 impl Codes {
-    /// The index, in true time, of the next sample that comes out.
+    /// The index, in true time, of the next sample to be given.
     pub fn index(&self) -> u64 {
         self.gyro.index()
     }

@@ -1,7 +1,7 @@
 //! Synthetic two-mode Coriolis vibratory gyros (hemispherical resonators and their kin), for tests and for trying out
-//! identification on signals whose truth is known.
+//! identification on signals of a known wave.
 //!
-//! A freely ringing resonator carries a standing wave. Two pick-offs 45° apart see it as
+//! A freely ringing resonator carries a standing wave. Two pick-offs 45° apart sense it as
 //!
 //! ```text
 //! tau = omega t - alpha,   A = a_A cos tau,   B = a_B sin tau              (1)
@@ -11,11 +11,11 @@
 //!
 //! The numbers are those of Mingazov & Shishakov 2021, DOI 10.22213/2410-9304-2021-3-12-24; they are used throughout.
 //!
-//! * [`Wave`] is the truth: the five numbers of (1)-(3), their rates, and the resonator's splits of damping and frequency.
+//! * [`Wave`] is the truth: the five parameters of (1)-(3), their rates, and the resonator's splits of damping and frequency.
 //! * [`Flaws`] is everything between the resonator and the file: noise, offset, gain, skew, clipping, quantisation, lost
 //!   samples and so on. Its documentation gives the order in which they act.
 //! * [`Gyro`] is the stream of samples, an endless iterator of pairs [S_C, S_D]; [`Gyro::codes`] gives the ADC's integers.
-//! * [`Bound`] is how well a window of the wave can be identified at all: the Cramér-Rao bound.
+//! * [`Bound`] is the Cramér-Rao bound: how well a window of the wave can be identified at all.
 //!
 //! # Reproducible
 //! The same wave, flaws, rate and seed give the same bits on every platform: the generator is PCG64-DXSM, every

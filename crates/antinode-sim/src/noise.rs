@@ -1,14 +1,14 @@
-//! Random numbers that are the same everywhere: PCG64-DXSM, and Box & Muller's normals over `libm`.
+//! Random numbers that are the same on every platform: PCG64-DXSM, and normals by Box & Muller with `libm`.
 
 use libm::{exp, expm1, log, sincos, sqrt};
 use rand_pcg::Pcg64Dxsm;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use std::f64::consts::TAU;
 
-/// 2^-53: the step of the uniform numbers.
+/// Step of the uniform numbers, 2^-53.
 const STEP: f64 = 1.0 / (1u64 << 53) as f64;
 
-/// What the numbers are for: different streams of one seed are independent.
+/// Purpose of the numbers: different streams of one seed are independent.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Stream {
     Noise = 1,
@@ -23,7 +23,7 @@ pub(crate) struct Uniform(Pcg64Dxsm);
 
 impl Uniform {
     pub fn new(seed: u64, stream: Stream) -> Uniform {
-        // An odd multiplier keeps the streams apart; the seeding itself mixes.
+        // The odd multiplier gives each stream its own seed; the seeding itself mixes the bits.
         let apart = (stream as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         Uniform(Pcg64Dxsm::seed_from_u64(seed ^ apart))
     }
@@ -38,7 +38,7 @@ impl Uniform {
     }
 }
 
-/// Pairs of independent standard normal numbers, pair `index` being a function of the seed and `index` alone.
+/// Pairs of independent standard normal numbers; pair `index` is a function of the seed and `index` alone.
 #[derive(Debug, Clone)]
 pub(crate) struct Normals {
     origin: Pcg64Dxsm,
@@ -68,12 +68,12 @@ impl Normals {
     }
 }
 
-/// Pairs of independent numbers of unit variance behind a low-pass of first order. Each follows from those before it: a jump costs as many
-/// steps as it is far, and one backwards as many as its end is from the first.
+/// Pairs of independent normal numbers behind a first-order low-pass, of unit variance. Each depends on those before it: a jump forwards is
+/// computed step by step, and one backwards from the first pair on.
 #[derive(Debug, Clone)]
 pub(crate) struct Coloured {
     normals: Normals,
-    /// What stays of a number in the next one, and what is new in that.
+    /// Share of a number in the next one, and share of new noise in that.
     shares: (f64, f64),
     now: (f64, f64),
     next: u64,
@@ -96,7 +96,7 @@ impl Coloured {
         }
         while self.next <= index {
             let new = self.normals.pair(self.next);
-            // The first is as large as all others.
+            // The first has the full variance at once.
             let (stays, adds) = if self.next == 0 {
                 (0.0, 1.0)
             } else {
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn the_tails_are_there() {
+    fn the_normals_have_their_tails() {
         // 2e6 numbers: 1.27e2 beyond 4, 1.1 beyond 5, none beyond 8.6 (the end of 53 bits).
         let mut normals = Normals::new(12, Stream::Noise);
         let far = (0..1_000_000)
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn coloured_pairs_are_those_of_a_low_pass() {
+    fn coloured_pairs_are_correlated_as_behind_a_low_pass() {
         let mut coloured = Coloured::new(7, 2000.0, 100_000.0);
         let n = 1_000_000u64;
         let pairs: Vec<_> = (0..n).map(|k| coloured.pair(k)).collect();
@@ -174,7 +174,7 @@ mod tests {
                 (mean(lag, |now, later| now.1 * later.1), kept),
                 (mean(lag, |now, later| now.0 * later.1), 0.0),
             ] {
-                // Four to five standard errors, of n / 8 pairs that tell something by themselves.
+                // Four to five standard errors of n / 8 independent pairs.
                 assert!((found - expected).abs() < 0.015, "{lag}: {found}");
             }
         }

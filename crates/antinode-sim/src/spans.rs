@@ -1,9 +1,9 @@
-//! Spans of samples, walked in step with the stream.
+//! Spans of samples, followed in step with the stream.
 
 use crate::error::Error;
 use crate::time::first_sample_from;
 
-/// Samples `first` to `end`, `end` left out, and what happens to them.
+/// Samples from `first` to before `end`, and what happens to them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Span<T> {
     pub first: u64,
@@ -50,7 +50,7 @@ pub(crate) fn check_apart<T>(spans: &[Span<T>], list: &'static str) -> Result<()
     Ok(())
 }
 
-/// Spans in order of time, asked about indices that never fall.
+/// Spans in order of time, for look-ups of indices that never decrease.
 #[derive(Debug, Clone)]
 pub(crate) struct Spans<T> {
     spans: Vec<Span<T>>,
@@ -69,7 +69,7 @@ impl<T: Copy> Spans<T> {
         &self.spans
     }
 
-    /// The span that `index` stands in or, if none, the next one.
+    /// The span that contains `index` or, if none does, the next one.
     pub fn from(&mut self, index: u64) -> Option<Span<T>> {
         while self.spans.get(self.current)?.end <= index {
             self.current += 1;
@@ -77,7 +77,7 @@ impl<T: Copy> Spans<T> {
         self.spans.get(self.current).copied()
     }
 
-    /// The span that `index` stands in.
+    /// The span that contains `index`.
     pub fn at(&mut self, index: u64) -> Option<Span<T>> {
         self.from(index).filter(|span| span.first <= index)
     }
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn spans_are_found_in_step() {
+    fn each_index_finds_the_span_that_contains_it() {
         let span = |first, end, what| Span { first, end, what };
         let mut spans = Spans::new(vec![
             span(7, 9, 'b'),

@@ -1,6 +1,6 @@
-//! A wave on a resonator whose two modes differ, in closed form.
+//! A wave on a resonator with two modes that differ, in closed form.
 //!
-//! The two waves that run against each other are F and G here:
+//! Its two waves that travel in opposite directions are F and G here:
 //!
 //! ```text
 //! S_C + j S_D = exp(2j theta) (F E + conj(G E)) / 2,   E = exp(j tau)
@@ -15,8 +15,8 @@
 //! ```
 //!
 //! delta being the damping split, Delta f the frequency split, theta_delta and theta_f their angles. The square of N is s^2 times
-//! unity, so that exp(N t) = cosh(s t) + N sinh(s t) / s at any t. Where the splits and the rotation cancel, s is 0 and N has one
-//! eigenvector only; sinh(s t) / s is t then, and nothing else is special.
+//! unity, so that exp(N t) = cosh(s t) + N sinh(s t) / s at any t. If splits and rotation cancel, s is 0 and N has only one eigenvector;
+//! sinh(s t) / s then becomes t, and nothing else is special.
 
 use crate::carrier::Carried;
 use crate::complex::{Complex, angle, polar, root, size};
@@ -26,10 +26,10 @@ use libm::{copysign, exp, expm1, fabs, log, sincos};
 use nalgebra::{Matrix2, Vector2};
 use std::f64::consts::{PI, TAU};
 
-/// Up to this sinh(x) / x is 1 + x^2 / 6 to the last bit.
+/// Limit of x up to which sinh(x) / x is 1 + x^2 / 6 to the last bit.
 const SMALL: f64 = 1e-4;
 
-/// A wave with splits, and what moves it.
+/// A wave with splits, and the matrix of its motion.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SplitWave {
     wave: Wave,
@@ -67,11 +67,11 @@ impl SplitWave {
         }
     }
 
-    /// What F and G at one time are multiplied by until `time` s later, as a positive number and a matrix of moderate size.
+    /// Factor of F and G over `time` s, as a positive number and a matrix of moderate size.
     fn moved(&self, time: f64) -> (f64, Matrix2<Complex>) {
         let x = self.root * time;
         let grown = fabs(x.re);
-        // cosh and sinh of the real part over exp(grown): they would overflow where the decay takes it all back.
+        // cosh and sinh of the real part over exp(grown), which might overflow although the decay compensates it.
         let cosh = 0.5 * (1.0 + exp(-2.0 * grown));
         let sinh = copysign(-0.5 * expm1(-2.0 * grown), x.re);
         let (sin, cos) = sincos(x.im);
@@ -85,7 +85,7 @@ impl SplitWave {
         (exp(grown - self.wave.decay_rate * time), matrix)
     }
 
-    /// E, of so many turns of the frequency.
+    /// E after `turns` turns of the frequency.
     fn carrier(turns: f64, phase: f64) -> Complex {
         polar(1.0, TAU * turns - phase)
     }
@@ -96,7 +96,7 @@ impl SplitWave {
         let waves = matrix * self.start;
         let sizes = waves.map(size);
         let [of_f, of_g] = [0, 1].map(|i| self.turned(i, time, angle(waves[i])));
-        // Growth and turn of F and G, 1/s; where one is nothing, as if it were alone.
+        // Growth and turn of F and G, 1/s; if one is 0, its diagonal element of N.
         let slopes = self.matrix * waves;
         let [f, g] = [0, 1].map(|i| {
             if sizes[i] > 0.0 {
@@ -119,10 +119,10 @@ impl SplitWave {
         }
     }
 
-    /// By what F (0) or G (1) has turned since t = 0, rad, its angle now being `angle` or that and whole turns.
+    /// The turn of F (0) or G (1) since t = 0, rad: its angle `now` plus whole turns.
     ///
-    /// It is a exp(s t) + b exp(-s t). The larger of the two leads and the smaller takes it no more than a quarter turn away; where
-    /// both are as large, once if ever, the lead changes.
+    /// F and G have the form a exp(s t) + b exp(-s t). The larger term leads, and the smaller one adds no more than a quarter turn to it;
+    /// the lead changes at most once, when both are equally large.
     fn turned(&self, i: usize, time: f64, now: f64) -> f64 {
         let s = self.root;
         if size(s * time) <= SMALL {
@@ -130,7 +130,7 @@ impl SplitWave {
         }
         let rest = (self.matrix * self.start)[i] / s;
         let (a, b) = (self.start[i] + rest, self.start[i] - rest);
-        // Where s.re * t is this, both are as large.
+        // The value of s.re * t at which both are equally large.
         let even = 0.5 * log(size(b) / size(a));
         let angles = |t: f64| (angle(a) + s.im * t, angle(b) - s.im * t);
         let a_leads = |t: f64| s.re * t >= even;
@@ -163,7 +163,7 @@ impl SplitWave {
 impl Carried for SplitWave {
     /// F E / 2 and G E / 2.
     type Waves = Vector2<Complex>;
-    /// What S_C is the real part of, and S_D the imaginary one, for F E / 2 and G E / 2 of one.
+    /// Factors of F E / 2 and G E / 2: S_C is the real part of the first sum of products, S_D the imaginary part of the second.
     type Step = [Vector2<Complex>; 2];
 
     fn waves(&self, instant: Instant) -> Self::Waves {

@@ -40,7 +40,7 @@ impl Instant {
 
     /// Turns of `frequency` t + `frequency_rate` t^2 / 2, less a whole number of turns: -0.5 to 0.5.
     ///
-    /// Right to some 1e-16 turns, however many turns there were: what each product rounds off is added back.
+    /// Accurate to some 1e-16 turns, however many turns there were: the rounding error of each product is added back.
     pub fn turns(self, frequency: f64, frequency_rate: f64) -> f64 {
         let steady = frequency * self.hi;
         let steady_rest = fma(frequency, self.hi, -steady) + frequency * self.lo;
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shift_turns_as_far_late_as_early() {
+    fn a_shift_turns_as_far_late_in_a_record_as_early() {
         let f = 5332.0;
         let early = Instant::of_sample(10, 100_000.0);
         let late = Instant::of_sample(3_600_000_010, 100_000.0);
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn spans_begin_on_the_sample_meant() {
+    fn a_time_of_a_sample_gives_that_sample() {
         // 0.07 * 100000 is 7000.000000000001
         assert_eq!(first_sample_from(0.07, 100_000.0), 7000);
         for k in 0..20_000u64 {

@@ -1,4 +1,4 @@
-//! Flaws that last for a time, as they are asked for.
+//! The description of flaws of limited duration.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ pub struct Loss {
     pub count: u64,
 }
 
-/// A time without a signal: the samples `k` with `from` <= k / sample rate < `to`.
+/// A span of time without a signal: the samples `k` with `from` <= k / sample rate < `to`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dropout {
@@ -51,7 +51,7 @@ pub enum Channel {
     D,
 }
 
-/// Clipping for a time: the samples `k` with `from` <= k / sample rate < `to`.
+/// Clipping for a span of time: the samples `k` with `from` <= k / sample rate < `to`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ClipSpan {

@@ -7,7 +7,7 @@ use libm::{exp, sincos};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
-/// The true wave; everything stands at t = 0, the time of the first sample.
+/// The true wave; all values are those at t = 0, the time of the first sample.
 ///
 /// (theta, alpha) and (theta + pi/2, alpha + pi) are the same motion: an angle found from the signals is known modulo pi/2.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -25,7 +25,7 @@ pub struct Wave {
     pub frequency: f64,
     /// Drift of the frequency, Hz/s, any.
     pub frequency_rate: f64,
-    /// What rotation turns the pattern by, rad/s, any: without splits theta(t) = theta + `angle_rate` t.
+    /// Rate at which rotation turns the pattern, rad/s, any: without splits theta(t) = theta + `angle_rate` t.
     pub angle_rate: f64,
     /// Decay, 1/s, any: without splits both amplitudes go as exp(-`decay_rate` t). Quality factor Q means pi f / Q.
     pub decay_rate: f64,
@@ -61,7 +61,7 @@ impl Default for Wave {
     }
 }
 
-/// The wave as it stands at one moment: what an identification over a short window about that moment should find.
+/// The true wave at one moment: the values that an identification over a short window about that moment should find.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Truth {
     /// The moment, s from the first sample.
@@ -78,7 +78,7 @@ pub struct Truth {
     pub phase: f64,
     /// f at that moment, Hz, tau' / 2 pi: with splits it changes with the pattern. Without meaning in a circle.
     pub frequency: f64,
-    /// Precession theta', rad/s: rotation, and what the splits turn the pattern by. Without meaning in a circle.
+    /// Precession theta', rad/s, by rotation and by the splits. Without meaning in a circle.
     pub angle_rate: f64,
     /// Decay of the main wave, -a_A' / a_A, 1/s.
     pub decay_rate: f64,
@@ -87,9 +87,8 @@ pub struct Truth {
 impl Wave {
     /// The wave at `t` s.
     ///
-    /// The phase is right to about 1e-15 rad for the `t` given, however late; with splits, to 1e-15 of what rotation and splits
-    /// have turned it by. But sample `k` is seldom at an exact `f64` of time: for it, use
-    /// [`Gyro::truth_at`](crate::Gyro::truth_at).
+    /// The phase is accurate to about 1e-15 rad for the `t` given, however late; with splits, to 1e-15 of the turn by rotation and splits.
+    /// But the time of sample `k` is seldom an exact `f64`: for a sample, use [`Gyro::truth_at`](crate::Gyro::truth_at).
     pub fn at(&self, t: f64) -> Truth {
         self.at_instant(Instant::of(t))
     }
@@ -101,7 +100,7 @@ impl Wave {
         self.steady_at(instant)
     }
 
-    /// Without splits.
+    /// The true wave at an instant, if there are no splits.
     pub(crate) fn steady_at(&self, instant: Instant) -> Truth {
         let time = instant.seconds();
         let decay = exp(-self.decay_rate * time);
@@ -269,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn theta_is_modulo_a_right_angle() {
+    fn an_angle_a_quarter_turn_on_with_the_opposite_phase_is_the_same_motion() {
         let wave = Wave::default();
         let same = Wave {
             angle: wave.angle + FRAC_PI_2,
@@ -281,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_wave_is_refused() {
+    fn values_out_of_range_are_refused() {
         let check = |set: fn(&mut Wave, f64), value| {
             let mut wave = Wave::default();
             set(&mut wave, value);

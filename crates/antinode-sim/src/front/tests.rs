@@ -1,4 +1,4 @@
-//! What each flaw adds, and nothing else.
+//! Each flaw adds what is documented, and nothing else.
 
 use super::*;
 
@@ -23,7 +23,7 @@ fn hum_is_added_to_both() {
 }
 
 #[test]
-fn noise_is_added_and_nothing_else() {
+fn noise_has_its_rms_and_is_independent_in_the_channels() {
     let wave = Wave::default();
     let clean = first(wave, Flaws::default(), 200_000);
     let noisy = first(
@@ -74,7 +74,7 @@ fn jitter_moves_both_channels_together() {
         let t = k as f64 / 100_000.0;
         let ([c, d], [c1, d1]) = (wave.pick_offs(t), wave.pick_offs(t + 1e-7));
         let (slope_c, slope_d) = ((c1 - c) / 1e-7, (d1 - d) / 1e-7);
-        // Least squares for the one shift that explains both channels, and what it leaves.
+        // The shift that explains both channels by least squares, and its residual.
         let shift = ((pair[0] - c) * slope_c + (pair[1] - d) * slope_d)
             / (slope_c.powi(2) + slope_d.powi(2));
         let left = (pair[0] - c - shift * slope_c)
@@ -119,7 +119,7 @@ fn jitter_leaves_the_noise_as_it_was() {
 }
 
 #[test]
-fn drift_and_no_drift_agree_where_they_meet() {
+fn formulas_and_rotation_agree_for_a_negligible_drift() {
     let flaws = Flaws {
         skew: 1e-6,
         pick_off_angle: 0.01,

@@ -230,7 +230,7 @@ fn what_cannot_be_is_refused() {
             })
         ));
     }
-    for (at, count) in [(1, u64::MAX), (LAST, 1), (0, LAST + 1)] {
+    for (at, count) in [(1, u64::MAX), (MAX_INDEX, 1), (0, MAX_INDEX + 1)] {
         let error = new(
             Flaws {
                 lost: lost(&[(at, count)]),

@@ -1,11 +1,11 @@
-//! What the PC asks of the device.
+//! Commands from the PC to the device.
 
 use core::fmt;
 
 use antinode::{Calibration, SettingsError};
 use serde::{Deserialize, Serialize};
 
-/// What the PC asks of the device.
+/// Command from the PC to the device.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Command {
     /// Send a [`Hello`](crate::Hello).
@@ -15,16 +15,16 @@ pub enum Command {
         /// Periods a window, 2 to the device's ring of blocks less 2.
         periods: u16,
     },
-    /// Change the step from window to window.
+    /// Change the hop from window to window.
     SetHop {
-        /// Blocks from the start of one window to that of the next, at least 1; `None`: windows follow each other.
+        /// Blocks from the start of one window to that of the next, at least 1; with `None` windows follow each other.
         blocks: Option<u16>,
     },
     /// Change the correction of the pick-offs; its ranges are those of [`Calibration`].
     SetCalibration(Calibration),
-    /// Compute and send the paper's methods beside every estimate, or no longer.
+    /// Switch the computation of the paper's methods beside every estimate on or off.
     SetMethods {
-        /// True: send them.
+        /// True to send them.
         on: bool,
     },
     /// Reset the device, once the command is acknowledged.
@@ -35,13 +35,13 @@ pub enum Command {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum CommandError {
-    /// A value that cannot be; the error names what could.
+    /// A value out of its range; the error names the range.
     Settings(SettingsError),
-    /// This firmware was built without what is asked.
+    /// The firmware was built without the feature.
     Unsupported,
-    /// The paper's methods, beside a calibration: they know of none. Turn them off, or set the ideal one.
+    /// The paper's methods would run with a calibration, which they ignore: turn them off, or set the ideal one.
     Calibrated,
-    /// Another change is under way: ask again in a moment.
+    /// Another change is in progress: try again in a moment.
     Busy,
 }
 

@@ -1,11 +1,11 @@
-//! What the device is set to.
+//! The configuration of the device.
 
 use antinode::{Calibration, Settings};
 use serde::{Deserialize, Serialize};
 
 use crate::command::{Command, CommandError};
 
-/// Where the device's samples come from.
+/// Source of the device's samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum FrontEnd {
@@ -23,14 +23,14 @@ pub enum FrontEnd {
     Synthetic,
 }
 
-/// What the device is set to.
+/// Configuration of the device.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Configuration {
-    /// The identification's settings; those that the device was built with and those that commands changed.
+    /// The identification's settings: those of the build, as changed by commands.
     pub settings: Settings,
-    /// Where its samples come from.
+    /// Source of the samples.
     pub front_end: FrontEnd,
-    /// True where it sends [`Report::Methods`](crate::Report::Methods) too.
+    /// True if [`Report::Methods`](crate::Report::Methods) are sent too.
     pub methods: bool,
 }
 
@@ -44,12 +44,12 @@ impl Configuration {
         }
     }
 
-    /// This configuration after a command, checked for a ring of `blocks`; the same where a command changes none.
+    /// This configuration after a command, checked for a ring of `blocks` blocks; unchanged by commands that change none.
     ///
     /// # Errors
     ///
-    /// [`CommandError::Settings`] names the value that cannot be, and what could; [`CommandError::Calibrated`] where methods and a calibration
-    /// would stand side by side.
+    /// [`CommandError::Settings`] names the value that is out of range, and the range; [`CommandError::Calibrated`] if methods and a
+    /// calibration other than the ideal one would be on together.
     pub fn after(self, command: &Command, blocks: usize) -> Result<Self, CommandError> {
         let mut new = self;
         match *command {
@@ -76,7 +76,7 @@ mod tests {
     const PLAIN: Configuration = Configuration::new(Settings::new(1e5), FrontEnd::DualAdc);
 
     #[test]
-    fn commands_change_what_they_name() {
+    fn commands_change_only_what_they_name() {
         let calibration = Calibration {
             gain_ratio: 1.1,
             skew: 1e-6,
@@ -110,7 +110,7 @@ mod tests {
             ..PLAIN
         };
         assert_eq!(on, Ok(with_methods));
-        // They know of no calibration.
+        // The methods ignore calibrations.
         let refused = Err(CommandError::Calibrated);
         assert_eq!(new.after(&Command::SetMethods { on: true }, 64), refused);
         let calibrate = Command::SetCalibration(calibration);
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_is_refused() {
+    fn values_out_of_range_are_refused() {
         assert_eq!(
             PLAIN.after(&Command::SetWindow { periods: 63 }, 64),
             Err(CommandError::Settings(SettingsError::PeriodsTooMany {

@@ -1,4 +1,4 @@
-//! Bytes to messages, whatever the bytes.
+//! Decoding of bytes to messages, robust against any bytes.
 
 use core::fmt;
 use core::marker::PhantomData;
@@ -12,15 +12,15 @@ use crate::frame::{self, Frame, MAX_PAYLOAD};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Damage {
-    /// More bytes than any frame has.
+    /// They are more than any frame has.
     TooLong,
-    /// Bytes are missing, or it never was a frame.
+    /// Some are missing, or they never were a frame.
     Framing,
-    /// The checksum does not fit.
+    /// The checksum does not match.
     Checksum,
-    /// A sound frame of another protocol version, or of the other direction; this is its header.
+    /// They are an intact frame of another protocol version, or of the other direction, with this header.
     Header(u8),
-    /// A sound frame whose content this version does not know.
+    /// They are an intact frame with content that this version does not know.
     Content,
 }
 
@@ -45,7 +45,7 @@ impl fmt::Display for Damage {
 
 impl core::error::Error for Damage {}
 
-/// Takes bytes as they come and gives messages: [`ReportFrame`](crate::ReportFrame)s on the PC,
+/// Decoder from bytes, as they arrive, to messages: [`ReportFrame`](crate::ReportFrame)s on the PC,
 /// [`CommandFrame`](crate::CommandFrame)s on the device.
 ///
 /// It may start in the middle of a frame, and never panics.
@@ -53,13 +53,13 @@ impl core::error::Error for Damage {}
 pub struct Decoder<M> {
     state: DecoderState,
     payload: heapless::Vec<u8, MAX_PAYLOAD>,
-    /// True while the present frame exceeds `payload`.
+    /// True once the current frame exceeds `payload`.
     too_long: bool,
     message: PhantomData<M>,
 }
 
 impl<M: Frame> Decoder<M> {
-    /// A decoder that has seen nothing.
+    /// A decoder that has taken no bytes.
     pub const fn new() -> Self {
         Self {
             state: DecoderState::Idle,
@@ -69,9 +69,9 @@ impl<M: Frame> Decoder<M> {
         }
     }
 
-    /// Takes one byte; gives the message that it completes, or the damage that it ends.
+    /// Takes one byte; gives the message that it completes, or the damage to a frame that it ends.
     ///
-    /// Any run of bytes between two zeros gives exactly one of them; zeros that follow each other give nothing.
+    /// Any run of bytes between two zeros gives exactly one of these; successive zeros give nothing.
     #[must_use = "the message is given once"]
     pub fn push(&mut self, byte: u8) -> Option<Result<M, Damage>> {
         let result = match self.state.feed(byte) {
@@ -89,9 +89,9 @@ impl<M: Frame> Decoder<M> {
         Some(result)
     }
 
-    /// Ends a stream; gives the damage where it ends within a frame.
+    /// Ends a stream; gives the damage if it ends within a frame.
     pub fn finish(&mut self) -> Option<Damage> {
-        // A zero ends whatever has begun; nothing that had no zero of its own is whole.
+        // The zero ends a frame that has begun; without a zero of its own that is not complete.
         self.push(0)
             .map(|result| result.err().unwrap_or(Damage::Framing))
     }

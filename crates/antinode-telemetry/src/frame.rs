@@ -10,13 +10,13 @@ use crate::command::Command;
 use crate::report::Report;
 use crate::{MAX_FRAME, PROTOCOL_VERSION};
 
-/// Most bytes of header, number, body and checksum.
+/// Longest payload, that is header, number, body and checksum, bytes.
 pub(crate) const MAX_PAYLOAD: usize = 120;
 
 const _: () = assert!(MAX_PAYLOAD < 254, "a payload has one COBS code before it");
 
 /// Bytes of the checksum.
-const CHECKSUM: usize = 4;
+const CHECKSUM_BYTES: usize = 4;
 
 pub(crate) static CRC: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
@@ -24,25 +24,25 @@ mod sealed {
     pub trait Sealed {}
 }
 
-/// What a frame can carry: [`ReportFrame`] or [`CommandFrame`].
+/// Message that a frame can carry: [`ReportFrame`] or [`CommandFrame`].
 pub trait Frame: Serialize + DeserializeOwned + sealed::Sealed {
-    /// The first byte within a frame: it tells version and direction.
+    /// The first byte within a frame, for version and direction.
     const HEADER: u8;
 }
 
-/// A report with its running number.
+/// Report with its running number.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReportFrame {
-    /// Counts reports from 0 at the device's start, and wraps.
+    /// Number of the report, from 0 at the device's start; it wraps.
     pub number: u16,
     /// The report.
     pub report: Report,
 }
 
-/// A command with the id that its acknowledgement repeats.
+/// Command with the id that its acknowledgement repeats.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CommandFrame {
-    /// Any; another one for the next command.
+    /// Any number that differs from command to command.
     pub id: u16,
     /// The command.
     pub command: Command,
@@ -88,35 +88,35 @@ pub(crate) fn frame_of<'a>(
     message: &impl Serialize,
     buffer: &'a mut [u8],
 ) -> Result<&'a [u8], BufferTooSmall> {
-    // A delimiter, the place of the first COBS code, and the payload where it is to be sent from.
+    // A delimiter, a place for the first COBS code, and the payload in place.
     let most = buffer.len().min(MAX_FRAME);
     let room = buffer.get_mut(..most).ok_or(BufferTooSmall)?;
     let (start, payload) = room.split_first_chunk_mut().ok_or(BufferTooSmall)?;
-    *start = [0; START];
+    *start = [0; START_BYTES];
     let message = postcard::to_slice(message, payload);
     let length = message.map_err(|_| BufferTooSmall)?.len();
-    finish(room, START + length)
+    finish(room, START_BYTES + length)
 }
 
 /// Bytes before the payload.
-const START: usize = 2;
+const START_BYTES: usize = 2;
 
-/// Adds the checksum to a payload that ends before `end`, takes the zeros out, and ends the frame.
+/// Adds the checksum to a payload that ends before `end`, removes the zeros, and ends the frame.
 fn finish(buffer: &mut [u8], end: usize) -> Result<&[u8], BufferTooSmall> {
     let (before, rest) = buffer.split_at_mut_checked(end).ok_or(BufferTooSmall)?;
     let (sum, rest) = rest.split_first_chunk_mut().ok_or(BufferTooSmall)?;
-    let message = before.get(START..).ok_or(BufferTooSmall)?;
+    let message = before.get(START_BYTES..).ok_or(BufferTooSmall)?;
     *sum = CRC.checksum(message).to_le_bytes();
     *rest.first_mut().ok_or(BufferTooSmall)? = 0;
-    let end = end + CHECKSUM;
+    let end = end + CHECKSUM_BYTES;
     let stuffed = buffer.get_mut(1..end).ok_or(BufferTooSmall)?;
-    // COBS: each zero becomes the way to the next, the first of them that before the payload. No way is longer than a code can tell.
-    let mut way = 0;
+    // COBS: each zero, from the one before the payload on, becomes the distance to the next. A code can express all of them.
+    let mut distance = 0;
     for byte in stuffed.iter_mut().rev() {
-        way += 1;
+        distance += 1;
         if *byte == 0 {
-            *byte = way;
-            way = 0;
+            *byte = distance;
+            distance = 0;
         }
     }
     buffer.get(..=end).ok_or(BufferTooSmall)

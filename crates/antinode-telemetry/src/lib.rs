@@ -1,30 +1,30 @@
-//! The serial protocol between a gyro controller that runs [`antinode`] and a PC: reports one way, commands the other.
+//! The serial protocol between a gyro controller that runs [`antinode`] and a PC: reports to the PC, commands to the controller.
 //!
 //! # On the wire
 //!
-//! | part | bytes | what it is |
+//! | part | bytes | content |
 //! |---|---|---|
-//! | `00` | 1 | delimiter: whatever noise came before ends here |
-//! | COBS code | 1 | [Consistent Overhead Byte Stuffing](https://doi.org/10.1109/90.769765) takes the zeros out of what follows |
+//! | `00` | 1 | delimiter, which ends any noise before it |
+//! | COBS code | 1 | [Consistent Overhead Byte Stuffing](https://doi.org/10.1109/90.769765) removes the zeros from the bytes that follow |
 //! | header | 1 | 2 × [`PROTOCOL_VERSION`], plus 1 in a command |
 //! | number | 1 to 3 | a report's running number, or a command's id |
 //! | body | | [`Report`] or [`Command`] in [postcard's format](https://postcard.jamesmunns.com/wire-format) |
 //! | CRC | 4 | CRC-32 of header, number and body, that of Ethernet and zlib, lowest byte first |
 //! | `00` | 1 | delimiter |
 //!
-//! Noise that leaves the framing intact gets past the CRC once in 2³² times: one wrong bit of a COBS code is many wrong bits of the data.
+//! Noise that leaves the framing intact passes the CRC once in 2³² times, as one wrong bit of a COBS code is many wrong bits of the data.
 //! A frame that is cut, too long, damaged or no frame at all is dropped and reported as [`Damage`]; the next delimiter starts afresh, so
 //! noise costs only the frames that it touches. Floating-point values are sent bit for bit.
 //!
 //! An estimate takes at most [`MAX_FRAME`] bytes, about 110. At 921 600 baud, 8N1, a line carries 92 160 bytes and so some 800
 //! estimates a second: windows of ten periods at 5.3 kHz make 530. Methods sent with every estimate double that.
 //!
-//! # Who says what
+//! # Who sends what
 //!
 //! * The device sends [`Report::Hello`] at its start as number 0, on [`Command::Get`], and after each change of its configuration.
-//! * The device answers every command with [`Report::Acknowledgement`] and the command's id: after the Hello if it sends one, before it
-//!   restarts if it is to restart.
-//! * All else is sent when it happens; [`Report::Counters`] about once a second, and soon after blocks or pairs were lost.
+//! * The device answers every command with [`Report::Acknowledgement`] and its id: after the Hello, if the command causes one, and
+//!   before the restart, if it asks for one.
+//! * The device sends [`Report::Counters`] about once a second, and soon after blocks or pairs were lost; all else when it happens.
 //!
 //! # Example
 //!
@@ -91,5 +91,5 @@ pub use report::{Acknowledgement, Cause, Counters, Hello, MethodValues, Methods,
 /// Version of the protocol. It is in every frame, and changes with every change of a message.
 pub const PROTOCOL_VERSION: u8 = 7;
 
-/// Most bytes of a frame on the wire, delimiters included.
+/// Longest frame on the wire, bytes, delimiters included.
 pub const MAX_FRAME: usize = frame::MAX_PAYLOAD + 3;

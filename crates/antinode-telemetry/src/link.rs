@@ -1,29 +1,29 @@
-//! Both ends of the reports' way: one numbers them, the other misses numbers.
+//! Both ends of the reports' path: one numbers them, the other detects missing numbers.
 
 use crate::decoder::{Damage, Decoder};
 use crate::frame::{BufferTooSmall, Frame, ReportFrame, frame_of};
 use crate::report::{Report, State};
 
-/// Numbers the device's reports.
+/// The device's end: it numbers and frames reports.
 #[derive(Debug, Clone, Default)]
 pub struct Reporter {
     next: u16,
 }
 
 impl Reporter {
-    /// The next report is number 0.
+    /// A reporter whose first report is number 0.
     pub const fn new() -> Self {
         Self { next: 0 }
     }
 
-    /// Spends the next report's number on one that finds no room to be sent: so the PC learns of it.
+    /// Uses up a number for a report that is dropped for lack of room, so that the PC notices the loss.
     pub fn skip(&mut self) {
         self.next = self.next.wrapping_add(1);
     }
 
     /// Writes the next report as a frame into the start of `buffer`; gives the bytes to send.
     ///
-    /// Its number is spent even where the frame then finds no room to be sent: so the PC learns of it.
+    /// Its number is used up even if there is then no room to send the frame, so that the PC notices the loss.
     ///
     /// # Errors
     ///
@@ -35,16 +35,16 @@ impl Reporter {
     ) -> Result<&'a [u8], BufferTooSmall> {
         let number = self.next;
         self.next = number.wrapping_add(1);
-        // As a `ReportFrame`, but for a copy of the report.
+        // Serialised like a `ReportFrame`, which would need a copy of the report.
         frame_of(&(ReportFrame::HEADER, number, report), buffer)
     }
 }
 
-/// Takes the device's bytes as they come; gives reports, and counts what did not arrive.
+/// The PC's end: it takes the device's bytes as they arrive, gives reports, and counts those that are lost.
 #[derive(Debug, Default)]
 pub struct Receiver {
     decoder: Decoder<ReportFrame>,
-    /// The number that the next report should have.
+    /// The number expected of the next report.
     next: Option<u16>,
     reports: u64,
     lost: u64,
@@ -52,7 +52,7 @@ pub struct Receiver {
 }
 
 impl Receiver {
-    /// A receiver that has seen nothing.
+    /// A receiver that has taken no bytes.
     pub const fn new() -> Self {
         Self {
             decoder: Decoder::new(),
@@ -63,13 +63,13 @@ impl Receiver {
         }
     }
 
-    /// Takes one byte; gives the report that it completes, or the damage that it ends.
+    /// Takes one byte; gives the report that it completes, or the damage to a frame that it ends.
     pub fn push(&mut self, byte: u8) -> Option<Result<Report, Damage>> {
         let result = self.decoder.push(byte)?;
         Some(match result {
             Ok(ReportFrame { number, report }) => {
                 let next = match report {
-                    // A device that has just started says Hello as number 0, then why it has started.
+                    // A device that has just started sends a Hello as number 0, then the cause of its start.
                     Report::Hello(_) if number == 0 => Some(0),
                     Report::State(State::Started(_)) if self.next != Some(number) => {
                         self.next.map(|_| 0)
@@ -90,25 +90,25 @@ impl Receiver {
         })
     }
 
-    /// Ends a stream; gives the damage where it ends within a frame.
+    /// Ends a stream; gives the damage if it ends within a frame.
     pub fn finish(&mut self) -> Option<Damage> {
         let damage = self.decoder.finish()?;
         self.damaged += 1;
         Some(damage)
     }
 
-    /// Reports given.
+    /// Count of reports given.
     pub fn reports(&self) -> u64 {
         self.reports
     }
 
-    /// Reports whose numbers are missing: those that were damaged on the line, and those that the device had no room to send.
-    /// Of more than 65 535 in a row the multiple of 65 536 is not seen, and none of those before a restart of the device.
+    /// Count of missing report numbers: reports damaged on the line, and those that the device had no room to send. Numbers are modulo
+    /// 65 536, so that multiples of 65 536 missing in a row are not counted; nor are those just before a restart of the device.
     pub fn lost(&self) -> u64 {
         self.lost
     }
 
-    /// Runs of bytes between delimiters that were no sound report: damaged frames, and noise.
+    /// Count of runs of bytes between delimiters that were no intact report: damaged frames, and noise.
     pub fn damaged(&self) -> u64 {
         self.damaged
     }
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn of_a_restart_only_what_is_missing_since_is_lost() {
+    fn after_a_restart_only_reports_missing_since_then_are_lost() {
         let started = Report::State(State::Started(Cause::Watchdog));
         let configuration = Configuration::new(Settings::new(1e5), FrontEnd::Synthetic);
         let hello = Report::Hello(Hello::new("1", configuration));
@@ -161,7 +161,7 @@ mod tests {
             send(&mut reporter, &tracking, true);
             assert_eq!(receiver.lost(), lost);
         }
-        // What was before the first report is not known.
+        // Losses before the first report received are not known.
         let mut receiver = Receiver::new();
         let mut buffer = [0; MAX_FRAME];
         let mut reporter = Reporter { next: 1 };

@@ -1,4 +1,4 @@
-//! What the device tells the PC.
+//! Reports from the device to the PC.
 
 use core::fmt;
 
@@ -10,17 +10,17 @@ use crate::PROTOCOL_VERSION;
 use crate::command::CommandError;
 use crate::configuration::Configuration;
 
-/// What the device tells the PC.
+/// Report from the device to the PC.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Report {
-    /// Who it is and what it is set to.
+    /// Version and configuration of the device.
     Hello(Hello),
-    /// The wave over one window, to the bit as the core gave it.
+    /// The wave over one window, bit for bit as the core gave it.
     Estimate(Estimate),
-    /// It does something else from now on.
+    /// A new state of the device.
     State(State),
-    /// What happened since its start.
+    /// Counters since the device's start.
     Counters(Counters),
     /// The answer to a command.
     Acknowledgement(Acknowledgement),
@@ -34,17 +34,17 @@ impl From<Estimate> for Report {
     }
 }
 
-/// Most bytes of the firmware's version in a [`Hello`].
+/// Longest firmware version in a [`Hello`], bytes.
 pub const FIRMWARE_BYTES: usize = 24;
 
-/// Who the device is and what it is set to.
+/// Version and configuration of the device.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Hello {
     /// [`PROTOCOL_VERSION`] of the device.
     pub protocol: u8,
     /// Version of its firmware, such as `0.1.0`.
     pub firmware: heapless::String<FIRMWARE_BYTES>,
-    /// What it is set to.
+    /// Configuration of the device.
     pub configuration: Configuration,
 }
 
@@ -54,7 +54,7 @@ impl Hello {
         let mut kept = heapless::String::new();
         let fits = |end: &usize| firmware.is_char_boundary(*end);
         let end = (0..=FIRMWARE_BYTES.min(firmware.len())).rev().find(fits);
-        // It never fails with so many bytes.
+        // Never fails, as the length is limited.
         let _ = kept.push_str(firmware.get(..end.unwrap_or(0)).unwrap_or(""));
         Self {
             protocol: PROTOCOL_VERSION,
@@ -64,19 +64,19 @@ impl Hello {
     }
 }
 
-/// What the device does.
+/// State of the device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum State {
     /// The device has started; the cause is that of its reset.
     Started(Cause),
-    /// It looks for a wave.
+    /// The device searches for a wave.
     Searching,
-    /// It follows a wave.
+    /// The device tracks a wave.
     Tracking,
-    /// Sampling was stopped and started anew; the time of estimates goes on over the pairs lost, which [`Counters`] tell.
+    /// Sampling was restarted; the time of estimates includes the pairs lost, which [`Counters`] count.
     SamplingRestarted(Cause),
-    /// It does not sample any more.
+    /// The device has stopped sampling.
     Fault(Cause),
 }
 
@@ -98,11 +98,11 @@ pub enum Cause {
     Watchdog,
     /// The firmware panicked.
     Panic,
-    /// The processor took a fault, such as an access to no memory.
+    /// The processor took a fault, as by an access to an invalid address.
     HardFault,
     /// The converter overran: samples were not fetched in time.
     Overrun,
-    /// The DMA reported an error of transfer.
+    /// The DMA reported a transfer error.
     Dma,
     /// The converter does not answer, or not at its rate.
     Converter,
@@ -152,28 +152,28 @@ impl fmt::Display for Cause {
     }
 }
 
-/// What happened since the device's start. Counts wrap.
+/// Counters since the device's start. They wrap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Counters {
-    /// Time since its start, ms.
+    /// Time since the start, ms.
     pub uptime_ms: u64,
     /// Sample pairs taken.
     pub pairs: u64,
-    /// Sample pairs that were lost.
+    /// Sample pairs lost.
     pub pairs_lost: u64,
     /// Sample pairs with a sample at the converter's rail.
     pub saturated_pairs: u64,
     /// Blocks with a sample at the converter's rail.
     pub saturated_blocks: u32,
-    /// Times that the converter overran.
+    /// Overruns of the converter.
     pub overruns: u32,
-    /// Blocks that found the queue to the tracker full.
+    /// Blocks dropped because the queue to the tracker was full.
     pub blocks_dropped: u32,
-    /// Reports that found the queue to the USART full; their numbers are missing.
+    /// Reports dropped because the queue to the USART was full; their numbers are missing.
     pub reports_dropped: u32,
-    /// Command frames that were damaged.
+    /// Damaged command frames.
     pub commands_damaged: u32,
-    /// Times that sampling was started anew.
+    /// Restarts of sampling.
     pub restarts: u32,
 }
 
@@ -182,11 +182,11 @@ pub struct Counters {
 pub struct Acknowledgement {
     /// The command's id.
     pub id: u16,
-    /// Done, or why not.
+    /// Success, or the reason for the refusal.
     pub result: Result<(), CommandError>,
 }
 
-/// What one of the paper's methods found; amplitudes in input units.
+/// Result of one of the paper's methods; amplitudes in input units.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct MethodValues {
     /// a_A, ≥ 0.
@@ -195,7 +195,7 @@ pub struct MethodValues {
     pub quadrature_amplitude: f64,
     /// θ_A, rad, nearest to the estimate's.
     pub angle: f64,
-    /// 1 to 4; 1: to be trusted most.
+    /// Rank from 1, to be trusted most, to 4.
     pub rank: u8,
 }
 
@@ -206,7 +206,7 @@ pub struct Methods {
     pub start: u64,
     /// Algorithms 1 to 4.
     pub methods: [MethodValues; 4],
-    /// True where they part company beyond noise: the signal is not one steady wave in white noise.
+    /// True if they differ by more than noise explains: the signal is not one steady wave in white noise.
     pub disagree: bool,
 }
 

@@ -1,6 +1,6 @@
 //! The out-of-range indicator: its thresholds and its register.
 
-/// Codes outside of which the chip raises an alert, the same for A and B.
+/// Range of codes outside which the chip raises an alert, the same for A and B.
 ///
 /// The chip compares every conversion, before any averaging. It keeps 12 of a threshold's 16 bits: a low one ends in 0x0, a high
 /// one in 0xF.
@@ -23,11 +23,11 @@ impl Thresholds {
         high: i16::MAX,
     };
 
-    /// An alert below `low` and above `high`, after `low` was rounded down and `high` up to what the chip can hold.
+    /// Thresholds for an alert below `low` and above `high`, with `low` rounded down and `high` up to values that the chip can hold.
     ///
     /// # Errors
     ///
-    /// When `low` is above `high`.
+    /// If `low` is above `high`.
     pub const fn new(low: i16, high: i16) -> Result<Self, ThresholdsError> {
         if low > high {
             return Err(ThresholdsError { low, high });
@@ -75,7 +75,7 @@ impl core::fmt::Display for ThresholdsError {
 
 impl core::error::Error for ThresholdsError {}
 
-/// What the register ALERT says. The data sheet calls its bits sticky: they stay until they are read.
+/// Content of the register ALERT. Its bits are sticky (data sheet): they stay until they are read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Alert {
     /// A conversion of `[A, B]` was above the high threshold.
@@ -84,8 +84,8 @@ pub struct Alert {
     pub low: [bool; 2],
     /// The chip rejected a write for its CRC: never, as this driver leaves the CRC off.
     pub crc_failed: bool,
-    /// The chip did not load its factory settings at power-up: its results are not to be trusted until a hard reset, which
-    /// [`crate::Ad7380::new`] does, brings this back to `false`.
+    /// The chip did not load its factory settings at power-up: its results must not be trusted until a hard reset, as in
+    /// [`crate::Ad7380::new`], brings this back to `false`.
     pub setup_failed: bool,
 }
 
@@ -103,7 +103,7 @@ impl Alert {
         }
     }
 
-    /// Which of `[A, B]` left its range on either side: saturation, when the thresholds are [`Thresholds::SATURATION`].
+    /// True for those of `[A, B]` that left the range on either side, that is saturated if the thresholds are [`Thresholds::SATURATION`].
     pub const fn out_of_range(self) -> [bool; 2] {
         [self.high[0] || self.low[0], self.high[1] || self.low[1]]
     }

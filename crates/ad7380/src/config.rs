@@ -1,14 +1,13 @@
-//! How the chip is to be set up. Every value of these types is valid: combinations that the chip lacks cannot be written down.
+//! Configuration of the chip. Every value of these types is valid: combinations that the chip lacks cannot be expressed.
 
 use crate::alert::Thresholds;
 use crate::register::{ALERT_ENABLE, BOOST, EXTERNAL_REFERENCE, RATIO_SHIFT, ROLLING};
 use crate::timing::{CONVERSION_NS, FIRST_OVERSAMPLE_NS, NEXT_OVERSAMPLE_NS};
 
-/// The chip's settings. The default is the chip's own after a reset, but for 1-wire mode: internal reference, no oversampling, no
-/// alert.
+/// Settings of the chip. The defaults are those after a reset, except for 1-wire mode: internal reference, no oversampling, no alert.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Config {
-    /// Where the reference voltage comes from.
+    /// Source of the reference voltage.
     pub reference: Reference,
     /// Averaging on the chip.
     pub oversampling: Oversampling,
@@ -66,8 +65,8 @@ pub enum Oversampling {
 }
 
 impl Oversampling {
-    /// The time from the falling edge of CS to the end of the last conversion that it starts, in nanoseconds: CS must not fall
-    /// again before. For normal average it is what Linux waits with one data line, longer than the data sheet's figure.
+    /// The time from the falling edge of CS to the end of the last conversion that it starts, in nanoseconds: CS must not fall again
+    /// before. For normal averages it is the wait of Linux's driver with one data line, longer than the data sheet's figure.
     pub const fn conversion_ns(self) -> u32 {
         match self {
             Self::Normal { ratio, .. } => {
@@ -77,7 +76,7 @@ impl Oversampling {
         }
     }
 
-    /// Whether results have 18 bits.
+    /// True if results have 18 bits.
     pub const fn boost(self) -> bool {
         match self {
             Self::Off => false,
@@ -85,7 +84,7 @@ impl Oversampling {
         }
     }
 
-    /// Frames after a reset whose results rest on conversions from before it.
+    /// Count of frames after a reset with results from conversions before it.
     pub(crate) const fn stale_frames(self) -> u32 {
         match self {
             Self::Off | Self::Normal { .. } => 1,

@@ -1,4 +1,4 @@
-//! The driver itself.
+//! The driver.
 
 use embedded_hal::delay::DelayNs;
 use embedded_hal::spi::{MODE_2, Mode, SpiDevice};
@@ -9,16 +9,16 @@ use crate::frame::{pair_from_boosted_frame, pair_from_frame};
 use crate::register::{HARD_RESET, ONE_WIRE, Register, SOFT_RESET};
 use crate::timing::{POWER_UP_MS, RESET_US};
 
-/// The SPI mode: the clock idles high, and its falling edge takes the data, highest bit first.
+/// The SPI mode: the clock idles high, and data are taken at its falling edge, highest bit first.
 ///
-/// As in Analog Devices' AD738x-FMC user guide and in their no-OS example for it, which runs on an STM32F4 too and until 2026 had mode 1,
-/// where the falling edge takes the data as well; the example of Linux's binding has mode 3. With a mode that does not work [`Ad7380::new`] says
-/// [`Error::ReadBack`].
+/// It is that of Analog Devices' AD738x-FMC user guide and of their no-OS example for it, which also runs on an STM32F4 and until 2026 had
+/// mode 1, in which data are taken at the falling edge as well; the example of Linux's binding has mode 3. With a mode that does not work
+/// [`Ad7380::new`] gives [`Error::ReadBack`].
 pub const SPI_MODE: Mode = MODE_2;
 
-/// An AD7380, configured, in 1-wire mode.
+/// A configured AD7380 in 1-wire mode.
 ///
-/// `SPI` is the chip on its bus, with CS; a `&mut` to it does too, and stays with the caller when `new` fails.
+/// `SPI` is the chip on its bus, with CS; a `&mut` to it also works, and leaves it with the caller if `new` fails.
 #[derive(Debug)]
 pub struct Ad7380<SPI> {
     spi: SPI,
@@ -26,14 +26,13 @@ pub struct Ad7380<SPI> {
 }
 
 impl<SPI: SpiDevice> Ad7380<SPI> {
-    /// Waits 5 ms for the supply and the reference, resets the chip, configures it, reads every register back and clears the
-    /// averages. The result that was on its way is thrown away: the first pair that [`Self::read_pair`] gives was sampled with
-    /// these settings.
+    /// Waits 5 ms for the supply and the reference, resets the chip, configures it, reads every register back and clears the averages.
+    /// Pending results are discarded, so that the first pair from [`Self::read_pair`] was sampled with these settings.
     ///
     /// # Errors
     ///
-    /// [`Error::Spi`] from the bus; [`Error::ReadBack`] when a register does not hold what was written: no chip, no supply, a
-    /// wrong SPI mode, or too fast a clock for the wiring.
+    /// [`Error::Spi`] from the bus; [`Error::ReadBack`] if a register does not hold what was written: no chip, no supply, a wrong SPI
+    /// mode, or too fast a clock for the wiring.
     pub fn new<D: DelayNs>(
         spi: SPI,
         delay: &mut D,
@@ -44,7 +43,7 @@ impl<SPI: SpiDevice> Ad7380<SPI> {
         adc.write(Register::Configuration2, HARD_RESET)?;
         delay.delay_us(RESET_US);
 
-        // The alert is enabled after its thresholds are there, and averages, which take their time, last of all.
+        // The alert is enabled after its thresholds are set, and averages, which make frames slower, come last.
         let [low, high] = config.alert.unwrap_or(Thresholds::FULL).registers();
         for (register, wrote) in [
             (Register::Configuration2, ONE_WIRE),
@@ -67,8 +66,7 @@ impl<SPI: SpiDevice> Ad7380<SPI> {
         Ok(adc)
     }
 
-    /// Clears the averages and the register ALERT; the settings stay. The result that was on its way is thrown away, as in
-    /// [`Self::new`].
+    /// Clears the averages and the register ALERT; the settings stay. Pending results are discarded, as in [`Self::new`].
     ///
     /// # Errors
     ///
@@ -83,9 +81,9 @@ impl<SPI: SpiDevice> Ad7380<SPI> {
         Ok(())
     }
 
-    /// The pair `[A, B]` as sampled at the last frame before this one, and a new conversion of both.
+    /// Reads the pair `[A, B]` that was sampled at the frame before, and starts a new conversion of both.
     ///
-    /// Call it no sooner than [`Oversampling::conversion_ns`](crate::Oversampling::conversion_ns) after the call before. With resolution
+    /// Call it no sooner than [`Oversampling::conversion_ns`](crate::Oversampling::conversion_ns) after the previous call. With resolution
     /// boost the two lowest bits of a result are cut off.
     ///
     /// # Errors
@@ -116,8 +114,8 @@ impl<SPI: SpiDevice> Ad7380<SPI> {
 
     /// Reads, and thereby clears, the register ALERT.
     ///
-    /// It takes two frames, which convert as any other, and waits for both: the result on its way is lost, and the next pair was sampled
-    /// at the second of them. To keep a steady rate ask between recordings, or watch the pin ALERT.
+    /// It takes two frames, which start conversions like any other, and waits for both: the pending result is lost, and the next pair is
+    /// sampled at the second of them. To keep a steady rate, call it between recordings only, or watch the pin ALERT.
     ///
     /// # Errors
     ///
@@ -154,12 +152,12 @@ impl<SPI: SpiDevice> Ad7380<SPI> {
         Ok(value)
     }
 
-    /// Every frame converts, and the next one must not begin before that is done.
+    /// Waits for the conversion that every frame starts: the next frame must not begin before its end.
     fn wait<D: DelayNs>(&self, delay: &mut D) {
         delay.delay_ns(self.config.oversampling.conversion_ns());
     }
 
-    /// Sends zeros, the chip's no-operation: what a plain read sends is up to the bus, and ones would be a write.
+    /// Reads a frame while sending zeros, the chip's no-operation: a plain read may send anything, and ones would be a write.
     #[inline]
     fn frame<const N: usize>(&mut self, mut bytes: [u8; N]) -> Result<[u8; N], Error<SPI::Error>> {
         self.spi.transfer_in_place(&mut bytes).map_err(Error::Spi)?;
@@ -167,7 +165,7 @@ impl<SPI: SpiDevice> Ad7380<SPI> {
     }
 }
 
-/// What stopped the driver. `E` is the bus's own error.
+/// Error of the driver. `E` is that of the bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error<E> {

@@ -1,4 +1,4 @@
-//! What a frame of 1-wire mode holds: A's bits, then B's, highest bit first.
+//! Decoding of a frame in 1-wire mode, which holds A's bits, then B's, highest bit first.
 
 /// The pair `[A, B]` in the four bytes of a frame, in the order in which they were received.
 ///
@@ -12,7 +12,7 @@ pub const fn pair_from_frame(frame: [u8; 4]) -> [i16; 2] {
 
 /// The pair `[A, B]` in a frame received as one word of 32 bits, highest bit first.
 ///
-/// A is in the high half: where a reader of such words wants it in the low one, give it `word.rotate_left(16)`.
+/// A is in the high half; `word.rotate_left(16)` has it in the low one.
 ///
 /// ```
 /// assert_eq!(ad7380::pair_from_word(0x0001_FFFF), [1, -1]);
@@ -34,14 +34,14 @@ pub const fn pair_from_boosted_frame(frame: [u8; 5]) -> [i32; 2] {
     let [b0, b1, b2, b3, b4] = frame;
     let a = i32::from_be_bytes([b0, b1, b2, 0]);
     let b = i32::from_be_bytes([b2, b3, b4, 0]);
-    // The upper 18 bits of a word are A; B begins two bits into the third byte. The shift right brings the sign down.
+    // The upper 18 bits of a word are A; B begins two bits into the third byte. The shifts right extend the sign.
     [a >> 14, (b << 2) >> 14]
 }
 
-/// Which of `[A, B]` stands at the first or the last code, and so is likely to be clipped.
+/// True for those of `[A, B]` that are at the lowest or the highest code, and so are probably clipped.
 ///
-/// A signal that clips before the converter, in an amplifier, is not seen, nor is one that averaging hides: [`crate::Alert`] sees
-/// the conversions before they are averaged.
+/// Clipping before the converter, in an amplifier, is not detected, nor clipping hidden by averaging: [`crate::Alert`] checks the
+/// conversions before they are averaged.
 ///
 /// ```
 /// assert_eq!(ad7380::at_rail([i16::MIN, 32_766]), [true, false]);

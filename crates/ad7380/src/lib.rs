@@ -33,9 +33,9 @@
 //! # A pair is one frame late
 //!
 //! The falling edge of CS samples both inputs and starts the conversion; the bits that the same frame shifts out are those of the
-//! conversion *before*. So `read_pair` returns the inputs as they were at the call before, and a steady rate of calls gives a steady
-//! rate of samples. What the first frame after the configuration shifts out was sampled under other settings: `new` reads it and
-//! throws it away. With a rolling average it throws away as many frames as the average is long.
+//! *previous* conversion. So `read_pair` returns the inputs as they were at the previous call, and a steady rate of calls gives a steady
+//! rate of samples. The first frame after the configuration shifts out a result that was sampled with other settings: `new` reads and
+//! discards it, or, with a rolling average, as many frames as the average has conversions.
 //!
 //! # Codes
 //!
@@ -51,13 +51,12 @@
 //! assert_eq!(ad7380::timing::min_sclk_hz(100_000, ad7380::Oversampling::Off), Some(3_203_204));
 //! ```
 //!
-//! Register access is more reliable below the largest clock, says Linux's driver, which uses 10 MHz: so construct with that.
+//! Register access is more reliable below the largest clock, according to Linux's driver, which uses 10 MHz: construct with that.
 //!
 //! # By timer and DMA
 //!
-//! At a high rate a timer should drive CS, and DMA the SPI, for a sampling instant without jitter. Configure with this driver, take
-//! the SPI back with [`Ad7380::free`], send zeros (0 is the chip's no-operation) and decode each frame with [`pair_from_frame`] or
-//! [`pair_from_word`].
+//! At a high rate a timer should drive CS, and DMA the SPI, for sampling without jitter. Configure the chip with this driver, take the SPI
+//! back with [`Ad7380::free`], send zeros (the chip's no-operation) and decode each frame with [`pair_from_frame`] or [`pair_from_word`].
 //!
 //! # Not supported
 //!

@@ -1,4 +1,4 @@
-//! The chip's registers and the 16-bit frames that reach them.
+//! The chip's registers and the 16-bit frames that access them.
 
 /// A register of the chip: an address of 3 bits, 12 bits of data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,12 +16,12 @@ pub enum Register {
 }
 
 impl Register {
-    /// The frame that writes `value`, of which the lower 12 bits count: bit 15 says write, bits 14 to 12 are the address.
+    /// The frame that writes the lower 12 bits of `value`: bit 15 means write, bits 14 to 12 are the address.
     pub const fn write_frame(self, value: u16) -> [u8; 2] {
         (1 << 15 | (self as u16) << 12 | value & 0xFFF).to_be_bytes()
     }
 
-    /// The frame that asks for this register; the chip answers in the frame after it.
+    /// The frame that requests this register; the chip answers in the next frame.
     pub const fn read_frame(self) -> [u8; 2] {
         ((self as u16) << 12).to_be_bytes()
     }
@@ -31,7 +31,7 @@ impl Register {
         u16::from_be_bytes(answer) & 0xFFF
     }
 
-    /// Bits that must read as written. Reserved bits may not, and the reset field is a command.
+    /// Bits that must read as written, without reserved bits and the reset field, which is a command.
     pub(crate) const fn read_back_mask(self) -> u16 {
         match self {
             Self::Configuration1 => 0x3FF,
@@ -43,7 +43,7 @@ impl Register {
 
 /// CONFIGURATION1, OS_MODE: rolling instead of normal average.
 pub(crate) const ROLLING: u16 = 1 << 9;
-/// CONFIGURATION1, OSR: where the logarithm of the oversampling ratio begins.
+/// CONFIGURATION1, OSR: lowest bit of the logarithm of the oversampling ratio.
 pub(crate) const RATIO_SHIFT: u16 = 6;
 /// CONFIGURATION1, ALERT_EN: the pin SDOB is the alert.
 pub(crate) const ALERT_ENABLE: u16 = 1 << 3;
@@ -55,5 +55,5 @@ pub(crate) const EXTERNAL_REFERENCE: u16 = 1 << 1;
 pub(crate) const ONE_WIRE: u16 = 1 << 8;
 /// CONFIGURATION2, RESET: averages and ALERT are cleared, the other registers stay.
 pub(crate) const SOFT_RESET: u16 = 0x3C;
-/// CONFIGURATION2, RESET: everything starts anew.
+/// CONFIGURATION2, RESET: everything is reset.
 pub(crate) const HARD_RESET: u16 = 0xFF;

@@ -1,4 +1,4 @@
-//! The chip's limits in time, and which SPI clock serves which rate.
+//! Timing limits of the chip, and the SPI clock that a rate of pairs needs.
 
 use crate::config::Oversampling;
 
@@ -8,7 +8,7 @@ pub const MAX_SCLK_HZ: u32 = 80_000_000;
 pub const MAX_CONVERSION_HZ: u32 = 4_000_000;
 /// One conversion, nanoseconds.
 pub const CONVERSION_NS: u32 = 190;
-/// CS must be high for so long between two frames, nanoseconds.
+/// Shortest time that CS must be high between two frames, nanoseconds.
 pub const CS_HIGH_NS: u32 = 10;
 /// Clocks of a frame that carries a pair.
 pub const FRAME_CLOCKS: u32 = 32;
@@ -17,16 +17,16 @@ pub const BOOSTED_FRAME_CLOCKS: u32 = 40;
 
 /// Normal average: from CS to the first conversion, nanoseconds.
 pub(crate) const FIRST_OVERSAMPLE_NS: u32 = 10;
-/// Normal average: each further conversion, nanoseconds. Linux: 500 times the number of channels over that of data lines.
+/// Normal average: time of each further conversion, nanoseconds. In Linux it is 500 times the count of channels over that of data lines.
 pub(crate) const NEXT_OVERSAMPLE_NS: u32 = 500 * 2;
-/// Supply and reference settle, milliseconds.
+/// Wait for supply and reference to settle, milliseconds.
 pub(crate) const POWER_UP_MS: u32 = 5;
-/// After a reset, microseconds: the data sheet asks for less than one.
+/// Wait after a reset, microseconds: the data sheet demands less than one.
 pub(crate) const RESET_US: u32 = 10;
 
 /// The shortest time from one falling edge of CS to the next, nanoseconds, rounded up.
 ///
-/// The frame's clocks and [`CS_HIGH_NS`], or the conversions where they take longer. `None` when `sclk_hz` is 0 or above
+/// It is that of the frame's clocks and [`CS_HIGH_NS`], or of the conversions if they take longer. `None` if `sclk_hz` is 0 or above
 /// [`MAX_SCLK_HZ`].
 ///
 /// ```
@@ -46,7 +46,7 @@ pub const fn min_frame_ns(sclk_hz: u32, oversampling: Oversampling) -> Option<u3
     } else {
         converting
     };
-    // A clock of a few hertz makes a frame of more than the 4.3 s that fit.
+    // With a clock of a few hertz a frame takes more than the 4.3 s that fit.
     Some(if frame > u32::MAX as u64 {
         u32::MAX
     } else {
@@ -69,8 +69,8 @@ pub const fn max_pair_rate_hz(sclk_hz: u32, oversampling: Oversampling) -> Optio
 
 /// The smallest SPI clock that serves a rate of pairs, Hz, rounded up.
 ///
-/// `None` when `pair_rate_hz` is 0, or so large that it needs more than [`MAX_SCLK_HZ`] or leaves no time to convert. Software needs
-/// time between its frames: then take a good deal more.
+/// `None` if `pair_rate_hz` is 0, or so large that it needs more than [`MAX_SCLK_HZ`] or leaves no time to convert. Software needs time
+/// between frames, and so a considerably faster clock.
 ///
 /// ```
 /// use ad7380::{Oversampling, timing::min_sclk_hz};
@@ -84,7 +84,7 @@ pub const fn min_sclk_hz(pair_rate_hz: u32, oversampling: Oversampling) -> Optio
     if oversampling.conversion_ns() as u64 * pair_rate_hz as u64 > 1_000_000_000 {
         return None;
     }
-    // A frame has 1 / rate less the time that CS is high; both sides times rate · 1e9, so that it stays exact.
+    // The clocks have 1 / rate less the time that CS is high; multiplied by rate · 1e9, all numbers are integers.
     let shifting = 1_000_000_000 - CS_HIGH_NS as u64 * pair_rate_hz as u64;
     let clocks = frame_clocks(oversampling) as u64;
     let sclk = (clocks * pair_rate_hz as u64 * 1_000_000_000).div_ceil(shifting);

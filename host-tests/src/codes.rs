@@ -1,11 +1,11 @@
-//! Streams of converter codes through the core, in any of its arithmetics.
+//! Streams of converter codes, and their identification in any arithmetic of the core.
 
 use antinode::{Estimate, Identifier, Sample, SamplePair, Settings};
 use antinode_sim::{Flaws, Gyro, Wave};
 
 use crate::RATE;
 
-/// A wave brought to `share` of a converter's full scale, and the flaws that make its samples codes of `bits`.
+/// A wave scaled to `share` of a converter's full scale, and its flaws scaled alike, with a converter of `bits`.
 pub fn converted(wave: &Wave, flaws: &Flaws, bits: u32, share: f64) -> (Wave, Flaws) {
     let full_scale = f64::from(bits - 1).exp2();
     let scale = share * full_scale / wave.main_amplitude;
@@ -26,7 +26,7 @@ pub fn converted(wave: &Wave, flaws: &Flaws, bits: u32, share: f64) -> (Wave, Fl
     )
 }
 
-/// Settings for codes of `bits`, windows of `periods`.
+/// Settings for codes of `bits` bits and windows of `periods`.
 pub fn settings(bits: u32, periods: u16) -> Settings {
     let full_scale = f64::from(bits - 1).exp2() as f32;
     Settings {
@@ -37,7 +37,7 @@ pub fn settings(bits: u32, periods: u16) -> Settings {
     }
 }
 
-/// The codes of a gyro whose converter's step is one.
+/// The codes of a gyro with a converter step of 1.
 pub fn codes(wave: Wave, flaws: &Flaws, samples: usize, seed: u64) -> Vec<[i32; 2]> {
     let gyro = Gyro::new(wave, flaws.clone(), RATE, seed).expect("the test's gyro is valid");
     gyro.take(samples)
@@ -45,7 +45,7 @@ pub fn codes(wave: Wave, flaws: &Flaws, samples: usize, seed: u64) -> Vec<[i32; 
         .collect()
 }
 
-/// Runs codes through the core in the arithmetic of `S`, from cold; gives every estimate.
+/// Identifies codes in the arithmetic of `S`, from cold; gives all estimates.
 pub fn identify<S: Sample>(
     codes: &[[i32; 2]],
     settings: Settings,
@@ -57,7 +57,7 @@ where
     identify_up_to::<S, 256>(codes, settings, sample)
 }
 
-/// As [`identify`], by a core whose blocks hold `N` pairs.
+/// As [`identify`], with blocks of up to `N` pairs.
 pub fn identify_up_to<S: Sample, const N: usize>(
     codes: &[[i32; 2]],
     settings: Settings,

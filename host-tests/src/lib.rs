@@ -17,10 +17,10 @@ struct Readme;
 /// Sample rate of all tests, Hz.
 pub const RATE: f64 = 100_000.0;
 
-/// The core as the tests use it: all periods, windows up to 254 periods.
+/// The core of most tests: periods up to 256 samples, windows up to 254 periods.
 pub type Core = Identifier<f32, 256, 256>;
 
-/// Runs `samples` sample pairs of a gyro through the core, from cold; gives every estimate.
+/// Identifies `samples` sample pairs of a gyro, from cold; gives all estimates.
 pub fn identify(
     wave: Wave,
     flaws: &Flaws,
@@ -31,7 +31,7 @@ pub fn identify(
     identify_changed(wave, flaws, settings, samples, seed, |_, pair| pair)
 }
 
-/// As [`identify`], with `change` applied to every pair; it is told the pair's index.
+/// As [`identify`], with `change` applied to the index and samples of every pair.
 pub fn identify_changed(
     wave: Wave,
     flaws: &Flaws,
@@ -57,7 +57,7 @@ pub fn windows(periods: u16) -> Settings {
     }
 }
 
-/// Settings with windows of `periods` that know what the pick-offs are.
+/// Settings with windows of `periods`, and the calibration for the pick-offs of `flaws`.
 pub fn calibrated(flaws: &Flaws, periods: u16) -> Settings {
     Settings {
         calibration: Calibration {
@@ -76,7 +76,7 @@ pub fn angle_error(found: f64, truth: f64) -> f64 {
     error - (error / quarter).round() * quarter
 }
 
-/// The difference of two phases, modulo π (it goes with the angle's choice), rad.
+/// The difference of two phases, modulo π (as the choice of the angle is modulo π/2), rad.
 pub fn phase_error(found: f64, truth: f64) -> f64 {
     let error = found - truth;
     error - (error / std::f64::consts::PI).round() * std::f64::consts::PI
@@ -118,7 +118,7 @@ pub fn stream(wave: Wave, flaws: Flaws, samples: usize, seed: u64) -> Vec<[f32; 
         .collect()
 }
 
-/// Runs a gyro through the core with `change` applied to every pair; gives the estimates.
+/// Identifies [`gyro`] with this noise, as a share of a_A, and with `change` applied to every pair; gives all estimates.
 pub fn changed(
     seed: u64,
     noise: f64,
@@ -131,7 +131,7 @@ pub fn changed(
     identify_changed(wave, &flaws, windows(periods), samples, seed, change)
 }
 
-/// Runs a signal, of which each pick-off's is given at a time in s, in noise of so much through the core; gives the estimates.
+/// Identifies `signal`, a function of time in s that gives both pick-offs, in this noise; gives all estimates.
 pub fn identify_signal(
     noise: f64,
     settings: Settings,
@@ -149,7 +149,7 @@ pub fn identify_signal(
     })
 }
 
-/// The windows that a stretch of samples touches by at least a block.
+/// The windows that overlap the samples from `from` to `to` by more than a period.
 pub fn touched(estimates: &[Estimate], from: usize, to: usize) -> Vec<&Estimate> {
     let block = 19;
     estimates

@@ -1,4 +1,4 @@
-//! What the tests of the methods share.
+//! Helpers of the tests of the methods.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use crate::RATE;
 /// Samples before a window's time zero, enough for a quarter period.
 pub const LEAD: usize = 10;
 
-/// A window of `periods` of a wave, `LEAD` samples before it.
+/// A window of `periods` of a wave, after `LEAD` samples.
 pub fn samples(wave: &Wave, periods: usize) -> Vec<[f32; 2]> {
     let n = (periods as f64 * RATE / wave.frequency).round() as usize;
     (0..n + LEAD)
@@ -21,7 +21,7 @@ pub fn samples(wave: &Wave, periods: usize) -> Vec<[f32; 2]> {
         .collect()
 }
 
-/// a_A, a_B, θ, α of what the core found.
+/// a_A, a_B, θ and α of a wave that the core found.
 pub fn numbers(wave: &Found) -> [f64; 4] {
     let s = wave.shape;
     [
@@ -37,7 +37,7 @@ pub fn omega(wave: &Wave) -> f64 {
     TAU * wave.frequency / RATE
 }
 
-/// Numbers to read.
+/// Formats numbers for messages.
 pub fn list(numbers: &[f64]) -> String {
     let texts: Vec<String> = numbers.iter().map(|x| format!("{x:.1e}")).collect();
     texts.join(", ")

@@ -11,7 +11,7 @@ pub struct Oracle {
     pub quadrature: f64,
     /// θ_A, rad.
     pub angle: f64,
-    /// Radians a sample.
+    /// ω, rad a sample.
     pub omega: f64,
     /// α, rad.
     pub phase: f64,
@@ -19,7 +19,7 @@ pub struct Oracle {
     pub offsets: [f64; 2],
 }
 
-/// Fits `pairs` from a start that is near; every parameter is free.
+/// Fits all seven parameters to `pairs`, from a start near the solution.
 pub fn fit(pairs: &[[f64; 2]], start: Oracle) -> Oracle {
     let mut p = [
         start.main,

@@ -1,5 +1,5 @@
-//! The paper's formulas once more, written straight from the text, with the errata of `antinode::methods`, in f64 over plain samples: what
-//! the core's are held against.
+//! The paper's formulas, written straight from the text with the errata of `antinode::methods`, in f64 over plain samples, to compare the
+//! core's with.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! Root mean squares of errors over the bound, and of what the core says its errors are.
+//! Root mean squares of errors, relative to the bound and to the stated deviations.
 
 use std::ops::Range;
 
@@ -15,7 +15,7 @@ pub const NAMES: [&str; 4] = [
     "frequency",
 ];
 
-/// Squares gathered over many windows.
+/// Squared errors and stated deviations over the bound, summed over many windows.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Score {
     windows: f64,
@@ -43,7 +43,7 @@ impl Score {
         }
     }
 
-    /// How many windows were added.
+    /// Count of windows added.
     pub fn windows(&self) -> usize {
         self.windows as usize
     }
@@ -58,7 +58,7 @@ impl Score {
         self.stated.map(|sum| (sum / self.windows).sqrt())
     }
 
-    /// Prints both, and asserts that the errors over the bound and the stated deviations over the errors lie within these.
+    /// Prints both, and asserts that errors over the bound and stated deviations over errors are within these ranges.
     pub fn check(&self, label: &str, of_errors: Range<f64>, of_stated: Range<f64>) {
         let (error, stated) = (self.error(), self.stated());
         println!(
@@ -79,14 +79,14 @@ impl Score {
     }
 }
 
-/// Squares of errors over what the core says they are, gathered over many windows.
+/// Squared errors over stated deviations, summed over many windows.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Honesty {
+pub struct StatedRatio {
     windows: f64,
     squares: [f64; 4],
 }
 
-impl Honesty {
+impl StatedRatio {
     /// Adds a window of a wave.
     pub fn add(&mut self, estimate: &Estimate, wave: &Wave) {
         let stated = stated(estimate);
@@ -102,7 +102,7 @@ impl Honesty {
     }
 }
 
-/// Errors of a_A, a_B (input units), θ (rad) and f (Hz) of an estimate, at its own time.
+/// Errors of a_A, a_B (input units), θ (rad) and f (Hz) of an estimate, at its time.
 pub fn errors(estimate: &Estimate, wave: &Wave) -> [f64; 4] {
     let truth = wave.at(estimate.time);
     [

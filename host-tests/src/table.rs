@@ -1,32 +1,32 @@
-//! What each bench image costs, as a Markdown table that is committed and compared with.
+//! Costs of the bench images, as a Markdown table that is committed for comparison.
 
 use std::fmt;
 
-/// Costs may grow by this share before a comparison fails.
+/// Share by which costs may grow before a comparison fails.
 const TOLERANCE: f64 = 0.03;
-/// The image without a kernel: what the flash of all others is counted from.
+/// The image without a kernel, the flash of which is subtracted from that of the others.
 pub const NOTHING: &str = "nothing";
-/// The peer: what instructions are a ratio of.
+/// The image to which instructions are compared.
 pub const PEER: &str = "idsp_sums";
-/// What stands where there is no number.
+/// Cell without a number.
 const NONE: &str = "–";
-/// Behind cycles of an earlier run.
+/// Mark of cycles of an earlier run.
 const EARLIER: &str = "*";
 
-/// What one kernel costs.
+/// Costs of one kernel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// Name of the image without `bench_`.
     pub kernel: String,
-    /// What instructions and cycles are counted for: `pair` or `window`.
+    /// Unit of work: `pair` or `window`.
     pub unit: String,
-    /// Instructions a unit.
+    /// Instructions per unit.
     pub instructions: f64,
-    /// Cycles a unit, where an estimator or hardware counted them.
+    /// Cycles per unit, if an estimator or hardware counted them.
     pub cycles: Option<f64>,
-    /// The cycles are those of an earlier run.
+    /// True if the cycles are those of an earlier run.
     pub earlier: bool,
-    /// Bytes of flash beyond those of [`NOTHING`], or all bytes of that one itself.
+    /// Bytes of flash in excess of [`NOTHING`]; for that image itself, all bytes.
     pub flash: u32,
     /// Bytes kept from call to call.
     pub state: u32,
@@ -53,7 +53,7 @@ impl Row {
         })
     }
 
-    /// What may not grow: name of the column, and the number as it is printed.
+    /// Costs that may not grow: name of the column, and the number as printed.
     fn costs(&self) -> [(&'static str, f64); 4] {
         [
             ("instructions", hundredths(self.instructions)),
@@ -64,7 +64,7 @@ impl Row {
     }
 }
 
-/// As many digits as are printed.
+/// Rounds to the printed digits.
 fn hundredths(x: f64) -> f64 {
     (x * 100.0).round() / 100.0
 }
@@ -74,7 +74,7 @@ fn hundredths(x: f64) -> f64 {
 pub struct Table(pub Vec<Row>);
 
 impl Table {
-    /// The table within a text: every line that is a row.
+    /// Parses the table within a text: every line that is a row.
     pub fn parse(text: &str) -> Self {
         Self(text.lines().filter_map(Row::parse).collect())
     }
@@ -84,7 +84,7 @@ impl Table {
         self.0.iter().find(|row| row.kernel == kernel)
     }
 
-    /// Takes cycles that were not counted from an earlier table, where the instructions are the same.
+    /// Takes missing cycles from an earlier table, for kernels with the same instructions.
     pub fn fill_cycles(&mut self, earlier: &Table) {
         for row in self.0.iter_mut().filter(|row| row.cycles.is_none()) {
             let same = earlier
@@ -95,7 +95,7 @@ impl Table {
         }
     }
 
-    /// Every cost that is more than 3 % above the one in `committed`, and every kernel that stands in one table only.
+    /// Every cost more than 3 % above the one in `committed`, and every kernel that is in one table only.
     pub fn worse_than(&self, committed: &Table) -> Vec<String> {
         let mut faults = Vec::new();
         for row in &self.0 {
@@ -163,14 +163,14 @@ mod tests {
     }
 
     #[test]
-    fn a_printed_table_reads_as_it_was() {
+    fn a_printed_table_parses_to_the_same_table() {
         let printed = format!("words before\n\n{}\nwords after", table());
         assert!(printed.contains("| block | pair | 12.50 | 0.25 | 18.50 | 1000 | 100 | 0 |"));
         assert_eq!(Table::parse(&printed), table());
     }
 
     #[test]
-    fn growth_beyond_the_tolerance_is_named() {
+    fn growth_beyond_the_tolerance_is_reported() {
         let mut now = table();
         now.0[1].instructions = 12.87;
         now.0[1].flash = 1030;
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn kernels_that_come_and_go_are_named() {
+    fn kernels_in_one_table_only_are_reported() {
         let mut now = table();
         now.0[1].kernel = "push".into();
         assert_eq!(
@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn cycles_are_kept_with_the_same_instructions_only() {
+    fn cycles_are_kept_only_if_instructions_are_the_same() {
         let mut now = table();
         now.0[1].cycles = None;
         let uncounted = now.clone();

@@ -1,4 +1,4 @@
-//! The bench images: built, run in the emulator, weighed.
+//! The bench images: building, size, and a run in the emulator.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ const EMULATOR: &str = "qemu-system-arm";
 const BOARD: &[&str] = &[
     "-M",
     "netduinoplus2",
-    // The instrument's reports go to the serial line: nobody reads them here.
+    // The instrument's reports go to the serial line, which is not read here.
     "-display",
     "none",
     "-serial",
@@ -28,17 +28,17 @@ const BOARD: &[&str] = &[
     "shift=0,align=off,sleep=off",
     "-kernel",
 ];
-/// No image takes longer.
-const PATIENCE: Duration = Duration::from_secs(60);
+/// Longest run of an image.
+const TIMEOUT: Duration = Duration::from_secs(60);
 
 /// A built image.
 pub struct Image {
-    /// Its name without `bench_`.
+    /// Name without `bench_`.
     pub kernel: String,
     elf: PathBuf,
 }
 
-/// What an image tells of itself.
+/// Report of an image.
 pub struct Report {
     pub instructions: u32,
     pub units: u32,
@@ -88,7 +88,7 @@ impl Image {
         format!("bench_{}: {fault}", self.kernel)
     }
 
-    /// Bytes that are loaded into flash: code, constants, and what variables begin with.
+    /// Bytes that are loaded into flash: code, constants, and initial values of variables.
     pub fn flash(&self) -> Result<u32, String> {
         let bytes = fs::read(&self.elf).map_err(|fault| self.fault(fault))?;
         let elf = object::File::parse(&*bytes).map_err(|fault| self.fault(fault))?;
@@ -98,7 +98,7 @@ impl Image {
             .sum())
     }
 
-    /// Runs it to its end in the emulator.
+    /// Runs the image to its end in the emulator.
     pub fn run(&self) -> Result<Report, String> {
         let mut emulator = Command::new(EMULATOR)
             .args(BOARD)
@@ -113,7 +113,7 @@ impl Image {
             .map_err(|fault| self.fault(fault))?
             .is_none()
         {
-            if began.elapsed() > PATIENCE {
+            if began.elapsed() > TIMEOUT {
                 let _ = emulator.kill();
                 return Err(self.fault("it does not come to its end"));
             }
@@ -145,12 +145,12 @@ impl Image {
         })
     }
 
-    /// Cycles a unit, where an estimator is named.
+    /// Cycles per unit, if there is an estimator.
     pub fn cycles(&self, units: u32) -> Result<Option<f64>, String> {
         let Some(estimator) = env::var_os("ANTINODE_CYCLES").filter(|name| !name.is_empty()) else {
             return Ok(None);
         };
-        // Which call is the longest, the image finds by the emulator's clock, which an estimator need not have.
+        // These images find the longest call by the emulator's clock, which an estimator need not have.
         if self.kernel.starts_with("longest") {
             return Ok(None);
         }

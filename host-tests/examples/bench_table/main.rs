@@ -1,9 +1,9 @@
-//! Builds the bench images of `firmware`, runs each in QEMU, prints what it costs as a table, and compares that with
-//! `firmware/BENCHES.md`: `cargo bench-table`, or `cargo bench-table --bless` to write that file anew.
+//! Builds the bench images of `firmware`, runs each in QEMU, prints a table of their costs, and compares it with
+//! `firmware/BENCHES.md`: `cargo bench-table`, or `cargo bench-table --bless` to rewrite that file.
 //!
 //! Cycles come from a program that the environment variable `ANTINODE_CYCLES` names. It is called with `ELF --units N --json` and
 //! prints a JSON object whose member `cycles` is a number: cycles a unit between the calls of `mark_begin` and `mark_end`, N units
-//! in all. Without it the committed cycles stand there with a star, where the instructions are still the same.
+//! in all. Without it the committed cycles are printed with a star, if the instructions are still the same.
 
 mod image;
 
@@ -15,7 +15,7 @@ use host_tests::table::{NOTHING, Row, Table};
 
 use image::Image;
 
-/// Before the table in the file.
+/// Text before the table in the file.
 const HEAD: &str = "\
 # What the core costs on a Cortex-M4F
 

@@ -1,4 +1,4 @@
-//! A board on the host: its pipeline at the pace of the ring, and a line that takes time.
+//! A board on the host: its pipeline at the pace of the DMA's ring, and a serial line that takes time.
 
 use std::mem;
 
@@ -21,15 +21,15 @@ use crate::told::{acknowledgements, counters};
 pub struct Wire<'q> {
     out: Outgoing<'q>,
     run: Option<Run<'q>>,
-    /// Bytes that there was time for since the run began.
+    /// Bytes that there has been time for since the run began.
     time: usize,
     pub receiver: Receiver,
-    /// What came out at its end.
+    /// Bytes received at the line's other end.
     pub reports: Vec<Report>,
 }
 
 impl<'q> Wire<'q> {
-    /// A line on which nothing is.
+    /// An idle line.
     pub fn new(out: Outgoing<'q>) -> Self {
         Self {
             out,
@@ -40,7 +40,7 @@ impl<'q> Wire<'q> {
         }
     }
 
-    /// Time for so many bytes passes.
+    /// Lets the time of `bytes` bytes pass.
     pub fn pass(&mut self, bytes: usize) {
         self.time += bytes;
         loop {
@@ -64,12 +64,12 @@ impl<'q> Wire<'q> {
         }
     }
 
-    /// The counters that came.
+    /// The counters received.
     pub fn counters(&self) -> Vec<Counters> {
         counters(&self.reports)
     }
 
-    /// The acknowledgements that came.
+    /// The ids of the acknowledgements received.
     pub fn acknowledged(&self) -> Vec<u16> {
         acknowledgements(&self.reports)
             .iter()
@@ -81,21 +81,21 @@ impl<'q> Wire<'q> {
 /// Bytes that the line takes while half of the ring fills.
 pub const BYTES: usize = (BAUD / 10) as usize * HALF / SAMPLE_RATE as usize;
 
-/// A window at every so many blocks: at 5 the reports are a little more than the line takes, at 1 six times as much.
+/// A configuration with a hop of `blocks`: with 5 the reports are slightly more than the line carries, with 1 six times as much.
 pub fn hop_of(blocks: u16) -> Configuration {
     let mut configuration = configuration(FrontEnd::Synthetic, DUAL_ADC_RAILS);
     configuration.settings.hop = Some(blocks);
     configuration
 }
 
-/// Windows of so many periods, at every so many blocks.
+/// A configuration with windows of `periods`, and this hop.
 pub fn windows_of(periods: u16, hop: Option<u16>) -> Configuration {
     let mut configuration = configuration(FrontEnd::Synthetic, DUAL_ADC_RAILS);
     (configuration.settings.periods, configuration.settings.hop) = (periods, hop);
     configuration
 }
 
-/// What a test has of a board.
+/// Parts of a board that a test uses.
 pub struct Board<'q> {
     pub instrument: &'q mut Instrument<'q, i16>,
     pub inbox: &'q Inbox,
@@ -103,12 +103,12 @@ pub struct Board<'q> {
     /// Halves of the ring so far, and the time, ms.
     pub half: usize,
     pub now: u32,
-    /// Halves that fill before the main loop has its next turn, beside one.
+    /// Additional halves that fill before the main loop's next turn.
     pub missed: usize,
 }
 
 impl Board<'static> {
-    /// A board at rest with what its converter's interrupt serves. It is never freed: a test has few.
+    /// A board at rest, with the gatherer for its converter's interrupt. It is never freed: a test has only a few.
     pub fn new(configuration: Configuration) -> (&'static mut Gatherer<'static, i16>, Self) {
         let queues = Box::leak(Box::new(Queues::new()));
         let parts = queues
@@ -138,7 +138,7 @@ impl Board<'_> {
     }
 }
 
-/// A board that samples a wave for up to 2 s; after each half of the ring `go_on` does what it likes, and says whether to go on.
+/// Runs a board that samples a wave for up to 2 s. After each half of the ring it calls `go_on`, and stops if that gives false.
 pub fn board(configuration: Configuration, go_on: impl FnMut(&mut Board<'_>) -> bool) {
     let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 200_000);
     board_on(&recording, configuration, go_on);
@@ -163,7 +163,7 @@ pub fn board_on(
     }
 }
 
-/// A source that loses so many pairs whenever it is asked.
+/// A source that loses this many pairs at every call.
 pub struct Losing(pub u32);
 
 impl Source for Losing {

@@ -52,7 +52,7 @@ fn settings_are_changed_or_refused() {
         .collect();
     assert_eq!(answers, script.map(|(_, result)| result));
     assert!(estimates(&reports).iter().all(|e| e.samples > 300));
-    // How the line's bytes fall into rounds decides where the first state comes; the rest is the same to the bit.
+    // The round in which the first state comes depends on how the line's bytes fall; all else is the same to the bit.
     let settled = |reports: &[Report]| {
         let tracking = |r: &Report| matches!(r, Report::State(State::Tracking));
         let at = reports.iter().position(tracking).expect("it tracks");
@@ -72,7 +72,7 @@ fn settings_are_changed_or_refused() {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn the_window_changes_while_it_runs() {
+fn the_window_changes_while_the_device_runs() {
     let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 1_000_000);
     let mut device = Device::start("replay", &recording, "");
     assert!(device.read_until(|reports| estimates(reports).len() > 100));
@@ -91,7 +91,7 @@ fn the_window_changes_while_it_runs() {
     let (before, after) = (estimates(&reports[..at]), estimates(&reports[at..]));
     assert!(before.iter().all(|e| e.samples == 190));
     assert!(after.iter().all(|e| e.samples == 380) && after.len() > 100);
-    // The count of pairs goes on.
+    // The count of pairs continues.
     assert!(after[0].start > before[before.len() - 1].start);
     assert_eq!(after[0].flags, Flags::REACQUIRED);
     assert!(after[1..].iter().all(|e| e.flags.is_empty()));
@@ -117,7 +117,7 @@ fn windows_of_two_periods_lose_no_block() {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn a_restart_is_acknowledged_and_explained() {
+fn a_restart_is_acknowledged_and_reported_with_its_cause() {
     let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 10_000);
     let mut device = Device::start("replay", &recording, "hold=1");
     device.command(1, Command::Restart);

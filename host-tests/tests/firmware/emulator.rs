@@ -15,17 +15,17 @@ use antinode_telemetry::{CommandFrame, MAX_FRAME, Receiver, Report, frame};
 /// The profile and the target of the images.
 const PROFILE: &str = "firmware";
 const TARGET: &str = "thumbv7em-none-eabihf";
-/// No run takes longer.
+/// Longest run.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A folder of this test's own.
+/// A folder for this test only.
 pub fn folder() -> PathBuf {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("firmware");
     fs::create_dir_all(&folder).expect("the target directory can be written");
     folder
 }
 
-/// Builds all images of the firmware, as `feature` says; gives the folder that they are in.
+/// Builds all images of the firmware with these features; gives their folder.
 fn build(features: &[&str], images: &[&str]) -> PathBuf {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .parent()
@@ -58,7 +58,7 @@ fn build(features: &[&str], images: &[&str]) -> PathBuf {
 pub fn images() -> &'static Path {
     static BUILT: OnceLock<PathBuf> = OnceLock::new();
     BUILT.get_or_init(|| {
-        // One after the other: both go through the same folder.
+        // One after the other, as both builds use the same folder.
         let float = build(&["f32"], &["replay"]);
         let fixed = build(&[], &["stm32f405", "stm32f405_ad7380", "check_memory"]);
         let replay = build(&["methods"], &["replay"]);
@@ -68,11 +68,11 @@ pub fn images() -> &'static Path {
     })
 }
 
-/// QEMU, which ends with whoever has begun it.
+/// QEMU, which is stopped with its owner.
 pub struct Emulator(Child);
 
 impl Emulator {
-    /// How it runs `image`, without a window and a monitor.
+    /// The command that runs `image`, without window and monitor.
     pub fn of(image: &str) -> Command {
         let mut command = Command::new("qemu-system-arm");
         command
@@ -83,7 +83,7 @@ impl Emulator {
         command
     }
 
-    /// Begins it.
+    /// Starts the command.
     pub fn begin(command: &mut Command) -> Self {
         Self(command.spawn().expect("qemu-system-arm must be installed"))
     }
@@ -102,14 +102,14 @@ pub struct Device {
     line: UnixStream,
     receiver: Receiver,
     began: Instant,
-    /// Where its log is.
+    /// Path of its log.
     pub log: PathBuf,
-    /// What it has sent so far.
+    /// Reports received so far.
     pub reports: Vec<Report>,
 }
 
 impl Device {
-    /// Starts `image` on a recording with the options of its command line.
+    /// Starts `image` on a recording, with options for its command line.
     pub fn start(image: &str, recording: &[Packed], options: &str) -> Self {
         static NEXT: AtomicU32 = AtomicU32::new(0);
         let number = NEXT.fetch_add(1, Ordering::Relaxed);
@@ -117,7 +117,7 @@ impl Device {
         let name = format!("{number}.raw");
         let bytes: Vec<u8> = recording.iter().flat_map(|p| p.0.to_le_bytes()).collect();
         fs::write(folder.join(&name), bytes).expect("it can be written");
-        // The path of a socket has room for 107 bytes.
+        // The path of a socket is limited to 107 bytes.
         let socket = std::env::temp_dir().join(format!("antinode-{}-{number}", std::process::id()));
         let log = folder.join(format!("{number}.log"));
         let listener = UnixListener::bind(&socket).expect("a socket can be made");
@@ -133,7 +133,7 @@ impl Device {
                     "-semihosting-config",
                     &format!("enable=on,target=native{args}"),
                 ])
-                // Where semihosting writes the log.
+                // Semihosting writes the log there.
                 .stdout(fs::File::create(&log).expect("it can be written")),
         );
         let (line, _) = listener.accept().expect("QEMU opens the line");
@@ -148,7 +148,7 @@ impl Device {
             log,
             reports: Vec::new(),
         };
-        // Before that its USART is off, and drops bytes.
+        // Before this its USART is off and drops bytes.
         assert!(device.read_until(|reports| !reports.is_empty()));
         device
     }
@@ -163,7 +163,7 @@ impl Device {
         self.send(&bytes(id, command));
     }
 
-    /// Reads until `enough`; false where the run has ended before.
+    /// Reads until `enough` gives true; false if the run has ended before.
     pub fn read_until(&mut self, enough: impl Fn(&[Report]) -> bool) -> bool {
         let mut buffer = [0; 4096];
         while !enough(&self.reports) {
@@ -178,7 +178,7 @@ impl Device {
                     }
                 }
                 Err(error) if error.kind() == ErrorKind::WouldBlock => {}
-                // QEMU has ended before it took all that it was sent.
+                // QEMU has ended before it took all bytes.
                 Err(error) if error.kind() == ErrorKind::ConnectionReset => return false,
                 Err(error) => panic!("{error}"),
             }
@@ -186,7 +186,7 @@ impl Device {
         true
     }
 
-    /// Reads to the end; gives all reports, how many are missing, and the seconds that it took.
+    /// Reads to the end; gives all reports, the count of missing ones, and the duration in s.
     pub fn finish(mut self) -> (Vec<Report>, u64, f64) {
         self.read_until(|_| false);
         let status = self.emulator.0.wait().expect("it was started");
@@ -201,7 +201,7 @@ impl Device {
     }
 }
 
-/// A command as bytes.
+/// The bytes of a command.
 pub fn bytes(id: u16, command: antinode_telemetry::Command) -> Vec<u8> {
     let mut buffer = [0; MAX_FRAME];
     frame(&CommandFrame { id, command }, &mut buffer)

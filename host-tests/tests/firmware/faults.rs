@@ -1,4 +1,4 @@
-//! What goes wrong is counted and told, and nothing wrong goes by without a flag.
+//! Faults are counted and reported, and no wrong estimate is without a flag.
 
 use std::fs;
 
@@ -22,7 +22,7 @@ fn counters(reports: &[Report]) -> Counters {
     }
 }
 
-/// Every window without a flag tells the truth.
+/// Asserts that every window without a flag is right.
 fn assert_right(estimates: &[Estimate]) {
     for e in estimates.iter().filter(|e| e.flags.is_empty()) {
         let near = |value: f64, truth: f64, std: f32| (value - truth).abs() < 6.0 * f64::from(std);
@@ -45,7 +45,7 @@ fn assert_right(estimates: &[Estimate]) {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn garbage_on_the_line() {
+fn garbage_on_the_line_is_counted_and_does_no_harm() {
     let recording = steady(1_000_000);
     let mut device = Device::start("replay", &recording, "");
     assert!(device.read_until(|reports| estimates(reports).len() > 10));
@@ -76,7 +76,7 @@ fn garbage_on_the_line() {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn a_reader_that_stops_reading() {
+fn a_reader_that_stops_costs_reports_but_no_samples() {
     let recording = steady(100_000);
     let (reports, lost, _) = Device::start("replay", &recording, "shut=200:500").finish();
     let counters = counters(&reports);
@@ -88,7 +88,7 @@ fn a_reader_that_stops_reading() {
         estimates(&reports),
         estimates(&mirror::reports::<i16>(&recording, &[], 1)),
     );
-    // What does arrive is what would have arrived, to the last window.
+    // The reports that arrive are those that would have arrived, up to the last window.
     assert!(got.iter().all(|e| expected.contains(e)));
     assert_eq!(got.last(), expected.last());
     assert!(got.len() as u64 + lost >= expected.len() as u64);
@@ -96,7 +96,7 @@ fn a_reader_that_stops_reading() {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn a_reader_that_sleeps() {
+fn a_reader_that_sleeps_costs_reports_but_no_samples() {
     let recording = steady(300_000);
     let mut device = Device::start("replay", &recording, "");
     assert!(device.read_until(|reports| estimates(reports).len() > 10));
@@ -111,7 +111,7 @@ fn a_reader_that_sleeps() {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn a_main_loop_that_is_too_slow() {
+fn a_main_loop_that_is_too_slow_drops_counted_blocks() {
     let recording = steady(300_000);
     let mut device = Device::start("replay", &recording, "hold=1 slow=88");
     // The outbox holds the estimates of a round.
@@ -126,7 +126,7 @@ fn a_main_loop_that_is_too_slow() {
         .iter()
         .position(|r| matches!(r, Report::Counters(c) if c.blocks_dropped > 0))
         .expect("it is told");
-    // It is told in the round in which it happens, not with the next second's counters.
+    // The loss is reported in the same round, not with the counters of the next second.
     assert!(estimates(&reports[..first]).len() < QUEUE / 8);
     let estimates = estimates(&reports);
     assert!(estimates.len() > 100);
@@ -135,7 +135,7 @@ fn a_main_loop_that_is_too_slow() {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn pairs_that_are_lost() {
+fn lost_pairs_cost_only_the_windows_around_them() {
     let recording = steady(100_000);
     let (reports, lost, _) = Device::start("replay", &recording, "lapse=300:777").finish();
     assert_eq!(lost, 0);
@@ -149,7 +149,7 @@ fn pairs_that_are_lost() {
     assert_eq!(reports.iter().filter(|r| **r == restarted).count(), 1);
     let estimates = estimates(&reports);
     assert!(estimates.len() > 500);
-    // Time goes on over the hole: no window claims to lie in it, and all others are right, phase and frequency among them.
+    // Time includes the gap: no window lies in it, and all others are right, phase and frequency among them.
     let hole = 300 * 128..300 * 128 + 777;
     assert!(
         estimates
@@ -180,7 +180,7 @@ fn a_panic_restarts_the_instrument() {
         after,
         estimates(&mirror::reports::<i16>(&recording, &[], 1))
     );
-    // defmt's frame: the message's number, its argument, which of their bytes are zero, and an end.
+    // A defmt frame: the message's number, its argument, a mask of their zero bytes, and an end.
     let source = include_str!("../../../firmware/src/replay.rs");
     let line = source.lines().position(|line| line.contains("panic!("));
     let line = line.expect("it panics") as u8 + 1;
@@ -190,7 +190,7 @@ fn a_panic_restarts_the_instrument() {
     assert!(log.windows(4).any(is_told), "no {frame:x?} in {log:x?}");
 }
 
-/// The number of a message of the log.
+/// Number of a message of the log.
 fn message(text: &str) -> u8 {
     let symbols = output("nm", &[], "replay");
     let symbol = symbols.lines().find(|symbol| symbol.contains(text));

@@ -1,14 +1,14 @@
-//! What the images are made of.
+//! Properties of the images: no panics, sizes, memory functions.
 
 use std::process::{Command, Stdio};
 
 use crate::emulator::images;
 
-/// Most bytes of flash of each image, and of RAM with all buffers.
+/// Largest flash of each image, bytes, and largest RAM with all buffers.
 const FLASH: [(&str, u64); 2] = [("stm32f405", 50 * 1024), ("stm32f405_ad7380", 53 * 1024)];
 const RAM: u64 = 20 * 1024;
 
-/// What a tool says of an image.
+/// Output of a tool for an image.
 pub fn output(tool: &str, args: &[&str], image: &str) -> String {
     let output = Command::new(tool)
         .args(args)
@@ -21,7 +21,7 @@ pub fn output(tool: &str, args: &[&str], image: &str) -> String {
 
 #[test]
 #[ignore = "needs the ARM target"]
-fn nothing_panics() {
+fn no_image_can_panic() {
     for image in ["stm32f405", "stm32f405_ad7380"] {
         let symbols = output("nm", &["-C"], image);
         assert!(symbols.contains("_SEGGER_RTT"), "no symbols to look at");
@@ -35,7 +35,7 @@ fn nothing_panics() {
 
 #[test]
 #[ignore = "needs the ARM target"]
-fn it_fits() {
+fn images_fit_into_flash_and_ram() {
     for (image, most) in FLASH {
         let sections = output("size", &["-A", "-d"], image);
         let size = |names: &[&str]| -> u64 {
@@ -59,7 +59,7 @@ fn it_fits() {
 
 #[test]
 #[ignore = "needs the ARM target"]
-fn memory_is_copied_and_cleared() {
+fn memory_functions_copy_and_clear_rightly() {
     let output = Command::new("timeout")
         .args(["60", "qemu-system-arm", "-machine", "netduinoplus2"])
         .args(["-display", "none", "-monitor", "none", "-serial", "none"])

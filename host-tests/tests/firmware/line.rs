@@ -1,4 +1,4 @@
-//! A line that is too slow, too dead or too busy, and a main loop that is.
+//! A line that is too slow, dead or busy, and a busy main loop.
 
 use std::sync::atomic::Ordering;
 
@@ -10,7 +10,7 @@ use crate::board::{BYTES, Board, Losing, board, hop_of};
 use crate::emulator::bytes;
 
 #[test]
-fn a_saturated_line_acknowledges() {
+fn a_saturated_line_still_acknowledges_commands() {
     let (mut asked, mut answered, mut lost) = (Vec::new(), Vec::new(), 0);
     board(hop_of(1), |board| {
         board.wire.pass(BYTES);
@@ -23,12 +23,12 @@ fn a_saturated_line_acknowledges() {
     });
     assert!(lost > 500, "the line is not saturated: {lost} lost");
     assert_eq!(answered, asked[..answered.len()]);
-    // The last may still be on its way.
+    // The last acknowledgement may still be under way.
     assert!(asked.len() - answered.len() <= 1, "{answered:?}");
 }
 
 #[test]
-fn a_busy_line_does_not_hold_a_restart_up() {
+fn a_busy_line_does_not_delay_a_restart() {
     for (hop, half) in (1..=5).flat_map(|hop| (400..420).map(move |half| (hop, half))) {
         let (mut asked, mut restarted, mut answered) = (0, 0, Vec::new());
         board(hop_of(hop), |board| {
@@ -41,14 +41,14 @@ fn a_busy_line_does_not_hold_a_restart_up() {
             !board.instrument.wants_restart()
         });
         assert_eq!(answered, [7], "hop {hop}");
-        // What the outbox holds takes 22 ms.
+        // The content of the outbox takes 22 ms.
         let took = restarted - asked;
         assert!(took < 30, "hop {hop}: it took {took} ms");
     }
 }
 
 #[test]
-fn a_dead_line_does_not_hold_a_restart_up() {
+fn a_dead_line_does_not_delay_a_restart_for_ever() {
     let (mut asked, mut restarted) = (0, 0);
     board(hop_of(1), |board| {
         if board.half == 100 {
@@ -66,7 +66,7 @@ fn a_dead_line_does_not_hold_a_restart_up() {
 }
 
 #[test]
-fn a_dma_fills_the_inbox_round_and_round() {
+fn a_dma_can_fill_the_inbox_endlessly() {
     let (mut place, mut asked, mut answered) = (0, Vec::new(), Vec::new());
     board(hop_of(1), |board| {
         board.wire.pass(10 * BYTES);
@@ -76,12 +76,12 @@ fn a_dma_fills_the_inbox_round_and_round() {
                 board.inbox.places()[place].store(byte, Ordering::Relaxed);
                 place = (place + 1) % INBOX;
             }
-            // Delimiters, now and then, to the ring's very end.
+            // Delimiters now and then, up to the ring's very end.
             while board.half % 10 == 5 && place != 0 {
                 board.inbox.places()[place].store(0, Ordering::Relaxed);
                 place = (place + 1) % INBOX;
             }
-            // NDTR counts down; at a round's end it may be seen at nothing.
+            // NDTR counts down; at a round's end it may be read as 0.
             board.inbox.left((INBOX - place) % INBOX);
         }
         answered = board.wire.acknowledged();
@@ -92,12 +92,12 @@ fn a_dma_fills_the_inbox_round_and_round() {
 }
 
 #[test]
-fn a_queue_that_never_empties_does_not_hold_the_main_loop_up() {
+fn a_queue_that_never_empties_does_not_block_the_main_loop() {
     let (gatherer, board) = Board::new(hop_of(1));
     gatherer.serve(&mut Losing(1));
     for now in 0..3 {
         let mut taken = 0;
-        // The interrupt comes again whenever an item is taken.
+        // The interrupt refills the queue whenever an item is taken.
         board.instrument.poll(now, |event| {
             if matches!(event, Event::Lapse(_)) {
                 taken += 1;

@@ -1,6 +1,6 @@
-//! The images: `replay` in QEMU against the same pipeline on the host, and what the others are made of.
+//! Tests of the images: `replay` in QEMU against the same pipeline on the host, and properties of the others.
 //!
-//! All but those of `line`, `priorities`, `recovery` and `steered` need the ARM target and QEMU, and so are run by name:
+//! All except those of `line`, `priorities`, `recovery` and `steered` need the ARM target and QEMU, and so are run explicitly:
 //! `cargo test --release -p host-tests --test firmware -- --ignored`.
 #![cfg(unix)] // the emulator's serial line is a Unix socket
 

@@ -30,7 +30,7 @@ fn methods_come_with_their_windows() {
             methods.len(),
             methods.iter().filter(|m| m.disagree).count()
         );
-        // All but those in which the sums were tuned to the wave.
+        // All windows except those before the sums were tuned to the wave.
         assert!(
             methods.len() + 60 > windows.len(),
             "{name}: {} of {}",
@@ -43,7 +43,7 @@ fn methods_come_with_their_windows() {
                 .iter()
                 .find(|e| e.start == m.start)
                 .expect("its window");
-            // The second and the fourth, 2 and 4, know of quadrature and need no fit of the window beyond their leakage.
+            // Algorithms 2 and 4 include quadrature, and a window that does not fit the period costs them only leakage.
             let size = f64::from(e.main_amplitude);
             for method in [&m.methods[1], &m.methods[3]] {
                 assert!(
@@ -69,9 +69,9 @@ fn methods_come_with_their_windows() {
 }
 
 #[test]
-fn the_first_window_after_a_tuning_is_compared_once_its_sums_are_whole() {
+fn the_first_window_after_a_tuning_is_compared_once_its_sums_are_complete() {
     let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 50_000);
-    // A window begins with every block: the first one whose blocks all have sums, too.
+    // A window begins with every block: the first one with sums in all its blocks counts too.
     let mut commands = bytes(1, Command::SetHop { blocks: Some(1) });
     commands.extend(bytes(2, Command::SetMethods { on: true }));
     let methods = methods(&mirror::reports::<i16>(&recording, &commands, 1));
@@ -82,7 +82,7 @@ fn the_first_window_after_a_tuning_is_compared_once_its_sums_are_whole() {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn methods_are_off_by_default_and_again() {
+fn methods_are_off_by_default_and_can_be_switched_off_again() {
     let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 50_000);
     let mut device = Device::start("replay", &recording, "hold=2");
     device.command(1, Command::SetMethods { on: true });

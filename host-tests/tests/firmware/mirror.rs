@@ -1,4 +1,4 @@
-//! The same pipeline on the host, on the same codes, in the same rounds as `replay`.
+//! The same pipeline on the host, with the same codes in the same rounds as in `replay`.
 
 use antinode::{Packed, Sample, SamplePair};
 use antinode_telemetry::{Cause, FrontEnd, Receiver, Report};
@@ -6,21 +6,21 @@ use firmware::pipeline::{Places, Queues};
 use firmware::sampling::{DUAL_ADC_RAILS, Lapse, Ready, Source, both, is_at_rail_12};
 use firmware::settings::{HALF, configuration};
 
-/// Codes from memory.
+/// A source of codes from memory.
 pub struct Recorded<'a> {
     rest: &'a [Packed],
     half: &'a [Packed],
-    /// How many halves it has given.
+    /// Count of halves given.
     given: usize,
-    /// The half that it begins to overwrite while it is read, from 1.
+    /// The half, from 1, that is overwritten while it is read.
     torn: usize,
 }
 
-/// Pairs that a torn half costs behind it.
+/// Pairs that are lost after a torn half.
 pub const MISSED: u32 = 77;
 
 impl<'a> Recorded<'a> {
-    /// All of them are still to come.
+    /// A source with all codes still to come.
     pub fn new(codes: &'a [Packed]) -> Self {
         Self {
             rest: codes,
@@ -30,7 +30,7 @@ impl<'a> Recorded<'a> {
         }
     }
 
-    /// The same, but the half of this number, from 1, is overwritten while it is read.
+    /// The same, but half number `half`, from 1, is overwritten while it is read.
     pub fn torn(codes: &'a [Packed], half: usize) -> Self {
         Self {
             torn: half,
@@ -76,7 +76,7 @@ impl Source for Recorded<'_> {
     }
 }
 
-/// What a device must report on `recording` after it was sent `commands`, with `slow` halves in each round.
+/// Reports of a device on `recording` after `commands`, with `slow` halves in each round.
 pub fn reports<S: Sample>(recording: &[Packed], commands: &[u8], slow: usize) -> Vec<Report>
 where
     Packed: SamplePair<S>,
@@ -85,7 +85,7 @@ where
     reports_of(Recorded::new(recording), (0, commands), slow)
 }
 
-/// What it must report on a source after it was sent `commands` in this round.
+/// Reports of a device on a source after `commands` in this round.
 pub fn reports_of<S: Sample>(
     mut source: Recorded,
     (round, commands): (usize, &[u8]),

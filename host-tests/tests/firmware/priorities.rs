@@ -1,4 +1,4 @@
-//! What is sent first and what is put off on a line without room for all, and that no block is lost meanwhile.
+//! Priority of reports on a line without room for all of them, without loss of blocks.
 
 use antinode_sim::Wave;
 use antinode_telemetry::{Command, Configuration, Report};
@@ -9,7 +9,7 @@ use crate::recordings;
 use crate::told::estimates;
 
 #[test]
-fn counters_come_every_second_however_busy_the_line() {
+fn counters_come_every_second_however_busy_the_line_is() {
     let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 1_000_000);
     for (periods, hop) in [(10, None), (10, Some(1)), (10, Some(2)), (2, None)] {
         let (mut times, mut lost) = (vec![0], 0);
@@ -29,8 +29,8 @@ fn counters_come_every_second_however_busy_the_line() {
 }
 
 #[test]
-fn counters_that_tell_of_drops_leave_the_line_to_estimates() {
-    // Blocks of so few pairs that five halves of the ring have more of them than the queue holds.
+fn counters_of_drops_leave_room_on_the_line_for_estimates() {
+    // Blocks of so few pairs that five halves of the ring have more blocks than the queue holds.
     let configuration = windows_of(2, Some(30));
     let (mut counters, mut estimated, mut lost) = (Vec::new(), 0, 0);
     let mut end = 0;
@@ -52,8 +52,7 @@ fn counters_that_tell_of_drops_leave_the_line_to_estimates() {
     );
 }
 
-/// What a board counts of its blocks that are dropped, in 1.8 s of a wave of so many Hz; after each half of the ring `each` does what it
-/// likes.
+/// Count of blocks dropped in 1.8 s of a wave of `frequency` Hz; `each` is called after every half of the ring.
 fn blocks_dropped(
     frequency: f64,
     configuration: Configuration,
@@ -66,7 +65,7 @@ fn blocks_dropped(
     let recording = recordings::codes(wave, recordings::quiet(), 200_000);
     let mut dropped = 0;
     board_on(&recording, configuration, |board| {
-        // The line is not in the way.
+        // The line is no bottleneck.
         board.wire.pass(100 * BYTES);
         each(board);
         let last = board.wire.counters().last().copied();
@@ -91,7 +90,7 @@ fn a_half_of_the_ring_has_no_more_blocks_than_the_queue_holds() {
 }
 
 #[test]
-fn methods_cost_no_block() {
+fn methods_drop_no_block() {
     for (frequency, periods, hop) in [
         (5332.0, 10, None),
         (5332.0, 10, Some(10)),
@@ -108,7 +107,7 @@ fn methods_cost_no_block() {
             }
             let is_methods = |report: &&Report| matches!(report, Report::Methods(_));
             let now = board.wire.reports.iter().filter(is_methods).count();
-            // 5 ms of the main loop for each.
+            // Methods take 5 ms of the main loop per window.
             board.missed = 4 * (now - compared);
             compared = now;
         });
@@ -118,13 +117,13 @@ fn methods_cost_no_block() {
 }
 
 #[test]
-fn counters_that_find_no_room_come_as_soon_as_there_is_some() {
+fn counters_without_room_come_as_soon_as_there_is_some() {
     let [healthy, dead] = [false, true].map(|is_dead| {
         let (mut times, mut sent) = (Vec::new(), 0);
         board(windows_of(10, None), |board| {
             let is_asked = (600..900).contains(&board.half);
             if is_asked {
-                // Answers take the room that other reports leave to counters.
+                // Answers may use the room that other reports reserve for counters.
                 board.command(1, Command::Get);
             }
             if !(is_dead && is_asked) {
@@ -138,10 +137,10 @@ fn counters_that_find_no_room_come_as_soon_as_there_is_some() {
         (times, sent)
     });
     assert_eq!(healthy.0, [951]);
-    // With the first run of bytes that has left.
+    // After the first run of bytes is sent.
     let first = (900 * HALF * 1000 / SAMPLE_RATE as usize) as u64;
     assert!(dead.0.len() == 1 && dead.0[0] < first + 5, "{dead:?}");
-    // A report that was put off is none that was lost.
+    // A report that is put off does not count as dropped.
     assert_eq!(healthy.1, dead.1);
 }
 

@@ -1,4 +1,4 @@
-//! Simulated recordings as a 12-bit dual converter gives them.
+//! Simulated recordings in the format of a 12-bit dual converter.
 
 use antinode::Packed;
 use antinode_sim::{ClipSpan, Dropout, DropoutKind, Flaws, Gyro, Loss, Wave};
@@ -36,7 +36,7 @@ pub fn codes(wave: Wave, flaws: Flaws, pairs: usize) -> Vec<Packed> {
         .collect()
 }
 
-/// Little noise, and offsets.
+/// Flaws with little noise, and offsets.
 pub fn quiet() -> Flaws {
     Flaws {
         noise: 2.0,
@@ -46,7 +46,7 @@ pub fn quiet() -> Flaws {
     }
 }
 
-/// All kinds, a second each, by name.
+/// All kinds of recordings, one second each, with their names.
 pub fn all() -> Vec<(&'static str, Vec<Packed>)> {
     let second = |wave, flaws| codes(wave, flaws, RATE as usize);
     let dropout = |from, to, kind| Dropout {

@@ -1,4 +1,4 @@
-//! What is lost, stands still or comes too late on the host: the pipeline finds its way back, and counts on.
+//! Losses, stalls and delays on the host: the pipeline recovers and keeps counting.
 
 use antinode::{Calibration, Flags, Packed};
 use antinode_sim::Wave;
@@ -14,18 +14,18 @@ use crate::mirror::{MISSED, Recorded, reports_of};
 use crate::recordings;
 use crate::told::{acknowledgements, estimates, last_counters};
 
-/// A converter that can stand still until it has been started anew so often; its triggers go on.
+/// A converter that stalls until it has been restarted a number of times; its triggers continue.
 struct Halting<'a> {
     codes: &'a [Packed],
     half: &'a [Packed],
-    /// Pairs that were triggered, and that were handed out or lost.
+    /// Pairs triggered, and pairs handed out or lost.
     triggered: usize,
     taken: usize,
     still: u32,
 }
 
 impl<'a> Halting<'a> {
-    /// One of these codes that stands not still.
+    /// A converter of these codes that does not stall.
     fn new(codes: &'a [Packed]) -> Self {
         Self {
             codes,
@@ -36,7 +36,7 @@ impl<'a> Halting<'a> {
         }
     }
 
-    /// Lets 400 half-buffers be triggered, from the middle one on standing still so often; before each one `put` puts what is received.
+    /// Runs 400 half-buffers; from the middle one on the converter stalls until `still` restarts. Before each, `put` adds bytes received.
     fn stand_still(
         &mut self,
         still: u32,
@@ -50,7 +50,7 @@ impl<'a> Halting<'a> {
                 self.still = still;
             }
             put(board, half);
-            // While it stands still no interrupt of its own comes.
+            // While it stalls no interrupt of its own comes.
             if self.still == 0 || board.instrument.asks_for_source() {
                 gatherer.serve(self);
             }
@@ -98,7 +98,7 @@ impl Source for Halting<'_> {
 }
 
 #[test]
-fn a_converter_that_stands_still_is_started_anew() {
+fn a_stalled_converter_is_restarted() {
     let wave = Wave {
         angle_rate: 20.0,
         ..recordings::WAVE
@@ -118,13 +118,13 @@ fn a_converter_that_stands_still_is_started_anew() {
         let lost = counters.pairs_lost;
         let halves = u64::from(still + 1) * HALF as u64;
         assert!((least..least + halves).contains(&lost), "{lost}");
-        // It was told at once.
+        // The restart is reported at once.
         assert!(told.restarts > 0 && told.uptime_ms < 400, "{told:?}");
         let is_told =
             |r: &&Report| **r == Report::State(State::SamplingRestarted(Cause::Converter));
         let restarts = board.wire.reports.iter().filter(is_told).count();
         assert_eq!(restarts, still as usize);
-        // Time goes on over the hole.
+        // Time includes the gap.
         let estimates = estimates(&board.wire.reports);
         assert!(estimates.last().is_some_and(|last| last.time > 0.5));
         for estimate in estimates {
@@ -135,13 +135,13 @@ fn a_converter_that_stands_still_is_started_anew() {
 }
 
 #[test]
-fn requests_that_wait_do_not_keep_a_converter_from_being_started_anew() {
+fn waiting_requests_do_not_prevent_a_restart_of_the_converter() {
     let codes = recordings::codes(recordings::WAVE, recordings::quiet(), 60_000);
     let (gatherer, mut board) = Board::new(hop_of(5));
     let mut source = Halting::new(&codes);
     source.stand_still(1, gatherer, &mut board, |board, half| {
         if (200..200 + 2 * REQUESTS).contains(&half) {
-            // No interrupt comes that would take it from the queue.
+            // No interrupt comes to take the request from the queue.
             board.command(half as u16, Command::SetWindow { periods: 12 });
         }
     });
@@ -149,11 +149,11 @@ fn requests_that_wait_do_not_keep_a_converter_from_being_started_anew() {
 }
 
 #[test]
-fn a_device_that_does_not_sample_obeys_all_the_same() {
+fn a_device_that_does_not_sample_still_executes_commands() {
     let (_, mut board) = Board::new(hop_of(5));
     let fault = State::Fault(Cause::Clock);
     board.instrument.fault(Cause::Clock, |_| {});
-    // As long as the watchdog lets it, and with more commands than requests may wait.
+    // For as long as the watchdog allows, with more commands than requests may wait.
     for now in 0..WATCHDOG_MS {
         if now % STALL_MS == STALL_MS / 2 {
             board.command(1, Command::SetWindow { periods: 12 });
@@ -164,14 +164,14 @@ fn a_device_that_does_not_sample_obeys_all_the_same() {
     let answers = acknowledgements(&board.wire.reports);
     assert!(answers.len() > 2 * REQUESTS, "{answers:?}");
     assert!(answers.iter().all(|a| a.result.is_ok()), "{answers:?}");
-    // It goes on saying that it does not.
+    // Its state remains a fault.
     let is_state = |report: &&Report| matches!(report, Report::State(_));
     let last = board.wire.reports.iter().rfind(is_state);
     assert_eq!(last, Some(&Report::State(fault)));
 }
 
 #[test]
-fn what_is_lost_while_the_queue_is_full_adds_up() {
+fn losses_while_the_queue_is_full_add_up() {
     let (gatherer, board) = Board::new(hop_of(5));
     let (mut told, mut count) = (0, 0);
     let mut tell = |event| {
@@ -189,7 +189,7 @@ fn what_is_lost_while_the_queue_is_full_adds_up() {
 }
 
 #[test]
-fn counts_and_time_go_on_beyond_32_bits() {
+fn counts_and_time_continue_beyond_32_bits() {
     let (gatherer, mut board) = Board::new(hop_of(5));
     // 25 days each.
     for now in [1 << 31, u32::MAX, 999] {
@@ -199,12 +199,12 @@ fn counts_and_time_go_on_beyond_32_bits() {
     }
     let counters = last_counters(&board.wire.reports);
     assert_eq!(counters.uptime_ms, (1 << 32) + 999);
-    // The second and the third time sampling is started anew first.
+    // In the second and the third case sampling is restarted first.
     assert_eq!(counters.pairs_lost, 5_000_000_000);
 }
 
 #[test]
-fn what_goes_wrong_right_after_a_report_is_told_soon() {
+fn a_fault_right_after_a_report_of_counters_is_reported_soon() {
     let (gatherer, mut board) = Board::new(hop_of(5));
     let mut told = Vec::new();
     for now in 0..200 {
@@ -229,13 +229,13 @@ fn what_goes_wrong_right_after_a_report_is_told_soon() {
 }
 
 #[test]
-fn blocks_before_the_last_answer_are_of_no_use() {
+fn blocks_before_the_last_answer_are_discarded() {
     let codes = recordings::codes(recordings::WAVE, recordings::quiet(), 60_000);
     let (gatherer, mut board) = Board::new(hop_of(5));
     let mut source = Recorded::new(&codes);
     let mut asked = 0;
     for round in 0..40 {
-        // The second command finds the answer to the first still in the queue, and blocks of its settings behind it.
+        // At the second command the answer to the first is still in the queue, followed by blocks of the first one's settings.
         if round == 20 || round == 21 {
             asked = round * 10 * HALF;
             let hop = Command::SetHop {
@@ -270,7 +270,7 @@ fn blocks_before_the_last_answer_are_of_no_use() {
 }
 
 #[test]
-fn no_period_is_kept_that_was_found_in_a_torn_half() {
+fn no_period_from_a_torn_half_is_kept() {
     let false_wave = Wave {
         frequency: 9000.0,
         ..recordings::WAVE
@@ -285,7 +285,7 @@ fn no_period_is_kept_that_was_found_in_a_torn_half() {
         (0, &[]),
         1,
     ));
-    // As though the device had been switched on behind it.
+    // As if the device had been switched on after it.
     let starts: Vec<_> = all.iter().map(|estimate| estimate.start).collect();
     let late = rest.iter().map(|estimate| estimate.start + missed as u64);
     assert_eq!(starts, late.collect::<Vec<_>>());

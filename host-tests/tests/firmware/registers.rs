@@ -1,6 +1,6 @@
-//! What the images for a board write to registers at their start, as told by the emulator of those that it lacks: ports and DMA.
+//! Register writes of the images for boards at their start, as logged by the emulator for those that it lacks: ports and DMA.
 //!
-//! Its crystal is dead, so they get as far as the line. A register that it lacks reads as 0, so each change shows its own bits alone.
+//! The emulated crystal is dead, so they get as far as the line. A register that it lacks reads as 0: each change shows only its own bits.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
@@ -15,7 +15,7 @@ const PULL: u32 = 0x0C;
 const SET: u32 = 0x18;
 const LOW: u32 = 0x20;
 const HIGH: u32 = 0x24;
-/// Offset in DMA2 of what belongs to its stream 5, and of CR, NDTR, PAR, M0AR within.
+/// Offset in DMA2 of stream 5's registers, at which CR, NDTR, PAR and M0AR follow.
 const STREAM_5: u32 = 0x10 + 5 * 0x18;
 
 /// Offset and value of each write to a device, in order.
@@ -31,7 +31,7 @@ fn writes(log: &str, device: &str) -> Vec<(u32, u32)> {
         .collect()
 }
 
-/// What an image writes to port A and to DMA2 until it has switched the line's reception on.
+/// Writes of an image to port A and to DMA2, until it has enabled the line's reception.
 fn start(image: &str) -> [Vec<(u32, u32)>; 2] {
     static NEXT: AtomicU32 = AtomicU32::new(0);
     let number = NEXT.fetch_add(1, Ordering::Relaxed);
@@ -59,7 +59,7 @@ fn start(image: &str) -> [Vec<(u32, u32)>; 2] {
 
 #[test]
 #[ignore = "needs the ARM target"]
-fn pins_are_what_wiring_md_says() {
+fn pins_are_set_as_wiring_md_says() {
     for image in ["stm32f405", "stm32f405_ad7380"] {
         let [port, dma] = start(image);
         // PA9 and PA10 to alternate function 7, PA10 pulled up.
@@ -74,7 +74,7 @@ fn pins_are_what_wiring_md_says() {
             // PA1 and PA2 analog.
             vec![(MODE, 3 << 2), (MODE, 3 << 4)]
         } else {
-            // PA5 to PA7 to alternate function 5, SCK as fast as can be; PA8 out, as fast.
+            // PA5 to PA7 to alternate function 5, SCK at the highest speed; PA8 an output, at the same speed.
             let data = [5, 6, 7].map(|pin| (LOW, 5 << (4 * pin)));
             let modes = [5, 6, 7].map(|pin| (MODE, 2 << (2 * pin)));
             let rest = [(SPEED, 3 << 10), (MODE, 1 << 16), (SPEED, 3 << 16)];
@@ -83,7 +83,7 @@ fn pins_are_what_wiring_md_says() {
         for write in line.iter().chain(&sampled) {
             assert!(port.contains(write), "{image}: {write:x?} in {port:x?}");
         }
-        // CHSEL 4, MINC, CIRC; from USART1's data register into memory that the DMA reaches; on when all else stands.
+        // CHSEL 4, MINC, CIRC; from USART1's data register to memory that the DMA reaches; enabled after all else is set.
         let stream = |register: u32| -> Vec<u32> {
             let of = dma
                 .iter()

@@ -1,4 +1,4 @@
-//! `firmware/run`, the script behind `cargo replay`: where the line's bytes go, and which recordings it takes.
+//! `firmware/run`, the script behind `cargo replay`: output of the line's bytes, and accepted recordings.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -11,14 +11,14 @@ use crate::emulator::{folder, images};
 use crate::recordings;
 use crate::told::estimates;
 
-/// A file of this test's own.
+/// A file for this test only.
 fn file(name: &str, bytes: &[u8]) -> PathBuf {
     let path = folder().join(name);
     fs::write(&path, bytes).expect("it can be written");
     path
 }
 
-/// What a run on this recording puts into `out`; gives its exit code and what it says.
+/// Runs a recording with the output to `out`; gives the exit code and the messages.
 fn replay(recording: &Path, out: File) -> (Option<i32>, String) {
     let output = Command::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../firmware/run"))
         .arg(images().join("replay"))
@@ -32,7 +32,7 @@ fn replay(recording: &Path, out: File) -> (Option<i32>, String) {
     (output.status.code(), told)
 }
 
-/// What a run on this recording, which is taken, reports.
+/// Reports of a run on this recording, which must be accepted.
 fn reports(recording: &Path) -> Vec<Report> {
     let out = recording.with_extension("out");
     let (code, told) = replay(recording, File::create(&out).expect("it can be written"));
@@ -49,7 +49,7 @@ fn little_endian(codes: &[Packed]) -> Vec<u8> {
     codes.iter().flat_map(|pair| pair.0.to_le_bytes()).collect()
 }
 
-/// A WAV file whose header promises so many bytes.
+/// A WAV file whose header states this length.
 fn wav(codes: &[Packed], promised: u32) -> Vec<u8> {
     let mut bytes = b"RIFF\0\0\0\0WAVEfmt \x10\0\0\0\x01\0\x02\0".to_vec();
     bytes.extend(100_000u32.to_le_bytes());
@@ -62,7 +62,7 @@ fn wav(codes: &[Packed], promised: u32) -> Vec<u8> {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn what_is_in_a_file_stays_before_what_is_appended() {
+fn bytes_are_appended_to_a_file_after_its_content() {
     let codes = recordings::codes(recordings::WAVE, recordings::quiet(), 5000);
     let recording = file("appended.raw", &little_endian(&codes));
     let expected = reports(&recording);
@@ -77,7 +77,7 @@ fn what_is_in_a_file_stays_before_what_is_appended() {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn a_wav_file_is_read_whole_where_its_header_has_no_length() {
+fn a_wav_file_without_a_length_in_its_header_is_read_to_its_end() {
     let codes = recordings::codes(recordings::WAVE, recordings::quiet(), 5000);
     let whole = reports(&file("whole.wav", &wav(&codes, 4 * 5000)));
     assert!(estimates(&whole).len() > 10);
@@ -89,7 +89,7 @@ fn a_wav_file_is_read_whole_where_its_header_has_no_length() {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn what_is_no_recording_is_refused_with_the_remedy() {
+fn files_that_are_no_recording_are_refused_with_the_remedy() {
     let codes = recordings::codes(recordings::WAVE, recordings::quiet(), 5000);
     let no_stereo = [&wav(&codes, 20_000)[..22], &[1], &wav(&codes, 20_000)[23..]].concat();
     let out = folder().join("refused.bin");

@@ -25,7 +25,7 @@ pub fn timeless(reports: &[Report]) -> Vec<Vec<u8>> {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn fixed_point_to_the_bit() {
+fn fixed_point_reports_are_the_same_to_the_bit() {
     for (name, recording) in recordings::all() {
         let (reports, lost, took) = Device::start("replay", &recording, "").finish();
         let expected = mirror::reports::<i16>(&recording, &[], 1);
@@ -45,7 +45,7 @@ fn fixed_point_to_the_bit() {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn the_pipeline_gives_what_the_core_gives() {
+fn the_pipeline_gives_the_estimates_of_the_core() {
     for (name, recording) in recordings::all().into_iter().take(4) {
         let (reports, ..) = Device::start("replay", &recording, "").finish();
         assert_eq!(estimates(&reports), core(&recording), "{name}");
@@ -64,7 +64,7 @@ fn core(recording: &[Packed]) -> Vec<Estimate> {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn f32_to_a_millionth() {
+fn f32_reports_agree_to_a_millionth() {
     for (name, recording) in recordings::all() {
         let (reports, ..) = Device::start("replay_f32", &recording, "").finish();
         let expected = estimates(&mirror::reports::<f32>(&recording, &[], 1));
@@ -103,7 +103,7 @@ fn f32_to_a_millionth() {
 
 #[test]
 #[ignore = "needs the ARM target and QEMU"]
-fn recordings_show_what_they_hold() {
+fn flags_of_recordings_are_those_of_their_content() {
     let flagged = |name: &str| {
         let recording = recordings::all().into_iter().find(|r| r.0 == name);
         let (reports, ..) =
@@ -117,7 +117,7 @@ fn recordings_show_what_they_hold() {
     let clean = flagged("clean");
     assert!(estimates(&clean).iter().all(|e| e.flags.is_empty()));
     let dropout = flagged("dropout");
-    // Held for 4 ms, and 50 ms without a wave: both are lost and found again.
+    // A value held for 4 ms, and 50 ms without a wave: in both the wave is lost and found again.
     assert_eq!(with(&dropout, Flags::REACQUIRED), 2);
     assert!(with(&dropout, Flags::LOST) >= 1 && with(&dropout, Flags::MISFIT) >= 1);
     let states: Vec<_> = dropout

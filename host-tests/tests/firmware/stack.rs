@@ -1,4 +1,4 @@
-//! The deepest stack of an image: what each function takes, summed along the deepest chain of its calls.
+//! The deepest stack of an image: the stack of each function, summed along the deepest chain of calls.
 //!
 //! It is complete as long as no call goes through a register, which is asserted.
 
@@ -11,9 +11,9 @@ use crate::emulator::images;
 #[derive(Default)]
 struct Function {
     name: String,
-    /// Bytes that it takes.
+    /// Bytes of stack.
     frame: u32,
-    /// Where it branches to, also within itself.
+    /// Targets of its branches, also within itself.
     targets: Vec<u32>,
 }
 
@@ -71,7 +71,7 @@ fn functions(image: &str) -> HashMap<u32, Function> {
         let Some(function) = functions.get_mut(&here) else {
             continue;
         };
-        // What follows a semicolon or an at sign is a comment.
+        // A comment begins with a semicolon or an at sign.
         let operands = operands.split([';', '@']).next().unwrap_or("").trim();
         let by_register = matches!(mnemonic, "blx" | "bx") && operands != "lr";
         assert!(
@@ -89,7 +89,7 @@ fn functions(image: &str) -> HashMap<u32, Function> {
     functions
 }
 
-/// The deepest chain from a function on, as bytes and names; `known` has those looked at, and nothing for those still looked at.
+/// The deepest chain from a function on, as bytes and names; `known` has those that are finished, and `None` for those in progress.
 fn deepest(
     functions: &HashMap<u32, Function>,
     address: u32,
@@ -118,10 +118,10 @@ fn deepest(
 
 #[test]
 #[ignore = "needs the ARM target and binutils for it"]
-fn it_stays_within_what_is_stated() {
+fn stacks_are_within_the_stated_limits() {
     let functions = functions("stm32f405");
     let mut known = HashMap::new();
-    // At the start, in the main loop, and in the converters' interrupt, which is that of their DMA too.
+    // At the start, in the main loop, and in the converters' interrupt, which is also that of their DMA.
     for (root, most) in [("main", 1400), ("stm32f405::app::idle", 1400), ("ADC", 650)] {
         let (&address, _) = functions
             .iter()

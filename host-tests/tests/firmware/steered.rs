@@ -1,4 +1,4 @@
-//! The pipeline on the host: commands and torn halves while a wave is followed.
+//! The pipeline on the host: commands and torn halves during tracking.
 
 use antinode::{Calibration, Flags};
 use antinode_sim::Wave;
@@ -10,7 +10,7 @@ use crate::mirror::{MISSED, Recorded, reports_of};
 use crate::recordings;
 use crate::told::{estimates, last_counters};
 
-/// In which round the command comes.
+/// Round in which the command comes.
 const ROUND: usize = 200;
 
 #[test]
@@ -41,7 +41,7 @@ fn a_command_leaves_the_angle_continued_or_flagged() {
             let off = estimate.angle - wave.angle - wave.angle_rate * estimate.time;
             assert!(off.abs() < 0.01, "{command:?}: {off}");
         }
-        // What searches says so.
+        // A search is reported.
         let is_state = |state| move |report: &&Report| **report == Report::State(state);
         let searches = reports[at..].iter().filter(is_state(State::Searching));
         let is_calibrated = matches!(command, Command::SetCalibration(_));
@@ -50,9 +50,9 @@ fn a_command_leaves_the_angle_continued_or_flagged() {
 }
 
 #[test]
-fn every_pair_of_a_torn_half_is_taken_or_lost() {
+fn every_pair_of_a_torn_half_is_counted_as_taken_or_lost() {
     let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 40_000);
-    // While a period is searched, and later: in each half a block ends elsewhere.
+    // During the search for a period, and later: in each half, blocks end at other places.
     for half in (1..4).chain(100..130) {
         let source = Recorded::torn(&recording, half);
         let reports = reports_of::<i16>(source, (0, &[]), 1);
@@ -70,7 +70,7 @@ fn every_pair_of_a_torn_half_is_taken_or_lost() {
 }
 
 #[test]
-fn rails_before_a_block_begins_are_of_none() {
+fn pairs_at_a_rail_during_the_search_belong_to_no_block() {
     // 5 ms at the lower rail, then a wave.
     let mut recording = recordings::codes(recordings::WAVE, recordings::quiet(), 40_000);
     recording[..500].fill(antinode::Packed(0));

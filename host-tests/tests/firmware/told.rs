@@ -1,4 +1,4 @@
-//! What reports tell: those of one kind, in their order.
+//! Selections from reports, in their order.
 
 use antinode::Estimate;
 use antinode_telemetry::{Acknowledgement, Counters, Report};

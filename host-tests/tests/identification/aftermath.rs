@@ -1,4 +1,4 @@
-//! What a fault leaves to the windows after it: a leap of the frequency, the end of a wave, a spike while it grows, a wire that breaks.
+//! The windows after a fault: a leap of the frequency, the end of a wave, a spike while a wave grows, a broken wire.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ fn noisy(wave: &Wave, noise: f64) -> Flaws {
 }
 
 #[test]
-fn a_leap_of_the_frequency_within_the_detectors_reach_needs_no_search() {
+fn a_small_leap_of_the_frequency_needs_no_search() {
     // From the last frequency alone a fit of 50 periods finds no wave more than half a per cent off.
     for leap in [0.01, 0.02, 0.03, 0.045, 0.06, -0.03] {
         for seed in 0..6 {
@@ -59,7 +59,7 @@ fn a_wave_that_ends_with_a_window_is_lost_and_nothing_else() {
         let mut found = Vec::new();
         core.extend(&one[..at], |e| found.push(e));
         core.extend(&two[at..], |e| found.push(e));
-        // What its numbers are beside those of the wave is no step.
+        // The difference between its numbers and those of the wave is no step.
         let told = found[40].flags;
         assert!(
             told.contains(Flags::LOST) && !told.intersects(Flags::STEP.with(Flags::PHASE_JUMP)),
@@ -69,7 +69,7 @@ fn a_wave_that_ends_with_a_window_is_lost_and_nothing_else() {
 }
 
 #[test]
-fn samples_that_are_missing_beside_one_that_is_no_number_are_told_once() {
+fn missing_samples_next_to_a_nan_are_reported_once() {
     for seed in 0..20 {
         let wave = random_wave(seed, 5332.0, 0.5);
         let mut pairs = stream(wave, noisy(&wave, 0.002), 8_000, seed);
@@ -78,7 +78,7 @@ fn samples_that_are_missing_beside_one_that_is_no_number_are_told_once() {
         core.extend(&pairs, |e| clean.push(e));
         let at = clean[20].start as usize + 40 + 5 * seed as usize;
         pairs[at] = [f32::NAN; 2];
-        // A sixth of a period.
+        // A sixth of a period is missing.
         pairs.drain(at + 1..at + 4);
         let mut core = Core::new(windows(10)).unwrap();
         let mut found = Vec::new();
@@ -132,7 +132,7 @@ fn a_wave_that_grew_before_a_fault_may_decay_after_it() {
 
 #[test]
 fn a_pick_off_that_shows_only_what_the_other_leaks_is_dead() {
-    // In hardly any noise the leak stands out of it, but a thousandth of the wave is none.
+    // In very little noise the leak exceeds it, but a thousandth of the wave does not count as one.
     for leak in [2e-4, 5e-4, 9e-4] {
         for noise in [0.0, 1e-6, 1e-5] {
             for seed in 0..6 {
@@ -153,7 +153,7 @@ fn a_pick_off_that_shows_only_what_the_other_leaks_is_dead() {
                         _ => [leak * d, d],
                     },
                 );
-                // The first of its windows is touched in part.
+                // The first of its windows contains only a part of the fault.
                 let broken = found.iter().find(|e| e.start >= 10_000).unwrap();
                 assert!(
                     broken.flags.contains(Flags::DEAD_CHANNEL),
@@ -166,8 +166,8 @@ fn a_pick_off_that_shows_only_what_the_other_leaks_is_dead() {
 }
 
 #[test]
-fn the_window_in_which_a_dead_pick_off_comes_back_is_flagged_however_loud_it_was() {
-    // Its windows raise the residual together, which is no new level of noise.
+fn the_window_in_which_a_dead_pick_off_comes_back_is_flagged_whatever_its_noise() {
+    // Its windows raise the residual together, but that must not become a new level of noise.
     for seed in 0..60 {
         let wave = Wave {
             angle: 0.5,
@@ -188,7 +188,7 @@ fn the_window_in_which_a_dead_pick_off_comes_back_is_flagged_however_loud_it_was
                 _ => [c, d],
             },
         );
-        // By two blocks at least.
+        // Windows that the fault covers by two blocks or more.
         let touched = |e: &&Estimate| e.start + 76 < end as u64 && e.end() > 10_076;
         let clean = |e: &&Estimate| touched(e) && e.flags.is_empty();
         assert!(found.iter().filter(touched).count() > 20);
@@ -197,8 +197,8 @@ fn the_window_in_which_a_dead_pick_off_comes_back_is_flagged_however_loud_it_was
 }
 
 #[test]
-fn a_shock_that_rings_at_another_frequency_leaves_the_wave_to_be_found_again() {
-    // Ten times the wave, and gone within a twentieth of a second: blocks cut for it see of the wave a seventh, at yet another frequency.
+fn a_wave_is_found_again_after_a_shock_that_rings_at_another_frequency() {
+    // The shock is ten times the wave and dies within 50 ms. Blocks laid out for it see a seventh of the wave, at a third frequency.
     for (ratio, hum) in [
         (0.7, false),
         (1.8, false),
@@ -234,7 +234,7 @@ fn a_shock_that_rings_at_another_frequency_leaves_the_wave_to_be_found_again() {
 
 #[test]
 fn a_pattern_that_turns_far_while_a_pick_off_is_dead_keeps_its_angle() {
-    // By more than half the ambiguity, through the axis on which the dead pick-off shows nothing anyway.
+    // It turns by more than half the ambiguity, through the axis on which the dead pick-off shows nothing anyway.
     for (seed, angle_rate) in (0..20).zip([4.0, -4.0, 8.0, -8.0].into_iter().cycle()) {
         let (dead, middle) = (0.43 / f64::abs(angle_rate), 0.2);
         let wave = Wave {
@@ -262,8 +262,8 @@ fn a_pattern_that_turns_far_while_a_pick_off_is_dead_keeps_its_angle() {
 }
 
 #[test]
-fn a_fault_that_seems_to_turn_the_pattern_does_not_take_its_angle_along() {
-    // A tone makes misfits of four windows, in which the pattern seems to turn twice by a third of the way to the next angle that looks alike.
+fn a_fault_that_seems_to_turn_the_pattern_does_not_change_the_angle_after_it() {
+    // A tone makes misfits of four windows, in which the pattern seems to turn twice by a third of the angle's ambiguity.
     let settings = Settings {
         frequency: Some(5332.0),
         ..windows(10)

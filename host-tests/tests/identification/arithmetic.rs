@@ -11,10 +11,10 @@ use host_tests::{RATE, gyro};
 
 /// Period of the paper's gyro, samples.
 const PERIOD: f64 = RATE / 5332.0;
-/// Share of full scale that the wave has: offsets and noise of 20 % need the rest.
+/// The wave's share of full scale: offsets and noise of 20 % need the rest.
 const SHARE: f64 = 0.42;
 
-/// The estimates of one stream in f32, 16 and 32 bits.
+/// Estimates of one stream in f32, 16 bits and 32 bits.
 fn each(codes: &[[i32; 2]], settings: Settings) -> [(&'static str, Vec<Estimate>); 3] {
     [
         ("f32", identify(codes, settings, |code| code as f32)),
@@ -24,7 +24,7 @@ fn each(codes: &[[i32; 2]], settings: Settings) -> [(&'static str, Vec<Estimate>
 }
 
 #[test]
-fn all_reach_the_bound_on_codes() {
+fn every_arithmetic_reaches_the_bound_on_codes() {
     for bits in [12, 16] {
         for (periods, runs) in [(2, 400), (4, 400), (10, 400), (50, 250)] {
             for noise in [0.001, 0.02, 0.2] {
@@ -131,7 +131,7 @@ where
 #[test]
 fn nothing_overflows_at_full_scale() {
     for length in 1..=256u16 {
-        // The same signs in f32 never overflow: the integers must give the same.
+        // f32 never overflows with the same signs: the integers must agree with it.
         let float = sums_at_full_scale(length, -1f32, 1.0);
         let short = sums_at_full_scale(length, i16::MIN, i16::MAX);
         let long = sums_at_full_scale(length, i32::MIN, i32::MAX);
@@ -148,7 +148,7 @@ fn nothing_overflows_at_full_scale() {
                 }
             }
         }
-        // All samples at the rail: the plain sum is at its bound.
+        // With all samples at the rail the plain sum is at its limit.
         let step = PhaseStep::from_period(20.0);
         let mut demodulator = Demodulator::<i16, 256>::new(step, length, 0, false);
         let rail = vec![Packed(0x8000_8000); usize::from(length)];
@@ -170,7 +170,7 @@ fn packed_codes_and_single_words_give_the_same_blocks() {
         .iter()
         .filter_map(|&pair| single.push(pair).copied())
         .collect();
-    // Cut at every length, so that slices begin at even and at odd samples, mixed with single pushes.
+    // Cut at every length, so that slices begin at even and at odd samples, and mixed with single pushes.
     for cut in 1..40 {
         let mut mixed = Demodulator::<i16, 64>::new(step, 19, 0, true);
         let mut found = Vec::new();

@@ -1,8 +1,8 @@
-//! What users lean on: the same results however a stream is cut, calibration, other detectors, settings.
+//! Behaviour that users rely on: results do not depend on how a stream is cut; calibration, both detectors and settings work.
 
 use antinode::{Calibration, Detection, Estimate, Flags, Front, Settings, SettingsError, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::score::{Honesty, errors};
+use host_tests::score::{StatedRatio, errors};
 use host_tests::{Core, calibrated, identify, stream, windows};
 use proptest::prelude::*;
 
@@ -26,7 +26,7 @@ proptest! {
             let (slice, after) = rest.split_at((*cut).min(rest.len()));
             sliced.extend(slice, |estimate| by_slices.push(estimate));
             let [c, mut d] = [0, 1].map(|i| slice.iter().map(|pair| pair[i]).collect::<Vec<_>>());
-            // What the longer slice has beyond the other is no pair.
+            // Samples that the longer slice has in excess form no pair.
             d.push(f32::NAN);
             separate.extend_separate(&c, &d, |estimate| by_two_slices.push(estimate));
             rest = after;
@@ -68,7 +68,7 @@ fn a_tracker_without_settings_finds_nothing_and_with_them_it_is_as_new() {
 }
 
 #[test]
-fn settings_are_changed_in_part() {
+fn a_change_keeps_all_other_settings() {
     let mut core = Core::new(windows(5)).unwrap();
     let changed = Settings {
         periods: 7,
@@ -92,7 +92,7 @@ fn stated_deviations_hold_for_pick_offs_that_are_corrected() {
             ..Flaws::default()
         };
         let settings = calibrated(&flaws, 10);
-        let mut honesty = Honesty::default();
+        let mut honesty = StatedRatio::default();
         for estimate in identify(wave, &flaws, settings, 500_000, 7) {
             honesty.add(&estimate, &wave);
         }
@@ -139,7 +139,7 @@ fn calibration_undoes_the_pick_offs() {
                 "seed {seed}: {angle:e} {frequency:e}"
             );
         }
-        // Without it a microsecond of skew alone is a false quadrature of percents, but for nodes and antinodes.
+        // Without calibration a microsecond of skew alone is a false quadrature of per cents, except at nodes and antinodes.
         if (4.0 * wave.angle).sin().abs() > 0.3 {
             assert!(worst > 1e-3, "seed {seed}: {worst:e}");
         }
@@ -240,7 +240,7 @@ fn settings_that_cannot_work_are_refused() {
         error.to_string(),
         "20 periods a window: the ring of blocks holds at most 14"
     );
-    // The rate is the first fault of all, whatever else depends on it; and nothing is changed.
+    // The rate is checked before the settings that depend on it, and nothing is changed.
     let wrong = Settings {
         sample_rate: 0.0,
         frequency: Some(5332.0),
@@ -255,7 +255,7 @@ fn settings_that_cannot_work_are_refused() {
 }
 
 #[test]
-fn other_settings_in_place_do_what_a_new_start_does() {
+fn a_configuration_in_place_gives_what_a_new_start_gives() {
     let wave = random_wave(7, 5332.0, 0.4);
     let flaws = Flaws {
         noise: 0.01,
@@ -286,7 +286,7 @@ fn other_settings_in_place_do_what_a_new_start_does() {
     assert!(front.configure(windows(1)).is_err() && tracker.configure(windows(1)).is_err());
     front.configure(second).unwrap();
     tracker.configure(second).unwrap();
-    // What a front gathers that has not heard of it is left out.
+    // Blocks of a front that has not been configured yet are left out.
     front.clone().extend(&pairs, |block| {
         assert_eq!(tracker.push(block), None);
     });
@@ -298,7 +298,7 @@ fn other_settings_in_place_do_what_a_new_start_does() {
 }
 
 #[test]
-fn an_identification_takes_a_calibration_and_settings_on_its_way() {
+fn an_identifier_takes_a_calibration_and_settings_while_it_runs() {
     let wave = Wave::default();
     let calibration = Calibration {
         gain_ratio: 1.1,
@@ -337,7 +337,7 @@ fn an_identification_takes_a_calibration_and_settings_on_its_way() {
     let changed = run(&mut core);
     assert!(changed[0].start > 6_000 && changed[0].samples > 370);
     assert!((changed[2].main_amplitude - ideal).abs() > 0.05);
-    // Without settings nothing is found; with them it is as new.
+    // Without settings nothing is found; with them the identifier is as new.
     let mut core = Core::UNSET;
     assert!(run(&mut core).is_empty() && !core.is_searching());
     core.configure(windows(20)).unwrap();
@@ -351,7 +351,7 @@ fn an_identification_takes_a_calibration_and_settings_on_its_way() {
 }
 
 #[test]
-fn a_nearly_circular_pattern_has_an_honest_frequency() {
+fn a_nearly_circular_pattern_states_its_frequencys_deviation_rightly() {
     for (share, turning) in [
         (0.9999, 0.0),
         (0.998, 0.0),
@@ -375,7 +375,7 @@ fn a_nearly_circular_pattern_has_an_honest_frequency() {
         assert!(found.len() > 3000, "{share}: {} windows", found.len());
         for estimate in found {
             assert!(estimate.frequency_std > 0.0, "{share}: {estimate:?}");
-            // A circle does not show whether it turns: its frequency is that of a pattern that stands still.
+            // A circle does not show whether it turns: its frequency is computed as that of a pattern at rest.
             if Flags::REACQUIRED.contains(estimate.flags) || turning == 0.0 {
                 let error = estimate.frequency - wave.frequency;
                 squares += (error / f64::from(estimate.frequency_std)).powi(2);

@@ -1,4 +1,4 @@
-//! Each check of a window by itself: a fault that hardly any other check would see.
+//! Each check of a window by itself, on a fault that hardly any other check detects.
 
 use antinode::{Estimate, Flags, Identifier, Settings};
 use antinode_sim::{Flaws, Loss, Wave, random_wave};
@@ -8,12 +8,12 @@ use host_tests::{
 
 #[test]
 fn a_sample_lost_between_two_windows_is_flagged() {
-    // Over one window's length of places, one falls between two windows.
+    // Of the places within one window's length, one falls between two windows.
     let (wave, mut flaws) = gyro(1);
     for at in 50_000..50_190 {
         flaws.lost = vec![Loss { at, count: 1 }];
         let estimates = identify(wave, &flaws, windows(10), 53_000, 1);
-        // A window that has only its last few samples from after the loss may be right: then the next one tells.
+        // A window with only its last few samples after the loss may be right: then the next one is flagged.
         let near = estimates
             .iter()
             .filter(|e| e.end() >= at && e.start <= at + 19);
@@ -75,7 +75,7 @@ fn a_burst_of_noise_is_flagged() {
                 state = state
                     .wrapping_mul(6_364_136_223_846_793_005)
                     .wrapping_add(1_442_695_040_888_963_407);
-                // Uniform: with the wave's own noise 3.3 times as much as before.
+                // Uniform noise: together with the wave's own it is 3.3 times as much as before.
                 0.055 * wave.main_amplitude * ((state >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
             })
             .collect();
@@ -145,8 +145,8 @@ fn a_spike_in_a_long_window_is_flagged() {
 
 #[test]
 fn a_small_step_within_a_window_is_flagged() {
-    // A tenth of the amplitude in 2 % noise: the residual as a whole hardly rises, but it has the shape of a step; and where noise
-    // hides that, the window grows as the one before did not.
+    // A tenth of the amplitude in 2 % noise hardly raises the residual as a whole, but it has the shape of a step. Where noise hides
+    // that, the window grows although the one before did not.
     let mut hits = 0;
     for seed in 0..400 {
         let at = 40_000 + 43 * (seed / 10) + 2 * (seed % 10);
@@ -176,7 +176,7 @@ fn a_fast_ring_down_is_no_fault() {
                 let (mut wave, mut flaws) = gyro(seed);
                 wave.decay_rate = decay_rate;
                 flaws.noise = 1e-4 * wave.main_amplitude;
-                // Down to a twentieth, by half of itself within a window of 50 periods at the fastest.
+                // The wave falls to a twentieth, at the fastest by half of itself within a window of 50 periods.
                 let samples = (3.0 / decay_rate * RATE) as usize;
                 let estimates =
                     identify(wave, &flaws, windows(periods), samples.min(100_000), seed);
@@ -194,7 +194,7 @@ fn a_fast_ring_down_is_no_fault() {
 
 #[test]
 fn white_noise_is_no_fault_at_few_samples_a_period() {
-    // Windows of nine samples, in blocks of one: the sums about the third harmonic tell nothing that the others do not.
+    // Windows of nine samples, in blocks of one: the sums about the third harmonic contain nothing that the others do not.
     for seed in 0..20 {
         let wave = random_wave(seed, RATE / 4.3, 0.2);
         let flaws = Flaws {
@@ -295,7 +295,7 @@ fn a_lasting_rise_of_noise_becomes_the_new_level() {
 }
 
 #[test]
-fn a_first_window_with_a_sample_that_is_no_number_gives_no_row() {
+fn a_first_window_with_a_nan_gives_no_row() {
     let (wave, flaws) = gyro(3);
     let settings = Settings {
         frequency: Some(5332.0),
@@ -309,7 +309,7 @@ fn a_first_window_with_a_sample_that_is_no_number_gives_no_row() {
 }
 
 #[test]
-fn noise_that_rises_is_told_in_three_windows_however_far_they_are_apart() {
+fn a_rise_of_noise_flags_three_windows_however_far_apart_they_are() {
     for hop in [10, 60] {
         let settings = Settings {
             hop: Some(hop),
@@ -333,7 +333,7 @@ fn noise_that_rises_is_told_in_three_windows_however_far_they_are_apart() {
 }
 
 #[test]
-fn a_fault_within_windows_that_overlap_is_no_new_level_of_noise() {
+fn a_fault_in_overlapping_windows_is_no_new_level_of_noise() {
     let mut broken = 0;
     for seed in 0..20 {
         let (wave, mut flaws) = gyro(seed);
@@ -346,7 +346,7 @@ fn a_fault_within_windows_that_overlap_is_no_new_level_of_noise() {
         let (from, to) = (10_000, 10_000 + length * 5 / 4);
         let mut core = Core::new(settings).unwrap();
         let mut pairs = stream(wave, flaws, 13_000, seed);
-        // One pick-off is held.
+        // One pick-off holds its value.
         let held = pairs[from][0];
         pairs[from..to].iter_mut().for_each(|pair| pair[0] = held);
         core.extend(&pairs, |e| {
@@ -366,7 +366,7 @@ fn a_step_of_the_offset_alone_is_a_step() {
     for seed in 0..10 {
         let (wave, _) = gyro(seed);
         let windows = changed(seed, 0.002, 10, 30_000, |_, pair| pair);
-        // Where one window ends and the next begins.
+        // At the end of one window and the start of the next.
         let at = windows[80].start as usize;
         let estimates = changed(seed, 0.002, 10, 30_000, |k, [c, d]| {
             let step = if k < at {

@@ -1,4 +1,4 @@
-//! Patterns near a circle: when they are told from others, and what runs on over them.
+//! Patterns near a circle: when they are flagged, and how the angle continues after them.
 
 use antinode::{Calibration, Flags, Settings};
 use antinode_sim::{Flaws, Wave};
@@ -6,7 +6,7 @@ use host_tests::{Core, RATE, identify, identify_changed, identify_signal, window
 
 #[test]
 fn a_pattern_is_circular_where_noise_or_rounding_hides_its_angle() {
-    // The share of a_B in a_A and the noise.
+    // Cases of |a_B|/a_A and noise.
     for (share, noise, is_circular) in [
         (0.98, 0.05, true),
         (-0.98, 0.05, true),
@@ -39,7 +39,7 @@ fn a_pattern_is_circular_where_noise_or_rounding_hides_its_angle() {
 }
 
 #[test]
-fn the_angle_runs_on_over_a_stretch_in_which_the_pattern_is_circular() {
+fn the_angle_is_continued_over_a_circular_stretch() {
     for seed in 0..5 {
         for side in [1.0, -1.0] {
             let wave = Wave {
@@ -56,7 +56,7 @@ fn the_angle_runs_on_over_a_stretch_in_which_the_pattern_is_circular() {
                 start_angle: 5.0,
                 ..windows(10)
             };
-            // The quadrature grows until it is as large as the wave, stays, and shrinks again.
+            // The quadrature grows until it equals the main amplitude, stays, and shrinks again.
             let full = Wave {
                 quadrature_amplitude: side,
                 ..wave
@@ -72,7 +72,7 @@ fn the_angle_runs_on_over_a_stretch_in_which_the_pattern_is_circular() {
             });
             let circular = found.iter().filter(|e| e.flags == Flags::CIRCULAR).count();
             assert!(circular > 200, "{circular}");
-            // Whether it turned meanwhile nobody knows.
+            // Whether the pattern turned meanwhile is unknown.
             let seen = Flags::CIRCULAR.with(Flags::REACQUIRED);
             let again = found.iter().filter(|e| e.flags == Flags::REACQUIRED);
             assert!((1..5).contains(&again.count()));
@@ -93,7 +93,7 @@ fn the_angle_runs_on_over_a_stretch_in_which_the_pattern_is_circular() {
 }
 
 #[test]
-fn a_circle_that_is_passed_has_neither_a_step_nor_a_jump() {
+fn passing_a_circle_is_neither_a_step_nor_a_jump() {
     let mut circular = 0;
     for seed in 0..20 {
         for noise in [1e-5, 2e-4] {
@@ -112,7 +112,7 @@ fn a_circle_that_is_passed_has_neither_a_step_nor_a_jump() {
                 noise,
                 ..Flaws::default()
             };
-            // The quadrature outgrows the wave and comes back: on the other side of the circle the angle is another.
+            // The quadrature outgrows the main wave and comes back: beyond the circle the angle is another one.
             let found = identify_changed(wave, &flaws, windows(10), 70_000, seed, |k, [c, d]| {
                 let time = k as f64 / RATE;
                 let share = 0.8 + 0.4 * (5.0 * time).sin();
@@ -137,7 +137,7 @@ fn a_circle_that_is_passed_has_neither_a_step_nor_a_jump() {
 }
 
 #[test]
-fn the_first_angle_after_a_circle_that_began_without_one_is_told_to_be_unsure() {
+fn the_first_angle_after_a_circle_that_began_without_an_angle_is_reacquired() {
     let wave = Wave {
         main_amplitude: 1.0,
         quadrature_amplitude: 0.04,
@@ -152,7 +152,7 @@ fn the_first_angle_after_a_circle_that_began_without_one_is_told_to_be_unsure() 
         noise: 0.002,
         ..Flaws::default()
     };
-    // Circular from the start on, or searched anew or calibrated while it is; with a gap or without one before it is a circle no more.
+    // Circular from the start, or searched anew or calibrated while circular; with or without a gap before the circle ends.
     for before in ["nothing", "a search", "a calibration"] {
         for gap in [0, 50_000, 100_000] {
             let mut core = Core::new(windows(10)).unwrap();
@@ -176,7 +176,7 @@ fn the_first_angle_after_a_circle_that_began_without_one_is_told_to_be_unsure() 
                 .iter()
                 .rposition(|e| e.flags.contains(Flags::CIRCULAR))
                 .unwrap();
-            // A window in which the circle ends is a misfit; one right after it may tell of the step.
+            // A window in which the circle ends is a misfit; one right after it may have the step.
             let is_misfit = |e: &&antinode::Estimate| e.flags.contains(Flags::MISFIT);
             let mut after = found[circles + 1..].iter().skip_while(is_misfit);
             let first = after.next().unwrap().flags;
@@ -193,7 +193,7 @@ fn an_exact_circle_has_a_frequency() {
         frequency: Some(25_000.0),
         ..windows(10)
     };
-    // One of both waves is zero to the last digit.
+    // One of the two travelling waves is zero to the last digit.
     let circle = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
     let mut core = Core::new(settings).unwrap();
     let found = (0..4000).filter_map(|k| core.push(circle[k % 4]));
@@ -208,7 +208,7 @@ fn an_exact_circle_has_a_frequency() {
 }
 
 #[test]
-fn a_misfit_behind_a_circle_leaves_the_angle_that_the_wave_starts_at() {
+fn a_misfit_after_a_circle_does_not_change_the_angle_with_which_the_wave_starts() {
     for (start_angle, wanted) in [(core::f32::consts::FRAC_PI_4, 0.9), (100.0, 99.860)] {
         let circle = Wave {
             main_amplitude: 1.0,
@@ -239,7 +239,7 @@ fn a_misfit_behind_a_circle_leaves_the_angle_that_the_wave_starts_at() {
 }
 
 #[test]
-fn the_first_angle_after_a_single_circle_is_told_to_be_unsure() {
+fn the_first_angle_after_a_single_circular_window_is_reacquired() {
     let full = Wave {
         main_amplitude: 1.0,
         quadrature_amplitude: 1.0,

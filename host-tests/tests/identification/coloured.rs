@@ -1,9 +1,9 @@
-//! Noise that is not white: what front ends leave of it, with the setting for it and without.
+//! Coloured noise, as front ends shape it, with the setting for it and without.
 
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Gyro, Loss, Wave, random_wave};
 use biquad::{Biquad, Coefficients, DirectForm2Transposed, Hertz, Q_BUTTERWORTH_F64, Type};
-use host_tests::score::{Honesty, NAMES};
+use host_tests::score::{NAMES, StatedRatio};
 use host_tests::{RATE, identify_changed, identify_signal, no_wave, windows};
 
 const SAMPLES: usize = 40_000;
@@ -18,14 +18,14 @@ const LOW_PASS: Filters = &[
 ];
 /// A charge amplifier tuned to the resonator.
 const TUNED: Filters = &[(Type::BandPass, 5332.0, 1.0)];
-/// The same, far sharper: noise about the third harmonic is a sixtieth.
+/// The same, far sharper: noise about the third harmonic is a sixtieth of that about the wave.
 const SHARP: Filters = &[(Type::BandPass, 5332.0, 3.0)];
-/// What a transformer or a coupling capacitor leaves.
+/// A transformer or a coupling capacitor.
 const HIGH_PASS: Filters = &[(Type::HighPass, 2500.0, Q_BUTTERWORTH_F64)];
 /// Noise of 1/f² from 300 Hz on.
 const SLOW: Filters = &[(Type::SinglePoleLowPass, 300.0, 1.0)];
 
-/// Noise of both pick-offs, of this rms before the filters.
+/// Noise of both pick-offs, with this rms before the filters.
 fn noise(filters: Filters, rms: f64, seed: u64) -> Vec<[f64; 2]> {
     let filter = || -> Vec<_> {
         filters
@@ -68,7 +68,7 @@ fn settings(periods: u16, coloured: bool) -> Settings {
     }
 }
 
-/// A wave in such noise of 2 %, before the filters.
+/// A wave in such noise, 2 % before the filters.
 fn identified(filters: Filters, settings: Settings, flaws: &Flaws, seed: u64) -> Vec<Estimate> {
     let wave = random_wave(seed, 5332.0, 0.5);
     let noise = noise(filters, 0.02 * wave.main_amplitude, seed);
@@ -88,7 +88,7 @@ fn deviations_hold_in_coloured_noise_and_nothing_is_flagged() {
         ("none", &[], 0.92..1.08),
     ] {
         for periods in [10, 50] {
-            let (mut honesty, mut rows, mut flagged) = (Honesty::default(), 0, 0);
+            let (mut honesty, mut rows, mut flagged) = (StatedRatio::default(), 0, 0);
             for seed in 0..30 {
                 let wave = random_wave(seed, 5332.0, 0.5);
                 let settings = settings(periods, true);
@@ -111,7 +111,7 @@ fn deviations_hold_in_coloured_noise_and_nothing_is_flagged() {
 }
 
 #[test]
-fn without_the_setting_less_noise_about_the_third_harmonic_is_a_misfit() {
+fn without_the_setting_a_lack_of_noise_about_the_third_harmonic_is_a_misfit() {
     for filters in [LOW_PASS, SHARP] {
         let [plain, coloured] = [false, true].map(|coloured| {
             let found =
@@ -129,7 +129,7 @@ fn without_the_setting_less_noise_about_the_third_harmonic_is_a_misfit() {
 }
 
 #[test]
-fn faults_are_told_in_coloured_noise() {
+fn faults_are_flagged_in_coloured_noise() {
     for seed in 0..20 {
         let at = 20_000 + 97 * seed;
         let flaws = Flaws {
@@ -147,7 +147,7 @@ fn faults_are_told_in_coloured_noise() {
     }
 }
 
-/// A wave, and settings that know its frequency nearly: the first window begins with the first sample.
+/// A wave, and settings that almost know its frequency: the first window begins with the first sample.
 fn nearly_known() -> (Wave, Settings) {
     let wave = Wave {
         main_amplitude: 1.0,
@@ -162,7 +162,7 @@ fn nearly_known() -> (Wave, Settings) {
 }
 
 #[test]
-fn a_first_window_that_the_wave_begins_in_is_no_noise_to_those_after_it() {
+fn a_first_window_in_which_the_wave_begins_does_not_raise_the_noise_of_later_ones() {
     for begin in [20, 50, 80, 110, 140] {
         let (wave, settings) = nearly_known();
         let found = identify_signal(1e-3, settings, 20_000, 1, |t| {
@@ -191,7 +191,7 @@ fn noise_that_comes_and_goes_is_no_misfit() {
         noise: 1e-3,
         ..Flaws::default()
     };
-    // Half of the windows have four times as much.
+    // Half of the windows have four times the noise.
     let found = identify_changed(no_wave(), &quiet, windows(10), 400_000, 3, |k, [c, d]| {
         let random = (k as u32 / 190 + 1).wrapping_mul(2_654_435_769);
         let factor = if (random >> 16).count_ones().is_multiple_of(2) {
@@ -208,11 +208,11 @@ fn noise_that_comes_and_goes_is_no_misfit() {
 }
 
 #[test]
-fn a_burst_in_the_first_window_is_no_noise_to_those_after_it() {
+fn a_burst_in_the_first_window_does_not_raise_the_noise_of_later_ones() {
     let mut widened = 0;
     for seed in 0..40 {
         let (wave, settings) = nearly_known();
-        // Of four samples, a hundred times the noise.
+        // A burst of four samples, a hundred times the noise.
         let burst = 20 + 3 * seed..24 + 3 * seed;
         let found = identify_signal(1e-3, settings, 20_000, seed, |t| {
             let [c, d] = wave.pick_offs(t);
@@ -227,7 +227,7 @@ fn a_burst_in_the_first_window_is_no_noise_to_those_after_it() {
 }
 
 #[test]
-fn noise_that_grows_about_the_wave_alone_is_told_with_the_setting() {
+fn noise_that_grows_about_the_wave_alone_is_flagged_with_the_setting() {
     let (mut told, mut rows) = (0, 0);
     for seed in 0..30 {
         let wave = random_wave(seed, 5332.0, 0.5);
@@ -235,7 +235,7 @@ fn noise_that_grows_about_the_wave_alone_is_told_with_the_setting() {
             noise: 0.01 * wave.main_amplitude,
             ..Flaws::default()
         };
-        // Six times the noise variance for a fifth of the time; the third harmonic's neighbourhood has hardly more.
+        // Six times the noise variance for a fifth of the time; about the third harmonic there is hardly more.
         let grown = noise(TUNED, 0.027 * wave.main_amplitude, seed + 100);
         let is_grown = |k: usize| k % 4000 >= 3200;
         let settings = settings(20, true);

@@ -1,4 +1,4 @@
-//! All methods side by side: silent in white noise, loud where the signal is not one steady wave, ranked by J and conditions.
+//! All methods side by side: no disagreement in white noise, disagreement if the signal is not one steady wave, ranks by J and conditions.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -10,7 +10,7 @@ use antinode::methods::{Delayed, Moments, Products, algorithm2};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 use host_tests::{Core, RATE, windows};
 
-/// Every window of a gyro, `spoil` having had its samples first.
+/// The comparison of every window of a gyro whose samples are changed by `spoil`.
 fn comparisons(
     wave: Wave,
     flaws: &Flaws,
@@ -22,7 +22,7 @@ fn comparisons(
     comparisons_with(windows(periods), wave, flaws, samples, seed, spoil)
 }
 
-/// The same with other settings, but for windows that begin before a quarter of a period has passed.
+/// The same with other settings, without windows that begin in the first quarter period.
 fn comparisons_with(
     settings: Settings,
     wave: Wave,
@@ -62,7 +62,7 @@ fn comparisons_with(
     found
 }
 
-/// Of the windows, how many disagree.
+/// Count of comparisons that disagree.
 fn disagree(found: &[Comparison]) -> usize {
     found
         .iter()
@@ -103,7 +103,7 @@ fn methods_agree_in_white_noise() {
 }
 
 #[test]
-fn methods_agree_where_samples_are_many_and_near_a_circle() {
+fn methods_agree_with_many_samples_and_near_a_circle() {
     let mut total = 0;
     for (frequency, noises) in [(600.0, [0.1, 0.2]), (5332.0, [1e-3, 0.02])] {
         for noise in noises {
@@ -139,7 +139,7 @@ fn methods_agree_where_samples_are_many_and_near_a_circle() {
 }
 
 #[test]
-fn methods_agree_on_the_axes_and_tell_of_a_wrong_angle_there() {
+fn methods_agree_on_the_axes_and_disagree_about_a_wrong_angle_there() {
     let mut total = 0;
     for angle in [0.0, FRAC_PI_2 / 2.0, FRAC_PI_2] {
         for quadrature_amplitude in [0.0, 0.02] {
@@ -162,7 +162,7 @@ fn methods_agree_on_the_axes_and_tell_of_a_wrong_angle_there() {
                 let loud = disagree(&clean);
                 assert_eq!(loud, 0, "{angle} {quadrature_amplitude} {noise}");
                 total += clean.len();
-                // What only one pick-off sees turns the angle of (12), and is no wave of the others.
+                // Signal in one pick-off only turns the angle of (12), without being a wave to the others.
                 let tone = 10.0 * noise * wave.main_amplitude;
                 let turned = found(1, &|k, [c, d]| {
                     let beside = tone * (TAU * 0.137 * k as f64).sin();
@@ -190,7 +190,7 @@ fn methods_agree_on_the_axes_and_tell_of_a_wrong_angle_there() {
 }
 
 #[test]
-fn methods_part_company_where_the_signal_is_not_one_wave() {
+fn methods_disagree_if_the_signal_is_not_one_wave() {
     let flaws = Flaws {
         noise: 0.002,
         ..Flaws::default()
@@ -199,7 +199,7 @@ fn methods_part_company_where_the_signal_is_not_one_wave() {
         let found = comparisons(Wave::default(), &flaws, 10, 9000, 1, spoil);
         disagree(&found) as f64 / found.len() as f64
     };
-    // A second tone of 10 % beyond the demodulator's band, a third harmonic of 10 %, a limiter at 60 %.
+    // A second tone of 10 % outside the demodulator's band, a third harmonic of 10 %, a limiter at 60 %.
     let tone = loud(&|k, [c, d]| {
         let beside = 0.2 * (TAU * 0.137 * k as f64).sin();
         [c + beside, d - beside]
@@ -215,7 +215,7 @@ fn methods_part_company_where_the_signal_is_not_one_wave() {
     assert_eq!([tone, harmonic, limited], [1.0; 3]);
 }
 
-/// How often the conditions of the delay fail, and by how much.
+/// Failures of the conditions of the delay, and their excesses.
 #[derive(Default)]
 struct OfDelay {
     count: u32,
@@ -243,7 +243,7 @@ impl OfDelay {
 }
 
 #[test]
-fn the_conditions_of_the_delay_hold_in_white_noise_and_are_as_sharp_as_it_lets_them() {
+fn the_conditions_of_the_delay_hold_in_white_noise_and_are_as_sharp_as_it_allows() {
     let turning = |seed| Wave {
         angle_rate: 0.5,
         decay_rate: 0.3,
@@ -264,7 +264,7 @@ fn the_conditions_of_the_delay_hold_in_white_noise_and_are_as_sharp_as_it_lets_t
                 }
             }
             let rms = of_delay.rms(&format!("noise {noise}, {periods} periods"));
-            // Where noise and not f32 is the limit, a deviation is one: a condition that always held would ask nothing.
+            // Where noise rather than f32 is the limit, the rms is 1: a condition that always holds would test nothing.
             if noise >= 0.02 {
                 assert!(rms.iter().all(|x| (0.4..1.1).contains(x)), "{rms:.2?}");
             }
@@ -273,7 +273,7 @@ fn the_conditions_of_the_delay_hold_in_white_noise_and_are_as_sharp_as_it_lets_t
 }
 
 #[test]
-fn the_conditions_of_the_delay_hold_where_blocks_do_not_fit_the_period() {
+fn the_conditions_of_the_delay_hold_if_blocks_do_not_fit_the_period() {
     let mut of_delay = OfDelay::default();
     for seed in 0..20 {
         let wave = random_wave(seed, 5332.0, 0.5);
@@ -295,7 +295,7 @@ fn the_conditions_of_the_delay_hold_where_blocks_do_not_fit_the_period() {
 }
 
 #[test]
-fn a_tone_that_the_delay_sees_ranks_algorithm_2_behind() {
+fn a_tone_that_fails_the_conditions_of_the_delay_ranks_algorithm_2_behind_3_and_4() {
     let wave = Wave {
         quadrature_amplitude: 0.02,
         ..Wave::default()
@@ -304,11 +304,11 @@ fn a_tone_that_the_delay_sees_ranks_algorithm_2_behind() {
         noise: 0.01,
         ..Flaws::default()
     };
-    // A tone of 15 % of a_A: its frequency in Hz, its share on D and how far it is ahead there in rad; which of (17) and (20) fail.
+    // A tone of 15 % of a_A: frequency in Hz, share on D and lead there in rad; which of (17) and (20) fail.
     for (tone, share, ahead, fails) in [
-        // On one pick-off: seen on itself, and not between the two.
+        // On one pick-off: it shows in (17), and not between the two.
         (9000.0, 0.0, 0.0, [true, false]),
-        // A quarter period ahead at a frequency whose own ⟨S(t) S(t − t₃)⟩ is zero: seen between the two.
+        // A quarter period ahead on D, at a frequency with ⟨S(t) S(t − t₃)⟩ = 0: it shows between the two.
         (14_668.0, 1.0, FRAC_PI_2, [false, true]),
         (9000.0, 1.0, 0.0, [true, true]),
     ] {
@@ -324,7 +324,7 @@ fn a_tone_that_the_delay_sees_ranks_algorithm_2_behind() {
             let [_, second, third, fourth] = methods;
             let Conditions { delay, monitor, .. } = second.conditions;
             so += usize::from([!delay, !monitor] == fails);
-            // By J alone it would stand before algorithm 3.
+            // By J alone it would rank before algorithm 3.
             assert!(second.j < third.j);
             assert!(second.rank > third.rank && second.rank > fourth.rank);
         }
@@ -342,7 +342,7 @@ fn ranks_follow_conditions_and_j() {
         noise: 0.2,
         ..Flaws::default()
     };
-    // (8) holds to within the noise.
+    // (8) holds within the noise.
     let found = comparisons(Wave::default(), &noisy, 10, 9000, 3, |_, pair| pair);
     assert!(found.len() > 40, "{}", found.len());
     for comparison in found {
@@ -361,10 +361,10 @@ fn ranks_follow_conditions_and_j() {
         ranks.sort_unstable();
         assert_eq!(ranks, [1, 2, 3, 4]);
         assert!(methods[3].conditions.hold() && comparison.leakage < 2e-2);
-        // Noise of 0.2 makes J about 2·0.04; a wrong wave makes more.
+        // Noise of 0.2 makes J about 2·0.04; a wrong wave has more.
         assert!((methods[3].j / 0.08 - 1.0).abs() < 0.5, "{}", methods[3].j);
     }
-    // A quadrature far above noise fails the condition of algorithm 1 alone: last.
+    // A quadrature far above noise fails the condition of algorithm 1 only, which then ranks last.
     let wave = Wave {
         quadrature_amplitude: 0.8,
         ..Wave::default()

@@ -1,4 +1,4 @@
-//! From window to window: the angle runs on over turns and overlap, and a wave is followed for long.
+//! Continuity from window to window: the angle over turns and overlap, and waves tracked for minutes.
 
 use antinode::{Flags, Settings, SettingsError};
 use antinode_sim::{Flaws, Wave};
@@ -8,7 +8,7 @@ use host_tests::{
 };
 
 #[test]
-fn the_angle_runs_on_over_many_turns() {
+fn the_angle_is_continued_over_many_turns() {
     for rate in [5.0, -5.0] {
         let wave = Wave {
             angle_rate: rate,
@@ -31,7 +31,7 @@ fn the_angle_runs_on_over_many_turns() {
                 estimate.angle
             );
             assert!((f64::from(estimate.quadrature_amplitude) - 0.1).abs() < 0.02);
-            // α goes with the angle's choice: an odd number of quarter turns adds π.
+            // α depends on the choice of the angle: an odd number of quarter turns adds π.
             let shift = if offset.rem_euclid(2.0) == 1.0 {
                 std::f64::consts::PI
             } else {
@@ -46,7 +46,7 @@ fn the_angle_runs_on_over_many_turns() {
 }
 
 #[test]
-fn the_angle_starts_where_it_is_told() {
+fn the_angle_starts_near_the_start_angle() {
     let wave = Wave {
         angle: 0.3,
         ..Wave::default()
@@ -67,8 +67,8 @@ fn the_angle_starts_where_it_is_told() {
 }
 
 #[test]
-fn a_slow_drift_is_followed_for_minutes() {
-    // 2 Hz/s for 20 s: 40 Hz from where the blocks' reference was set.
+fn a_slow_drift_is_tracked_for_minutes() {
+    // 2 Hz/s for 20 s: 40 Hz from the blocks' reference.
     let wave = Wave {
         frequency_rate: 2.0,
         ..Wave::default()
@@ -130,7 +130,7 @@ fn windows_may_overlap_or_leave_gaps() {
 
 #[test]
 fn the_angle_does_not_slip_at_the_end_of_a_ring_down() {
-    // Noise of 1.1 a_A: the angle is known to 0.06 rad a window, but its rate in one window only to 0.2 rad a window.
+    // Noise of 1.1 a_A: a window knows the angle to 0.06 rad, but the rate only to 0.2 rad a window.
     for seed in 0..10 {
         let wave = Wave {
             main_amplitude: 1.0,
@@ -146,7 +146,7 @@ fn the_angle_does_not_slip_at_the_end_of_a_ring_down() {
             start_angle: 0.3,
             ..windows(10)
         };
-        // The wave is found while it is loud.
+        // The wave is found while it is large.
         let found = identify_changed(wave, &flaws, settings, 3_000_000, seed, |k, [c, d]| {
             let more = 5.0 * (-(k as f64) / 30_000.0).exp();
             let clean = wave.pick_offs(k as f64 / RATE);
@@ -180,13 +180,13 @@ fn a_search_or_a_change_of_settings_continues_the_angle() {
             2 => core.change(windows(20)).unwrap(),
             _ => {}
         }
-        // Other settings leave the wave where it is.
+        // Other settings do not move the wave.
         assert_eq!(core.has_wave(), part == 2);
         assert!(core.is_searching());
         core.extend(half_buffer, |estimate| found.push((part, estimate)));
         assert!(core.has_wave() && !core.is_searching());
     }
-    // From where the first window took it to stand.
+    // Measured from the angle of the first window.
     let start = found[0].1.angle - wave.at(found[0].1.time).angle;
     for (part, estimate) in &found {
         assert_eq!(estimate.samples, if *part < 2 { 190 } else { 380 });
@@ -204,7 +204,7 @@ fn a_search_or_a_change_of_settings_continues_the_angle() {
 }
 
 #[test]
-fn the_angle_is_followed_through_misfits_while_the_pattern_turns_otherwise() {
+fn the_angle_is_tracked_through_misfits_while_the_rate_changes() {
     let mut reacquired = 0;
     for (seed, (before, after, seconds)) in [
         (4.0, -4.0, 0.4),
@@ -246,7 +246,7 @@ fn the_angle_is_followed_through_misfits_while_the_pattern_turns_otherwise() {
             assert!(off.abs() < 0.01, "{before} to {after} rad/s: {estimate:?}");
         }
         let is_told = found.iter().any(|e| e.flags == Flags::REACQUIRED);
-        // A rate that stays is promised rightly.
+        // With a constant rate the prediction is right.
         assert!(before != after || !is_told);
         reacquired += u32::from(is_told);
     }
@@ -254,8 +254,8 @@ fn the_angle_is_followed_through_misfits_while_the_pattern_turns_otherwise() {
 }
 
 #[test]
-fn an_angle_that_was_followed_to_another_quarter_than_promised_is_told_to_be_unsure() {
-    // It turns, stands still in hum, and turns on: by its rate it would be a quarter turn ahead.
+fn an_angle_that_was_tracked_to_another_quarter_than_predicted_is_reacquired() {
+    // The pattern turns, stands still in hum, and turns on: by its rate it would be a quarter turn ahead.
     let (from, to, rate) = (0.1, 0.5, 4.0);
     let still = |t: f64| (t - from).clamp(0.0, to - from);
     let settings = windows(10);

@@ -1,4 +1,4 @@
-//! Signals through a converter: its steps are counted in what is stated, and a clean signal is never flagged for them.
+//! Signals through a converter: its steps are part of the stated deviations, and never cause a flag on a clean signal.
 
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
@@ -6,8 +6,8 @@ use host_tests::score::{errors, stated};
 use host_tests::{RATE, identify, identify_changed, windows};
 
 #[test]
-fn steps_are_errors_that_are_stated() {
-    // From no noise at all, where the errors repeat with the signal, to noise that breaks them up.
+fn errors_from_converter_steps_are_stated() {
+    // From no noise at all, where the errors repeat with the signal, to noise that breaks up this pattern.
     for noise in [0.0, 0.3, 2.0] {
         let (mut sums, mut count) = ([0.0; 4], 0.0);
         for bits in [10u32, 12, 16] {
@@ -25,14 +25,14 @@ fn steps_are_errors_that_are_stated() {
         }
         let means = sums.map(|sum| sum / count);
         println!("noise of {noise} steps: errors {means:.2?} of what is stated");
-        // The frequency's errors are far less where they are the same in every period.
+        // The frequency's errors are far smaller if they are the same in every period.
         assert!(means[..3].iter().all(|mean| (0.75..1.1).contains(mean)));
     }
 }
 
 #[test]
 fn the_same_few_codes_in_every_period_are_no_misfit() {
-    // Four or six samples a period, to the digit: a window's errors are all alike, and another's may be none.
+    // Four or six samples a period, exactly: a window's errors are all alike, and another window may have none.
     for noise in [0.15, 0.2, 0.25, 0.3, 0.35, 0.4] {
         for (bits, scale, period) in [
             (10, 0.9, 4.0),
@@ -48,7 +48,7 @@ fn the_same_few_codes_in_every_period_are_no_misfit() {
     }
 }
 
-/// Runs one combination and gives errors over stated deviations: `scale` is the amplitude over full scale, `noise` is in steps.
+/// Runs one combination; gives errors over stated deviations. `scale` is the amplitude over full scale, `noise` is in steps.
 fn check(bits: u32, scale: f64, period: f64, noise: f64, periods: u16) -> [f64; 4] {
     let label = format!(
         "{bits} bits, {scale} of full scale, {period} a period, noise {noise} steps, {periods} periods"
@@ -115,7 +115,7 @@ fn the_residual_is_that_of_the_samples_whatever_the_window() {
     }
 }
 
-/// A wave in steps, in noise of so many of them, and cut off at `most`: its estimates, where the step is known and where it is not.
+/// Estimates of a wave in steps of `step`, in noise of `noise` steps and limited to `most`, with the step known to the core or not.
 fn in_steps(
     wave: Wave,
     step: f64,
@@ -139,7 +139,7 @@ fn in_steps(
 
 #[test]
 fn crests_in_noise_of_some_steps_are_not_clipped_and_limited_ones_are() {
-    // Of a hundred steps and more; three samples of a crest are one code by chance.
+    // Of a hundred steps and more: three samples of a crest have the same code by chance.
     for (steps, noise) in [(110.0, 3.0), (110.0, 4.5), (250.0, 9.0)] {
         let wave = Wave {
             main_amplitude: 1.0,
@@ -168,8 +168,8 @@ fn crests_in_noise_of_some_steps_are_not_clipped_and_limited_ones_are() {
 
 #[test]
 fn crests_of_few_steps_are_not_clipped() {
-    // A slow wave of 30 steps, all of whose crests are one code; a pick-off in a node, whose whole signal is a few codes; and a wave of
-    // eight bits, of whose crests three samples or four are one code, with noise more of them by chance.
+    // A slow wave of 30 steps, with one code in all of a crest; a pick-off in a node, with a few codes in all; and a wave of eight bits, in
+    // the crests of which three or four samples have one code, or with noise more of them by chance.
     for (period, steps, angle, is_known) in [
         (120.0, 30.0, 0.3, true),
         (18.75, 1000.0, 1e-3, false),

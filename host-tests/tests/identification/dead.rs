@@ -1,4 +1,4 @@
-//! A pick-off that dies is told, however little it showed of the wave, and a pattern that turns to the other's axis is no dead one.
+//! A pick-off that dies is flagged, however small its part of the wave was; a pattern that turns to the other one's axis is not.
 
 use antinode::{Flags, Settings};
 use antinode_sim::{Flaws, Wave};
@@ -22,8 +22,8 @@ fn settings() -> Settings {
     }
 }
 
-/// The share of the windows behind the death of S_C that are flagged `dead_channel`, where it showed so many deviations of the wave and
-/// dies so many pairs behind the start of a window.
+/// Share of windows after the death of S_C that are flagged `dead_channel`, if it showed `deviations` deviations of the wave and dies
+/// `depth` pairs after the start of a window.
 fn told(deviations: f64, depth: usize) -> f64 {
     let (mut dead, mut count) = (0, 0);
     for seed in 0..60 {
@@ -56,7 +56,7 @@ fn told(deviations: f64, depth: usize) -> f64 {
 }
 
 #[test]
-fn a_pick_off_that_dies_is_told_from_the_sizes_on_that_are_stated() {
+fn a_pick_off_that_dies_is_flagged_from_the_stated_sizes_on() {
     // Between two windows, and in the middle of one.
     for depth in [0, 95] {
         let [half, all] = [25.0, 35.0].map(|deviations| told(deviations, depth));
@@ -97,7 +97,7 @@ fn patterns_that_turn_past_the_axes_are_no_dead_pick_offs() {
 }
 
 #[test]
-fn a_wave_that_ends_in_one_and_the_same_code_leaves_numbers() {
+fn a_wave_that_ends_in_a_constant_code_leaves_numbers() {
     let mut lost = 0;
     for code in 1..2048 {
         let settings = Settings {

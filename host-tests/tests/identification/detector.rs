@@ -1,17 +1,17 @@
-//! The period from cold: never on noise, never a fraction or a multiple, soon.
+//! The period from cold: found soon, never in noise, and never a fraction or a multiple.
 
 use antinode::period::{DifferenceDetector, MeanReturnDetector};
 use antinode::{Identifier, Sample, SamplePair};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 use host_tests::{Core, RATE, identify, no_wave, stream, windows};
 
-/// A wave whose period runs evenly over 4 to 200 samples in its logarithm.
+/// A wave with a period of 4 to 200 samples, spaced evenly in its logarithm.
 fn wave(seed: u64) -> (Wave, f64) {
     let period = 4.0 * 50f64.powf((seed as f64 * 0.618_034).fract());
     (random_wave(seed, RATE / period, 0.5), period)
 }
 
-/// Periods that `push` found within `periods` periods of 10 000 waves: the relative errors, the times and how many found none.
+/// Searches of 10 000 waves with `push`, each over `periods` periods: the relative errors, the times, and the count of waves not found.
 fn starts(
     noise: f64,
     offset: f64,
@@ -49,7 +49,7 @@ fn starts(
 }
 
 #[test]
-fn difference_finds_every_wave_and_no_multiple() {
+fn difference_detector_finds_every_wave_and_no_multiple() {
     for (noise, error, latest) in [(0.0, 1e-3, 3.0), (0.02, 0.01, 3.0), (0.2, 0.08, 8.0)] {
         let (worst, last, mean, none) = starts(noise, 0.9, 20.0, || {
             let mut detector = DifferenceDetector::new();
@@ -65,7 +65,7 @@ fn difference_finds_every_wave_and_no_multiple() {
 }
 
 #[test]
-fn mean_return_finds_no_multiple_either() {
+fn mean_return_detector_finds_no_multiple() {
     for (noise, error, most) in [(0.0, 2e-3, 15), (0.02, 0.02, 40), (0.2, 0.08, 3700)] {
         let (worst, _, mean, none) = starts(noise, 0.5, 40.0, || {
             let mut detector = MeanReturnDetector::new();
@@ -98,7 +98,7 @@ fn noise_is_no_wave() {
     }
 }
 
-/// How often a million pairs of this noise, in codes, are taken for a wave; none is ever reported.
+/// Count of waves found in a million pairs of this noise, in codes; none of them is ever reported.
 fn waves_in_noise<S: Sample>(noise: f64, code: fn(f64) -> S) -> usize
 where
     [S; 2]: SamplePair<S>,
@@ -112,7 +112,7 @@ where
     let mut found = 0;
     let gyro = Gyro::new(wave, flaws, RATE, 7).unwrap();
     for (k, pair) in gyro.take(1_000_000).enumerate() {
-        // Offsets that wander from code to code.
+        // Offsets that drift from code to code.
         let offset = 2e-5 * k as f64;
         let was_searching = core.is_searching();
         let codes = [pair[0] + offset, pair[1] - offset].map(|x| code(x.round()));
@@ -124,21 +124,21 @@ where
 
 #[test]
 fn noise_of_a_code_or_less_is_no_wave() {
-    // Samples of two or three values would look like a wave now and then, if they were not known to be rounded.
+    // Samples of two or three values would now and then look like a wave, if their rounding were not known.
     for noise in [0.3, 0.5, 0.8, 1.6] {
         assert_eq!(waves_in_noise(noise, |x| x as i16), 0, "{noise}");
-        // The search looks at all bits of these.
+        // The search uses all bits of these.
         let noise = noise / 4.0;
         assert_eq!(waves_in_noise(noise, |x| x as i32), 0, "{noise}");
     }
-    // In f32 they are not known to be: the first window tells.
+    // In f32 the rounding is not known: the first window shows that there is no wave.
     let found = waves_in_noise(0.1, |x| x as f32);
     println!("noise of 0.1 in f32: {found} waves found in a million pairs");
     assert!(found < 100);
 }
 
 #[test]
-fn a_wave_of_a_dozen_codes_is_found_as_soon() {
+fn a_wave_of_a_dozen_codes_is_found_soon() {
     let (mut latest, mut sum) = (0f64, 0.0);
     for seed in 0..4000 {
         let (wave, period) = wave(seed);
@@ -209,12 +209,12 @@ fn the_first_estimate_comes_within_four_periods_of_its_window() {
 
 #[test]
 fn a_wave_that_begins_late_is_found_as_soon() {
-    // After silence, or after a drift that is too slow for any octave.
+    // After silence, or after a drift too slow for any octave.
     for slope in [0.0, 0.02] {
         let (mut worst, mut latest, mut sum) = (0f64, 0f64, 0.0);
         for seed in 0..4000 {
             let (wave, period) = wave(seed);
-            // Of every place in a frame of any octave.
+            // At every place in a frame of any octave.
             let before = (seed as f64 * 0.381_966).fract() * 34.0 * (period / 4.0).max(1.0);
             let drift = |k: usize| slope * wave.main_amplitude * (k as f64 - before) / period;
             let mut detector = DifferenceDetector::<f32>::new();
@@ -237,14 +237,14 @@ fn a_wave_that_begins_late_is_found_as_soon() {
         println!(
             "late, drift {slope}: worst {worst:.3}, mean {mean:.2} periods, latest {latest:.1}"
         );
-        // A frame that the wave began late in looks slow, and begins anew.
+        // A frame in which the wave began late looks slow, and begins anew.
         assert!(worst < 0.1 && mean < 3.0 && latest < 5.5);
     }
 }
 
 #[test]
 fn a_wave_that_begins_after_two_tones_is_found_soon() {
-    // The tones, both of the wave's size, look like a wave for ever: the search leaves looks out by then.
+    // Two tones of the wave's size look like a wave for ever: by then the search leaves looks out.
     let (mut latest, mut sum) = (0f64, 0.0);
     for seed in 0..4000 {
         let (wave, period) = wave(seed);
@@ -276,8 +276,8 @@ fn a_wave_that_begins_after_two_tones_is_found_soon() {
 
 #[test]
 fn no_call_both_tries_many_samples_and_judges() {
-    // Of frames of 10, 12, 14, 16 and 20 samples twelve are tried in a call. The call after the last ones says what they are, unless these
-    // were but two.
+    // Of a frame of 10 to 20 samples twelve are tried per call. The next call judges, unless the last ones were only two: then
+    // their own call does.
     for (period, frame, calls) in [
         (4.1, 10, 2),
         (5.0, 12, 2),

@@ -1,9 +1,9 @@
-//! Noisy waves: rms error over the Cramér–Rao bound, and stated standard deviations over it, from cold.
+//! Accuracy in noise, from cold: rms error over the Cramér–Rao bound, and stated standard deviations over the error.
 
 use std::ops::Range;
 
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::score::{Honesty, Score, errors, stated};
+use host_tests::score::{Score, StatedRatio, errors, stated};
 use host_tests::{RATE, identify, windows};
 
 /// Period of the paper's gyro, samples.
@@ -29,7 +29,7 @@ fn score(
             ..Flaws::default()
         };
         let samples = (period * (f64::from(periods) * (each as f64 + 0.6) + 12.0)) as usize;
-        // Every row has noise of its own.
+        // Every row has its own noise.
         let row = 1000 * (u64::from(periods) * 1000 + (1e3 * noise) as u64);
         for estimate in identify(wave, &flaws, windows(periods), samples, seed + row)
             .iter()
@@ -41,11 +41,11 @@ fn score(
     score
 }
 
-/// The stated deviations over the errors: seeds are fixed, so they are near what is printed.
+/// Stated deviations over errors; seeds are fixed, so that these do not scatter from run to run.
 const STATED: Range<f64> = 0.96..1.06;
 
 #[test]
-fn more_quadrature_costs_frequency_alone() {
+fn more_quadrature_raises_the_error_of_the_frequency_only() {
     for (share, limits) in [(0.65, 1.0..1.4), (0.75, 1.1..1.8), (0.85, 1.5..3.0)] {
         for periods in [2, 10, 50] {
             let score = score(PAPER, periods, 0.02, 500, 8, |seed| {
@@ -75,7 +75,7 @@ fn more_quadrature_costs_frequency_alone() {
 }
 
 #[test]
-fn reaches_the_bound_from_cold() {
+fn estimates_from_cold_reach_the_bound() {
     for (periods, runs) in [(2, 700), (4, 700), (10, 700), (50, 500)] {
         for noise in [0.001, 0.02, 0.2] {
             let score = score(PAPER, periods, noise, runs, 8, |seed| {
@@ -91,7 +91,7 @@ fn reaches_the_bound_from_cold() {
 }
 
 #[test]
-fn reaches_the_bound_at_any_sample_rate() {
+fn estimates_at_any_sample_rate_reach_the_bound() {
     for period in [4.3, 7.7, 43.0, 190.0] {
         for periods in [4, 10] {
             let runs = if period > 100.0 { 250 } else { 500 };
@@ -108,7 +108,7 @@ fn reaches_the_bound_at_any_sample_rate() {
 }
 
 #[test]
-fn a_spinning_ringing_drifting_wave_is_not_smeared() {
+fn a_turning_decaying_drifting_wave_reaches_the_bound() {
     for (rate, tau, drift) in [
         (6.0, 0.3, 2.0),
         (-6.0, 0.3, -2.0),
@@ -162,12 +162,12 @@ fn rates_scatter_as_stated() {
 }
 
 #[test]
-fn a_window_in_which_the_pattern_turns_far_is_not_smeared() {
-    // 0.5 rad in each window, or 0.6 of its amplitude lost.
+fn a_window_in_which_the_pattern_turns_far_reaches_the_bound() {
+    // A turn of 0.5 rad in each window, or a loss of 0.6 of the amplitude.
     for periods in [2, 10, 50] {
         let window = f64::from(periods) / 5332.0;
         for (turn, loss) in [(0.5, 0.0), (-0.5, 0.0), (0.0, 0.9), (0.4, 0.5)] {
-            let mut honesty = Honesty::default();
+            let mut honesty = StatedRatio::default();
             for seed in 0..100 {
                 let wave = Wave {
                     angle_rate: turn / window,
@@ -179,7 +179,7 @@ fn a_window_in_which_the_pattern_turns_far_is_not_smeared() {
                     ..Flaws::default()
                 };
                 let samples = (4.5 * window * RATE) as usize + 100;
-                // The first window takes its pattern to stand still.
+                // The first window assumes a pattern at rest.
                 for estimate in identify(wave, &flaws, windows(periods), samples, seed)
                     .iter()
                     .skip(1)
@@ -198,8 +198,8 @@ fn a_window_in_which_the_pattern_turns_far_is_not_smeared() {
 }
 
 #[test]
-fn the_first_window_of_a_turning_wave_states_its_frequency() {
-    // With quadrature a turn looks like another frequency, and nothing before tells how fast the pattern turns.
+fn the_first_window_of_a_turning_wave_states_its_frequencys_deviation_rightly() {
+    // With quadrature a turn looks like another frequency, and no window before tells how fast the pattern turns.
     for (quadrature, turning) in [(0.2, 0.5), (0.5, 0.0), (0.5, 0.5), (0.7, 0.3), (0.7, 1.0)] {
         let (mut squares, mut worst) = (0.0, 0f64);
         for seed in 0..400 {
@@ -223,7 +223,7 @@ fn the_first_window_of_a_turning_wave_states_its_frequency() {
         println!(
             "a_B of {quadrature} a_A, {turning} rad/s, first window: error over stated {ratio:.2}, worst {worst:.1}"
         );
-        // A turn that noise hides is not counted: without what is, the ratio is 2.6 in the third case.
+        // A turn that noise hides is not counted; without the correction the ratio is 2.6 in the third case.
         assert!(ratio < 1.9 && worst < 8.0, "{ratio} {worst}");
     }
 }

@@ -1,4 +1,4 @@
-//! What electronics do to a window by itself: flattened crests, harmonics, tones, and pick-offs that are dead.
+//! Faults of the electronics in a window by itself: flattened crests, harmonics, tones, and dead pick-offs.
 
 use antinode::{Calibration, Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Gyro, Wave};
@@ -75,7 +75,7 @@ fn a_limiter_before_the_noise_is_flagged_by_its_harmonic() {
                 .wrapping_add(1_442_695_040_888_963_407);
             0.01 * a * ((state >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
         };
-        // Limited amplifiers ahead of a noisy converter: no two samples are equal.
+        // Amplifiers that limit, before a noisy converter: no two samples are equal.
         let mut core = Core::new(windows(10)).unwrap();
         let gyro = Gyro::new(wave, Flaws::default(), RATE, seed).unwrap();
         let mut estimates = Vec::new();
@@ -100,7 +100,7 @@ fn a_limiter_before_the_noise_is_flagged_by_its_harmonic() {
 }
 
 #[test]
-fn a_limiter_is_told_where_a_harmonic_folds_onto_the_third() {
+fn a_limiter_is_flagged_where_a_harmonic_folds_onto_the_third() {
     for period in [5.5, 5.7, 5.9, 6.1, 6.3, 6.5, 7.9, 8.1, 8.2] {
         for (periods, least) in [(5, 0.8), (10, 0.95), (20, 0.95)] {
             for cubic in [-0.4, 0.0] {
@@ -150,8 +150,8 @@ fn a_pick_off_that_was_dead_from_the_start_is_flagged() {
 }
 
 #[test]
-fn a_tone_that_whole_blocks_do_not_see_is_flagged() {
-    // 3/2, 2 and 5/2 of the wave's frequency: the sums of blocks of two periods hide them.
+fn a_tone_that_sums_of_whole_blocks_hide_is_flagged() {
+    // Tones at 3/2, 2 and 5/2 of the wave's frequency, which the sums of blocks of two periods hide.
     for multiple in [1.5, 2.0, 2.5] {
         for seed in 0..5 {
             let (wave, _) = gyro(seed);
@@ -165,7 +165,7 @@ fn a_tone_that_whole_blocks_do_not_see_is_flagged() {
             let unseen = estimates
                 .iter()
                 .filter(|e| !e.flags.contains(Flags::MISFIT));
-            // Twice the frequency may lie so that it hardly raises the crests.
+            // A tone at twice the frequency may have a phase at which it hardly raises the crests.
             let unseen = unseen.count();
             assert!(unseen < 20, "{multiple}, seed {seed}: {unseen}");
         }
@@ -173,9 +173,9 @@ fn a_tone_that_whole_blocks_do_not_see_is_flagged() {
 }
 
 #[test]
-fn a_pick_off_that_dies_is_told_whatever_its_calibration_and_a_wave_that_ends_is_no_dead_pick_off()
-{
-    // Of one that does not stand at 45° a calibration makes a part of the other.
+fn a_pick_off_that_dies_is_flagged_whatever_its_calibration_and_a_wave_that_ends_is_no_dead_pick_off()
+ {
+    // With an angle other than 45°, calibration adds a part of the other pick-off.
     let cases = [
         (0.1, 0.0),
         (1.0, 0.0),
@@ -228,7 +228,7 @@ fn a_pick_off_that_dies_is_told_whatever_its_calibration_and_a_wave_that_ends_is
 }
 
 #[test]
-fn a_gain_that_is_corrected_neither_makes_a_harmonic_nor_hides_one() {
+fn a_calibrated_gain_neither_makes_a_harmonic_nor_hides_one() {
     for (gain, cubic) in [(3.0, 0.0), (0.3, 0.0), (0.3, 0.03), (3.0, 0.03)] {
         let (mut clipped, mut rows) = (0, 0);
         for seed in 0..4 {
@@ -263,14 +263,14 @@ fn a_gain_that_is_corrected_neither_makes_a_harmonic_nor_hides_one() {
 }
 
 #[test]
-fn one_end_of_one_pick_off_is_enough_to_be_clipped() {
-    // Both pick-offs have 1.41, and one of them an offset towards one end.
+fn clipping_of_one_end_of_one_pick_off_is_flagged() {
+    // Both pick-offs have an amplitude of 1.41, and one of them an offset towards one end.
     let wave = Wave {
         angle: std::f64::consts::PI / 8.0,
         quadrature_amplitude: 0.0,
         ..Wave::default()
     };
-    // Where the rails are not known crests must be flat; the noise hides their harmonic.
+    // Without known rails the crests must be flat; the noise hides their harmonic.
     for (is_known, level, noise) in [(false, 1.5, 0.1), (true, 1.65, 0.005)] {
         let flaws = Flaws {
             noise,
@@ -301,7 +301,7 @@ fn one_end_of_one_pick_off_is_enough_to_be_clipped() {
 }
 
 #[test]
-fn a_pick_off_in_a_node_does_not_die_of_a_fault_of_the_other() {
+fn a_pick_off_in_a_node_is_not_dead_by_a_fault_of_the_other() {
     let wave = Wave {
         angle: 0.0,
         quadrature_amplitude: 0.0,
@@ -311,7 +311,7 @@ fn a_pick_off_in_a_node_does_not_die_of_a_fault_of_the_other() {
         noise: 0.01,
         ..Flaws::default()
     };
-    // A spike every third window, on the pick-off that has the wave.
+    // A spike every third window, in the pick-off that has the wave.
     let found = identify_changed(wave, &flaws, windows(10), 200_000, 1, |k, [c, d]| {
         let is_spike = k > 20_000 && k % 570 == 100;
         [if is_spike { c + 1.0 } else { c }, d]
@@ -327,8 +327,8 @@ fn a_pick_off_in_a_node_does_not_die_of_a_fault_of_the_other() {
 }
 
 #[test]
-fn a_harmonic_that_electronics_may_have_is_no_limiter_where_its_image_lies_beside_it() {
-    // 0.085 % of a_A, of the 0.1 % that are flagged; of a steady wave, and of one that rings down.
+fn a_small_harmonic_is_not_taken_for_a_limiter_where_its_image_lies_beside_it() {
+    // 0.085 % of a_A, of the 0.1 % that are flagged, in a steady wave and in one that rings down.
     for period in [5.97, 6.02, 6.05, 7.96, 8.03] {
         for decay_rate in [0.0, 30.0] {
             let wave = Wave {

@@ -1,20 +1,20 @@
-//! Noise-free waves: what is left is rounding, whatever the window, the offset and the samples a period.
+//! Noise-free waves: errors are those of rounding, for any window, offset and samples a period.
 
 use antinode::methods::{Products, algorithm4};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::errors;
 use host_tests::{RATE, calibrated, identify, windows};
 
-/// A number in 0…1 that runs evenly over it as `seed` counts.
+/// The number `seed` of a sequence that is spread evenly over 0…1.
 fn even(seed: u64, step: f64) -> f64 {
     (seed as f64 * step).fract()
 }
 
 #[test]
-fn any_window_any_offset_any_rate() {
+fn errors_are_below_rounding_in_any_window_at_any_offset_and_rate() {
     let mut worst = [0f64; 4];
     for seed in 0..600 {
-        // 4.3 to 190 samples a period, 2 to 100 periods, both evenly in their logarithm.
+        // 4.3 to 190 samples a period, 2 to 100 periods, both spaced evenly in their logarithm.
         let period = 4.3 * (190.0f64 / 4.3).powf(even(seed, 0.618_034));
         let periods = (2.0 * 50f64.powf(even(seed, 0.754_878))).round() as u16;
         let wave = random_wave(seed, RATE / period, 0.5);
@@ -54,7 +54,7 @@ fn any_window_any_offset_any_rate() {
 }
 
 #[test]
-fn algorithm_4_as_printed_leaks_where_the_core_does_not() {
+fn algorithm_4_as_printed_leaks_while_the_core_does_not() {
     let wave = Wave::default();
     println!("periods   algorithm 4: a_A, a_B, θ       core: a_A, a_B, θ");
     for periods in [2u16, 3, 4, 5, 8, 10] {
@@ -80,7 +80,7 @@ fn algorithm_4_as_printed_leaks_where_the_core_does_not() {
             printed[0], printed[1], printed[2], core[0], core[1], core[2]
         );
         assert!(core[0] < 2e-6 && core[1] < 2e-6 && core[2] < 1e-6);
-        // Best at 4 and 8 periods, where the grid fits: still far above rounding.
+        // It is best at 4 and 8 periods, which fit the sampling grid, and still far above rounding.
         assert!(
             printed[0] > 50.0 * core[0].max(1e-7),
             "{periods}: {printed:?}"
@@ -89,7 +89,7 @@ fn algorithm_4_as_printed_leaks_where_the_core_does_not() {
 }
 
 #[test]
-fn phase_and_time_rebuild_the_samples() {
+fn phase_and_time_reproduce_the_samples() {
     let wave = Wave {
         main_amplitude: 1.0,
         quadrature_amplitude: -0.2,
@@ -112,9 +112,9 @@ fn phase_and_time_rebuild_the_samples() {
 }
 
 #[test]
-fn a_wave_that_dies_and_turns_fast_is_exact_too() {
-    // The amplitude falls by a fifth and the pattern turns by a degree within a window: blocks are not constant inside.
-    // So they are between the sampling of one pick-off and that of the other, a tenth of a period apart.
+fn a_wave_that_decays_and_turns_fast_is_exact_too() {
+    // Within a window the amplitude falls by a fifth and the pattern turns by a degree: they change within blocks,
+    // and between the sampling of both pick-offs, a tenth of a period apart.
     let mut worst = 0f64;
     for seed in 0..30 {
         let wave = Wave {

@@ -1,4 +1,4 @@
-//! Faults in a 4 s stream: every window that they touch is flagged, no other is, and the wave is tracked again soon.
+//! Faults in a 4 s stream: every window that they touch is flagged, no other one is, and the wave is soon tracked again.
 
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Channel, ClipSpan, Dropout, DropoutKind, Flaws, Loss, Wave};
@@ -8,7 +8,7 @@ use host_tests::{Core, RATE, gyro, identify, stream, windows};
 /// Length of the streams, sample pairs.
 const STREAM: usize = 400_000;
 
-/// Asserts what is asked of a fault between two times (s) of the recording.
+/// Asserts that the windows of a fault between two times, s, are flagged, others are not, and that a clean one follows soon.
 fn check(estimates: &[Estimate], from: f64, to: f64, name: &str) {
     let window = 10.0 / 5332.0;
     let span = |e: &Estimate| (e.start as f64 / RATE, e.end() as f64 / RATE);
@@ -95,12 +95,12 @@ fn clipping_is_flagged() {
         let (mut wave, mut flaws) = gyro(seed);
         wave.angle_rate = 0.0;
         let (from, to) = (1.7 + 1e-5 * seed as f64, 2.3);
-        // The larger pick-off loses a tenth of its amplitude or more.
+        // The stronger pick-off loses a tenth of its amplitude or more.
         let (s2, c2) = (2.0 * wave.at(from).angle).sin_cos();
         let level = 0.88 * wave.at(to).main_amplitude * s2.abs().max(c2.abs());
         flaws.clip_spans = vec![ClipSpan { from, to, level }];
         let estimates = identify(wave, &flaws, windows(10), STREAM, seed);
-        // A crest must lie within the span for a sample to be cut: half a period from its ends.
+        // For a sample to be cut, a crest must lie within the span: half a period from its ends.
         let crest = 1.0 / 5332.0;
         for estimate in &estimates {
             let begin = estimate.start as f64 / RATE;
@@ -149,7 +149,7 @@ fn dropouts_are_flagged(kind: DropoutKind) {
         for channel in [None, Some(Channel::C), Some(Channel::D)] {
             for length in [0.0007, 0.004, 0.5] {
                 let (wave, mut flaws) = gyro(seed);
-                // A pick-off on a node has no wave to lose.
+                // A pick-off in a node has no wave to lose.
                 let (s2, c2) = (2.0 * wave.at(2.0).angle).sin_cos();
                 if s2.abs().min(c2.abs()) < 0.15 && channel.is_some() {
                     continue;
@@ -208,7 +208,7 @@ fn a_circular_pattern_has_no_angle() {
 }
 
 #[test]
-fn numbers_that_are_none_cost_one_window() {
+fn samples_that_are_not_finite_cost_one_window() {
     let (wave, flaws) = gyro(3);
     for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let mut core = Core::new(windows(10)).unwrap();
@@ -250,7 +250,7 @@ fn a_step_between_or_within_windows_is_flagged() {
                 }
                 estimates.extend(core.push([c as f32, d as f32]));
             }
-            // Where the step leaves less than a block of a window on one side, the window beside it may be the one that shows it.
+            // If the step leaves less than a block of a window on one side, the next window may be the flagged one.
             let within = |e: &&Estimate| (e.start..e.end()).contains(&(at as u64));
             let window = estimates.iter().find(within).unwrap();
             let depth = (at as u64 - window.start).min(window.end() - at as u64);
@@ -281,8 +281,8 @@ fn a_step_between_or_within_windows_is_flagged() {
 }
 
 #[test]
-fn a_wave_of_another_frequency_in_its_place_is_found() {
-    // Whatever the sums at the old frequency make of it: of the half, of the double, of anything between.
+fn a_wave_of_another_frequency_in_place_of_the_wave_is_found() {
+    // At half and double the frequency and anything between, whatever the sums at the old frequency show of it.
     for noise in [0.0, 1e-3, 0.02] {
         for (from, to) in [
             (5332.0, 8000.0),
@@ -330,7 +330,7 @@ fn a_wave_of_another_frequency_in_its_place_is_found() {
     }
 }
 
-/// True of a row without a fault, the first of its wave or not, at a frequency.
+/// True if the row is of a wave at this frequency and has no flag, except that of a new wave.
 fn is_of(row: &Estimate, frequency: f64) -> bool {
     row.flags.without(Flags::REACQUIRED).is_empty()
         && (row.frequency - frequency).abs() < 0.01 * frequency

@@ -1,4 +1,4 @@
-//! A wave's first window, which has no noise of others to be compared with.
+//! The first window of a wave, for which no earlier noise is known.
 
 use antinode::{Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
@@ -6,7 +6,7 @@ use host_tests::{Core, RATE, identify_changed, stream, windows};
 
 #[test]
 fn a_spike_or_a_small_step_in_the_first_window_is_flagged() {
-    // What is out of line is not counted to the noise that it is held against: of fifty or a hundred numbers it would hide itself.
+    // An outlier is excluded from the noise that it is compared with: among fifty or a hundred numbers it would hide itself.
     for (periods, spike, step, least) in [
         (20, 0.16, 0.0, 98),
         (50, 0.08, 0.0, 88),
@@ -25,7 +25,7 @@ fn a_spike_or_a_small_step_in_the_first_window_is_flagged() {
                 ..windows(periods)
             };
             let window = 19 * usize::from(periods);
-            // Anywhere but in the first and the last block.
+            // Anywhere except in the first and the last block.
             let at = window / 5 + (0.6 * window as f64 * (0.618 * seed as f64).fract()) as usize;
             let found = identify_changed(wave, &flaws, settings, window + 30, seed, |k, [c, d]| {
                 let gain = if k < at { 1.0 } else { 1.0 + step };
@@ -101,7 +101,7 @@ fn a_step_within_the_first_window_is_flagged() {
                     ..windows(periods)
                 };
                 let length = (RATE / 5332.0 * f64::from(periods)) as usize;
-                // Anywhere but in the first and the last block, which others may make up for.
+                // Anywhere except in the first and the last block, for which the others may make up.
                 let at =
                     length / 5 + (0.6 * length as f64 * (0.618 * seed as f64).fract()) as usize;
                 let found =
@@ -112,7 +112,7 @@ fn a_step_within_the_first_window_is_flagged() {
                             pair.map(|value| factor * value)
                         }
                     });
-                // Where too little of the wave is left there is no window.
+                // If too little of the wave is left there is no window.
                 rows += found.len();
                 for estimate in found {
                     assert!(
@@ -146,7 +146,7 @@ fn no_first_window_of_a_steady_wave_is_flagged() {
             let found =
                 identify_changed(wave, &flaws, windows(periods), length, seed, |_, pair| pair);
             assert!(!found.is_empty());
-            // In ten per cent two periods may look like a circle.
+            // In noise of ten per cent, two periods may look like a circle.
             let fault = found[0].flags.without(Flags::CIRCULAR);
             assert!(
                 fault.is_empty(),
@@ -157,8 +157,8 @@ fn no_first_window_of_a_steady_wave_is_flagged() {
 }
 
 #[test]
-fn a_tone_of_twice_the_frequency_is_told_in_the_first_window_though_it_looks_like_noise() {
-    // At an odd number of half samples a period blocks of whole periods leave of it what noise would.
+fn a_tone_of_twice_the_frequency_is_flagged_in_the_first_window_though_it_looks_like_noise() {
+    // With an odd number of half samples a period, blocks of whole periods show as much of it as of noise.
     let (mut told, mut runs) = (0, 0);
     for (period, periods) in [(10.5, 10), (12.5, 10), (8.5, 50)] {
         for seed in 0..20 {

@@ -1,4 +1,4 @@
-//! `firmware/run`, which flashes a board, with tools that only tell how they were called.
+//! `firmware/run`, which flashes a board, with fake tools that only print how they are called.
 #![cfg(unix)]
 
 use std::fs;
@@ -6,7 +6,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// A folder with these tools, each of which prints its name and arguments and fails where it is to.
+/// A folder with these tools, each of which prints its name and arguments; the one called `fails` fails.
 fn tools(name: &str, tools: &[&str], fails: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&folder);
@@ -21,7 +21,7 @@ fn tools(name: &str, tools: &[&str], fails: &str) -> PathBuf {
     folder
 }
 
-/// Runs `firmware/run /x/stm32f405` where no other tools than these are, and what bash itself needs.
+/// Runs `firmware/run /x/stm32f405` with no other tools than these and those that bash itself needs.
 fn run(folder: &Path, serial: Option<&str>) -> Output {
     for tool in ["bash", "basename"] {
         let found = ["/bin", "/usr/bin"].map(|bin| Path::new(bin).join(tool));
@@ -48,7 +48,7 @@ fn texts(output: &Output) -> [String; 2] {
 }
 
 #[test]
-fn a_probe_flashes_and_is_told_the_chip() {
+fn a_probe_flashes_and_gets_the_chips_name() {
     let output = run(&tools("probe", &["probe-rs"], ""), None);
     let [told, _] = texts(&output);
     assert!(output.status.success());
@@ -56,7 +56,7 @@ fn a_probe_flashes_and_is_told_the_chip() {
         told,
         "probe-rs run --chip STM32F405RGTx /x/stm32f405 --connect-under-reset\n"
     );
-    // One that would halt at a reset is told not to.
+    // A probe that would halt at a reset is told not to.
     let folder = tools("newer", &["probe-rs"], "");
     let script = "#!/bin/sh\n[ \"$*\" != 'run --help' ] || { echo ' --no-catch-reset'; exit; }\necho \"$@\"\n";
     fs::write(folder.join("probe-rs"), script).expect("it can be written");
@@ -68,7 +68,7 @@ fn a_probe_flashes_and_is_told_the_chip() {
 }
 
 #[test]
-fn without_a_probe_it_says_what_else_there_is() {
+fn without_a_probe_the_alternatives_are_printed() {
     let output = run(&tools("nothing", &[], ""), None);
     let [_, error] = texts(&output);
     assert!(!output.status.success());
@@ -79,7 +79,7 @@ fn without_a_probe_it_says_what_else_there_is() {
 }
 
 #[test]
-fn the_boot_loader_flashes_over_the_line() {
+fn the_boot_loader_flashes_over_the_serial_line() {
     let names = ["stm32flash", "llvm-objcopy"];
     let output = run(&tools("line", &names, ""), Some("/dev/ttyUSB7"));
     let [told, error] = texts(&output);

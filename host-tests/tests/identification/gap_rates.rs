@@ -5,8 +5,8 @@ use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::{Core, RATE, identify, no_wave, stream, windows};
 
 #[test]
-fn angles_of_long_ago_say_nothing_of_the_present_rate() {
-    // So little noise that the angle is certain after minutes. Much quadrature: a rate that is wrong moves the frequency.
+fn old_angles_are_not_used_for_the_present_rate() {
+    // With so little noise the angle is certain after minutes. With much quadrature a wrong rate moves the frequency.
     let (mut all, mut shares) = (Vec::new(), Vec::new());
     for seed in 0..20 {
         let wave = Wave {
@@ -22,7 +22,7 @@ fn angles_of_long_ago_say_nothing_of_the_present_rate() {
         let mut core = Core::new(windows(10)).unwrap();
         let mut found = Vec::new();
         core.extend(&pairs[..3_000], |e| found.push(e));
-        // Whole periods, which need not be simulated.
+        // Whole periods need not be simulated.
         core.skip(20 * (200_000 + 100_000 * seed));
         core.extend(&pairs[3_000..], |e| found.push(e));
         let before = found
@@ -33,7 +33,7 @@ fn angles_of_long_ago_say_nothing_of_the_present_rate() {
         let after = found.iter().filter(|e| e.start >= 3_000);
         for (index, estimate) in after.enumerate() {
             assert!(estimate.flags.is_empty(), "{}", estimate.flags);
-            // The first two know no rate yet.
+            // The first two windows know no rate yet.
             if (2..5).contains(&index) {
                 shares.push(estimate.frequency_std / before);
             }
@@ -41,7 +41,7 @@ fn angles_of_long_ago_say_nothing_of_the_present_rate() {
         }
     }
     assert!(all.len() > 250, "{}", all.len());
-    // As well known as before.
+    // The frequency is known as well as before.
     let share = shares.iter().sum::<f32>() / shares.len() as f32;
     assert!(share < 1.2, "{share}");
     let rms = (all.iter().map(|x| x * x).sum::<f64>() / all.len() as f64).sqrt();
@@ -50,7 +50,7 @@ fn angles_of_long_ago_say_nothing_of_the_present_rate() {
 
 #[test]
 fn the_rate_is_learnt_over_gaps() {
-    // Each window knows the rate to 0.8 rad/s: too little to follow the angle over 0.19 s, and enough after a few.
+    // Each window knows the rate to 0.8 rad/s: too little to track the angle over 0.19 s, but enough after a few windows.
     let settings = Settings {
         hop: Some(1000),
         ..windows(10)
@@ -82,12 +82,12 @@ fn the_rate_is_learnt_over_gaps() {
 }
 
 #[test]
-fn a_rate_that_changes_between_windows_far_apart_is_learnt_anew() {
+fn a_rate_that_changes_between_distant_windows_is_learnt_anew() {
     let settings = Settings {
         hop: Some(1000),
         ..windows(10)
     };
-    // The last differ by a quarter turn from window to window.
+    // The last rates differ by a quarter turn from window to window.
     let alias = std::f64::consts::FRAC_PI_2 / 0.19;
     let rates = [
         [0.0, 6.0],
@@ -101,7 +101,7 @@ fn a_rate_that_changes_between_windows_far_apart_is_learnt_anew() {
             noise: 0.005,
             ..Flaws::default()
         };
-        // After 10 s the wave is at the phase it began with.
+        // After 10 s the wave has its initial phase again.
         let wave = Wave {
             main_amplitude: 0.5,
             quadrature_amplitude: 0.05,
@@ -143,8 +143,8 @@ fn a_rate_that_changes_between_windows_far_apart_is_learnt_anew() {
 }
 
 #[test]
-fn a_rate_that_changes_in_a_gap_leaves_no_angle_that_is_wrong_and_unflagged() {
-    // Turning before and after, rad/s, and how long nothing is seen: by more than π/4 otherwise than promised, and by less.
+fn a_rate_that_changes_in_a_gap_leaves_no_wrong_angle_unflagged() {
+    // Rates before and after, rad/s, and the length of the gap: with turns that differ from the predicted by more than π/4, and by less.
     for (before, after, gap, is_told) in [
         (0.0, 6.0, 0.3, true),
         (6.0, -6.0, 0.3, true),

@@ -1,4 +1,4 @@
-//! Over gaps between windows, chosen or met: the angle runs on or says that it may not, and nothing else is a fault.
+//! Gaps between windows, intended or not: the angle is continued or flagged, and nothing else is a fault.
 
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
@@ -6,7 +6,7 @@ use host_tests::score::{errors, stated};
 use host_tests::{Core, RATE, identify, stream, windows};
 
 #[test]
-fn a_gap_that_is_told_costs_nothing_but_its_window() {
+fn a_reported_gap_costs_only_its_window() {
     let wave = Wave {
         angle_rate: 0.5,
         ..Wave::default()
@@ -48,8 +48,8 @@ fn a_gap_that_is_told_costs_nothing_but_its_window() {
 }
 
 #[test]
-fn the_angle_runs_on_over_gaps_in_which_it_turns_far() {
-    // A window every 0.19 s: the pattern turns by 0.95 rad meanwhile, more than the ambiguity allows without its rate.
+fn the_angle_is_continued_over_gaps_in_which_it_turns_far() {
+    // A window every 0.19 s: the pattern turns by 0.95 rad meanwhile, more than the ambiguity allows without a known rate.
     let wave = Wave {
         angle_rate: 5.0,
         ..Wave::default()
@@ -72,8 +72,8 @@ fn the_angle_runs_on_over_gaps_in_which_it_turns_far() {
 }
 
 #[test]
-fn a_long_gap_leaves_no_angle_that_is_wrong_and_clean() {
-    // Lost pairs, and whether every first window after them must be one that knows its angle modulo π/2 only.
+fn a_long_gap_leaves_no_wrong_angle_unflagged() {
+    // Lost pairs, and whether every first window after them must have its angle modulo π/2 only.
     for (lost, unknown) in [
         (1000u64, Some(false)),
         (200_000, None),
@@ -121,7 +121,7 @@ fn a_long_gap_leaves_no_angle_that_is_wrong_and_clean() {
 }
 
 #[test]
-fn windows_far_apart_state_their_frequency_as_well() {
+fn distant_windows_state_their_frequencys_deviation_as_well() {
     for hop in [20u16, 1000] {
         let wave = Wave {
             angle: 0.3,
@@ -157,7 +157,7 @@ fn windows_far_apart_state_their_frequency_as_well() {
 }
 
 #[test]
-fn no_pairs_lost_is_no_loss() {
+fn a_loss_of_no_pairs_changes_nothing() {
     let pairs = stream(Wave::default(), Flaws::default(), 6000, 1);
     let mut plain = Core::new(windows(5)).unwrap();
     let wanted: Vec<_> = pairs.iter().filter_map(|&pair| plain.push(pair)).collect();
@@ -174,8 +174,8 @@ fn no_pairs_lost_is_no_loss() {
 }
 
 #[test]
-fn gaps_in_which_the_pattern_turns_unseen_leave_no_angle_that_is_wrong_and_clean() {
-    // A window every 0.95 s, each of which knows the rate to 0.5 rad/s: the quarter turn that the angle lies in is not known.
+fn gaps_in_which_the_pattern_turns_unseen_leave_no_wrong_angle_unflagged() {
+    // A window every 0.95 s, each of which knows the rate to 0.5 rad/s: the quarter turn of the angle is not determined.
     let settings = Settings {
         hop: Some(5000),
         ..windows(10)
@@ -204,7 +204,7 @@ fn gaps_in_which_the_pattern_turns_unseen_leave_no_angle_that_is_wrong_and_clean
                 is_right || flags.contains(Flags::REACQUIRED),
                 "{angle_rate} rad/s: turned by {turned}, not {expected}: {flags}"
             );
-            // Nor is anything missing.
+            // Nor is a sample missing.
             assert!(
                 !flags.intersects(Flags::PHASE_JUMP.with(Flags::STEP)),
                 "{angle_rate} rad/s: {flags}"
@@ -217,8 +217,8 @@ fn gaps_in_which_the_pattern_turns_unseen_leave_no_angle_that_is_wrong_and_clean
 }
 
 #[test]
-fn noise_is_no_step_over_a_gap() {
-    // In 5 % noise a window knows how fast the wave decays to 10 1/s, and the next one comes 0.38 s later.
+fn noise_is_no_step_across_a_gap() {
+    // In 5 % noise a window knows the decay rate to 10 1/s, and the next one comes 0.38 s later.
     let settings = Settings {
         hop: Some(2000),
         ..windows(10)
@@ -246,11 +246,11 @@ fn noise_is_no_step_over_a_gap() {
 }
 
 #[test]
-fn a_quarter_turn_that_began_in_a_gap_is_no_jump_of_the_phase() {
+fn a_quarter_turn_that_began_in_a_gap_is_no_phase_jump() {
     for seed in 0..20 {
         let (at, gap, rate) = (5000, 4000, 30.0);
         let wave = random_wave(seed, 5332.0, 0.1);
-        // It goes on to turn as fast as it must have done in the gap.
+        // The pattern goes on turning at the rate that it must have had in the gap.
         let end = (at + gap) as f64 / RATE;
         let turned = Wave {
             angle: wave.angle + std::f64::consts::FRAC_PI_2 - rate * end,

@@ -1,10 +1,10 @@
-//! A wave that is hardly seen beside all else is given up after eight windows, and searched anew: whoever waits for it is told.
+//! A wave that is hardly visible beside other signals is given up after eight windows and searched anew.
 
 use antinode_sim::{Flaws, random_wave};
 use host_tests::{Core, RATE, stream, windows};
 
-/// After how many windows of so many periods of 20 samples a wave of which `left` is left is given up, where there is a tone beside it from
-/// then on: so many times the wave's former amplitude, at so many times its frequency.
+/// Windows of `periods` periods of 20 samples until a wave is given up, of which `left` remains beside a tone: the tone's amplitude and
+/// frequency are given relative to the wave's former ones.
 fn given_up_after(
     periods: u16,
     left: f64,
@@ -51,7 +51,8 @@ fn a_wave_beside_a_tone_nearly_as_large_is_given_up() {
 }
 
 #[test]
-fn a_wave_beyond_which_all_blocks_have_samples_is_given_up_though_their_sums_see_nothing() {
+fn a_wave_is_given_up_if_samples_of_all_blocks_lie_far_beyond_it_though_block_sums_do_not_show_it()
+{
     for seed in 0..4 {
         for (times, amplitude, expected) in
             [(2.0, 1.2, Some(8)), (4.0, 1.5, Some(8)), (2.0, 0.9, None)]
@@ -63,8 +64,8 @@ fn a_wave_beyond_which_all_blocks_have_samples_is_given_up_though_their_sums_see
 }
 
 #[test]
-fn a_wave_of_which_less_than_a_quarter_is_left_in_a_misfit_is_given_up() {
-    // The second tone looks like noise in whole blocks, and would be a new level of it.
+fn a_wave_of_which_less_than_a_quarter_remains_in_misfits_is_given_up() {
+    // The second tone looks like noise in whole blocks, and would become a new level of it.
     for (periods, tone) in [(10, [0.15, 2.0]), (50, [0.1, 1.37])] {
         for seed in 0..4 {
             for (left, expected) in [(0.2, Some(8)), (0.3, None)] {

@@ -1,11 +1,11 @@
-//! Signals with mains hum: with the setting for it the bound is reached, faults are still told, and a ring-down is followed to its end.
+//! Mains hum: with the setting for it the bound is reached, faults are still flagged, and a ring-down is tracked to its end.
 
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Loss, Wave, random_wave};
 use host_tests::score::{NAMES, Score};
 use host_tests::{RATE, identify_changed, windows};
 
-/// Hum of 50 Hz on both pick-offs, of this amplitude, and a third of it at 150 Hz.
+/// Hum of 50 Hz on both pick-offs, of this amplitude, and a third of that at 150 Hz.
 fn hum(k: usize, size: f64) -> [f64; 2] {
     let phase = std::f64::consts::TAU * 50.0 * k as f64 / RATE;
     let tone = |phase: f64| size * (phase.sin() + (3.0 * phase).cos() / 3.0);
@@ -60,8 +60,8 @@ fn slow_waves_in_much_hum_are_not_clipped() {
 
 #[test]
 fn the_bound_is_reached_in_hum() {
-    // Blocks are seen in runs of five: of 12 and 22 periods the last is alone in its run. Of a slower wave they are longer, and hum moves
-    // further in each.
+    // Offsets are fitted to runs of five blocks: with 12 and 22 periods the last block is alone in its run. Blocks of a slower wave are
+    // longer, and hum moves further in each.
     for (frequency, size, periods) in [0.0, 1e-3, 0.01]
         .into_iter()
         .flat_map(|size| [5, 10, 12, 22, 50].map(|periods| (5332.0, size, periods)))
@@ -99,8 +99,8 @@ fn the_bound_is_reached_in_hum() {
 }
 
 #[test]
-fn slow_hum_bends_no_block() {
-    // 50 Hz alone, a tenth of the wave and 500 times the noise or more: what it does within blocks beside their slopes is seen then.
+fn slow_hum_does_not_bend_blocks() {
+    // 50 Hz alone, a tenth of the wave and 500 times the noise or more: its curvature within blocks would then be visible.
     for noise in [2e-4, 3e-5] {
         let mut score = Score::default();
         for seed in 0..20 {
@@ -162,7 +162,7 @@ fn hum_alone_is_no_fault_over_gaps_and_at_its_crests() {
 }
 
 #[test]
-fn the_shortest_windows_that_may_have_the_setting_heed_it() {
+fn the_shortest_windows_that_allow_the_setting_use_it() {
     for (periods, hop) in [(5, None), (10, Some(5))] {
         let wave = random_wave(1, 5332.0, 0.5);
         let flaws = Flaws {
@@ -181,7 +181,7 @@ fn the_shortest_windows_that_may_have_the_setting_heed_it() {
 }
 
 #[test]
-fn faults_are_told_in_hum() {
+fn faults_are_flagged_in_hum() {
     for seed in 0..20 {
         let wave = Wave {
             main_amplitude: 1.0,
@@ -210,7 +210,7 @@ fn faults_are_told_in_hum() {
 }
 
 #[test]
-fn a_bad_block_is_told_where_blocks_have_their_own_offsets() {
+fn a_bad_block_is_flagged_if_blocks_have_their_own_offsets() {
     // A burst in one block of a window that holds the energy of 70 noise variances: of four sums a block this is beyond chance more often
     // than not, of six it would be so in half of them.
     let (length, window) = (38, 25 * 38);
@@ -253,8 +253,8 @@ fn a_bad_block_is_told_where_blocks_have_their_own_offsets() {
 }
 
 #[test]
-fn a_tone_beyond_the_hum_is_told_though_no_block_sees_it() {
-    // Of two whole periods a block: its sums know nothing of it, but samples lie beyond the wave by more than hum explains.
+fn a_tone_that_no_block_shows_is_flagged_in_hum() {
+    // The sums of blocks of two periods do not show it, but samples deviate from the wave by more than hum explains.
     for (hum_size, tone_size) in [(0.05, 0.2), (0.1, 0.3), (0.2, 0.7)] {
         for (tone_size, is_told) in [(tone_size, true), (0.0, false)] {
             for seed in 0..10 {
@@ -288,7 +288,7 @@ fn a_tone_beyond_the_hum_is_told_though_no_block_sees_it() {
 }
 
 #[test]
-fn a_ring_down_is_followed_under_its_hum() {
+fn a_ring_down_is_tracked_below_its_hum() {
     let wave = Wave {
         main_amplitude: 0.9,
         quadrature_amplitude: 0.01,
@@ -315,7 +315,7 @@ fn a_ring_down_is_followed_under_its_hum() {
 }
 
 #[test]
-fn waves_of_any_size_that_the_core_takes_are_found_with_the_setting_too() {
+fn waves_of_any_valid_size_are_found_with_the_setting_too() {
     for scale in [1e-15, 1e-14, 1.0, 1e14, 9e16] {
         let wave = Wave {
             main_amplitude: scale,

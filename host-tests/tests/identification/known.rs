@@ -1,12 +1,12 @@
-//! A frequency that is known need not be searched: how far off it may be, which periods may be known, and what comes of a wrong one.
+//! Settings with a known frequency: the error that it may have, the periods that are allowed, and the results of a wrong one.
 
 use antinode::{Estimate, Flags, Front, Settings, SettingsError};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::codes::{codes, converted, identify_up_to};
-use host_tests::score::{Honesty, NAMES, Score};
+use host_tests::score::{NAMES, Score, StatedRatio};
 use host_tests::{Core, RATE, gyro, identify, identify_changed, windows};
 
-/// Windows of `periods` of a wave whose frequency is told `off` of itself from the truth.
+/// Settings for windows of `periods` of a wave, with the known frequency `off` times itself from the truth.
 fn told(periods: u16, frequency: f64, off: f64) -> Settings {
     Settings {
         frequency: Some((frequency * (1.0 + off)) as f32),
@@ -27,7 +27,7 @@ fn noisy(period: f64, seed: u64) -> (Wave, Flaws) {
     (wave, flaws)
 }
 
-/// Takes the windows of a stream, of which the first begins with the first sample and each is clean.
+/// Scores the windows of a stream; asserts that the first begins with the first sample and that all are clean.
 fn add(score: &mut Score, found: &[Estimate], wave: &Wave, noise: f64, label: &str) {
     let starts = found.first().map(|estimate| estimate.start);
     assert_eq!(starts, Some(0), "{label}");
@@ -59,7 +59,7 @@ fn windows_of_slow_waves_reach_the_bound_from_the_first_sample_on() {
     check_the_bound(&[190.0]);
 }
 
-/// Waves of so many samples a period, told right and up to 5 % off.
+/// Waves of these periods in samples, with the known frequency exact and up to 5 % off.
 fn check_the_bound(waves: &[f64]) {
     for &period in waves {
         for periods in [10, 50] {
@@ -76,7 +76,7 @@ fn check_the_bound(waves: &[f64]) {
                     let found = identify(wave, &flaws, settings, samples, seed);
                     add(&mut score, &found, &wave, flaws.noise, &label);
                 }
-                // Blocks of the wrong length know up to 2 % less, and the test scatters.
+                // Blocks of the wrong length lose up to 2 %, and the test scatters.
                 check(&score, 1900, 1.1, &label);
             }
         }
@@ -84,10 +84,10 @@ fn check_the_bound(waves: &[f64]) {
 }
 
 #[test]
-fn noise_nearly_as_large_as_the_wave_hides_none_in_long_windows() {
+fn noise_nearly_as_large_as_the_wave_hides_no_wave_in_long_windows() {
     for (period, noise) in [(3.3, 0.5), (5.0, 0.5), (8.0, 0.8), (12.0, 0.8), (60.0, 0.8)] {
         for periods in [200, 1000] {
-            let mut honesty = Honesty::default();
+            let mut honesty = StatedRatio::default();
             for seed in 0..10 {
                 let wave = random_wave(seed, RATE / period, 0.3);
                 let flaws = Flaws {
@@ -123,7 +123,7 @@ fn noise_nearly_as_large_as_the_wave_hides_none_in_long_windows() {
 #[test]
 fn the_shortest_windows_know_their_noise() {
     for period in [2.52, 2.6, 2.7] {
-        let (mut honesty, mut rows, mut flagged) = (Honesty::default(), 0, 0);
+        let (mut honesty, mut rows, mut flagged) = (StatedRatio::default(), 0, 0);
         for seed in 0..100 {
             let (wave, flaws) = noisy(period, seed);
             for estimate in identify(wave, &flaws, told(2, wave.frequency, 0.0), 3000, seed) {
@@ -175,7 +175,7 @@ fn periods_may_be_as_long_as_a_block_in_any_arithmetic() {
 }
 
 #[test]
-fn noise_in_which_a_search_finds_no_period_is_no_hindrance() {
+fn noise_in_which_a_search_finds_no_period_does_not_hinder() {
     let mut score = Score::default();
     let mut searched = 0;
     for seed in 0..200 {
@@ -194,7 +194,7 @@ fn noise_in_which_a_search_finds_no_period_is_no_hindrance() {
 }
 
 #[test]
-fn a_wave_that_comes_back_is_taken_up_without_a_search() {
+fn a_wave_that_comes_back_is_tracked_without_a_search() {
     let (wave, flaws) = gyro(3);
     let settings = told(10, wave.frequency, 0.03);
     let found = identify_changed(wave, &flaws, settings, 60_000, 3, |k, pair| {
@@ -210,14 +210,14 @@ fn a_wave_that_comes_back_is_taken_up_without_a_search() {
         .partition(|e| e.start < 20_000);
     assert!(before.len() > 100 && after.len() > 150);
     assert!(before.iter().all(|estimate| estimate.flags.is_empty()));
-    // Within two windows of the first pair, if not at once: blocks of silence begin with nothing.
+    // Within two windows of the first pair, if not at once: blocks of silence have no wave to begin with.
     assert!(after[0].start < 30_000 + 2 * 188, "{:?}", after[0]);
     assert!(after[0].flags.contains(Flags::REACQUIRED));
     assert!(after[1..].iter().all(|e| e.flags.is_empty()));
 }
 
 #[test]
-fn whether_there_is_a_wave_is_told_where_nothing_is_searched() {
+fn presence_of_a_wave_is_known_though_nothing_is_searched() {
     let (wave, flaws) = gyro(3);
     let pairs = host_tests::stream(wave, flaws.clone(), 10_000, 3);
     let mut seed = 1u32;
@@ -243,7 +243,7 @@ fn whether_there_is_a_wave_is_told_where_nothing_is_searched() {
 }
 
 #[test]
-fn a_wave_elsewhere_gives_no_row() {
+fn a_wave_at_another_frequency_gives_no_row() {
     for off in [-0.2, -0.15, -0.1, 0.1, 0.15, 0.2, 0.3, 0.5] {
         for seed in 0..40 {
             let (wave, flaws) = noisy(18.75, seed);
@@ -254,10 +254,10 @@ fn a_wave_elsewhere_gives_no_row() {
 }
 
 #[test]
-fn no_row_of_a_wave_elsewhere_is_clean() {
+fn no_row_of_a_wave_at_another_frequency_is_clean() {
     for (periods, period, samples) in [(10, 18.75, 6000), (50, 18.75, 20_000), (10, 50.0, 16_000)] {
         let mut flagged = 0;
-        // From a third of the frequency to three times it.
+        // From a third of the known frequency to three times it.
         for hundredths in (-67..=-20).chain(20..=200) {
             let off = 0.01 * f64::from(hundredths);
             for (noise, seed) in [1e-6, 0.001, 0.02].into_iter().zip(0..) {
@@ -274,14 +274,14 @@ fn no_row_of_a_wave_elsewhere_is_clean() {
                 flagged += found.len();
             }
         }
-        // Mostly there is none at all.
+        // Mostly there is no row at all.
         println!("{periods} periods of {period}: {flagged} flagged rows");
         assert!(flagged > 0);
     }
 }
 
 #[test]
-fn a_frequency_of_which_no_block_holds_a_period_is_refused() {
+fn a_frequency_with_a_period_longer_than_a_block_is_refused() {
     let refused = |frequency: f32| Core::new(told(10, f64::from(frequency), 0.0)).err();
     let (highest, lowest) = (RATE as f32 / 2.5, RATE as f32 / 256.4);
     assert_eq!(refused(0.9999 * highest), None);
@@ -309,7 +309,7 @@ fn a_frequency_of_which_no_block_holds_a_period_is_refused() {
         );
     }
     assert!(refused(f32::NAN).is_some());
-    // Nothing is changed by what is refused, and the ring of a tracker alone says nothing of periods.
+    // A refused change changes nothing, and a tracker alone has no limit of the period.
     let (wave, flaws) = gyro(1);
     let mut core = Core::new(windows(10)).unwrap();
     assert!(core.configure(told(20, lowest.into(), -0.1)).is_err());
@@ -337,7 +337,7 @@ fn a_wave_near_three_times_the_known_frequency_gives_no_row() {
 }
 
 #[test]
-fn a_wave_that_sinks_below_the_noise_that_was_there_before_is_not_searched() {
+fn a_wave_that_sinks_below_earlier_noise_is_not_searched() {
     let wave = Wave {
         main_amplitude: 1.2,
         decay_rate: 0.6,

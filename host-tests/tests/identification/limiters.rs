@@ -5,8 +5,8 @@ use antinode_sim::{Flaws, Wave};
 use host_tests::{RATE, identify, windows};
 
 #[test]
-fn a_hard_limiter_is_told_where_its_fifth_harmonic_folds_onto_the_third() {
-    // Of a crest a twentieth above the limit hardly two samples lie there: only the harmonics tell.
+fn a_hard_limiter_is_flagged_where_its_fifth_harmonic_folds_onto_the_third() {
+    // A crest a twentieth above the limit has hardly two samples there: only the harmonics show it.
     for period in [7.9, 8.05, 8.1] {
         for limit in [0.95, 1.05] {
             let wave = Wave {

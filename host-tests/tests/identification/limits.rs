@@ -1,11 +1,11 @@
-//! Settings at the ends of what is allowed work, and what lies just beyond them is refused; and what no row may state.
+//! Settings at the ends of their ranges work, and those just beyond are refused; no row has meaningless numbers without a flag.
 
 use antinode::{Flags, Identifier, Settings, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::errors;
 use host_tests::{Core, RATE, calibrated, gyro, identify, stream, windows};
 
-/// True when the core takes windows of ten periods with this change.
+/// True if the core accepts windows of ten periods with this change.
 fn is_taken(change: impl Fn(&mut Settings)) -> bool {
     let mut settings = windows(10);
     change(&mut settings);
@@ -13,7 +13,7 @@ fn is_taken(change: impl Fn(&mut Settings)) -> bool {
 }
 
 #[test]
-fn every_range_holds_its_ends_and_nothing_beyond() {
+fn ranges_include_their_ends_and_nothing_beyond() {
     type Put = fn(&mut Settings, f64);
     let ranges: [(Put, f64, f64); 5] = [
         (|s, x| s.sample_rate = x, 1e-3, 1e12),
@@ -47,20 +47,20 @@ fn every_range_holds_its_ends_and_nothing_beyond() {
 }
 
 #[test]
-fn a_ring_takes_windows_of_two_blocks_less() {
+fn a_ring_allows_windows_of_two_blocks_less() {
     for (periods, wanted) in [(1, false), (2, true), (14, true), (15, false)] {
         assert_eq!(Tracker::<16>::new(windows(periods)).is_ok(), wanted);
     }
 }
 
 #[test]
-fn calibrations_at_the_ends_of_their_ranges_correct() {
+fn calibrations_at_the_ends_of_their_ranges_correct_the_pick_offs() {
     for (gain_ratio, skew, pick_off_angle) in [
         (0.1, 0.0, 0.3),
         (10.0, 0.0, -0.3),
         (1.0, 1e-4, 0.3),
         (0.1, -1e-4, 0.0),
-        // Over five turns of the wave.
+        // Over five turns of the pattern.
         (1.0, 1e-3, -0.1),
         (1.0, -1e-3, 0.1),
     ] {
@@ -81,7 +81,7 @@ fn calibrations_at_the_ends_of_their_ranges_correct() {
         for estimate in found {
             let [main, quadrature, angle, frequency] = errors(&estimate, &wave);
             let size = wave.main_amplitude;
-            // Numbers of several turns have fewer digits.
+            // Angles of several turns have fewer digits.
             let limit = 1e-6 + 3e-3 * skew.abs();
             assert!(estimate.flags.is_empty(), "{estimate:?}");
             assert!(
@@ -94,7 +94,7 @@ fn calibrations_at_the_ends_of_their_ranges_correct() {
 }
 
 #[test]
-fn a_front_takes_periods_up_to_its_capacity_and_none_beyond() {
+fn a_front_accepts_periods_up_to_its_capacity_only() {
     for (period, is_taken) in [(38.0, true), (39.7, true), (41.5, false), (60.0, false)] {
         let wave = Wave {
             frequency: RATE / period,
@@ -114,7 +114,7 @@ fn a_front_takes_periods_up_to_its_capacity_and_none_beyond() {
 }
 
 #[test]
-fn a_count_of_lost_pairs_that_no_stream_lasts_leaves_indices_that_can_be_doubled() {
+fn an_impossibly_large_loss_leaves_indices_that_can_be_doubled() {
     let pairs = stream(Wave::default(), Flaws::default(), 6000, 1);
     for lost in [1 << 62, 3 << 61, u64::MAX - 2000] {
         let mut core = Core::new(windows(5)).unwrap();
@@ -136,7 +136,7 @@ fn a_count_of_lost_pairs_that_no_stream_lasts_leaves_indices_that_can_be_doubled
 fn rows_are_the_same_to_the_bit_however_far_from_the_start() {
     let (wave, flaws) = gyro(5);
     let mut pairs = stream(wave, flaws, 40_000, 5);
-    // What looks back over windows: a spike, and a silence after which the wave is searched anew.
+    // Events that use earlier windows: a spike, and a silence after which the wave is searched anew.
     pairs[9_000] = [7.0, -5.0];
     pairs[20_000..21_000].fill([0.0; 2]);
     let rows = |start: u64| {
@@ -157,7 +157,7 @@ fn rows_are_the_same_to_the_bit_however_far_from_the_start() {
         format!("{rows:?}")
     };
     let first = rows(0);
-    // Where indices, or twice these, outgrow 32 bits, the fractions of f32 and f64, and all but two bits.
+    // Where indices, or twice these, exceed 32 bits, the integers exact in f32 and f64, and all but two bits.
     for bits in [23, 24, 30, 31, 32, 52, 53, 60, 61] {
         assert!(rows((1 << bits) - 19_000) == first, "2^{bits}");
     }
@@ -171,7 +171,7 @@ fn a_row_that_is_not_lost_states_a_frequency_and_deviations() {
         (seed >> 8) as f32 / 8_388_608.0 - 1.0
     };
     let mut rows = 0;
-    // Noise, and both pick-offs' wires at a voltage that noise is on.
+    // Noise, and both pick-offs' wires at a voltage with noise on it.
     for (level, noise) in [(0.0, 1.0), (1.0, 1e-3), (1.0, 0.1)] {
         let pairs: Vec<[f32; 2]> = (0..40_000)
             .map(|_| [level, -0.03 * level].map(|level| level + noise * random()))

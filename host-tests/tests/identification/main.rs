@@ -1,4 +1,4 @@
-//! The core on synthetic signals: how exact it is, and what it makes of faults. One program, as each would be built for itself.
+//! Tests of the core on synthetic signals: accuracy, and behaviour on faults. One program, to save the linking of many.
 
 mod aftermath;
 mod arithmetic;

@@ -11,7 +11,7 @@ use host_tests::methods::{LEAD, list, numbers, omega, samples};
 use host_tests::printed::Window;
 use host_tests::{RATE, angle_error, phase_error};
 
-/// What the core finds, algorithm by algorithm; 2 with the printed delay.
+/// Results of the core, algorithm by algorithm; algorithm 2 with the printed delay.
 fn found(pairs: &[[f32; 2]], omega: f64) -> [Found; 4] {
     let window = &pairs[LEAD..];
     let (moments, products) = (Moments::of(window), Products::of(window, omega));
@@ -36,7 +36,7 @@ fn agree_with_double_precision_to_1e_minus_5() {
         },
     ];
     waves.extend((0..100).map(|seed| random_wave(seed, 5332.0, 0.5)));
-    // A relative error of a_B or an angle near 0 says nothing.
+    // A relative error of an a_B or an angle near 0 has no meaning.
     waves.retain(|w| (w.quadrature_amplitude / w.main_amplitude).abs() > 0.03);
     assert!(waves.len() > 80);
     for wave in &waves {
@@ -118,7 +118,7 @@ fn errors_are_the_reference_values() {
 }
 
 #[test]
-fn quadrants_signs_and_phases_are_right_all_around() {
+fn quadrants_signs_and_phases_are_right_at_all_angles() {
     for i in 0..64 {
         for ratio in [-0.4, -0.05, 0.05, 0.4] {
             for j in 0..8 {
@@ -129,7 +129,7 @@ fn quadrants_signs_and_phases_are_right_all_around() {
                     phase: FRAC_PI_4 * f64::from(j) - 3.0,
                     ..Wave::default()
                 };
-                // Four periods fit the grid; the fractional delay fits the quarter.
+                // Four periods fit the grid, and the fractional delay is a quarter period exactly.
                 let pairs = samples(&wave, 4);
                 let window = &pairs[LEAD..];
                 let (moments, products) = (Moments::of(window), Products::of(window, omega(&wave)));
@@ -151,7 +151,7 @@ fn quadrants_signs_and_phases_are_right_all_around() {
                     );
                     let turned = (theta - wave.angle) / (PI / 2.0);
                     assert!((turned - turned.round()).abs() < 2e-3, "{which}: {wave:?}");
-                    // (θ + π/2, α + π) is the same motion: both must be moved alike.
+                    // (θ + π/2, α + π) is the same motion: both must be changed together.
                     let move_by = PI * turned.round();
                     let miss = (alpha - wave.phase - move_by).sin().abs();
                     let right = (alpha - wave.phase - move_by).cos() > 0.0;
@@ -178,13 +178,13 @@ fn a_fractional_delay_removes_the_grid_error() {
     );
     println!("a_B error of algorithm 2: {whole:.1e} on the grid, {fractional:.1e} between");
     assert!(whole > 0.08 && fractional < 3e-4);
-    // (17) tells how far the delay is from a quarter.
+    // (17) shows how far the delay is from a quarter.
     let told = delayed.imbalance(&moments);
     assert!((told - (5.0 * omega(&wave)).cos()).abs() < 1e-2, "{told}");
 }
 
 #[test]
-fn the_monitor_tells_the_phase_difference() {
+fn the_monitor_gives_the_phase_difference() {
     for (ratio, angle) in [(0.1, 0.5), (-0.2, 0.3), (0.3, 1.2), (0.05, -0.4)] {
         let wave = Wave {
             main_amplitude: 1.0,
@@ -207,7 +207,7 @@ fn the_monitor_tells_the_phase_difference() {
 }
 
 #[test]
-fn without_a_gate_the_rough_angle_is_an_order_rougher() {
+fn without_a_gate_the_rough_angle_is_ten_times_rougher() {
     let [mut rougher, mut count] = [0; 2];
     for i in 0..100 {
         for periods in 1..=10 {
@@ -234,7 +234,7 @@ fn without_a_gate_the_rough_angle_is_an_order_rougher() {
 #[test]
 fn with_any_gate_the_rough_angle_has_a_bias_of_its_own() {
     for angle in [0.2, PI / 6.0, 0.6] {
-        // Of a quadrature of a twentieth.
+        // The bias of a quadrature of a twentieth.
         let biases = [-(2.0 * angle).tan(), 1.0 / (4.0 * angle).tan()].map(|x| 0.5 * 0.0025 * x);
         for gate in [0.1f32, 0.2, 0.3] {
             let (mut sums, mut count) = ([0.0; 2], 0.0);
@@ -271,7 +271,7 @@ fn with_any_gate_the_rough_angle_has_a_bias_of_its_own() {
 #[test]
 fn the_frequency_of_formula_10_costs_algorithm_4_amplitude() {
     let wave = Wave::default();
-    // The whole number of samples that is nearest to the period: 5263 Hz for 5332.
+    // The whole number of samples nearest to the period: 5263 Hz instead of 5332.
     let rough = TAU / 19.0;
     for (periods, wanted) in [(4, 1.989), (10, 1.943)] {
         let pairs = samples(&wave, periods);
@@ -291,7 +291,7 @@ fn the_frequency_of_formula_10_costs_algorithm_4_amplitude() {
 }
 
 #[test]
-fn of_what_is_no_number_no_amplitude_is_found() {
+fn a_nan_sample_gives_nan_amplitudes() {
     let wave = Wave::default();
     let mut pairs = samples(&wave, 4);
     pairs[LEAD + 30][1] = f32::NAN;

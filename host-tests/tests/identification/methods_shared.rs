@@ -1,4 +1,4 @@
-//! What the four methods share: sums of a stream, the functional J, the search for the frequency, and the exact solution.
+//! Common parts of the four methods: sums of a stream, the functional J, the search for the frequency, and the exact solution.
 
 use std::f64::consts::{PI, TAU};
 
@@ -14,7 +14,7 @@ use host_tests::printed::Window;
 use host_tests::{RATE, angle_error};
 
 #[test]
-fn j_from_sums_is_j_from_samples() {
+fn j_from_sums_equals_j_from_samples() {
     for seed in 0..50 {
         let wave = random_wave(seed, 5332.0, 0.5);
         let pairs = samples(&wave, 1 + seed as usize % 10);
@@ -59,7 +59,7 @@ fn frequency_is_refined_on_a_grid_and_exactly() {
         };
         let start = TAU / 19.0;
         let near = frequency::on_grid(start, hertz, 400, j);
-        // Trying each grid point finds the same.
+        // Trying every grid point finds the same.
         let each = (-400..=400)
             .map(|i| start + f64::from(i) * hertz)
             .min_by(|a, b| j(*a).total_cmp(&j(*b)))
@@ -68,7 +68,7 @@ fn frequency_is_refined_on_a_grid_and_exactly() {
         let fine = frequency::exact(near, window.len() as u32, j);
         assert!((fine - near).abs() < 0.51 * hertz);
         assert!(j(fine) <= j(near));
-        // (15) has its minimum nearby.
+        // (15) has its minimum near it.
         let first = algorithm1::shape(&moments);
         let sharp = frequency::on_grid(start, hertz, 400, |omega| {
             let wave = phase::align(&first, &Products::of(window, omega));
@@ -81,14 +81,14 @@ fn frequency_is_refined_on_a_grid_and_exactly() {
             list(&errors)
         );
         assert!(errors[0].abs() < 25.0);
-        // Over one period, quadrature and grid leave (15) where it began.
+        // Over one period, quadrature and the grid keep (15) at its start.
         assert!(periods == 1 || errors[2].abs() < 25.0);
         assert!(errors[3].abs() < 2e-3 * 4.0 / periods as f64, "{errors:?}");
     }
 }
 
 #[test]
-fn the_exact_solution_has_no_leakage_and_takes_offsets() {
+fn the_exact_solution_has_no_leakage_and_fits_offsets() {
     for seed in 0..60 {
         let wave = random_wave(seed, 5332.0, 0.5);
         for periods in [1, 2, 3, 10] {
@@ -99,7 +99,7 @@ fn the_exact_solution_has_no_leakage_and_takes_offsets() {
             }
             let solved = exact::solve(&pairs[LEAD..], omega(&wave) * 1.01);
             let [a, b, theta, _] = numbers(&solved.wave);
-            // Rounding of f32 samples, which one period with free offsets and frequency amplifies.
+            // Rounding of f32 samples, amplified by one period with free offsets and frequency.
             let share = if periods == 1 { 1e-5 } else { 2e-6 };
             let size = wave.main_amplitude;
             assert!((a - size).abs() < share * size, "{seed} {periods}: {a}");
@@ -113,7 +113,7 @@ fn the_exact_solution_has_no_leakage_and_takes_offsets() {
 
 #[test]
 fn sums_of_codes_are_exact_at_full_scale() {
-    // Codes over the whole range, and every tenth at its end: there the offset takes some beyond 16 bits, which are limited.
+    // Codes over the whole range, every tenth at its end: there the subtracted offset takes some beyond 16 bits, and they are limited.
     let offsets = [7.0f32, -3.0];
     let codes: Vec<[i16; 2]> = (0..40_000u32)
         .map(|k| {
@@ -163,7 +163,7 @@ fn sums_of_codes_are_exact_at_full_scale() {
 }
 
 #[test]
-fn streaming_sums_are_those_of_the_slice() {
+fn streaming_sums_equal_those_of_the_slice() {
     let wave = Wave::default();
     let (offsets, length) = ([0.4f32, -0.2f32], 19u16);
     let raw: Vec<[f32; 2]> = samples(&wave, 12);
@@ -193,7 +193,7 @@ fn streaming_sums_are_those_of_the_slice() {
         }
     }
     assert_eq!((blocks.len(), moments.count, delayed.count), (10, 190, 185));
-    // Cut in any way, the sums are the same to the bit.
+    // However the slice is cut, the sums are the same to the bit.
     let (mut by_one, mut by_slice) = (
         (MomentSums::new(offsets), DelayedSums::<50>::new(5, offsets)),
         (MomentSums::new(offsets), DelayedSums::<50>::new(5, offsets)),
@@ -232,13 +232,13 @@ fn streaming_sums_are_those_of_the_slice() {
 }
 
 #[test]
-fn products_of_codes_know_how_the_reference_was_rounded() {
+fn products_of_codes_allow_for_the_rounded_reference() {
     let step = PhaseStep::from_period(18.754);
     for length in [5, 19, 38, 75] {
         let mut demodulator = Demodulator::<i16, 200>::new(step, length, 0, false);
         let wave =
             |k: usize, phase: f64| (1500.0 * (0.335 * k as f64 + phase).sin()).round() as i16;
-        // At mid-scale, as a converter without a sign gives them.
+        // About mid-scale, as a converter with unsigned codes gives them.
         let codes: Vec<[i16; 2]> = (0..10 * usize::from(length))
             .map(|k| [2048 + wave(k, 0.3), 2040 - wave(k, 1.9)])
             .collect();

@@ -54,8 +54,8 @@ fn core_and_oracle_agree() {
                 estimate.frequency_std,
             ];
             let rounding = [1e-6, 1e-6, 1e-6, 2e-6, 1e-7 * frequency];
-            // Both are unbiased and efficient: they may differ by a part of the noise's own effect, and by rounding. Of the frequency five
-            // blocks know a little less than all their samples.
+            // Both are unbiased and efficient: they may differ by a part of the noise's effect, and by rounding. Five blocks determine the
+            // frequency slightly less well than all their samples.
             let parts = [0.2, 0.2, 0.2, 0.2, 1.5];
             for i in 0..5 {
                 let (error, std) = (errors[i], f64::from(stds[i]));

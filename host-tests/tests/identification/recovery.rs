@@ -1,4 +1,4 @@
-//! After a loss, a skip or a change of settings: what the next windows say, and what they keep of those before.
+//! After a loss, a skip or a change of settings: flags of the next windows, and what they keep from those before.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -8,8 +8,8 @@ use host_tests::score::errors;
 use host_tests::{Core, RATE, gyro, identify_changed, stream, windows};
 
 #[test]
-fn what_is_reacquired_in_a_misfit_is_told_again_with_the_first_row_that_is_none() {
-    // The frequency is known: the window in which the wave comes back, elsewhere, is the first.
+fn reacquired_in_a_misfit_is_flagged_again_with_the_first_row_without_misfit() {
+    // The frequency is known: the first window is the one in which the wave comes back at another angle.
     let settings = Settings {
         frequency: Some(5332.0),
         ..windows(10)
@@ -48,8 +48,8 @@ fn what_is_reacquired_in_a_misfit_is_told_again_with_the_first_row_that_is_none(
 }
 
 #[test]
-fn a_wave_that_comes_back_is_reacquired_once_and_its_angle_runs_on() {
-    // Silence of both pick-offs for 0.1 s, of a pattern whose angle has run over several quarter turns.
+fn a_wave_that_comes_back_is_reacquired_once_and_its_angle_continued() {
+    // Silence of both pick-offs for 0.1 s, in a pattern whose angle has run over several quarter turns.
     for seed in 0..5 {
         let wave = Wave {
             angle_rate: 8.0,
@@ -70,7 +70,7 @@ fn a_wave_that_comes_back_is_reacquired_once_and_its_angle_runs_on() {
         let (before, after) = found.split_at(back);
         assert!(after[0].flags.contains(Flags::REACQUIRED), "{:?}", after[0]);
         assert!(after.len() > 200 && after[1..].iter().all(|e| e.flags.is_empty()));
-        // Nearest to the last angle that was known.
+        // Nearest to the last known angle.
         let last = before.iter().rev().find(|e| e.flags.is_empty()).unwrap();
         let apart = (after[0].angle - last.angle).abs();
         assert!(apart < 0.5 * FRAC_PI_2 + 0.05, "seed {seed}: {apart}");
@@ -78,7 +78,7 @@ fn a_wave_that_comes_back_is_reacquired_once_and_its_angle_runs_on() {
     }
 }
 
-/// Runs pairs through a front and a tracker that stay on one wave.
+/// Runs pairs through a front and a tracker that keep one wave.
 fn follow(
     front: &mut Front<f32, 200>,
     tracker: &mut Tracker<16>,
@@ -90,7 +90,7 @@ fn follow(
 }
 
 #[test]
-fn a_calibration_that_is_changed_holds_from_the_next_window_on() {
+fn a_changed_calibration_applies_from_the_next_window_on() {
     let wave = Wave {
         angle: 0.3,
         ..Wave::default()
@@ -138,7 +138,7 @@ fn a_calibration_that_is_changed_holds_from_the_next_window_on() {
 }
 
 #[test]
-fn a_tracker_that_has_lost_its_wave_wants_a_search_and_takes_no_block_of_the_one_before() {
+fn a_tracker_that_has_lost_its_wave_wants_a_search_and_rejects_blocks_of_the_old_one() {
     let (wave, flaws) = gyro(2);
     let mut pairs = stream(wave, flaws, 10_000, 2);
     let (mut front, mut tracker) = (
@@ -147,7 +147,7 @@ fn a_tracker_that_has_lost_its_wave_wants_a_search_and_takes_no_block_of_the_one
     );
     assert!(follow(&mut front, &mut tracker, &pairs).len() > 40);
     assert_eq!(tracker.wanted_search(), 0);
-    // One window without a wave is no loss, nor are two that do not follow each other; windows stand alike to each silence.
+    // One window without a wave is no loss, nor are two that are not successive; windows have the same place relative to each silence.
     let silence = vec![[0.0; 2]; 285];
     for _ in 0..8 {
         let mut found = follow(&mut front, &mut tracker, &silence);
@@ -168,8 +168,8 @@ fn a_tracker_that_has_lost_its_wave_wants_a_search_and_takes_no_block_of_the_one
 }
 
 #[test]
-fn pairs_lost_during_the_search_are_no_part_of_it() {
-    // Half a period is lost after one and a half: what was seen before is of another phase.
+fn pairs_lost_during_a_search_restart_it() {
+    // Half a period is lost after one and a half: earlier samples have another phase.
     for lost in [5usize, 10] {
         let wave = random_wave(4, 5332.0, 0.3);
         let pairs = stream(wave, Flaws::default(), 3000, 4);
@@ -179,7 +179,7 @@ fn pairs_lost_during_the_search_are_no_part_of_it() {
         assert!(core.is_searching());
         core.skip(lost as u64);
         core.extend(&pairs[28 + lost..], |e| found.push(e));
-        // As when the stream had begun there.
+        // As if the stream had begun there.
         let mut fresh = Core::new(windows(5)).unwrap();
         let mut wanted = Vec::new();
         fresh.extend(&pairs[28 + lost..], |e| wanted.push(e));
@@ -193,7 +193,7 @@ fn pairs_lost_during_the_search_are_no_part_of_it() {
 }
 
 #[test]
-fn a_wave_whose_frequency_leaps_is_found_again() {
+fn a_wave_with_a_leap_of_its_frequency_is_found_again() {
     // The last three look like a poor wave of the old frequency in some windows, but not in all.
     let near = [4000.0, 5400.0, 5550.0, 6400.0];
     let near = [2, 5, 10, 50]
@@ -230,8 +230,8 @@ fn a_wave_whose_frequency_leaps_is_found_again() {
 }
 
 #[test]
-fn a_wave_that_leaps_to_where_blocks_hardly_see_it_is_found_again() {
-    // Of so many times the frequency blocks show a tenth, as a steady wave in much noise.
+fn a_wave_that_leaps_to_a_frequency_hardly_seen_by_blocks_is_found_again() {
+    // At these multiples of the frequency blocks show a tenth of the wave, as of a steady wave in much noise.
     for (periods, period, times) in [(20, 72.3, 1.56), (10, 46.43, 1.591), (10, 75.0, 1.44)] {
         for seed in 0..5 {
             let wave = random_wave(seed, RATE / period, 0.3);
@@ -270,7 +270,7 @@ fn a_wave_that_leaps_to_where_blocks_hardly_see_it_is_found_again() {
 }
 
 #[test]
-fn a_front_that_is_set_anew_amid_its_search_forgets_what_it_saw() {
+fn a_front_that_is_configured_during_a_search_forgets_its_samples() {
     let pairs = stream(random_wave(4, 5332.0, 0.3), Flaws::default(), 3000, 4);
     let run = |front: &mut Front<f32, 200>, from: usize| {
         let mut tracker = Tracker::new(windows(10)).unwrap();
@@ -280,7 +280,7 @@ fn a_front_that_is_set_anew_amid_its_search_forgets_what_it_saw() {
     };
     let wanted = run(&mut Front::new(windows(10)).unwrap(), 37);
     assert!(wanted.len() > 10);
-    // Before there is a candidate, and while one is tried.
+    // Before there is a candidate, and while one is on trial.
     for seen in 20.. {
         let mut front = Front::new(windows(10)).unwrap();
         let _ = front.push_slice(&pairs[..seen]);
@@ -312,7 +312,7 @@ fn blocks_of_another_layout_begin_a_new_window() {
 }
 
 #[test]
-fn a_watch_that_is_set_in_place_watches() {
+fn a_watch_that_is_switched_on_in_place_works() {
     let wave = Wave {
         angle: 0.3,
         ..Wave::default()
@@ -340,8 +340,8 @@ fn a_watch_that_is_set_in_place_watches() {
 }
 
 #[test]
-fn a_glitch_in_windows_that_overlap_is_no_lost_wave() {
-    // It is in fifty of them, in which there is less of the wave than of it.
+fn a_glitch_in_overlapping_windows_is_no_lost_wave() {
+    // It lies in fifty windows, in which it is larger than the wave.
     for seed in 0..20 {
         let settings = Settings {
             hop: Some(1),

@@ -1,4 +1,4 @@
-//! Re-gridding: on a grid that fits the period the leakage of all four methods is gone, and the filter filters.
+//! Re-gridding: on a grid that fits the period all four methods are free of leakage, and the filter works.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use antinode::regrid::{Regrid, RegridError};
 use antinode_sim::{Wave, random_wave};
 use host_tests::{RATE, angle_error};
 
-/// Samples of the new grid, from the output number `skip` on.
+/// Samples of the new grid, from output number `skip` on.
 fn regridded<const TAPS: usize>(
     signal: impl Fn(usize) -> [f64; 2],
     period: f64,
@@ -33,7 +33,7 @@ fn errors(shape: &Shape, wave: &Wave) -> [f64; 3] {
     ]
 }
 
-/// Worst errors of algorithms 2, 3, 4, and of a_A² = a_A² + a_B² of algorithm 1, over one period of 20 samples, 5 before it.
+/// Worst error of algorithms 2, 3 and 4, and of algorithm 1 with a_A² compared with a_A² + a_B², over one period of 20 samples after 5.
 fn worst(pairs: &[[f32; 2]], wave: &Wave) -> f64 {
     let window = &pairs[5..25];
     let (moments, products) = (Moments::of(window), Products::of(window, TAU / 20.0));
@@ -50,7 +50,7 @@ fn worst(pairs: &[[f32; 2]], wave: &Wave) -> f64 {
 }
 
 #[test]
-fn one_period_leaks_no_more() {
+fn on_a_fitting_grid_one_period_has_no_leakage() {
     let (mut before, mut after) = (f64::INFINITY, 0f64);
     for seed in 0..100 {
         let wave = Wave {
@@ -61,12 +61,12 @@ fn one_period_leaks_no_more() {
         let period = RATE / wave.frequency;
         let fitted = regridded::<32>(signal, period, 60);
         after = after.max(worst(&fitted[30..], &wave));
-        // The first output stands at input sample TAPS/2 − 1, and each next one a twentieth of a period later.
+        // The first output lies at input sample TAPS/2 − 1, each next one a twentieth of a period later.
         for (k, pair) in fitted.iter().enumerate() {
             let [c, d] = wave.pick_offs((15.0 + k as f64 * period / 20.0) / RATE);
             assert!((f64::from(pair[0]) - c).abs() + (f64::from(pair[1]) - d).abs() < 2e-5);
         }
-        // The same on the converter's own grid, 19 samples for 18.75.
+        // The same on the converter's own grid, 19 samples for a period of 18.75.
         let raw: Vec<[f32; 2]> = (0..24).map(|k| signal(k).map(|x| x as f32)).collect();
         let shape = algorithm4::wave(&Products::of(&raw[5..], TAU / period)).shape;
         before = before.min(errors(&shape, &wave).into_iter().fold(0.0, f64::max));
@@ -78,8 +78,8 @@ fn one_period_leaks_no_more() {
 }
 
 #[test]
-fn the_filter_takes_noise_and_harmonics() {
-    // Two and a half periods of taps, cut-off at twice the frequency.
+fn the_filter_removes_noise_and_harmonics() {
+    // Two and a half periods of taps, with the cut-off at twice the frequency.
     let period = RATE / 5332.0;
     let power = |signal: &dyn Fn(usize) -> [f64; 2]| {
         let out = regridded::<48>(signal, period, 4000);
@@ -118,7 +118,7 @@ fn the_filter_takes_noise_and_harmonics() {
 }
 
 #[test]
-fn a_grid_follows_a_period_that_can_be_and_no_other() {
+fn a_grid_changes_to_valid_periods_only() {
     let mut regrid = Regrid::<32>::new(18.75, 20, 2.0).unwrap();
     for period in [2.4, 1000.5, 0.0, f32::NAN] {
         let refused = regrid.retune(period);
@@ -130,7 +130,7 @@ fn a_grid_follows_a_period_that_can_be_and_no_other() {
 }
 
 #[test]
-fn grids_that_cannot_be_are_refused() {
+fn invalid_grids_are_refused() {
     assert_eq!(
         Regrid::<32>::new(1.0, 20, 2.0).err(),
         Some(RegridError::Period(1.0))

@@ -1,4 +1,4 @@
-//! What repeats with the wave is hardly told from it: a second harmonic, and a stuck bit of the converter.
+//! Errors that repeat with the wave are hardly distinguished from it: a second harmonic, and a stuck bit of the converter.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ fn even(i: u64, step: f64) -> f64 {
     (i as f64 * step).fract()
 }
 
-/// The largest errors of a_A, a_B, θ and phase, in shares of a second harmonic of 1 % of a_A, and how many windows of how many are flagged.
+/// The largest errors of a_A, a_B, θ and phase, relative to a second harmonic of 1 % of a_A, and the counts of flagged and of all windows.
 fn of_second_harmonic(periods: u16, is_whole: bool, on_both: bool) -> ([f64; 4], [usize; 2]) {
     let (mut worst, mut flagged, mut rows) = ([0f64; 4], 0, 0);
     for seed in 0..120 {
@@ -52,7 +52,7 @@ fn of_second_harmonic(periods: u16, is_whole: bool, on_both: bool) -> ([f64; 4],
 }
 
 #[test]
-fn a_second_harmonic_leaves_of_itself_what_the_documentation_says() {
+fn a_second_harmonic_leaks_as_the_documentation_states() {
     for (periods, is_whole, most) in [
         (10, false, 0.07),
         (50, false, 0.016),
@@ -67,7 +67,7 @@ fn a_second_harmonic_leaves_of_itself_what_the_documentation_says() {
                 list(&worst)
             );
             assert!(rows > 1000);
-            // Of a period of five samples it looks like the third.
+            // With a period of five samples it looks like the third harmonic.
             assert!(is_whole || flagged == 0, "{flagged} of {rows} flagged");
             largest = worst.into_iter().fold(largest, f64::max);
         }
@@ -75,12 +75,12 @@ fn a_second_harmonic_leaves_of_itself_what_the_documentation_says() {
     }
 }
 
-/// What windows are behind a bit of S_C that sticks in a converter of 12, whose codes a_A takes 0.8 of.
+/// Windows after a bit of S_C begins to stick, in a converter of 12 bits of which a_A takes 0.8 of full scale.
 #[derive(Default)]
 struct Behind {
     windows: f64,
     without_flag: f64,
-    /// Of a_A in those: in a_A, and in deviations.
+    /// Largest errors of a_A in those without a flag: relative to a_A, and in deviations.
     largest_error: [f64; 2],
 }
 
@@ -128,8 +128,8 @@ fn stuck(bit: u32, is_one: bool, noise: f64) -> Behind {
 }
 
 #[test]
-fn a_stuck_bit_is_flagged_where_it_begins_and_behind_it_as_the_documentation_says() {
-    // A twelfth, a sixth, a third and 0.6 of a_A.
+fn a_stuck_bit_is_flagged_where_it_begins_and_later_as_the_documentation_states() {
+    // Bits worth a twelfth, a sixth, a third and 0.6 of a_A.
     for (bit, shares, off, deviations) in [
         (7, 0.6..0.85, 0.017, 12.0),
         (8, 0.3..0.45, 0.044, 21.0),

@@ -1,4 +1,4 @@
-//! What rounding leaves of accuracy where there is next to no noise, and that it is stated.
+//! Accuracy with next to no noise is limited by rounding, which the deviations include.
 
 use antinode::Flags;
 use antinode_sim::{Flaws, Wave, random_wave};
@@ -7,7 +7,7 @@ use host_tests::score::{errors, stated};
 use host_tests::{identify, windows};
 
 #[test]
-fn deviations_are_stated_where_there_is_no_noise_but_rounding() {
+fn stated_deviations_hold_if_there_is_only_rounding() {
     let (mut worst, mut most) = ([0f64; 4], 0f64);
     for seed in 0..60 {
         for periods in [2, 10, 100] {
@@ -39,8 +39,8 @@ fn deviations_are_stated_where_there_is_no_noise_but_rounding() {
 }
 
 #[test]
-fn an_offset_of_ten_waves_widens_no_deviation_of_codes() {
-    // What f32 rounds of it in the solution, in short windows without noise, and how little in long ones with some.
+fn an_offset_of_ten_waves_does_not_raise_the_deviations_of_codes() {
+    // The rounding of the offset in the f32 solution counts in short windows without noise, and hardly in long ones with some.
     let offset = 10.0;
     for (periods, noise, trials, within) in [
         (2, 0.0, 100, 0.05..1.2),
@@ -82,7 +82,7 @@ fn an_offset_of_ten_waves_widens_no_deviation_of_codes() {
 }
 
 #[test]
-fn deviations_of_the_smallest_waves_are_numbers() {
+fn deviations_of_the_smallest_waves_are_finite() {
     for power in 12..20 {
         let main_amplitude = 10f64.powi(-power);
         let wave = Wave {
@@ -91,7 +91,7 @@ fn deviations_of_the_smallest_waves_are_numbers() {
             ..Wave::default()
         };
         let estimates = identify(wave, &Flaws::default(), windows(10), 1500, 1);
-        // Of 10⁻¹⁹ even the wave's own square is none.
+        // Of 10⁻¹⁹ even the wave's square underflows.
         assert!(estimates.len() >= 4 || power > 18, "1e-{power}");
         for estimate in estimates.iter().filter(|one| one.flags.is_empty()) {
             let stated = stated(estimate);

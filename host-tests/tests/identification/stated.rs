@@ -1,13 +1,13 @@
-//! What an estimate states beside the four main quantities: phase, rates and offsets, against the truth and their own deviations.
+//! Stated values beside the four main quantities: phase, rates and offsets, against the truth and their own deviations.
 
 use std::f64::consts::FRAC_PI_2;
 
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::score::Honesty;
+use host_tests::score::StatedRatio;
 use host_tests::{Core, angle_error, calibrated, identify, identify_changed, stream, windows};
 
-/// The error of α, which goes with the angle's choice, rad.
+/// The error of α, which depends on the choice of the angle, rad.
 fn error_of_phase(estimate: &Estimate, wave: &Wave) -> f64 {
     let truth = wave.at(estimate.time);
     let quarters = ((estimate.angle - truth.angle) / FRAC_PI_2).round();
@@ -48,7 +48,7 @@ fn phases_scatter_as_stated() {
 }
 
 #[test]
-fn offsets_scatter_as_the_residual_over_the_root_of_the_samples() {
+fn offsets_scatter_by_the_residual_over_the_root_of_the_samples() {
     for (periods, hum, most) in [
         (2, false, 1.2),
         (10, false, 1.1),
@@ -86,7 +86,7 @@ fn offsets_scatter_as_the_residual_over_the_root_of_the_samples() {
 }
 
 #[test]
-fn phases_scatter_as_stated_with_pick_offs_that_are_corrected() {
+fn phases_scatter_as_stated_with_calibrated_pick_offs() {
     for (gain_ratio, pick_off_angle) in [(1.0, 0.3), (1.0, -0.3), (2.0, 0.0), (0.5, 0.2)] {
         for angle in [0.0, 0.4, 0.8] {
             let (mut square, mut rows) = (0.0, 0.0);
@@ -121,8 +121,8 @@ fn phases_scatter_as_stated_with_pick_offs_that_are_corrected() {
 }
 
 #[test]
-fn deviations_hold_in_the_first_windows_of_more_noise() {
-    let mut honesty = Honesty::default();
+fn deviations_hold_in_first_windows_with_more_noise() {
+    let mut honesty = StatedRatio::default();
     for seed in 0..400 {
         let wave = random_wave(seed, 5332.0, 0.3);
         let flaws = |share: f64| Flaws {
@@ -145,11 +145,11 @@ fn deviations_hold_in_the_first_windows_of_more_noise() {
 }
 
 #[test]
-fn a_bad_first_window_spoils_none_after_it() {
-    // The wave is found while it is still being driven, and grows by half in the first window; or that window has ten times the noise,
-    // which nothing before tells from less.
+fn a_bad_first_window_does_not_spoil_later_ones() {
+    // The wave is found while it is still driven and grows by half in the first window; or that window has ten times the noise, which
+    // nothing before shows to be unusual.
     for (gain, noise) in [(0.7, 1.0), (1.0, 10.0)] {
-        let mut honesty = Honesty::default();
+        let mut honesty = StatedRatio::default();
         for seed in 0..40 {
             let wave = random_wave(seed, 5332.0, 0.3);
             let a = wave.main_amplitude;
@@ -164,7 +164,7 @@ fn a_bad_first_window_spoils_none_after_it() {
             };
             let found = identify_changed(wave, &flaws(1.0), settings, 8000, seed, |k, [c, d]| {
                 let gain = if k < 150 { gain } else { 1.0 };
-                // A spike in every third window, once it is over.
+                // A spike in every third window, after the first.
                 let spike = if k > 4000 && k % 570 == 0 { 0.3 } else { 0.0 };
                 match loud.get(k).filter(|_| noise > 1.0) {
                     Some(pair) => pair.map(f64::from),
@@ -215,8 +215,8 @@ fn rates_are_exact_without_noise() {
 }
 
 #[test]
-fn waves_moved_by_splits_are_what_their_truth_says() {
-    let (mut honesty, mut squares, mut rows) = (Honesty::default(), [0.0; 3], 0.0);
+fn rows_of_waves_with_splits_agree_with_their_truth() {
+    let (mut honesty, mut squares, mut rows) = (StatedRatio::default(), [0.0; 3], 0.0);
     for seed in 0..60 {
         // Each rate is many of its deviations.
         let wave = Wave {
@@ -233,7 +233,7 @@ fn waves_moved_by_splits_are_what_their_truth_says() {
             ..Flaws::default()
         };
         let estimates = identify(wave, &flaws, windows(10), 8000, seed);
-        // The first window takes its pattern to stand still.
+        // The first window assumes a pattern at rest.
         for estimate in estimates.iter().skip(1) {
             let truth = wave.at(estimate.time);
             // Near a circle deviations are no longer small.
@@ -263,12 +263,12 @@ fn waves_moved_by_splits_are_what_their_truth_says() {
 }
 
 #[test]
-fn deviations_follow_noise_that_changes_unflagged() {
-    // The windows since the change that are looked at together, and their errors over what they state: less noise is believed later.
+fn deviations_follow_unflagged_changes_of_noise() {
+    // Windows after the change that are scored together, and the limits of their errors over deviations: less noise is believed later.
     let spans = [(0..2, 0.65..1.12), (2..5, 0.85..1.1), (5..16, 0.95..1.1)];
     for factor in [1.2, 1.5, 1.7, 0.8, 0.6, 0.3] {
         for periods in [2, 10] {
-            let mut honesty = [Honesty::default(); 3];
+            let mut honesty = [StatedRatio::default(); 3];
             for seed in 0..300 {
                 let wave = random_wave(seed, 5332.0, 0.3);
                 let change = 19 * 20 * usize::from(periods) + 100;
@@ -290,7 +290,7 @@ fn deviations_follow_noise_that_changes_unflagged() {
                         }
                     }
                 }
-                // Of nearly twice the noise single windows are misfits by chance.
+                // With nearly twice the noise, single windows are misfits by chance.
                 let flagged = found.iter().filter(|e| !e.flags.is_empty()).count();
                 assert!(flagged <= 3, "{factor} times the noise: {flagged} flagged");
             }

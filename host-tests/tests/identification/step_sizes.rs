@@ -1,4 +1,4 @@
-//! How great a step must be to be flagged, in deviations that the rows state, beyond the floors of 0.2 % of a_A and 2 mrad.
+//! Size of the smallest steps that are flagged, in the stated deviations, beyond the floors of 0.2 % of a_A and 2 mrad.
 
 use antinode::{Estimate, Settings};
 use antinode_sim::{Flaws, Wave};
@@ -10,7 +10,7 @@ const BEFORE: usize = 30;
 const WINDOW: usize = 190;
 const TRIALS: u64 = 60;
 
-/// What steps: a_A, a_B or θ, the places of their deviations.
+/// Quantity that steps: a_A, a_B or θ, by the index of its deviation.
 #[derive(Debug, Clone, Copy)]
 enum Of {
     Main,
@@ -18,7 +18,7 @@ enum Of {
     Angle,
 }
 
-/// The share of waves of which a step is flagged, so many pairs behind the start of a window.
+/// Share of waves with a flag, after a step of `deviations` deviations `depth` pairs after the start of a window.
 fn flagged(of: Of, deviations: f64, depth: usize) -> f64 {
     let settings = Settings {
         frequency: Some(5332.0),
@@ -63,8 +63,8 @@ fn flagged(of: Of, deviations: f64, depth: usize) -> f64 {
 }
 
 #[test]
-fn steps_are_flagged_from_the_sizes_on_that_are_stated() {
-    // Between two windows, and in the middle of one: half of them, and all.
+fn steps_are_flagged_from_the_stated_sizes_on() {
+    // Between two windows, and in the middle of one: sizes at which half of them are flagged, and all.
     for (of, depth, half, all) in [
         (Of::Main, 0, 20.0, 30.0),
         (Of::Quadrature, 0, 20.0, 30.0),

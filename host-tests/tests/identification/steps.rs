@@ -1,4 +1,4 @@
-//! A step of one quantity by itself, between two windows or within one: a single window says so.
+//! A step of a single quantity, between two windows or within one, is flagged in a single window.
 
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
@@ -15,12 +15,12 @@ fn flaws(wave: &Wave) -> Flaws {
     }
 }
 
-/// The estimates of a stream that from the start of a window on is that of another wave with the same noise.
+/// Estimates of a stream that from the start of a window on is that of the wave `to`, in the same noise.
 fn stepped(wave: Wave, to: Wave, more: Flaws, seed: u64) -> Vec<Estimate> {
     stepped_at(wave, to, more, seed, 0)
 }
 
-/// As [`stepped`], so many pairs after the start of the window.
+/// As [`stepped`], with the step `depth` pairs after the start of the window.
 fn stepped_at(wave: Wave, to: Wave, more: Flaws, seed: u64, depth: usize) -> Vec<Estimate> {
     let count = 190 * (2 * BEFORE);
     let (one, two) = (
@@ -101,8 +101,8 @@ fn a_step_of_either_offset_is_a_step() {
 }
 
 #[test]
-fn an_offset_that_wanders_on_steps_once_at_most_and_one_that_steps_on_its_way_is_flagged() {
-    // It moves by more than a step must be from window to window, and each time by as much.
+fn a_drifting_offset_is_flagged_once_at_most_and_a_step_during_the_drift_is() {
+    // From window to window it drifts by more than the smallest step, and each time by as much.
     let wave = Wave {
         main_amplitude: 0.1,
         quadrature_amplitude: 0.01,
@@ -153,7 +153,7 @@ fn a_step_of_the_phase_is_a_jump() {
 }
 
 #[test]
-fn a_step_within_a_window_costs_that_window_alone() {
+fn a_step_within_a_window_costs_that_window_only() {
     for seed in 0..10 {
         let wave = random_wave(seed, 5332.0, 0.3);
         let a = wave.main_amplitude;
@@ -184,7 +184,7 @@ fn a_step_within_a_window_costs_that_window_alone() {
 }
 
 #[test]
-fn a_quadrature_that_grows_by_itself_is_no_step() {
+fn a_steadily_growing_quadrature_is_no_step() {
     let wave = Wave {
         main_amplitude: 1.0,
         quadrature_amplitude: 0.0,
@@ -198,7 +198,7 @@ fn a_quadrature_that_grows_by_itself_is_no_step() {
         noise: 2e-4,
         ..Flaws::default()
     };
-    // By 0.01 a_A a window, up and down, as a control loop may drive it.
+    // By 0.01 a_A a window, up and down, as a control loop may do.
     let found = identify_changed(wave, &flaws, windows(10), 60_000, 1, |k, [c, d]| {
         let time = k as f64 / RATE;
         let share = 0.5 + 0.4 * (12.0 * time).sin();
@@ -216,7 +216,7 @@ fn a_quadrature_that_grows_by_itself_is_no_step() {
 
 #[test]
 fn a_small_turn_within_a_long_window_is_flagged() {
-    // The residual as a whole hardly rises, no amplitude grows, and no block stands out.
+    // The residual as a whole hardly rises, no amplitude grows, and no block is an outlier.
     for (noise, turn) in [(0.002, 0.002), (0.02, 0.02), (0.02, -0.02)] {
         for seed in 0..10 {
             let wave = random_wave(seed, 5332.0, 0.1);
@@ -248,7 +248,7 @@ fn a_small_turn_within_a_long_window_is_flagged() {
 
 #[test]
 fn a_step_of_the_angle_does_not_spoil_the_frequencies_after_it() {
-    // With quadrature a turning pattern looks like another frequency, and a step like a turn.
+    // With quadrature a turning pattern looks like another frequency, and a step looks like a turn.
     for turn in [0.01, 0.02, 0.05] {
         let (mut square, mut count) = (0.0, 0.0);
         for seed in 0..20 {
@@ -273,7 +273,7 @@ fn a_step_of_the_angle_does_not_spoil_the_frequencies_after_it() {
 }
 
 #[test]
-fn how_an_offset_wandered_before_a_search_excuses_no_step_after_it() {
+fn a_drift_of_the_offset_before_a_search_does_not_excuse_a_step_after_it() {
     for seed in 0..5 {
         let wave = random_wave(seed, 5332.0, 0.3);
         let a = wave.main_amplitude;
@@ -289,7 +289,7 @@ fn how_an_offset_wandered_before_a_search_excuses_no_step_after_it() {
         let mut core = Core::new(settings).unwrap();
         let length = pairs.iter().find_map(|&pair| core.push(pair)).unwrap();
         let length = length.samples as usize;
-        // To the search by so much a window, then once by as much between two windows.
+        // Until the search by so much a window, then once by as much between two windows.
         let (search, moved) = (50 * length, 0.02 * a);
         let offset = |k: usize| {
             let wandered = k.min(search) as f64 / length as f64;

@@ -1,10 +1,10 @@
-//! Two tones at once: which of them is found, and that nothing is invented between them.
+//! Two tones at once: which of them is found, and that none is found between them.
 
 use antinode::period::DifferenceDetector;
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 use host_tests::{Core, RATE, stream, windows};
 
-/// A wave whose period runs evenly over 4 to 200 samples in its logarithm.
+/// A wave with a period of 4 to 200 samples, spaced evenly in its logarithm.
 fn wave(seed: u64) -> (Wave, f64) {
     let period = 4.0 * 50f64.powf((seed as f64 * 0.618_034).fract());
     (random_wave(seed, RATE / period, 0.5), period)
@@ -33,7 +33,7 @@ fn two_unrelated_tones_are_no_wave() {
                 rows += 1;
                 if estimate.flags.is_empty() {
                     clean += 1;
-                    // The few that pass must be one of the two waves, not an invention.
+                    // The few that are found must be one of the two tones.
                     let far = |wave: &Wave| {
                         let allowed = 6.0 * f64::from(estimate.frequency_std);
                         (estimate.frequency - wave.frequency).abs() > allowed
@@ -48,8 +48,8 @@ fn two_unrelated_tones_are_no_wave() {
 }
 
 #[test]
-fn beside_a_tone_half_as_large_hardly_a_row_is_clean_and_wrong() {
-    // The detector refuses most of these waves: what it would find is dragged from one tone towards the other.
+fn beside_a_tone_half_as_large_hardly_any_clean_row_is_wrong() {
+    // The detector refuses most of these waves, as the period would be pulled from one tone towards the other.
     let (mut rows, mut wrong) = (0, 0);
     for share in [0.4, 0.5, 0.6] {
         for seed in 0..500 {
@@ -90,7 +90,7 @@ fn beside_a_tone_half_as_large_hardly_a_row_is_clean_and_wrong() {
 
 #[test]
 fn a_spur_does_not_hide_the_wave() {
-    // A tone beside the wave, as a share of a_A, from a fifth of its frequency to five times it.
+    // A tone beside the wave, as a share of a_A, at a fifth of its frequency to five times it.
     for share in [0.02, 0.1, 0.2] {
         let (mut worst, mut latest, mut none) = (0f64, 0f64, 0);
         for seed in 0..3000 {

@@ -1,11 +1,11 @@
-//! Patterns that turn much within a window, with much quadrature, windows that overlap, and long pauses: stated deviations hold there too.
+//! Patterns that turn far within a window, with much quadrature, overlapping windows and long pauses: stated deviations hold there too.
 
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::score::{Honesty, NAMES, Score, errors, stated};
+use host_tests::score::{NAMES, Score, StatedRatio, errors, stated};
 use host_tests::{Core, RATE, identify, identify_changed, windows};
 
-/// A wave at any angle and phase whose quadrature is this share of it and which turns by so much in each second.
+/// A wave of random angle and phase with this quadrature, as a share of a_A, which turns at `rate` rad/s.
 fn turning(seed: u64, frequency: f64, share: f64, rate: f64) -> Wave {
     let wave = random_wave(seed, frequency, 0.5);
     Wave {
@@ -23,8 +23,8 @@ fn noisy(wave: &Wave, noise: f64) -> Flaws {
 }
 
 #[test]
-fn much_turning_beside_much_quadrature_is_neither_biased_nor_flagged() {
-    // Of a_B in a_A, rad a window and noise in a_A.
+fn fast_turning_with_much_quadrature_is_neither_biased_nor_flagged() {
+    // a_B in a_A, rad a window, and noise in a_A.
     for (share, turn, noise) in [
         (0.8, 0.4, 0.02),
         (-0.7, 0.5, 0.01),
@@ -40,7 +40,7 @@ fn much_turning_beside_much_quadrature_is_neither_biased_nor_flagged() {
         (-0.7, 0.49, 0.05),
         (0.9, 0.56, 0.005),
     ] {
-        let mut honesty = Honesty::default();
+        let mut honesty = StatedRatio::default();
         let mut rows = 0;
         for seed in 0..30 {
             let wave = turning(seed, 5332.0, share, turn * 533.2);
@@ -63,8 +63,8 @@ fn much_turning_beside_much_quadrature_is_neither_biased_nor_flagged() {
 }
 
 #[test]
-fn the_frequency_of_a_pattern_that_vibrates_is_stated_with_what_its_turning_leaves_unknown() {
-    // Periods a window, a_B in a_A, rad/s at the most, and Hz of the vibration.
+fn the_frequency_of_a_vibrating_pattern_has_a_deviation_that_allows_for_its_unknown_rate() {
+    // Periods a window, a_B in a_A, largest rate in rad/s, and frequency of the vibration in Hz.
     for (periods, share, rate, vibration) in [
         (10, 0.3, 5.0, 20.0),
         (10, 0.6, 1.0, 50.0),
@@ -87,12 +87,12 @@ fn the_frequency_of_a_pattern_that_vibrates_is_stated_with_what_its_turning_leav
             let samples = 300 * 19 * usize::from(periods);
             let flaws = noisy(&wave, 1e-3);
             let found = identify_changed(wave, &flaws, settings, samples, seed, |k, [c, d]| {
-                // A fault is no vibration, and hides none after it.
+                // A fault is no vibration, and does not hide one after it.
                 let fault = if k == 100_003 { f64::NAN } else { 0.0 };
                 let (still, now) = (wave.pick_offs(k as f64 / RATE), vibrating(k));
                 [c + now[0] - still[0] + fault, d + now[1] - still[1]]
             });
-            // Until it is known that the pattern vibrates.
+            // Until the vibration is detected.
             for estimate in found.iter().skip(30).filter(|e| e.flags.is_empty()) {
                 let error =
                     (estimate.frequency - wave.frequency) / f64::from(estimate.frequency_std);
@@ -113,8 +113,8 @@ fn the_frequency_of_a_pattern_that_vibrates_is_stated_with_what_its_turning_leav
 }
 
 #[test]
-fn a_step_of_the_angle_is_no_vibration() {
-    // Rad; the frequency of rows behind it is known as well as before, or nearly where nothing flags the step.
+fn a_step_of_the_angle_is_not_taken_for_a_vibration() {
+    // Steps in rad; later rows know their frequency as well as before, or nearly so if nothing flags the step.
     for (step, most) in [(0.002, 1.8), (0.05, 1.15), (0.3, 1.15)] {
         for periods in [10, 50] {
             let (mut sum, mut rows) = (0.0, 0.0);
@@ -149,7 +149,7 @@ fn a_step_of_the_angle_is_no_vibration() {
 
 #[test]
 fn quick_turning_and_decay_in_little_noise_are_not_taken_for_clipping() {
-    // Samples a period; a share of a_A; rad and the share of the wave that a window loses; noise in a_A.
+    // Samples a period; share of a_A; turn in rad and share of the wave lost in a window; noise in a_A.
     for (period, share, turn, decay, noise) in [
         (28.2, 0.13, 0.12, 0.09, 3.4e-5),
         (35.1, 0.16, 0.22, 0.14, 3.6e-5),
@@ -177,7 +177,7 @@ fn quick_turning_and_decay_in_little_noise_are_not_taken_for_clipping() {
 }
 
 #[test]
-fn overlapping_windows_know_how_little_they_know_at_the_start_and_after_a_fault() {
+fn overlapping_windows_state_larger_deviations_at_the_start_and_after_a_fault() {
     for (periods, hop, rate, noise) in [(10, 5, 0.5, 0.001), (50, 20, 0.1, 0.005)] {
         let settings = Settings {
             hop: Some(hop),
@@ -185,20 +185,20 @@ fn overlapping_windows_know_how_little_they_know_at_the_start_and_after_a_fault(
         };
         let spike = 200 * usize::from(periods);
         let samples = 2 * spike;
-        let mut start = vec![Honesty::default(); 5];
-        let mut fault = vec![Honesty::default(); 5];
+        let mut start = vec![StatedRatio::default(); 5];
+        let mut fault = vec![StatedRatio::default(); 5];
         for seed in 0..300 {
             let wave = turning(seed, 5332.0, 0.8, rate);
             let flaws = noisy(&wave, noise);
             let found = identify_changed(wave, &flaws, settings, samples, seed, |k, [c, d]| {
                 [c + if k == spike { wave.main_amplitude } else { 0.0 }, d]
             });
-            let add = |windows: &mut [Honesty], rows: &mut dyn Iterator<Item = &Estimate>| {
+            let add = |windows: &mut [StatedRatio], rows: &mut dyn Iterator<Item = &Estimate>| {
                 for (honesty, estimate) in windows.iter_mut().zip(rows) {
                     honesty.add(estimate, &wave);
                 }
             };
-            // The first of all takes the pattern to stand still.
+            // The first window assumes a pattern at rest.
             add(&mut start, &mut found.iter().skip(1));
             let is_after = |e: &&Estimate| e.start > spike as u64 && e.flags.is_empty();
             add(&mut fault, &mut found.iter().filter(is_after));
@@ -215,8 +215,8 @@ fn overlapping_windows_know_how_little_they_know_at_the_start_and_after_a_fault(
 }
 
 #[test]
-fn overlapping_windows_learn_how_fast_the_pattern_turns() {
-    // With this much quadrature a window that must find the turn by itself knows its frequency to 4.6 of the bound.
+fn overlapping_windows_learn_the_rate_of_turning() {
+    // With this much quadrature a window that has to find the rate by itself knows its frequency to 4.6 of the bound.
     for (periods, hop, noise) in [(10, 1, 0.002), (10, 5, 0.002), (50, 20, 0.005)] {
         let settings = Settings {
             hop: Some(hop),
@@ -240,8 +240,8 @@ fn overlapping_windows_learn_how_fast_the_pattern_turns() {
 }
 
 #[test]
-fn a_pause_of_very_many_windows_leaves_numbers() {
-    // A thousand windows and more: what the angles before it say of the rate now is lost in rounding, and must not be used.
+fn after_a_pause_of_a_thousand_windows_all_numbers_are_finite() {
+    // A thousand windows and more: the information of earlier angles on the present rate is lost in rounding, and must not be used.
     for exponent in [4.0, 5.0, 6.0, 7.0, 8.0] {
         for seed in 0..300 {
             let share = |step: f64| (f64::from(seed) * step).fract();
@@ -290,10 +290,10 @@ fn a_pause_of_very_many_windows_leaves_numbers() {
 }
 
 #[test]
-fn a_pattern_that_turns_on_over_a_circle_is_not_promised_to_have_stood_still() {
+fn a_pattern_that_turns_on_through_a_circle_is_not_predicted_to_have_stood_still() {
     let mut told = 0;
     for seed in 0..20 {
-        // Its quadrature grows to be as large as the wave and shrinks again, and it turns by more than a quarter meanwhile.
+        // Its quadrature grows to be as large as the wave and shrinks again, while it turns by more than a quarter.
         let rate = 8.0 + 0.1 * seed as f64;
         let wave = turning(seed, 5332.0, 0.0, rate);
         let full = Wave {

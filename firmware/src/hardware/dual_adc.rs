@@ -91,7 +91,7 @@ impl DualAdc {
     fn configure(&self) {
         // SAFETY: each value is one that RM0090 lists for its field.
         unsafe {
-            // CCR.ADCPRE 1: APB2 over 4. Between two triggers, as the clock must not change while they are active (RM0090, 18.3.15).
+            // CCR.ADCPRE 1: APB2 over 4. Between two triggers, as the clock must not change while triggers arrive (RM0090, 18.3.15).
             // MULTI 0: independent while they are set up.
             self.wait();
             self.common.ccr().write(|w| w.adcpre().bits(0b01));

@@ -59,8 +59,8 @@ impl Reference {
             estimate.angle_std,
         ];
         let noise = f64::from(estimate.residual_rms);
-        // The core estimates noise from three sums per block and pick-off, less ten unknowns. Blocks of two periods, at least five, hold
-        // without a hop; with one there may be twice as many blocks, and the deviation here is too large by up to √2.
+        // The core estimates noise from three sums per block and pick-off, less ten unknowns. Without a hop, a block has two periods, and a
+        // window five blocks or more; with one it may have twice as many, and the deviation here is too large by up to √2.
         let blocks = (0.5 * samples * omega / core::f64::consts::TAU).max(5.0);
         Self {
             wave: Wave {

@@ -23,7 +23,7 @@ const SHARP: Filters = &[(Type::BandPass, 5332.0, 3.0)];
 /// A transformer or a coupling capacitor.
 const HIGH_PASS: Filters = &[(Type::HighPass, 2500.0, Q_BUTTERWORTH_F64)];
 /// Noise of 1/f² from 300 Hz on.
-const SLOW: Filters = &[(Type::SinglePoleLowPass, 300.0, 1.0)];
+const INVERSE_SQUARE: Filters = &[(Type::SinglePoleLowPass, 300.0, 1.0)];
 
 /// Noise of both pick-offs, with this rms before the filters.
 fn noise(filters: Filters, rms: f64, seed: u64) -> Vec<[f64; 2]> {
@@ -84,7 +84,7 @@ fn deviations_hold_in_coloured_noise_and_nothing_is_flagged() {
         ("tuned", TUNED, 1.0..1.2),
         ("sharply tuned", SHARP, 1.2..1.6),
         ("high-pass", HIGH_PASS, 0.92..1.12),
-        ("slow", SLOW, 0.75..1.0),
+        ("slow", INVERSE_SQUARE, 0.75..1.0),
         ("none", &[], 0.92..1.08),
     ] {
         for periods in [10, 50] {

@@ -15,7 +15,7 @@ const OCTAVES: usize = 6;
 const MAX_FOREIGN_LOSS: f32 = 0.4;
 
 /// What a trial adds to the weariness of a search. A look that finds nothing, or is left out, takes 1 away.
-const REFUSED: u8 = 6;
+const TRIAL_WEARINESS: u8 = 6;
 /// Weariness above which looks are left out, as after five refused trials in a row. Signals that look like a wave for ever, such as two
 /// tones, would otherwise be on trial for ever.
 const MAX_WEARINESS: u8 = 24;
@@ -36,7 +36,7 @@ impl<S: Sample> Candidate<S> {
     fn accept(&self, period: f32, power: f32) -> Option<f32> {
         let scale = (1u32 << self.halvings) as f32;
         let found = period * scale;
-        // Halvings multiply the amplitude by cos ½t cos ¼t … = sin t/(n sin t/n), n = 2^halvings: series do, as t is below 0.86.
+        // Halvings multiply the amplitude by cos ½t cos ¼t … = sin t/(n sin(t/n)), n = 2^halvings: series do, as t < 0.86.
         let turn = core::f32::consts::PI / period;
         let square = turn * turn;
         let rest = square / (scale * scale);
@@ -172,7 +172,7 @@ impl<S: Sample> DifferenceDetector<S> {
             Verdict::Accepted(fitted) => candidate.accept(fitted.period, fitted.power),
         };
         candidate.is_open = false;
-        self.weariness += REFUSED;
+        self.weariness += TRIAL_WEARINESS;
         period
     }
 }

@@ -24,42 +24,42 @@ use crate::ranges::in_order;
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
 pub use options::Identify;
-use options::{MOST_PERIODS, Methods};
-use out::{Out, check_other};
+use options::{MAX_PERIODS, Methods};
+use out::{Out, check_is_no_input};
 use remarks::flag_counts::FlagCounts;
 use stop::Stop;
 use windows::Windows;
 
-/// Samples of the longest period, and of the shortest one that is known.
-const LONGEST: usize = 1024;
-const SHORTEST: f64 = 2.5;
+/// Samples in the longest period, and in the shortest that `--frequency` may give.
+const LONGEST_PERIOD: usize = 1024;
+const SHORTEST_PERIOD: f64 = 2.5;
 /// Windows of up to 1022 periods.
-type Core = Identifier<f32, LONGEST, { MOST_PERIODS as usize + 2 }>;
+type Core = Identifier<f32, LONGEST_PERIOD, { MAX_PERIODS as usize + 2 }>;
 
-/// Recordings longer than this show how far they have come.
-const LONG: u64 = 32 << 20;
+/// Size, bytes, above which a file gets a progress bar.
+const LARGE_FILE: u64 = 32 << 20;
 
 /// Identifies every file; a fault in one does not keep the others from being read.
 pub fn run(options: &Identify) -> Result<(), Failure> {
-    // What is wrong with the options is wrong for every file: it is said once, before any is opened.
-    // The rate is not among them, nor the frequency that it bounds: it belongs to a recording.
+    // Wrong options are wrong for every file: they are reported once, before any is opened.
+    // The sample rate, and with it the range of the frequency, belongs to a recording.
     Settings {
         frequency: None,
         ..options.settings(1.0, None, None)
     }
-    .check(usize::from(MOST_PERIODS) + 2)?;
+    .check(usize::from(MAX_PERIODS) + 2)?;
     in_order(options.from, options.to)?;
     options.check_channels()?;
-    check_other(options)?;
+    check_is_no_input(options)?;
     let format = options.format()?;
-    warn_of_twins(&options.files);
+    warn_of_duplicates(&options.files);
     let (out, to) = Out::open(options)?;
     let mut rows = Rows::new(to, format, options.methods == Methods::All);
     let stop = Stop::new(&out)?;
     let mut failure = None;
     for path in &options.files {
         let result = identify(path, options, format, &stop, &mut rows);
-        // Rows found before a fault are printed before the fault is told.
+        // Rows found before a fault are printed before the fault is reported.
         let flushed = rows.flush().map_err(Failure::from);
         let error = match flushed.and(result) {
             Ok(()) => continue,
@@ -84,8 +84,8 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     failure.map_or(finished, Err)
 }
 
-/// Tells of a file that is given twice: its rows would count twice in what is made of them.
-fn warn_of_twins(files: &[PathBuf]) {
+/// Warns of a file that is given twice: its rows would count twice in what is computed from them.
+fn warn_of_duplicates(files: &[PathBuf]) {
     let mut seen = HashSet::new();
     for file in files {
         if fs::canonicalize(file).is_ok_and(|one| !seen.insert(one)) {
@@ -109,7 +109,7 @@ fn identify(
     let pairs = recording.pairs();
     let length = pairs.map_or(String::new(), |pairs| format!(", {pairs} sample pairs"));
     let title = format!("{name}: {}{length} at {rate} Hz", recording.format());
-    // One of several tables stands under its title.
+    // With several files, each table has a title.
     let several = options.files.len() > 1;
     let is_watched = io::stderr().is_terminal() && !(several && format == Format::Table);
     if is_watched {
@@ -133,7 +133,7 @@ fn identify(
         let goes_on = windows
             .take(&mut recording, &buffer, rows)
             .and_then(|goes_on| {
-                // Somebody watches, or the samples arrive as they are taken.
+                // The rows are shown on a terminal, or the samples arrive live.
                 if is_shown || is_pipe {
                     rows.flush()?;
                 }
@@ -154,7 +154,7 @@ fn identify(
     windows.conclude(&recording, fault, rows)
 }
 
-/// Opens a recording, and tells what is to be known before its rows; gives its sample rate too.
+/// Opens a recording, prints the warnings that belong before its rows, and returns it with its sample rate.
 fn open(path: &Path, options: &Identify) -> Result<(Recording, f64), Failure> {
     let open = OpenOptions {
         raw: options.raw,
@@ -164,7 +164,7 @@ fn open(path: &Path, options: &Identify) -> Result<(Recording, f64), Failure> {
     };
     let mut recording = Recording::open(path, &open)?;
     if options.rate.or(recording.sample_rate()).is_none() && !is_pipe(&recording) {
-        // A fault in the first lines may be why the rate is not known: one block, and what ended it.
+        // A fault in the first lines may be why the rate is unknown: the second read returns the fault that ended the first.
         let mut buffer = Vec::with_capacity(BLOCK_PAIRS);
         for _ in 0..2 {
             recording.read(&mut buffer)?;
@@ -182,12 +182,12 @@ fn open(path: &Path, options: &Identify) -> Result<(Recording, f64), Failure> {
     Ok((recording, rate))
 }
 
-/// True for what comes in its own time, and may never end.
+/// True for a stream, whose samples may arrive slowly and never end.
 fn is_pipe(recording: &Recording) -> bool {
     recording.bytes_total().is_none()
 }
 
-/// The rate that was asked for, or else the recording's own.
+/// The rate given by `--rate`, or else the recording's own, if plausible.
 fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, Failure> {
     match (asked, own) {
         (Some(rate), _) => Ok(rate),
@@ -201,10 +201,10 @@ fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, 
     }
 }
 
-/// A progress bar where a person watches and rows go elsewhere.
+/// A progress bar for a large file whose rows are not shown on the terminal; hidden otherwise.
 fn progress(recording: &Recording, is_shown: bool) -> ProgressBar {
     match recording.bytes_total() {
-        Some(total) if total > LONG && !is_shown => {
+        Some(total) if total > LARGE_FILE && !is_shown => {
             let style = ProgressStyle::with_template(
                 "{wide_bar} {bytes}/{total_bytes} {bytes_per_sec} {eta}",
             );

@@ -1,55 +1,55 @@
-//! The first pairs that are identified: gathered until they are enough to tell something by, as a pipe may begin with one alone, and what
-//! they tell: samples that are no pick-off's, or whose rows would mean nothing, though they might look well.
+//! The first pairs of a recording, gathered until there are enough to check, as a pipe may begin with a single one; and the checks: for
+//! samples that come from no pick-off, or whose rows would look plausible but mean nothing.
 
 use std::ops::RangeInclusive;
 
 use antinode::period::DifferenceDetector;
 
-/// Some periods; no more, lest the rows of a pipe come before what is wrong with them.
-const ENOUGH: usize = 512;
+/// Pairs that are checked: some periods, but few enough for the rows of a pipe not to come before a warning.
+const CHECKED_PAIRS: usize = 512;
 
-/// No wave goes straight for so many samples, a quarter of the longest period; the first of a pipe may be no more.
-const STRAIGHT: usize = 256;
-/// How far from straight rounding may take a time, in its whole rise.
-const ROUNDING: f64 = 1e-4;
+/// Fewest pairs for a ramp: a quarter of the longest period, over which no wave is straight. A pipe may begin with that few.
+const MIN_RAMP_PAIRS: usize = 256;
+/// Deviation of a rounded time from a straight line, at most, as a share of its whole rise.
+const RAMP_TOLERANCE: f64 = 1e-4;
 
 /// Amplitudes that the core identifies.
 const AMPLITUDES: RangeInclusive<f64> = 1e-15..=1e17;
 
-/// An offset this many times the rms about it leaves single precision too few digits for a wave.
+/// Offset, in units of the rms about it, from which on single precision has too few digits for the wave.
 const LARGE_OFFSET: f64 = 300.0;
 
-/// A known frequency may be 5 % off, and so may one that was found.
-const APART: f64 = 0.1;
+/// Relative difference allowed between `--frequency` and the frequency found: each may be 5 % off.
+const MAX_MISMATCH: f64 = 0.1;
 
-/// Pairs gathered before they are identified.
+/// Gathers the first pairs ahead of their identification.
 #[derive(Debug, Default)]
 pub(super) struct FirstPairs {
     pairs: Vec<[f32; 2]>,
-    /// Pairs gathered, and not yet identified.
+    /// Pairs gathered but not yet identified.
     ahead: usize,
     is_given: bool,
 }
 
 impl FirstPairs {
-    /// Sees the next pairs that are to be identified, some of them not for the first time; gives all, once they are enough.
+    /// Takes the pairs to be identified next, some of which it may have seen before; returns all pairs, once, when there are enough.
     pub fn see(&mut self, pairs: &[[f32; 2]]) -> Option<Vec<[f32; 2]>> {
         if !self.is_given && pairs.len() > self.ahead {
             self.pairs.extend(&pairs[self.ahead..]);
             self.ahead = pairs.len();
         }
-        if self.pairs.len() < ENOUGH {
+        if self.pairs.len() < CHECKED_PAIRS {
             return None;
         }
         self.rest()
     }
 
-    /// So many pairs have been identified.
+    /// Notes that this many pairs have been identified.
     pub fn pass(&mut self, pairs: usize) {
         self.ahead = self.ahead.saturating_sub(pairs);
     }
 
-    /// All there are, where they were not enough.
+    /// The pairs gathered, if they were too few to be returned before.
     pub fn rest(&mut self) -> Option<Vec<[f32; 2]>> {
         self.is_given = true;
         let pairs = std::mem::take(&mut self.pairs);
@@ -57,9 +57,9 @@ impl FirstPairs {
     }
 }
 
-/// The pick-off whose samples go up in equal steps, as a time or a counter does.
-pub(super) fn straight(pairs: &[[f32; 2]]) -> Option<&'static str> {
-    if pairs.len() < STRAIGHT {
+/// The pick-off whose samples rise in equal steps, as a time or a counter does.
+pub(super) fn ramp(pairs: &[[f32; 2]]) -> Option<&'static str> {
+    if pairs.len() < MIN_RAMP_PAIRS {
         return None;
     }
     let is_straight = |channel: usize| {
@@ -67,40 +67,40 @@ pub(super) fn straight(pairs: &[[f32; 2]]) -> Option<&'static str> {
         let last = pairs.len() - 1;
         let rise = value(last) - value(0);
         let line = |k: usize| value(0) + rise * k as f64 / last as f64;
-        rise > 0.0 && (0..last).all(|k| (value(k) - line(k)).abs() <= ROUNDING * rise)
+        rise > 0.0 && (0..last).all(|k| (value(k) - line(k)).abs() <= RAMP_TOLERANCE * rise)
     };
     let mut channels = ["S_C", "S_D"].into_iter().enumerate();
     channels.find_map(|(channel, name)| is_straight(channel).then_some(name))
 }
 
-/// How far samples swing, where that is no amplitude that can be identified.
+/// The amplitude of the samples, half of peak to peak, if it lies outside the range that can be identified.
 pub(super) fn amplitude_beyond(pairs: &[[f32; 2]]) -> Option<f64> {
     let swing = |channel: usize| {
         let samples = pairs.iter().map(|pair| f64::from(pair[channel]));
         let finite = samples.filter(|sample| sample.is_finite());
-        let [least, most] = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |ends, sample| {
+        let [min, max] = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |ends, sample| {
             [ends[0].min(sample), ends[1].max(sample)]
         });
-        0.5 * (most - least)
+        0.5 * (max - min)
     };
     let swing = swing(0).max(swing(1));
     (swing > 0.0 && !AMPLITUDES.contains(&swing)).then_some(swing)
 }
 
-/// What to tell where the first pairs hold a wave elsewhere than where one is said to be: its rows may look well.
-pub(super) fn elsewhere(pairs: &[[f32; 2]], rate: f64, frequency: f32) -> Option<String> {
+/// A warning if the first pairs hold a wave of another frequency than `--frequency`: rows may look plausible all the same.
+pub(super) fn other_frequency(pairs: &[[f32; 2]], rate: f64, frequency: f32) -> Option<String> {
     let mut detector = Box::new(DifferenceDetector::<f32>::new());
     let period = pairs.iter().find_map(|&pair| detector.push(pair))?;
     let found = rate / f64::from(period);
     let apart = found / f64::from(frequency) - 1.0;
-    (apart.abs() > APART).then(|| {
+    (apart.abs() > MAX_MISMATCH).then(|| {
         format!(
             "a search finds a wave of {found:.0} Hz, where --frequency says {frequency} Hz: unless both are there, rows mean nothing"
         )
     })
 }
 
-/// The mean of samples and their rms about it, both pick-offs together, where the mean is too large for a wave about it.
+/// The mean of the samples and their rms about it, both pick-offs together, if the mean is too large for single precision.
 pub(super) fn large_offset(pairs: &[[f32; 2]]) -> Option<[f64; 2]> {
     let finite = || {
         let pairs = pairs.iter().map(|pair| pair.map(f64::from));
@@ -113,7 +113,7 @@ pub(super) fn large_offset(pairs: &[[f32; 2]]) -> Option<[f64; 2]> {
         mean[0].hypot(mean[1]),
         (squares.sum::<f64>() / count).sqrt(),
     );
-    // What stands still is no wave, and not for its offset.
+    // Constant samples have no wave either, but not because of their offset.
     (rms > 0.0 && mean > LARGE_OFFSET * rms).then_some([mean, rms])
 }
 
@@ -138,62 +138,58 @@ mod tests {
                 }
             }
             assert_eq!(given.len(), 1, "{stretch} {step}");
-            assert!(given[0].len() >= ENOUGH && all.starts_with(&given[0]));
+            assert!(given[0].len() >= CHECKED_PAIRS && all.starts_with(&given[0]));
             assert!(first.rest().is_none());
         }
     }
 
     #[test]
-    fn too_few_are_given_at_the_end() {
+    fn too_few_pairs_are_given_at_the_end() {
         assert!(FirstPairs::default().rest().is_none());
         let mut first = FirstPairs::default();
         assert!(first.see(&[[1.0; 2]; 9]).is_none());
         assert_eq!(first.rest().map(|pairs| pairs.len()), Some(9));
     }
 
-    /// As many pairs of a time or a wave beside a wave.
+    /// Pairs with a time or a wave as S_C, and a wave as S_D.
     fn pairs(count: usize, first: impl Fn(f64) -> f64) -> Vec<[f32; 2]> {
         let pair = |k: usize| [first(k as f64) as f32, (0.3 * k as f64).cos() as f32];
         (0..count).map(pair).collect()
     }
 
     #[test]
-    fn a_time_is_no_signal() {
+    fn a_time_is_recognised_as_a_ramp() {
         for (start, step) in [(0.0, 1e-5), (-100.0, 1e-5), (3.0, 10.0), (0.0, 1.0)] {
             let time = |k: f64| start + step * k;
-            assert_eq!(
-                straight(&pairs(16_384, time)),
-                Some("S_C"),
-                "{start} {step}"
-            );
-            assert_eq!(straight(&pairs(255, time)), None);
+            assert_eq!(ramp(&pairs(16_384, time)), Some("S_C"), "{start} {step}");
+            assert_eq!(ramp(&pairs(255, time)), None);
         }
         let swapped: Vec<[f32; 2]> = pairs(256, |k| k).iter().map(|&[t, d]| [d, t]).collect();
-        assert_eq!(straight(&swapped), Some("S_D"));
+        assert_eq!(ramp(&swapped), Some("S_D"));
     }
 
     #[test]
-    fn a_wave_is_no_time() {
-        // The longest period, where it goes up straightest; a dead pick-off; one that saw a knock.
+    fn a_wave_is_no_ramp() {
+        // The longest period, where it rises straightest; a dead pick-off; one with a single step.
         let slow = |k: f64| (TAU * (k - 128.0) / 1024.0).sin();
-        assert_eq!(straight(&pairs(256, slow)), None);
-        assert_eq!(straight(&pairs(16_384, |_| 1.0)), None);
-        assert_eq!(straight(&pairs(16_384, |k| f64::from(k > 9.0))), None);
-        assert_eq!(straight(&pairs(16_384, |_| f64::NAN)), None);
-        assert_eq!(straight(&[]), None);
+        assert_eq!(ramp(&pairs(256, slow)), None);
+        assert_eq!(ramp(&pairs(16_384, |_| 1.0)), None);
+        assert_eq!(ramp(&pairs(16_384, |k| f64::from(k > 9.0))), None);
+        assert_eq!(ramp(&pairs(16_384, |_| f64::NAN)), None);
+        assert_eq!(ramp(&[]), None);
     }
 
     #[test]
-    fn the_range_of_amplitudes_is_told() {
+    fn amplitudes_outside_the_range_are_found() {
         for (scale, is_within) in [(1e-16, false), (1e-14, true), (1e16, true), (1e18, false)] {
             let mut pairs = pairs(100, |k| (0.3 * k).sin());
             for pair in &mut pairs {
                 *pair = pair.map(|sample| scale * sample);
             }
             pairs[7][0] = f32::NAN;
-            let told = amplitude_beyond(&pairs);
-            assert_eq!(told.is_none(), is_within, "{scale}");
-            assert!(told.is_none_or(|told| (told / f64::from(scale) - 1.0).abs() < 0.1));
+            let found = amplitude_beyond(&pairs);
+            assert_eq!(found.is_none(), is_within, "{scale}");
+            assert!(found.is_none_or(|found| (found / f64::from(scale) - 1.0).abs() < 0.1));
         }
         assert_eq!(amplitude_beyond(&[]), None);
         assert_eq!(amplitude_beyond(&[[0.0; 2]; 9]), None);

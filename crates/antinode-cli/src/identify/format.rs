@@ -1,4 +1,4 @@
-//! The format of the rows on the command line, and what is told where it is the name of a file.
+//! Parser of `--output`: the format of the rows, with a hint where the name of a file is given instead.
 
 use std::ffi::OsStr;
 use std::path::Path;

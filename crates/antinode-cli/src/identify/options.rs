@@ -11,11 +11,11 @@ use crate::options::{Corrected, Format};
 use crate::ranges;
 use crate::recording::{Columns, Kind};
 
-/// The most periods a window may have; the ring of blocks holds two more.
-pub const MOST_PERIODS: u16 = 1022;
+/// Periods in a window, at most; the ring of blocks holds two more.
+pub const MAX_PERIODS: u16 = 1022;
 
-/// More channels than any recorder takes in turn.
-const MOST_CHANNELS: u8 = 64;
+/// Channels of raw samples, at most: more than any recorder interleaves.
+const MAX_CHANNELS: u8 = 64;
 
 /// `antinode identify`.
 #[derive(Debug, Args)]
@@ -42,7 +42,7 @@ pub struct Identify {
     #[arg(long, value_enum, value_name = "FORMAT", help_heading = "Recording")]
     pub raw: Option<Kind>,
     /// How many channels raw samples have, 2 to 64; if more than two, --columns picks S_C and S_D [default: 2].
-    #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(2..=i64::from(MOST_CHANNELS)), help_heading = "Recording")]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(2..=i64::from(MAX_CHANNELS)), help_heading = "Recording")]
     pub channels: Option<u8>,
     /// Where S_C and S_D are: columns of text by name or number from 1, as C,D or TIME,C,D; channels of WAV, NPY and raw samples by number,
     /// as C,D [default: by the names of columns, or all where there are two or three].
@@ -67,7 +67,7 @@ pub struct Identify {
     #[arg(long, value_name = "STEP", value_parser = ranges::positive, help_heading = "Recording")]
     pub resolution: Option<f32>,
     /// Periods per window, 2 to 1022.
-    #[arg(long, default_value_t = 10, value_name = "N", value_parser = value_parser!(u16).range(2..=i64::from(MOST_PERIODS)), help_heading = "Windows")]
+    #[arg(long, default_value_t = 10, value_name = "N", value_parser = value_parser!(u16).range(2..=i64::from(MAX_PERIODS)), help_heading = "Windows")]
     pub periods: u16,
     /// Blocks from the start of one window to the start of the next [default: a window begins where the last one ends].
     ///
@@ -143,13 +143,13 @@ pub enum Detector {
 }
 
 impl Identify {
-    /// The file that rows go to; none where that is standard output.
+    /// The file that rows are written to; `None` for standard output.
     pub fn file(&self) -> Option<&Path> {
         let is_standard = |out: &&Path| ["-", "/dev/stdout"].map(Path::new).contains(out);
         self.out.as_deref().filter(|out| !is_standard(out))
     }
 
-    /// Refuses a count of channels that nothing would be read by.
+    /// Rejects `--channels` without `--raw`, as nothing else is read by it.
     pub fn check_channels(&self) -> Result<(), Failure> {
         if self.channels.is_some() && self.raw.is_none() {
             return Err(Failure::Usage(
@@ -159,7 +159,7 @@ impl Identify {
         Ok(())
     }
 
-    /// How rows are printed.
+    /// The format of the rows: `--output`, or else what the ending of `--out` names, or else a table.
     pub fn format(&self) -> Result<Format, Failure> {
         if let Some(format) = self.output {
             return Ok(format);

@@ -1,4 +1,4 @@
-//! Where rows go: standard output, a device or a pipe as they come, or a file that takes its name once they are all there.
+//! The destination of rows: standard output, a device or a pipe as they come, or a file that gets its name once it is complete.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -9,14 +9,14 @@ use super::options::Identify;
 use crate::failure::Failure;
 use crate::recording::{OutputError, WholeFile};
 
-/// The file of the rows, if they go to one that has no name yet.
+/// The unfinished file of the rows, if they go to a regular file.
 #[derive(Clone)]
 pub(super) struct Out {
     whole: Arc<Mutex<Option<WholeFile>>>,
 }
 
 impl Out {
-    /// Begins it, and gives what writes to it.
+    /// Opens the destination, and returns it with its writer.
     pub fn open(options: &Identify) -> Result<(Self, BufWriter<Box<dyn Write>>), Failure> {
         let out = |whole| Self {
             whole: Arc::new(Mutex::new(whole)),
@@ -40,7 +40,7 @@ impl Out {
         Ok((out, BufWriter::new(Box::new(writer))))
     }
 
-    /// Gives the file of so many rows its name.
+    /// Gives the complete file its name; a file without rows is dropped.
     pub fn finish(&self, rows: u64) -> Result<(), Failure> {
         let Some(whole) = self.lock().take() else {
             return Ok(());
@@ -55,7 +55,7 @@ impl Out {
         Ok(())
     }
 
-    /// Gives the file its name as far as it is written; nothing more is, as long as what this gives is held.
+    /// Gives the file its name with the rows written so far. Nothing more is written while the returned guard is held.
     pub fn cut_short(&self) -> MutexGuard<'_, Option<WholeFile>> {
         let mut whole = self.lock();
         if let Some(whole) = whole.take() {
@@ -75,8 +75,8 @@ impl Out {
     }
 }
 
-/// Refuses a recording that is to be read.
-pub(super) fn check_other(options: &Identify) -> Result<(), Failure> {
+/// Rejects an output file that is one of the recordings.
+pub(super) fn check_is_no_input(options: &Identify) -> Result<(), Failure> {
     if let Some(path) = options.file()
         && let Ok(there) = fs::canonicalize(path)
         && let mut files = options.files.iter().flat_map(fs::canonicalize)
@@ -90,7 +90,7 @@ pub(super) fn check_other(options: &Identify) -> Result<(), Failure> {
     Ok(())
 }
 
-/// True for a device, a pipe, and what the command was given open: what there is no other file to take the place of.
+/// True for a device, a pipe, or an inherited descriptor: for what no finished file can replace.
 fn is_stream(path: &Path) -> bool {
     let is_given = ["/dev/stderr", "/dev/fd", "/proc"]
         .iter()
@@ -100,7 +100,7 @@ fn is_stream(path: &Path) -> bool {
         || fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir())
 }
 
-/// True for the names that lead to no file, in whatever directory.
+/// True for names of Windows devices, which are the same in every directory.
 fn is_device_of_windows(path: &Path) -> bool {
     let names = ["NUL", "CON", r"\\.\NUL", r"\\.\CON"];
     names
@@ -108,9 +108,9 @@ fn is_device_of_windows(path: &Path) -> bool {
         .any(|name| path.as_os_str().eq_ignore_ascii_case(name))
 }
 
-/// Opens it behind what is in it already.
+/// Opens a device or a pipe, behind its present contents.
 fn stream(path: &Path) -> Result<File, OutputError> {
-    // The console of Windows has no end to write behind.
+    // The console of Windows cannot be appended to.
     let file = if cfg!(windows) {
         File::options().write(true).open(path)
     } else {
@@ -119,13 +119,13 @@ fn stream(path: &Path) -> Result<File, OutputError> {
     file.map_err(|fault| OutputError::io(&path.display().to_string(), fault))
 }
 
-/// Writes until that fails, and nothing any more then: what is buffered would not follow what is there.
+/// A writer that repeats its first error for ever: what is still buffered would leave a hole behind what was written.
 struct UpToFault {
     file: File,
     name: String,
-    /// Nothing is written to it once it is cut short; a pipe, which may wait for its reader, is not.
+    /// Locked while writing, so that nothing follows a file that was cut short; `None` for a stream, whose reader may block.
     out: Option<Out>,
-    /// What the system said then.
+    /// The first error.
     fault: Option<(io::ErrorKind, String)>,
 }
 

@@ -1,4 +1,4 @@
-//! What a recording's samples and rows show beside what rows tell: looked at as they pass, and told in warnings.
+//! Checks of a recording's samples and rows, as they pass, for faults that the rows do not show; each gives a warning.
 
 pub(super) mod constant_pick_off;
 mod converter_step;
@@ -30,7 +30,7 @@ use same_signal_twice::SameSignalTwice;
 use sampled_in_turn::SampledInTurn;
 use silence::Silence;
 
-/// All that is looked for in a recording.
+/// All checks of a recording.
 #[derive(Debug)]
 pub(super) struct Remarks {
     settings: Settings,
@@ -46,14 +46,14 @@ pub(super) struct Remarks {
     sampled_in_turn: SampledInTurn,
     silence: Silence,
     rows: u64,
-    /// The least residual of a row that shows a wave, and the frequency of the last one, Hz.
+    /// The smallest residual of the rows with a wave, and the frequency of the last one, Hz.
     residual: f32,
     frequency: f64,
-    is_told_early: bool,
+    has_warned_early: bool,
 }
 
 impl Remarks {
-    /// Of a recording that is identified with these settings.
+    /// The checks of a recording that is identified with these settings.
     pub fn new(options: &Identify, recording: &Recording, settings: Settings) -> Self {
         let found = recording.resolution();
         Self {
@@ -72,7 +72,7 @@ impl Remarks {
             rows: 0,
             residual: f32::INFINITY,
             frequency: 0.0,
-            is_told_early: false,
+            has_warned_early: false,
         }
     }
 
@@ -101,25 +101,25 @@ impl Remarks {
         }
     }
 
-    /// Why rows are what they are, where that is sure.
-    pub fn why(&mut self) -> Option<String> {
+    /// The cause of misfits and scatter, where it is certain.
+    pub fn cause(&mut self) -> Option<String> {
         self.rounded_offset
-            .told()
-            .or_else(|| self.mains_ripple.told())
+            .warning()
+            .or_else(|| self.mains_ripple.warning())
     }
 
-    /// What to tell, before its end, of a recording that may have none; this is the step of all samples so far.
-    pub fn told_early(&mut self, step: Option<f32>) -> impl Iterator<Item = String> {
-        self.is_told_early = true;
-        // Rows have flags where one of them holds its value.
-        let constant = self.constant_pick_off.told().filter(|_| self.rows == 0);
-        let early = constant.or_else(|| self.same_signal_twice.told());
-        let step = self.converter_step.told(step, self.residual);
+    /// Warnings for a recording that may never end, before its end; `step` is the converter's step in all samples so far.
+    pub fn early_warnings(&mut self, step: Option<f32>) -> impl Iterator<Item = String> {
+        self.has_warned_early = true;
+        // If there are rows, their flags show a constant pick-off.
+        let constant = self.constant_pick_off.warning().filter(|_| self.rows == 0);
+        let early = constant.or_else(|| self.same_signal_twice.warning());
+        let step = self.converter_step.warning(step, self.residual);
         early.into_iter().chain(step)
     }
 
-    /// What to tell of a recording of so many seconds, whose samples show this step.
-    pub fn told(
+    /// Warnings at the end of a recording of this length, s; `step` is the converter's step in all samples.
+    pub fn warnings(
         &mut self,
         step: Option<f32>,
         span: &Span,
@@ -127,18 +127,19 @@ impl Remarks {
     ) -> impl Iterator<Item = String> {
         let has_rows = self.rows > 0;
         let has_option = self.settings.hum || self.settings.coloured;
-        let constant = self.constant_pick_off.told().filter(|_| has_rows);
-        let is_same_told = self.is_told_early || self.constant_pick_off.are_both();
+        let constant = self.constant_pick_off.warning().filter(|_| has_rows);
+        let is_same_known = self.has_warned_early || self.constant_pick_off.are_both_constant();
         [
             span.coarse_time(self.frequency),
-            self.silence.told(seconds, span.offset()),
-            self.converter_step.told(step, self.residual),
-            self.few_values.told().filter(|_| has_rows),
-            self.cut_off.told(self.residual),
-            self.why().or_else(|| self.row_scatter.told(has_option)),
-            self.sampled_in_turn.told(),
-            constant.or_else(|| self.pick_off_without_wave.told()),
-            self.same_signal_twice.told().filter(|_| !is_same_told),
+            self.silence.warning(seconds, span.offset()),
+            self.converter_step.warning(step, self.residual),
+            self.few_values.warning().filter(|_| has_rows),
+            self.cut_off.warning(self.residual),
+            self.cause()
+                .or_else(|| self.row_scatter.warning(has_option)),
+            self.sampled_in_turn.warning(),
+            constant.or_else(|| self.pick_off_without_wave.warning()),
+            self.same_signal_twice.warning().filter(|_| !is_same_known),
         ]
         .into_iter()
         .flatten()

@@ -1,46 +1,46 @@
-//! What becomes of the search for a period, and why there is no row where it comes to nothing.
+//! The outcome of the search for a period, and the reason why a recording gave no row.
 
 pub(super) mod unsearched_wave;
 
 use super::first_pairs::{amplitude_beyond, large_offset};
 use super::options::{Detector, Identify};
 use super::remarks::constant_pick_off::ConstantPickOff;
-use super::{Core, LONGEST, SHORTEST};
+use super::{Core, LONGEST_PERIOD, SHORTEST_PERIOD};
 use unsearched_wave::UnsearchedWave;
 
-/// Three of the longest periods that are searched: with fewer pairs none may be found for want of them.
+/// Three of the longest periods that are searched: fewer pairs may be too few to find a period.
 const FEW_PAIRS: u64 = 600;
 
-/// What became of the search for a period.
+/// The outcome of the search for a period.
 #[derive(Debug, Default)]
 pub(super) struct Search {
     has_found: bool,
-    /// Periods whose first window was no wave.
+    /// Periods found whose first window was no wave.
     refused: u64,
-    /// The mean of the first samples, and their rms about it, where that is much less.
+    /// The mean of the first samples, and their rms about it, if that is much smaller.
     offset: Option<[f64; 2]>,
-    /// How far the first samples swing, where that is no amplitude that can be identified.
-    beyond: Option<f64>,
+    /// The amplitude of the first samples, if it lies outside the range that can be identified.
+    amplitude_beyond: Option<f64>,
     unsearched: UnsearchedWave,
 }
 
 impl Search {
-    /// Takes the first pairs, which tell the offset and the scale.
+    /// Checks the offset and the amplitude of the first pairs.
     pub fn begin(&mut self, pairs: &[[f32; 2]]) {
         self.offset = large_offset(pairs);
-        self.beyond = amplitude_beyond(pairs);
+        self.amplitude_beyond = amplitude_beyond(pairs);
     }
 
-    /// What to tell of a scale that is not identified.
-    pub fn scale(&self) -> Option<String> {
-        self.beyond.map(|swing| {
+    /// A warning if the amplitude lies outside the range that can be identified.
+    pub fn scale_warning(&self) -> Option<String> {
+        self.amplitude_beyond.map(|swing| {
             format!(
                 "the first samples swing by {swing:.0e}, and amplitudes are identified from 1e-15 to 1e17: give the samples in another unit"
             )
         })
     }
 
-    /// Takes a look at the core.
+    /// Notes whether the core is searching.
     pub fn see(&mut self, is_searching: bool) {
         self.refused += u64::from(self.has_found && is_searching);
         self.has_found = !is_searching;
@@ -62,15 +62,15 @@ impl Search {
         let pairs = core.index();
         let all = format!("{pairs} sample pairs ({:.4} s)", pairs as f64 / rate);
         let periods = options.periods;
-        if let Some(told) = constant.told().filter(|_| constant.are_both()) {
+        if let Some(warning) = constant.warning().filter(|_| constant.are_both_constant()) {
             let what = if core.is_searching() {
                 "period"
             } else {
                 "wave"
             };
-            return format!("no {what} found in {all}: {told}");
+            return format!("no {what} found in {all}: {warning}");
         }
-        // A window may be so much longer than asked.
+        // A window may be up to a tenth longer than asked.
         let longest = |frequency: f32| 1.1 * f64::from(periods) * rate / f64::from(frequency);
         let known = options.frequency;
         let why = if let Some(frequency) = known.filter(|&known| pairs as f64 > longest(known)) {
@@ -88,7 +88,7 @@ impl Search {
             format!(
                 "a period was found, but no window of {periods} periods in {all} is mostly one wave; the wave may have fewer than 4 \
                  samples a period: check the sample rate; or look for a second tone{hum}; or the wave changes too fast: give a smaller \
-                 --periods; and check the scale of the samples, --full-scale and --resolution"
+                 --periods; and check the scale_warning of the samples, --full-scale_warning and --resolution"
             )
         } else if !core.is_searching() {
             let found = known.map_or("a period was found, but ", |_| "");
@@ -100,8 +100,8 @@ impl Search {
                 "no period found in only {all}: a search takes 3 periods, in noise 7; record longer, or give --frequency where it is \
                  known"
             )
-        } else if let Some(told) = self.unsearched.told(rate) {
-            format!("no period found in {all}: {told}")
+        } else if let Some(warning) = self.unsearched.warning(rate) {
+            format!("no period found in {all}: {warning}")
         } else {
             let other = match options.detector {
                 Detector::Difference => "mean-return",
@@ -110,14 +110,14 @@ impl Search {
             format!(
                 "no period found in {all}: no wave of 4 to 200 samples a period stands out of the noise; check the sample rate, the \
                  channels and the signal; try --detector {other}, as a second tone may hide the period, or give --frequency where it is \
-                 known, from {SHORTEST} to {LONGEST} samples a period"
+                 known, from {SHORTEST_PERIOD} to {LONGEST_PERIOD} samples a period"
             )
         };
-        why + &self.amiss(constant)
+        why + &self.fault_of_samples(constant)
     }
 
-    /// What is wrong with the samples themselves, after a semicolon; nothing where they look well.
-    fn amiss(&self, constant: &ConstantPickOff) -> String {
+    /// A fault of the samples themselves, after a semicolon; empty if none is seen.
+    fn fault_of_samples(&self, constant: &ConstantPickOff) -> String {
         let offset = || {
             let [mean, rms] = self.offset?;
             Some(format!(
@@ -125,7 +125,8 @@ impl Search {
                  take the offset off"
             ))
         };
-        let told = self.scale().or_else(|| constant.told()).or_else(offset);
-        told.map_or(String::new(), |told| format!("; {told}"))
+        let scale_warning = self.scale_warning();
+        let fault = scale_warning.or_else(|| constant.warning()).or_else(offset);
+        fault.map_or(String::new(), |fault| format!("; {fault}"))
     }
 }

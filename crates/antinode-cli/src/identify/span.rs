@@ -4,19 +4,19 @@ use super::options::Identify;
 use crate::failure::Failure;
 use crate::recording::Recording;
 
-/// How much of a sample a time may be rounded by.
+/// Rounding of a time, in samples, that is allowed for.
 const ROUNDING: f64 = 1e-3;
 
-/// The share of a period by which the steps of a time may be off its phase: 10⁻³ rad.
-const COARSE: f64 = 1.6e-4;
+/// Resolution of a time, in periods, below which it still gives the phase: 10⁻³ rad.
+const MAX_TIME_STEP: f64 = 1.6e-4;
 
 /// What to do with the next pairs.
 pub(super) enum Step {
-    /// So many samples are missing before them.
+    /// This many samples are missing before them.
     Lost(u64),
-    /// So many of them are not asked for.
+    /// This many of them lie before the span.
     Leave(usize),
-    /// So many of them are to be identified.
+    /// This many of them are to be identified.
     Take(usize),
     /// The rest of the recording is not asked for.
     End,
@@ -28,18 +28,18 @@ pub(super) struct Span {
     rate: f64,
     /// The time of the sample numbered 0, s.
     start: f64,
-    /// The numbers of the first sample and of the first behind the last.
+    /// The numbers of the first sample, and of the one after the last.
     first: u64,
     end: u64,
-    /// The pairs passed, and the number of the next, lost ones counted.
+    /// The pairs passed, and the number of the next one; numbers include lost samples.
     pairs: u64,
     number: u64,
-    /// The number of the first that was taken.
+    /// The number of the first pair that was identified.
     begun: Option<u64>,
 }
 
 impl Span {
-    /// What is asked for of a recording of this sample rate.
+    /// The span that is asked for, of a recording of this sample rate.
     pub fn new(options: &Identify, recording: &Recording, rate: f64) -> Self {
         let start = recording.start();
         let number = |time: f64| ((time - start) * rate - ROUNDING).ceil().max(0.0) as u64;
@@ -87,7 +87,7 @@ impl Span {
         }
     }
 
-    /// The next pairs are taken; gives the pairs of the recording before them.
+    /// Notes that the next pairs are identified, and returns how many pairs of the recording came before them.
     pub fn take(&mut self, pairs: usize) -> u64 {
         self.begun.get_or_insert(self.number);
         self.pass(pairs)
@@ -100,12 +100,12 @@ impl Span {
         before
     }
 
-    /// Whether a pair has been taken.
+    /// Whether any pair was identified.
     fn has_begun(&self) -> bool {
         self.begun.is_some()
     }
 
-    /// The time of the first pair taken, s.
+    /// The time of the first pair identified, s.
     pub fn offset(&self) -> f64 {
         self.time(self.begun.unwrap_or(0))
     }
@@ -114,11 +114,11 @@ impl Span {
         self.start + number as f64 / self.rate
     }
 
-    /// What to tell of rows of a wave of this frequency, Hz, whose phase their time does not tell any more.
+    /// A warning if times are too coarse to give the phase of a wave of this frequency, Hz.
     pub fn coarse_time(&self, frequency: f64) -> Option<String> {
         let start = self.offset();
         let step = start.abs() * f64::EPSILON;
-        (step * frequency > COARSE).then(|| {
+        (step * frequency > MAX_TIME_STEP).then(|| {
             format!(
                 "time begins at {start} s, and such a number has steps of {step:.0e} s: `phase_rad` stands for times that `time_s` does not tell \
                  so exactly; count the time from the recording's start"
@@ -126,7 +126,7 @@ impl Span {
         })
     }
 
-    /// What to tell where the recording was read as far as was asked, and has no sample in the span.
+    /// The failure if the recording, read as far as was asked, has no sample in the span.
     pub fn missing(&self, name: &str) -> Option<Failure> {
         let (start, end) = (self.start, self.time(self.number));
         let told = match self.asked {
@@ -147,7 +147,7 @@ impl Span {
         Some(Failure::Fault(format!("{name}: {told}")))
     }
 
-    /// What to tell where the recording has a part of the span.
+    /// A warning if the recording has only a part of the span.
     pub fn warning(&self) -> Option<String> {
         let (begins, ends) = (self.start, self.time(self.number));
         let early = self.asked[0].filter(|&from| (begins - from) * self.rate > 0.5);

@@ -1,4 +1,4 @@
-//! Ctrl-C, or the system's wish that the command end: rows that were found are printed, and their flags are told.
+//! Ctrl-C, or a signal to terminate: rows found so far are printed, and their flags reported.
 
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,19 +13,19 @@ use super::remarks::flag_counts::FlagCounts;
 use crate::failure::Failure;
 use crate::interrupt::on_interrupt;
 
-/// How long the command may take to end by itself: it may wait for samples of a pipe that do not come.
+/// Time for the command to end by itself: it may be waiting for samples that a pipe never sends.
 const GRACE: Duration = Duration::from_millis(300);
 
-/// Whether the command is to end, and what is to be told then.
+/// Whether the command is to end, and what it reports then.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Stop {
     is_asked: Arc<AtomicBool>,
-    /// The present recording and its rows, as long as these are not told.
-    present: Arc<Mutex<Option<(String, FlagCounts)>>>,
+    /// The current recording and its flag counts, until these are reported.
+    current: Arc<Mutex<Option<(String, FlagCounts)>>>,
 }
 
 impl Stop {
-    /// Waits for Ctrl-C, which cuts the rows' file short where the command does not end by itself; once in a process.
+    /// Installs the handler, once in a process; if the command does not end by itself, it cuts the rows' file short and exits.
     pub fn new(out: &Out) -> Result<Self, Failure> {
         let stop = Self::default();
         let asked = stop.clone();
@@ -33,7 +33,7 @@ impl Stop {
         on_interrupt(move || {
             asked.is_asked.store(true, Ordering::Relaxed);
             thread::sleep(GRACE);
-            asked.tell(false);
+            asked.report(false);
             let _closed = out.cut_short();
             let failure = Failure::Stopped;
             eprintln!("error: {failure}");
@@ -58,17 +58,17 @@ impl Stop {
         }
     }
 
-    /// Tells, once, how many rows of the present recording are flagged, and what may be done unless something else tells why.
-    pub fn tell(&self, knows_why: bool) {
+    /// Reports, once, how many rows of the current recording are flagged, with remedies unless the cause is known.
+    pub fn report(&self, is_cause_known: bool) {
         let Some((name, flagged)) = self.lock().take() else {
             return;
         };
-        if let Some(told) = flagged.told(knows_why) {
-            eprintln!("warning: {name}: {told}");
+        if let Some(warning) = flagged.warning(is_cause_known) {
+            eprintln!("warning: {name}: {warning}");
         }
     }
 
     fn lock(&self) -> MutexGuard<'_, Option<(String, FlagCounts)>> {
-        self.present.lock().unwrap_or_else(PoisonError::into_inner)
+        self.current.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -1,30 +1,30 @@
-//! A recording's samples become rows: what is done with each stretch of pairs, and what is told once all are read.
+//! Turns the samples of a recording into rows, and reports what was noticed once all are read.
 
 use std::io::Write;
 
 use antinode::{Estimate, SettingsError};
 
-use super::first_pairs::{FirstPairs, elsewhere, straight};
+use super::first_pairs::{FirstPairs, other_frequency, ramp};
 use super::options::{Identify, Methods};
 use super::remarks::Remarks;
 use super::search::Search;
 use super::search::unsearched_wave::alias;
 use super::span::{Span, Step};
 use super::stop::Stop;
-use super::{Core, LONGEST, SHORTEST, is_pipe};
+use super::{Core, LONGEST_PERIOD, SHORTEST_PERIOD, is_pipe};
 use crate::failure::Failure;
 use crate::methods::History;
 use crate::recording::Recording;
 use crate::rows::Rows;
 
-/// Samples of the longest period that is searched.
-const SEARCHED: usize = 200;
+/// Samples in the longest period that is searched.
+const LONGEST_SEARCHED: usize = 200;
 
-/// Pairs between two looks at the search: no period is found and refused in fewer.
-const GLANCE: usize = 8;
+/// Pairs between two looks at the search: too few for a period to be found and refused unseen.
+const WATCHED_PAIRS: usize = 8;
 
-/// The least and the most pairs before a pipe is told of something early: fewer may be alike by chance, and more need no second.
-const EARLY: [f64; 2] = [64.0, 1e6];
+/// Fewest and most pairs before a pipe's early warnings, else a second's: fewer may be alike by chance, more are not needed.
+const EARLY_PAIRS: [f64; 2] = [64.0, 1e6];
 
 /// The identification of one recording.
 pub(super) struct Windows<'a> {
@@ -37,13 +37,13 @@ pub(super) struct Windows<'a> {
     search: Search,
     span: Span,
     remarks: Remarks,
-    /// From this pair on, after a second, a pipe is told what a file is told at its end, which a pipe may not have.
+    /// The pair after which a pipe, which may never end, gets its early warnings; `None` once they are given, and for a file.
     early: Option<u64>,
     stop: &'a Stop,
 }
 
 impl<'a> Windows<'a> {
-    /// Of a recording of this name and sample rate.
+    /// The identification of a recording of this name and sample rate.
     pub fn new(
         name: &'a str,
         options: &'a Identify,
@@ -55,16 +55,16 @@ impl<'a> Windows<'a> {
         let core = Core::new(settings).map_err(|error| match error {
             SettingsError::Frequency(frequency)
             | SettingsError::FrequencyTooLow { frequency, .. } => Failure::Usage(format!(
-                "{name}: --frequency: {frequency} Hz, but at {rate} Hz it must lie within {:.6} to {} Hz, {LONGEST} to {SHORTEST} samples a period{}",
-                rate / LONGEST as f64,
-                rate / SHORTEST,
+                "{name}: --frequency: {frequency} Hz, but at {rate} Hz it must lie within {:.6} to {} Hz, {LONGEST_PERIOD} to {SHORTEST_PERIOD} samples a period{}",
+                rate / LONGEST_PERIOD as f64,
+                rate / SHORTEST_PERIOD,
                 alias(f64::from(frequency), rate)
             )),
             error => error.into(),
         })?;
-        // A little more of a period that is known.
+        // A known frequency may be off.
         let known = |frequency| (1.1 * rate / f64::from(frequency)) as usize + 1;
-        let longest = options.frequency.map_or(SEARCHED, known);
+        let longest = options.frequency.map_or(LONGEST_SEARCHED, known);
         let history = (options.methods == Methods::All).then(|| History::new(&settings, longest));
         Ok(Self {
             name,
@@ -76,7 +76,7 @@ impl<'a> Windows<'a> {
             search: Search::default(),
             span: Span::new(options, recording, rate),
             remarks: Remarks::new(options, recording, settings),
-            early: is_pipe(recording).then(|| rate.clamp(EARLY[0], EARLY[1]) as u64),
+            early: is_pipe(recording).then(|| rate.clamp(EARLY_PAIRS[0], EARLY_PAIRS[1]) as u64),
             stop,
         })
     }
@@ -86,7 +86,7 @@ impl<'a> Windows<'a> {
         self.core.index()
     }
 
-    /// Takes the next pairs of the recording, and prints the rows that they complete; false where no more are asked for.
+    /// Identifies the next pairs of the recording, and prints the rows that they complete; false at the end of the span.
     pub fn take(
         &mut self,
         recording: &mut Recording,
@@ -112,9 +112,9 @@ impl<'a> Windows<'a> {
             if let Some(first) = self.first.see(&pairs[..most]) {
                 self.begin(&first)?;
             }
-            // Until the first row, what becomes of the search is to be seen.
+            // Until the first row, the search is watched closely.
             if rows.count() == 0 {
-                most = most.min(GLANCE);
+                most = most.min(WATCHED_PAIRS);
             }
             let (taken, estimate) = self.core.push_slice(&pairs[..most]);
             self.search.see(self.core.is_searching());
@@ -136,25 +136,25 @@ impl<'a> Windows<'a> {
         let pairs = self.core.index();
         if self.early.take_if(|due| pairs >= *due).is_some() {
             let step = recording.resolution_so_far();
-            for told in self.remarks.told_early(step) {
+            for warning in self.remarks.early_warnings(step) {
                 rows.flush()?;
-                eprintln!("warning: {}: so far {told}", self.name);
+                eprintln!("warning: {}: so far {warning}", self.name);
             }
         }
         Ok(true)
     }
 
-    /// Looks at the first pairs that are identified.
+    /// Checks the first pairs; fails if they come from no pick-off.
     fn begin(&mut self, pairs: &[[f32; 2]]) -> Result<(), Failure> {
         let name = self.name;
-        if let Some(channel) = straight(pairs) {
+        if let Some(channel) = ramp(pairs) {
             return Err(Failure::Fault(format!(
                 "{name}: {channel} goes up in equal steps, as a time or a counter does: give the two signals alone"
             )));
         }
         self.search.begin(pairs);
         if let Some(frequency) = self.options.frequency
-            && let Some(warning) = elsewhere(pairs, self.rate, frequency)
+            && let Some(warning) = other_frequency(pairs, self.rate, frequency)
         {
             eprintln!("warning: {name}: {warning}");
         }
@@ -174,19 +174,19 @@ impl<'a> Windows<'a> {
         Ok(())
     }
 
-    /// Tells what is to be known of a recording that was read as far as was asked, or up to a fault.
+    /// Reports the warnings and faults of a recording that was read as far as was asked, or up to a fault.
     pub fn conclude(
         mut self,
         recording: &Recording,
         fault: Option<Failure>,
         rows: &mut Rows<impl Write>,
     ) -> Result<(), Failure> {
-        // Rows before what is told of them.
+        // Rows come before the warnings about them.
         let flushed = rows.flush().map_err(Failure::from);
         if matches!(flushed, Err(Failure::Closed)) {
             return flushed;
         }
-        self.stop.tell(self.remarks.why().is_some());
+        self.stop.report(self.remarks.cause().is_some());
         let first = self.first.rest();
         let mistaken = first.and_then(|first| self.begin(&first).err());
         let name = self.name;
@@ -196,8 +196,8 @@ impl<'a> Windows<'a> {
         let seconds = self.core.index() as f64 / self.rate;
         let span = self.span.warning().filter(|_| fault.is_none());
         let step = recording.resolution_so_far();
-        let remarks = self.remarks.told(step, &self.span, seconds);
-        let scale = self.search.scale().filter(|_| rows.count() > 0);
+        let remarks = self.remarks.warnings(step, &self.span, seconds);
+        let scale = self.search.scale_warning().filter(|_| rows.count() > 0);
         for warning in span.into_iter().chain(remarks).chain(scale) {
             eprintln!("warning: {name}: {warning}");
         }
@@ -213,9 +213,9 @@ impl<'a> Windows<'a> {
                 Failure::Fault(format!("{name}: {why}"))
             })),
         };
-        let told = [recording.lost(), recording.not_finite()];
-        let told = told.into_iter().flatten().map(Failure::from);
-        let mut failures = told.chain(mistaken).chain(failure);
+        let missing = [recording.lost(), recording.not_finite()];
+        let missing = missing.into_iter().flatten().map(Failure::from);
+        let mut failures = missing.chain(mistaken).chain(failure);
         let Some(mut last) = failures.next() else {
             return Ok(());
         };

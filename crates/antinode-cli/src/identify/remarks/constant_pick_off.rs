@@ -1,14 +1,14 @@
-//! Pick-offs that hold one and the same value all the time: however it is searched, there is no wave.
+//! Check for pick-offs whose value never changes, in which no search can find a wave.
 
-/// As many samples of a converter are hardly the same by chance.
-const ENOUGH: u64 = 64;
+/// Pairs from which on equal samples of a converter are hardly chance.
+const MIN_PAIRS: u64 = 64;
 
 /// What each pick-off has held since the first pair.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ConstantPickOff {
     /// The first pair.
     first: Option<[f32; 2]>,
-    /// Whether a pick-off gave another value since.
+    /// Whether each pick-off has given another value since.
     has_moved: [bool; 2],
     pairs: u64,
 }
@@ -27,14 +27,14 @@ impl ConstantPickOff {
         }
     }
 
-    /// Whether both pick-offs hold their values.
-    pub fn are_both(&self) -> bool {
+    /// Whether neither pick-off has changed its value.
+    pub fn are_both_constant(&self) -> bool {
         self.has_moved == [false; 2]
     }
 
-    /// What to tell of those that hold theirs.
-    pub fn told(&self) -> Option<String> {
-        let first = self.first.filter(|_| self.pairs >= ENOUGH)?;
+    /// A warning that names the constant pick-offs.
+    pub fn warning(&self) -> Option<String> {
+        let first = self.first.filter(|_| self.pairs >= MIN_PAIRS)?;
         let (who, value) = match self.has_moved {
             [false, false] => ("S_C and S_D hold", format!("{} and {}", first[0], first[1])),
             [false, true] => ("S_C holds", first[0].to_string()),
@@ -51,13 +51,13 @@ impl ConstantPickOff {
 mod tests {
     use super::*;
 
-    /// What is told of pairs that come in stretches.
-    fn told(pairs: &[[f32; 2]]) -> Option<String> {
+    /// The warning for pairs that come in stretches.
+    fn warning(pairs: &[[f32; 2]]) -> Option<String> {
         let mut constant = ConstantPickOff::default();
         for stretch in pairs.chunks(8) {
             constant.see(stretch);
         }
-        constant.told()
+        constant.warning()
     }
 
     #[test]
@@ -82,19 +82,19 @@ mod tests {
             let mut pairs = vec![[0.5, -0.25]; 100];
             pairs[57][0] += f32::from(u8::from(c));
             pairs[99][1] += f32::from(u8::from(d));
-            let told = told(&pairs).expect("one holds its value");
-            assert!(told.starts_with(start), "{told}");
+            let warning = warning(&pairs).expect("one holds its value");
+            assert!(warning.starts_with(start), "{warning}");
         }
-        assert!(told(&[[0.0; 2]; 64]).is_some());
+        assert!(warning(&[[0.0; 2]; 64]).is_some());
     }
 
     #[test]
-    fn two_that_moved_and_a_few_samples_are_not() {
+    fn moving_pick_offs_and_too_few_samples_raise_no_warning() {
         let mut pairs = [[0.5, -0.25]; 100];
         pairs[1][0] = 0.0;
         pairs[2][1] = 0.0;
-        assert_eq!(told(&pairs), None);
-        assert_eq!(told(&[[0.5; 2]; 63]), None);
-        assert_eq!(told(&[]), None);
+        assert_eq!(warning(&pairs), None);
+        assert_eq!(warning(&[[0.5; 2]; 63]), None);
+        assert_eq!(warning(&[]), None);
     }
 }

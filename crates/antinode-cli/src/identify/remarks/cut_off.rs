@@ -1,39 +1,39 @@
-//! Samples that stand at their highest or lowest value far more often than a step beside it: cut off where no rail is known, too little
+//! Check for samples at their highest or lowest value far more often than one step beside it: cut off at an unknown rail, by too little
 //! for a window to show it.
 
 use antinode::Flags;
 
-/// So many times as often as beside it: at its crest a wave is 2.4 times as often in the last step as in the one before, and noise makes that
+/// Ratio of samples at an end to those one step beside it, at least: the crest of a wave that is not cut off has 2.4, and noise makes that
 /// less.
-const OFTEN: u64 = 6;
-/// Samples at the end, and beside it, from which on that is no chance.
-const LEAST: u64 = 40;
-const LEAST_BESIDE: u64 = 5;
-/// Noise of less than this, in steps, leaves the samples of a wave that repeats on the same few codes.
-const LEAST_NOISE: f32 = 0.3;
-/// Pairs that are looked at together, however they come.
+const MIN_RATIO: u64 = 6;
+/// Samples at the end, and beside it, from which on the ratio is no chance.
+const MIN_AT_END: u64 = 40;
+const MIN_BESIDE: u64 = 5;
+/// Noise, in steps, below which a wave that repeats may give the same few codes over and over.
+const MIN_NOISE: f32 = 0.3;
+/// Pairs examined together, however they arrive.
 const STRETCH: usize = 1 << 12;
-/// Stretches that are all looked at; of those behind them one in so many.
-const ALL: u64 = 32;
-const SHARE: u64 = 8;
+/// Stretches at the beginning that are all examined, and which share of the later ones: one in this many.
+const FIRST_STRETCHES: u64 = 32;
+const ONE_IN: u64 = 8;
 
-/// One end of a pick-off's samples, as the greatest of what they are or of their negatives.
+/// One end of a pick-off's range: the maximum of its samples or of their negatives.
 #[derive(Debug, Clone, Copy)]
 struct End {
     value: f32,
-    /// Samples there, and one step beside it.
+    /// Samples at this value, and one step beside it.
     count: u64,
     beside: u64,
 }
 
-/// The ends of both pick-offs' samples.
+/// The ends of both pick-offs' ranges.
 #[derive(Debug)]
 pub(super) struct CutOff {
     /// The converter's step, where it is known.
     step: Option<f32>,
     /// Lowest and highest, of S_C and S_D.
     ends: [[End; 2]; 2],
-    /// The stretch that has begun, if it is looked at, and how many pairs of it there were.
+    /// The current stretch, if it is to be examined, and how many of its pairs have passed.
     stretch: Vec<[f32; 2]>,
     taken: usize,
     stretches: u64,
@@ -42,7 +42,7 @@ pub(super) struct CutOff {
 }
 
 impl CutOff {
-    /// Of a converter of this step.
+    /// No samples yet, of a converter with this step.
     pub fn new(step: Option<f32>) -> Self {
         let none = End {
             value: f32::NEG_INFINITY,
@@ -66,19 +66,19 @@ impl CutOff {
             let (now, rest) = pairs.split_at(pairs.len().min(STRETCH - self.taken));
             pairs = rest;
             self.taken += now.len();
-            if self.stretches < ALL || self.stretches.is_multiple_of(SHARE) {
+            if self.stretches < FIRST_STRETCHES || self.stretches.is_multiple_of(ONE_IN) {
                 self.stretch.extend_from_slice(now);
             }
             if self.taken == STRETCH {
-                self.look();
+                self.examine();
                 self.taken = 0;
                 self.stretches += 1;
             }
         }
     }
 
-    /// Looks at what there is of a stretch.
-    fn look(&mut self) {
+    /// Examines what there is of the current stretch.
+    fn examine(&mut self) {
         let Some(step) = self.step else { return };
         for (channel, ends) in self.ends.iter_mut().enumerate() {
             for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
@@ -94,11 +94,11 @@ impl CutOff {
         self.clipped += u64::from(flags.contains(Flags::CLIPPED));
     }
 
-    /// What to tell, where most rows do not have the flag, and this is the least residual of a row.
-    pub fn told(&mut self, residual: f32) -> Option<String> {
+    /// A warning if samples are cut off though most rows have no flag; `residual` is the smallest of any row.
+    pub fn warning(&mut self, residual: f32) -> Option<String> {
         let step = self.step?;
-        self.look();
-        if self.rows == 0 || 2 * self.clipped > self.rows || residual < LEAST_NOISE * step {
+        self.examine();
+        if self.rows == 0 || 2 * self.clipped > self.rows || residual < MIN_NOISE * step {
             return None;
         }
         let ends = self.ends.iter().zip(["S_C", "S_D"]);
@@ -119,17 +119,17 @@ impl CutOff {
 impl End {
     fn see(&mut self, pairs: &[[f32; 2]], channel: usize, sign: f32, step: f32) {
         let samples = || pairs.iter().map(|pair| sign * pair[channel]);
-        let most = samples().fold(f32::NEG_INFINITY, f32::max);
-        if most > self.value {
-            // One step higher, what was the end is beside it.
-            let is_next = (most - self.value - step).abs() < 0.5 * step;
+        let max = samples().fold(f32::NEG_INFINITY, f32::max);
+        if max > self.value {
+            // If the new end is one step higher, the old one is beside it.
+            let is_next = (max - self.value - step).abs() < 0.5 * step;
             *self = Self {
-                value: most,
+                value: max,
                 count: 0,
                 beside: if is_next { self.count } else { 0 },
             };
         }
-        if most < self.value - 1.5 * step {
+        if max < self.value - 1.5 * step {
             return;
         }
         let (value, near) = (self.value - 0.5 * step, self.value - 1.5 * step);
@@ -144,9 +144,9 @@ impl End {
 
     fn is_cut(&self) -> bool {
         self.value.is_finite()
-            && self.count >= LEAST
-            && self.beside >= LEAST_BESIDE
-            && self.count >= OFTEN * self.beside
+            && self.count >= MIN_AT_END
+            && self.beside >= MIN_BESIDE
+            && self.count >= MIN_RATIO * self.beside
     }
 }
 
@@ -157,8 +157,8 @@ mod tests {
     use super::*;
     use crate::deviates::Deviates;
 
-    /// What is told of a wave of this amplitude and noise, in steps, whose S_D is cut off at a level.
-    fn told(
+    /// The warning for a wave of this amplitude and noise, in steps, whose S_D is cut off at a level.
+    fn warning(
         period: f64,
         main: f64,
         noise: f64,
@@ -179,27 +179,27 @@ mod tests {
             let mut cut_off = CutOff::new(Some(1.0));
             pairs.chunks(size).for_each(|pairs| cut_off.see(pairs));
             cut_off.row(Flags::empty());
-            cut_off.told(noise.hypot(0.29) as f32)
+            cut_off.warning(noise.hypot(0.29) as f32)
         };
-        // However the pairs come.
-        let told = tell(700);
-        assert_eq!(told, tell(9000));
-        told
+        // However the pairs arrive.
+        let warning = tell(700);
+        assert_eq!(warning, tell(9000));
+        warning
     }
 
     #[test]
-    fn a_wave_that_is_hardly_cut_off_is_told_and_no_other() {
+    fn a_wave_that_is_slightly_cut_off_raises_a_warning_and_no_other_does() {
         for seed in 0..40 {
             let period = 4.3171 + 0.77 * seed as f64 + 0.013 * (seed * seed) as f64;
             for noise in [0.3, 0.6, 2.0] {
                 for main in [60.0, 500.0, 2000.0] {
                     for decay in [0.0, 2e-5] {
-                        let none = told(period, main, noise, f64::INFINITY, decay, seed);
+                        let none = warning(period, main, noise, f64::INFINITY, decay, seed);
                         assert_eq!(none, None, "{period} {main} {noise} {decay}");
                     }
                 }
                 // By half a per cent.
-                let cut = told(period, 2000.0, noise, 2090.0, 0.0, seed).unwrap_or_default();
+                let cut = warning(period, 2000.0, noise, 2090.0, 0.0, seed).unwrap_or_default();
                 assert!(
                     cut.starts_with("S_D stands at its highest value, 2090, "),
                     "{period} {noise}: {cut}"
@@ -210,16 +210,16 @@ mod tests {
         for period in [4.0, 5.0, 8.0, 18.75, 20.0] {
             for phase in 0..40 {
                 let main = 500.0 + 0.05 * f64::from(phase);
-                assert_eq!(told(period, main, 0.3, f64::INFINITY, 0.0, 1), None);
+                assert_eq!(warning(period, main, 0.3, f64::INFINITY, 0.0, 1), None);
             }
         }
     }
 
     #[test]
-    fn nothing_is_told_without_a_step_or_where_rows_have_the_flag() {
+    fn no_warning_without_a_step_or_if_rows_have_the_flag() {
         let mut cut_off = CutOff::new(None);
         cut_off.see(&[[1.0; 2]; 100]);
-        assert_eq!(cut_off.told(1.0), None);
+        assert_eq!(cut_off.warning(1.0), None);
         let end = End {
             value: 1.0,
             count: 1000,
@@ -227,15 +227,15 @@ mod tests {
         };
         let mut cut_off = CutOff::new(Some(1.0));
         cut_off.ends = [[end; 2]; 2];
-        assert_eq!(cut_off.told(1.0), None);
+        assert_eq!(cut_off.warning(1.0), None);
         cut_off.rows = 10;
         assert!(
             cut_off
-                .told(1.0)
+                .warning(1.0)
                 .unwrap()
                 .contains("S_C stands at its lowest value, -1, 100 times")
         );
         cut_off.clipped = 6;
-        assert_eq!(cut_off.told(1.0), None);
+        assert_eq!(cut_off.warning(1.0), None);
     }
 }

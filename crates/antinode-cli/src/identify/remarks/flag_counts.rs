@@ -1,31 +1,31 @@
-//! How many rows are flagged and by what, and what may be done where many of them have one flag and no other.
+//! Counts of flagged rows, with remedies where many rows have one flag and no other.
 
 use std::cmp::Reverse;
 
 use antinode::Flags;
 
-/// Rows from which on a remedy is named, where they are a tenth of all.
-const MANY: u64 = 20;
-/// The same where they are most of all: a recording may have but a few long windows.
-const SOME: u64 = 4;
+/// Rows from which on a remedy is named, if they are more than a tenth of all.
+const MIN_OF_TENTH: u64 = 20;
+/// The same if they are more than half of all: a recording may have only a few long windows.
+const MIN_OF_HALF: u64 = 4;
 
-/// What may be done about clipped rows.
-const OF_CLIPPED: &str = "give the wave less gain where an amplifier or the converter limits it, or a larger --periods where a tone near \
+/// Remedies for clipped rows.
+const CLIPPED_REMEDY: &str = "give the wave less gain where an amplifier or the converter limits it, or a larger --periods where a tone near \
                           three times the frequency is taken for its third harmonic";
 
-/// What may be wrong where most rows are circular.
-const OF_CIRCULAR: &str = "S_C and S_D are one wave a quarter period apart, as I and Q of a lock-in amplifier are: give the pick-offs' own \
+/// The probable cause if most rows are circular.
+const CIRCULAR_CAUSE: &str = "S_C and S_D are one wave a quarter period apart, as I and Q of a lock-in amplifier are: give the pick-offs' own \
                            samples, not demodulated ones";
 
-/// Rows with flags.
+/// Counts of rows by their flags.
 #[derive(Debug, Default)]
 pub struct FlagCounts {
-    /// What is taken for no fault.
+    /// Whether these options were given.
     hum: bool,
     coloured: bool,
     rows: u64,
     flagged: u64,
-    /// Of each flag.
+    /// The name of each flag, and the rows that have it.
     counts: Vec<(&'static str, u64)>,
     misfits_alone: u64,
     clipped_alone: u64,
@@ -57,8 +57,8 @@ impl FlagCounts {
         }
     }
 
-    /// What to tell in one line where there are any; what may be done about misfits only where nothing else tells why.
-    pub fn told(&self, knows_why: bool) -> Option<String> {
+    /// A warning in one line if any row is flagged; remedies for misfits only if their cause is not known otherwise.
+    pub fn warning(&self, is_cause_known: bool) -> Option<String> {
         if self.flagged == 0 {
             return None;
         }
@@ -69,48 +69,56 @@ impl FlagCounts {
             .iter()
             .map(|(name, count)| format!("{name} {count}"))
             .collect();
-        let mut told = format!(
+        let mut warning = format!(
             "{flagged} of {rows} rows {} flagged: {}",
             if flagged == 1 { "is" } else { "are" },
             counts.join(", ")
         );
-        // A pattern goes through a circle now and then, but does not stay.
+        // A pattern may pass through a circle now and then, but does not stay.
         let circular = if 2 * self.circular_alone > rows {
             self.circular_alone
         } else {
             0
         };
-        let misfits = if knows_why { 0 } else { self.misfits_alone };
+        let misfits = if is_cause_known {
+            0
+        } else {
+            self.misfits_alone
+        };
         for (alone, flag, remedies) in [
-            (misfits, "misfit", self.of_misfits()),
-            (self.clipped_alone, "clipped", OF_CLIPPED.to_owned()),
-            (circular, "circular", OF_CIRCULAR.to_owned()),
+            (misfits, "misfit", self.misfit_remedies()),
+            (self.clipped_alone, "clipped", CLIPPED_REMEDY.to_owned()),
+            (circular, "circular", CIRCULAR_CAUSE.to_owned()),
         ] {
-            if alone >= MANY && 10 * alone > rows || alone >= SOME && 2 * alone > rows {
-                told += "; ";
+            if alone >= MIN_OF_TENTH && 10 * alone > rows
+                || alone >= MIN_OF_HALF && 2 * alone > rows
+            {
+                warning += "; ";
                 if alone < flagged {
-                    told += &format!("{alone} have {flag} alone: ");
+                    warning += &format!("{alone} have {flag} alone: ");
                 }
-                told += &remedies;
+                warning += &remedies;
             }
         }
-        Some(told)
+        Some(warning)
     }
 
-    /// What may be done about misfits.
-    fn of_misfits(&self) -> String {
-        let mut told = String::new();
+    /// Remedies for misfits.
+    fn misfit_remedies(&self) -> String {
+        let mut warning = String::new();
         if !self.hum && !self.coloured {
-            told += "if that is mains hum or an offset that wanders, --hum takes it out; ";
+            warning += "if that is mains hum or an offset that wanders, --hum takes it out; ";
         }
         if !self.coloured {
-            told += "if a filter leaves less noise at three times the frequency, give --coloured; ";
+            warning +=
+                "if a filter leaves less noise at three times the frequency, give --coloured; ";
         }
         let coloured = if self.coloured { "" } else { "--coloured and " };
-        told += &format!(
+        warning += &format!(
             "if there is a second tone, give {coloured}a --periods that holds several of its beats with the wave; "
         );
-        told + "if the frequency drifts or the pattern turns far within a window, give a smaller --periods"
+        warning
+            + "if the frequency drifts or the pattern turns far within a window, give a smaller --periods"
     }
 }
 
@@ -118,23 +126,23 @@ impl FlagCounts {
 mod tests {
     use super::*;
 
-    /// What is told of rows with these flags, so many times each.
-    fn told(rows: &[(u64, Flags)]) -> Option<String> {
+    /// The warning for rows with these flags, each this many times.
+    fn warning(rows: &[(u64, Flags)]) -> Option<String> {
         let mut counts = FlagCounts::new(true, true);
         for &(count, flags) in rows {
             (0..count).for_each(|_| counts.see(flags));
         }
-        counts.told(false)
+        counts.warning(false)
     }
 
     #[test]
     fn every_flag_is_counted() {
-        assert_eq!(told(&[]), None);
-        assert_eq!(told(&[(9, Flags::empty())]), None);
-        let one = told(&[(9, Flags::empty()), (1, Flags::REACQUIRED)]);
+        assert_eq!(warning(&[]), None);
+        assert_eq!(warning(&[(9, Flags::empty())]), None);
+        let one = warning(&[(9, Flags::empty()), (1, Flags::REACQUIRED)]);
         assert_eq!(one.unwrap(), "1 of 10 rows is flagged: reacquired 1");
         let both = Flags::STEP.with(Flags::MISFIT);
-        let several = told(&[
+        let several = warning(&[
             (90, Flags::empty()),
             (1, Flags::STEP),
             (3, both),
@@ -157,11 +165,11 @@ mod tests {
             ),
             (
                 vec![(2, Flags::empty()), (4, Flags::CLIPPED)],
-                format!("clipped 4; {OF_CLIPPED}"),
+                format!("clipped 4; {CLIPPED_REMEDY}"),
             ),
             (
                 vec![clean, (1, Flags::STEP), (20, Flags::CLIPPED)],
-                format!("clipped 20, step 1; 20 have clipped alone: {OF_CLIPPED}"),
+                format!("clipped 20, step 1; 20 have clipped alone: {CLIPPED_REMEDY}"),
             ),
             (
                 vec![(300, Flags::empty()), (20, Flags::CLIPPED)],
@@ -169,15 +177,15 @@ mod tests {
             ),
             (
                 vec![(6, Flags::empty()), (18, Flags::CIRCULAR)],
-                format!("circular 18; {OF_CIRCULAR}"),
+                format!("circular 18; {CIRCULAR_CAUSE}"),
             ),
             (
                 vec![(30, Flags::empty()), (29, Flags::CIRCULAR)],
                 "flagged: circular 29".to_owned(),
             ),
         ] {
-            let told = told(&rows).unwrap();
-            assert!(told.ends_with(&ends), "{told}");
+            let warning = warning(&rows).unwrap();
+            assert!(warning.ends_with(&ends), "{warning}");
         }
     }
 }

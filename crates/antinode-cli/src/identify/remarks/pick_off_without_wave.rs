@@ -1,19 +1,19 @@
-//! A pick-off that never shows the wave: its rows look like a pattern on the other's axis.
+//! Check for a pick-off that never shows the wave: rows then look like a pattern on the other's axis.
 
 use antinode::Estimate;
 
-/// Clean rows from which on they are believed.
-const MANY: u32 = 16;
-/// The rms of a pick-off's wave, as a share of the other's, below which it is none: no pattern stands on an axis by chance so exactly.
-const NONE: f64 = 1e-3;
+/// Clean rows needed for a verdict.
+const MIN_ROWS: u32 = 16;
+/// Rms of a pick-off's wave, as a share of the other's, below which it has none: no pattern stands that exactly on an axis by chance.
+const MAX_SHARE: f64 = 1e-3;
 
-/// What clean rows show of each pick-off's wave.
+/// The wave that clean rows show on each pick-off.
 #[derive(Debug, Default)]
 pub(super) struct PickOffWithoutWave {
     rows: u32,
     /// Σ of the squared amplitudes of S_C and of S_D, less what noise adds.
     powers: [f64; 2],
-    /// Σ of the variances of these squares where there is noise alone.
+    /// Σ of the variances that these squares have in noise alone.
     chance: f64,
 }
 
@@ -28,7 +28,7 @@ impl PickOffWithoutWave {
             f64::from(row.main_amplitude),
             f64::from(row.quadrature_amplitude),
         );
-        // Both parts of a phasor have noise.
+        // Both parts of a phasor carry noise.
         let noise = f64::from(row.main_amplitude_std).powi(2)
             + f64::from(row.quadrature_amplitude_std).powi(2);
         self.rows += 1;
@@ -37,13 +37,13 @@ impl PickOffWithoutWave {
         self.chance += noise * noise;
     }
 
-    /// What to tell of a pick-off that shows no wave, however long the rows are looked at.
-    pub fn told(&self) -> Option<String> {
+    /// A warning that names a pick-off without a wave.
+    pub fn warning(&self) -> Option<String> {
         let [c, d] = self.powers;
         let (less, more, who) = if c < d { (c, d, "S_C") } else { (d, c, "S_D") };
-        let least = NONE * NONE * more;
-        // Noise must leave such a wave to be seen.
-        let is_told = self.rows >= MANY && less < least && 3.0 * self.chance.sqrt() < least;
+        let least = MAX_SHARE * MAX_SHARE * more;
+        // Noise must be low enough for so small a wave to be seen.
+        let is_told = self.rows >= MIN_ROWS && less < least && 3.0 * self.chance.sqrt() < least;
         is_told.then(|| {
             format!(
                 "{who} shows no wave in any row: unless the pattern stands on the other pick-off's axis, rows show one signal; check the wiring, \
@@ -59,8 +59,13 @@ mod tests {
     use super::*;
     use crate::deviates::Deviates;
 
-    /// What is told of so many rows of a pattern at this angle, rad, with these amplitudes and deviation.
-    fn told(rows: u64, angle: f64, [main, quadrature]: [f64; 2], deviation: f64) -> Option<String> {
+    /// The warning for this many rows of a pattern at this angle, rad, with these amplitudes and their deviation.
+    fn warning(
+        rows: u64,
+        angle: f64,
+        [main, quadrature]: [f64; 2],
+        deviation: f64,
+    ) -> Option<String> {
         let (mut without_wave, mut deviates) = (PickOffWithoutWave::default(), Deviates(1));
         for index in 0..rows {
             let mut near = |value: f64, by: f64| value + by * deviates.draw();
@@ -74,25 +79,28 @@ mod tests {
                 ..row(index, 0.0, &mut Deviates(0))
             });
         }
-        without_wave.told()
+        without_wave.warning()
     }
 
     #[test]
     fn the_pick_off_without_a_wave_is_named() {
         use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
         for (angle, who) in [(0.0, "S_D"), (FRAC_PI_2, "S_D"), (FRAC_PI_4, "S_C")] {
-            let told = told(1000, angle, [0.5, 0.0], 1e-3).expect("one has no wave");
-            assert!(told.starts_with(&format!("{who} shows no wave")), "{told}");
+            let warning = warning(1000, angle, [0.5, 0.0], 1e-3).expect("one has no wave");
+            assert!(
+                warning.starts_with(&format!("{who} shows no wave")),
+                "{warning}"
+            );
         }
     }
 
     #[test]
-    fn a_wave_on_both_is_not_told() {
-        assert_eq!(told(1000, 2e-3, [0.5, 0.0], 1e-3), None);
-        assert_eq!(told(1000, 0.0, [0.5, 2e-3], 1e-3), None);
-        assert_eq!(told(1000, 0.4, [0.5, 0.3], 1e-3), None);
+    fn a_wave_on_both_raises_no_warning() {
+        assert_eq!(warning(1000, 2e-3, [0.5, 0.0], 1e-3), None);
+        assert_eq!(warning(1000, 0.0, [0.5, 2e-3], 1e-3), None);
+        assert_eq!(warning(1000, 0.4, [0.5, 0.3], 1e-3), None);
         // Too few rows, or too much noise.
-        assert_eq!(told(15, 0.0, [0.5, 0.0], 1e-6), None);
-        assert_eq!(told(1000, 0.0, [0.5, 0.0], 3e-2), None);
+        assert_eq!(warning(15, 0.0, [0.5, 0.0], 1e-6), None);
+        assert_eq!(warning(1000, 0.0, [0.5, 0.0], 3e-2), None);
     }
 }

@@ -1,23 +1,23 @@
-//! Whether the residual is what single precision rounds of a large offset, rather than noise: it raises σ, and may look like misfits.
+//! Check whether the residual is rounding of a large offset in single precision, not noise: it raises σ, and may cause misfits.
 
 use antinode::{Estimate, Flags};
 
-/// An offset of fewer amplitudes rounds hardly more than the wave itself.
-const LARGE: f64 = 3.0;
-/// Residual, as a share of the offset and for each sample of a period, that rounded sums of blocks leave: half of it of short blocks, and up
-/// to 1.4·10⁻⁸ of those of two periods.
+/// Offset, in amplitudes, below which it adds hardly more rounding than the wave itself.
+const MIN_OFFSET: f64 = 3.0;
+/// Residual that rounded sums of blocks leave, at most, as a share of the offset and per sample of a period: short blocks leave half of it,
+/// and those of two periods up to 1.4·10⁻⁸.
 const ROUNDING: f64 = 1.8e-8;
-/// Residual, as a share of the wave, below which nobody misses what is rounded.
-const LEAST: f64 = 1e-5;
-/// Fewer rows tell too little.
-const FEWEST: u64 = 4;
+/// Residual, as a share of the wave, below which rounding does not matter.
+const MIN_RESIDUAL: f64 = 1e-5;
+/// Rows needed for a verdict.
+const MIN_ROWS: u64 = 4;
 
-/// Rows whose residual is no larger than such rounding.
+/// Counts rows whose residual is no larger than such rounding.
 #[derive(Debug, Default)]
 pub(super) struct RoundedOffset {
     rows: u64,
     rounded: u64,
-    /// The offset of the last of them, in amplitudes.
+    /// The offset of the last such row, in amplitudes.
     offset: f64,
 }
 
@@ -32,15 +32,15 @@ impl RoundedOffset {
         let (offset, main) = (c.hypot(d), f64::from(estimate.main_amplitude));
         let rounding = ROUNDING * rate / estimate.frequency * offset;
         let residual = f64::from(estimate.residual_rms);
-        if offset > LARGE * main && (LEAST * main..rounding).contains(&residual) {
+        if offset > MIN_OFFSET * main && (MIN_RESIDUAL * main..rounding).contains(&residual) {
             self.rounded += 1;
             self.offset = offset / main;
         }
     }
 
-    /// What to tell where most rows are such.
-    pub fn told(&self) -> Option<String> {
-        (self.rows >= FEWEST && 2 * self.rounded > self.rows).then(|| {
+    /// A warning if the residual of most rows is rounding.
+    pub fn warning(&self) -> Option<String> {
+        (self.rows >= MIN_ROWS && 2 * self.rounded > self.rows).then(|| {
             format!(
                 "the offset is {:.0} times the wave, and what single precision rounds of it is much of the residual: deviations are larger for \
                  it, and rows may be flagged misfit; take the mean of each pick-off away before, in double precision",
@@ -76,9 +76,9 @@ mod tests {
                 row.flags = Flags::LOST;
                 rounded.see(&row, 1e5);
             }
-            let told = rounded.told();
-            assert_eq!(told.is_some(), is_told, "{offset} {residual}");
-            assert!(told.is_none_or(|told| told.starts_with("the offset is 100 times")));
+            let warning = rounded.warning();
+            assert_eq!(warning.is_some(), is_told, "{offset} {residual}");
+            assert!(warning.is_none_or(|warning| warning.starts_with("the offset is 100 times")));
         }
     }
 }

@@ -1,27 +1,27 @@
-//! Whether rows scatter as their stated deviations say: in noise that is not white they do not.
+//! Check whether rows scatter as their stated deviations say: in noise that is not white they do not.
 
 use std::collections::VecDeque;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_SQRT_PI};
 
 use antinode::{Estimate, Flags};
 
-/// Rows of a difference, the fourth: what changes smoothly is not in it.
-const ROWS: usize = 5;
-/// How many times the least distance of its rows a difference may span, where some between them are misfits.
-const SPAN: u64 = 8;
-/// Deviations that count of a difference: one jump of the wave is no noise.
-const MOST: f64 = 10.0;
-/// Differences from which on the scatter is known well enough.
-const MANY: u32 = 200;
-/// Scatter over stated deviation that is worth a word, and what chance may add to that of a single difference.
-const MORE: f64 = 1.25;
-const LESS: f64 = 0.75;
+/// Rows in a fourth difference, which cancels smooth changes.
+const DIFFERENCE_ROWS: usize = 5;
+/// Span of a difference, at most, in units of the shortest distance between its rows, as misfits between them are skipped.
+const MAX_SPAN: u64 = 8;
+/// Limit of a difference, in deviations: a single jump of the wave is no noise.
+const MAX_DIFFERENCE: f64 = 10.0;
+/// Differences needed to know the scatter well enough.
+const MIN_DIFFERENCES: u32 = 200;
+/// Ratios of scatter to stated deviation beyond which there is a warning, and what chance may add to the ratio of a single difference.
+const MAX_RATIO: f64 = 1.25;
+const MIN_RATIO: f64 = 0.75;
 const CHANCE: f64 = 3.5;
-/// Residual, as a share of a_A, below which rounding is most of it.
-const LEAST: f32 = 1e-5;
-/// The same of harmonics and the converter's steps: such a residual need not scatter in rows.
-const LEAST_NOISE: f32 = 1e-4;
-/// Residual, in steps of the converter, below which there is less noise than rounding: that alone has 0.29.
+/// Residual, as a share of a_A, below which it is mostly rounding.
+const MIN_RESIDUAL: f32 = 1e-5;
+/// The same for harmonics and the converter's steps, which need not scatter from row to row.
+const MIN_NOISE: f32 = 1e-4;
+/// Residual, in steps of the converter, below which rounding exceeds noise; rounding alone has 0.29.
 const COARSE: f32 = 0.5;
 /// Mean of |z| of a normal z, √(2/π).
 const MEAN: f64 = FRAC_2_SQRT_PI * FRAC_1_SQRT_2;
@@ -33,7 +33,7 @@ const NAMES: [&str; 4] = [
     "frequency",
 ];
 
-/// What is compared of a row, each with its deviation.
+/// The quantities of a row that are compared, each with its deviation.
 fn compared(e: &Estimate) -> [[f64; 2]; NAMES.len()] {
     [
         [e.main_amplitude.into(), e.main_amplitude_std.into()],
@@ -49,7 +49,7 @@ fn compared(e: &Estimate) -> [[f64; 2]; NAMES.len()] {
 /// Differences of clean rows that share no samples, over their deviations.
 #[derive(Debug, Default)]
 pub(super) struct RowScatter {
-    /// The converter's step, 0 where it is not known: below it the residual is no noise.
+    /// The converter's step, 0 if unknown: a residual below it is not noise.
     resolution: f32,
     rows: VecDeque<Estimate>,
     sums: [f64; NAMES.len()],
@@ -61,7 +61,7 @@ pub(super) struct RowScatter {
 }
 
 impl RowScatter {
-    /// Of samples of this resolution, where it is known.
+    /// No rows yet, of samples with this resolution, if known.
     pub fn new(resolution: Option<f32>) -> Self {
         Self {
             resolution: resolution.unwrap_or(0.0),
@@ -72,10 +72,12 @@ impl RowScatter {
     /// Takes a row.
     pub fn see(&mut self, estimate: &Estimate) {
         if estimate.flags == Flags::MISFIT {
-            // The wave goes on.
+            // Only this row is left out: the wave goes on.
             return;
         }
-        if !estimate.flags.is_empty() || estimate.residual_rms < LEAST * estimate.main_amplitude {
+        if !estimate.flags.is_empty()
+            || estimate.residual_rms < MIN_RESIDUAL * estimate.main_amplitude
+        {
             self.rows.clear();
             return;
         }
@@ -87,30 +89,30 @@ impl RowScatter {
             return;
         }
         self.rows.push_back(*estimate);
-        if self.rows.len() < ROWS {
+        if self.rows.len() < DIFFERENCE_ROWS {
             return;
         }
         let pairs = self.rows.iter().zip(self.rows.iter().skip(1));
         let apart = pairs.map(|(row, next)| next.start - row.start).min();
-        if estimate.start - self.rows[0].start <= SPAN * apart.unwrap_or(0) {
+        if estimate.start - self.rows[0].start <= MAX_SPAN * apart.unwrap_or(0) {
             self.differ();
         }
         self.rows.pop_front();
     }
 
-    /// Takes the difference of the rows.
+    /// Adds the difference of the current rows.
     fn differ(&mut self) {
-        let times: [f64; ROWS] = std::array::from_fn(|i| self.rows[i].time);
-        let least = |row: &Estimate| (LEAST_NOISE * row.main_amplitude).max(self.resolution);
-        let is_noisy = self.rows.iter().all(|row| row.residual_rms >= least(row));
+        let times: [f64; DIFFERENCE_ROWS] = std::array::from_fn(|i| self.rows[i].time);
+        let min = |row: &Estimate| (MIN_NOISE * row.main_amplitude).max(self.resolution);
+        let is_noisy = self.rows.iter().all(|row| row.residual_rms >= min(row));
         let coarse = COARSE * self.resolution;
         let is_coarse = self.rows.iter().all(|row| row.residual_rms < coarse);
         let mut differences = [[0.0; 2]; NAMES.len()];
         for (i, row) in self.rows.iter().enumerate() {
-            // Of any curve of the third degree through the rows nothing is left.
-            let others = (0..ROWS).filter(|&k| k != i);
+            // The weights cancel any cubic through the rows.
+            let others = (0..DIFFERENCE_ROWS).filter(|&k| k != i);
             let weight: f64 = others
-                .map(|k| (times[ROWS - 1] - times[0]) / (times[i] - times[k]))
+                .map(|k| (times[DIFFERENCE_ROWS - 1] - times[0]) / (times[i] - times[k]))
                 .product();
             for (total, [value, deviation]) in differences.iter_mut().zip(compared(row)) {
                 total[0] += weight * value;
@@ -118,16 +120,16 @@ impl RowScatter {
             }
         }
         for (sum, [difference, variance]) in self.sums.iter_mut().zip(differences) {
-            *sum += (difference.abs() / variance.sqrt()).min(MOST);
+            *sum += (difference.abs() / variance.sqrt()).min(MAX_DIFFERENCE);
         }
         self.count += 1;
         self.noisy += u32::from(is_noisy);
         self.coarse += u32::from(is_coarse);
     }
 
-    /// What to tell where noise was taken to be white, or, with its option, not to be.
-    pub fn told(&self, has_option: bool) -> Option<String> {
-        if self.count < MANY {
+    /// A warning if rows scatter more or less than stated; `has_option` with `--hum` or `--coloured`.
+    pub fn warning(&self, has_option: bool) -> Option<String> {
+        if self.count < MIN_DIFFERENCES {
             return None;
         }
         let count = f64::from(self.count);
@@ -136,21 +138,21 @@ impl RowScatter {
             CHANCE / count.sqrt(),
         );
         let is_noise = 2 * self.noisy > self.count;
-        if is_noise && ratios.iter().all(|&ratio| ratio < LESS - 0.5 * chance) {
-            let most = ratios.into_iter().fold(0.0, f64::max);
+        if is_noise && ratios.iter().all(|&ratio| ratio < MIN_RATIO - 0.5 * chance) {
+            let max = ratios.into_iter().fold(0.0, f64::max);
             let hum = if has_option {
                 ""
             } else {
                 "hum, which --hum leaves out, or "
             };
             return Some(format!(
-                "rows scatter by only {most:.2} of their stated deviations: most of what was taken for noise is {hum}a tone; what it adds to every row alike does not scatter"
+                "rows scatter by only {max:.2} of their stated deviations: most of what was taken for noise is {hum}a tone; what it adds to every row alike does not scatter"
             ));
         }
         let more: Vec<String> = NAMES
             .iter()
             .zip(ratios)
-            .filter(|&(_, ratio)| ratio > MORE + chance)
+            .filter(|&(_, ratio)| ratio > MAX_RATIO + chance)
             .map(|(name, ratio)| format!("{name} {ratio:.2}"))
             .collect();
         let step = if 2 * self.coarse > self.count {
@@ -178,7 +180,7 @@ pub(super) mod tests {
     use super::*;
     use crate::deviates::Deviates;
 
-    /// A row of a steady wave that scatters by so many of its deviations.
+    /// A row of a steady wave that scatters by `times` its deviations.
     pub fn row(index: u64, times: f64, deviates: &mut Deviates) -> Estimate {
         let mut near = |value: f64, deviation: f64| value + times * deviation * deviates.draw();
         Estimate {
@@ -205,13 +207,13 @@ pub(super) mod tests {
         }
     }
 
-    /// What is told of 1000 rows that scatter by so many of their deviations, each first changed by its index.
-    fn told(times: f64, change: impl Fn(u64, &mut Estimate)) -> Option<String> {
-        told_of(None, times, change)
+    /// The warning for 1000 rows that scatter by `times` their deviations, each first changed according to its index.
+    fn warning(times: f64, change: impl Fn(u64, &mut Estimate)) -> Option<String> {
+        warning_with(None, times, change)
     }
 
-    /// The same of samples of this resolution.
-    fn told_of(
+    /// The same for samples with this resolution.
+    fn warning_with(
         resolution: Option<f32>,
         times: f64,
         change: impl Fn(u64, &mut Estimate),
@@ -222,47 +224,47 @@ pub(super) mod tests {
             change(index, &mut row);
             scatter.see(&row);
         }
-        scatter.told(false)
+        scatter.warning(false)
     }
 
     #[test]
     fn rows_between_misfits_are_compared() {
-        // Never five in a row, as hum may have it.
+        // Never five in a row, as hum may cause.
         let misfits = |index: u64, row: &mut Estimate| {
             if index % 4 == 3 {
                 row.flags = Flags::MISFIT;
                 row.main_amplitude = 0.3;
             }
-            // A ring-down is a smooth course at unequal distances too.
+            // A ring-down is smooth at unequal distances too.
             row.main_amplitude += 0.4 * (-1e-3 * index as f32).exp_m1();
         };
-        assert_eq!(told(1.0, misfits), None);
-        let more = told(1.6, misfits).unwrap();
+        assert_eq!(warning(1.0, misfits), None);
+        let more = warning(1.6, misfits).unwrap();
         assert!(
             more.contains("by more") && more.contains("main amplitude 1."),
             "{more}"
         );
-        let less = told(0.4, misfits).unwrap();
+        let less = warning(0.4, misfits).unwrap();
         assert!(less.contains("by only 0.3"), "{less}");
     }
 
     #[test]
     fn one_jump_is_no_scatter() {
-        // As where an excitation is switched off just between two windows.
+        // As if an excitation were switched off just between two windows.
         let jump = |index: u64, row: &mut Estimate| {
             row.frequency += if index < 500 { 20.0 } else { 0.0 };
         };
-        assert_eq!(told(1.0, jump), None);
+        assert_eq!(warning(1.0, jump), None);
     }
 
     #[test]
-    fn little_noise_may_be_too_little_and_not_too_much() {
-        // Harmonics and the converter leave a residual that rows may not have, but no scatter.
+    fn a_small_residual_explains_too_little_scatter_but_not_too_much() {
+        // Harmonics and the converter leave a residual, which need not scatter from row to row.
         let quiet = |_, row: &mut Estimate| row.residual_rms = 3e-5;
-        assert_eq!(told(0.4, quiet), None);
-        assert!(told(1.6, quiet).is_some());
-        // Rounding may be any.
-        assert_eq!(told(1.6, |_, row| row.residual_rms = 3e-6), None);
+        assert_eq!(warning(0.4, quiet), None);
+        assert!(warning(1.6, quiet).is_some());
+        // Rounding may scatter in any way.
+        assert_eq!(warning(1.6, |_, row| row.residual_rms = 3e-6), None);
     }
 
     #[test]
@@ -273,10 +275,18 @@ pub(super) mod tests {
             (Some(1e-3), false),
             (None, false),
         ] {
-            let told = told_of(resolution, 1.6, |_, _| ()).unwrap();
+            let warning = warning_with(resolution, 1.6, |_, _| ()).unwrap();
             let step = "times): the converter's step of 3.4e-3 is coarser than the noise";
-            assert_eq!(told.contains(step), is_named, "{resolution:?}: {told}");
-            assert_eq!(told.contains("the converter's step"), is_named, "{told}");
+            assert_eq!(
+                warning.contains(step),
+                is_named,
+                "{resolution:?}: {warning}"
+            );
+            assert_eq!(
+                warning.contains("the converter's step"),
+                is_named,
+                "{warning}"
+            );
         }
     }
 }

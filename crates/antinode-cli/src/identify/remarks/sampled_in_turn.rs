@@ -1,20 +1,20 @@
-//! Rows of one signal whose samples went to both pick-offs in turn: all of S_C stored before all of S_D, or `--raw` of other bits.
+//! Check for one signal whose samples went to both pick-offs in turn: all of S_C is stored before all of S_D, or `--raw` has wrong bits.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 
 use antinode::Estimate;
 
-/// Rows that tell something from which on they are believed.
-const MANY: u32 = 16;
-/// Deviations that a row may be off.
-const OFF: f64 = 4.0;
-/// Deviations with which a row tells nothing: of the angle, rad, and of the quadrature's share over the share expected.
-const VAGUE: [f64; 2] = [2e-3, 0.05];
+/// Rows with sufficiently small deviations that are needed for a verdict.
+const MIN_ROWS: u32 = 16;
+/// Deviations by which such a row may be off, at most.
+const MAX_OFF: f64 = 4.0;
+/// Deviations beyond which a row is left out: of the angle, rad, and of the quadrature's share of a_A, relative to the share expected.
+const MAX_DEVIATIONS: [f64; 2] = [2e-3, 0.05];
 
-/// How many rows look like one signal of which S_D is half a sample later than S_C.
+/// Counts rows that look like one signal, with S_D half a sample later than S_C.
 #[derive(Debug, Default)]
 pub(super) struct SampledInTurn {
-    /// Rows that tell something.
+    /// Rows with sufficiently small deviations, and those of them that look like one signal.
     count: u32,
     alike: u32,
 }
@@ -25,7 +25,7 @@ impl SampledInTurn {
         if !row.flags.is_empty() {
             return;
         }
-        // Equal amplitudes stand at 22.5°, and half a sample between them is an ellipse.
+        // Equal amplitudes give 22.5°, and half a sample between them an ellipse.
         let expected = -(FRAC_PI_2 * row.frequency / rate).tan();
         let share = row.quadrature_amplitude / row.main_amplitude;
         let share_std = row
@@ -41,16 +41,20 @@ impl SampledInTurn {
             f64::from(row.angle_std),
             f64::from(share_std) / expected.abs(),
         ];
-        if vague.iter().zip(VAGUE).any(|(&vague, most)| vague > most) {
+        if vague
+            .iter()
+            .zip(MAX_DEVIATIONS)
+            .any(|(&vague, most)| vague > most)
+        {
             return;
         }
         self.count += 1;
-        self.alike += u32::from(off.iter().all(|off| off.abs() < OFF));
+        self.alike += u32::from(off.iter().all(|off| off.abs() < MAX_OFF));
     }
 
-    /// What to tell of a recording whose rows are nearly all so.
-    pub fn told(&self) -> Option<String> {
-        (self.alike >= MANY && self.alike > self.count - self.count / 16).then(|| {
+    /// A warning if nearly all rows look like one signal.
+    pub fn warning(&self) -> Option<String> {
+        (self.alike >= MIN_ROWS && self.alike > self.count - self.count / 16).then(|| {
             "both pick-offs seem to be one signal, sampled in turn: the angle is 22.5° and S_D half a sample late; if all of S_C is stored \
              before all of S_D, store them pair by pair, or as NPY of shape (2, N); if --raw was given, check its bits"
                 .to_owned()
@@ -67,12 +71,12 @@ mod tests {
 
     const RATE: f64 = 1e5;
 
-    /// What is told of the rows of so many pairs.
-    fn told(pairs: &[[f32; 2]]) -> Option<String> {
+    /// The warning for the rows of these pairs.
+    fn warning(pairs: &[[f32; 2]]) -> Option<String> {
         let mut core = Box::new(Core::new(antinode::Settings::new(RATE)).expect("good settings"));
         let mut in_turn = SampledInTurn::default();
         core.extend(pairs, |row| in_turn.see(&row, RATE));
-        in_turn.told()
+        in_turn.warning()
     }
 
     fn samples(angle: f64, quadrature: f64, frequency: f64, noise: f64) -> Vec<[f32; 2]> {
@@ -94,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn one_signal_in_turn_is_told() {
+    fn one_signal_in_turn_raises_a_warning() {
         for (frequency, noise) in [
             (1500.0, 1e-5),
             (5332.0, 1e-6),
@@ -106,15 +110,15 @@ mod tests {
                 .chunks_exact(2)
                 .map(|two| [two[0][0], two[1][0]])
                 .collect();
-            assert!(told(&in_turn).is_some(), "{frequency} {noise}");
-            assert!(told(&one).is_none(), "{frequency} {noise}");
+            assert!(warning(&in_turn).is_some(), "{frequency} {noise}");
+            assert!(warning(&one).is_none(), "{frequency} {noise}");
         }
     }
 
     #[test]
-    fn a_pattern_that_stands_there_is_not() {
+    fn a_pattern_at_the_same_angle_or_quadrature_raises_no_warning() {
         let half = (FRAC_PI_2 * 5332.0 / RATE).tan();
-        // The angle alone, the quadrature alone, both with the other sign, and noise that hides either.
+        // The angle alone, the quadrature alone, the quadrature's other sign, and noise that hides both.
         for (angle, share, noise) in [
             (FRAC_PI_8, 0.0, 1e-3),
             (FRAC_PI_8 + 0.02, -half, 1e-3),
@@ -122,8 +126,8 @@ mod tests {
             (FRAC_PI_8, -half, 0.1),
         ] {
             let pairs = samples(angle, 0.8 * share, 5332.0, noise);
-            assert!(told(&pairs).is_none(), "{angle} {share} {noise}");
+            assert!(warning(&pairs).is_none(), "{angle} {share} {noise}");
         }
-        assert!(told(&samples(FRAC_PI_8, -0.8 * half, 5332.0, 1e-3)).is_some());
+        assert!(warning(&samples(FRAC_PI_8, -0.8 * half, 5332.0, 1e-3)).is_some());
     }
 }

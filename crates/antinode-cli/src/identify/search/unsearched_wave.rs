@@ -1,30 +1,30 @@
-//! Waves whose periods are not searched, too long or too short: they are looked for until there is a row, to be named where there is none.
+//! Detection of waves whose periods are too long or too short to be searched, until there is a row; named if there is none.
 
 use antinode::period::DifferenceDetector;
 
-use super::super::{LONGEST, SHORTEST};
+use super::super::{LONGEST_PERIOD, SHORTEST_PERIOD};
 
-/// Pairs that are summed into one to see a slow wave: periods of 128 to 6400 samples.
-const SUMMED: u32 = 32;
-/// Share of the samples' power that their means keep where they are a slow wave.
-const KEPT: f64 = 0.6;
-/// Power of the differences of neighbours over that of the samples where they are a fast wave; a wave of four samples a period has 2.
-const DIFFERING: f64 = 1.6;
-/// Periods found one after the other that agree before they are believed, and how far they may be apart.
-const ALIKE: u32 = 4;
-const APART: f32 = 0.02;
-/// Pairs that are looked at: a recording of noise need not be searched thrice to its end.
-const MOST: u32 = 1_000_000;
+/// Pairs averaged into one to detect a slow wave: periods of 128 to 6400 samples.
+const AVERAGED: u32 = 32;
+/// Share of the samples' power that the averages of a slow wave keep, at least.
+const MIN_KEPT_POWER: f64 = 0.6;
+/// Power of the differences of neighbours over that of the samples, at least, for a fast wave; at four samples a period it is 2.
+const MIN_DIFFERENCE_POWER: f64 = 1.6;
+/// Consecutive periods that must agree before one is accepted, and the relative difference allowed.
+const MIN_AGREEING: u32 = 4;
+const MAX_APART: f32 = 0.02;
+/// Pairs searched, at most: a long recording of noise need not be searched three times to its end.
+const MAX_PAIRS: u32 = 1_000_000;
 
-/// A search for a period that is believed if it is found again and again.
+/// A search whose period is accepted once it is found several times in a row.
 #[derive(Debug)]
-struct Looking {
+struct PeriodSearch {
     detector: Box<DifferenceDetector<f32>>,
     period: f32,
     alike: u32,
 }
 
-impl Default for Looking {
+impl Default for PeriodSearch {
     fn default() -> Self {
         Self {
             detector: Box::new(DifferenceDetector::new()),
@@ -34,27 +34,27 @@ impl Default for Looking {
     }
 }
 
-impl Looking {
+impl PeriodSearch {
     fn push(&mut self, pair: [f32; 2]) {
-        // What was believed stays so when the wave has decayed.
+        // An accepted period stays when the wave has decayed.
         if self.found().is_some() {
             return;
         }
         let Some(period) = self.detector.push(pair) else {
             return;
         };
-        let is_like = (period / self.period - 1.0).abs() < APART;
+        let is_like = (period / self.period - 1.0).abs() < MAX_APART;
         self.alike = if is_like { self.alike + 1 } else { 1 };
         self.period = period;
         self.detector.restart();
     }
 
     fn found(&self) -> Option<f64> {
-        (self.alike >= ALIKE).then_some(f64::from(self.period))
+        (self.alike >= MIN_AGREEING).then_some(f64::from(self.period))
     }
 }
 
-/// Sums of pairs and of their squares, which tell the power about the mean.
+/// Sums of pairs and of their squares, for the power about the mean.
 #[derive(Debug, Default)]
 struct Power {
     count: f64,
@@ -83,8 +83,8 @@ pub(super) struct UnsearchedWave {
     pairs: u32,
     last: [f32; 2],
     sum: [f32; 2],
-    slow: Looking,
-    fast: Looking,
+    slow: PeriodSearch,
+    fast: PeriodSearch,
     samples: Power,
     means: Power,
     differences: Power,
@@ -94,7 +94,7 @@ impl UnsearchedWave {
     /// Takes pairs in which no period has been found yet.
     pub fn see(&mut self, pairs: &[[f32; 2]]) {
         for &pair in pairs {
-            if self.pairs < MOST && pair.iter().all(|value| value.is_finite()) {
+            if self.pairs < MAX_PAIRS && pair.iter().all(|value| value.is_finite()) {
                 self.take(pair);
             }
         }
@@ -103,7 +103,7 @@ impl UnsearchedWave {
     fn take(&mut self, pair: [f32; 2]) {
         self.samples.add(pair);
         self.sum = [self.sum[0] + pair[0], self.sum[1] + pair[1]];
-        // A difference knows no offset; every other one turned round, half the sample rate less a frequency takes its place.
+        // Differences remove the offset; inverting every other one maps a frequency to half the sample rate less that.
         if self.pairs > 0 {
             let difference = [pair[0] - self.last[0], pair[1] - self.last[1]];
             self.differences.add(difference);
@@ -116,23 +116,23 @@ impl UnsearchedWave {
         }
         self.last = pair;
         self.pairs += 1;
-        if self.pairs.is_multiple_of(SUMMED) {
-            let mean = self.sum.map(|sum| sum / SUMMED as f32);
+        if self.pairs.is_multiple_of(AVERAGED) {
+            let mean = self.sum.map(|sum| sum / AVERAGED as f32);
             self.means.add(mean);
             self.slow.push(mean);
             self.sum = [0.0; 2];
         }
     }
 
-    /// What to tell of a wave that was seen in samples of this rate, Hz.
-    pub fn told(&self, rate: f64) -> Option<String> {
+    /// A warning that names the wave seen in samples of this rate, Hz.
+    pub fn warning(&self, rate: f64) -> Option<String> {
         let power = self.samples.value();
-        let is_slow = self.means.value() > KEPT * power;
-        let is_fast = self.differences.value() > DIFFERING * power;
+        let is_slow = self.means.value() > MIN_KEPT_POWER * power;
+        let is_fast = self.differences.value() > MIN_DIFFERENCE_POWER * power;
         let slow = self
             .slow
             .found()
-            .map(|period| f64::from(SUMMED) * period)
+            .map(|period| f64::from(AVERAGED) * period)
             .filter(|_| is_slow);
         let fast = self
             .fast
@@ -143,13 +143,13 @@ impl UnsearchedWave {
         let frequency = rate / period;
         let (frequency, period) = (rounded(frequency), rounded(period));
         let seen = format!("a wave of about {frequency} Hz has {period} samples a period");
-        Some(if period < SHORTEST {
+        Some(if period < SHORTEST_PERIOD {
             format!(
-                "{seen}, fewer than {SHORTEST}, the least that is identified: check the sample rate, or sample at another"
+                "{seen}, fewer than {SHORTEST_PERIOD}, the least that is identified: check the sample rate, or sample at another"
             )
-        } else if period > LONGEST as f64 {
+        } else if period > LONGEST_PERIOD as f64 {
             format!(
-                "{seen}, more than {LONGEST}, the most that is identified: check the sample rate; samples that a lock-in amplifier \
+                "{seen}, more than {LONGEST_PERIOD}, the most that is identified: check the sample rate; samples that a lock-in amplifier \
                  demodulated are not the pick-offs' own"
             )
         } else {
@@ -160,7 +160,7 @@ impl UnsearchedWave {
     }
 }
 
-/// Where samples show a wave that is too fast for their rate, both in Hz; nothing of one that is not.
+/// A note on the frequency, Hz, at which an undersampled wave shows; empty up to half the sample rate.
 pub fn alias(frequency: f64, rate: f64) -> String {
     if frequency <= 0.5 * rate {
         return String::new();
@@ -169,10 +169,10 @@ pub fn alias(frequency: f64, rate: f64) -> String {
     format!("; undersampled on purpose, such a wave shows at {seen} Hz")
 }
 
-/// To three digits, as well as a search knows it.
+/// Rounds to three digits, the accuracy of a search.
 fn rounded(value: f64) -> f64 {
     let unit = 10f64.powi(value.log10().floor() as i32 - 2);
-    // Divided by a whole number, it prints short.
+    // A quotient of whole numbers prints short.
     if unit < 1.0 {
         (value / unit).round() / (1.0 / unit).round()
     } else {
@@ -189,12 +189,12 @@ mod tests {
 
     const RATE: f64 = 1e5;
 
-    /// What is told of tones, each so many samples a period and an amplitude, about an offset in noise.
+    /// The warning for tones, each with a period in samples and an amplitude, about an offset in noise.
     fn told(tones: &[(f64, f64)], noise: f64) -> Option<String> {
         told_of_decaying(tones, noise, f64::INFINITY)
     }
 
-    /// The same of tones that decay in so many samples.
+    /// The same for tones with this decay time, in samples.
     fn told_of_decaying(tones: &[(f64, f64)], noise: f64, decay: f64) -> Option<String> {
         let mut deviates = Deviates(1);
         let mut unsearched = UnsearchedWave::default();
@@ -211,7 +211,7 @@ mod tests {
             })
             .collect();
         unsearched.see(&pairs);
-        unsearched.told(RATE)
+        unsearched.warning(RATE)
     }
 
     #[test]
@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn others_are_not() {
+    fn searched_waves_noise_and_pairs_of_tones_are_not_named() {
         for noise in [0.01, 1.0] {
             assert_eq!(told(&[], noise), None);
             for period in [4.5, 18.75, 60.0] {

@@ -22,7 +22,7 @@ use undriven::{moments, without_driven};
 /// A flaw of fewer deviations than this is none.
 const SEEN: f64 = 3.0;
 /// The pattern turns by no more than this from row to row, rad: the sums over time are then good to 2 %.
-const MOST_TURN: f64 = 0.1;
+const MAX_TURN: f64 = 0.1;
 
 /// `antinode calibrate`.
 #[derive(Debug, Args)]
@@ -66,7 +66,7 @@ struct Quantity {
 /// Finds the calibration and prints it as options.
 pub fn run(options: &Calibrate) -> Result<(), Failure> {
     let corrected = PickOffs::from(&options.corrected);
-    let (mut rows, name) = Runs::open(&options.given, MOST_TURN, Flags::REACQUIRED)?;
+    let (mut rows, name) = Runs::open(&options.given, MAX_TURN, Flags::REACQUIRED)?;
     let every = moments(&rows.runs, &corrected);
     let mut found = solve(&every, corrected).map_err(|fault| fault.of(&name))?;
     let mut driven = Vec::new();
@@ -114,7 +114,7 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
     ];
     let mut report = io::stderr().lock();
     // The result goes to the other stream: standard error may be closed.
-    let _ = driven::tell(&mut report, &driven)
+    let _ = driven::warn(&mut report, &driven)
         .and_then(|()| tell(&mut report, &name, &rows, &found, &quantities));
     let apart = found.deviations.map(|std| SEEN * std);
     if corrected == PickOffs::IDEAL {
@@ -178,7 +178,7 @@ fn tell(
         rows.rows,
         turns.join(" and ")
     )?;
-    rows.tell(out)?;
+    rows.write_notes(out)?;
     for one in quantities {
         let text = with_std(one.value, one.std);
         writeln!(out, "{:<20} {}", one.label, text.trim_end())?;

@@ -1,6 +1,6 @@
-//! Normal deviates for tests, by Box and Muller from a congruential generator.
+//! Normal deviates for tests, by the method of Box and Muller from a linear congruential generator.
 
-/// A seed, and all that follow from it.
+/// The state of the generator: at first its seed.
 pub struct Deviates(pub u64);
 
 impl Deviates {
@@ -12,7 +12,7 @@ impl Deviates {
         ((self.0 >> 12) as f64 + 0.5) / (1u64 << 52) as f64
     }
 
-    /// The next one, of variance 1.
+    /// The next deviate, of mean 0 and variance 1.
     pub fn draw(&mut self) -> f64 {
         let radius = (-2.0 * self.uniform().ln()).sqrt();
         radius * (std::f64::consts::TAU * self.uniform()).cos()

@@ -1,20 +1,21 @@
-//! Normal equations of runs that share some unknowns: each has others of its own, which nothing but the shared ones ties to those of others.
+//! Normal equations of runs that share some unknowns, while each run has others of its own.
 //!
-//! So they are solved run by run, at a cost in proportion to the runs: where a ring-down reaches the noise these are hundreds.
+//! Only the shared unknowns couple the runs, so that these are solved one by one, at a cost in proportion to their number: it reaches
+//! hundreds where a ring-down reaches the noise.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// The equations; unknowns are the shared ones, and behind these each run's own.
+/// The equations. Unknowns are the shared ones, followed by each run's own.
 pub struct Equations {
     shared: usize,
     own: usize,
-    /// Of each run: the matrix of the shared unknowns and of its own.
+    /// The matrix of each run, for the shared unknowns and its own.
     matrices: Vec<DMatrix<f64>>,
     right: DVector<f64>,
 }
 
 impl Equations {
-    /// Empty ones of so many shared unknowns, and so many of each run's own.
+    /// Equations without rows, with `shared` unknowns in common and `own` unknowns of each run.
     pub fn new(shared: usize, own: usize, runs: usize) -> Self {
         let size = shared + own;
         Self {
@@ -30,17 +31,17 @@ impl Equations {
         self.right.len()
     }
 
-    /// The right sides.
+    /// The right-hand side.
     pub fn right(&self) -> &DVector<f64> {
         &self.right
     }
 
-    /// Adds to the right side of an unknown.
+    /// Adds to the right-hand side of an unknown.
     pub fn add_right(&mut self, place: usize, more: f64) {
         self.right[place] += more;
     }
 
-    /// Adds to the entry of two unknowns, shared or of this run.
+    /// Adds to the matrix entry of two unknowns, shared or of this run.
     pub fn add(&mut self, run: usize, [i, j]: [usize; 2], more: f64) {
         let [i, j] = [i, j].map(|place| self.within(run, place));
         self.matrices[run][(i, j)] += more;
@@ -55,9 +56,9 @@ impl Equations {
         }
     }
 
-    /// The factors, where each unknown's own entry is greater by a share; none where the rows leave an unknown open altogether.
+    /// Factors of the matrix with its diagonal increased by the share `more`; `None` if an unknown is not determined at all.
     ///
-    /// Unknowns are of very unlike sizes: they are scaled to a diagonal of ones.
+    /// As unknowns differ widely in size, they are scaled to a unit diagonal.
     pub fn factors(&self, more: f64) -> Option<Factors> {
         let (shared, own) = (self.shared, self.own);
         let mut whole = DMatrix::zeros(shared, shared);
@@ -96,10 +97,10 @@ impl Equations {
             };
             let factors =
                 DMatrix::from_fn(own, own, |i, j| entry(shared + i, shared + j)).cholesky()?;
-            let ties = DMatrix::from_fn(own, shared, |i, j| entry(shared + i, j));
-            let ties = factors.l_dirty().solve_lower_triangular(&ties)?;
-            whole -= ties.tr_mul(&ties);
-            runs.push(OfRun { factors, ties });
+            let coupling = DMatrix::from_fn(own, shared, |i, j| entry(shared + i, j));
+            let coupling = factors.l_dirty().solve_lower_triangular(&coupling)?;
+            whole -= coupling.tr_mul(&coupling);
+            runs.push(RunFactors { factors, coupling });
         }
         Some(Factors {
             shared: whole.cholesky()?,
@@ -109,24 +110,24 @@ impl Equations {
     }
 }
 
-/// The factors of the equations' matrix, of which each run's own unknowns are eliminated first.
+/// Factors of the equations' matrix, from which each run's own unknowns are eliminated first.
 #[derive(Debug)]
 pub struct Factors {
     shared: Cholesky<f64, Dyn>,
-    runs: Vec<OfRun>,
+    runs: Vec<RunFactors>,
     scale: DVector<f64>,
 }
 
-/// Those of a run.
+/// The factors of one run.
 #[derive(Debug)]
-struct OfRun {
+struct RunFactors {
     factors: Cholesky<f64, Dyn>,
-    /// What ties its unknowns to the shared ones, divided by the factor.
-    ties: DMatrix<f64>,
+    /// Coupling of its unknowns to the shared ones, divided by the factor.
+    coupling: DMatrix<f64>,
 }
 
-impl OfRun {
-    /// Own unknowns divided by the factor.
+impl RunFactors {
+    /// The right-hand side of the run's own unknowns divided by the factor.
     fn divide(&self, own: &DVector<f64>) -> DVector<f64> {
         let mut divided = own.clone();
         // No entry of the factor's diagonal is 0.
@@ -138,16 +139,16 @@ impl OfRun {
 }
 
 impl Factors {
-    /// The unknowns that these right sides have.
+    /// The unknowns that solve the equations with this right-hand side.
     pub fn solve(&self, right: &DVector<f64>) -> DVector<f64> {
         let mut found = right.component_mul(&self.scale);
         let shared = self.shared.l_dirty().nrows();
         let mut of_shared = found.rows(0, shared).into_owned();
         let mut from = shared;
         for run in &self.runs {
-            let own = run.ties.nrows();
+            let own = run.coupling.nrows();
             let divided = run.divide(&found.rows(from, own).into_owned());
-            of_shared -= run.ties.tr_mul(&divided);
+            of_shared -= run.coupling.tr_mul(&divided);
             found.rows_mut(from, own).copy_from(&divided);
             from += own;
         }
@@ -155,8 +156,8 @@ impl Factors {
         found.rows_mut(0, shared).copy_from(&of_shared);
         from = shared;
         for run in &self.runs {
-            let own = run.ties.nrows();
-            let mut left = found.rows(from, own) - &run.ties * &of_shared;
+            let own = run.coupling.nrows();
+            let mut left = found.rows(from, own) - &run.coupling * &of_shared;
             run.factors
                 .l_dirty()
                 .tr_solve_lower_triangular_mut(&mut left);
@@ -166,12 +167,12 @@ impl Factors {
         found.component_mul(&self.scale)
     }
 
-    /// The variance of a sum of shared unknowns and of one run's own, each by its place times a factor, where right sides have the
-    /// variances of the matrix.
+    /// The variance of a linear combination of shared unknowns and one run's own, given as places and factors, if the matrix is the
+    /// covariance of the right-hand side.
     pub fn variance(&self, terms: &[(usize, f64)]) -> f64 {
         let shared = self.shared.l_dirty().nrows();
         let mut of_shared = DVector::zeros(shared);
-        let own = self.runs[0].ties.nrows();
+        let own = self.runs[0].coupling.nrows();
         let mut of_run: Option<(usize, DVector<f64>)> = None;
         for &(place, by) in terms {
             let by = by * self.scale[place];
@@ -186,7 +187,7 @@ impl Factors {
         let mut variance = 0.0;
         if let Some((run, of_own)) = of_run {
             let divided = self.runs[run].divide(&of_own);
-            of_shared -= self.runs[run].ties.tr_mul(&divided);
+            of_shared -= self.runs[run].coupling.tr_mul(&divided);
             variance += divided.norm_squared();
         }
         variance + of_shared.dot(&self.shared.solve(&of_shared))
@@ -199,7 +200,7 @@ mod tests {
     use crate::deviates::Deviates;
 
     #[test]
-    fn runs_are_solved_one_by_one_as_they_are_all_together() {
+    fn solving_run_by_run_equals_solving_all_together() {
         for (shared, own, runs) in [(0, 3, 4), (5, 4, 1), (6, 4, 30), (2, 1, 7)] {
             let mut random = Deviates(shared as u64);
             let unknowns = shared + own * runs;
@@ -209,7 +210,7 @@ mod tests {
                 let from = shared + own * run;
                 for _ in 0..2 * (shared + own) {
                     let places: Vec<_> = (0..shared).chain(from..from + own).collect();
-                    // Of very unlike sizes.
+                    // Unknowns of widely different sizes.
                     let line = places
                         .iter()
                         .map(|&place| 10f64.powi(place as i32 % 9) * random.draw());
@@ -258,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_that_nothing_tells_has_no_factors() {
+    fn an_undetermined_unknown_gives_no_factors() {
         for (shared, own) in [(2, 2), (0, 2)] {
             let mut equations = Equations::new(shared, own, 2);
             for place in 0..shared + 3 {

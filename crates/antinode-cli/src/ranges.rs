@@ -1,12 +1,12 @@
-//! Options whose numbers have a range: checked where they are typed, in the unit they are typed in.
+//! Parsers of options that are numbers: each checks the range, in the unit in which the option is given.
 
 use crate::failure::Failure;
 
-/// The number in `text`, if it lies within these; `unit` begins with a blank where there is one.
-fn within(text: &str, least: f64, most: f64, unit: &str) -> Result<f64, String> {
+/// The number in `text`, if it lies within these limits; `unit`, if not empty, begins with a blank or a comma.
+fn within(text: &str, min: f64, max: f64, unit: &str) -> Result<f64, String> {
     match text.parse() {
-        Ok(number) if (least..=most).contains(&number) => Ok(number),
-        _ => Err(format!("it must be {least} to {most}{unit}")),
+        Ok(number) if (min..=max).contains(&number) => Ok(number),
+        _ => Err(format!("it must be {min} to {max}{unit}")),
     }
 }
 
@@ -16,7 +16,7 @@ pub fn number(text: &str) -> Result<f64, String> {
         .map_err(|_| "it must be a number, without its unit".to_owned())
 }
 
-/// What noise begins with.
+/// The seed of noise.
 pub fn seed(text: &str) -> Result<u64, String> {
     text.parse()
         .map_err(|_| "it must be a whole number from 0 on".to_owned())
@@ -42,12 +42,12 @@ pub fn angle(text: &str) -> Result<f64, String> {
     within(text, -10.0, 10.0, " rad")
 }
 
-/// A noise above none, %.
+/// A noise above zero, %.
 pub fn percent(text: &str) -> Result<f64, String> {
     within(text, 1e-3, 100.0, " %")
 }
 
-/// How long to wait, s.
+/// A time to wait, s.
 pub fn seconds(text: &str) -> Result<f64, String> {
     within(text, 0.01, 3600.0, " s")
 }
@@ -60,7 +60,7 @@ pub fn time(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Refuses a time to end at that is not later than the one to begin at.
+/// Rejects an end of a span that is not later than its beginning.
 pub fn in_order(from: Option<f64>, to: Option<f64>) -> Result<(), Failure> {
     match (from, to) {
         (Some(from), Some(to)) if to <= from => Err(Failure::Usage(format!(
@@ -80,7 +80,7 @@ pub fn skew_ns(text: &str) -> Result<f32, String> {
     within(text, -1e6, 1e6, " ns").map(|skew| skew as f32)
 }
 
-/// What a pick-off's angle differs from 45° by, rad.
+/// The difference of the pick-offs' angle from 45°, rad.
 pub fn pick_off_angle(text: &str) -> Result<f32, String> {
     within(text, -0.3, 0.3, " rad").map(|angle| angle as f32)
 }
@@ -101,7 +101,7 @@ pub fn positive(text: &str) -> Result<f32, String> {
 /// The converter's rails, in the input's unit: ±LEVEL, or LOW,HIGH.
 pub fn rails(text: &str) -> Result<[f32; 2], String> {
     let Some((low, high)) = text.split_once(',') else {
-        let level = positive(text).map_err(|told| told + ", or two numbers as LOW,HIGH")?;
+        let level = positive(text).map_err(|error| error + ", or two numbers as LOW,HIGH")?;
         return Ok([-level, level]);
     };
     match [low, high].map(|level| level.trim().parse::<f32>()) {

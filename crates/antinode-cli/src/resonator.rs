@@ -35,7 +35,7 @@ use informing::informing;
 use quantities::{HELP, Row, quantities, table};
 
 /// The pattern turns by no more than this from row to row, rad: half of what leaves it known.
-const MOST_TURN: f64 = PI / 8.0;
+const MAX_TURN: f64 = PI / 8.0;
 /// Flags of rows after which the pattern, or the time since the last row, is another: excited anew, or samples are missing.
 const BREAKS: Flags = Flags::REACQUIRED.with(Flags::PHASE_JUMP).with(Flags::STEP);
 /// A decay of fewer deviations than this is none.
@@ -68,7 +68,7 @@ pub struct Resonator {
 
 /// Finds the resonator and prints it.
 pub fn run(options: &Resonator) -> Result<(), Failure> {
-    let (mut rows, name) = Runs::open(&options.given, MOST_TURN, BREAKS)?;
+    let (mut rows, name) = Runs::open(&options.given, MAX_TURN, BREAKS)?;
     let energies: Vec<_> = rows.runs.iter().map(Run::energies).collect();
     let [runs, driven] = undriven(&rows.runs, &energies, BY_FLAWS);
     rows.runs = runs;
@@ -90,7 +90,7 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
     }
     // The result is printed: standard error may be closed.
     let mut err = io::stderr().lock();
-    let _ = driven::tell(&mut err, &driven)
+    let _ = driven::warn(&mut err, &driven)
         .and_then(|()| tell(&mut err, &rows, &listed, &found, &frequency));
     Ok(())
 }
@@ -139,7 +139,7 @@ fn tell_of_runs(
     listed: &[usize],
     found: &Found,
 ) -> io::Result<()> {
-    rows.tell(out)?;
+    rows.write_notes(out)?;
     let others = rows.runs.len() - listed.len();
     if others > 0 {
         let of_listed: usize = listed.iter().map(|&run| rows.runs[run].rows.len()).sum();

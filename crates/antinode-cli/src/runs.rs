@@ -1,9 +1,9 @@
-//! Rows that `antinode identify` printed become runs: spans of time in which the pattern moves without a break.
+//! Groups rows that `antinode identify` printed into runs: spans of time in which the pattern moves without a break.
 
-mod again;
 pub mod driven;
 mod jump;
 mod recording;
+mod repeated;
 mod row;
 mod step;
 pub mod way;
@@ -21,52 +21,53 @@ use recording::{Recording, Taken};
 use row::Places;
 pub use row::{BOWS, Row};
 
-/// From this rms residual over the rows' own deviations on, it is told that something else moves.
+/// Rms residual over the rows' own deviations, from which on there is a warning that it is more than noise.
 pub const BEYOND_NOISE: f64 = 2.0;
-/// The least rows of a run: four unknowns are its own.
-pub const LEAST_ROWS: usize = 12;
-/// Windows overlap where one follows another by less than this share of its length, which is known to a few per cent.
-const APART: f64 = 0.97;
+/// Fewest rows of a run, which has four unknowns of its own.
+pub const MIN_ROWS: usize = 12;
+/// Distance of windows, as a share of their length, below which they overlap: the length is known to a few per cent.
+const MIN_DISTANCE: f64 = 0.97;
 
 /// A span of rows without a break.
 #[derive(Debug, Clone, Default)]
 pub struct Run {
     pub rows: Vec<Row>,
-    /// The recording, as its rows name it.
+    /// Name of the recording, as in its rows.
     pub file: String,
 }
 
-/// All that the rows tell.
+/// The runs of all rows, and what was left out.
 #[derive(Debug)]
 pub struct Runs {
     pub runs: Vec<Run>,
-    /// Rows read, flagged ones among them, but for those outside the times asked for.
+    /// Rows read within the times asked for, including flagged ones.
     pub rows: usize,
-    /// The first and the last time that there is, s, and the times asked for.
+    /// The first and the last time in the rows, s, and the times asked for.
     span: Option<[f64; 2]>,
     asked: Range<f64>,
-    /// Clean rows left out, for their windows overlap the one before: they would tell the same noise again.
+    /// Clean rows left out because their windows overlap the one before, whose noise they would count again.
     pub overlapping: usize,
     /// Clean rows of a recording that are not later than the one before.
     backward: usize,
     /// Recordings and times, s, at which a step between clean rows ends a run.
     steps: Vec<(String, f64)>,
-    /// By how much the pattern turns from row to row at most, rad.
-    most_turn: f64,
-    /// Flags of rows that the next one does not continue.
+    /// Turn of the pattern from row to row, at most, rad.
+    max_turn: f64,
+    /// Flags of a row that end a run.
     breaks: Flags,
 }
 
 impl Runs {
-    /// Reads the rows given; gives the names of their files too. A run ends where the pattern turns by more than `most_turn` rad
-    /// from row to row, where the wave jumps across rows left out or steps between clean ones, and at a row that has one of the flags `breaks`.
+    /// Reads the rows given, and returns their runs and the names of their files. A run ends where the pattern turns by more than
+    /// `max_turn` rad from row to row, where the wave jumps across rows left out or steps between clean ones, and at a row with one of
+    /// the flags `breaks`.
     pub fn open(
         given: &GivenRows,
-        most_turn: f64,
+        max_turn: f64,
         breaks: Flags,
     ) -> Result<(Self, String), Failure> {
         let paths = &given.rows;
-        let mut runs = Self::new(given.times()?, most_turn, breaks);
+        let mut runs = Self::new(given.times()?, max_turn, breaks);
         let mut names = Vec::new();
         for (index, path) in paths.iter().enumerate() {
             if paths[..index].contains(path) {
@@ -83,7 +84,7 @@ impl Runs {
         Ok((runs, names))
     }
 
-    fn new(asked: Range<f64>, most_turn: f64, breaks: Flags) -> Self {
+    fn new(asked: Range<f64>, max_turn: f64, breaks: Flags) -> Self {
         Self {
             runs: Vec::new(),
             rows: 0,
@@ -92,42 +93,42 @@ impl Runs {
             overlapping: 0,
             backward: 0,
             steps: Vec::new(),
-            most_turn,
+            max_turn,
             breaks,
         }
     }
 
-    /// Why nothing can be found in the rows, if so.
+    /// The reason why the rows are of no use, if they are not.
     fn fault(&self, name: &str) -> Option<Failure> {
         let fault = |why: String| Some(Failure::Fault(format!("{name}: {why}")));
         if self.runs.is_empty() {
             if let (0, Some(span)) = (self.rows, self.span) {
                 return Some(none_within(name, span));
             }
-            // Else rows that are out of order are seen as runs of a few.
+            // Rows out of order would otherwise be reported as runs that are too short.
             if 3 * self.backward > self.rows {
                 return fault(format!(
                     "time does not go on from row to row, {} times in {} rows; give each recording's rows once and in the order of their time",
                     self.backward, self.rows
                 ));
             }
-            if self.rows < LEAST_ROWS {
+            if self.rows < MIN_ROWS {
                 let only = match self.rows {
                     0 => "there is no row".to_owned(),
                     1 => "there is only 1".to_owned(),
                     rows => format!("there are only {rows}"),
                 };
                 return fault(format!(
-                    "no run of {LEAST_ROWS} clean rows, for {only}: shorten the windows, or record longer"
+                    "no run of {MIN_ROWS} clean rows, for {only}: shorten the windows, or record longer"
                 ));
             }
             return fault(format!(
-                "no run of {LEAST_ROWS} clean rows in which the pattern turns by less than {:.1}° from row to row; see their flags, and \
+                "no run of {MIN_ROWS} clean rows in which the pattern turns by less than {:.1}° from row to row; see their flags, and \
                  shorten the windows if it turns faster",
-                self.most_turn.to_degrees()
+                self.max_turn.to_degrees()
             ));
         }
-        // A copy by another name.
+        // A copy under another name.
         let same = self.runs.iter().enumerate().find_map(|(index, run)| {
             let mut before = self.runs[..index].iter();
             Some((run, before.find(|other| run.is_copy(other))?))
@@ -147,13 +148,13 @@ impl Runs {
         })
     }
 
-    /// Rows in runs.
+    /// Number of rows in runs.
     pub fn used(&self) -> usize {
         self.runs.iter().map(|run| run.rows.len()).sum()
     }
 
-    /// Tells what was left out, where a run ends at a step, and what comes twice.
-    pub fn tell(&self, out: &mut impl Write) -> io::Result<()> {
+    /// Writes which rows were left out, where runs end at a step, and what is given twice.
+    pub fn write_notes(&self, out: &mut impl Write) -> io::Result<()> {
         if self.overlapping > 0 {
             writeln!(
                 out,
@@ -176,11 +177,11 @@ impl Runs {
                 "a gain or the wave steps at {time:.2} s{of}{more}: a run ends there, and another begins"
             )?;
         }
-        let again = self.runs.iter().enumerate().find(|(index, run)| {
+        let repeated = self.runs.iter().enumerate().find(|(index, run)| {
             let mut before = self.runs[..*index].iter();
-            before.any(|other| run.is_again(other) || other.is_again(run))
+            before.any(|other| run.repeats(other) || other.repeats(run))
         });
-        if let Some((_, run)) = again {
+        if let Some((_, run)) = repeated {
             writeln!(
                 out,
                 "warning: rows of {} come again for the same time, as of other windows: their noise is counted twice, and every deviation is \
@@ -198,9 +199,9 @@ impl Runs {
         let file = rows.place("file");
 
         let mut recordings: Vec<Recording> = Vec::new();
-        let mut present = 0;
+        let mut current = 0;
         while let Some(record) = rows.next()? {
-            // A lost wave's row need not have a time: it then is as any other.
+            // The row of a lost wave may lack a time; it is then counted in any case.
             if let Some(time) = places.time(record) {
                 let [first, last] = self.span.unwrap_or([time; 2]);
                 self.span = Some([first.min(time), last.max(time)]);
@@ -210,27 +211,27 @@ impl Runs {
             }
             self.rows += 1;
             let from = file.map_or("", |file| &record[file]);
-            // Rows of several recordings may stand in the order of their time.
-            if recordings.get(present).is_none_or(|one| one.file != from) {
+            // Rows of several recordings may be interleaved in the order of their times.
+            if recordings.get(current).is_none_or(|one| one.file != from) {
                 let known = recordings.iter().position(|one| one.file == from);
-                present = known.unwrap_or(recordings.len());
+                current = known.unwrap_or(recordings.len());
                 if known.is_none() {
                     recordings.push(Recording::new(from));
                 }
             }
             if !record[flags].is_empty() {
                 let flags = row_file::flags(&record[flags]);
-                recordings[present].leave_out(flags, self.breaks, places.way(record));
+                recordings[current].leave_out(flags, self.breaks, places.way(record));
                 continue;
             }
-            // Only here: a flagged row need not have numbers.
+            // Not before: a flagged row need not have numbers.
             let Some(row) = Row::parse(record, &places) else {
                 return Err(rows.fault(
                     "a time, amplitude, angle, frequency or deviation is no number of single precision, an amplitude or a deviation is not above 0, \
                      or a_B exceeds a_A",
                 ));
             };
-            match recordings[present].take(row, self.most_turn) {
+            match recordings[current].take(row, self.max_turn) {
                 Taken::Kept => {}
                 Taken::Overlaps => self.overlapping += 1,
                 Taken::Backward => self.backward += 1,
@@ -248,50 +249,50 @@ impl Runs {
 }
 
 impl Run {
-    /// From the first row to the last, s.
+    /// Time from the first row to the last, s.
     pub fn seconds(&self) -> f64 {
         self.rows[self.rows.len() - 1].time - self.rows[0].time
     }
 
-    /// By how much the pattern turns from row to row, rad.
+    /// Turns of the pattern from row to row, rad.
     fn steps(&self) -> impl Iterator<Item = f64> {
         let pairs = self.rows.windows(2);
         pairs.map(|pair| turn(pair[1].angle - pair[0].angle))
     }
 
-    /// By how much the pattern turns from the first row to the last, rad.
+    /// Turn of the pattern from the first row to the last, rad.
     pub fn turned(&self) -> f64 {
         self.steps().sum()
     }
 
-    /// How far the pattern turns backwards at most, rad, at most 0, and forwards: from any row to any later one.
+    /// Largest turns of the pattern from any row to any later one, rad: backwards, at most 0, and forwards, at least 0.
     pub fn turns(&self) -> [f64; 2] {
         let (mut angle, mut turns) = (0.0, [0f64; 2]);
-        let (mut least, mut most) = (0f64, 0f64);
+        let (mut min, mut max) = (0f64, 0f64);
         for step in self.steps() {
             angle += step;
-            (least, most) = (least.min(angle), most.max(angle));
-            turns = [turns[0].min(angle - most), turns[1].max(angle - least)];
+            (min, max) = (min.min(angle), max.max(angle));
+            turns = [turns[0].min(angle - max), turns[1].max(angle - min)];
         }
         turns
     }
 
-    /// True when the window of the last row, if any, has samples of this one.
+    /// True if the window of the last row, if any, shares samples with that of this one.
     fn overlaps(&self, row: &Row) -> bool {
-        let apart = 0.5 * APART * row.seconds;
+        let apart = 0.5 * MIN_DISTANCE * row.seconds;
         let last = self.rows.last();
-        last.is_some_and(|last| row.time - last.time < 0.5 * APART * last.seconds + apart)
+        last.is_some_and(|last| row.time - last.time < 0.5 * MIN_DISTANCE * last.seconds + apart)
     }
 }
 
-/// What is told of rows that come twice.
+/// The failure for rows that are given twice.
 fn given_twice(what: &str) -> Failure {
     Failure::Fault(format!(
         "{what} is given twice: its noise would seem to be less than it is; give it once"
     ))
 }
 
-/// An angle's change, known modulo π/2: −π/4 to π/4.
+/// Change of an angle that is known modulo π/2, reduced to −π/4 to π/4.
 pub fn turn(change: f64) -> f64 {
     change - FRAC_PI_2 * (change / FRAC_PI_2).round()
 }

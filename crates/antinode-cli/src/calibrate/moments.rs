@@ -6,7 +6,7 @@ use nalgebra::Complex;
 
 use super::solve::{PickOffs, shares, variances};
 use crate::runs::driven::Energy;
-use crate::runs::{self, LEAST_ROWS, Row, turn};
+use crate::runs::{self, MIN_ROWS, Row, turn};
 
 /// A window's wave as the pick-offs show it.
 #[derive(Debug, Clone, Copy)]
@@ -47,7 +47,7 @@ impl Run {
     pub fn parts(&self, count: usize) -> impl Iterator<Item = Self> {
         let parts = self
             .moments
-            .chunks_exact((self.moments.len() / count).max(LEAST_ROWS));
+            .chunks_exact((self.moments.len() / count).max(MIN_ROWS));
         parts.map(|moments| Self {
             moments: moments.to_vec(),
             turns: self.turns,

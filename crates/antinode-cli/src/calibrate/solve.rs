@@ -120,7 +120,7 @@ impl Fault {
                 "{name}: the pattern turns by only {:.1}°, but must turn by 90° or more: turn the gyro while it rings down; where it does, shorten \
                  the windows, for it must turn by less than {:.1}° from row to row",
                 turned.to_degrees(),
-                super::MOST_TURN.to_degrees()
+                super::MAX_TURN.to_degrees()
             ),
             Self::Unsettled => format!(
                 "{name}: no calibration explains the rows: see that columns C and D are the pick-offs, and that nothing but the gyro's turning \

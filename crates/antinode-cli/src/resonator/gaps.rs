@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use super::fit::{searched, settle};
 use super::found::Found;
 use super::model::Model;
-use crate::runs::{LEAST_ROWS, Run};
+use crate::runs::{MIN_ROWS, Run};
 
 /// A gap is longer than so many mean distances of a run's rows.
 const LONG: f64 = 8.0;
@@ -34,7 +34,7 @@ fn cut(runs: &[Run]) -> Option<(Vec<Run>, Vec<usize>)> {
         let of_run = run.rows.chunk_by(|row, next| next.time - row.time < long);
         firsts.push(pieces.len());
         for (index, rows) in of_run.enumerate() {
-            if rows.len() >= LEAST_ROWS {
+            if rows.len() >= MIN_ROWS {
                 pieces.push(Run {
                     rows: rows.to_vec(),
                     file: run.file.clone(),

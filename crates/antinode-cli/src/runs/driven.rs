@@ -1,24 +1,24 @@
-//! What drives the wave: a recording of several ring-downs also holds what excites them.
+//! Parts of a recording in which something drives the wave: one of several ring-downs also holds their excitation.
 
 use std::io::{self, Write};
 
-use super::{LEAST_ROWS, Row, Run, turn};
+use super::{MIN_ROWS, Row, Run, turn};
 
-/// Deviations by which a decay is one, or is none.
-const SURE: f64 = 10.0;
-/// Of this share of the least decay that is one, it is none: two modes of one resonator are never that far apart.
-const LITTLE: f64 = 0.1;
-/// A corner is sought at so many places at a time.
-const PLACES: usize = 32;
-/// No row is known better by more than this than the one before.
-const LEAST_KNOWN: f64 = 0.5;
-/// So many are named.
-const NAMED: usize = 5;
+/// Deviations by which a decay, or the lack of one, must be significant.
+const SIGNIFICANT: f64 = 10.0;
+/// Share of the smallest significant decay below which there is none: the two modes of one resonator never differ that much.
+const NO_DECAY: f64 = 0.1;
+/// Places tried at a time in the search for a corner.
+const TRIED_PLACES: usize = 32;
+/// Deviation of a row, at least, as a share of that of the row before.
+const MIN_DEVIATION: f64 = 0.5;
+/// Driven runs that are named, at most.
+const MAX_NAMED: usize = 5;
 
-/// What a row tells of the wave's energy: that of a pattern at any angle decays evenly, circular or not.
+/// The energy E of the wave in a row: for a pattern at any angle, circular or not, it decays evenly.
 #[derive(Debug, Clone, Copy)]
 pub struct Energy {
-    /// s.
+    /// Time, s.
     pub time: f64,
     /// Half the logarithm of E, which decays as an amplitude does, and its standard deviation.
     pub log: f64,
@@ -28,7 +28,7 @@ pub struct Energy {
 }
 
 impl Run {
-    /// What the rows tell of the wave's energy.
+    /// The energy of the wave in each row.
     pub fn energies(&self) -> Vec<Energy> {
         let energy = |row: &Row| {
             let [of_main, of_quadrature, _] = row.deviations;
@@ -41,33 +41,33 @@ impl Run {
             }
         };
         let mut energies: Vec<_> = self.rows.iter().map(energy).collect();
-        temper(&mut energies);
+        raise_deviations(&mut energies);
         energies
     }
 }
 
-/// A wild row, whose deviation seems to be nothing beside its value, is taken to be known about as well as the row before it.
-fn temper(energies: &mut [Energy]) {
+/// Raises the deviation of an outlier that states next to none to about that of the row before it.
+fn raise_deviations(energies: &mut [Energy]) {
     for index in 1..energies.len() {
-        let least = LEAST_KNOWN * energies[index - 1].deviation;
-        energies[index].deviation = energies[index].deviation.max(least);
+        let min = MIN_DEVIATION * energies[index - 1].deviation;
+        energies[index].deviation = energies[index].deviation.max(min);
     }
 }
 
-/// A line through energies.
+/// A straight line through the logarithms of energies.
 #[derive(Debug, Clone, Copy)]
 struct Line {
-    /// 1/s, and what noise and flaws of the pick-offs may add to it.
+    /// Decay rate, 1/s, and what noise and flaws of the pick-offs may add to it.
     decay: f64,
     noise: f64,
     flaws: f64,
-    /// The weighted squares of what it leaves, and these per degree of freedom.
+    /// Weighted sum of squared residuals, and the same per degree of freedom.
     squares: f64,
     misfit: f64,
 }
 
 impl Line {
-    /// Flaws of the pick-offs change an amplitude by this share per radian that the pattern turns.
+    /// Fits the line; flaws of the pick-offs change an amplitude by the share `by_flaws` per radian that the pattern turns.
     fn through(energies: &[Energy], by_flaws: f64) -> Self {
         let weighted = |of: &dyn Fn(&Energy) -> f64| {
             let each = energies.iter();
@@ -81,47 +81,47 @@ impl Line {
         let slope = weighted(&|one| (one.time - time) * (one.log - log)) / along;
         let squares = weighted(&|one| (one.log - log - slope * (one.time - time)).powi(2));
         let misfit = squares / energies.len().saturating_sub(2).max(1) as f64;
-        let (mut angle, mut least, mut most) = (0.0, 0f64, 0f64);
+        let (mut angle, mut min, mut max) = (0.0, 0f64, 0f64);
         for pair in energies.windows(2) {
             angle += turn(pair[1].angle - pair[0].angle);
-            (least, most) = (least.min(angle), most.max(angle));
+            (min, max) = (min.min(angle), max.max(angle));
         }
         let seconds = energies[energies.len() - 1].time - energies[0].time;
         Self {
             decay: -slope,
-            noise: SURE * (misfit.max(1.0) / along).sqrt(),
-            flaws: by_flaws * (most - least) / seconds,
+            noise: SIGNIFICANT * (misfit.max(1.0) / along).sqrt(),
+            flaws: by_flaws * (max - min) / seconds,
             squares,
             misfit,
         }
     }
 
-    /// True where there is no decay, beside one of so much.
-    fn is_driven_beside(&self, least: f64) -> bool {
-        self.decay + self.noise + self.flaws < LITTLE * least
+    /// True if there is no decay, compared with one of this rate, 1/s.
+    fn is_driven_beside(&self, decay: f64) -> bool {
+        self.decay + self.noise + self.flaws < NO_DECAY * decay
     }
 
-    /// True where there is no decay, but surely one on the other side of a bend.
+    /// True if there is no decay, but a significant one on the other side of a bend.
     fn is_driven_unlike(&self, other: &Self) -> bool {
         self.is_driven_beside(other.decay - other.noise - other.flaws) && other.is_decay()
     }
 
-    /// True where there is a decay.
+    /// True if the decay is significant.
     fn is_decay(&self) -> bool {
         self.decay > self.noise
     }
 }
 
-/// The squares of what a line through energies leaves, over their own deviations: 1 where there is nothing but noise.
+/// Mean squared residual of a line through energies, over their own deviations: 1 in noise alone.
 pub fn unevenness(energies: &[Energy]) -> f64 {
     Line::through(energies, 0.0).misfit
 }
 
-/// Where energies, some that are driven and some that decay, bend from the one to the other, if they do.
+/// The place where energies change from driven to decaying or back, if there is one.
 fn bend(energies: &[Energy], by_flaws: f64) -> Option<usize> {
-    let mut side = LEAST_ROWS;
+    let mut side = MIN_ROWS;
     loop {
-        // The bend itself is somewhere between both sides.
+        // The bend itself may lie anywhere between both sides.
         let apart = (side / 8).max(1);
         let whole = 2 * (side + apart);
         if whole > energies.len() {
@@ -139,7 +139,7 @@ fn bend(energies: &[Energy], by_flaws: f64) -> Option<usize> {
     }
 }
 
-/// Where two lines through energies meet, this far from either end or further.
+/// The place where two lines through energies meet, at least `end` rows from either end.
 fn corner(energies: &[Energy], end: usize) -> usize {
     let squares = |at: usize| {
         let sides = [&energies[..at], &energies[at + 1..]];
@@ -150,7 +150,7 @@ fn corner(energies: &[Energy], end: usize) -> usize {
     };
     let mut places = end..energies.len() - end;
     loop {
-        let apart = (places.len() / PLACES).max(1);
+        let apart = (places.len() / TRIED_PLACES).max(1);
         let sums = places.clone().step_by(apart).map(|at| (at, squares(at)));
         let best = sums.min_by(|(_, one): &(_, f64), (_, other)| one.total_cmp(other));
         let (at, _) = best.unwrap_or((end, 0.0));
@@ -161,19 +161,19 @@ fn corner(energies: &[Energy], end: usize) -> usize {
     }
 }
 
-/// The runs without what is driven in them, if something else decays, and what is.
+/// Splits the runs at bends: returns the decaying parts and the driven ones. If nothing is driven, returns the runs as they are.
 pub fn undriven(runs: &[Run], energies: &[Vec<Energy>], by_flaws: f64) -> [Vec<Run>; 2] {
     let mut parts = Vec::new();
     for (run, energies) in runs.iter().zip(energies) {
         let mut left: Vec<_> = std::iter::once(0..run.rows.len()).collect();
         while let Some(range) = left.pop() {
             match bend(&energies[range.clone()], by_flaws) {
-                // The row at the bend may hold both.
+                // The row at the bend may hold some of both.
                 Some(at) => left.extend([
                     range.start + at + 1..range.end,
                     range.start..range.start + at,
                 ]),
-                None if range.len() >= LEAST_ROWS => parts.push((run, energies, range)),
+                None if range.len() >= MIN_ROWS => parts.push((run, energies, range)),
                 None => {}
             }
         }
@@ -183,8 +183,8 @@ pub fn undriven(runs: &[Run], energies: &[Vec<Energy>], by_flaws: f64) -> [Vec<R
         .map(|(_, energies, range)| Line::through(&energies[range.clone()], by_flaws));
     let lines: Vec<_> = lines.collect();
     let decays = lines.iter().filter(|line| line.is_decay());
-    let least = decays.map(|line| line.decay).fold(f64::INFINITY, f64::min);
-    let is_driven = |line: &Line| least.is_finite() && line.is_driven_beside(least);
+    let smallest = decays.map(|line| line.decay).fold(f64::INFINITY, f64::min);
+    let is_driven = |line: &Line| smallest.is_finite() && line.is_driven_beside(smallest);
     if !lines.iter().any(is_driven) {
         return [runs.to_vec(), Vec::new()];
     }
@@ -198,8 +198,8 @@ pub fn undriven(runs: &[Run], energies: &[Vec<Energy>], by_flaws: f64) -> [Vec<R
     found
 }
 
-/// Tells which runs were left out, as something drives them.
-pub fn tell(out: &mut impl Write, driven: &[Run]) -> io::Result<()> {
+/// Warns of runs that were left out because something drives them.
+pub fn warn(out: &mut impl Write, driven: &[Run]) -> io::Result<()> {
     let count = match driven.len() {
         0 => return Ok(()),
         1 => "1 run".to_owned(),
@@ -212,7 +212,7 @@ pub fn tell(out: &mut impl Write, driven: &[Run]) -> io::Result<()> {
     )
 }
 
-/// Which they are.
+/// The runs' recordings, lengths and beginnings.
 fn names(driven: &[Run]) -> String {
     let name = |run: &Run| {
         let file = if run.file.is_empty() {
@@ -223,9 +223,9 @@ fn names(driven: &[Run]) -> String {
         let (seconds, from) = (run.seconds(), run.rows[0].time);
         format!("{file}{seconds:.1} s from {from:.1} s on")
     };
-    let mut names: Vec<_> = driven.iter().take(NAMED).map(name).collect();
-    if driven.len() > NAMED {
-        names.push(format!("and {} more", driven.len() - NAMED));
+    let mut names: Vec<_> = driven.iter().take(MAX_NAMED).map(name).collect();
+    if driven.len() > MAX_NAMED {
+        names.push(format!("and {} more", driven.len() - MAX_NAMED));
     }
     names.join("; ")
 }
@@ -254,10 +254,10 @@ mod tests {
     }
 
     #[test]
-    fn where_a_drive_ends_or_begins_is_seen() {
+    fn the_beginning_or_end_of_a_drive_is_found() {
         for seed in 0..60 {
             let at = 40.0 + 1.7 * seed as f64;
-            // It holds the wave, or lets it grow, until then or from then on.
+            // The drive holds the wave, or makes it grow, until then or from then on.
             for [before, after] in [[0.0, -2e-3], [3e-3, -2e-3], [-2e-3, 0.0], [-2e-3, 3e-3]] {
                 let found = energies(200, seed, |time| {
                     let later = time - at;
@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn a_decay_swings_and_tables_that_stop_and_go_have_no_bends() {
+    fn decays_swings_and_tables_that_start_have_no_bends() {
         for seed in 0..100 {
             let begins = 20.0 + f64::from(seed);
             let rate = 0.01 * f64::from(seed % 10);

@@ -1,53 +1,53 @@
-//! Whether the wave that stands behind rows left out is still the one before them: a fault in a window may have moved it.
+//! Detection of jumps of the wave across rows left out: a fault in their windows may have changed it.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::{Row, turn};
 
-/// Rows that tell how fast the wave changes.
-const FEWEST: usize = 5;
-/// Rows that tell the course it takes: through fewer a parabola may go by chance.
-const KNOWN: usize = 20;
-/// Distances of rows across which that parabola goes on.
-const NEAR: f64 = 8.5;
-/// So many times what is between the parabola and a cubic the wave may lie beside it, at the least and per distance: what swings takes
-/// neither course for long.
-const APART: f64 = 3.0;
-const PER_DISTANCE: f64 = 1.3;
-/// So many times as fast as the fastest of the last changes the wave may go on.
-const FASTER: f64 = 3.0;
-/// Deviations that a change may be beyond what is expected.
+/// Rows that show how fast the wave changes.
+const RATE_ROWS: usize = 5;
+/// Rows that show the course of the wave: fewer may lie on a parabola by chance.
+const CURVE_ROWS: usize = 20;
+/// Gap, in distances of rows, below which that parabola is extrapolated.
+const MAX_DISTANCE: f64 = 8.5;
+/// Distance from the parabola that is allowed, as multiples of that between it and a cubic: at least, and per distance of rows. A swing
+/// follows neither for long.
+const MIN_ALLOWED: f64 = 3.0;
+const ALLOWED_PER_DISTANCE: f64 = 1.3;
+/// Rate of change that is allowed, as a multiple of the fastest of the last ones.
+const MAX_RATE: f64 = 3.0;
+/// Deviations by which a change may exceed what is allowed.
 const SIGMAS: f64 = 8.0;
 
-/// True where the main amplitude, the quadrature amplitude or the angle jumps from the last of the `rows` of a run to `next`; not where
+/// True if the main amplitude, the quadrature amplitude or the angle jumps from the last of the `rows` of a run to `next`; false if
 /// the run is too short to tell.
 pub fn jumps(rows: &[Row], next: &Row) -> bool {
-    let known = &rows[rows.len().saturating_sub(KNOWN)..];
-    known.len() >= FEWEST
+    let known = &rows[rows.len().saturating_sub(CURVE_ROWS)..];
+    known.len() >= RATE_ROWS
         && (0..3).any(|index| {
             let course = Course::of(known, next, index);
             course.leaves_rates() || course.leaves_curve()
         })
 }
 
-/// A polynomial at the next time, its variance there, and what it leaves of the known values over their variance.
+/// A polynomial through known values: its value and variance at the next time, and its mean squared residual over their variances.
 struct Curve {
     next: f64,
     variance: f64,
     misfit: f64,
 }
 
-/// How one quantity goes on, from the last of the known rows.
+/// The course of one quantity, relative to the last of the known rows.
 struct Course {
     /// Time in s, value, and the weight of each: one over its variance.
     known: Vec<[f64; 3]>,
     next: [f64; 3],
-    /// True of θ, which is known modulo π/2.
+    /// True for θ, which is known modulo π/2.
     is_angle: bool,
 }
 
 impl Course {
-    /// That of the logarithm of a_A, of a_B over a_A, or of θ: a decay alone bends none of them.
+    /// The course of ln a_A, of a_B over a_A, or of θ, for an `index` of 0 to 2: a decay alone bends none of them.
     fn of(rows: &[Row], next: &Row, index: usize) -> Self {
         let last = rows.last().unwrap_or(next);
         let (start, _) = last.ratio();
@@ -75,15 +75,15 @@ impl Course {
         }
     }
 
-    /// How far the next value is, in mean distances of the known ones.
+    /// The time to the next value, in mean distances of the known ones.
     fn distances(&self) -> f64 {
         let [first, ..] = self.known[self.known.len() - 1];
         self.next[0] / -first * (self.known.len() - 1) as f64
     }
 
-    /// True where the next value is near and lies beside the parabola through the known ones: the further, the worse that fits these.
+    /// True if the next value is near and lies off the parabola through the known ones; a parabola that fits these worse allows for more.
     fn leaves_curve(&self) -> bool {
-        if self.known.len() < KNOWN || self.distances() >= NEAR {
+        if self.known.len() < CURVE_ROWS || self.distances() >= MAX_DISTANCE {
             return false;
         }
         let (Some(parabola), Some(cubic)) = (self.curve(2), self.curve(3)) else {
@@ -95,16 +95,16 @@ impl Course {
             beside = turn(beside);
         }
         let deviation = (1.0 / weight + parabola.variance).sqrt() * parabola.misfit.max(1.0);
-        let likely =
-            APART.max(PER_DISTANCE * self.distances()) * (cubic.next - parabola.next).abs();
-        beside.abs() > likely + SIGMAS * deviation
+        let allowed = MIN_ALLOWED.max(ALLOWED_PER_DISTANCE * self.distances())
+            * (cubic.next - parabola.next).abs();
+        beside.abs() > allowed + SIGMAS * deviation
     }
 
-    /// The polynomial of such a degree through the known values.
+    /// The polynomial of this degree through the known values.
     fn curve(&self, degree: usize) -> Option<Curve> {
         let count = self.known.len();
         let [span, ..] = self.known[count - 1];
-        // Of the time that is known: powers of it are then alike.
+        // In units of the known span, powers of time are alike in size.
         let power = |time: f64, n: usize| (time / span).powi(n as i32);
         let rows = DMatrix::from_fn(count, degree + 1, |i, n| {
             let [time, _, weight] = self.known[i];
@@ -125,15 +125,15 @@ impl Course {
         })
     }
 
-    /// True where the next value is further from the last one than so many times the fastest of the last changes goes.
+    /// True if the next value is further from the last one than a multiple of the fastest of the last rates allows.
     fn leaves_rates(&self) -> bool {
-        let rates = self.known[..FEWEST]
+        let rates = self.known[..RATE_ROWS]
             .windows(2)
             .map(|pair| ((pair[0][1] - pair[1][1]) / (pair[0][0] - pair[1][0])).abs());
         let [until, value, weight] = self.next;
-        let likely = FASTER * rates.fold(0.0, f64::max) * until;
+        let allowed = MAX_RATE * rates.fold(0.0, f64::max) * until;
         let noise = (1.0 / weight + 1.0 / self.known[0][2]).sqrt();
-        value.abs() > likely + SIGMAS * noise
+        value.abs() > allowed + SIGMAS * noise
     }
 }
 
@@ -144,7 +144,7 @@ mod tests {
     use super::*;
     use crate::deviates::Deviates;
 
-    /// A row a second, whose quantity `index` is that, beside a decay of 2 % a second.
+    /// A row whose quantity `index` has this value, beside a decay of 2 % a second.
     fn row(time: f64, index: usize, value: f64, deviation: f64) -> Row {
         let mut values = [0.0; 3];
         values[index] = value;
@@ -154,7 +154,7 @@ mod tests {
         Row::of(time, [main, values[1] * main, values[2]], deviations)
     }
 
-    /// Whether the course of quantity `index` jumps where `missing` rows are left out behind `count`.
+    /// Whether a course of quantity `index`, with a row a second, seems to jump across `missing` rows after `count`.
     fn is_jump(index: usize, count: usize, missing: usize, course: impl Fn(f64) -> f64) -> bool {
         let row = |k: usize| row(k as f64, index, course(k as f64), 1e-4);
         let rows: Vec<Row> = (0..count).map(row).collect();
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn what_swings_is_hardly_ever_a_jump() {
+    fn a_swing_is_hardly_ever_a_jump() {
         for (count, missing) in [
             (5, 1),
             (19, 2),
@@ -184,13 +184,13 @@ mod tests {
                     }
                 }
             }
-            // A run that is cut in two costs little, and one that is not as much as the jump.
-            let most = if missing < 8 {
+            // A run cut in two for nothing costs little; a jump that is missed costs as much as it is large.
+            let max = if missing < 8 {
                 trials / 300
             } else {
                 trials / 50
             };
-            assert!(jumps <= most, "{count}, {missing}: {jumps} of {trials}");
+            assert!(jumps <= max, "{count}, {missing}: {jumps} of {trials}");
         }
     }
 
@@ -219,7 +219,7 @@ mod tests {
                     };
                     let count = count as usize;
                     let missing = 1 + trial % 2;
-                    // Of 40 deviations.
+                    // A jump of 40 deviations.
                     seen += u32::from(is_jump(index, count, missing, course(4e-3)));
                     false_ones += u32::from(is_jump(index, count, missing, course(0.0)));
                 }

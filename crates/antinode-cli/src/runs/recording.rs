@@ -1,4 +1,4 @@
-//! The rows of one recording become its runs, whatever rows of others stand between them.
+//! Groups the rows of one recording into runs, whatever rows of others lie between them.
 
 use antinode::Flags;
 
@@ -6,39 +6,39 @@ use super::jump::jumps;
 use super::row::Row;
 use super::step::steps;
 use super::way::bow;
-use super::{LEAST_ROWS, Run, turn};
+use super::{MIN_ROWS, Run, turn};
 
-/// A row whose deviations are so many times those of another is known worse.
-const WORSE: f64 = 2.0;
-/// Such rows in a row are no fault's any more.
-const VAGUE: usize = 20;
+/// Ratio of deviations from which on a row is known less well than another.
+const MIN_WORSE: f64 = 2.0;
+/// Consecutive rows known less well that may be due to a fault, at most.
+const MAX_VAGUE: usize = 20;
 
-/// A recording whose rows are read.
+/// A recording whose rows are being read.
 pub(super) struct Recording {
-    /// As its rows name it.
+    /// Its name, as in its rows.
     pub file: String,
     /// The runs that have ended.
     pub runs: Vec<Run>,
-    /// When runs ended at a step between clean rows, s.
+    /// Times at which runs ended at a step between clean rows, s.
     pub steps: Vec<f64>,
-    /// The one that has not.
+    /// The run that has not ended.
     run: Run,
-    /// Rows of the run before others that were left out and hold more than a circle, until one behind these is known as well.
+    /// Number of rows before some that were left out for more than a circle, until a row after these is known as well.
     torn: Option<usize>,
-    /// Rows of the run before circles that were left out.
+    /// Numbers of rows before circular ones that were left out.
     circles: Vec<usize>,
-    /// Times and angles of rows that were left out behind the last one; none of one that does not show the pattern.
+    /// Times and angles of rows left out after the last one; `None` for one that does not show the pattern.
     between: Vec<Option<[f64; 2]>>,
 }
 
-/// What becomes of a row.
+/// What was done with a row.
 #[derive(PartialEq, Eq)]
 pub(super) enum Taken {
-    /// It goes on with the run, or begins another.
+    /// It continues the run, or begins another.
     Kept,
-    /// It is left out, for its window overlaps the one before.
+    /// It is left out, as its window overlaps the one before.
     Overlaps,
-    /// It begins another run, for it is not later than the one before.
+    /// It begins another run, as it is not later than the one before.
     Backward,
 }
 
@@ -55,7 +55,7 @@ impl Recording {
         }
     }
 
-    /// Leaves out a row with flags, of which these end a run, and such a time and angle.
+    /// Leaves out a row with these flags, time and angle; a flag of `breaks` ends the run.
     pub fn leave_out(&mut self, flags: Flags, breaks: Flags, way: Option<[f64; 2]>) {
         if flags.intersects(breaks) {
             self.end();
@@ -68,8 +68,8 @@ impl Recording {
         }
     }
 
-    /// Takes the next row; a run ends where the pattern turns by more than so much, rad.
-    pub fn take(&mut self, mut row: Row, most_turn: f64) -> Taken {
+    /// Takes the next row; the run ends if the pattern has turned by more than `max_turn` rad since the last.
+    pub fn take(&mut self, mut row: Row, max_turn: f64) -> Taken {
         let mut taken = Taken::Kept;
         if let Some(last) = self.run.rows.last() {
             if row.time <= last.time {
@@ -77,12 +77,12 @@ impl Recording {
             } else if self.run.overlaps(&row) {
                 return Taken::Overlaps;
             }
-            let is_turned = turn(row.angle - last.angle).abs() > most_turn;
+            let is_turned = turn(row.angle - last.angle).abs() > max_turn;
             let before = self
                 .torn
                 .filter(|&torn| jumps(&self.run.rows[..torn], &row));
             if let Some(before) = before {
-                // Rows between may be of either side.
+                // Rows in between may belong to either side.
                 self.run.rows.truncate(before);
             }
             if taken == Taken::Backward || before.is_some() || is_turned {
@@ -98,17 +98,17 @@ impl Recording {
         taken
     }
 
-    /// True where a row does not tell whether the wave behind so many rows is still the same, for it is known worse than these; not for long.
+    /// True if a row is known too little to tell whether the wave is still that of the first `torn` rows; false after many such rows.
     fn is_vague(&self, torn: usize, row: &Row) -> bool {
         let rows = &self.run.rows;
         let last = rows.get(torn.wrapping_sub(1));
         last.is_some_and(|last| {
-            let worse = |i: usize| row.deviations[i] > WORSE * last.deviations[i];
-            rows.len() < torn + VAGUE && (0..3).any(worse)
+            let worse = |i: usize| row.deviations[i] > MIN_WORSE * last.deviations[i];
+            rows.len() < torn + MAX_VAGUE && (0..3).any(worse)
         })
     }
 
-    /// Keeps the run, or what is between steps of it, if it is long enough, and begins another.
+    /// Ends the run: keeps it, or its parts between steps, if they are long enough.
     pub fn end(&mut self) {
         self.torn = None;
         let rows = std::mem::take(&mut self.run.rows);
@@ -116,12 +116,12 @@ impl Recording {
         let steps = steps(&rows, &std::mem::take(&mut self.circles));
         self.steps.extend(steps.iter().map(|&step| rows[step].time));
         for until in steps.into_iter().chain([rows.len()]) {
-            if until - from >= LEAST_ROWS {
+            if until - from >= MIN_ROWS {
                 let file = self.file.clone();
                 let rows = rows[from..until].to_vec();
                 self.runs.push(Run { rows, file });
             }
-            // The row about which it steps may hold both.
+            // The row at the step may hold some of both.
             from = until + 1;
         }
     }

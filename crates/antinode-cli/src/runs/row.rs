@@ -1,4 +1,4 @@
-//! What fits read of a row.
+//! The values of a row that fits use.
 
 use std::f64::consts::TAU;
 use std::io::Read;
@@ -9,7 +9,7 @@ use super::turn;
 use crate::failure::Failure;
 use crate::row_file::{RowFile, number};
 
-/// Columns that are read.
+/// Columns that rows must have.
 const COLUMNS: [&str; 8] = [
     "time_s",
     "main_amplitude",
@@ -21,41 +21,41 @@ const COLUMNS: [&str; 8] = [
     "angle_std_rad",
 ];
 
-/// Those of the frequency, Hz, of the decay rate, 1/s, and of the phase, rad; rows may lack them.
+/// Columns that rows may lack: deviations of the frequency, Hz, of the decay rate, 1/s, and of the phase, rad.
 const OTHER_DEVIATIONS: [&str; 3] = ["frequency_std_hz", "decay_rate_std_s", "phase_std_rad"];
-/// Rows may lack it too.
+/// The column of the phase, which rows may lack too.
 const PHASE: &str = "phase_rad";
 
-/// Curves of which a way is made.
+/// Curves that make up an unsteady turn.
 pub const BOWS: usize = 3;
 
-/// What is used of a row.
+/// The values of a row.
 #[derive(Debug, Clone, Copy)]
 pub struct Row {
-    /// s.
+    /// Time of the window's middle, s.
     pub time: f64,
     /// a_A and a_B, in the samples' unit.
     pub main: f64,
     pub quadrature: f64,
     /// θ_A, rad.
     pub angle: f64,
-    /// Of the main wave, rad, where the rows tell it.
+    /// Phase of the main wave, rad, if the rows have it.
     pub phase: Option<f64>,
-    /// One standard deviation of it at this time: infinite where the rows do not tell it.
+    /// One standard deviation of it at this time; infinite if the rows lack it.
     pub phase_deviation: f64,
-    /// Hz, and one standard deviation of it: infinite where the rows do not tell it.
+    /// Frequency, Hz, and one standard deviation of it; infinite if the rows lack it.
     pub frequency: f64,
     pub frequency_deviation: f64,
     /// One standard deviation each of a_A, a_B and θ_A.
     pub deviations: [f64; 3],
-    /// Length of the window, s, from what it knows of an amplitude and its rate; 0 where the rows do not tell the latter.
+    /// Length of the window, s, from the deviations of an amplitude and of its rate; 0 if the rows lack the latter.
     pub seconds: f64,
-    /// How far the pattern is beside a steady turn on its way from the row before, rad: so many times what [`Row::beside`] has; 0 where it
-    /// is taken to turn steadily.
+    /// Departure of the pattern from a steady turn since the row before, rad, as coefficients of the curves of [`Row::curves`]; 0 if it is
+    /// taken to turn steadily.
     pub bow: [f64; BOWS],
 }
 
-/// Where the columns stand.
+/// Places of the columns.
 pub struct Places {
     needed: [usize; COLUMNS.len()],
     others: [Option<usize>; OTHER_DEVIATIONS.len()],
@@ -63,7 +63,7 @@ pub struct Places {
 }
 
 impl Places {
-    /// Those of a file.
+    /// The places in a file.
     pub fn of(rows: &RowFile<impl Read>) -> Result<Self, Failure> {
         let mut needed = [0; COLUMNS.len()];
         for (to, column) in needed.iter_mut().zip(COLUMNS) {
@@ -77,13 +77,13 @@ impl Places {
         })
     }
 
-    /// The time of a row, s, and its angle, rad, where they are numbers.
+    /// The time of a row, s, and its angle, rad, if they are numbers.
     pub fn way(&self, record: &StringRecord) -> Option<[f64; 2]> {
         let [time, _, _, angle, ..] = self.needed.map(|place| number(record, place));
         Some([time?, angle.filter(|angle| angle.is_finite())?])
     }
 
-    /// The time of a row, s, where it is a number.
+    /// The time of a row, s, if it is a number.
     pub fn time(&self, record: &StringRecord) -> Option<f64> {
         number(record, self.needed[0])
     }
@@ -94,11 +94,11 @@ fn is_finite(number: f64) -> bool {
     (number as f32).is_finite()
 }
 
-/// By how much noise makes the amplitude of a travelling wave longer on average, as it does any vector: its parts have twice the variance
-/// of a_A. It is a small part of a deviation, but the same in all rows.
-fn longer(travelling: f64, of_main: f64) -> f64 {
+/// Mean increase of a travelling wave's amplitude by noise, which lengthens any vector: its components have twice the variance
+/// of a_A. The increase is a small part of a deviation, but the same in all rows.
+fn increase_by_noise(travelling: f64, of_main: f64) -> f64 {
     let variance = 2.0 * of_main * of_main;
-    // Nearer to nothing the row is circular, and no longer a series.
+    // Nearer to zero the row is circular, and the series does not hold.
     if travelling.powi(2) > 16.0 * variance {
         0.5 * variance / travelling
     } else {
@@ -108,7 +108,7 @@ fn longer(travelling: f64, of_main: f64) -> f64 {
 
 #[cfg(test)]
 impl Row {
-    /// A row of these a_A, a_B and θ with their deviations; what else it has is of no use.
+    /// A row with these a_A, a_B and θ and their deviations; its other values do not matter.
     pub fn of(time: f64, [main, quadrature, angle]: [f64; 3], deviations: [f64; 3]) -> Self {
         Self {
             time,
@@ -127,20 +127,20 @@ impl Row {
 }
 
 impl Row {
-    /// By how much the pattern has turned since the row before at such a share of the way from that, rad.
+    /// Turn of the pattern since the row before, rad, when this share of the time from that row has passed.
     pub fn turned(&self, before: &Self, share: f64) -> f64 {
-        let beside = Self::beside(share).into_iter().zip(self.bow);
+        let beside = Self::curves(share).into_iter().zip(self.bow);
         let beside: f64 = beside.map(|(by, bow)| by * bow).sum();
         share * turn(self.angle - before.angle) + beside
     }
 
-    /// The curves of which a way is made, at a share of it.
-    pub fn beside(share: f64) -> [f64; BOWS] {
+    /// The curves that make up an unsteady turn, at this share of the time between two rows.
+    pub fn curves(share: f64) -> [f64; BOWS] {
         let middle = 2.0 * share - 1.0;
         [1.0, middle, middle * middle].map(|curve| curve * share * (1.0 - share))
     }
 
-    /// The logarithm of a_A over another row's, and its deviation: a decay alone does not bend it.
+    /// The logarithm of a_A over that of another row, and its deviation: a decay alone does not bend it.
     pub fn log_beside(&self, other: &Self) -> (f64, f64) {
         (
             (self.main / other.main).ln(),
@@ -155,9 +155,9 @@ impl Row {
         (ratio, of_quadrature.hypot(ratio * of_main) / self.main)
     }
 
-    /// None where a number is missing or not finite, or none that rows in single precision have.
+    /// Reads a row; `None` if a number is missing, not finite or out of the range that rows in single precision have.
     pub fn parse(record: &StringRecord, places: &Places) -> Option<Self> {
-        // Squares of other numbers may be 0 or infinite.
+        // The squares of numbers beyond single precision may be 0 or infinite.
         let finite = |place| number(record, place).filter(|number: &f64| is_finite(*number));
         let [
             Some(time),
@@ -181,12 +181,13 @@ impl Row {
         let mut positive = deviations
             .into_iter()
             .chain([main, of_frequency, of_rate, of_phase]);
-        // The phase is that of the time before it was rounded: doubles as large as a date, in s since 1970, are 0.2 µs apart.
+        // The phase belongs to the time before rounding: doubles as large as a date, in s since 1970, are 0.2 µs apart.
         let rounded = TAU * frequency * (time.abs().next_up() - time.abs()) / 12f64.sqrt();
-        // Rounded digits may make a_B the greater one, by little.
+        // Rounding of the digits may make |a_B| slightly greater than a_A.
         let is_usable =
             positive.all(|number| number as f32 > 0.0) && quadrature.abs() < 1.01 * main;
-        let [more, less] = [1.0, -1.0].map(|sign| longer(main + sign * quadrature, of_main));
+        let [more, less] =
+            [1.0, -1.0].map(|sign| increase_by_noise(main + sign * quadrature, of_main));
         is_usable.then_some(Self {
             time,
             main: main - 0.5 * (more + less),
@@ -197,7 +198,7 @@ impl Row {
             frequency,
             frequency_deviation: of_frequency,
             deviations,
-            // A straight line through evenly spread samples knows its slope so much worse than its middle.
+            // For a straight line through evenly spread samples, this is the ratio of the deviations of middle and slope.
             seconds: 12f64.sqrt() * of_main / main / of_rate,
             bow: [0.0; BOWS],
         })
@@ -210,8 +211,8 @@ mod tests {
     use crate::deviates::Deviates;
 
     #[test]
-    fn noise_makes_no_amplitude_longer() {
-        // a_A and a_B, and their deviation: from eight of them to twenty.
+    fn amplitudes_are_free_of_the_bias_of_noise() {
+        // a_A, a_B and their deviation: a_A of 8 or 20 deviations.
         for (main, quadrature, std) in [(1.0, 0.0, 0.125), (1.0, 0.3, 0.05), (1.0, -0.4, 0.05)] {
             let mut random = Deviates(7);
             let count = 100_000;
@@ -230,16 +231,20 @@ mod tests {
             let mut sums = [0.0; 3];
             while let Some(record) = rows.next().unwrap() {
                 let row = Row::parse(record, &places).unwrap();
-                let as_told = number(record, places.needed[1]).unwrap();
-                let values = [row.main - main, row.quadrature - quadrature, as_told - main];
+                let as_printed = number(record, places.needed[1]).unwrap();
+                let values = [
+                    row.main - main,
+                    row.quadrature - quadrature,
+                    as_printed - main,
+                ];
                 for (sum, value) in sums.iter_mut().zip(values) {
                     *sum += value / std / f64::from(count);
                 }
             }
-            // In deviations; of the mean one is 0.003. What is left is of the next order.
-            let [main, quadrature, as_told] = sums;
+            // In deviations; that of the mean is 0.003. What is left is of the next order.
+            let [main, quadrature, as_printed] = sums;
             assert!(main.abs() < 0.013 && quadrature.abs() < 0.013, "{sums:?}");
-            assert!(as_told > 0.04, "{sums:?}");
+            assert!(as_printed > 0.04, "{sums:?}");
         }
     }
 }

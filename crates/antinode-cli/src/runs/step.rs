@@ -1,30 +1,30 @@
-//! Whether a gain or the wave steps between rows that all look clean: by too little for a window to be flagged.
+//! Detection of steps of a gain or the wave between rows that all look clean, as the step is too small for a window to be flagged.
 
 use nalgebra::{SMatrix, SVector};
 
 use super::{Row, turn};
 
-/// Rows on each side that tell it: a step nearer to the ends of a run is not seen.
+/// Rows examined on each side: a step nearer to the ends of a run is not seen.
 const SIDE: usize = 10;
-/// Unknowns of the course about a row: a cubic, a step, and another slope.
+/// Unknowns of the course about a row: a cubic, a step, and a change of slope.
 const UNKNOWNS: usize = 6;
-/// The places of the latter two.
+/// The places of the last two.
 const STEP: usize = 4;
 const BEND: usize = 5;
-/// Deviations that a step must be beyond what else may look like it.
+/// Deviations by which a step must exceed what else may look like it.
 const SIGMAS: f64 = 8.0;
-/// So many times what a table that starts or stops within a row makes of the slopes.
-const BENT: f64 = 2.0;
-/// What flaws of the pick-offs make of a sudden turn, per rad: gains that differ by 5 % do.
-const FLAWED: f64 = 0.1;
-/// Nearer to a circle than this a_B over a_A is, no a_A is smooth.
-const CIRCULAR: f64 = 0.9;
-/// The rows beside may be so much of a side apart, and one side so many times the other.
-const NEAR: f64 = 0.4;
-const UNLIKE: f64 = 3.0;
+/// Multiple that is allowed of the step that a change of slope would make, if a table starts or stops within a row.
+const MAX_BEND: f64 = 2.0;
+/// Step that flaws of the pick-offs make of a sudden turn, per rad: gains that differ by 5 % do.
+const STEP_BY_FLAWS: f64 = 0.1;
+/// Ratio of |a_B| to a_A above which the pattern is too near to a circle for a_A to be smooth.
+const MAX_RATIO: f64 = 0.9;
+/// Distance of the middle row's neighbours, at most, as a share of the shorter side, and ratio of the sides, at most.
+const MAX_GAP: f64 = 0.4;
+const MAX_UNLIKE: f64 = 3.0;
 
-/// The rows of a run about which a_A or a_B over a_A steps: what is before is one wave, what is behind another, and the row itself may
-/// hold both. Not near rows behind which circles were left out, for amplitudes change places there.
+/// Numbers of the rows at which a_A or a_B over a_A steps: the rows before show one wave, those after another, and the row itself may
+/// hold both. None near circular rows that were left out, as amplitudes change places there.
 pub fn steps(rows: &[Row], circles: &[usize]) -> Vec<usize> {
     let abouts = rows.windows(2 * SIDE + 1).enumerate();
     let is_circled = |first: usize| {
@@ -34,13 +34,13 @@ pub fn steps(rows: &[Row], circles: &[usize]) -> Vec<usize> {
     };
     let mut seen: Vec<(usize, f64)> = abouts
         .filter(|&(first, _)| !is_circled(first))
-        .map(|(first, about)| (first + SIDE, beyond(about)))
-        .filter(|&(_, beyond)| beyond > 1.0)
+        .map(|(first, about)| (first + SIDE, step_ratio(about)))
+        .filter(|&(_, step_ratio)| step_ratio > 1.0)
         .collect();
     seen.sort_by(|(_, one), (_, other)| other.total_cmp(one));
     let mut steps: Vec<usize> = Vec::new();
     for (index, _) in seen {
-        // Rows beside a step see it too.
+        // Rows near a step show it too.
         if steps.iter().all(|step| step.abs_diff(index) > SIDE) {
             steps.push(index);
         }
@@ -49,9 +49,9 @@ pub fn steps(rows: &[Row], circles: &[usize]) -> Vec<usize> {
     steps
 }
 
-/// How many times as far as it may without a step the wave steps about the middle one of these rows.
-fn beyond(rows: &[Row]) -> f64 {
-    let circular = |row: &Row| row.quadrature.abs() > CIRCULAR * row.main;
+/// The wave's step at the middle one of these rows, over the largest that may seem to be there without a step.
+fn step_ratio(rows: &[Row]) -> f64 {
+    let circular = |row: &Row| row.quadrature.abs() > MAX_RATIO * row.main;
     let Some(times) = Times::of(rows).filter(|_| !rows.iter().any(circular)) else {
         return 0.0;
     };
@@ -59,50 +59,50 @@ fn beyond(rows: &[Row]) -> f64 {
     let of_main = times.course(rows, |row| row.log_beside(&middle));
     let of_ratio = times.course(rows, Row::ratio);
     let courses = [of_main, of_ratio].map(|course| course.unwrap_or_default());
-    let most = |more: f64| {
-        let beyond = courses.map(|course| course.step.abs() / (course.likely + more));
-        beyond[0].max(beyond[1])
+    let largest = |more: f64| {
+        let ratios = courses.map(|course| course.step.abs() / (course.allowed + more));
+        ratios[0].max(ratios[1])
     };
-    if most(0.0) < 1.0 {
+    if largest(0.0) < 1.0 {
         return 0.0;
     }
     let of_angle = times.course(rows, |row| {
         (turn(row.angle - middle.angle), row.deviations[2])
     });
-    of_angle.map_or(0.0, |course| most(FLAWED * course.step.abs()))
+    of_angle.map_or(0.0, |course| largest(STEP_BY_FLAWS * course.step.abs()))
 }
 
-/// The times of rows about one, from the middle of its neighbours on, over the longer side.
+/// The times of rows about a middle one, from halfway between its neighbours, in units of the longer side.
 struct Times {
     times: [f64; 2 * SIDE],
-    /// How far the neighbours are from that middle.
+    /// Distance of the neighbours from there.
     near: f64,
 }
 
-/// What a quantity does about a row.
+/// The step of a quantity at a row.
 #[derive(Debug, Clone, Copy)]
 struct Course {
     step: f64,
-    /// What may look like a step.
-    likely: f64,
+    /// The largest step that there may seem to be without one.
+    allowed: f64,
 }
 
 impl Default for Course {
     fn default() -> Self {
         Self {
             step: 0.0,
-            likely: f64::INFINITY,
+            allowed: f64::INFINITY,
         }
     }
 }
 
-/// The rows but for the middle one, which may be of both sides.
+/// The rows but for the middle one, which may belong to both sides.
 fn beside(rows: &[Row]) -> impl Iterator<Item = &Row> {
     rows[..SIDE].iter().chain(&rows[SIDE + 1..])
 }
 
 impl Times {
-    /// None where the rows are too uneven.
+    /// `None` if the rows are too unevenly spaced.
     fn of(rows: &[Row]) -> Option<Self> {
         let (before, after) = (rows[SIDE - 1].time, rows[SIDE + 1].time);
         let middle = 0.5 * (before + after);
@@ -112,14 +112,14 @@ impl Times {
         for (time, row) in times.iter_mut().zip(beside(rows)) {
             *time = (row.time - middle) / more;
         }
-        let is_even = after - before < NEAR * less && more < UNLIKE * less;
+        let is_even = after - before < MAX_GAP * less && more < MAX_UNLIKE * less;
         is_even.then_some(Self {
             times,
             near: 0.5 * (after - before) / more,
         })
     }
 
-    /// The course of a quantity that has such a value and deviation in a row.
+    /// Fits the course of a quantity; `of` gives its value and deviation in a row.
     fn course(&self, rows: &[Row], of: impl Fn(&Row) -> (f64, f64)) -> Option<Course> {
         let mut matrix = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
         let mut right = SVector::<f64, UNKNOWNS>::zeros();
@@ -139,7 +139,7 @@ impl Times {
         let noise = covariance[(STEP, STEP)].sqrt() * misfit.max(1.0);
         Some(Course {
             step: found[STEP],
-            likely: SIGMAS * noise + BENT * found[BEND].abs() * self.near,
+            allowed: SIGMAS * noise + MAX_BEND * found[BEND].abs() * self.near,
         })
     }
 }
@@ -166,7 +166,7 @@ mod tests {
 
     #[test]
     fn a_step_is_seen_where_it_is_and_nowhere_else() {
-        // Of 40 deviations.
+        // A step of 40 deviations.
         for (index, size) in [(0, 4e-3), (0, -4e-3), (1, 4e-3)] {
             for seed in 0..200 {
                 let at = 15.0 + 0.1 * seed as f64;
@@ -180,7 +180,7 @@ mod tests {
                 assert_eq!(found.len(), 1, "{index}, {size}, {at}: {found:?}");
                 let apart = (found[0] as f64 - at).abs();
                 assert!(apart <= 1.0, "{index}, {size}, {at}: {found:?}");
-                // A circle passed meanwhile.
+                // If a circle passed there, it is none.
                 assert!(steps(&rows, &[found[0]]).is_empty());
             }
         }
@@ -191,7 +191,7 @@ mod tests {
         for seed in 0..300 {
             let period = 3.0 * 1.02f64.powi(seed);
             let size = 10f64.powi(seed % 4 - 4);
-            // A table that goes from a time on, by up to 0.2 rad a row, with gains that differ by 3 %, a rate that splits make, or none.
+            // A table that starts to turn, by up to 0.2 rad a row, with gains that differ by 3 % either way, or not at all.
             let (begins, rate) = (20.0 + 0.07 * f64::from(seed), 0.02 * f64::from(seed % 10));
             let flaw = 0.03 * f64::from(seed % 3 - 1);
             let rows = rows(100, seed as u64, |time| {

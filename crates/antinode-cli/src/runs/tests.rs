@@ -15,11 +15,11 @@ fn rows(file: &str, count: usize, turn: f64, flags: impl Fn(usize) -> &'static s
         .collect()
 }
 
-/// None yet, of all times.
-fn runs(most_turn: f64) -> Runs {
+/// No runs yet, of rows at all times.
+fn runs(max_turn: f64) -> Runs {
     Runs::new(
         f64::NEG_INFINITY..f64::INFINITY,
-        most_turn,
+        max_turn,
         Flags::REACQUIRED,
     )
 }
@@ -34,7 +34,7 @@ fn add(all: &mut Runs, text: &str) -> Result<(), Failure> {
     all.read(RowFile::new("it", text.as_bytes())?)
 }
 
-/// Rows of each run.
+/// Number of rows of each run.
 fn lengths(all: &Runs) -> Vec<usize> {
     all.runs.iter().map(|run| run.rows.len()).collect()
 }
@@ -81,7 +81,7 @@ fn rows_of_several_recordings_may_stand_in_the_order_of_their_time() {
 fn flagged_rows_are_left_out() {
     let all = read(&rows("a", 40, 0.02, |k| if k == 5 { "misfit" } else { "" }));
     assert_eq!(lengths(&all), [39]);
-    // What turned meanwhile is not known.
+    // How far the pattern turned meanwhile is not known.
     let lost = |k| match k {
         15..20 => "lost",
         20 => "reacquired",
@@ -95,7 +95,7 @@ fn flagged_rows_are_left_out() {
 #[test]
 fn a_wave_that_jumps_across_rows_left_out_begins_another_run() {
     let torn = |k| if k == 20 { "misfit" } else { "" };
-    // The values behind the torn row, by these factors of the amplitudes and this much of an angle.
+    // Lengths of the runs if a_A jumps by a share, or a_B or θ by this much.
     let jump = |main: f64, quadrature: f64, angle: f64, flags: fn(usize) -> &'static str| {
         let text: String = (0..40)
             .map(|k| {
@@ -122,14 +122,14 @@ fn a_wave_that_jumps_across_rows_left_out_begins_another_run() {
     ] {
         assert_eq!(jump(main, quadrature, angle, torn), [20, 19]);
     }
-    // From clean row to clean row too, but for the row about which it is; between two sides of a circle amplitudes change places.
+    // A jump between clean rows is seen too, and its row left out; not at a circle, where amplitudes change places.
     assert_eq!(jump(0.06, 0.0, 0.0, |_| ""), [19, 20]);
     let circle = |k| if k == 20 { "circular" } else { "" };
     assert_eq!(jump(0.06, 0.0, 0.0, circle), [39]);
 }
 
 #[test]
-fn a_jump_behind_rows_that_are_hardly_known_is_one_too() {
+fn a_jump_is_also_seen_after_rows_with_large_deviations() {
     let read = |jump: f64| {
         let text: String = (0..60)
             .map(|k| {
@@ -154,7 +154,7 @@ fn a_jump_behind_rows_that_are_hardly_known_is_one_too() {
         lengths(&read(&text))
     };
     assert_eq!(read(0.0), [59]);
-    // The rows that may be of either side are left out.
+    // The rows that may belong to either side are left out.
     assert_eq!(read(0.003), [25, 31]);
 }
 
@@ -178,17 +178,17 @@ fn too_fast_a_turn_and_too_few_rows_are_no_run() {
 }
 
 #[test]
-fn what_is_no_row_is_told_with_its_line() {
+fn a_faulty_row_is_reported_with_its_line() {
     let text = HEADER.to_owned() + &rows("a", 3, 0.01, |_| "").replace("0.01,0.5", "0.01,x");
     let fault = add(&mut runs(0.1), &text).unwrap_err();
     assert!(fault.to_string().contains("it, line 3: "), "{fault}");
-    for (before, after, told) in [
+    for (before, after, message) in [
         ("frequency_hz", "f", "no column frequency_hz"),
         ("flags", "state", "no column flags"),
     ] {
         let text = HEADER.replace(before, after);
         let fault = add(&mut runs(0.1), &text).unwrap_err();
-        assert!(fault.to_string().contains(told), "{fault}");
+        assert!(fault.to_string().contains(message), "{fault}");
     }
 }
 
@@ -201,49 +201,49 @@ fn a_row_with_a_flag_need_not_have_numbers() {
 }
 
 #[test]
-fn headers_of_files_that_were_put_together_are_passed_over() {
+fn headers_of_joined_files_are_skipped() {
     let text = rows("a", 20, 0.01, |_| "") + HEADER + &rows("b", 30, 0.01, |_| "");
     let all = read(&text);
     assert_eq!((lengths(&all), all.rows), (vec![20, 30], 50));
 }
 
 #[test]
-fn what_leaves_no_run_is_told() {
-    let told = |text: &str| read(text).fault("it").map(|fault| fault.to_string());
+fn the_reason_for_no_run_is_reported() {
+    let message = |text: &str| read(text).fault("it").map(|fault| fault.to_string());
     let few = rows("a", 11, 0.01, |_| "");
-    let fault = told(&few).unwrap();
+    let fault = message(&few).unwrap();
     assert!(
         fault.contains("no run of 12 clean rows, for there are only 11: shorten"),
         "{fault}"
     );
-    let flagged = told(&rows("a", 40, 0.01, |_| "misfit")).unwrap();
+    let flagged = message(&rows("a", 40, 0.01, |_| "misfit")).unwrap();
     assert!(flagged.contains("see their flags"), "{flagged}");
     let backwards: String = rows("a", 40, 0.01, |_| "")
         .lines()
         .rev()
         .map(|line| format!("{line}\n"))
         .collect();
-    let fault = told(&backwards).unwrap();
+    let fault = message(&backwards).unwrap();
     assert!(
         fault.contains("time does not go on from row to row, 39 times in 40 rows"),
         "{fault}"
     );
-    // One recording by two names.
+    // One recording under two names.
     let copies = rows("a", 40, 0.01, |_| "") + &rows("b", 40, 0.01, |_| "");
-    let fault = told(&copies).unwrap();
+    let fault = message(&copies).unwrap();
     let twice = "it: a run of a and of b, 0.4 s with 40 rows from 0 s on, is given twice: ";
     assert!(fault.starts_with(twice), "{fault}");
-    for (count, told_of_it) in [(0, "for there is no row:"), (1, "for there is only 1:")] {
-        let fault = told(&rows("a", count, 0.01, |_| "")).unwrap();
-        assert!(fault.contains(told_of_it), "{fault}");
+    for (count, reason) in [(0, "for there is no row:"), (1, "for there is only 1:")] {
+        let fault = message(&rows("a", count, 0.01, |_| "")).unwrap();
+        assert!(fault.contains(reason), "{fault}");
     }
-    assert_eq!(told(&rows("a", 40, 0.01, |_| "")), None);
+    assert_eq!(message(&rows("a", 40, 0.01, |_| "")), None);
 }
 
 #[test]
 fn rows_that_are_kept_do_not_overlap() {
     let header = HEADER.replace("flags", "decay_rate_std_s,flags");
-    // Of 1 s as their deviations have it.
+    // Windows of 1 s, by their deviations.
     let of_rate = 12f64.sqrt() * 0.001 / 0.5;
     for (step, kept_every) in [(0.101, 10), (0.1, 10), (0.31, 4), (0.95, 2), (0.99, 1)] {
         let text: String = (0..400)
@@ -285,7 +285,7 @@ fn a_pattern_that_turns_to_and_fro_turns_both_ways() {
 }
 
 #[test]
-fn rows_that_are_misfits_alone_tell_the_way_of_the_pattern() {
+fn rows_flagged_misfit_alone_show_the_way_of_the_pattern() {
     let bow = |flags: &str| {
         let row = |k: usize| {
             let begun = k as f64 - 14.0;

@@ -1,20 +1,20 @@
-//! How a pattern moves on across rows left out: their waves are no even ones, but their angles still tell where it went.
+//! The way of a pattern across rows left out: their waves are not steady, but their angles still show where it went.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::row::{BOWS, Row};
 use super::turn;
 
-/// One row left out tells no way: it may as well be a fault's.
-const FEWEST: usize = 2;
-/// The curve leaves less than this share of how far the angles are beside a steady turn, rms: else something else moved them.
-const LEFT: f64 = 0.3;
+/// Rows left out that show a way, at least: a single one may be due to a fault.
+const MIN_ROWS: usize = 2;
+/// Rms that the curve may leave, as a share of the angles' departure from a steady turn: with more, something else moved them.
+const MAX_LEFT: f64 = 0.3;
 
-/// How a pattern moves beside a steady turn from one row to another, as [`Row::bow`] has it, where rows between, of these times and angles,
-/// show that: as where a table speeds up. Not at all where they do not.
+/// Departure of a pattern from a steady turn between two rows, as [`Row::bow`], if the times and angles of rows `between` show one,
+/// for example because a table speeds up; 0 if they do not.
 pub fn bow(from: &Row, to: &Row, between: &[[f64; 2]]) -> [f64; BOWS] {
     let mut bow = [0.0; BOWS];
-    if between.len() < FEWEST {
+    if between.len() < MIN_ROWS {
         return bow;
     }
     let unknowns = BOWS.min(between.len() - 1);
@@ -24,10 +24,10 @@ pub fn bow(from: &Row, to: &Row, between: &[[f64; 2]]) -> [f64; BOWS] {
     let beside = DVector::from_fn(between.len(), |index, _| {
         turn(between[index][1] - from.angle) - share(index) * whole
     });
-    // A row has the mean over its window, here by Simpson's rule.
+    // A row has the mean over its window, taken here by Simpson's rule.
     let half = 0.5 * to.seconds / seconds;
     let lines = DMatrix::from_fn(between.len(), unknowns, |index, i| {
-        let at = |by: f64| Row::beside(share(index) + by * half)[i];
+        let at = |by: f64| Row::curves(share(index) + by * half)[i];
         (at(-1.0) + 4.0 * at(0.0) + at(1.0)) / 6.0
     });
     let Some(inverse) = lines.tr_mul(&lines).try_inverse() else {
@@ -35,7 +35,7 @@ pub fn bow(from: &Row, to: &Row, between: &[[f64; 2]]) -> [f64; BOWS] {
     };
     let found = inverse * lines.tr_mul(&beside);
     let left = (&beside - lines * &found).norm();
-    if left < LEFT * beside.norm() {
+    if left < MAX_LEFT * beside.norm() {
         bow[..unknowns].copy_from_slice(found.as_slice());
     }
     bow
@@ -45,7 +45,7 @@ pub fn bow(from: &Row, to: &Row, between: &[[f64; 2]]) -> [f64; BOWS] {
 mod tests {
     use super::*;
 
-    /// Rows a tenth of a second apart of a table that goes at 0.3 rad/s within half a second, and what its pattern has turned by.
+    /// The turn of a pattern whose table speeds up to 0.3 rad/s within half a second.
     fn angle(time: f64) -> f64 {
         let begun = (time - 0.13).clamp(0.0, 0.5);
         0.3 * (begun * begun + (time - 0.63).max(0.0))
@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn angles_that_show_no_way_are_not_followed() {
+    fn scattered_angles_are_not_followed() {
         let (from, to) = (row(0.0), row(0.8));
         let scattered = [[0.2, 0.8], [0.3, 0.6], [0.4, 0.9], [0.5, 0.65], [0.6, 0.8]];
         assert_eq!(bow(&from, &to, &scattered), [0.0; BOWS]);

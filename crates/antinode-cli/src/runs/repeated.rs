@@ -1,32 +1,32 @@
-//! Whether a recording comes twice, as in windows of two lengths: its noise would seem to be less than it is.
+//! Detection of a recording that is given twice, as in windows of two lengths: its noise would seem to be less than it is.
 
 use std::f64::consts::{PI, TAU};
 
 use super::{Row, Run, turn};
 
-/// Rows of a run that are looked at, spread evenly.
-const LOOKED_AT: usize = 12;
-/// Deviations by which windows of one recording that end apart may differ.
+/// Rows of a run that are compared, spread evenly.
+const COMPARED_ROWS: usize = 12;
+/// Deviations by which windows of one recording may differ if they are not the same.
 const SIGMAS: f64 = 5.0;
-/// Beyond those, of a_A, and in rad: what a wave does between rows.
+/// Further difference allowed for what the wave does between rows, as a share of a_A, and in rad.
 const BETWEEN: f64 = 1e-3;
-/// The same of the phase, which another ring-down has by chance only, rad.
+/// Difference of phase allowed, rad: another ring-down has the same phase by chance only.
 const PHASE: f64 = 0.1;
 
 impl Run {
-    /// True when both have the same rows, as far as the shorter one goes.
+    /// True if both have the same rows, as far as the shorter one goes.
     pub fn is_copy(&self, other: &Self) -> bool {
         let numbers = |row: &Row| [row.time, row.main, row.quadrature, row.angle];
         let mut pairs = self.rows.iter().zip(&other.rows);
         pairs.all(|(one, other)| numbers(one) == numbers(other))
     }
 
-    /// True where rows of the same recording at the same time show the same wave. A name alone, as of standard input, says little.
-    pub fn is_again(&self, other: &Self) -> bool {
+    /// True if rows of the same recording show the same wave at the same times. The name alone, as of standard input, says little.
+    pub fn repeats(&self, other: &Self) -> bool {
         if self.file.is_empty() || self.file != other.file {
             return false;
         }
-        let every = self.rows.len().div_ceil(LOOKED_AT);
+        let every = self.rows.len().div_ceil(COMPARED_ROWS);
         let pairs = self.rows.iter().step_by(every).filter_map(|row| {
             let after = other.rows.partition_point(|other| other.time <= row.time);
             let before = after.checked_sub(1)?;
@@ -37,7 +37,7 @@ impl Run {
     }
 }
 
-/// True where a row shows the wave that the rows before and after it show.
+/// True if a row shows the same wave as the rows of another run before and after it.
 fn is_alike(row: &Row, before: &Row, after: &Row) -> bool {
     let later = row.time - before.time;
     let share = later / (after.time - before.time);
@@ -54,6 +54,6 @@ fn is_alike(row: &Row, before: &Row, after: &Row) -> bool {
     let run_on = row.phase.zip(before.phase).map_or(0.0, |(now, before_it)| {
         now - before_it + TAU * before.frequency * later
     });
-    // A pattern that has turned by a quarter turn bears the other sign.
+    // A pattern that has turned by a quarter turn has the opposite sign.
     is_wave && (run_on - PI * (run_on / PI).round()).abs() < PHASE
 }

@@ -34,25 +34,25 @@ use frequency::{Frequency, frequency};
 use informing::informing;
 use quantities::{HELP, Row, quantities, table};
 
-/// The pattern turns by no more than this from row to row, rad: half of what leaves it known.
+/// Turn of the pattern from row to row, at most, rad: half of that up to which the angle is unambiguous.
 const MAX_TURN: f64 = PI / 8.0;
-/// Flags of rows after which the pattern, or the time since the last row, is another: excited anew, or samples are missing.
+/// Flags of rows that end a run: the wave was excited anew, or samples are missing.
 const BREAKS: Flags = Flags::REACQUIRED.with(Flags::PHASE_JUMP).with(Flags::STEP);
-/// A decay of fewer deviations than this is none.
+/// Deviations below which a decay is not significant.
 const DECAY_SEEN: f64 = 3.0;
-/// A pattern that turns by more than this in a run, rad, shows flaws of the pick-offs as splits.
+/// Turn of a pattern within a run, rad, beyond which flaws of the pick-offs look like splits.
 const TURNS: f64 = PI / 8.0;
-/// Runs that stand still tell the splits without them, from two on.
+/// Runs at rest from which on these determine the splits whatever the flaws.
 const ENOUGH_STILL: usize = 2;
-/// A gain ratio that is 30 % off changes an amplitude by this share per radian that the pattern turns, while nothing drives it.
+/// Relative change of an amplitude per radian that the pattern turns, which is no drive: a gain ratio that is 30 % off causes it.
 const BY_FLAWS: f64 = 0.6;
-/// Residuals of neighbouring rows correlate by up to this where windows overlap unseen, and by so many deviations more by chance.
-const ALIKE: f64 = 0.03;
-const ALIKE_SEEN: f64 = 5.0;
+/// Correlation of consecutive residuals that an unnoticed overlap of windows may cause, and the deviations that chance may add.
+const MAX_CORRELATION: f64 = 0.03;
+const SIGNIFICANT: f64 = 5.0;
 
-/// True where so many residuals that follow each other correlate by this, and not by chance.
+/// True if a correlation of consecutive residuals, of which there are `count`, is not due to chance.
 fn is_alike(correlation: f64, count: f64) -> bool {
-    correlation > ALIKE + ALIKE_SEEN / count.sqrt()
+    correlation > MAX_CORRELATION + SIGNIFICANT / count.sqrt()
 }
 
 /// `antinode resonator`.
@@ -88,14 +88,14 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
         Format::Csv => serialized::csv(&mut out, rows_of())?,
         Format::Jsonl => serialized::jsonl(&mut out, rows_of())?,
     }
-    // The result is printed: standard error may be closed.
+    // The result is printed already: standard error may be closed.
     let mut err = io::stderr().lock();
     let _ = driven::warn(&mut err, &driven)
-        .and_then(|()| tell(&mut err, &rows, &listed, &found, &frequency));
+        .and_then(|()| write_notes(&mut err, &rows, &listed, &found, &frequency));
     Ok(())
 }
 
-/// How fast the patterns turn, rad/s, where all that turn do so one way, and too few stand still.
+/// Rate at which the patterns turn, rad/s, if all that turn do so one way and too few are at rest.
 fn one_way(rows: &Runs, listed: &[usize]) -> Option<f64> {
     let runs = listed.iter().map(|&run| &rows.runs[run]);
     let furthest = |run: &Run| {
@@ -111,34 +111,29 @@ fn one_way(rows: &Runs, listed: &[usize]) -> Option<f64> {
     (is_one_way && still.len() < ENOUGH_STILL).then(|| turned / seconds)
 }
 
-/// Tells what the numbers leave open.
-fn tell(
+/// Writes what the numbers leave open.
+fn write_notes(
     out: &mut impl Write,
     rows: &Runs,
     listed: &[usize],
     found: &Found,
     frequency: &Frequency,
 ) -> io::Result<()> {
-    tell_of_runs(out, rows, listed, found)?;
-    tell_of_splits(out, rows, listed, found, frequency)?;
-    tell_of_frequency(out, frequency)?;
-    if found.is_turned() {
+    note_runs(out, rows, listed, found)?;
+    note_splits(out, rows, listed, found, frequency)?;
+    note_frequency(out, frequency)?;
+    if found.is_unsteady() {
         writeln!(
             out,
             "the rotation is not steady: the angles of the patterns are taken from the rows as they are, and tell nothing of the splits by \
              their drift"
         )?;
     }
-    tell_of_misfit(out, found)
+    note_misfit(out, found)
 }
 
-/// Tells which runs are not listed, and which do not decay.
-fn tell_of_runs(
-    out: &mut impl Write,
-    rows: &Runs,
-    listed: &[usize],
-    found: &Found,
-) -> io::Result<()> {
+/// Writes which runs are not listed, and which do not decay.
+fn note_runs(out: &mut impl Write, rows: &Runs, listed: &[usize], found: &Found) -> io::Result<()> {
     rows.write_notes(out)?;
     let others = rows.runs.len() - listed.len();
     if others > 0 {
@@ -164,8 +159,8 @@ fn tell_of_runs(
     Ok(())
 }
 
-/// Tells where splits are not known, or flaws of the pick-offs look like them.
-fn tell_of_splits(
+/// Writes if the splits are not determined, or if flaws of the pick-offs look like them.
+fn note_splits(
     out: &mut impl Write,
     rows: &Runs,
     listed: &[usize],
@@ -191,8 +186,8 @@ fn tell_of_splits(
     Ok(())
 }
 
-/// Tells where the frequency moves, and what the rows know of why.
-fn tell_of_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<()> {
+/// Warns if the frequency moves, and says what is known of the cause.
+fn note_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<()> {
     if let Some(moves) = frequency.moves {
         let with = match frequency.by_energy {
             ByEnergy::Chance => String::new(),
@@ -206,7 +201,7 @@ fn tell_of_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<
                 "; what goes with a_A² + a_B² is not told: if the shell's stiffness made it, a_A·a_B would turn the patterns otherwise than it does"
                     .to_owned()
             }
-            ByEnergy::Untold => {
+            ByEnergy::Ambiguous => {
                 "; the rows do not tell what goes with a_A² + a_B² from a drift with time: let the wave ring down further".to_owned()
             }
         };
@@ -219,8 +214,8 @@ fn tell_of_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<
     Ok(())
 }
 
-/// Tells where the rows differ from the resonator's motion by more than noise.
-fn tell_of_misfit(out: &mut impl Write, found: &Found) -> io::Result<()> {
+/// Warns if the rows differ from the resonator's motion by more or less than noise.
+fn note_misfit(out: &mut impl Write, found: &Found) -> io::Result<()> {
     let why = "the wave is still driven in some rows (see --from), the damping changes meanwhile, or with the amplitude, a tone at the wave's \
                frequency is always present, as a drive's feed-through is, the pick-offs are not calibrated, a gain or the wave jumped by too little \
                to be flagged, a pick-off or the converter is nonlinear, or the converter's steps repeat from row to row";

@@ -1,98 +1,104 @@
-//! How the frequency moves with the energy, beside a drift with time: as the wave decays both fall together.
+//! Dependence of the frequency on the energy, as distinct from a drift with time: while the wave decays, both change together.
 //!
-//! So each run gets powers of time of its own, and the energy what these leave: a straight line where no drift is seen, for a slow one would
-//! not be, and as many powers as are seen where one is, two at least. What powers beyond those would still take off is not noise, and
-//! widens the deviation. Only where the turning of patterns by their amplitudes says the same, all that goes with the energy is the energy's;
-//! where it says another, or that there is none, the energy's part is not told: a temperature that settles may fall just as the energy does.
+//! So each run gets powers of time of its own, and the energy explains what these leave: a straight line if no drift is seen, as a slow one
+//! would not be, and otherwise as many powers as are significant, two at least. What further powers would still explain is not noise, and
+//! widens the deviation. All that changes with the energy is attributed to it only if the turning of patterns by their amplitudes agrees;
+//! if that contradicts, the dependence is not reported: a temperature that settles may fall just as the energy does.
 
-use super::ALIKE_SEEN;
+use super::SIGNIFICANT;
 use super::found::Measured;
 
-/// Powers of time beside the energy where no drift is seen, at the least and at the most where one is, and those looked at.
+/// Highest power of time if no drift is seen; the lowest and highest allowed if one is; and the highest that is computed.
 const UNSEEN_POWER: usize = 1;
-const LEAST_POWER: usize = 2;
-const MOST_POWER: usize = 6;
+const MIN_POWER: usize = 2;
+const MAX_POWER: usize = 6;
 const POWERS: usize = 8;
-/// Deviations by which it may differ from what the turning says, seen or not.
-const AGREES: f64 = 3.0;
-/// Deviations by which the squares that terms take off are more than chance makes them.
-const SEEN: f64 = 2.0;
+/// Deviations by which the result may differ from what the turning of patterns says, even if that is not significant.
+const MAX_DISAGREEMENT: f64 = 3.0;
+/// Deviations beyond chance from which on the reduction of squares by further terms, or a turning of patterns, is significant.
+const BEYOND_CHANCE: f64 = 2.0;
 
-/// What a row tells.
+/// The frequency at one time, from a row or a stretch of rows.
 #[derive(Debug, Clone, Copy)]
-pub struct Seen {
-    /// s.
+pub struct Point {
+    /// Time, s.
     pub time: f64,
-    /// One over the variance of the frequency, 1/Hz², or 1 where that is not known.
+    /// One over the variance of the frequency, 1/Hz², or 1 if that is unknown.
     pub weight: f64,
     /// a_A² + a_B².
     pub energy: f64,
-    /// The frequency beyond some value and what splits make of it, Hz.
-    pub beyond: f64,
+    /// Frequency without the contribution of the splits, relative to a fixed value, Hz.
+    pub excess: f64,
 }
 
-/// What the frequency is above that at rest, Hz, at an energy of one input unit squared.
+/// Rise of the frequency at an energy of one input unit squared, Hz, or why it is not reported.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ByEnergy {
-    /// It moves so by chance.
+    /// None: chance explains the dependence.
     Chance,
-    /// As the turning of patterns says, and no drift is seen: one of this many Hz/s, were there one, is one deviation.
+    /// Confirmed by the turning of patterns, with no drift seen; also the drift, Hz/s, whose effect would be one deviation.
     Alone(Measured, f64),
-    /// Beside a drift, seen or not.
+    /// Determined beside a drift, seen or not.
     Beside(Measured),
-    /// It may be a drift.
-    Untold,
-    /// It is one, or of another cause: by the turning of patterns it would be another.
+    /// Not distinguishable from a drift.
+    Ambiguous,
+    /// Contradicted by the turning of patterns: it is a drift, or has another cause.
     Denied,
 }
 
 impl ByEnergy {
-    /// The value, where it is told.
-    pub fn told(self) -> Option<Measured> {
+    /// The value, if it is determined.
+    pub fn value(self) -> Option<Measured> {
         match self {
             Self::Alone(by, _) | Self::Beside(by) => Some(by),
-            Self::Chance | Self::Untold | Self::Denied => None,
+            Self::Chance | Self::Ambiguous | Self::Denied => None,
         }
     }
 }
 
-/// Finds it from the rows of each run, where it is seen in what [`beside_one_mean`] of them has; `is_told` where their weights are known,
-/// `by_turning` what the turning says.
+/// Determines it from the points of each run, if it is significant in the sums of [`without_mean`]. `are_weighted` says whether weights
+/// are known, and `by_turning` is the value that the turning of patterns implies.
 pub fn by_energy(
-    runs: &[Vec<Seen>],
+    runs: &[Vec<Point>],
     (alone, of_drift): (Sums, f64),
-    is_told: bool,
+    are_weighted: bool,
     by_turning: Option<Measured>,
 ) -> ByEnergy {
-    let beside = beside_powers(runs);
+    let beside = without_powers(runs);
     let (rows, count): (usize, usize) = (runs.iter().map(Vec::len).sum(), runs.len());
     let scatter = |sums: &Sums, unknowns: usize| {
         let scatter = sums.left() / (rows - unknowns) as f64;
-        if is_told { scatter.max(1.0) } else { scatter }
+        if are_weighted {
+            scatter.max(1.0)
+        } else {
+            scatter
+        }
     };
     let noise = scatter(&beside[POWERS], (POWERS + 1) * count + 1);
     let is_more = |before: &Sums, after: usize, terms: usize| {
-        let chance = terms as f64 + SEEN * (2.0 * terms as f64).sqrt();
+        let chance = terms as f64 + BEYOND_CHANCE * (2.0 * terms as f64).sqrt();
         before.left() - beside[after].left() > chance * noise
     };
-    let is_drift = is_more(&alone, LEAST_POWER, (LEAST_POWER + 1) * count - 1);
+    let is_drift = is_more(&alone, MIN_POWER, (MIN_POWER + 1) * count - 1);
     let (value, std) = alone.measured(scatter(&alone, 2));
-    let is_turned = by_turning.is_some_and(|(said, of_said)| said.abs() > SEEN * of_said);
+    let is_turned = by_turning.is_some_and(|(said, of_said)| said.abs() > BEYOND_CHANCE * of_said);
     let is_denied = |(value, std): Measured| {
-        by_turning.is_some_and(|(said, of_said)| (value - said).abs() > AGREES * std.hypot(of_said))
+        by_turning.is_some_and(|(said, of_said)| {
+            (value - said).abs() > MAX_DISAGREEMENT * std.hypot(of_said)
+        })
     };
     if !is_drift && is_turned && !is_denied((value, std)) {
         return ByEnergy::Alone((value, std), std / of_drift.abs());
     }
-    let mut powers = LEAST_POWER..=MOST_POWER;
+    let mut powers = MIN_POWER..=MAX_POWER;
     let enough = powers.find(|&power| !is_more(&beside[power], power + 2, 2 * count));
     let Some(power) = (if is_drift { enough } else { Some(UNSEEN_POWER) }) else {
-        return ByEnergy::Untold;
+        return ByEnergy::Ambiguous;
     };
     let slow = beside[power].left() - beside[POWERS].left();
     let slow = slow / ((POWERS - power) * count) as f64;
     let widened = scatter(&beside[power], (power + 1) * count + 1).max(slow);
-    if beside[power].is_seen(widened) {
+    if beside[power].is_significant(widened) {
         let by_energy = beside[power].measured(widened);
         if is_denied(by_energy) {
             ByEnergy::Denied
@@ -100,41 +106,41 @@ pub fn by_energy(
             ByEnergy::Beside(by_energy)
         }
     } else {
-        ByEnergy::Untold
+        ByEnergy::Ambiguous
     }
 }
 
-/// Sums over all rows of products of the energy and the frequency beyond, from which something was taken out.
+/// Weighted sums of products of energy and frequency, after other terms were removed from both.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Sums {
     of_energy: f64,
     product: f64,
-    of_beyond: f64,
+    of_excess: f64,
 }
 
 impl Sums {
-    fn add(&mut self, weight: f64, energy: f64, beyond: f64) {
+    fn add(&mut self, weight: f64, energy: f64, excess: f64) {
         self.of_energy += weight * energy * energy;
-        self.product += weight * energy * beyond;
-        self.of_beyond += weight * beyond * beyond;
+        self.product += weight * energy * excess;
+        self.of_excess += weight * excess * excess;
     }
 
-    /// The squares that go with the energy.
+    /// Squares of the frequency that the energy explains.
     pub fn along(&self) -> f64 {
         self.product * self.product / self.of_energy
     }
 
-    /// True where these are beyond chance, where rows scatter so.
-    pub fn is_seen(&self, scatter: f64) -> bool {
-        self.along() > ALIKE_SEEN * ALIKE_SEEN * scatter
+    /// True if these are beyond chance for this scatter.
+    pub fn is_significant(&self, scatter: f64) -> bool {
+        self.along() > SIGNIFICANT * SIGNIFICANT * scatter
     }
 
-    /// The squares that do not.
+    /// Squares that it does not explain.
     fn left(&self) -> f64 {
-        self.of_beyond - self.along()
+        self.of_excess - self.along()
     }
 
-    /// What the frequency moves by per energy, where rows scatter so.
+    /// Slope of the frequency over the energy, with its deviation for this scatter.
     fn measured(&self, scatter: f64) -> Measured {
         (
             self.product / self.of_energy,
@@ -143,31 +149,31 @@ impl Sums {
     }
 }
 
-/// The sums beside one mean of all, and by what a drift of 1 Hz/s in every run moves what the frequency seems to do with the energy.
-pub fn beside_one_mean(runs: &[Vec<Seen>]) -> (Sums, f64) {
+/// Sums after removal of one common mean, and the apparent slope over the energy that a drift of 1 Hz/s in every run causes.
+pub fn without_mean(runs: &[Vec<Point>]) -> (Sums, f64) {
     let (mut weights, mut means) = (0.0, [0.0; 2]);
-    for seen in runs.iter().flatten() {
-        weights += seen.weight;
-        means[0] += seen.weight * seen.energy;
-        means[1] += seen.weight * seen.beyond;
+    for point in runs.iter().flatten() {
+        weights += point.weight;
+        means[0] += point.weight * point.energy;
+        means[1] += point.weight * point.excess;
     }
     let mut sums = Sums::default();
     let mut along_time = 0.0;
     for run in runs {
-        for seen in run {
-            let energy = seen.energy - means[0] / weights;
-            sums.add(seen.weight, energy, seen.beyond - means[1] / weights);
-            along_time += seen.weight * energy * (seen.time - run[0].time);
+        for point in run {
+            let energy = point.energy - means[0] / weights;
+            sums.add(point.weight, energy, point.excess - means[1] / weights);
+            along_time += point.weight * energy * (point.time - run[0].time);
         }
     }
     (sums, along_time / sums.of_energy)
 }
 
-/// The sums beside each run's own mean and powers of time, up to each power.
-fn beside_powers(runs: &[Vec<Seen>]) -> [Sums; POWERS + 1] {
+/// Sums after removal of each run's own mean and powers of time, up to each power.
+fn without_powers(runs: &[Vec<Point>]) -> [Sums; POWERS + 1] {
     let mut all = [Sums::default(); POWERS + 1];
     for run in runs {
-        let weights: Vec<_> = run.iter().map(|seen| seen.weight).collect();
+        let weights: Vec<_> = run.iter().map(|point| point.weight).collect();
         let dot = |one: &[f64], other: &[f64]| -> f64 {
             let products = one.iter().zip(other).zip(&weights);
             products
@@ -180,21 +186,21 @@ fn beside_powers(runs: &[Vec<Seen>]) -> [Sums; POWERS + 1] {
                 *from -= share * what;
             }
         };
-        let mut energy: Vec<_> = run.iter().map(|seen| seen.energy).collect();
-        let mut beyond: Vec<_> = run.iter().map(|seen| seen.beyond).collect();
-        // −1 to 1.
+        let mut energy: Vec<_> = run.iter().map(|point| point.energy).collect();
+        let mut excess: Vec<_> = run.iter().map(|point| point.excess).collect();
+        // Scaled to −1 to 1.
         let (first, last) = (run[0].time, run[run.len() - 1].time);
         let times: Vec<_> = run
             .iter()
-            .map(|seen| (2.0 * seen.time - first - last) / (last - first))
+            .map(|point| (2.0 * point.time - first - last) / (last - first))
             .collect();
         let mut powers = vec![vec![1.0; run.len()]];
         for sums in &mut all {
             let newest = &powers[powers.len() - 1];
             without(&mut energy, newest);
-            without(&mut beyond, newest);
-            for ((weight, energy), beyond) in weights.iter().zip(&energy).zip(&beyond) {
-                sums.add(*weight, *energy, *beyond);
+            without(&mut excess, newest);
+            for ((weight, energy), excess) in weights.iter().zip(&energy).zip(&excess) {
+                sums.add(*weight, *energy, *excess);
             }
             let mut next: Vec<_> = newest
                 .iter()

@@ -1,14 +1,14 @@
-//! Runs become a resonator, by least squares.
+//! Fits a resonator to runs, by least squares.
 //!
 //! Every row is a measurement of a_A, a_B and θ, or near a circle of both travelling waves. First each run gets a decay, a rotation and a
-//! growth of its quadrature of its own, which any run tells. The resonator that the runs share takes their place where they tell it: a
-//! pattern that stands still sees one side of each split alone. Where no steady rotation explains the rows, their angles are taken as they
-//! are: they tell where the splits act, and only the amplitudes are explained. The steps are those of Levenberg and Marquardt.
+//! growth of quadrature of its own, which any run determines. A resonator that the runs share replaces these if they determine it: a
+//! pattern at rest shows only one component of each split. If no steady rotation explains the rows, their angles are taken as they are:
+//! they say where the splits act, and only the amplitudes are explained. The steps are those of Levenberg and Marquardt.
 
 use nalgebra::{Complex, DVector, RowSVector, SMatrix, SVector};
 
 use super::chords;
-use super::found::{Found, OfRun, TOGETHER};
+use super::found::{EXPLAINED, Found, RunResult};
 use super::gaps;
 use super::model::{Model, Term};
 use super::motion::PARAMETERS;
@@ -16,23 +16,23 @@ use super::start::start;
 use crate::normal::Equations;
 use crate::runs::Run;
 
-/// Below this all patterns are one, and what seems to tell them apart is noise: 3° between two runs, 5° of one that turns.
-const LEAST_SPREAD: f64 = 0.005;
-/// Steps at most; ten do.
+/// Spread below which all patterns count as one, and apparent differences as noise: 3° between two runs, 5° of one that turns.
+const MIN_SPREAD: f64 = 0.005;
+/// Steps, at most; ten are usual.
 const STEPS: usize = 100;
-/// A step that takes less than this off the squares of the residual, in squares of the stated deviations, is the last: it moves by less
-/// than a hundredth of one.
+/// Reduction of the squared residual, in squares of the stated deviations, below which a step is the last: it moves by less than a
+/// hundredth of one.
 const SETTLED: f64 = 1e-4;
-/// The same where no step leads down any more, as the derivatives leave out what a window averages.
-const SETTLED_AT_FOOT: f64 = 1e-2;
-/// With more damping than this, a step leads nowhere.
-const FOOT: f64 = 1e3;
-/// The splits of damping and of frequency are told where their deviations are below these shares of the damping.
-const TOLD: [f64; 2] = [0.2, 1.0];
-/// That of frequency also where its deviation is below this share of what is seen of it.
-const TOLD_SHARE: f64 = 0.1;
+/// The same if no step reduces the residual any more, as the derivatives leave out the averaging by windows.
+const SETTLED_WITHOUT_STEP: f64 = 1e-2;
+/// Damping beyond which a step leads nowhere.
+const MAX_DAMPING: f64 = 1e3;
+/// Deviations of the splits of damping and of frequency below which they are determined, as shares of the damping.
+const MAX_DEVIATIONS: [f64; 2] = [0.2, 1.0];
+/// The same for the split of frequency, as a share of what is seen of it.
+const MAX_DEVIATION_SHARE: f64 = 0.1;
 
-/// The steps do not settle.
+/// The steps do not converge.
 #[derive(Debug, PartialEq)]
 pub struct Unsettled;
 
@@ -42,35 +42,37 @@ pub fn fit(runs: &[Run]) -> Result<Found, Unsettled> {
     if steady.as_ref().is_ok_and(Found::is_explained) {
         return steady;
     }
-    // As a table turns that speeds up, ripples or goes to and fro.
-    let turned = turned(runs);
-    match (steady, turned) {
-        (Ok(steady), Ok(turned)) if turned.explains_more(&steady) => Ok(turned),
-        (Err(_), turned) => turned,
+    // As for a table that speeds up, ripples or goes to and fro.
+    let unsteady = unsteady(runs);
+    match (steady, unsteady) {
+        (Ok(steady), Ok(unsteady)) if unsteady.explains_more(&steady) => Ok(unsteady),
+        (Err(_), unsteady) => unsteady,
         (steady, _) => steady,
     }
 }
 
-/// Where nothing but the resonator and a steady rotation turns the patterns.
+/// The fit if only the resonator and a steady rotation turn the patterns.
 fn steady(runs: &[Run]) -> Result<Found, Unsettled> {
     let found = |model| found(runs, model);
     let each = found(Model::Each);
-    // Beyond noise even one pattern that hardly moves shows how the splits move it.
+    // With a residual beyond noise, even one pattern that hardly moves shows how the splits move it.
     let is_enough = |each: &Found| {
-        each.residual < TOGETHER && (spread(runs) < LEAST_SPREAD || !may_tell(runs, each))
+        each.residual < EXPLAINED
+            && (spread(runs) < MIN_SPREAD || !may_determine_splits(runs, each))
     };
     if each.as_ref().is_ok_and(is_enough) {
         return each;
     }
-    let told = |model| {
+    let determined = |model| {
         let shared = found(model).ok()?;
-        is_told(|at| shared.variance(at), &shared, each.as_ref().ok()).then_some(shared)
+        are_splits_determined(|at| shared.variance(at), &shared, each.as_ref().ok())
+            .then_some(shared)
     };
-    // As an unknown that is nothing it would leave less known of all others: of rotation above all, which quadrature that stays is like.
-    let nonlinear = told(Model::Nonlinear);
+    // If γ is 0, it is no unknown: it would make all others less certain, above all rotation, which it resembles if quadrature stays.
+    let nonlinear = determined(Model::Nonlinear);
     let turning = nonlinear.as_ref().and_then(Found::turning_by_amplitudes);
     let linear = || {
-        let shared = told(Model::Shared)?;
+        let shared = determined(Model::Shared)?;
         Some(Found {
             unseen_turning: turning,
             ..shared
@@ -80,36 +82,40 @@ fn steady(runs: &[Run]) -> Result<Found, Unsettled> {
     nonlinear.or_else(linear).map_or(each, Ok)
 }
 
-/// Where patterns are turned as it happens.
-fn turned(runs: &[Run]) -> Result<Found, Unsettled> {
+/// The fit if patterns are turned unsteadily.
+fn unsteady(runs: &[Run]) -> Result<Found, Unsettled> {
     let runs = &chords::through(runs);
-    let each = found(runs, Model::EachTurned);
-    let shared = found(runs, Model::SharedTurned);
+    let each = found(runs, Model::EachUnsteady);
+    let shared = found(runs, Model::SharedUnsteady);
     match shared {
-        Ok(shared) if is_told(|at| shared.variance(at), &shared, each.as_ref().ok()) => Ok(shared),
+        Ok(shared)
+            if are_splits_determined(|at| shared.variance(at), &shared, each.as_ref().ok()) =>
+        {
+            Ok(shared)
+        }
         _ => each,
     }
 }
 
-/// What a model finds.
+/// The fit of a model, if need be across long gaps.
 pub fn found(runs: &[Run], model: Model) -> Result<Found, Unsettled> {
     let found = searched(runs, model);
-    if !model.is_shared() || model.is_turned() || found.as_ref().is_ok_and(Found::is_explained) {
+    if !model.is_shared() || model.is_unsteady() || found.as_ref().is_ok_and(Found::is_explained) {
         return found;
     }
-    let most = found.as_ref().map_or(f64::INFINITY, |found| found.residual);
-    let across = gaps::across(runs, model).filter(|across| across.residual < most);
+    let residual = found.as_ref().map_or(f64::INFINITY, |found| found.residual);
+    let across = gaps::across(runs, model).filter(|across| across.residual < residual);
     across.map_or(found, Ok)
 }
 
-/// The same from where the integrals lead.
+/// The same, starting from the values that the integrals give.
 pub fn searched(runs: &[Run], model: Model) -> Result<Found, Unsettled> {
     let values = start(runs, model).ok_or(Unsettled)?;
     settle(runs, model, values)
 }
 
-/// True where rows of such runs tell the splits, if these are small: where nothing tells them a fit may find great ones, which seem told.
-fn may_tell(runs: &[Run], each: &Found) -> bool {
+/// True if such runs determine splits that are small: if nothing does, a fit may find large ones, which seem to be determined.
+fn may_determine_splits(runs: &[Run], each: &Found) -> bool {
     let model = Model::Shared;
     let mut values = DVector::zeros(model.unknowns(runs.len()));
     for run in 0..runs.len() {
@@ -118,10 +124,12 @@ fn may_tell(runs: &[Run], each: &Found) -> bool {
         values.rows_mut(model.own_at(run), 4).copy_from(&from);
     }
     let rough = Normal::of(runs, model, &values).equations.factors(0.0);
-    rough.is_some_and(|rough| is_told(|at| rough.variance(&[(at, 1.0)]), each, Some(each)))
+    rough.is_some_and(|rough| {
+        are_splits_determined(|at| rough.variance(&[(at, 1.0)]), each, Some(each))
+    })
 }
 
-/// How far the rows' patterns stand apart, up to 1: the circular variance of 4θ, less what noise makes of it.
+/// Spread of the rows' pattern angles, up to 1: the circular variance of 4θ, less the contribution of noise.
 fn spread(runs: &[Run]) -> f64 {
     let (mut sum, mut noise, mut count) = (Complex::new(0.0, 0.0), 0.0, 0.0);
     for row in runs.iter().flat_map(|run| &run.rows) {
@@ -132,9 +140,13 @@ fn spread(runs: &[Run]) -> f64 {
     1.0 - (sum.norm() + noise) / count
 }
 
-/// True where the rows tell both splits, whose unknowns have these variances by their places; what `found` says of the decays along the
-/// patterns is known wherever these stand.
-fn is_told(variance: impl Fn(usize) -> f64, found: &Found, each: Option<&Found>) -> bool {
+/// True if the rows determine both splits, where `variance` is that of the unknown at a place. The decays along the patterns, in `found`,
+/// are known wherever these stand.
+fn are_splits_determined(
+    variance: impl Fn(usize) -> f64,
+    found: &Found,
+    each: Option<&Found>,
+) -> bool {
     let runs = found.of_runs.len();
     let decays = (0..runs).map(|run| found.decay_of_run(run).0.abs());
     let decay = decays.sum::<f64>() / runs as f64;
@@ -142,33 +154,36 @@ fn is_told(variance: impl Fn(usize) -> f64, found: &Found, each: Option<&Found>)
         .iter()
         .flat_map(|each| (0..runs).map(move |run| each.values[each.model.decay_at(run) + 1].abs()));
     let growth = growths.fold(0.0, f64::max);
-    let knows = |at: usize, most: f64| (at..at + 2).all(|i| variance(i) < most * most);
-    knows(Model::DAMPING, TOLD[0] * decay)
-        && knows(Model::FREQUENCY, (TOLD[1] * decay).max(TOLD_SHARE * growth))
+    let knows = |at: usize, max: f64| (at..at + 2).all(|i| variance(i) < max * max);
+    knows(Model::DAMPING, MAX_DEVIATIONS[0] * decay)
+        && knows(
+            Model::FREQUENCY,
+            (MAX_DEVIATIONS[1] * decay).max(MAX_DEVIATION_SHARE * growth),
+        )
 }
 
-/// Moves the values to where the squares of the residual are least.
+/// Minimises the squares of the residual, from these values on.
 pub fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Result<Found, Unsettled> {
     let mut normal = Normal::of(runs, model, &values);
     let mut damping = 1e-3;
-    let mut most = SETTLED;
+    let mut limit = SETTLED;
     for _ in 0..STEPS {
         let whole = normal.step(0.0).ok_or(Unsettled)?;
-        if normal.equations.right().dot(&whole) < most * normal.widening(&values) {
+        if normal.equations.right().dot(&whole) < limit * normal.widening(&values) {
             let values = values + whole;
             return Normal::of(runs, model, &values).conclude(model, values);
         }
         let moved = &values + normal.step(damping).ok_or(Unsettled)?;
         let next = Normal::of(runs, model, &moved);
-        // Not a number is no less.
+        // False if it is not a number.
         if next.squares < normal.squares {
             (values, normal) = (moved, next);
             damping *= 0.1;
-            most = SETTLED;
+            limit = SETTLED;
         } else {
             damping *= 10.0;
-            if damping > FOOT {
-                most = SETTLED_AT_FOOT;
+            if damping > MAX_DAMPING {
+                limit = SETTLED_WITHOUT_STEP;
             }
         }
     }
@@ -178,12 +193,12 @@ pub fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Result<Fo
 /// The normal equations of all runs about some values.
 struct Normal {
     equations: Equations,
-    /// What is left, in squares of deviations.
+    /// Sum of squared residuals, in deviations.
     squares: f64,
-    /// Sum of the products of what is left of rows that follow each other.
+    /// Sum of the products of consecutive rows' residuals.
     neighbours: f64,
-    of_runs: Vec<OfRun>,
-    /// Numbers of the rows that are explained.
+    of_runs: Vec<RunResult>,
+    /// Number of values in the rows that are explained.
     count: f64,
 }
 
@@ -215,18 +230,18 @@ impl Normal {
         let mut last = &run.rows[0];
         let mut shares = [0.0; 2];
         let mut squares = 0.0;
-        // By how much it was turned otherwise than by rotation.
-        let (mut otherwise, mut of_otherwise) = (0.0, RowSVector::zeros());
+        // Turn of the pattern that is not due to rotation.
+        let (mut beside_rotation, mut of_beside_rotation) = (0.0, RowSVector::zeros());
         // The run's own equations, for the parameters of its motion.
         let mut matrix = SMatrix::<f64, PARAMETERS, PARAMETERS>::zeros();
         let mut right = SVector::<f64, PARAMETERS>::zeros();
         for row in &run.rows {
             let (beyond, derivatives) = model.advance(&mut motion, last, row);
             last = row;
-            otherwise += beyond;
-            of_otherwise += derivatives;
-            // What a window averages changes the derivatives by too little to matter.
-            let (rest, derivatives) = motion.rest(row);
+            beside_rotation += beyond;
+            of_beside_rotation += derivatives;
+            // The averaging by windows changes the derivatives by too little to matter.
+            let (rest, derivatives) = motion.residuals(row);
             for (index, (rest, deviation)) in rest.iter().zip(row.deviations).enumerate() {
                 let (rest, line) = (*rest / deviation, derivatives.row(index) / deviation);
                 squares += rest * rest;
@@ -250,11 +265,16 @@ impl Normal {
         self.squares += squares;
         self.count += (model.explained() * run.rows.len()) as f64;
         let seconds = run.seconds();
-        let along = |direction| of_otherwise.transpose().dot(&SVector::from(direction)) / seconds;
-        self.of_runs.push(OfRun {
+        let along = |direction| {
+            of_beside_rotation
+                .transpose()
+                .dot(&SVector::from(direction))
+                / seconds
+        };
+        self.of_runs.push(RunResult {
             shares,
             residual: (squares / (model.explained() * run.rows.len() - 4) as f64).sqrt(),
-            rotation: (run.turned() - otherwise) / seconds,
+            rotation: (run.turned() - beside_rotation) / seconds,
             of_rotation: terms
                 .iter()
                 .map(|&(place, by)| (place, -along(by)))
@@ -263,7 +283,7 @@ impl Normal {
         });
     }
 
-    /// The step that a damping leaves.
+    /// The step with this damping.
     fn step(&self, damping: f64) -> Option<DVector<f64>> {
         let factors = self.equations.factors(damping)?;
         Some(factors.solve(self.equations.right()))
@@ -274,7 +294,7 @@ impl Normal {
         (self.squares / (self.count - values.len() as f64)).sqrt()
     }
 
-    /// What variances are multiplied by where the residual is beyond the rows' own.
+    /// Factor by which variances are widened if the residual exceeds the rows' own deviations.
     fn widening(&self, values: &DVector<f64>) -> f64 {
         self.residual(values).max(1.0).powi(2)
     }
@@ -285,7 +305,7 @@ impl Normal {
             factors: self.equations.factors(0.0).ok_or(Unsettled)?,
             widening: self.widening(&values),
             residual: self.residual(&values),
-            // What is far below the rows' own deviations does no harm.
+            // Correlation of residuals far below the rows' own deviations does no harm.
             alike: self.neighbours / self.squares.max(self.count),
             values,
             count: self.count,

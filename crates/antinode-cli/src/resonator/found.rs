@@ -1,4 +1,4 @@
-//! What the fit found, and the quantities that follow from it.
+//! The result of a fit, and the quantities that follow from it.
 
 use nalgebra::DVector;
 
@@ -7,50 +7,50 @@ use super::model::Model;
 use crate::normal::Factors;
 use crate::runs::{BEYOND_NOISE, Run};
 
-/// Of fewer deviations than this, what amplitudes turn patterns by is taken to be nothing: more would be missed than it spares.
-const NONLINEAR_SEEN: f64 = 2.0;
-/// Of fewer it is not told: one in twenty resonators without it would seem to have it.
-const NONLINEAR_TOLD: f64 = 3.0;
+/// Deviations below which the turning of patterns by amplitudes is taken to be 0: a higher limit would miss more than it spares.
+const NONLINEAR_USED: f64 = 2.0;
+/// Deviations below which it is not reported: at the limit above, one in twenty resonators without it would seem to have it.
+const NONLINEAR_REPORTED: f64 = 3.0;
 
-/// From this residual over the rows' own deviations on, the runs do not explain the rows each by itself.
-pub(super) const TOGETHER: f64 = 1.5;
+/// Residual over the rows' own deviations from which on a fit does not explain the rows.
+pub(super) const EXPLAINED: f64 = 1.5;
 
-/// Noise that is coloured a little leaves as small a residual; less by so many deviations of chance is below noise.
+/// Residual that slightly coloured noise may leave, and the deviations of chance by which a smaller one is below noise.
 const BELOW_NOISE: f64 = 0.9;
-const BELOW_SEEN: f64 = 5.0;
+const BELOW_CHANCE: f64 = 5.0;
 
-/// A variance that is less than another's by so many deviations of chance is less.
-const LESS_SEEN: f64 = 5.0;
+/// Deviations of chance by which one variance must be below another to be significantly less.
+const LESS_CHANCE: f64 = 5.0;
 
-/// What was found.
+/// The result of a fit.
 #[derive(Debug)]
 pub struct Found {
     /// What the runs share.
     pub(super) model: Model,
     pub(super) values: DVector<f64>,
-    /// Of the equations about the values, and what variances are multiplied by where the residual is beyond the rows' own deviations.
+    /// Factors of the equations about the values, and the widening of variances if the residual exceeds the rows' own deviations.
     pub(super) factors: Factors,
     pub(super) widening: f64,
-    /// The rms residual over the rows' own deviations: 1 where there is nothing but noise.
+    /// The rms residual over the rows' own deviations: 1 in noise alone.
     pub residual: f64,
-    /// How much alike the residuals of rows that follow each other are, −1 to 1: 0 where there is nothing but noise.
+    /// Correlation of consecutive rows' residuals, −1 to 1: 0 in noise alone.
     pub alike: f64,
-    /// Numbers of the rows that are explained: a_A and a_B, and θ but where patterns are turned as it happens.
+    /// Number of values in the rows that are explained: a_A and a_B, and θ unless patterns are turned unsteadily.
     pub count: f64,
-    pub(super) of_runs: Vec<OfRun>,
-    /// What a_A a_B turns a pattern by, as it would be an unknown, where it is none for it is not seen.
+    pub(super) of_runs: Vec<RunResult>,
+    /// The turning of a pattern by a_A a_B that a fit with this unknown gave, if it is no unknown as it was not significant.
     pub(super) unseen_turning: Option<Measured>,
 }
 
-/// What was found of a run.
+/// The result for one run.
 #[derive(Debug)]
-pub(super) struct OfRun {
+pub(super) struct RunResult {
     /// The means of R/E and of S/E.
     pub shares: [f64; 2],
     /// The rms residual over the rows' own deviations.
     pub residual: f64,
-    /// Where patterns are turned as it happens: by how much this one was turned beside what the splits made of that, rad/s, the derivatives
-    /// of this by the unknowns, and the noise of its angles in it.
+    /// If patterns are turned unsteadily: the mean rate of this one without the part due to the splits, rad/s, its derivatives by the
+    /// unknowns, and the noise of the angles in it.
     pub rotation: f64,
     pub of_rotation: Vec<(usize, f64)>,
     pub rotation_noise: f64,
@@ -59,17 +59,17 @@ pub(super) struct OfRun {
 /// A value and its standard deviation.
 pub type Measured = (f64, f64);
 
-/// What moves the frequency of a row.
+/// Contributions to the frequency of a row.
 pub struct Moved {
-    /// What the splits add to it, rad/s, as [`Found::splits`] takes it.
+    /// The part due to the splits, rad/s, as coefficients for [`Found::splits`].
     pub by_splits: [f64; 4],
-    /// The same, on average since the row before, by Simpson's rule.
+    /// The same, averaged since the row before by Simpson's rule.
     pub by_splits_since: [f64; 4],
-    /// By how much what the turning of the pattern makes of it differs from what it made of the row before, rad/s.
+    /// Change of the part due to the pattern's turning since the row before, rad/s.
     pub change: f64,
 }
 
-/// What the runs share.
+/// The resonator that the runs share.
 #[derive(Debug)]
 pub struct Resonator {
     /// The mean 1/τ of both modes, 1/s.
@@ -78,10 +78,10 @@ pub struct Resonator {
     pub damping_split: [Measured; 2],
     /// The split of frequency, rad/s, and the angle at which the frequency is highest, rad.
     pub frequency_split: [Measured; 2],
-    /// What rotation turns the pattern of each run by, rad/s.
+    /// Rate at which rotation turns the pattern of each run, rad/s.
     pub rotations: Vec<Measured>,
-    /// What a_A a_B of one input unit squared turns a pattern by, rad/s, where that is seen and nothing else moves: flaws of pick-offs
-    /// look like it.
+    /// Rate at which a_A a_B of one input unit squared turns a pattern, rad/s, if that is significant and nothing but noise is left: flaws
+    /// of pick-offs look like it.
     pub turning_by_amplitudes: Option<Measured>,
 }
 
@@ -91,13 +91,13 @@ impl Found {
         self.factors.variance(&[(place, 1.0)]) * self.widening
     }
 
-    /// A value whose derivatives by the unknowns are these.
+    /// A value with its deviation, from its derivatives by the unknowns.
     fn measured(&self, value: f64, gradient: &[(usize, f64)]) -> Measured {
         let variance = self.factors.variance(gradient) * self.widening;
         (value, variance.sqrt())
     }
 
-    /// A sum of unknowns.
+    /// A linear combination of unknowns.
     fn sum(&self, terms: &[(usize, f64)]) -> Measured {
         let value = terms.iter().map(|&(index, by)| by * self.values[index]);
         self.measured(value.sum(), terms)
@@ -113,7 +113,7 @@ impl Found {
         self.sum(&terms)
     }
 
-    /// What the runs share, where they tell it.
+    /// The resonator, if the runs determine it.
     pub fn resonator(&self) -> Option<Resonator> {
         self.model.is_shared().then(|| Resonator {
             decay: self.sum(&[(self.model.decay_at(0), 1.0)]),
@@ -128,9 +128,9 @@ impl Found {
         })
     }
 
-    /// What rotation turns the pattern of a run by, rad/s.
+    /// Rate at which rotation turns the pattern of a run, rad/s.
     fn rotation(&self, run: usize) -> Measured {
-        if !self.model.is_turned() {
+        if !self.model.is_unsteady() {
             return self.sum(&[(self.model.own_at(run), -0.5)]);
         }
         let of_run = &self.of_runs[run];
@@ -145,41 +145,41 @@ impl Found {
         (residual, residual / count.sqrt())
     }
 
-    /// True where patterns are turned as it happens, not steadily.
-    pub fn is_turned(&self) -> bool {
-        self.model.is_turned()
+    /// True if patterns are turned unsteadily.
+    pub fn is_unsteady(&self) -> bool {
+        self.model.is_unsteady()
     }
 
-    /// True where nothing but noise is left.
+    /// True if nothing but noise is left.
     pub fn is_explained(&self) -> bool {
-        self.residual < TOGETHER && !self.is_alike()
+        self.residual < EXPLAINED && !self.is_alike()
     }
 
-    /// True where residuals of rows that follow each other are alike, and not by chance.
+    /// True if residuals of consecutive rows are correlated beyond chance.
     pub fn is_alike(&self) -> bool {
         is_alike(self.alike, self.count)
     }
 
-    /// True where it is told that more than noise is left.
+    /// True if so much more than noise is left that there is a warning.
     pub fn is_beyond_noise(&self) -> bool {
         self.residual > BEYOND_NOISE || self.is_alike()
     }
 
-    /// True where less than noise is left, and not by chance, or what is left is alike from row to row though it is less.
+    /// True if less than noise is left, beyond chance, or if residuals below noise are correlated from row to row.
     pub fn is_below_noise(&self) -> bool {
-        let least = BELOW_NOISE - BELOW_SEEN / (2.0 * self.count).sqrt();
+        let min = BELOW_NOISE - BELOW_CHANCE / (2.0 * self.count).sqrt();
         let alike = self.alike / self.residual.powi(2).min(1.0);
-        self.residual < least || !self.is_alike() && is_alike(alike, self.count)
+        self.residual < min || !self.is_alike() && is_alike(alike, self.count)
     }
 
-    /// True where it leaves less than another, and not by chance.
+    /// True if it leaves less than another, beyond chance, or has no correlated residuals while the other has.
     pub fn explains_more(&self, other: &Self) -> bool {
         let less = (other.residual / self.residual).powi(2) - 1.0;
-        let chance = LESS_SEEN * (2.0 / self.count + 2.0 / other.count).sqrt();
+        let chance = LESS_CHANCE * (2.0 / self.count + 2.0 / other.count).sqrt();
         less > chance || other.is_alike() && !self.is_alike()
     }
 
-    /// What a_A a_B of one input unit squared turns a pattern by, rad/s, seen or not, where the rows tell it.
+    /// Rate at which a_A a_B of one input unit squared turns a pattern, rad/s, significant or not, if the rows determine it.
     pub(super) fn turning_by_amplitudes(&self) -> Option<Measured> {
         if self.model == Model::Nonlinear {
             Some(self.sum(&[(Model::GAMMA, -1.0)]))
@@ -188,24 +188,24 @@ impl Found {
         }
     }
 
-    /// The same where it would be told if nothing else moved.
+    /// The same, if it is significant enough to be reported.
     fn turning_beyond_noise(&self) -> Option<Measured> {
         self.turning_by_amplitudes()
-            .filter(|(turning, std)| turning.abs() > NONLINEAR_TOLD * std)
+            .filter(|(turning, std)| turning.abs() > NONLINEAR_REPORTED * std)
     }
 
-    /// True where what amplitudes turn patterns by is not told for what else moves alone.
+    /// True if it is significant, but not reported because more than noise is left.
     pub fn withholds_turning(&self) -> bool {
         self.is_beyond_noise() && self.turning_beyond_noise().is_some()
     }
 
-    /// True where amplitudes are seen to turn patterns.
+    /// True if amplitudes turn patterns significantly.
     pub fn is_nonlinear(&self) -> bool {
         self.turning_by_amplitudes()
-            .is_some_and(|(turning, std)| turning.abs() > NONLINEAR_SEEN * std)
+            .is_some_and(|(turning, std)| turning.abs() > NONLINEAR_USED * std)
     }
 
-    /// What moves the frequency of each row.
+    /// The contributions to the frequency of each row.
     pub fn frequency_moved(&self, runs: &[Run]) -> Vec<Moved> {
         let mut list = Vec::new();
         for (index, run) in runs.iter().enumerate() {
@@ -235,7 +235,7 @@ impl Found {
         list
     }
 
-    /// A sum over both parts of the damping's split and both of the frequency's; nothing where they are not told.
+    /// A linear combination of both components of the damping split and both of the frequency split; 0 if they are not determined.
     pub fn splits(&self, by: &[f64; 4]) -> Measured {
         if !self.model.is_shared() {
             return (0.0, 0.0);
@@ -245,7 +245,7 @@ impl Found {
         self.sum(&terms)
     }
 
-    /// The size of a split whose parts along cosine and sine stand at `at`, and its angle.
+    /// The size of a split, whose cosine and sine components are at `at` and after it, and its angle.
     fn split(&self, at: usize) -> [Measured; 2] {
         let (c, s) = (self.values[at], self.values[at + 1]);
         let size = c.hypot(s).max(f64::MIN_POSITIVE);

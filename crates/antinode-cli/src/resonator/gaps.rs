@@ -1,4 +1,4 @@
-//! Runs cut at long gaps: where no row tells how far the splits moved the pattern meanwhile, a search may begin far off.
+//! Fits across long gaps: as no row shows how far the splits moved the pattern meanwhile, a search may begin far off.
 
 use nalgebra::DVector;
 
@@ -7,10 +7,10 @@ use super::found::Found;
 use super::model::Model;
 use crate::runs::{MIN_ROWS, Run};
 
-/// A gap is longer than so many mean distances of a run's rows.
+/// Length of a gap, at least, in mean distances of a run's rows.
 const LONG: f64 = 8.0;
 
-/// What a model that is shared finds from where the pieces of runs with long gaps lead, if there are such.
+/// The fit of a shared model, starting from a fit to the pieces of runs between long gaps; `None` if there are no such gaps.
 pub fn across(runs: &[Run], model: Model) -> Option<Found> {
     let (pieces, firsts) = cut(runs)?;
     let of_pieces = searched(&pieces, model).ok()?;
@@ -26,7 +26,7 @@ pub fn across(runs: &[Run], model: Model) -> Option<Found> {
     settle(runs, model, values).ok()
 }
 
-/// The pieces of the runs, and which of them each run begins with; none where there is no gap, or a run does not begin with rows enough.
+/// The pieces of the runs, and which of them each run begins with; `None` if there is no gap, or a run begins with too few rows.
 fn cut(runs: &[Run]) -> Option<(Vec<Run>, Vec<usize>)> {
     let (mut pieces, mut firsts) = (Vec::new(), Vec::new());
     for run in runs {

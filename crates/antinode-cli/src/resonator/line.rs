@@ -1,15 +1,15 @@
 //! Straight lines through values at times, by least squares.
 
-/// Times that count by their weights.
+/// Weighted times.
 pub struct Times {
-    /// Weights, and times about their mean.
+    /// Weights, and times relative to their mean.
     about: Vec<[f64; 2]>,
-    /// Σ of the weighted squares of these.
+    /// Weighted sum of the squares of these times.
     pub along: f64,
 }
 
 impl Times {
-    /// Of weights and times.
+    /// Takes weights and times.
     pub fn new(weighted: impl Iterator<Item = [f64; 2]>) -> Self {
         let mut about: Vec<_> = weighted.collect();
         let (weights, sum) = about.iter().fold((0.0, 0.0), |(all, sum), [weight, time]| {

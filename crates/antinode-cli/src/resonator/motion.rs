@@ -7,10 +7,10 @@
 //!     Q̇ = −2Q/τ − Δω(s_ω R − c_ω S)             Ṡ = −2S/τ − δ s_τ E − 2κR − Δω c_ω Q
 //!
 //! where 1/τ is the mean of the damping of both modes and δ its split, Δω the split of the frequencies in rad/s, c and s the cosine and sine
-//! of four times the angle at which the damping, or the frequency, is greatest, and −κ/2 what rotation turns the pattern by.
+//! of four times the angle at which the damping, or the frequency, is greatest, and −κ/2 the rate at which rotation turns the pattern.
 //!
-//! A shell whose stiffness depends on how far it bends turns a pattern that has quadrature: then κ has a part γQ. Of stiffness ω²(1 + βr²),
-//! r being how far both pick-offs' modes are from rest, γ is βω/8, and the frequency rises by 3γE rad/s beside that.
+//! A shell whose stiffness depends on its deflection turns a pattern that has quadrature: κ then has a part γQ. For a stiffness of
+//! ω²(1 + βr²), with r the deflection of both pick-offs' modes together, γ is βω/8, and the frequency also rises by 3γE rad/s.
 
 use nalgebra::{
     Complex, Matrix3x4, Matrix4, Matrix4x3, RowSVector, RowVector4, SMatrix, SVector, Vector3,
@@ -19,24 +19,24 @@ use nalgebra::{
 
 use crate::runs::{Row, turn};
 
-/// What moves a wave: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, γ, κ.
+/// Number of rates that move a wave: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, γ, κ.
 pub const RATES: usize = 7;
 /// The place of γ among them.
 pub const GAMMA: usize = 5;
-/// That of κ.
+/// The place of κ.
 pub const KAPPA: usize = 6;
-/// Those, and what a wave starts with: a_A, a_B, θ.
+/// Number of parameters: the rates, and the wave at the start, a_A, a_B, θ.
 pub const PARAMETERS: usize = RATES + 3;
-/// The state and its derivatives by all of these.
+/// The state and its derivatives by all parameters.
 const COLUMNS: usize = 1 + PARAMETERS;
-/// The fastest rate times a step of the integration is no more than this: the error of a step is its fifth power over 120.
+/// Fastest rate times a step of the integration, at most: the error of a step is the fifth power of this over 120.
 const STEP: f64 = 0.02;
-/// Steps from one row to the next at most: the pattern then turns by a radian and more, or the wave is gone, and no rows fit.
-const MOST_STEPS: f64 = 500.0;
-/// The square of what a wave changes by in half a window, over its own, up to which the core takes it to grow and turn evenly.
-const MOST_CHANGE: f64 = 1.3;
+/// Steps from one row to the next, at most: with more, the pattern turns by more than a radian, or the wave is gone, and no rows fit.
+const MAX_STEPS: f64 = 500.0;
+/// Squared change of a wave in half a window, over its own square, up to which the core takes it to grow and turn evenly.
+const MAX_CHANGE: f64 = 1.3;
 
-/// What one of each rate does to the state E, R, S, Q.
+/// Slopes of the state E, R, S, Q per unit of each rate.
 pub fn by_rates(state: &Vector4<f64>) -> SMatrix<f64, 4, RATES> {
     let [e, r, s, q] = (*state).into();
     let turning = Vector4::new(0.0, 2.0 * s, -2.0 * r, 0.0);
@@ -51,17 +51,17 @@ pub fn by_rates(state: &Vector4<f64>) -> SMatrix<f64, 4, RATES> {
     ])
 }
 
-/// The state E, R, S, Q, and its derivatives by the rates and by what it started with.
+/// The state E, R, S, Q, and its derivatives by the rates and by the wave at the start.
 #[derive(Debug, Clone)]
 pub struct Motion {
     columns: SMatrix<f64, 4, COLUMNS>,
     rates: SVector<f64, RATES>,
-    /// By which all of them but γ and κ move the state.
+    /// The matrix by which all rates but γ and κ move the state.
     matrix: Matrix4<f64>,
 }
 
 impl Motion {
-    /// Of these parameters.
+    /// The motion with these parameters, at its start.
     pub fn new(&[rates @ .., main, quadrature, angle]: &[f64; PARAMETERS]) -> Self {
         let (sine, cosine) = (4.0 * angle).sin_cos();
         let apart = main * main - quadrature * quadrature;
@@ -93,7 +93,7 @@ impl Motion {
         let rates = SVector::from(rates);
         let mut still = rates;
         still[KAPPA] = 0.0;
-        // γ does nothing to these: it wants Q and another.
+        // γ does not act on unit states: it needs both Q and R or S.
         let units = Matrix4::identity();
         let moved = units
             .column_iter()
@@ -105,19 +105,19 @@ impl Motion {
         }
     }
 
-    /// Has the pattern turned by so much from now on, rad/s, beside what splits make of that.
+    /// Sets the rate at which rotation turns the pattern from now on, rad/s; the splits turn it further.
     pub fn steer(&mut self, rate: f64) {
         self.rates[KAPPA] = -2.0 * rate;
     }
 
-    /// Where the pattern will stand in so many seconds.
+    /// The pattern angle that the motion reaches in this time, s.
     pub fn angle_after(&self, seconds: f64) -> f64 {
         let now = self.columns.column(0).into_owned();
         let then = self.moved(now, seconds, |state| self.slope(state));
         0.25 * then[2].atan2(then[1])
     }
 
-    /// Turns the pattern to an angle, where no parameter moves it: gives by how much it stood beyond that, and the derivatives of this.
+    /// Sets the pattern to an angle that no parameter changes; returns by how much it stood beyond that, and the derivatives of this.
     pub fn turn_to(&mut self, angle: f64) -> (f64, RowSVector<f64, PARAMETERS>) {
         let (r, s) = (self.columns[(1, 0)], self.columns[(2, 0)]);
         let apart = r.hypot(s).max(f64::MIN_POSITIVE);
@@ -131,7 +131,7 @@ impl Motion {
         (beyond, across.fixed_columns::<PARAMETERS>(1).into_owned())
     }
 
-    /// How fast a state changes.
+    /// The slope of a state.
     fn slope(&self, state: &Vector4<f64>) -> Vector4<f64> {
         by_rates(state) * self.rates
     }
@@ -145,13 +145,13 @@ impl Motion {
         matrix
     }
 
-    /// Moves on by so many seconds, by Runge and Kutta's fourth order.
+    /// Moves on by this time, s, by Runge and Kutta's method of the fourth order.
     pub fn advance(&mut self, seconds: f64) {
         let slope = |columns: &SMatrix<f64, 4, COLUMNS>| {
             let state = columns.column(0).into_owned();
             let by_rates = by_rates(&state);
             let mut slope = self.at(&state) * columns;
-            // What differs from the state in Q is turned otherwise, too.
+            // A difference in Q also changes the rate of turning.
             let turning = by_rates.column(KAPPA) * self.rates[GAMMA];
             slope += turning * columns.row(3);
             slope.set_column(0, &(by_rates * self.rates));
@@ -162,7 +162,7 @@ impl Motion {
         self.columns = self.moved(self.columns, seconds, slope);
     }
 
-    /// Columns so many seconds later, or earlier, the state the first of them, whose slope is this.
+    /// The columns, the first of which is the state, after this time, s, which may be negative; `slope` is their derivative by time.
     fn moved<const N: usize>(
         &self,
         mut columns: SMatrix<f64, 4, N>,
@@ -171,7 +171,7 @@ impl Motion {
     ) -> SMatrix<f64, 4, N> {
         let fastest = self.at(&columns.column(0).into_owned()).norm();
         let steps = (fastest * seconds.abs() / STEP).ceil().max(1.0);
-        if steps > MOST_STEPS {
+        if steps > MAX_STEPS {
             return columns * f64::NAN;
         }
         let step = seconds / steps;
@@ -185,18 +185,18 @@ impl Motion {
         columns
     }
 
-    /// The travelling waves now, of which that of `sign` is the greater: its size, and the lesser one, whose phase against it is 4θ.
+    /// The travelling waves of a state, of which that of `sign` is the greater: its size, and the lesser one, whose phase against it is 4θ.
     pub fn travelling(state: &Vector4<f64>, sign: f64) -> (f64, Complex<f64>) {
         let [e, r, s, q] = (*state).into();
-        // A wave of nothing has no size: it stays next to nothing.
+        // A wave of amplitude 0 must not be divided by.
         let greater = (e + sign * q).max(f64::MIN_POSITIVE).sqrt();
         (greater, Complex::new(r, s) / greater)
     }
 
-    /// The travelling waves as a window of so many seconds about now has them in its middle.
+    /// The travelling waves that a window of this length, s, about now states for its middle.
     ///
-    /// Within a window each is taken to grow and to turn evenly, or along a straight line where it changes by more than it is, as the
-    /// core does. What it does beyond that is averaged: its logarithm, or itself, comes out as the mean over the window, here by Simpson's rule.
+    /// As in the core, each is taken to grow and to turn evenly within a window, or to change along a straight line if it changes by more
+    /// than its size. Any departure from that is averaged: the result is the mean of its logarithm, or of itself, by Simpson's rule.
     fn averaged(&self, seconds: f64, sign: f64) -> (f64, Complex<f64>) {
         let now = self.columns.column(0).into_owned();
         let at = |by: f64| {
@@ -207,7 +207,7 @@ impl Motion {
         let [before, after] = [at(-0.5 * seconds), at(0.5 * seconds)];
         let grown = (before.0 * after.0 / (greater * greater)).powf(1.0 / 6.0);
         let change = 0.5 * (after.1 - before.1);
-        let mean = if change.norm_sqr() < MOST_CHANGE * lesser.norm_sqr() {
+        let mean = if change.norm_sqr() < MAX_CHANGE * lesser.norm_sqr() {
             let bent = (before.1 / lesser).ln() + (after.1 / lesser).ln();
             lesser * (bent / 6.0).exp()
         } else {
@@ -222,8 +222,8 @@ impl Motion {
         [state[1] / state[0], state[2] / state[0]]
     }
 
-    /// What one rad/s of δ c_τ, δ s_τ, Δω c_ω and Δω s_ω adds to the frequency in so many seconds, rad/s:
-    /// it is ½ Δω cos 4(θ−θ_ω) E/D − ½ δ sin 4(θ−θ_τ) Q/D.
+    /// Contributions to the frequency, after this time, s, of one rad/s each of δ c_τ, δ s_τ, Δω c_ω and Δω s_ω, rad/s:
+    /// together they are ½ Δω cos 4(θ−θ_ω) E/D − ½ δ sin 4(θ−θ_τ) Q/D.
     pub fn frequency_by_splits(&self, seconds: f64) -> [f64; 4] {
         let now = self.columns.column(0).into_owned();
         let [e, r, s, q] = self.moved(now, seconds, |state| self.slope(state)).into();
@@ -232,7 +232,8 @@ impl Motion {
             .map(|product: f64| 0.5 * product / apart.max(f64::MIN_POSITIVE))
     }
 
-    /// What the turning of the pattern now makes of the frequency, beside the mean of both travelling waves' by their energies, rad/s: 2 θ̇ Q/E.
+    /// Contribution of the pattern's turning now to the frequency, relative to the mean of both travelling waves weighted by their
+    /// energies, rad/s: 2 θ̇ Q/E.
     pub fn frequency_by_turning(&self) -> f64 {
         let state = self.columns.column(0).into_owned();
         let [e, r, s, q] = state.into();
@@ -241,17 +242,17 @@ impl Motion {
         2.0 * turning * q / e
     }
 
-    /// What a row has more of a_A, a_B and θ than the wave now, and the derivatives of the wave's by the rates and by what it started with.
+    /// Residuals: a_A, a_B and θ of a row less those of the wave now, and the derivatives of the latter by all parameters.
     ///
-    /// Near a circle these three are not smooth, nor is noise in them symmetric. But the greater travelling wave has a size, and the lesser one
-    /// its parts along what the row says of it and across it: the differences are those of these, which elsewhere are the same.
-    pub fn rest(&self, row: &Row) -> (Vector3<f64>, SMatrix<f64, 3, PARAMETERS>) {
+    /// Near a circle these three are not smooth, nor is noise in them symmetric. So the residuals are formed from the size of the greater
+    /// travelling wave, and from the components of the lesser one along that of the row and across it, which elsewhere is equivalent.
+    pub fn residuals(&self, row: &Row) -> (Vector3<f64>, SMatrix<f64, 3, PARAMETERS>) {
         let sign = 1f64.copysign(row.quadrature);
         let state = self.columns.column(0).into_owned();
         let (now, lesser) = Self::travelling(&state, sign);
         let back = Complex::from_polar(1.0, -4.0 * row.angle);
         let [along, across] = [lesser * back, back * Complex::i()];
-        // By E, R, S and Q: of the greater wave, and of the lesser along the row's and across it.
+        // Derivatives by E, R, S and Q of the greater wave, and of the lesser along that of the row and across it.
         let of_greater = RowVector4::new(0.5, 0.0, 0.0, 0.5 * sign) / now;
         let of_along =
             RowVector4::new(0.0, back.re, across.re, 0.0) / now - of_greater * (along.re / now);

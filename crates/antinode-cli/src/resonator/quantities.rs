@@ -10,10 +10,10 @@ use super::frequency::Frequency;
 use crate::digits::{fixed, significant, significant_or_known, with_small_std};
 use crate::runs::Runs;
 
-/// A split of fewer deviations than this has no angle.
+/// Deviations below which a split has no angle.
 const SPLIT_SEEN: f64 = 3.0;
 
-/// A kind of quantity: its name where angles are in radians, and where it is to be read, in units of which this many are one.
+/// A kind of quantity: its name in CSV and JSON lines, its label in the table, and the factor from the unit of the former to the latter's.
 struct Kind {
     name: &'static str,
     label: &'static str,
@@ -41,14 +41,14 @@ const BY_AMPLITUDES: Kind = kind(
     "turned by a_A·a_B, °/s per unit²",
     DEGREES,
 );
-/// Of the rows over their own deviations: 1 where there is nothing but noise.
+/// Residual of the rows over their own deviations: 1 in noise alone.
 const RESIDUAL: Kind = kind("residual_over_noise", "residual over noise", 1.0);
 const DAMPING_SPLIT: Kind = kind("damping_split_s", "damping split, 1/s", 1.0);
 const MOST_DAMPED: Kind = kind("most_damped_at_rad", "most damped at, °", DEGREES);
 const FREQUENCY_SPLIT: Kind = kind("frequency_split_hz", "frequency split, Hz", 1.0);
 const HIGHEST: Kind = kind("highest_at_rad", "highest at, °", DEGREES);
 
-/// What `--help` says of them.
+/// What `--help` says of the quantities.
 pub const HELP: &str = "\
 Quantities of CSV and JSON lines, their units, and those of their deviations:
   decay_time_s                 s      of amplitudes, to 1/e
@@ -69,7 +69,7 @@ near 1 (1.01 in windows of ten periods, whose deviations are estimates too) are 
 
 /// A quantity of the resonator, or of one run.
 pub struct Quantity {
-    /// The run's place among those listed; none where it is the resonator's.
+    /// Index of the run among those listed; `None` for the resonator.
     run: Option<usize>,
     kind: Kind,
     value: f64,
@@ -80,7 +80,7 @@ pub struct Quantity {
 /// A quantity as CSV and JSON lines have it; the names are the columns.
 #[derive(Serialize)]
 pub struct Row<'a> {
-    /// From 1.
+    /// Number of the run, from 1.
     run: Option<usize>,
     quantity: &'static str,
     value: f64,
@@ -92,13 +92,13 @@ pub struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    /// That of a quantity found in rows, in the runs listed of these.
+    /// The row of a quantity; `listed` are the indices of the listed runs in `rows`.
     pub fn new(quantity: &Quantity, rows: &'a Runs, listed: &[usize]) -> Self {
         let run = quantity.run.map(|run| &rows.runs[listed[run]]);
         Self {
             run: quantity.run.map(|run| run + 1),
             quantity: quantity.kind.name,
-            // More would be digits of nothing.
+            // More digits would mean nothing.
             value: significant_or_known(quantity.value, 12, quantity.std),
             std: (quantity.std > 0.0).then(|| significant(quantity.std, 6)),
             file: run.map(|run| run.file.as_str()),
@@ -108,7 +108,7 @@ impl<'a> Row<'a> {
     }
 }
 
-/// All that was found, of each run listed and then of the resonator.
+/// All quantities, of each run listed and then of the resonator.
 pub fn quantities(
     rows: &Runs,
     listed: &[usize],
@@ -139,7 +139,7 @@ pub fn quantities(
         add(run, RESIDUAL, found.residual_of_run(place, count));
     }
     add(None, FREQUENCY, frequency.mean);
-    if let Some(by_energy) = frequency.by_energy.told() {
+    if let Some(by_energy) = frequency.by_energy.value() {
         add(None, BY_ENERGY, by_energy);
     }
     let of_residual = found.residual / (2.0 * found.count).sqrt();
@@ -174,7 +174,7 @@ pub fn quantities(
     list
 }
 
-/// The inverse of a rate.
+/// The inverse of a rate, with its deviation.
 fn time((rate, std): Measured) -> Measured {
     (1.0 / rate, std / (rate * rate))
 }
@@ -183,7 +183,7 @@ fn scaled((value, std): Measured, by: f64) -> Measured {
     (value * by, std * by)
 }
 
-/// Prints quantities to be read, with angles in degrees.
+/// Prints quantities as a table, with angles in degrees.
 pub fn table(
     out: &mut impl Write,
     name: &str,

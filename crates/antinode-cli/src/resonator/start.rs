@@ -1,7 +1,7 @@
-//! Where the search begins.
+//! Values from which the search begins.
 //!
-//! The motion is linear in the rates, so that E, R, S and Q are what they began with plus integrals over time of what each rate does to them:
-//! by linear least squares the rates follow, wherever the pattern stands and however it moves, but for noise in the integrals.
+//! The motion is linear in the rates, so that E, R, S and Q are their initial values plus integrals over time of each rate's effect:
+//! linear least squares gives the rates, wherever the pattern stands and however it moves, but for noise in the integrals.
 
 use nalgebra::{DVector, Matrix4, SVector, Vector4};
 
@@ -10,19 +10,19 @@ use super::motion::{RATES, by_rates};
 use crate::normal::Equations;
 use crate::runs::{Row, Run};
 
-/// The share of each unknown's own weight that is added to it: what the rows do not tell then stays next to nothing.
+/// Share of each unknown's own weight that is added to it, so that unknowns that the rows do not determine stay near 0.
 const RIDGE: f64 = 1e-10;
 
-/// The unknowns of a model, as the integrals tell them; none where they are no numbers.
+/// The unknowns of a model from the integrals; `None` if they are not finite.
 pub fn start(runs: &[Run], model: Model) -> Option<DVector<f64>> {
-    // E, R and S at first stand where a_A, a_B and θ will, and Q behind all of a run; or E and Q where a_A and a_B will.
+    // At first E, R and S take the places of a_A, a_B and θ, and Q follows the run's own; or E and Q take those of a_A and a_B.
     let (shared, own) = (model.shared(), model.own());
-    let each = own + usize::from(!model.is_turned());
+    let each = own + usize::from(!model.is_unsteady());
     let mut equations = Equations::new(shared, each, runs.len());
     let from = |run: usize| shared + each * run;
     for (index, run) in runs.iter().enumerate() {
         let begin = from(index);
-        let begins = if model.is_turned() {
+        let begins = if model.is_unsteady() {
             vec![(0, begin), (3, begin + 1)]
         } else {
             vec![
@@ -57,7 +57,7 @@ pub fn start(runs: &[Run], model: Model) -> Option<DVector<f64>> {
         let found = found.rows(from(index), each);
         let mut values = values.rows_mut(model.own_at(index), own);
         values.copy_from(&found.rows(0, own));
-        if model.is_turned() {
+        if model.is_unsteady() {
             let [e, q] = [found[0], found[1]];
             let main = (0.5 * (e + (e * e - q * q).max(0.0).sqrt())).sqrt();
             values[0] = main;
@@ -76,10 +76,10 @@ pub fn start(runs: &[Run], model: Model) -> Option<DVector<f64>> {
     is_sound.then_some(values)
 }
 
-/// Adds the rows of a run, of whose E, R, S and Q these, by number, begin with unknowns at these places.
+/// Adds the rows of a run; `begins` lists which of E, R, S and Q are used, by number, and the places of their initial values.
 ///
-/// Seen from a frame that turns with the pattern's mean rate nothing moves far from row to row, and sums do for integrals; its κ is
-/// what is beyond that rate.
+/// In a frame that turns at the pattern's mean rate nothing moves far from row to row, so that sums serve as integrals; κ is then
+/// relative to that rate.
 fn add(
     equations: &mut Equations,
     (index, run): (usize, &Run),

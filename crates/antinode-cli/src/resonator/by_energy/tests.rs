@@ -1,4 +1,4 @@
-//! Frequencies made of an energy that decays, a drift and noise.
+//! Tests with frequencies that consist of a decaying energy, a drift and noise.
 
 use super::*;
 use crate::deviates::Deviates;
@@ -7,21 +7,21 @@ use crate::deviates::Deviates;
 const NOISE: f64 = 1e-3;
 const TRIALS: u64 = 72;
 
-/// By what a run's frequency has moved after a time, Hz.
+/// Change of a run's frequency, Hz, after a time, s.
 type Drift = dyn Fn(usize, f64) -> f64;
 
-/// Two runs of 30 s and 1600 rows, that decay by `decay` 1/s; by so much the frequency goes with the energy, and moves with time, Hz.
-fn runs(decay: f64, by: f64, drift: impl Fn(usize, f64) -> f64, seed: u64) -> Vec<Vec<Seen>> {
+/// Two runs of 30 s and 1600 rows that decay at `decay` 1/s; the frequency changes by `by` Hz per energy, and by `drift` Hz with time.
+fn runs(decay: f64, by: f64, drift: impl Fn(usize, f64) -> f64, seed: u64) -> Vec<Vec<Point>> {
     let mut random = Deviates(seed);
     let mut run = |index: usize| {
         let rows = (0..1600).map(|k| {
             let time = 30.0 / 1600.0 * f64::from(k);
             let energy = 0.25 * (-2.0 * decay * time).exp();
-            Seen {
+            Point {
                 time: 5.0 + time,
                 weight: NOISE.powi(-2),
                 energy,
-                beyond: 0.1 + by * energy + drift(index, time) + NOISE * random.draw(),
+                excess: 0.1 + by * energy + drift(index, time) + NOISE * random.draw(),
             }
         });
         rows.collect()
@@ -29,21 +29,21 @@ fn runs(decay: f64, by: f64, drift: impl Fn(usize, f64) -> f64, seed: u64) -> Ve
     vec![run(0), run(1)]
 }
 
-fn found(runs: &[Vec<Seen>], is_told: bool, by_turning: Option<Measured>) -> ByEnergy {
-    by_energy(runs, beside_one_mean(runs), is_told, by_turning)
+fn found(runs: &[Vec<Point>], are_weighted: bool, by_turning: Option<Measured>) -> ByEnergy {
+    by_energy(runs, without_mean(runs), are_weighted, by_turning)
 }
 
-/// The rms error over the stated deviations of trials in which it is told, and how many these are.
+/// Rms error over the stated deviation, in trials that determine the value, and the number of these.
 fn rms(decay: f64, by: f64, drift: impl Fn(usize, f64) -> f64) -> (f64, u64) {
-    let (mut squares, mut told) = (0.0, 0);
+    let (mut squares, mut determined) = (0.0, 0);
     for seed in 0..TRIALS {
         let runs = runs(decay, by, &drift, seed);
-        if let Some((value, std)) = found(&runs, true, None).told() {
+        if let Some((value, std)) = found(&runs, true, None).value() {
             squares += ((value - by) / std).powi(2);
-            told += 1;
+            determined += 1;
         }
     }
-    ((squares / told as f64).sqrt(), told)
+    ((squares / determined as f64).sqrt(), determined)
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn stated_deviations_are_the_rms_errors_whatever_the_drift() {
     let weak = |_, time: f64| 2e-5 * time;
     let linear = |_, time: f64| 1e-4 * time;
     let cooling = |run, time: f64| 1e-3 * run as f64 - 2e-4 * time;
-    // As after a step of the temperature, and as it comes and goes.
+    // As after a step of the temperature, and as with one that comes and goes.
     let curved = |_, time: f64| 6e-3 * (1.0 - (-time / 60.0).exp());
     let wave = |run, time: f64| 0.01 * (time / 40.0 + run as f64).sin();
     let all: [(&str, &Drift); 6] = [
@@ -65,17 +65,17 @@ fn stated_deviations_are_the_rms_errors_whatever_the_drift() {
     ];
     for (name, drift) in all {
         for (decay, by) in [(0.03, 0.3), (0.1, 0.03)] {
-            let (rms, told) = rms(decay, by, drift);
+            let (rms, determined) = rms(decay, by, drift);
             assert!((0.8..1.25).contains(&rms), "{name}, {by}: {rms}");
-            assert!(10 * told >= 9 * TRIALS, "{name}, {by}: {told}");
+            assert!(10 * determined >= 9 * TRIALS, "{name}, {by}: {determined}");
         }
-        let (_, told) = rms(0.03, 0.0, drift);
-        assert_eq!(told, 0, "{name}");
+        let (_, determined) = rms(0.03, 0.0, drift);
+        assert_eq!(determined, 0, "{name}");
     }
 }
 
 #[test]
-fn what_the_turning_of_patterns_says_leaves_no_drift_but_one_that_is_seen() {
+fn if_the_turning_of_patterns_agrees_there_is_no_drift_unless_one_is_seen() {
     let of = |drift: f64, said: f64| {
         let runs = runs(0.03, 0.3, |_, time| drift * time, 2);
         found(&runs, true, Some((said, 0.01)))
@@ -94,26 +94,25 @@ fn what_the_turning_of_patterns_says_leaves_no_drift_but_one_that_is_seen() {
 }
 
 #[test]
-fn a_temperature_that_settles_as_the_energy_falls_is_not_taken_for_the_energy_where_patterns_do_not_turn()
- {
+fn a_settling_temperature_is_not_taken_for_the_energy_if_patterns_do_not_turn() {
     let settling = |_, time: f64| 0.02 * (-time / 10.0).exp();
     let runs = runs(0.05, 0.0, settling, 3);
     let of = |by_turning| found(&runs, true, by_turning);
-    // Nothing else tells them apart.
+    // Nothing else distinguishes them.
     assert!(matches!(of(None), ByEnergy::Beside(_)));
     assert!(matches!(of(Some((0.01, 0.5))), ByEnergy::Beside(_)));
     assert_eq!(of(Some((1e-3, 1e-3))), ByEnergy::Denied);
 }
 
 #[test]
-fn rows_whose_frequency_has_no_deviation_tell_the_same() {
+fn frequencies_without_deviations_give_the_same_result() {
     let known = runs(0.03, 0.3, |_, time| 1e-4 * time, 1);
     let mut unknown = known.clone();
-    for seen in unknown.iter_mut().flatten() {
-        seen.weight = 1.0;
+    for point in unknown.iter_mut().flatten() {
+        point.weight = 1.0;
     }
-    let [Some(known), Some(unknown)] =
-        [(known, true), (unknown, false)].map(|(runs, is_told)| found(&runs, is_told, None).told())
+    let [Some(known), Some(unknown)] = [(known, true), (unknown, false)]
+        .map(|(runs, are_weighted)| found(&runs, are_weighted, None).value())
     else {
         panic!();
     };

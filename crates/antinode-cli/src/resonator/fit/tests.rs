@@ -1,4 +1,4 @@
-//! Rows made from the averaged equations of a resonator, with noise.
+//! Tests with rows from the averaged equations of a resonator, with noise.
 
 mod frequency;
 mod gaps;
@@ -41,7 +41,7 @@ fn run_turned(
     noise: f64,
     seed: u64,
 ) -> Run {
-    /// So often from row to row the rate changes.
+    /// Number of rates from row to row.
     const PARTS: usize = 2;
     let mut random = Deviates(seed);
     let [decay, dc, ds, wc, ws, gamma] = *resonator;
@@ -56,7 +56,7 @@ fn run_turned(
                 motion.advance(part);
             }
             let wave = motion.wave();
-            // Noise is alike in all parts of both travelling waves, z₊ and z₋.
+            // Noise is equal in all components of both travelling waves, z₊ and z₋.
             let mut travelling = |sign: f64| {
                 let size = wave[0] + sign * wave[1];
                 let mut part = |of: f64| size * of + 2f64.sqrt() * noise * random.draw();
@@ -80,7 +80,7 @@ fn run_turned(
     }
 }
 
-/// Ring-downs at rest at three angles 22.5° apart; a pattern at rest is turned by the Earth.
+/// Ring-downs at three angles 22.5° apart on a table at rest, where the Earth turns the patterns.
 fn at_three_angles(noise: f64, seed: u64) -> Vec<Run> {
     [0.2, 0.59, 0.98]
         .into_iter()
@@ -150,7 +150,7 @@ fn stated_deviations_are_the_rms_errors() {
             let (rotation, deviation) = resonator.rotations[run];
             errors.push((rotation + 2e-5) / deviation);
         }
-        // Of 0.01 and 0.05, as 3-4-5 triangles.
+        // Splits of 0.01 and 0.05, by 3-4-5 triangles.
         for (split, size, angle) in [
             (resonator.damping_split, 0.01, 0.25 * (-0.8f64).atan2(0.6)),
             (resonator.frequency_split, 0.05, 0.25 * 0.8f64.atan2(0.6)),
@@ -172,7 +172,7 @@ fn stated_deviations_are_the_rms_errors() {
 }
 
 #[test]
-fn a_pattern_that_is_a_circle_meanwhile_tells_the_same() {
+fn a_pattern_that_becomes_a_circle_determines_the_same() {
     // Between the axes of frequency a split makes a circle of a line, and back, twice in 60 s; others begin as circles.
     let highest = 0.25 * 0.8f64.atan2(0.6);
     let between = highest + std::f64::consts::FRAC_PI_8;
@@ -188,7 +188,7 @@ fn a_pattern_that_is_a_circle_meanwhile_tells_the_same() {
             let runs = [0.0, 0.1].map(|kappa| {
                 let start = starts[usize::from(kappa > 0.0)];
                 let mut run = run(&RESONATOR, kappa, start, 600, 0.1, 10.0 * NOISE, 2 * seed);
-                // As the core flags them.
+                // Without the circular rows that the core flags.
                 run.rows.retain(|row| {
                     row.main - row.quadrature.abs() > 6.0 * 10.0 * NOISE * 2f64.sqrt()
                 });
@@ -214,7 +214,7 @@ fn a_pattern_that_is_a_circle_meanwhile_tells_the_same() {
 }
 
 #[test]
-fn a_pattern_at_rest_tells_the_decay_along_it_at_the_bound() {
+fn the_decay_along_a_pattern_at_rest_reaches_the_bound() {
     let [mut errors, mut deviations] = [0.0; 2];
     let trials = 100;
     for seed in 0..trials {
@@ -234,7 +234,7 @@ fn a_pattern_at_rest_tells_the_decay_along_it_at_the_bound() {
 }
 
 #[test]
-fn what_else_moves_widens_the_deviations() {
+fn a_residual_beyond_noise_widens_the_deviations() {
     let honest = at_three_angles(NOISE, 1);
     let mut boastful = honest.clone();
     for row in boastful.iter_mut().flat_map(|run| &mut run.rows) {
@@ -257,7 +257,7 @@ fn noise_is_no_spread() {
         // 4θ scatters by 0.12 rad at first and 0.2 at the end: a circular variance of 0.013.
         let noisy = [run(&ROUND, 0.0, [1.0, 0.01, 0.2], 1000, 0.01, 0.06, seed)];
         assert!(
-            spread(&noisy).abs() < 0.3 * LEAST_SPREAD,
+            spread(&noisy).abs() < 0.3 * MIN_SPREAD,
             "{}",
             spread(&noisy)
         );
@@ -265,15 +265,15 @@ fn noise_is_no_spread() {
     let apart = [0.2, 0.2 + 3f64.to_radians()]
         .map(|angle| run(&ROUND, 0.0, [1.0, 0.0, angle], 20, 0.1, 0.0, 1));
     assert!(
-        (spread(&apart) / LEAST_SPREAD - 1.1).abs() < 0.02,
+        (spread(&apart) / MIN_SPREAD - 1.1).abs() < 0.02,
         "{}",
         spread(&apart)
     );
 }
 
 #[test]
-fn what_the_splits_do_to_one_pattern_tells_them() {
-    // Most damped where it stands: what moves it is the split of frequency, by way of the quadrature.
+fn the_motion_of_one_pattern_by_splits_determines_them() {
+    // Most damped where it stands: it is moved by the split of frequency alone, by way of the quadrature.
     let angle = 0.25 * (-0.8f64).atan2(0.6);
     let runs = [run(
         &RESONATOR,
@@ -284,7 +284,7 @@ fn what_the_splits_do_to_one_pattern_tells_them() {
         NOISE,
         1,
     )];
-    assert!(spread(&runs) < LEAST_SPREAD, "{}", spread(&runs));
+    assert!(spread(&runs) < MIN_SPREAD, "{}", spread(&runs));
     let found = fit(&runs).unwrap();
     let resonator = found.resonator().unwrap();
     let [(split, deviation), _] = resonator.frequency_split;
@@ -296,15 +296,15 @@ fn what_the_splits_do_to_one_pattern_tells_them() {
 }
 
 #[test]
-fn two_angles_for_a_short_time_do_not_tell_the_splits() {
+fn two_angles_for_a_short_time_do_not_determine_the_splits() {
     let runs =
         [0.2, 0.59].map(|angle| run(&RESONATOR, 0.0, [1.0, 0.02, angle], 100, 0.02, NOISE, 1));
-    assert!(spread(&runs) > LEAST_SPREAD);
+    assert!(spread(&runs) > MIN_SPREAD);
     assert!(fit(&runs).unwrap().resonator().is_none());
 }
 
 #[test]
-fn steps_settle_where_windows_turn_far_and_rows_are_not_quite_a_decay() {
+fn steps_converge_if_windows_turn_far_and_rows_are_not_quite_a_decay() {
     let small = [0.1, -0.005, 0.0109, 0.0091, -0.0234, 0.0];
     (12..16).into_par_iter().for_each(|seed| {
         let step = 0.009377;
@@ -320,7 +320,7 @@ fn steps_settle_where_windows_turn_far_and_rows_are_not_quite_a_decay() {
 }
 
 #[test]
-fn stiffness_that_depends_on_the_amplitude_is_told_beside_the_splits() {
+fn stiffness_that_depends_on_the_amplitude_is_determined_beside_the_splits() {
     // The frequency falls by 1 mHz meanwhile: γ is a third of that at E of one, rad/s.
     let gamma = 1e-3 * std::f64::consts::TAU / 3.0;
     let mut stiff = RESONATOR;
@@ -367,7 +367,7 @@ fn stiffness_that_depends_on_the_amplitude_is_told_beside_the_splits() {
 }
 
 #[test]
-fn what_amplitudes_turn_is_not_told_beside_what_is_not_noise() {
+fn turning_by_amplitudes_is_not_reported_if_residuals_are_more_than_noise() {
     // Pick-offs whose gains differ by 1 %.
     let runs = [0.3, -0.3].map(|kappa| {
         let mut run = run(&RESONATOR, kappa, [1.0, 0.1, 0.3], 400, 0.1, NOISE, 1);
@@ -384,7 +384,7 @@ fn what_amplitudes_turn_is_not_told_beside_what_is_not_noise() {
     assert!(turning.abs() > 3.0 * std, "{turning} {std}");
     assert_eq!(found.resonator().unwrap().turning_by_amplitudes, None);
     assert!(found.withholds_turning());
-    // Of fewer deviations nothing would be told in any case.
+    // With fewer deviations it would not be reported in any case.
     found.widening *= (turning.abs() / std / 2.9).powi(2);
     assert!(found.is_nonlinear() && !found.withholds_turning());
 }

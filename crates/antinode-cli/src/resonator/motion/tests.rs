@@ -1,4 +1,4 @@
-//! Against the two modes' own equations of motion, and derivatives against differences.
+//! Comparison with the two modes' own equations of motion, and of derivatives with differences.
 
 use nalgebra::Complex;
 
@@ -7,7 +7,7 @@ use super::*;
 /// A resonator with splits: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, γ, κ.
 const RATES_OF_ALL: [f64; RATES] = [0.11, 0.05, -0.03, 0.2, 0.13, 0.1, 0.3];
 
-/// The parameters of the motion of all these, of a wave that starts as this.
+/// The parameters of the motion with these rates, for a wave that starts with these values.
 fn parameters(main: f64, quadrature: f64, angle: f64) -> [f64; PARAMETERS] {
     let mut parameters = [0.0; PARAMETERS];
     parameters[..RATES].copy_from_slice(&RATES_OF_ALL);
@@ -24,7 +24,7 @@ impl Motion {
     }
 }
 
-/// A row of this a_A, a_B and θ, whose window lasted so many seconds.
+/// A row with this a_A, a_B and θ, whose window has this length, s.
 fn row(values: [f64; 3], seconds: f64) -> Row {
     Row {
         seconds,
@@ -33,7 +33,7 @@ fn row(values: [f64; 3], seconds: f64) -> Row {
 }
 
 #[test]
-fn as_the_two_modes_move() {
+fn the_motion_is_that_of_the_two_modes() {
     // Modes 1 and 2 stand along an angle ϑ and across it; what pick-off C sees is x, what D sees y.
     let omega = std::f64::consts::TAU * 200.0;
     let [decay, dc, ds, wc, ws, gamma, kappa] = RATES_OF_ALL;
@@ -120,7 +120,7 @@ fn as_the_two_modes_move() {
 /// A pattern near a line, and both ways round near a circle.
 const QUADRATURES: [f64; 4] = [-0.1, 0.0, 0.7999, -0.8];
 
-/// The motion some seconds after it began so.
+/// The motion 3.5 s after its start.
 fn after(parameters: &[f64; PARAMETERS]) -> Motion {
     let mut motion = Motion::new(parameters);
     for _ in 0..5 {
@@ -130,7 +130,7 @@ fn after(parameters: &[f64; PARAMETERS]) -> Motion {
 }
 
 #[test]
-fn a_pattern_stays_one() {
+fn a_state_stays_that_of_a_pattern() {
     let parameters = parameters(0.8, -0.1, 0.6);
     // E² = R² + S² + Q², in whatever steps.
     let mut motion = Motion::new(&parameters);
@@ -141,17 +141,17 @@ fn a_pattern_stays_one() {
 }
 
 #[test]
-fn derivatives_are_those_of_differences() {
+fn derivatives_agree_with_differences() {
     for quadrature in QUADRATURES {
         let parameters = parameters(0.8, quadrature, 0.6);
         let wave = after(&parameters).wave();
         let row = row([wave[0] + 0.003, wave[1] - 0.002, wave[2] + 0.1], 0.0);
-        let (_, derivatives) = after(&parameters).rest(&row);
+        let (_, derivatives) = after(&parameters).residuals(&row);
         for parameter in 0..PARAMETERS {
             let moved = |by: f64| {
                 let mut parameters = parameters;
                 parameters[parameter] += by;
-                after(&parameters).rest(&row).0
+                after(&parameters).residuals(&row).0
             };
             let difference = (moved(-1e-5) - moved(1e-5)) / 2e-5;
             let apart = (difference - derivatives.column(parameter)).norm();
@@ -161,19 +161,19 @@ fn derivatives_are_those_of_differences() {
 }
 
 #[test]
-fn what_a_row_has_more_is_what_was_added() {
+fn residuals_are_what_was_added_to_the_wave() {
     for quadrature in QUADRATURES {
         let motion = Motion::new(&parameters(0.8, quadrature, 0.6));
         let wave = motion.wave();
         let added = Vector3::new(1e-9, 2e-9, 3e-9);
-        let (rest, _) = motion.rest(&row((wave + added).into(), 0.0));
-        // Of the angle of a circle nothing is seen.
+        let (rest, _) = motion.residuals(&row((wave + added).into(), 0.0));
+        // A circle does not show its angle.
         let known = if wave[0] - wave[1].abs() < 1e-6 { 2 } else { 3 };
         let apart = (rest - added).rows(0, known).norm();
         assert!(apart < 1e-11, "{quadrature}: {rest}");
         // An eighth of a turn, and the signs change: the same pattern, where it is a circle.
         let turned = Vector3::new(0.0, 0.0, std::f64::consts::FRAC_PI_4);
-        let (rest, _) = motion.rest(&row((wave + turned).into(), 0.0));
+        let (rest, _) = motion.residuals(&row((wave + turned).into(), 0.0));
         let lesser = wave[0] - wave[1].abs();
         assert!(
             (rest[0] - lesser).abs() < 1e-9 + 1e-9 * lesser,
@@ -183,8 +183,8 @@ fn what_a_row_has_more_is_what_was_added() {
 }
 
 #[test]
-fn a_window_averages_what_is_not_even() {
-    // The last one changes by more than it is.
+fn windows_average_an_uneven_motion() {
+    // The last wave changes by more than its size.
     for (quadrature, seconds) in [(-0.1, 0.0), (-0.1, 0.1), (-0.1, 0.4), (-0.799, 0.1)] {
         let motion = Motion::new(&parameters(0.8, quadrature, 0.6));
         let now = motion.columns.column(0).into_owned();
@@ -252,7 +252,7 @@ fn the_splits_move_the_frequency_as_they_turn_the_phase() {
 }
 
 #[test]
-fn what_turns_a_pattern_to_an_angle_is_told_with_its_derivatives() {
+fn the_turn_to_an_angle_is_returned_with_its_derivatives() {
     let turned = |parameters: &[f64; PARAMETERS]| {
         let mut motion = Motion::new(parameters);
         motion.steer(0.2);
@@ -261,8 +261,8 @@ fn what_turns_a_pattern_to_an_angle_is_told_with_its_derivatives() {
         let (beyond, derivatives) = motion.turn_to(1.1);
         let wave = motion.wave();
         assert!((wave - Vector3::new(main, quadrature, turn(1.1))).norm() < 1e-12);
-        // What moved the angle does so no more.
-        let (rest, by) = motion.rest(&row([main, quadrature, 1.1], 0.0));
+        // The parameters no longer change the angle.
+        let (rest, by) = motion.residuals(&row([main, quadrature, 1.1], 0.0));
         assert!(rest.norm() < 1e-9, "{rest}");
         assert!(by.row(2).norm() < 1e-9, "{by}");
         (beyond, derivatives)

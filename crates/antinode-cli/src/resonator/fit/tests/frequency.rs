@@ -1,9 +1,9 @@
-//! What the frequency takes of a fit.
+//! What the frequency uses of a fit.
 
 use super::*;
 
 #[test]
-fn what_splits_add_to_the_frequency_is_averaged_across_rows_left_out() {
+fn the_splits_part_of_the_frequency_is_averaged_across_rows_left_out() {
     // A period of the splits has 157 rows, of which 20 are left out.
     let resonator = [0.05, 0.006, -0.008, 1.2, 1.6, 0.0];
     let whole = run(&resonator, 0.0, [0.8, 0.1, 0.3], 620, 0.02, 1e-9, 1);
@@ -12,7 +12,7 @@ fn what_splits_add_to_the_frequency_is_averaged_across_rows_left_out() {
         .filter(|k| *k == 0 || k % 157 > 20)
         .map(|k| whole.rows[k])
         .collect();
-    // What they add to the phase, rad: so averaged, and as the rows alone would have it.
+    // Their part of the phase, rad: from these averages, and from the rows alone.
     let phases = |run: Run| {
         let runs = [run];
         let found = found(&runs, Model::Shared).unwrap();
@@ -32,7 +32,7 @@ fn what_splits_add_to_the_frequency_is_averaged_across_rows_left_out() {
 }
 
 #[test]
-fn what_amplitudes_do_not_turn_is_known_though_it_is_no_unknown() {
+fn turning_by_amplitudes_is_known_though_it_is_no_unknown() {
     let quadrature = [0.3, -0.3].map(|quadrature| [1.0, quadrature, 0.3]);
     let runs = quadrature.map(|start| run(&RESONATOR, 0.3, start, 400, 0.1, NOISE, 1));
     let found = fit(&runs).unwrap();

@@ -1,9 +1,9 @@
-//! Patterns that are turned as it happens.
+//! Patterns that are turned unsteadily.
 
 use super::*;
 use crate::runs::way::bow;
 
-/// Rates of tables, rad/s, by time, that are not steady: a ripple, a start, one that slows down, to and fro.
+/// Unsteady rates of tables, rad/s, over time: a ripple, a start, one that slows down, to and fro.
 const UNSTEADY: [fn(f64) -> f64; 4] = [
     |time| 0.2 + 0.002 * time.sin(),
     |time| 0.2 * (time / 0.5).min(1.0),
@@ -14,7 +14,7 @@ const UNSTEADY: [fn(f64) -> f64; 4] = [
 #[test]
 fn deviations_hold_however_patterns_are_turned() {
     for (index, rate) in UNSTEADY.into_iter().enumerate() {
-        // Of 39.8 s.
+        // Mean over the 39.8 s of a run.
         let rates = (0..3980).map(|k| rate(0.01 * (k as f64 + 0.5)));
         let mean = rates.sum::<f64>() / 3980.0;
         let trials = 100;
@@ -24,7 +24,7 @@ fn deviations_hold_however_patterns_are_turned() {
                 run_turned(&RESONATOR, |t| way * rate(t), start, 200, 0.2, NOISE, seed)
             };
             let found = fit(&[one(1.0, 0.2, 2 * seed), one(-1.0, 0.9, 2 * seed + 1)]).unwrap();
-            assert!(found.is_turned());
+            assert!(found.is_unsteady());
             assert!((found.residual - 1.0).abs() < 0.15, "{}", found.residual);
             let rotations = found.resonator().unwrap().rotations;
             std::array::from_fn(|i| match i.checked_sub(5) {
@@ -40,7 +40,7 @@ fn deviations_hold_however_patterns_are_turned() {
         for i in 0..7 {
             let squares = errors.iter().map(|errors| errors[i] * errors[i]);
             let rms = (squares.sum::<f64>() / trials as f64).sqrt();
-            // It scatters by 7 %.
+            // The rms of 100 trials scatters by 7 %.
             assert!((0.75..1.25).contains(&rms), "{index}, {i}: {rms}");
         }
     }
@@ -48,9 +48,9 @@ fn deviations_hold_however_patterns_are_turned() {
 
 #[test]
 fn a_steady_rotation_is_not_given_up() {
-    // It tells the splits better: angles drift by them too.
+    // It determines the splits better, as they also turn the patterns.
     for seed in 0..20 {
-        assert!(!fit(&at_three_angles(NOISE, seed)).unwrap().is_turned());
+        assert!(!fit(&at_three_angles(NOISE, seed)).unwrap().is_unsteady());
         let turned = [0.2, -0.2].map(|kappa| {
             let start = [1.0, 0.03, 0.5];
             run(
@@ -63,16 +63,16 @@ fn a_steady_rotation_is_not_given_up() {
                 7 * seed + u64::from(kappa > 0.0),
             )
         });
-        assert!(!fit(&turned).unwrap().is_turned());
+        assert!(!fit(&turned).unwrap().is_unsteady());
     }
 }
 
 #[test]
-fn one_pattern_that_hardly_swings_tells_no_splits() {
+fn one_pattern_that_hardly_swings_determines_no_splits() {
     let swing = |time: f64| 0.02 * (3.0 * time).sin();
     let run = run_turned(&RESONATOR, swing, [1.0, 0.03, 0.2], 30, 0.2, NOISE, 1);
     let found = fit(&[run]).unwrap();
-    assert!(found.is_turned() && found.resonator().is_none());
+    assert!(found.is_unsteady() && found.resonator().is_none());
     // Nor do they move its frequency.
     assert_eq!(found.splits(&[1.0; 4]), (0.0, 0.0));
 }
@@ -98,7 +98,7 @@ fn a_table_may_speed_up_among_rows_left_out() {
                 all
             };
             let found = fit(&[one(1.0, 0.2, 2 * seed), one(-1.0, 0.9, 2 * seed + 1)]).unwrap();
-            assert!(found.is_turned());
+            assert!(found.is_unsteady());
             (0..5)
                 .map(|i| ((found.values[i] - RESONATOR[i]) / found.variance(i).sqrt()).powi(2))
                 .sum::<f64>()

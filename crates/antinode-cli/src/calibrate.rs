@@ -19,9 +19,9 @@ use crate::serialized;
 use solve::{Found, PickOffs, solve};
 use undriven::{moments, without_driven};
 
-/// A flaw of fewer deviations than this is none.
-const SEEN: f64 = 3.0;
-/// The pattern turns by no more than this from row to row, rad: the sums over time are then good to 2 %.
+/// Deviations below which a flaw is not significant.
+const SIGNIFICANT: f64 = 3.0;
+/// Turn of the pattern from row to row, at most, rad: sums over time then agree with integrals to 2 %.
 const MAX_TURN: f64 = 0.1;
 
 /// `antinode calibrate`.
@@ -33,7 +33,7 @@ pub struct Calibrate {
     /// How the calibration is printed.
     #[arg(long, visible_alias = "format", value_enum, default_value_t = Printed::Options, value_name = "FORMAT")]
     pub output: Printed,
-    // What the rows were identified with. Last, for what follows would stand under its heading.
+    // The calibration that the rows were identified with. It is last, as what follows would appear under its heading.
     #[command(flatten)]
     pub corrected: Corrected,
 }
@@ -52,10 +52,10 @@ pub enum Printed {
 /// A quantity; CSV and JSON lines have what is not skipped, by these names.
 #[derive(Clone, Copy, Serialize)]
 struct Quantity {
-    /// In the report.
+    /// Its name in the report.
     #[serde(skip)]
     label: &'static str,
-    /// Of `antinode identify`.
+    /// The option of `antinode identify`.
     #[serde(skip)]
     option: &'static str,
     quantity: &'static str,
@@ -63,7 +63,7 @@ struct Quantity {
     std: f64,
 }
 
-/// Finds the calibration and prints it as options.
+/// Finds the calibration and prints it.
 pub fn run(options: &Calibrate) -> Result<(), Failure> {
     let corrected = PickOffs::from(&options.corrected);
     let (mut rows, name) = Runs::open(&options.given, MAX_TURN, Flags::REACQUIRED)?;
@@ -113,10 +113,10 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
         ),
     ];
     let mut report = io::stderr().lock();
-    // The result goes to the other stream: standard error may be closed.
+    // The result goes to standard output: standard error may be closed.
     let _ = driven::warn(&mut report, &driven)
-        .and_then(|()| tell(&mut report, &name, &rows, &found, &quantities));
-    let apart = found.deviations.map(|std| SEEN * std);
+        .and_then(|()| write_report(&mut report, &name, &rows, &found, &quantities));
+    let apart = found.deviations.map(|std| SIGNIFICANT * std);
     if corrected == PickOffs::IDEAL {
         let look = if found.pick_offs.are_ideal_to(apart) {
             "the pick-offs look ideal: "
@@ -135,14 +135,14 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
 /// Prints the quantities.
 fn print(out: &mut impl Write, how: Printed, quantities: &[Quantity]) -> io::Result<()> {
     let rows = quantities.iter().map(|one| Quantity {
-        // More would be digits of nothing.
+        // More digits would mean nothing.
         value: significant(one.value, 12),
         std: significant(one.std, 6),
         ..*one
     });
     match how {
         Printed::Options => {
-            // One digit more than the report's two of the deviation.
+            // One more digit than the report, which shows two of the deviation.
             let options = quantities.iter().map(|one| {
                 let decimals = decimals(one.std) + 1;
                 format!("{} {}", one.option, fixed(decimals, one.value))
@@ -155,8 +155,8 @@ fn print(out: &mut impl Write, how: Printed, quantities: &[Quantity]) -> io::Res
     }
 }
 
-/// Tells what was found, and how well.
-fn tell(
+/// Writes the result and its quality.
+fn write_report(
     out: &mut impl Write,
     name: &str,
     rows: &Runs,

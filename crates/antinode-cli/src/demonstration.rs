@@ -1,4 +1,4 @@
-//! `antinode` alone: a simulated ring-down through the core, beside the truth.
+//! `antinode` without a command: a simulated ring-down identified by the core, beside the truth.
 
 mod score;
 
@@ -18,7 +18,7 @@ const SECONDS: f64 = 2.0;
 /// Windows shown.
 const SHOWN: usize = 6;
 
-/// Shows what the core finds of a gyro that turns, decays and drifts in noise.
+/// Shows what the core identifies of a gyro that turns, decays and drifts in noise.
 pub fn run() -> Result<(), Failure> {
     let wave = Wave {
         main_amplitude: 1.0,
@@ -70,7 +70,7 @@ pub fn run() -> Result<(), Failure> {
     Ok(())
 }
 
-/// One window, and the truth on a line of its own.
+/// Prints one window, and the truth on a line of its own.
 fn show(out: &mut impl Write, estimate: &Estimate, truth: &Truth) -> io::Result<()> {
     let found = [
         with_std_to(

@@ -42,7 +42,7 @@ pub struct Plot {
 pub fn run(options: &Plot) -> Result<(), Failure> {
     let times = options.given.times()?;
     let format = Format::of(&options.out)?;
-    // What cannot be written is found before the rows are read, which may come through a pipe for long.
+    // Whether the file can be written is checked before the rows are read, which may take long from a pipe.
     drop(WholeFile::create(&options.out)?);
     let (mut traces, inputs) = rows::open(&options.given.rows)?;
     let span = rows::span(&traces);

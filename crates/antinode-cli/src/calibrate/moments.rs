@@ -1,4 +1,4 @@
-//! Rows become what the pick-offs showed.
+//! Converts rows to what the pick-offs showed.
 
 use std::f64::consts::TAU;
 
@@ -13,13 +13,13 @@ use crate::runs::{self, MIN_ROWS, Row, turn};
 pub struct Moment {
     /// Time, s.
     pub time: f64,
-    /// Phasors of both pick-offs, in the samples' unit; their common phase is anything.
+    /// Phasors of both pick-offs, in the samples' unit; their common phase is arbitrary.
     pub raw: [Complex<f64>; 2],
     /// 2πf, rad/s.
     pub omega: f64,
-    /// Variance of the real part of a phasor, and of its imaginary one, as noise that is alike on both pick-offs has it.
+    /// Variance of the real and of the imaginary part of a phasor, for noise that is equal on both pick-offs.
     pub variance: f64,
-    /// What the window was identified with.
+    /// The calibration that the window was identified with.
     pub corrected: PickOffs,
     /// Length of the window, s.
     pub seconds: f64,
@@ -29,12 +29,12 @@ pub struct Moment {
 #[derive(Debug, Clone)]
 pub struct Run {
     pub moments: Vec<Moment>,
-    /// How far the pattern turns backwards at most, at most 0, and forwards, rad.
+    /// Largest turns of the pattern, rad: backwards, at most 0, and forwards, at least 0.
     pub turns: [f64; 2],
 }
 
 impl Run {
-    /// Of rows that were identified with a calibration.
+    /// The moments of a run of rows that were identified with a calibration.
     pub fn new(run: &runs::Run, corrected: &PickOffs) -> Self {
         let moments = run.rows.iter().map(|row| Moment::new(row, corrected));
         Self {
@@ -43,7 +43,7 @@ impl Run {
         }
     }
 
-    /// The run in so many parts of as many moments each, of a pattern that turns as far.
+    /// About `count` parts of the run, of equally many moments; each states the turns of the whole.
     pub fn parts(&self, count: usize) -> impl Iterator<Item = Self> {
         let parts = self
             .moments
@@ -54,7 +54,7 @@ impl Run {
         })
     }
 
-    /// What they tell of the wave's energy, through these pick-offs.
+    /// The wave's energy in each window, if the pick-offs are these.
     pub fn energies(&self, pick_offs: &PickOffs) -> Vec<Energy> {
         let moments = self.moments.iter().zip(self.ideal(pick_offs));
         let energies = moments.map(|(moment, ideal)| {
@@ -70,9 +70,9 @@ impl Run {
         energies.collect()
     }
 
-    /// Phasors of ideal pick-offs in the middle of each window, where the true ones are these.
+    /// Phasors of ideal pick-offs in the middle of each window, if the true ones are these.
     pub fn ideal(&self, pick_offs: &PickOffs) -> Vec<[Complex<f64>; 2]> {
-        // As the rows have the pattern, it would turn unevenly.
+        // Not the rows' own angles, which a wrong calibration makes turn unevenly.
         let angles: Vec<_> = self
             .moments
             .iter()
@@ -105,37 +105,37 @@ impl Moment {
             time: row.time,
             raw: corrected.distort(ideal, omega),
             omega,
-            // Wherever the pattern stands, both amplitudes together have the noise of both ideal pick-offs.
+            // At any pattern angle, both amplitudes together have the noise of both ideal pick-offs.
             variance: (of_main.powi(2) + of_quadrature.powi(2)) / (1.0 + c * c + d * d),
             corrected: *corrected,
             seconds: row.seconds,
         }
     }
 
-    /// Where the pattern stands, rad, modulo π/2.
+    /// The pattern angle if the pick-offs are these, rad, modulo π/2.
     fn angle(&self, pick_offs: &PickOffs) -> f64 {
         let [plus, minus] = waves(pick_offs.correct(self.raw, self.omega));
         0.25 * (minus * plus.conj()).arg()
     }
 
-    /// Phasors of ideal pick-offs in the middle of the window, where the true ones are these and the pattern turns by `turn` rad in it.
+    /// Phasors of ideal pick-offs in the middle of the window, if the true ones are these and the pattern turns by `turn` rad in it.
     ///
-    /// Within a window each of both travelling waves is taken to turn evenly. Through a calibration that is not right both are seen in
-    /// each, which then does not: its logarithm comes out as the mean over the window, by Simpson's rule.
+    /// The identification takes each travelling wave to turn evenly within a window. With a wrong calibration each shows some of the other,
+    /// and does not: what is identified is the mean of its logarithm over the window, here by Simpson's rule.
     fn ideal(&self, pick_offs: &PickOffs, turn: f64) -> [Complex<f64>; 2] {
         let true_waves = waves(pick_offs.correct(self.raw, self.omega));
-        // As the window saw them when the pattern stood so much further.
-        let seen = |by: f64| {
+        // As the window shows them when the pattern stands further by this angle.
+        let shown = |by: f64| {
             let [plus, minus] = true_waves;
             let turned = Complex::from_polar(1.0, 2.0 * by);
             let ideal = phasors([plus * turned, minus * turned.conj()]);
             let raw = pick_offs.distort(ideal, self.omega);
             waves(self.corrected.correct(raw, self.omega))
         };
-        let [before, middle, after] = [-0.5, 0.0, 0.5].map(|part| seen(part * turn));
+        let [before, middle, after] = [-0.5, 0.0, 0.5].map(|part| shown(part * turn));
         let momentary = [0, 1].map(|i| {
             let bent = (before[i] * after[i] / (middle[i] * middle[i])).ln() / 6.0;
-            // A wave of nothing is seen as nothing.
+            // A wave of amplitude 0 stays one.
             middle[i]
                 * if bent.is_finite() {
                     (-bent).exp()

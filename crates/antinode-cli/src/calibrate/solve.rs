@@ -1,11 +1,11 @@
-//! Runs become a calibration, by least squares.
+//! Fits a calibration to runs, by least squares.
 //!
 //! While a pattern turns and decays, its energy E = a_A² + a_B² decays evenly and its quadrature Q = 2 a_A a_B keeps its share of it,
 //! wherever the pattern stands. What flawed pick-offs show swings with the angle instead: with R = (a_A² − a_B²) cos 4θ and
 //! S = (a_A² − a_B²) sin 4θ, a gain of D moves ln E by −R/E, a turned pick-off by −2S/E, and a skew moves Q/E by S/E.
 //!
-//! A resonator that damps or rings unlike along two axes does the like, but by the integrals of R/E and S/E over time, which change
-//! their sign with the turning: turned both ways, the two are told apart.
+//! A resonator whose damping or frequency differs along two axes has a similar effect, but by the integrals of R/E and S/E over time, which
+//! change sign with the direction of turning: turned both ways, the two are distinguishable.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -20,24 +20,24 @@ use crate::options::Corrected;
 const FLAWS: usize = 3;
 /// Unknowns of the resonator: its splits of damping and of frequency, each along two axes.
 const SPLITS: usize = 4;
-/// Of a run: ln E and Q/E at its middle, and their slopes.
+/// Unknowns of a run: ln E and Q/E at its middle, and their slopes.
 const OWN: usize = 4;
-/// The least turn: 4θ goes around once.
-const LEAST_TURN: f64 = FRAC_PI_2;
-/// Steps at most; four do where the pick-offs are nearly ideal.
+/// Turn that is needed, at least, rad: 4θ goes around once.
+const MIN_TURN: f64 = FRAC_PI_2;
+/// Steps, at most; four are enough if the pick-offs are nearly ideal.
 const STEPS: usize = 50;
-/// No step is longer than this, in ln g and rad: from an ideal pick-off to one of a tenth of its gain the way is not straight.
-const LONGEST: f64 = 0.3;
-/// A step below this is none, whatever the noise.
+/// Length of a step, at most, in ln g and rad: the way from an ideal pick-off to one with a tenth of its gain is not straight.
+const MAX_STEP: f64 = 0.3;
+/// Step below which the search has converged, whatever the noise.
 const SETTLED: f64 = 1e-10;
 
-/// How pick-off D differs from an ideal one, as the core's `Calibration` has it.
+/// How pick-off D differs from an ideal one, as in the core's `Calibration`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PickOffs {
     pub gain_ratio: f64,
-    /// How much later than C it is sampled, s.
+    /// Time by which it is sampled later than C, s.
     pub skew: f64,
-    /// What its angle from C is beyond 45°, rad.
+    /// Its angle from C less 45°, rad.
     pub angle: f64,
 }
 
@@ -52,68 +52,68 @@ impl From<&Corrected> for PickOffs {
 }
 
 impl PickOffs {
-    /// Those that need no calibration.
+    /// Ideal pick-offs, which need no calibration.
     pub const IDEAL: Self = Self {
         gain_ratio: 1.0,
         skew: 0.0,
         angle: 0.0,
     };
 
-    /// Whether these are no further from ideal ones than by so much in gain ratio, skew and angle.
-    pub fn are_ideal_to(&self, apart: [f64; 3]) -> bool {
+    /// Whether gain ratio, skew and angle differ from ideal ones by no more than these tolerances.
+    pub fn are_ideal_to(&self, tolerances: [f64; 3]) -> bool {
         let flaws = [self.gain_ratio - 1.0, self.skew, self.angle];
         flaws
             .iter()
-            .zip(apart)
-            .all(|(flaw, apart)| flaw.abs() <= apart)
+            .zip(tolerances)
+            .all(|(flaw, tolerance)| flaw.abs() <= tolerance)
     }
 
-    /// Phasors as these pick-offs show them, of those of ideal ones.
+    /// Converts phasors of ideal pick-offs to those that these show.
     pub fn distort(&self, [c, d]: [Complex<f64>; 2], omega: f64) -> [Complex<f64>; 2] {
         let (sine, cosine) = (2.0 * self.angle).sin_cos();
         let lag = Complex::from_polar(self.gain_ratio, omega * self.skew);
         [c, lag * (d * cosine - c * sine)]
     }
 
-    /// Phasors of ideal pick-offs, of those that these show.
+    /// Converts phasors that these pick-offs show to those of ideal ones.
     pub fn correct(&self, [c, d]: [Complex<f64>; 2], omega: f64) -> [Complex<f64>; 2] {
         let (sine, cosine) = (2.0 * self.angle).sin_cos();
         let lag = Complex::from_polar(self.gain_ratio, omega * self.skew);
         [c, (d / lag + c * sine) / cosine]
     }
 
-    /// What the noise of pick-off D, and of C, is multiplied by in an ideal D.
+    /// Factors of the noise of pick-off D, and of C, in an ideal D.
     pub fn noise_gains(&self) -> [f64; 2] {
         let (sine, cosine) = (2.0 * self.angle).sin_cos();
         [1.0 / (self.gain_ratio * cosine), sine / cosine]
     }
 }
 
-/// What was found.
+/// The result of the fit.
 #[derive(Debug)]
 pub struct Found {
     pub pick_offs: PickOffs,
     /// One standard deviation each of gain ratio, skew and angle.
     pub deviations: [f64; 3],
-    /// The rms residual over the rows' own deviations: 1 where there is nothing but noise.
+    /// The rms residual over the rows' own deviations: 1 in noise alone.
     pub residual: f64,
-    /// True when the resonator's splits are among the unknowns.
+    /// True if the resonator's splits are among the unknowns.
     pub knows_splits: bool,
-    /// The most that a run turns backwards, at most 0, and forwards, rad.
+    /// Largest turns within a run, rad: backwards, at most 0, and forwards, at least 0.
     pub turned: [f64; 2],
 }
 
-/// Why nothing was found.
+/// The reason why there is no calibration.
 #[derive(Debug, PartialEq)]
 pub enum Fault {
-    /// The most that a run turns, rad.
+    /// The pattern turns too little: by this, at most, rad.
     Still(f64),
-    /// The steps do not settle.
+    /// The steps do not converge.
     Unsettled,
 }
 
 impl Fault {
-    /// The failure of a file.
+    /// The failure for a file of this name.
     pub fn of(&self, name: &str) -> Failure {
         Failure::Fault(match self {
             Self::Still(turned) => format!(
@@ -130,12 +130,12 @@ impl Fault {
     }
 }
 
-/// Finds the calibration that lets energy and quadrature run evenly; `start` is where the search begins.
+/// Finds the calibration with which energy and quadrature run evenly; the search begins at `start`.
 pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
     let turned = runs.iter().fold([0f64; 2], |[back, forth], run| {
         [back.min(run.turns[0]), forth.max(run.turns[1])]
     });
-    let [back, forth] = turned.map(|turned| turned.abs() >= LEAST_TURN);
+    let [back, forth] = turned.map(|turned| turned.abs() >= MIN_TURN);
     if !back && !forth {
         return Err(Fault::Still(turned[1].max(-turned[0])));
     }
@@ -150,18 +150,18 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
         };
         let step = factors.solve(normal.equations.right());
         let omega = normal.omega;
-        let part = (LONGEST / step.rows(0, FLAWS).amax()).min(1.0);
+        let part = (MAX_STEP / step.rows(0, FLAWS).amax()).min(1.0);
         pick_offs.gain_ratio *= (part * step[0]).exp();
         pick_offs.skew += part * step[1] / omega;
         pick_offs.angle += part * step[2];
-        let sense = pick_offs.gain_ratio.is_finite() && pick_offs.angle.abs() < 0.7;
-        if !sense {
+        let is_plausible = pick_offs.gain_ratio.is_finite() && pick_offs.angle.abs() < 0.7;
+        if !is_plausible {
             return Err(Fault::Unsettled);
         }
         if (0..FLAWS).all(|i| step[i].abs() < SETTLED) {
-            // What is left once the step is made, per degree of freedom.
-            let left = (normal.squares - normal.equations.right().dot(&step)).max(0.0);
-            let residual = (left / (2 * rows - unknowns) as f64).sqrt();
+            // Residual after the step, per degree of freedom.
+            let residual_squares = (normal.squares - normal.equations.right().dot(&step)).max(0.0);
+            let residual = (residual_squares / (2 * rows - unknowns) as f64).sqrt();
             let deviation = |i: usize| factors.variance(&[(i, 1.0)]).sqrt() * residual.max(1.0);
             return Ok(Found {
                 pick_offs,
@@ -182,9 +182,9 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
 /// The normal equations of all runs, about a calibration.
 struct Normal {
     equations: Equations,
-    /// The weighted squares of what is to be explained.
+    /// Weighted sum of the squares of the values to be explained.
     squares: f64,
-    /// 2πf, the mean.
+    /// Mean of 2πf, rad/s.
     omega: f64,
 }
 
@@ -229,7 +229,7 @@ impl Normal {
         normal
     }
 
-    /// Adds one equation of a run, whose entries are named by their columns.
+    /// Adds one equation of a run, whose entries are given with their columns.
     fn add(
         &mut self,
         run: usize,
@@ -260,11 +260,11 @@ pub fn shares([c, d]: [Complex<f64>; 2]) -> [f64; 4] {
     ]
 }
 
-/// The variances of ln E and Q/E of the phasors of ideal pick-offs, where noise of variance one is on the raw ones of these.
+/// The variances of ln E and Q/E of the phasors of ideal pick-offs, for noise of variance 1 on the raw phasors of these pick-offs.
 pub fn variances([c, d]: [Complex<f64>; 2], pick_offs: &PickOffs) -> [f64; 2] {
     let [d_on_d, c_on_d] = pick_offs.noise_gains();
     let [energy, _, _, q] = shares([c, d]);
-    // What noise of each raw phasor moves, of which the real parts of the products count.
+    // Coefficients of the noise of each raw phasor, of which only the real parts of the products count.
     let [c, d] = [c.conj(), d.conj()];
     let by_energy = [c + d * c_on_d, d * d_on_d];
     let by_quadrature = [(d - c * c_on_d) * Complex::i(), -c * d_on_d * Complex::i()];

@@ -1,17 +1,17 @@
-//! A calibration that nothing driven spoils: a recording of several ring-downs also holds what excites them.
+//! Calibration without driven rows: a recording of several ring-downs also holds their excitation.
 
 use super::moments::Run;
 use super::solve::{Found, PickOffs, solve};
 use crate::runs::driven::{undriven, unevenness};
 use crate::runs::{self, BEYOND_NOISE};
 
-/// Into so many parts a run is cut for a calibration that nothing driven spoils, and so many of all parts are tried.
+/// Parts of a run of which one may be free of drives, and how many of all parts are tried, about.
 const PARTS: usize = 6;
 const TRIED: usize = 48;
-/// So many times driven runs are sought anew, with the calibration of the others.
-const REPEATED: usize = 3;
-/// They are left out if the residual of the others is that of noise, or less than this share of all runs'.
-const LESS: f64 = 0.05;
+/// Times that driven runs are sought again, with the calibration from the others.
+const REPETITIONS: usize = 3;
+/// Driven runs are left out if the residual of the others is that of noise, or below this share of that of all runs.
+const MAX_RESIDUAL_SHARE: f64 = 0.05;
 
 /// The moments of runs that were identified with a calibration.
 pub fn moments(runs: &[runs::Run], corrected: &PickOffs) -> Vec<Run> {
@@ -19,8 +19,8 @@ pub fn moments(runs: &[runs::Run], corrected: &PickOffs) -> Vec<Run> {
     each.collect()
 }
 
-/// What is found where of runs, with the moments of every one, those are left out in which something drives the wave; the others, and those.
-/// None if it explains no more.
+/// The calibration without the runs in which something drives the wave, with the other runs and the driven ones; `every` has the
+/// moments of every run. `None` if it does not explain the rows better.
 pub fn without_driven(
     runs: &[runs::Run],
     every: &[Run],
@@ -33,7 +33,7 @@ pub fn without_driven(
         let found = solve(&moments(&parts[0], corrected), *pick_offs).ok()?;
         Some((found, parts))
     };
-    // What is driven spoils the calibration by which it is told: that of a part without it lets most parts decay evenly.
+    // Driven rows spoil the calibration that is to reveal them; that from a part without any makes most parts decay evenly.
     let parts: Vec<_> = every.iter().flat_map(|run| run.parts(PARTS)).collect();
     let some = parts.iter().step_by(parts.len().div_ceil(TRIED).max(1));
     let of_some = some.filter_map(|part| solve(std::slice::from_ref(part), all.pick_offs).ok());
@@ -43,13 +43,14 @@ pub fn without_driven(
         .map(|pick_offs| (pick_offs, median_unevenness(&parts, &pick_offs)))
         .min_by(|(_, one), (_, other)| one.total_cmp(other));
     let mut found = without(&rough?.0)?;
-    for _ in 0..REPEATED {
+    for _ in 0..REPETITIONS {
         found = without(&found.0.pick_offs)?;
     }
-    (found.0.residual < BEYOND_NOISE.max(LESS * all.residual)).then_some(found)
+    (found.0.residual < BEYOND_NOISE.max(MAX_RESIDUAL_SHARE * all.residual)).then_some(found)
 }
 
-/// How unevenly energy decays in runs through these pick-offs: the median of their residuals' squares, over the moments' own deviations.
+/// How unevenly energy decays in runs if the pick-offs are these: the median of the mean squared residuals, over the moments' own
+/// deviations.
 fn median_unevenness(runs: &[Run], pick_offs: &PickOffs) -> f64 {
     let each = runs.iter();
     let mut each: Vec<_> = each

@@ -1,11 +1,11 @@
-//! Errors over all windows, against the least that any unbiased identification could have.
+//! Errors over all windows, beside the smallest that an unbiased identification can have.
 
 use std::io::{self, Write};
 
 use antinode::Estimate;
 use antinode_sim::{Bound, Wave};
 
-/// What is scored.
+/// The quantities that are scored.
 pub const NAMES: [&str; 4] = ["main amplitude", "quadrature", "angle, °", "frequency, Hz"];
 
 /// Sums of squared errors and of squared Cramér–Rao bounds.
@@ -18,7 +18,7 @@ pub struct Score {
 }
 
 impl Score {
-    /// Nothing yet, of samples with this noise, rms a sample and channel.
+    /// No windows yet, of samples with this noise, rms a sample and channel.
     pub fn new(noise: f64, sample_rate: f64) -> Self {
         Self {
             noise,
@@ -54,7 +54,7 @@ impl Score {
         }
     }
 
-    /// A table of the root mean squares.
+    /// Prints a table of the root mean squares.
     pub fn print(&self, out: &mut impl Write) -> io::Result<()> {
         writeln!(
             out,

@@ -1,4 +1,4 @@
-//! An axis: its title and its range, and what numbers become on it.
+//! An axis, with its title and range, and the scale of its numbers.
 
 use std::ops::Range;
 
@@ -13,17 +13,17 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// What is drawn of it, with no more numbers than `most`.
-    pub fn values(&self, most: usize) -> Values {
+    /// The axis to be drawn, with at most `max` numbers.
+    pub fn values(&self, max: usize) -> Values {
         if self.is_log {
             Values::logarithmic(&self.range)
         } else {
-            Values::linear(&self.range, most)
+            Values::linear(&self.range, max)
         }
     }
 }
 
-/// What numbers become on an axis.
+/// The conversion of values to an axis's numbers.
 #[derive(Debug, Clone, Copy)]
 pub struct Scale {
     less: f64,
@@ -39,7 +39,7 @@ impl Scale {
         is_log: true,
     };
 
-    /// Numbers less this one, times that.
+    /// Values less `less`, multiplied by `times`.
     pub fn linear(less: f64, times: f64) -> Self {
         Self {
             less,
@@ -48,17 +48,17 @@ impl Scale {
         }
     }
 
-    /// What a number becomes.
+    /// The axis's number of a value.
     pub fn of(self, number: f64) -> f64 {
         let scaled = (number - self.less) * self.times;
         match self.is_log {
-            // 0 and less is as far below as can be.
+            // Of 0 and negative values: minus infinity.
             true => scaled.max(0.0).log10(),
             false => scaled,
         }
     }
 
-    /// The axis of numbers of this range.
+    /// The axis for values in this range.
     pub fn axis(self, title: String, range: &Range<f64>) -> Axis {
         Axis {
             title,

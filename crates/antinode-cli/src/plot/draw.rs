@@ -14,19 +14,19 @@ use super::values::{self, Values};
 use crate::canvas::{self, FONT};
 use crate::recording::OutputError;
 
-/// Columns of pixels that a panel has for rows.
+/// Width of a panel's plotting area, in columns of pixels.
 pub const COLUMNS: usize = 880;
-/// Beside the panels, pixels.
+/// Margins beside the panels, pixels.
 const LEFT: u32 = 86;
 const RIGHT: u32 = 24;
-/// Above each, for its title.
+/// Space above each panel for its title, pixels.
 const TITLE: u32 = 30;
-/// A panel.
+/// Height of a panel, pixels.
 const HEIGHT: u32 = 170;
-/// Below the last, for the time axis.
+/// Space below the last panel for the time axis, pixels.
 const FOOT: u32 = 46;
 pub(super) const WIDTH: u32 = LEFT + COLUMNS as u32 + RIGHT;
-/// Sizes of text.
+/// Sizes of titles and of numbers, pixels.
 pub(super) const TEXT: u32 = 16;
 const LABEL: u32 = 14;
 /// Height of the marks of flagged rows.
@@ -35,15 +35,15 @@ const MARK: i32 = 7;
 pub(super) const ARROW: u32 = 6;
 pub(super) const BEYOND: RGBColor = RGBColor(60, 60, 60);
 pub(super) const FLAGGED: RGBColor = RGBColor(220, 0, 0);
-/// Numbers along the time axis, at the most.
+/// Numbers along the time axis, at most.
 const TIMES: usize = 11;
 
-/// How a format is drawn.
+/// Properties of a format.
 #[derive(Debug, Clone, Copy)]
 struct Medium {
-    /// Units of a drawing a pixel: places in it are whole numbers.
+    /// Units of a drawing per pixel: coordinates are whole numbers of units.
     units: u32,
-    /// False where a line is drawn step by step: plotters' wide lines in bitmaps grow spikes at sharp corners.
+    /// False if lines are drawn segment by segment: plotters' wide lines in bitmaps grow spikes at sharp corners.
     joins: bool,
 }
 
@@ -55,7 +55,7 @@ const PNG: Medium = Medium {
     units: 2,
     joins: false,
 };
-/// How a figure is written.
+/// The format of a figure.
 #[derive(Debug, Clone, Copy)]
 pub enum Format {
     Svg,
@@ -63,7 +63,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// By the name's ending.
+    /// The format that the ending of a file's name says.
     pub fn of(path: &Path) -> Result<Self, OutputError> {
         let ending = path.extension().unwrap_or_default().to_string_lossy();
         match ending.to_lowercase().as_str() {
@@ -108,7 +108,7 @@ pub fn png(path: &Path, figure: &Figure, names: &[&str]) -> Result<(), Box<dyn E
     )
 }
 
-/// Width and height.
+/// Width and height, in units of which there are `units` a pixel.
 fn size(legend: &Legend, figure: &Figure, units: u32) -> (u32, u32) {
     let panels = figure.panels.len() as u32;
     let height = legend.height() + panels * (TITLE + HEIGHT) + FOOT;
@@ -161,7 +161,10 @@ where
         .margin_right(units * RIGHT)
         .x_label_area_size(units * foot)
         .y_label_area_size(units * LEFT)
-        .build_cartesian_2d(figure.time.values(TIMES), panel.axis.values(values::MOST))?;
+        .build_cartesian_2d(
+            figure.time.values(TIMES),
+            panel.axis.values(values::MAX_NUMBERS),
+        )?;
     chart
         .configure_mesh()
         .x_desc(if foot > 0 {
@@ -176,7 +179,7 @@ where
         .set_all_tick_mark_size(4 * units)
         .max_light_lines(0)
         .x_labels(TIMES)
-        .y_labels(values::MOST)
+        .y_labels(values::MAX_NUMBERS)
         .draw()?;
     let plane = chart.plotting_area();
     // From the last recording to the first, which is drawn on top.
@@ -190,7 +193,7 @@ where
     draw_marks(plane, figure, panel, units)
 }
 
-/// Draws the foot of a panel, the marks of flagged rows on it, and the arrows to values beyond.
+/// Draws the lower edge of a panel, the marks of flagged rows on it, and the arrows to values beyond.
 fn draw_marks<B: DrawingBackend>(
     plane: &DrawingArea<B, Cartesian2d<Values, Values>>,
     figure: &Figure,

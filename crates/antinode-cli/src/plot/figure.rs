@@ -1,4 +1,4 @@
-//! What the figure holds: panels over one time axis, and where rows are flagged.
+//! The contents of the figure: panels over one time axis, and marks where rows are flagged.
 
 use std::ops::Range;
 
@@ -8,32 +8,33 @@ use super::panel::{Panel, panel};
 use super::reduce::column;
 use super::rows::{COLUMNS, Row, Trace, Trust};
 
-/// The time axis of one row, s.
-const LONE: f64 = 1.0;
-/// Margins beside all rows, as a share of their span.
-const BESIDE: f64 = 0.01;
-/// Times this many spans from 0 are told as differences.
-const FAR: f64 = 1e4;
+/// Length of the time axis of a single row, s.
+const SINGLE_ROW: f64 = 1.0;
+/// Margins before and after all rows, as a share of their span.
+const MARGIN: f64 = 0.01;
+/// Distance of times from 0, in spans, from which on they are shown as differences.
+const MIN_FAR: f64 = 1e4;
 
 /// The figure.
 #[derive(Debug)]
 pub struct Figure {
     pub time: Axis,
     pub panels: Vec<Panel>,
-    /// Columns that hold flagged rows, from and to, in the time axis's numbers.
+    /// Spans of columns that hold flagged rows, in the time axis's numbers.
     pub flagged: Vec<Range<f64>>,
 }
 
-/// The figure of some traces, so many pixels wide, with amplitudes and residual on axes of logarithms if so; none where no row has a number.
+/// The figure of some traces, `columns` pixels wide, with logarithmic axes for amplitudes and residual if `is_log`; `None` if no row has
+/// a number.
 pub fn figure(traces: &[Trace], columns: usize, is_log: bool) -> Option<Figure> {
     let rows = || traces.iter().flat_map(|trace| &trace.rows);
     let mut extent = Extent::new();
     for row in rows() {
         extent.add(row.time, 0.0, true);
     }
-    let span = extent.range(0.0, BESIDE)?;
+    let span = extent.range(0.0, MARGIN)?;
     let span = match span.is_empty() {
-        true => extent.range(LONE, BESIDE)?,
+        true => extent.range(SINGLE_ROW, MARGIN)?,
         false => span,
     };
     let (scale, title) = time_scale(
@@ -59,9 +60,9 @@ pub fn figure(traces: &[Trace], columns: usize, is_log: bool) -> Option<Figure> 
     })
 }
 
-/// Times of a clock that began long ago are told from their first second on.
+/// The scale and the title of the time axis: times of a clock that began long ago are relative to their first whole second.
 fn time_scale(span: &Range<f64>, first: f64) -> (Scale, String) {
-    let is_far = span.start.abs().max(span.end.abs()) > FAR * (span.end - span.start);
+    let is_far = span.start.abs().max(span.end.abs()) > MIN_FAR * (span.end - span.start);
     let less = if is_far { first.floor() } else { 0.0 };
     let title = match less {
         0.0 => "time, s".to_owned(),

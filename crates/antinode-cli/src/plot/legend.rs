@@ -1,4 +1,4 @@
-//! Which colour is whose, and what the marks are.
+//! The legend: recordings by their colours, and the meaning of the marks.
 
 use std::error::Error;
 
@@ -18,8 +18,8 @@ const COLOURS: [RGBColor; 6] = [
     canvas::ORANGE,
     canvas::SKY_BLUE,
 ];
-/// Colours of more recordings, in their order, pass from one of these to the next: as they grow lighter too, colour-blind readers see it as
-/// well (stops of matplotlib's plasma).
+/// Stops between which the colours of more recordings pass, in their order; as these also grow lighter, colour-blind readers can follow
+/// (stops of matplotlib's plasma).
 const RAMP: [RGBColor; 4] = [
     RGBColor(13, 8, 135),
     RGBColor(126, 3, 168),
@@ -28,17 +28,17 @@ const RAMP: [RGBColor; 4] = [
 ];
 /// Opacity of the bands of a few recordings.
 const BAND_OPACITY: f64 = 0.25;
-/// Recordings that are named, at the most: of more those are, evenly, whose colours the others' lie between.
-const MOST_NAMED: usize = 24;
-/// Most characters of a name that are shown: the last ones, as its end tells more than its folder.
-const MOST_CHARACTERS: usize = 70;
-/// All in pixels: from a line to the next, the margin, a key before its text, and the gap behind that.
+/// Recordings that are named, at most: of more, evenly spaced ones are, with the colours of the others in between.
+const MAX_NAMED: usize = 24;
+/// Characters of a name that are shown, at most: the last ones, as the end of a path says more than its folder.
+const MAX_CHARACTERS: usize = 70;
+/// Distance of lines, margin, width of a key before its text, and gap after the text, all in pixels.
 const LINE: u32 = 24;
 const MARGIN: u32 = 12;
 const KEY: u32 = 26;
 const GAP: u32 = 26;
 
-/// What an entry explains.
+/// The mark that an entry explains.
 #[derive(Debug, Clone, Copy)]
 enum Key {
     Colour(RGBColor),
@@ -61,22 +61,22 @@ struct Entry {
 pub struct Legend {
     entries: Vec<Entry>,
     height: u32,
-    /// One a recording.
+    /// One for each recording.
     colours: Vec<RGBColor>,
 }
 
 impl Legend {
-    /// Names recordings, and explains what the figure has.
+    /// The legend that names recordings, and explains the marks that the figure has.
     pub fn new(figure: &Figure, names: &[&str]) -> Result<Self, Box<dyn Error>> {
         let colours = colours(names.len());
-        let named = names.len().min(MOST_NAMED);
+        let named = names.len().min(MAX_NAMED);
         let mut texts: Vec<_> = (0..named)
             .map(|place| place * (names.len() - 1) / (named - 1).max(1))
             .map(|index| (Key::Colour(colours[index]), shortened(names[index])))
             .collect();
-        if let Some(others @ 1..) = names.len().checked_sub(MOST_NAMED) {
-            let told = format!("{others} more, of colours between these");
-            texts.push((Key::Colour(canvas::GREY), told));
+        if let Some(others @ 1..) = names.len().checked_sub(MAX_NAMED) {
+            let text = format!("{others} more, of colours between these");
+            texts.push((Key::Colour(canvas::GREY), text));
         }
         let curves = figure.panels.iter().flat_map(|panel| &panel.curves);
         let mut edges = curves.flatten().flat_map(|piece| &piece.band);
@@ -107,7 +107,7 @@ impl Legend {
         })
     }
 
-    /// Pixels.
+    /// Height, pixels.
     pub fn height(&self) -> u32 {
         self.height
     }
@@ -117,13 +117,13 @@ impl Legend {
         self.colours[index]
     }
 
-    /// The opacity of bands: of many, which overlap, each is fainter.
+    /// The opacity of bands: if there are many, which overlap, each is fainter.
     pub fn band_opacity(&self) -> f64 {
         let few = COLOURS.len();
         BAND_OPACITY * few as f64 / self.colours.len().max(few) as f64
     }
 
-    /// Draws it, with so many units a pixel.
+    /// Draws the legend, with `units` units a pixel.
     pub fn draw<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, Shift>,
@@ -160,7 +160,7 @@ impl Legend {
     }
 }
 
-/// The colours of so many recordings.
+/// The colours of this many recordings.
 fn colours(count: usize) -> Vec<RGBColor> {
     if count <= COLOURS.len() {
         return COLOURS[..count].to_vec();
@@ -189,10 +189,10 @@ fn on_ramp(place: f64) -> RGBColor {
 fn shortened(name: &str) -> String {
     let count = name.chars().count();
     let plain = |c: char| if c.is_control() { ' ' } else { c };
-    if count <= MOST_CHARACTERS {
+    if count <= MAX_CHARACTERS {
         return name.chars().map(plain).collect();
     }
-    let end = name.chars().skip(count - MOST_CHARACTERS).map(plain);
+    let end = name.chars().skip(count - MAX_CHARACTERS).map(plain);
     std::iter::once('…').chain(end).collect()
 }
 

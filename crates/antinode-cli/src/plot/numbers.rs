@@ -1,29 +1,29 @@
-//! Numbers of an axis: which can be drawn, what they are multiplied by, and how they are printed.
+//! Numbers of an axis: limits of what can be drawn, factors, and how they are printed.
 
 use crate::digits::fixed;
 
-/// Numbers from this size on cannot be drawn, and up to this one they are 0.
-const GREATEST: f64 = 1e290;
-const LEAST: f64 = 1e-280;
+/// Magnitude from which on numbers cannot be drawn, and up to which they are drawn as 0.
+const TOO_LARGE: f64 = 1e290;
+const TOO_SMALL: f64 = 1e-280;
 
-/// A number as an axis can hold it: the steps of one that is too large or too small are none.
+/// A number as an axis can hold it: `None` if it is too large, and 0 if it is too small, for steps along the axis.
 pub fn drawable(number: f64) -> Option<f64> {
     let size = number.abs();
-    (size < GREATEST).then_some(if size > LEAST { number } else { 0.0 })
+    (size < TOO_LARGE).then_some(if size > TOO_SMALL { number } else { 0.0 })
 }
 
-/// The decimals that tell steps of this size apart.
+/// The decimals that steps of this size need.
 pub fn decimals(step: f64) -> usize {
-    // A step of 0.2 has one, and what is a little less by rounding too.
+    // A step of 0.2 needs one, and so does one that is slightly less by rounding.
     (-(step * 1.000_001).log10().floor()).clamp(0.0, 15.0) as usize
 }
 
-/// A number with so many decimals, and a minus as long as a digit.
+/// A number with this many decimals, and a minus as wide as a digit.
 pub fn printed(number: f64, decimals: usize) -> String {
     fixed(decimals, number).replace('-', "−")
 }
 
-/// What numbers of this size are multiplied by so that few digits tell them, and how a title says so.
+/// The factor with which numbers of this magnitude need few digits, and its text for a title.
 pub fn factor(size: f64) -> (f64, String) {
     if size == 0.0 || (1e-3..1e6).contains(&size) {
         return (1.0, String::new());
@@ -40,7 +40,7 @@ pub fn factor(size: f64) -> (f64, String) {
     (10f64.powi(power), format!(" {sign} 10{raised}"))
 }
 
-/// The unit of frequency that leaves a difference of this size 1 to 1000, and how many of it are 1 Hz.
+/// The unit of frequency in which a difference of this size is 1 to 1000, and how many of it make 1 Hz.
 pub fn frequency_unit(size: f64) -> (&'static str, f64) {
     match size {
         1.0.. => ("Hz", 1.0),
@@ -55,13 +55,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_have_the_digits_that_tell_them_apart() {
+    fn numbers_have_the_digits_that_distinguish_them() {
         assert_eq!([20.0, 1.0, 0.5, 0.2, 0.01].map(decimals), [0, 0, 1, 1, 2]);
         assert_eq!(decimals(0.3 - 0.2), 1);
         assert_eq!(factor(0.05), (1.0, String::new()));
         assert_eq!(factor(4.2e-6).1, " × 10⁶");
-        let (by, told) = factor(4.2e7);
-        assert_eq!(told, " ÷ 10⁶");
+        let (by, text) = factor(4.2e7);
+        assert_eq!(text, " ÷ 10⁶");
         assert!((1e6 * by - 1.0).abs() < 1e-12);
         assert_eq!(frequency_unit(0.02), ("mHz", 1e3));
     }

@@ -21,28 +21,28 @@ const QUADRATURE: usize = 1;
 const ANGLE: usize = 2;
 const FREQUENCY: usize = 3;
 const RESIDUAL: usize = 4;
-/// An axis spans no less than this share of its numbers' size: less is rounding, and would need too many digits.
-const LEAST_SHARE: f64 = 2e-6;
-/// What is left over scatters far more than that.
-const LEAST_OF_RESIDUAL: f64 = 0.02;
-/// Frequencies have thirteen digits.
-const LEAST_OF_FREQUENCY: f64 = 1e-11;
+/// Span of an axis, at least, as a share of its values' magnitude: less is rounding, and would need too many digits.
+const MIN_SPAN: f64 = 2e-6;
+/// The same for the residual, which scatters far more.
+const MIN_SPAN_OF_RESIDUAL: f64 = 0.02;
+/// The same for the frequency, which has thirteen digits.
+const MIN_SPAN_OF_FREQUENCY: f64 = 1e-11;
 /// Margins above and below all values, as a share of their span.
-const ABOVE: f64 = 0.08;
-/// So many columns have one arrow to values beyond a panel.
-const APART: usize = 8;
+const MARGIN: f64 = 0.08;
+/// Columns that share one arrow to values beyond a panel.
+const ARROW_COLUMNS: usize = 8;
 
-/// A quantity.
+/// The panel of one quantity.
 #[derive(Debug)]
 pub struct Panel {
     pub axis: Axis,
-    /// Those of each trace, in the axes' numbers.
+    /// The curves of each trace, in the axes' numbers.
     pub curves: Vec<Vec<Piece>>,
-    /// Times of values that lie beyond the panel, and whether above it.
+    /// Times at which values lie beyond the panel, and whether above it.
     pub beyond: Vec<(f64, bool)>,
 }
 
-/// What is drawn of a row's quantity, with its deviation; none where it has no number. Logarithms are those of its size.
+/// The value of a row's quantity to be drawn, with its deviation; `None` without a number. Logarithms are those of its magnitude.
 fn sample(row: &Row, quantity: usize, is_log: bool) -> Option<(f64, f64)> {
     let value = drawable(row.values[quantity])?;
     let deviation = f64::from(row.deviations[quantity]);
@@ -51,7 +51,7 @@ fn sample(row: &Row, quantity: usize, is_log: bool) -> Option<(f64, f64)> {
     (row.trust != Trust::Lost).then_some((value, if known { deviation } else { 0.0 }))
 }
 
-/// The panel of a quantity over the span, the scale and the columns of time; amplitudes and residual with logarithms if so.
+/// The panel of a quantity over this span, scale and number of columns of time; logarithmic for amplitudes and residual if `is_log`.
 pub fn panel(
     traces: &[Trace],
     quantity: usize,
@@ -60,7 +60,7 @@ pub fn panel(
 ) -> Panel {
     let is_log = is_log && !matches!(quantity, ANGLE | FREQUENCY);
     let (axis, range, scale) = axis(traces, quantity, is_log);
-    let mut beyond = vec![[None; 2]; columns.div_ceil(APART)];
+    let mut beyond = vec![[None; 2]; columns.div_ceil(ARROW_COLUMNS)];
     let curves = traces
         .iter()
         .map(|trace| {
@@ -76,7 +76,7 @@ pub fn panel(
             let mut pieces = reduce(samples, span, columns);
             for piece in &mut pieces {
                 for &(at, value) in &piece.line {
-                    let sides = &mut beyond[column(at, span, columns) / APART];
+                    let sides = &mut beyond[column(at, span, columns) / ARROW_COLUMNS];
                     for (side, is_beyond) in sides
                         .iter_mut()
                         .zip([value < range.start, value > range.end])
@@ -99,7 +99,7 @@ pub fn panel(
     }
 }
 
-/// A quantity's axis, the range of its numbers, and what these become on it.
+/// The axis of a quantity, the range of its values, and their scale.
 fn axis(traces: &[Trace], quantity: usize, is_log: bool) -> (Axis, Range<f64>, Scale) {
     let extent = extent(traces, quantity, is_log);
     if is_log {
@@ -110,21 +110,21 @@ fn axis(traces: &[Trace], quantity: usize, is_log: bool) -> (Axis, Range<f64>, S
         };
         return (Scale::LOG.axis(title, &range), range, Scale::LOG);
     }
-    let least = match (quantity, extent.size()) {
-        // The deviations of zeros span something.
+    let min_span = match (quantity, extent.size()) {
+        // If all are 0, their deviations give the span.
         (_, 0.0) if extent.has_deviation() => 0.0,
         (_, 0.0) => 1.0,
-        (FREQUENCY, size) => LEAST_OF_FREQUENCY * size,
-        (RESIDUAL, size) => LEAST_OF_RESIDUAL * size,
-        (_, size) => LEAST_SHARE * size,
+        (FREQUENCY, size) => MIN_SPAN_OF_FREQUENCY * size,
+        (RESIDUAL, size) => MIN_SPAN_OF_RESIDUAL * size,
+        (_, size) => MIN_SPAN * size,
     };
     // A quantity without a number has an empty panel.
-    let range = extent.range(least, ABOVE).unwrap_or(0.0..1.0);
+    let range = extent.range(min_span, MARGIN).unwrap_or(0.0..1.0);
     let (scale, title) = scale(traces, quantity, &range, extent.size());
     (scale.axis(title, &range), range, scale)
 }
 
-/// Where the arrows are: in the middle of a place's values below or above the panel, from the first to the last; and whether above.
+/// The times of arrows, in the middle between the first and the last value of a place beyond the panel; and whether above.
 fn beyond_at(places: &[[Option<(f64, f64)>; 2]], time: Scale) -> Vec<(f64, bool)> {
     let sides = places
         .iter()
@@ -137,7 +137,7 @@ fn beyond_at(places: &[[Option<(f64, f64)>; 2]], time: Scale) -> Vec<(f64, bool)
         .collect()
 }
 
-/// What a quantity's axis is to hold.
+/// The values that a quantity's axis is to hold.
 fn extent(traces: &[Trace], quantity: usize, is_log: bool) -> Extent {
     let rows = traces.iter().flat_map(|trace| &trace.rows);
     let drawn: Vec<_> = rows
@@ -155,7 +155,7 @@ fn extent(traces: &[Trace], quantity: usize, is_log: bool) -> Extent {
     Extent::of(&drawn)
 }
 
-/// How a quantity is told, and the title that says so.
+/// The scale of a quantity, and the title that states it.
 fn scale(traces: &[Trace], quantity: usize, range: &Range<f64>, size: f64) -> (Scale, String) {
     let title = TITLES[quantity];
     match quantity {
@@ -165,22 +165,22 @@ fn scale(traces: &[Trace], quantity: usize, range: &Range<f64>, size: f64) -> (S
             let (unit, times) = frequency_unit(wide / 2.0);
             let decimals = decimals(wide / 100.0);
             let middle = median_frequency(traces);
-            // What is told is what is taken off.
-            let told = format!("{middle:.decimals$}");
-            let less = told.parse().unwrap_or(middle);
+            // Exactly the printed value is subtracted.
+            let text = format!("{middle:.decimals$}");
+            let less = text.parse().unwrap_or(middle);
             (
                 Scale::linear(less, times),
-                format!("{title} less its median of {told} Hz, {unit}"),
+                format!("{title} less its median of {text} Hz, {unit}"),
             )
         }
         _ => {
-            let (times, told) = factor(if size > 0.0 { size } else { range.end });
-            (Scale::linear(0.0, times), format!("{title}{told}"))
+            let (times, text) = factor(if size > 0.0 { size } else { range.end });
+            (Scale::linear(0.0, times), format!("{title}{text}"))
         }
     }
 }
 
-/// That of the clean rows where most are, or else of all.
+/// The median frequency of the clean rows if most are clean, or else of all.
 fn median_frequency(traces: &[Trace]) -> f64 {
     let rows = traces.iter().flat_map(|trace| &trace.rows);
     let (mut all, mut clean) = (Vec::new(), Vec::new());
@@ -193,17 +193,17 @@ fn median_frequency(traces: &[Trace]) -> f64 {
             clean.push(frequency);
         }
     }
-    let most = if 2 * clean.len() > all.len() {
+    let frequencies = if 2 * clean.len() > all.len() {
         &mut clean
     } else {
         &mut all
     };
-    median(most).unwrap_or(0.0)
+    median(frequencies).unwrap_or(0.0)
 }
 
-/// Brings a piece to the axes' scales; what lies beyond the panel is held at its edge.
+/// Converts a piece to the axes' scales; values beyond the panel are put at its edge.
 fn on_axes(piece: &mut Piece, time: Scale, scale: Scale, range: &Range<f64>) {
-    // Far below the range plotters' whole numbers overflow, and it would be drawn at the upper edge.
+    // Far below the range, plotters' integers overflow, and the value would be drawn at the upper edge.
     let held = |value| scale.of(value).clamp(range.start, range.end);
     for (t, value) in &mut piece.line {
         *t = time.of(*t);
@@ -222,7 +222,7 @@ mod tests {
     use super::*;
     use crate::row_file::RowFile;
 
-    /// The figure of a recording's rows, of which this is the third.
+    /// The figure of a recording whose third row is this.
     fn with(row: &str) -> Figure {
         let mut text = "time_s,main_amplitude,quadrature_amplitude,angle_rad,frequency_hz,residual_rms,flags\n".to_owned();
         for time in 0..6 {
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_far_beyond_a_panel_is_at_its_edge() {
+    fn values_far_beyond_a_panel_are_drawn_at_its_edge() {
         for wild in ["-1e12", "1e12", "-900", "1e289"] {
             let figure = with(&format!("{wild},NaN,{wild},{wild},{wild},misfit"));
             for quantity in [0, ANGLE, FREQUENCY, RESIDUAL] {

@@ -1,17 +1,17 @@
-//! Rows become no more points than a figure's width can show: of each column of pixels the first, the least, the greatest and the last.
+//! Reduces rows to the points that a figure's width can show: of each column of pixels the first, the least, the greatest and the last.
 
 use std::ops::Range;
 
 /// A value to be drawn, or none.
 #[derive(Debug, Clone, Copy)]
 pub struct Sample {
-    /// s.
+    /// Time, s.
     pub time: f64,
-    /// None where the row has no number, and the line ends.
+    /// `None` if the row has no number, where the line ends.
     pub value: Option<f64>,
-    /// One standard deviation; 0 where there is none.
+    /// One standard deviation; 0 if there is none.
     pub deviation: f64,
-    /// True where no line leads to it.
+    /// True if no line leads to it.
     pub begins: bool,
 }
 
@@ -24,7 +24,7 @@ pub struct Piece {
     pub band: Vec<(f64, [f64; 2])>,
 }
 
-/// What a column of pixels shows of one line.
+/// The part of one line in a column of pixels.
 struct Column {
     number: usize,
     begins: bool,
@@ -35,22 +35,22 @@ struct Column {
     band: [f64; 2],
 }
 
-/// The column of a time, of so many over a span.
+/// The column of a time, where a span has this many columns.
 pub fn column(time: f64, span: &Range<f64>, columns: usize) -> usize {
     let share = (time - span.start) / (span.end - span.start);
-    // Beyond either end `as` holds on to it.
+    // Beyond either end, `as` saturates.
     ((share * columns as f64) as usize).min(columns - 1)
 }
 
-/// The pieces that look the same as all samples, drawn over so many columns.
+/// Pieces that look the same as all samples when drawn over this many columns.
 pub fn reduce(
     samples: impl Iterator<Item = Sample>,
     span: &Range<f64>,
     columns: usize,
 ) -> Vec<Piece> {
     let mut pieces = Vec::new();
-    let mut present: Option<Column> = None;
-    // What had no number ends the line.
+    let mut current: Option<Column> = None;
+    // True after a sample without a number, which ends the line.
     let mut begins = true;
     for sample in samples {
         begins |= sample.begins;
@@ -61,7 +61,7 @@ pub fn reduce(
         let number = column(sample.time, span, columns);
         let point = (sample.time, value);
         let edges = [value - sample.deviation, value + sample.deviation];
-        match &mut present {
+        match &mut current {
             // A break within a column cannot be seen.
             Some(column) if column.number == number => {
                 column.last = point;
@@ -84,21 +84,21 @@ pub fn reduce(
                     last: point,
                     band: edges,
                 };
-                if let Some(before) = present.replace(new) {
+                if let Some(before) = current.replace(new) {
                     before.end(&mut pieces);
                 }
             }
         }
         begins = false;
     }
-    if let Some(column) = present {
+    if let Some(column) = current {
         column.end(&mut pieces);
     }
     pieces
 }
 
 impl Column {
-    /// Adds what it shows to the last piece, or to a new one.
+    /// Adds the column to the last piece, or to a new one.
     fn end(self, pieces: &mut Vec<Piece>) {
         if self.begins || pieces.is_empty() {
             pieces.push(Piece::default());
@@ -169,8 +169,8 @@ mod tests {
     }
 
     #[test]
-    fn however_many_rows_no_more_points_than_columns_show() {
-        // No spike is lost: one in 10^6 rows.
+    fn many_rows_become_no_more_points_than_columns_show() {
+        // A single spike in 10⁶ rows is kept.
         let value = |k: u32| {
             if k == 765_432 {
                 100.0
@@ -204,7 +204,7 @@ mod tests {
                 vec![7.0, 8.0, 9.0]
             ]
         );
-        // What a column hides is no break, and one that ends with a column is.
+        // A break within a column is not seen, and one at the end of a column is.
         assert_eq!(reduce(rows[..6].iter().copied(), &(0.0..9.0), 1).len(), 1);
         assert_eq!(reduce(rows.iter().copied(), &(3.0..11.0), 2).len(), 2);
         assert!(reduce([].into_iter(), &(0.0..9.0), 5).is_empty());

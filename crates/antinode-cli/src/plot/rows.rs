@@ -1,4 +1,4 @@
-//! What is drawn of the rows, recording by recording.
+//! The rows to be drawn, by recording.
 
 use std::collections::HashMap;
 use std::io::Read;
@@ -20,33 +20,33 @@ pub const COLUMNS: [(&str, Option<&str>); 5] = [
     ("frequency_hz", Some("frequency_std_hz")),
     ("residual_rms", None),
 ];
-/// Windows further apart than this many times what is usual have rows missing between them.
+/// Distance of windows, as a multiple of the usual one, beyond which rows are missing between them.
 const GAP: f64 = 1.5;
 
-/// Whether a row is to be trusted.
+/// How far a row is to be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Trust {
     /// No flag.
     Clean,
     /// A flag other than `lost`.
     Flagged,
-    /// No number means anything.
+    /// The flag `lost`: no number means anything.
     Lost,
 }
 
-/// What is drawn of a row.
+/// The values of a row to be drawn.
 #[derive(Debug, Clone, Copy)]
 pub struct Row {
-    /// s.
+    /// Time, s.
     pub time: f64,
     /// In the order of [`COLUMNS`].
     pub values: [f64; COLUMNS.len()],
-    /// One standard deviation each; NaN where there is none.
+    /// One standard deviation each; NaN if there is none.
     pub deviations: [f32; COLUMNS.len()],
-    /// Sample pairs of the window; 1 where the rows do not tell.
+    /// Sample pairs of the window; 1 if the rows do not say.
     samples: u32,
     pub trust: Trust,
-    /// True where it does not go on from the row before.
+    /// True if it does not continue from the row before.
     pub begins: bool,
 }
 
@@ -57,7 +57,7 @@ pub struct Trace {
     pub rows: Vec<Row>,
 }
 
-/// Reads files of rows, `-` being standard input; gives their names too.
+/// Reads files of rows, `-` being standard input, and returns the recordings and the names of the files.
 pub fn open(paths: &[PathBuf]) -> Result<(Vec<Trace>, String), Failure> {
     let mut traces: Vec<Trace> = Vec::new();
     let mut inputs = Vec::new();
@@ -70,7 +70,7 @@ pub fn open(paths: &[PathBuf]) -> Result<(Vec<Trace>, String), Failure> {
         traces.extend(new);
         names.push(input);
     }
-    // Recordings of one name are told apart by the files of their rows.
+    // Recordings of the same name are distinguished by the files of their rows.
     let mut count = HashMap::new();
     for trace in &traces {
         *count.entry(trace.name.clone()).or_insert(0) += 1;
@@ -96,26 +96,26 @@ pub fn read(mut rows: RowFile<impl Read>) -> Result<Vec<Trace>, Failure> {
     let file = rows.place("file");
     let input = rows.name().to_owned();
     let mut traces: Vec<Trace> = Vec::new();
-    let mut present = 0;
+    let mut current = 0;
     while let Some(record) = rows.next()? {
         let Some(row) = parse(record, time, flags, places, samples) else {
             return Err(rows
                 .fault("a time, amplitude, angle, frequency, residual or deviation is no number"));
         };
         let name = file.map_or(input.as_str(), |file| &record[file]);
-        if traces.get(present).is_none_or(|trace| trace.name != name) {
-            present = traces
+        if traces.get(current).is_none_or(|trace| trace.name != name) {
+            current = traces
                 .iter()
                 .position(|trace| trace.name == name)
                 .unwrap_or(traces.len());
-            if present == traces.len() {
+            if current == traces.len() {
                 let name = name.to_owned();
                 let rows = Vec::new();
                 traces.push(Trace { name, rows });
             }
         }
         if drawable(row.time).is_some() {
-            traces[present].rows.push(row);
+            traces[current].rows.push(row);
         }
     }
     for trace in &mut traces {
@@ -124,7 +124,7 @@ pub fn read(mut rows: RowFile<impl Read>) -> Result<Vec<Trace>, Failure> {
     Ok(traces)
 }
 
-/// None where there is no number.
+/// Reads a row; `None` if a number is missing.
 fn parse(
     record: &StringRecord,
     time: usize,
@@ -142,14 +142,14 @@ fn parse(
         }
     }
     let samples = samples.map_or(Some(1.0), number)?;
-    let told = record.get(flags)?;
-    let flags = row_file::flags(told);
+    let names = record.get(flags)?;
+    let flags = row_file::flags(names);
     Some(Row {
         time: number(time)?,
         values,
         deviations,
         samples: samples as u32,
-        trust: match told {
+        trust: match names {
             "" => Trust::Clean,
             _ if flags.contains(Flags::LOST) => Trust::Lost,
             _ => Trust::Flagged,
@@ -161,7 +161,7 @@ fn parse(
 
 /// Finds the rows before which others are missing.
 fn find_gaps(rows: &mut [Row]) {
-    // Over the windows' lengths: these may change on the way.
+    // In units of the windows' lengths, which may change.
     let step = |pair: &[Row]| {
         let samples = f64::from(pair[0].samples) + f64::from(pair[1].samples);
         (pair[1].time - pair[0].time) / samples.max(1.0)
@@ -174,19 +174,19 @@ fn find_gaps(rows: &mut [Row]) {
     let usual = median(&mut steps).unwrap_or(0.0);
     for index in 1..rows.len() {
         let step = step(&rows[index - 1..=index]);
-        // Time that goes back is another recording.
+        // If time goes back, another recording begins.
         rows[index].begins |= step < 0.0 || step > GAP * usual;
     }
 }
 
-/// The first and the last time, s; none of no row.
+/// The first and the last time, s; `None` without rows.
 pub fn span(traces: &[Trace]) -> Option<[f64; 2]> {
     let rows = traces.iter().flat_map(|trace| &trace.rows);
     let ends = rows.map(|row| [row.time; 2]);
     ends.reduce(|[first, last], [time, _]| [first.min(time), last.max(time)])
 }
 
-/// Leaves the rows of these times, s, and the recordings that have any.
+/// Keeps the rows at these times, s, and the recordings that have any.
 pub fn retain(traces: &mut Vec<Trace>, times: &Range<f64>) {
     for trace in traces.iter_mut() {
         trace.rows.retain(|row| times.contains(&row.time));
@@ -194,7 +194,7 @@ pub fn retain(traces: &mut Vec<Trace>, times: &Range<f64>) {
     traces.retain(|trace| !trace.rows.is_empty());
 }
 
-/// The middle one; none of none. Numbers are finite.
+/// The median of finite numbers; `None` without numbers.
 pub fn median(numbers: &mut [f64]) -> Option<f64> {
     let middle = numbers.len() / 2;
     (!numbers.is_empty()).then(|| *numbers.select_nth_unstable_by(middle, f64::total_cmp).1)
@@ -214,7 +214,7 @@ mod tests {
         read(RowFile::new("it", text.as_bytes()).unwrap()).unwrap()
     }
 
-    /// Places of the rows that a line begins with, beside the first.
+    /// Indices of the rows at which a line begins, apart from the first.
     fn begins(rows: &[(f64, u32, &str, &str)]) -> Vec<usize> {
         let traces = traces(rows);
         assert_eq!(traces.len(), 1);
@@ -233,13 +233,13 @@ mod tests {
         );
         assert_eq!(begins(&at(&[0.0, 1.0, 2.0, 0.5, 1.5, 2.5])), [3]);
         assert!(begins(&at(&[1.0])).is_empty());
-        // Windows that become longer on the way.
+        // Windows that become longer.
         let longer = [(0.0, 100), (1.0, 100), (2.0, 100), (3.5, 200), (5.5, 200)];
         assert!(begins(&longer.map(|(time, samples)| (time, samples, "", "a"))).is_empty());
     }
 
     #[test]
-    fn flags_tell_what_to_trust() {
+    fn flags_decide_how_far_a_row_is_trusted() {
         let flags = ["", "lost+dead_channel", "reacquired", "misfit"];
         let rows: Vec<_> = (0..4)
             .map(|k| (f64::from(k), 100, flags[k as usize], "a"))

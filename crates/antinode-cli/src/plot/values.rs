@@ -1,4 +1,4 @@
-//! An axis to be drawn: which of its numbers it shows, or of those whose logarithms they are.
+//! The numbers that an axis shows, linear or logarithmic.
 
 use std::ops::Range;
 
@@ -7,28 +7,28 @@ use plotters::coord::types::RangedCoordf64;
 
 use super::numbers::{decimals, printed};
 
-/// Numbers along a vertical axis, at the most.
-pub const MOST: usize = 6;
-/// Numbers of a decade that an axis of less than so many shows.
+/// Numbers along a vertical axis, at most.
+pub const MAX_NUMBERS: usize = 6;
+/// Numbers in a decade that an axis shows, and the number of decades below which it shows all of these.
 const OF_DECADE: [f64; 3] = [1.0, 2.0, 5.0];
 const FEW_DECADES: f64 = 1.6;
 /// Powers of ten that are printed in full.
-const PLAIN: Range<i32> = -4..6;
+const PRINTED_IN_FULL: Range<i32> = -4..6;
 
-/// Logarithms of numbers that are marks are so but for rounding.
+/// Rounding of the logarithms of marks.
 const ROUNDING: f64 = 1e-9;
 
-/// The axis.
+/// An axis with its marks.
 pub struct Values {
     inner: RangedCoordf64,
     marks: Vec<(f64, String)>,
 }
 
 impl Values {
-    /// Numbers of this range, of which no more than `most` are shown.
-    pub fn linear(range: &Range<f64>, most: usize) -> Self {
+    /// An axis of this range, with at most `max` numbers.
+    pub fn linear(range: &Range<f64>, max: usize) -> Self {
         let inner = RangedCoordf64::from(range.clone());
-        let places = inner.key_points(most);
+        let places = inner.key_points(max);
         let decimals = match places.as_slice() {
             [one, other, ..] => decimals(other - one),
             _ => decimals(range.end - range.start),
@@ -38,7 +38,7 @@ impl Values {
         Self { inner, marks }
     }
 
-    /// Numbers whose decimal logarithms are of this range.
+    /// An axis of numbers whose decimal logarithms have this range.
     pub fn logarithmic(range: &Range<f64>) -> Self {
         let inner = RangedCoordf64::from(range.clone());
         let marks = marks(range)
@@ -48,13 +48,13 @@ impl Values {
     }
 }
 
-/// The range that ends at marks about this one.
+/// The smallest range that begins and ends at marks and holds this one.
 pub fn to_marks(range: &Range<f64>) -> Range<f64> {
     let powers = range.start.floor() as i32 - 1..=range.end.ceil() as i32 + 1;
     let marks: Vec<f64> = powers
         .flat_map(|power| OF_DECADE.map(|times| logarithm(power, times)))
         .collect();
-    // One value alone, if a mark, is between its neighbours.
+    // A single value that is a mark lies between the neighbouring marks.
     let rounding = if range.end - range.start > ROUNDING {
         ROUNDING
     } else {
@@ -67,19 +67,22 @@ pub fn to_marks(range: &Range<f64>) -> Range<f64> {
     from.unwrap_or(range.start)..to.unwrap_or(range.end)
 }
 
-/// That of so many times a power of ten.
+/// The decimal logarithm of `times` a power of ten.
 fn logarithm(power: i32, times: f64) -> f64 {
     f64::from(power) + times.log10()
 }
 
-/// Powers of ten, and what each is multiplied by, of no more marks than there is room for.
+/// The marks, as powers of ten and multiples of these: no more than there is room for.
 fn marks(range: &Range<f64>) -> impl Iterator<Item = (i32, f64)> {
     let powers = range.start.floor() as i32..=range.end.ceil() as i32;
     let decades = range.end - range.start;
     let (step, of_decade): (_, &[f64]) = if decades < FEW_DECADES {
         (1, &OF_DECADE)
     } else {
-        ((decades / MOST as f64).ceil() as i32, &OF_DECADE[..1])
+        (
+            (decades / MAX_NUMBERS as f64).ceil() as i32,
+            &OF_DECADE[..1],
+        )
     };
     let range = range.clone();
     powers
@@ -91,9 +94,9 @@ fn marks(range: &Range<f64>) -> impl Iterator<Item = (i32, f64)> {
         })
 }
 
-/// So many times a power of ten, as text.
+/// `times` a power of ten, as text.
 fn number(power: i32, times: f64) -> String {
-    if PLAIN.contains(&power) {
+    if PRINTED_IN_FULL.contains(&power) {
         let decimals = usize::try_from(-power).unwrap_or(0);
         format!("{:.decimals$}", times * 10f64.powi(power))
     } else {
@@ -110,7 +113,7 @@ impl Ranged for Values {
     }
 
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        // Between them there are no others.
+        // There are no light marks between the bold ones.
         let is_bold = !hint.weight().allow_light_points();
         let marks = self.marks.iter().filter(|_| is_bold);
         marks.map(|&(at, _)| at).collect()
@@ -143,10 +146,10 @@ mod tests {
         assert_eq!(log(0.09, 0.6), ["0.1", "0.2", "0.5"]);
         assert_eq!(log(9e-8, 1.1e-6), ["1e−7", "2e−7", "5e−7", "1e−6"]);
         assert_eq!(log(9e5, 2e7), ["1e6", "2e6", "5e6", "1e7", "2e7"]);
-        // No more of many decades than there is room for.
+        // Of many decades, no more marks than there is room for.
         assert_eq!(log(0.5e-12, 2.0).len(), 5);
         assert_eq!(
-            texts(Values::linear(&(-0.2..0.45), MOST)),
+            texts(Values::linear(&(-0.2..0.45), MAX_NUMBERS)),
             ["−0.2", "0.0", "0.2", "0.4"]
         );
     }

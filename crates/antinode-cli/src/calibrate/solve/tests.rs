@@ -1,11 +1,11 @@
-//! Histories made from the averaged equations of a resonator, with splits, flawed pick-offs and noise.
+//! Tests with runs from the averaged equations of a resonator, with splits, flawed pick-offs and noise.
 
 use super::*;
 use crate::calibrate::moments::Moment;
 use crate::deviates::Deviates;
 use crate::resonator::motion::Motion;
 
-/// Seconds of a run, and rows in it.
+/// Length of a run, s, and rows in it.
 const SECONDS: f64 = 20.0;
 const ROWS: usize = 2000;
 
@@ -73,7 +73,7 @@ fn errors(found: &PickOffs, truth: &PickOffs) -> [f64; 3] {
 }
 
 #[test]
-fn pick_offs_are_found_however_flawed() {
+fn calibrations_are_found_however_flawed_the_pick_offs_are() {
     for (gain_ratio, skew, angle) in [
         (1.003, 32e-9, 0.002),
         (0.5, -8e-6, 0.1),
@@ -98,7 +98,7 @@ fn pick_offs_are_found_however_flawed() {
 }
 
 #[test]
-fn a_split_resonator_is_told_from_flaws_by_turning_both_ways() {
+fn turning_both_ways_distinguishes_splits_from_flaws() {
     let truth = PickOffs {
         gain_ratio: 1.02,
         skew: 300e-9,
@@ -119,7 +119,7 @@ fn a_split_resonator_is_told_from_flaws_by_turning_both_ways() {
 
 #[test]
 fn stated_deviations_are_the_rms_errors() {
-    // What is little of noise on one pick-off is much on the other.
+    // With unlike gains, noise that is small on one pick-off is large on the other.
     for gain_ratio in [1.02, 3.0, 0.33] {
         let truth = PickOffs {
             gain_ratio,
@@ -159,7 +159,7 @@ fn stated_deviations_are_the_rms_errors() {
 }
 
 #[test]
-fn what_else_moves_widens_the_deviations() {
+fn a_residual_beyond_noise_widens_the_deviations() {
     let honest = run(&ROUND, 0.2, &PickOffs::IDEAL, 1e-3, 1);
     let mut boastful = honest.clone();
     for moment in &mut boastful.moments {
@@ -173,7 +173,7 @@ fn what_else_moves_widens_the_deviations() {
 }
 
 #[test]
-fn what_cannot_be_known_is_refused() {
+fn a_pattern_that_turns_too_little_is_refused() {
     let still = run(&ROUND, 0.1, &PickOffs::IDEAL, 1e-3, 1);
     assert!(
         matches!(solve(&[still], PickOffs::IDEAL), Err(Fault::Still(turned)) if (turned - 1.0).abs() < 1e-9)

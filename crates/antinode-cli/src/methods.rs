@@ -17,17 +17,18 @@ use antinode::{Calibration, Estimate, Flags, Pair, Settings};
 use crate::recording::BLOCK_PAIRS;
 use ideal::Ideal;
 
-/// A window's methods.
+/// The results of the methods in one window.
 #[derive(Debug, Clone, Copy)]
 pub struct Methods {
     pub comparison: Comparison,
-    /// Of each by J → min(ω), Hz.
+    /// Frequency of each by J → min(ω), Hz.
     pub frequencies: [f64; 4],
     /// The frequencies less that of the exact solution, in its standard deviations.
     pub frequency_differences: [f64; 4],
 }
 
-/// The most samples of a window that are whole periods at `omega` rad a sample, to the nearest one; none of less than a period.
+/// The largest number of samples in a window that are whole periods at `omega` rad a sample, to the nearest sample; `None` if the window
+/// is shorter than a period.
 fn whole_periods(samples: u32, omega: f64) -> Option<usize> {
     let period = TAU / omega;
     let periods = ((f64::from(samples) + 0.5) / period).floor();
@@ -38,9 +39,9 @@ fn whole_periods(samples: u32, omega: f64) -> Option<usize> {
 #[derive(Debug)]
 pub struct History {
     pairs: VecDeque<Pair>,
-    /// Samples before a window that its methods may need, and how many of both are kept.
+    /// Samples before a window that its methods may need, and the number of all samples that are kept.
     lead: usize,
-    most: usize,
+    capacity: usize,
     /// Index in the stream of the first pair kept.
     start: u64,
     calibration: Calibration,
@@ -48,14 +49,14 @@ pub struct History {
 }
 
 impl History {
-    /// Nothing kept yet, of identifications with such settings whose periods have no more than `longest` samples.
+    /// No samples yet, for an identification with these settings and periods of at most `longest` samples.
     pub fn new(settings: &Settings, longest: usize) -> Self {
-        // A quarter of a period, rounded up, and two for the skew; and what a window may be longer than asked, or a known frequency off.
+        // A quarter of a period, rounded up, and two for the skew; 6/5 for windows longer than asked or a known frequency that is off.
         let (lead, window) = (longest / 4 + 3, usize::from(settings.periods) * longest);
         Self {
             pairs: VecDeque::new(),
             lead,
-            most: lead + window * 6 / 5 + BLOCK_PAIRS,
+            capacity: lead + window * 6 / 5 + BLOCK_PAIRS,
             start: 0,
             calibration: settings.calibration,
             sample_rate: settings.sample_rate,
@@ -65,19 +66,19 @@ impl History {
     /// Takes the samples that the identification took.
     pub fn extend(&mut self, pairs: &[Pair]) {
         self.pairs.extend(pairs);
-        let excess = self.pairs.len().saturating_sub(self.most);
+        let excess = self.pairs.len().saturating_sub(self.capacity);
         self.pairs.drain(..excess);
         self.start += excess as u64;
     }
 
-    /// Takes so many samples as lost: no window reaches across them.
+    /// Skips this many lost samples: no window reaches across them.
     pub fn skip(&mut self, count: u64) {
         self.start += self.pairs.len() as u64 + count;
         self.pairs.clear();
     }
 
-    /// All methods over the whole periods of an estimate's window, to the nearest sample, (8); `None` where it holds no wave, or the samples
-    /// are not here that it and a quarter of a period before it have.
+    /// All methods over the whole periods of an estimate's window, to the nearest sample, (8); `None` if it holds no wave, or if its
+    /// samples or those of a quarter of a period before it are not kept.
     pub fn compare(&self, estimate: &Estimate) -> Option<Methods> {
         if estimate.flags.contains(Flags::LOST) {
             return None;

@@ -16,7 +16,7 @@ use crate::interrupt::on_interrupt;
 use crate::recording::{RecordingWriter, WholeFile};
 pub use options::Simulate;
 
-/// What was written, as JSON.
+/// The truth about the recording, as JSON.
 #[derive(Debug, Serialize)]
 struct Truth<'a> {
     sample_rate_hz: f64,
@@ -34,11 +34,11 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     let pairs = options.pairs()?;
     options.check_places(pairs)?;
     options.check_frequency()?;
-    // The whole name: recordings that differ in their extension alone have each their own.
+    // Appended to the whole name, so that recordings that differ in the extension alone each have their own truth.
     let mut beside = options.out.clone().into_os_string();
     beside.push(".json");
     let beside = PathBuf::from(beside);
-    // What was simulated can be simulated again; a recording cannot be recorded again.
+    // A simulation can be repeated, but a recording that was measured is not overwritten.
     if options.out.is_file() && !beside.exists() {
         return Err(Failure::Fault(format!(
             "{}: this is there, and was not simulated, for no truth is beside it; give another name, or delete it first",
@@ -69,16 +69,16 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes both files, or none; gives how many pairs lay beyond a full scale of 1.
+/// Writes both files, or none; returns how many pairs lay beyond a full scale of 1.
 fn write(options: &Simulate, gyro: Gyro, truth: &Truth, beside: &Path) -> Result<u64, Failure> {
-    // Files that have no name yet go as they are dropped, but not with a process that is killed.
+    // Unfinished files are removed when they are dropped, but not if the process is killed.
     let interrupted = interrupted()?;
     let mut writer = RecordingWriter::create(&options.out, options.rate, options.sample)?;
     let text = serde_json::to_string_pretty(truth).map_err(io::Error::from)?;
-    // Written before the samples: what cannot be is found at once, and not after a long recording.
+    // Written before the samples, so that a failure shows at once and not after a long recording.
     let beside = WholeFile::text(beside, &(text + "\n"))?;
     let mut beyond = 0u64;
-    // Counted in 64 bits: a processor of 32 bits can write as many.
+    // Counted in 64 bits, which a 32-bit processor's `usize` lacks.
     for (_, pair) in (0..truth.sample_pairs).zip(gyro) {
         if interrupted.load(Ordering::Relaxed) {
             let file = options.out.display().to_string();
@@ -92,7 +92,7 @@ fn write(options: &Simulate, gyro: Gyro, truth: &Truth, beside: &Path) -> Result
     Ok(beyond)
 }
 
-/// What becomes true when the user or the system ends the command.
+/// A flag that becomes true when the user or the system ends the command.
 fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);

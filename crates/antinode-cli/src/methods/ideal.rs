@@ -1,4 +1,4 @@
-//! Samples as ideal pick-offs would have given them, and what that makes of their noise.
+//! Conversion of samples to those of ideal pick-offs, and of their noise.
 
 use antinode::methods::comparison::Noise;
 use antinode::{Calibration, Pair};
@@ -6,12 +6,12 @@ use antinode::{Calibration, Pair};
 /// Undoes a calibration's flaws at a frequency, sample by sample.
 #[derive(Debug, Clone, Copy)]
 pub struct Ideal {
-    /// By how many samples D is late.
+    /// Delay of D, in samples.
     delay: f64,
-    /// rad a sample.
+    /// Frequency, rad a sample.
     omega: f64,
     gain_ratio: f64,
-    /// Share of S_C in the S_D of an ideal pick-off, and the factor of all.
+    /// Share of S_C in the S_D of an ideal pick-off, and the factor of their sum.
     across: f64,
     factor: f64,
 }
@@ -36,7 +36,7 @@ impl Ideal {
         }
     }
 
-    /// The neighbour that D is looked for beside, and the one that must do at an end.
+    /// The side to which D is interpolated, and the one that serves instead at an end.
     fn sides(&self) -> [Side; 2] {
         if self.delay >= 0.0 {
             [Side::Before, Side::After]
@@ -45,7 +45,7 @@ impl Ideal {
         }
     }
 
-    /// What D showed `delay` earlier, as shares of a sample and its neighbour: exact for a sinusoid, on either side.
+    /// Weights of a sample of D and its neighbour that give D `delay` earlier: exact for a sinusoid, on either side.
     fn shares(&self, side: Side) -> [f64; 2] {
         let delay = if side == Side::Before {
             self.delay
@@ -55,7 +55,7 @@ impl Ideal {
         [1.0 - delay, delay].map(|samples| (self.omega * samples).sin() / self.omega.sin())
     }
 
-    /// The pairs with `offsets` of the raw signals taken off, (4), and made ideal.
+    /// The pairs of ideal pick-offs, after subtraction of the `offsets` of the raw signals, (4).
     pub fn pairs(&self, raw: &[Pair], offsets: [f32; 2]) -> Vec<Pair> {
         let d = |k: usize| raw.get(k).map(|pair| f64::from(pair[1] - offsets[1]));
         let beside = |k: usize, side| match side {
@@ -81,7 +81,7 @@ impl Ideal {
         raw.iter().enumerate().map(ideal).collect()
     }
 
-    /// White noise of `variance` a sample in the raw pairs, as it is in the ideal ones; `lag` is that of the delayed sums.
+    /// Noise of the ideal pairs, if that of the raw ones is white with `variance` a sample; `lag` is that of the delayed sums.
     pub fn noise(&self, variance: f64, lag: u16) -> Noise {
         let [own, other] = self
             .shares(self.sides()[0])
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn noise_is_what_it_becomes() {
+    fn noise_of_ideal_pairs_is_as_computed() {
         let wave = Wave {
             main_amplitude: 1e-9,
             quadrature_amplitude: 0.0,
@@ -177,14 +177,14 @@ mod tests {
             mean(&|two| two[1][1] * two[0][1]),
         ];
         let noise = ideal.noise(0.01, 1);
-        let told = [
+        let computed = [
             noise.moments[0],
             noise.moments[1],
             noise.moments[2],
             noise.delayed,
         ];
-        for (found, told) in found.into_iter().zip(told) {
-            assert!((found - told).abs() < 6e-5, "{found} {told}");
+        for (found, computed) in found.into_iter().zip(computed) {
+            assert!((found - computed).abs() < 6e-5, "{found} {computed}");
         }
     }
 }

@@ -13,11 +13,11 @@ pub enum Field {
     Number(f64),
     Count(u8),
     Text(String),
-    /// The window holds no wave, or its samples were not at hand.
+    /// The window holds no wave, or its samples were not kept.
     Missing,
 }
 
-/// Columns of one method, each after its name and an underscore. `sigma`: in standard deviations.
+/// Columns of one method, each prefixed by its name and an underscore. `sigma`: in standard deviations.
 const OF_A_METHOD: [&str; 12] = [
     "main_amplitude",
     "quadrature_amplitude",
@@ -98,9 +98,9 @@ fn rounded(x: f64) -> f64 {
     significant(x, 9) + 0.0
 }
 
-/// The largest difference from the exact solution that leakage and noise do not explain, in what they may leave.
+/// The largest difference from the exact solution that leakage and noise do not explain, as a multiple of what they may cause.
 pub fn worst(method: &Method) -> f64 {
-    // Not a number is worst of all, and the greatest in this order.
+    // NaN is worst of all, and the greatest in this order.
     let sizes = method.unexplained.map(f64::abs).into_iter();
     sizes.max_by(f64::total_cmp).unwrap_or(0.0)
 }

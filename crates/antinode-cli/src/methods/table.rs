@@ -9,11 +9,11 @@ use super::Methods;
 use super::rows::worst;
 use crate::digits::with_sigmas;
 
-/// What to tell where the methods disagree.
+/// The warning if the methods disagree.
 pub const DISAGREE: &str =
     "the methods disagree beyond noise: the signal is not one steady wave in white noise";
 
-/// What the lines mean, once a table.
+/// Prints what the lines mean, once a table.
 pub fn legend(out: &mut impl Write) -> io::Result<()> {
     writeln!(
         out,
@@ -22,7 +22,7 @@ pub fn legend(out: &mut impl Write) -> io::Result<()> {
     )
 }
 
-/// One line a method, in the columns of the row above, and a warning where it is due.
+/// Prints one line a method, in the columns of the row above, and a warning if the methods disagree.
 pub fn table(out: &mut impl Write, e: &Estimate, methods: &Methods) -> io::Result<()> {
     let comparison = &methods.comparison;
     for (i, method) in comparison.methods.iter().enumerate() {

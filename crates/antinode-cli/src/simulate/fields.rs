@@ -1,4 +1,4 @@
-//! Flaws at a place in the recording, as fields between colons on the command line.
+//! Parsers of flaws at a place in the recording, given on the command line as fields between colons.
 
 use std::str::FromStr;
 
@@ -34,7 +34,7 @@ pub fn loss(text: &str) -> Result<Loss, String> {
     })
 }
 
-/// Reads `FROM:TO:KIND`, with `:CHANNEL` behind it or without.
+/// Reads `FROM:TO:KIND` or `FROM:TO:KIND:CHANNEL`.
 pub fn dropout(text: &str) -> Result<Dropout, String> {
     let fields: Vec<_> = text.split(':').collect();
     let (from, to, kind, channel) = match fields[..] {

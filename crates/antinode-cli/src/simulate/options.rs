@@ -12,12 +12,12 @@ use crate::failure::Failure;
 use crate::ranges;
 use crate::recording::SampleFormat;
 
-/// Beyond this no disk holds a recording.
-const MOST_PAIRS: f64 = 1e12;
+/// Sample pairs of a recording, at most: no disk holds more.
+const MAX_PAIRS: f64 = 1e12;
 
 /// `antinode simulate`.
 #[derive(Debug, Args)]
-#[command(allow_negative_numbers = true, mut_args = told_as_number)]
+#[command(allow_negative_numbers = true, mut_args = with_number_parser)]
 pub struct Simulate {
     /// The recording to write: .wav, .csv or .npy. The true values go beside it, with .json appended to the name.
     #[arg(short = 'o', long, value_name = "FILE")]
@@ -146,8 +146,8 @@ struct FlawOptions {
     dropout: Vec<Dropout>,
 }
 
-/// An option whose value, if it is a number, is refused in words; clap's own are those of Rust's parser.
-fn told_as_number(option: Arg) -> Arg {
+/// Gives an option that is a number a parser with a readable message; clap's own prints that of Rust's parser.
+fn with_number_parser(option: Arg) -> Arg {
     if option.get_value_parser().type_id() == TypeId::of::<f64>() {
         option.value_parser(ranges::number)
     } else {
@@ -174,19 +174,19 @@ impl Simulate {
         }
     }
 
-    /// Sample pairs of the recording; refuses none, and more than a disk holds.
+    /// Sample pairs of the recording; rejects 0, and more than a disk holds.
     pub fn pairs(&self) -> Result<u64, Failure> {
         let pairs = (self.seconds * self.rate).round();
-        if (1.0..=MOST_PAIRS).contains(&pairs) {
+        if (1.0..=MAX_PAIRS).contains(&pairs) {
             return Ok(pairs as u64);
         }
         Err(Failure::Usage(format!(
-            "--seconds: {} s at {} Hz are not 1 to {MOST_PAIRS:e} sample pairs",
+            "--seconds: {} s at {} Hz are not 1 to {MAX_PAIRS:e} sample pairs",
             self.seconds, self.rate
         )))
     }
 
-    /// Refuses a frequency whose samples would be those of another one.
+    /// Rejects a frequency whose samples would be those of another one.
     pub fn check_frequency(&self) -> Result<(), Failure> {
         let (first, half) = (self.wave.frequency, 0.5 * self.rate);
         let last = first + self.wave.frequency_rate * self.seconds;
@@ -205,7 +205,7 @@ impl Simulate {
         )))
     }
 
-    /// Refuses what would begin only after the last sample.
+    /// Rejects a flaw that would begin only after the last sample.
     pub fn check_places(&self, pairs: u64) -> Result<(), Failure> {
         let flaws = self.flaws();
         // Lost samples take their time too.
@@ -235,7 +235,7 @@ impl Simulate {
         }
     }
 
-    /// What stands between the wave and the file.
+    /// The flaws between the wave and the file.
     pub fn flaws(&self) -> Flaws {
         Flaws {
             noise: self.flaws.noise,

@@ -1,4 +1,4 @@
-//! A panel as SVG and PNG.
+//! Draws a panel as SVG and PNG.
 
 use std::error::Error;
 use std::fs;
@@ -16,7 +16,7 @@ use crate::recording::OutputError;
 
 /// Width and height, pixels.
 const SIZE: (u32, u32) = (960, 600);
-/// Size of the caption, pixels: the longest one fits even where a viewer has a font a quarter wider.
+/// Size of the caption, pixels: the longest one fits even if a viewer's font is a quarter wider.
 const CAPTION: u32 = 17;
 /// Width of the legend, right of the chart, pixels.
 const KEY_WIDTH: u32 = 220;
@@ -62,8 +62,8 @@ where
             .flat_map(|curve| points(figure, panel, curve))
             .map(|(_, y)| y)
     };
-    let greatest = values().fold(f64::MIN_POSITIVE, f64::max);
-    let least = values().filter(|&y| y > 0.0).fold(greatest, f64::min);
+    let max = values().fold(f64::MIN_POSITIVE, f64::max);
+    let min = values().filter(|&y| y > 0.0).fold(max, f64::min);
     let (first, last) = (
         figure.x.first().copied().unwrap_or(0.0),
         figure.x.last().copied().unwrap_or(1.0),
@@ -80,21 +80,20 @@ where
         .x_label_area_size(48)
         .y_label_area_size(84);
     if panel.logarithmic {
-        let chart =
-            builder.build_cartesian_2d(across, (0.5 * least..2.0 * greatest).log_scale())?;
+        let chart = builder.build_cartesian_2d(across, (0.5 * min..2.0 * max).log_scale())?;
         fill(chart, figure, panel, &|y| format!("{y:.0e}"))
     } else {
-        let chart = builder.build_cartesian_2d(across, 0.0..1.05 * greatest)?;
-        fill(chart, figure, panel, &|&y| told(y))
+        let chart = builder.build_cartesian_2d(across, 0.0..1.05 * max)?;
+        fill(chart, figure, panel, &|&y| printed(y))
     }
 }
 
-/// A number at an axis, without the rounding of the steps that led to it.
-fn told(x: f64) -> String {
+/// A number at an axis, without the rounding errors of the steps that led to it.
+fn printed(x: f64) -> String {
     significant(x, 9).to_string()
 }
 
-/// The points of a curve that are drawn. Without noise the bound has no logarithm, and figures 1 and 2 show the errors.
+/// The points of a curve that are drawn. Points without noise have no logarithm of the bound; figures 1 and 2 show their errors.
 fn points(figure: &Figure, panel: &Panel, curve: &Curve) -> Vec<(f64, f64)> {
     let all = figure.x.iter().copied().zip(curve.y.iter().copied());
     all.filter(|&(x, y)| y.is_finite() && !(panel.logarithmic && x == 0.0))
@@ -123,7 +122,7 @@ where
         .x_labels(11)
         .x_max_light_lines(0)
         .y_max_light_lines(if panel.logarithmic { 1 } else { 0 })
-        .x_label_formatter(&|&x| told(x))
+        .x_label_formatter(&|&x| printed(x))
         .y_label_formatter(&|y| label(y))
         .draw()?;
     for curve in &panel.curves {
@@ -145,7 +144,7 @@ where
     Ok(())
 }
 
-/// The legend.
+/// Draws the legend.
 fn key<B: DrawingBackend>(area: &DrawingArea<B, Shift>, panel: &Panel) -> Result<(), Box<dyn Error>>
 where
     B::ErrorType: 'static,

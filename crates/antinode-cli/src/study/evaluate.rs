@@ -1,4 +1,4 @@
-//! One window through every method: the errors of a_A, a_B, θ and f.
+//! Errors of a_A, a_B, θ and f by every method in one window.
 
 use std::f64::consts::TAU;
 
@@ -24,15 +24,15 @@ pub const CURVES: [Name; 8] = [
     Name::Exact,
 ];
 
-/// Errors of a_A, a_B (input units), θ (degrees) and f (Hz); NaN where a curve has none.
+/// Errors of a_A, a_B (input units), θ (degrees) and f (Hz); NaN if a curve has none.
 pub type Errors = [f64; 4];
 
-/// Hz, of the paper's search for the frequency.
+/// Step of the paper's search for the frequency, Hz.
 const STEP: f64 = 1.0;
-/// Steps that the search may go from where (10) puts it.
+/// Steps that the search may go from the frequency of (10), at most.
 const REACH: u32 = 4000;
 
-/// The errors of each curve. Amplitudes and angles stand at the known frequency, so that each error is of its method alone; the
+/// The errors of each curve. Amplitudes and angles are computed at the known frequency, so that each error is due to its method alone;
 /// frequencies start from (10) and are refined by J → min(ω) in steps of 1 Hz.
 pub fn errors(samples: &Samples, wave: &Wave) -> [Errors; 8] {
     let window = samples.window();

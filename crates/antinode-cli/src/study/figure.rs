@@ -1,20 +1,20 @@
-//! What a figure holds.
+//! The contents of a figure.
 
 /// A figure: several panels over one axis.
 #[derive(Debug, Clone)]
 pub struct Figure {
     pub number: u8,
-    /// What runs along the horizontal axis, with its unit.
+    /// Quantity of the horizontal axis, with its unit.
     pub axis: &'static str,
     pub x: Vec<f64>,
-    /// What was simulated for each `x`.
+    /// Simulated conditions of each `x`.
     pub points: Vec<Point>,
-    /// Runs a point, and the seed of their noise; none without noise.
+    /// Runs a point, and the seed of their noise; `None` without noise.
     pub runs: Option<(u32, u64)>,
     pub panels: Vec<Panel>,
 }
 
-/// What was simulated for a point beside the wave.
+/// Conditions of a point, beside the wave.
 #[derive(Debug, Clone, Copy)]
 pub struct Point {
     /// Periods in a window.
@@ -29,21 +29,21 @@ pub struct Panel {
     /// a to e, for the paper's а, б, в, г, д.
     pub letter: char,
     pub title: String,
-    /// What runs along the vertical axis, with its unit.
+    /// Quantity of the vertical axis, with its unit.
     pub axis: &'static str,
     /// False: the axis starts at 0 and is linear.
     pub logarithmic: bool,
     pub curves: Vec<Curve>,
 }
 
-/// One curve; NaN where it has no value.
+/// One curve; NaN if it has no value.
 #[derive(Debug, Clone)]
 pub struct Curve {
     pub name: Name,
     pub y: Vec<f64>,
 }
 
-/// Whose a curve is.
+/// The method or bound that a curve shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Name {
     Algorithm1,
@@ -72,7 +72,7 @@ impl Name {
         matches!(self, Self::Bound | Self::CentredBound)
     }
 
-    /// As the legend has it.
+    /// The name in the legend.
     pub fn text(self) -> &'static str {
         match self {
             Self::Algorithm1 => "1: algorithm 1",
@@ -91,7 +91,7 @@ impl Name {
 }
 
 impl Figure {
-    /// The values of a curve; a panel or a curve that is not there has none.
+    /// The values of a curve; empty if the panel or the curve is missing.
     pub fn curve(&self, letter: char, name: Name) -> &[f64] {
         let panel = self.panels.iter().find(|panel| panel.letter == letter);
         let curve = panel.and_then(|panel| panel.curves.iter().find(|curve| curve.name == name));

@@ -24,7 +24,7 @@ use crate::ranges;
 use crate::recording::OutputError;
 use simulated::Simulated;
 
-/// Under the help of the study.
+/// Text after the help of the study.
 const FILES: &str = "\
 Files in the folder:
   figure-1a.svg, .png ...  1: over periods, 2: over samples a period, 3: noise
@@ -55,9 +55,9 @@ pub struct Study {
 /// The paper's sample rate, Hz, at which its conclusions are checked.
 const RATE: f64 = Simulated::PAPER.rate;
 
-/// Computes, draws, and tells what is confirmed.
+/// Computes and draws the figures, and prints which conclusions are confirmed.
 pub fn run(options: &Study) -> Result<(), Failure> {
-    // Before the work, not after it.
+    // Before the computation, so that a failure shows at once.
     fs::create_dir_all(&options.out).map_err(|error| {
         Failure::Fault(format!(
             "{}: this folder cannot be made: {error}; give another --out",

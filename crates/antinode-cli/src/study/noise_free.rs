@@ -1,4 +1,4 @@
-//! Figures 1 and 2: absolute errors without noise, against the periods of a window and against the samples of a period.
+//! Figures 1 and 2: absolute errors without noise, over the periods of a window and over the samples of a period.
 
 use antinode_sim::Wave;
 
@@ -7,9 +7,9 @@ use super::figure::{Curve, Figure, Name, Panel, Point};
 use super::samples::Samples;
 use super::simulated::Simulated;
 
-/// Noise of the bound drawn beside errors without noise, as a share of a_A: 80 dB.
+/// Noise of the bound that is drawn beside errors without noise, as a share of a_A: −80 dB.
 const BOUND_NOISE: f64 = 1e-4;
-/// Below this an error is drawn here: rounding of samples to f32 is about as large.
+/// Smaller errors are drawn at this value: rounding of samples to f32 is about as large.
 const FLOOR: f64 = 1e-9;
 
 /// Figure 1: windows of 1 to 10 periods.
@@ -36,7 +36,7 @@ pub fn against_samples(simulated: &Simulated) -> Figure {
     )
 }
 
-/// The panels of the errors, whose curves have no point yet.
+/// The panels of the errors, with curves that have no points yet.
 fn error_panels(wave: &Wave) -> Vec<Panel> {
     let (a, b) = (wave.main_amplitude, wave.quadrature_amplitude);
     let units = "absolute error, input units";
@@ -97,7 +97,7 @@ fn figure(
         });
     }
     for panel in &mut panels {
-        // By name, as a value that a curve has not is the floor here, like one too small.
+        // By name, as a missing value has become the floor here, like one that is too small.
         panel.curves.retain(|curve| {
             !matches!(
                 (curve.name, panel.letter),

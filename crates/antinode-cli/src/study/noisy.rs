@@ -1,4 +1,4 @@
-//! Figure 3: rms errors in windows of one length against noise.
+//! Figure 3: rms errors in windows of one length over noise.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
@@ -8,7 +8,7 @@ use super::figure::{Curve, Figure, Name, Panel, Point};
 use super::samples::Samples;
 use super::simulated::{STEPS, Simulated};
 
-/// Runs that one core takes at a time. Sums over them are joined in order: results do not depend on the cores.
+/// Runs that one core takes at a time. Sums over them are added in order, so that results do not depend on the number of cores.
 const CHUNK: u32 = 250;
 
 /// The noise at a step, rms a sample, in input units.
@@ -27,7 +27,7 @@ fn squares(
     let wave = &simulated.wave();
     let noise = noise(simulated, step);
     for run in runs {
-        // A run of a step has a seed of its own.
+        // Each run of each step has a seed of its own.
         let seed =
             seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (u64::from(step) << 32 | u64::from(run));
         let samples = Samples::simulate(wave, simulated.periods, simulated.rate, noise, seed);
@@ -69,10 +69,10 @@ pub fn rms(simulated: &Simulated, steps: &[u32], runs: u32, seed: u64) -> Vec<[[
     totals
 }
 
-/// How many times the least error the greatest may be, at the greatest noise, for an axis to be linear, as the paper's are.
-const LINEAR: f64 = 20.0;
+/// Ratio of the largest to the smallest error at the largest noise, at most, for an axis to be linear, as the paper's are.
+const MAX_LINEAR_RATIO: f64 = 20.0;
 
-/// Figure 3: windows of one length against noise.
+/// Figure 3: windows of one length over noise.
 pub fn against_noise(simulated: &Simulated, runs: u32, seed: u64) -> Figure {
     let wave = &simulated.wave();
     let steps: Vec<u32> = (0..=STEPS).collect();
@@ -124,10 +124,12 @@ pub fn against_noise(simulated: &Simulated, runs: u32, seed: u64) -> Figure {
     }
 }
 
-/// True where errors at the greatest noise are too far apart for a linear axis.
+/// True if errors at the largest noise are too far apart for a linear axis.
 fn is_wide(curves: &[Curve]) -> bool {
     let last = curves.iter().filter_map(|curve| curve.y.last().copied());
     let errors: Vec<f64> = last.filter(|error| *error > 0.0).collect();
     let greatest = errors.iter().copied().fold(0.0, f64::max);
-    errors.iter().any(|error| greatest > LINEAR * error)
+    errors
+        .iter()
+        .any(|error| greatest > MAX_LINEAR_RATIO * error)
 }

@@ -1,4 +1,4 @@
-//! Windows of a simulated gyro, with samples before and after them for delays and for the search of the period.
+//! Windows of a simulated gyro, with samples before and after them for delays and for the search for the period.
 
 use std::f64::consts::TAU;
 
@@ -61,13 +61,13 @@ impl Samples {
         &self.pairs[self.lead..self.lead + self.count]
     }
 
-    /// The window with all before it.
+    /// The window with all samples before it.
     pub fn with_lead(&self) -> &[[f32; 2]] {
         &self.pairs[..self.lead + self.count]
     }
 
-    /// The Cramér–Rao bounds of a_A, a_B (in units of the noise), θ (degrees) and f (Hz) for noise of one, with unknown offsets and
-    /// of centred signals; NaN where the window does not determine the wave.
+    /// The Cramér–Rao bounds of a_A, a_B (in units of the noise), θ (degrees) and f (Hz) for noise of 1, with unknown offsets and
+    /// for centred signals; NaN if the window does not determine the wave.
     pub fn bounds(&self, wave: &Wave) -> [[f64; 4]; 2] {
         let middle = 0.5 * (self.count as f64 - 1.0) / self.rate;
         [Bound::new, Bound::centred].map(|bound| {
@@ -82,7 +82,7 @@ impl Samples {
         })
     }
 
-    /// By how much the window is longer than its periods, as a share of them.
+    /// Excess of the window's length over its whole periods, as a share of these.
     pub fn deviation(&self) -> f64 {
         self.count as f64 / (f64::from(self.periods) * self.period) - 1.0
     }

@@ -1,4 +1,4 @@
-//! What a study simulates: the paper's wave, rate, noise and windows, or others.
+//! The conditions that a study simulates: the paper's wave, rate, noise and windows, or others.
 
 use std::f64::consts::FRAC_PI_6;
 use std::fmt;
@@ -8,7 +8,7 @@ use clap::Args;
 
 use crate::ranges;
 
-/// Steps of figure 3's noise, from none to the greatest.
+/// Steps of figure 3's noise, from 0 to the greatest.
 pub const STEPS: u32 = 20;
 
 /// What is simulated. Frequency and main amplitude are always the paper's: all else counts beside them.
@@ -36,7 +36,7 @@ pub struct Simulated {
 }
 
 impl Simulated {
-    /// What the paper has.
+    /// The paper's conditions.
     pub const PAPER: Self = Self {
         quadrature_amplitude: 0.1,
         angle: FRAC_PI_6,
@@ -61,7 +61,7 @@ impl Simulated {
         self.noise * f64::from(step) / f64::from(STEPS)
     }
 
-    /// How long a window of figure 3 is, in words.
+    /// Length of a window of figure 3, in words.
     pub fn window(&self) -> String {
         match self.periods {
             1 => "one period".to_owned(),

@@ -1,4 +1,4 @@
-//! A figure as CSV: one row a point of a curve, with what was simulated for it.
+//! A figure as CSV: one row for each point of a curve, with the conditions that were simulated.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use antinode_sim::Wave;
 
 use super::figure::Figure;
 
-/// The columns; whoever finds the file needs nothing beside it.
+/// The columns, with which the file explains itself.
 const COLUMNS: [&str; 17] = [
     "figure",
     "panel",

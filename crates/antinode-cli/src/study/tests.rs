@@ -1,11 +1,11 @@
-//! The study itself: reproducible, at the bound where it must be, its files whole, its conclusions as the documentation says.
+//! Tests of the whole study: it is reproducible and reaches the bound, its files are complete, its conclusions as in the documentation.
 
 use super::conclusions::{Conclusion, Verdict};
 use super::figure::Name;
 use super::*;
 
 #[test]
-fn seeded_whatever_the_cores() {
+fn results_depend_on_the_seed_and_not_on_the_cores() {
     let with = |threads: usize, seed: u64| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -41,7 +41,7 @@ fn the_exact_solution_reaches_the_bound() {
 }
 
 #[test]
-fn conclusions_and_files_are_those_of_the_documentation() {
+fn conclusions_and_files_are_as_in_the_documentation() {
     let wave = Simulated::PAPER.wave();
     let folder = tempfile::tempdir().expect("a folder");
     let options = Study {

@@ -1,4 +1,4 @@
-//! How well the frequency is found.
+//! Conclusions on the accuracy of the frequency.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ use crate::study::samples::Samples;
 pub fn alike(first: &Figure) -> Conclusion {
     let mut widest = 1f64;
     for i in 0..first.x.len() {
-        // What lies below the search's own step of 1 Hz is alike.
+        // Errors below half of the search's own step of 1 Hz count as equal.
         let values = FOUR.map(|name| at(first, 'd', name, i).max(0.5));
         let [low, high] = [f64::min, f64::max].map(|pick| values.into_iter().fold(values[0], pick));
         widest = widest.max(high / low);
@@ -28,7 +28,7 @@ pub fn alike(first: &Figure) -> Conclusion {
     }
 }
 
-/// a_A of algorithm 4 at the frequency of (10), which is not refined.
+/// a_A of algorithm 4 at the unrefined frequency of (10).
 fn unrefined(wave: &Wave, periods: u32) -> f64 {
     let samples = Samples::simulate(wave, periods, RATE, 0.0, 0);
     let omega = TAU * period::by_difference(&samples);
@@ -54,15 +54,15 @@ pub fn grid(wave: &Wave, first: &Figure) -> Conclusion {
     }
 }
 
-/// A functional's minimum over the frequency.
+/// The minimum of a functional over the frequency.
 struct Minimum {
-    /// The residual 100 Hz over the count of periods beside it, over that in it: the less of both sides.
+    /// Residual beside it, by 100 Hz over the count of periods, divided by that in it: the smaller one of both sides.
     rise: f64,
-    /// Hz.
+    /// Distance from the wave's frequency, Hz.
     off: f64,
 }
 
-/// Of (14) and of (15).
+/// The minima of (14) and of (15).
 fn minima(wave: &Wave, periods: u32) -> [Minimum; 2] {
     let samples = Samples::simulate(wave, periods, RATE, 0.0, 0);
     let window = samples.window();
@@ -81,10 +81,9 @@ fn minima(wave: &Wave, periods: u32) -> [Minimum; 2] {
         .collect();
     [0, 1].map(|which| {
         let lowest = grid.iter().min_by(|a, b| a.1[which].total_cmp(&b.1[which]));
-        let (hertz, least) =
-            lowest.map_or((f64::NAN, f64::NAN), |(hertz, all)| (*hertz, all[which]));
+        let (hertz, min) = lowest.map_or((f64::NAN, f64::NAN), |(hertz, all)| (*hertz, all[which]));
         let aside = 100.0 / f64::from(periods);
-        let rises = [-aside, aside].map(|aside| residuals(hertz + aside)[which] / least);
+        let rises = [-aside, aside].map(|aside| residuals(hertz + aside)[which] / min);
         Minimum {
             rise: rises[0].min(rises[1]),
             off: (hertz - wave.frequency).abs(),

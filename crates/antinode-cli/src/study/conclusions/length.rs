@@ -1,4 +1,4 @@
-//! What more periods in a window are good for.
+//! Conclusions on the length of windows.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ use crate::study::samples::Samples;
 use crate::study::simulated::Simulated;
 use crate::study::{RATE, Study, noisy};
 
-/// Windows whose length need not be whole periods.
+/// Lengths of windows, in periods, that are then varied by up to half a period.
 const PERIODS: [u32; 6] = [1, 2, 5, 10, 50, 100];
 
 pub fn noise(third: &Figure, options: &Study) -> Conclusion {
@@ -39,7 +39,7 @@ pub fn noise(third: &Figure, options: &Study) -> Conclusion {
     }
 }
 
-/// A curve's last value in figure 1, that of ten periods.
+/// A curve's last value in figure 1, at ten periods.
 fn last(first: &Figure, letter: char, name: Name) -> f64 {
     at(first, letter, name, first.x.len() - 1)
 }
@@ -75,7 +75,7 @@ pub fn long_with_a_whole_delay(first: &Figure) -> Conclusion {
     }
 }
 
-/// Errors of a_A in a_A, of algorithms 3 and 4: the worst over all start phases and these counts of samples.
+/// Relative errors of a_A by algorithms 3 and 4: the worst over all start phases and these counts of samples.
 pub fn worst_leakage(
     wave: &Wave,
     periods: u32,
@@ -123,7 +123,7 @@ pub fn whole_periods(wave: &Wave) -> Conclusion {
             .map(|worst| two_digits(100.0 * worst[which]))
             .join(", ")
     };
-    // As one over the count of periods.
+    // In proportion to one over the count of periods.
     let falls = any.iter().zip(PERIODS).all(|(worst, periods)| {
         worst
             .iter()

@@ -1,4 +1,4 @@
-//! The paper's conclusions, each held against the curves computed here.
+//! The paper's conclusions, each checked against the curves computed here.
 
 mod frequency;
 mod length;
@@ -16,7 +16,7 @@ use super::samples::Samples;
 pub struct Conclusion {
     pub claim: &'static str,
     pub verdict: Verdict,
-    /// The numbers that say so, in one line or several.
+    /// The numbers behind the verdict, in one or several lines.
     pub found: String,
 }
 
@@ -24,7 +24,7 @@ pub struct Conclusion {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     Confirmed,
-    /// Under conditions, which `found` tells.
+    /// Under conditions, which `found` states.
     InPart,
     NotConfirmed,
 }
@@ -38,7 +38,7 @@ impl Verdict {
         }
     }
 
-    /// As it is printed.
+    /// The verdict as printed.
     pub fn text(self) -> &'static str {
         match self {
             Self::Confirmed => "confirmed",
@@ -55,10 +55,10 @@ const FOUR: [Name; 4] = [
     Name::Algorithm4,
 ];
 
-/// Start phases over half a period: squares of the signals, and so what leaks, repeat there.
+/// Start phases over half a period, after which squares of the signals, and so leakage, repeat.
 const PHASES: u32 = 100;
 
-/// Checks them all.
+/// Checks all conclusions.
 pub fn check(
     wave: &Wave,
     first: &Figure,
@@ -92,7 +92,7 @@ pub fn check(
     ]
 }
 
-/// A curve's value at a place of its figure; NaN where it has none.
+/// A curve's value at a place of its figure; NaN if it has none.
 fn at(figure: &Figure, letter: char, name: Name, place: usize) -> f64 {
     let curve = figure.curve(letter, name);
     curve.get(place).copied().unwrap_or(f64::NAN)
@@ -103,7 +103,7 @@ fn error(samples: &Samples, wave: &Wave, name: Name) -> [f64; 4] {
     errors(samples, wave)[place(name)].map(f64::abs)
 }
 
-/// Where a curve is among those that a window gives.
+/// Index of a curve among those that a window gives.
 fn place(name: Name) -> usize {
     CURVES.iter().position(|&curve| curve == name).unwrap_or(0)
 }

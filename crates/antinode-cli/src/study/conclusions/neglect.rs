@@ -1,4 +1,4 @@
-//! What algorithm 1 pays for neglecting quadrature.
+//! Conclusions on algorithm 1's neglect of quadrature.
 
 use antinode::methods::{Moments, Ratio, algorithm1};
 use antinode_sim::Wave;
@@ -8,7 +8,7 @@ use crate::study::RATE;
 use crate::study::figure::{Figure, Name};
 use crate::study::samples::Samples;
 
-/// Gates of (13), samples of S_C below which are left out, as shares of a_A: up to 0.4 of the 0.5 that S_C has.
+/// Gates of (13), as shares of a_A: samples of S_C below them are left out. S_C itself reaches 0.5.
 const GATES: [f64; 5] = [0.02, 0.05, 0.1, 0.2, 0.4];
 
 pub fn floor(wave: &Wave, first: &Figure) -> Conclusion {
@@ -38,16 +38,16 @@ pub fn floor(wave: &Wave, first: &Figure) -> Conclusion {
     }
 }
 
-/// Error of the angle of (12), degrees.
+/// Error of the angle by (12), degrees.
 fn by_roots(wave: &Wave, samples: &Samples) -> f64 {
     let angle = algorithm1::shape(&Moments::of(samples.window())).angle;
     (angle - wave.angle).to_degrees()
 }
 
-/// Error of the angle of (13), degrees, samples of S_C below `gate` of a_A left out.
+/// Error of the angle by (13), degrees, without samples of S_C below `gate` of a_A.
 fn by_ratio(wave: &Wave, samples: &Samples, gate: f64) -> f64 {
-    let least = gate * wave.main_amplitude;
-    let angle = algorithm1::rough_angle(&Ratio::of(samples.window(), least as f32));
+    let min = gate * wave.main_amplitude;
+    let angle = algorithm1::rough_angle(&Ratio::of(samples.window(), min as f32));
     (angle - wave.angle).to_degrees()
 }
 
@@ -90,9 +90,9 @@ pub fn longer(wave: &Wave) -> Conclusion {
 
 /// Errors of (13) at a gate, in windows of 1 to 10 periods.
 struct Rough {
-    /// Over those of (12), sorted.
+    /// Absolute errors over those of (12), sorted.
     ratios: Vec<f64>,
-    /// The mean, degrees.
+    /// Mean error, degrees.
     bias: f64,
 }
 
@@ -113,7 +113,7 @@ impl Rough {
         Self { ratios, bias }
     }
 
-    /// The ratio that so many tenths are below.
+    /// The ratio below which this many tenths of all lie.
     fn tenth(&self, tenth: usize) -> f64 {
         self.ratios[tenth * (self.ratios.len() - 1) / 10]
     }
@@ -134,7 +134,7 @@ pub fn rougher(wave: &Wave) -> Conclusion {
             format!("{middle:.1} ({low:.1} to {high:.1}) at {gate}")
         })
         .collect();
-    let [least, most] = range(gated.iter().map(|rough| rough.bias.abs()));
+    let [min, max] = range(gated.iter().map(|rough| rough.bias.abs()));
     Conclusion {
         claim: "Formula (13) for the angle is often an order rougher than (12); leaving out small S_C helps.",
         verdict: Verdict::confirmed_if(
@@ -142,7 +142,7 @@ pub fn rougher(wave: &Wave) -> Conclusion {
         ),
         found: format!(
             "Without a gate {here:.0} times and more here, ten and more in {:.0} % of windows of all phases.\nWith a gate, in a_A, the median \
-             (and eight of ten): {}.\nWhat no gate takes away is a bias: {least:.3} to {most:.3}° in the mean of all phases.",
+             (and eight of ten): {}.\nWhat no gate takes away is a bias: {min:.3} to {max:.3}° in the mean of all phases.",
             100.0 * share,
             texts.join(", "),
         ),

@@ -1,4 +1,4 @@
-//! Where errors are least.
+//! Conclusions on where errors are smallest.
 
 use antinode_sim::Wave;
 
@@ -6,7 +6,7 @@ use super::{Conclusion, FOUR, Verdict, error};
 use crate::study::figure::{Figure, Name};
 use crate::study::samples::Samples;
 
-/// Where a curve is lowest: its two best places.
+/// The two places at which a curve is lowest.
 fn two_best(figure: &Figure, letter: char, name: Name) -> Vec<f64> {
     let mut points: Vec<(f64, f64)> = figure
         .curve(letter, name)
@@ -77,7 +77,7 @@ pub fn divides_by_four(second: &Figure) -> Conclusion {
     }
 }
 
-/// |a_B| error of algorithm 2 over one period at a rate that makes it a whole number of samples.
+/// |a_B| error of algorithm 2 over one period, at a rate at which the period is a whole number of samples.
 fn fitted(wave: &Wave, count: u32) -> f64 {
     let samples = Samples::simulate(wave, 1, wave.frequency * f64::from(count), 0.0, 0);
     error(&samples, wave, Name::Algorithm2)[1]

@@ -3,7 +3,7 @@
 //! So each run gets powers of time of its own, and the energy explains what these leave: a straight line if no drift is seen, as a slow one
 //! would not be, and otherwise as many powers as are significant, two at least. What further powers would still explain is not noise, and
 //! widens the deviation. All that changes with the energy is attributed to it only if the turning of patterns by their amplitudes agrees;
-//! if that contradicts, the dependence is not reported: a temperature that settles may fall just as the energy does.
+//! if that gives another value, or none, the dependence is not reported: a temperature that settles may fall just as the energy does.
 
 use super::SIGNIFICANT;
 use super::found::Measured;

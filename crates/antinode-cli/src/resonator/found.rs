@@ -25,7 +25,7 @@ const LESS_CHANCE: f64 = 5.0;
 /// The result of a fit.
 #[derive(Debug)]
 pub struct Found {
-    /// What the runs share.
+    /// The unknowns that the runs share, and the values of all unknowns.
     pub(super) model: Model,
     pub(super) values: DVector<f64>,
     /// Factors of the equations about the values, and the widening of variances if the residual exceeds the rows' own deviations.

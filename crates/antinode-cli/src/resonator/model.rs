@@ -15,7 +15,7 @@ const PIECES: u32 = 64;
 const DECAY: usize = 0;
 const FREQUENCY: usize = 3;
 
-/// What the runs share.
+/// The unknowns that the runs share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Model {
     /// Nothing: each has the decay along its pattern, and the component of the frequency split that makes its quadrature grow.

@@ -3,8 +3,10 @@
 //! With E = a_A² + a_B², D = a_A² − a_B², R = D cos 4θ, S = D sin 4θ and Q = 2 a_A a_B the motion is linear (D. D. Lynch, *Vibratory gyro
 //! analysis by the method of averaging*, 1995):
 //!
-//!     Ė = −2E/τ − δ(c_τ R + s_τ S)              Ṙ = −2R/τ − δ c_τ E + 2κS + Δω s_ω Q
-//!     Q̇ = −2Q/τ − Δω(s_ω R − c_ω S)             Ṡ = −2S/τ − δ s_τ E − 2κR − Δω c_ω Q
+//! ```text
+//! Ė = −2E/τ − δ(c_τ R + s_τ S)              Ṙ = −2R/τ − δ c_τ E + 2κS + Δω s_ω Q
+//! Q̇ = −2Q/τ − Δω(s_ω R − c_ω S)             Ṡ = −2S/τ − δ s_τ E − 2κR − Δω c_ω Q
+//! ```
 //!
 //! where 1/τ is the mean of the damping of both modes and δ its split, Δω the split of the frequencies in rad/s, c and s the cosine and sine
 //! of four times the angle at which the damping, or the frequency, is greatest, and −κ/2 the rate at which rotation turns the pattern.

@@ -18,7 +18,7 @@ const MAX_BEND: f64 = 2.0;
 /// Step that flaws of the pick-offs make of a sudden turn, per rad: gains that differ by 5 % do.
 const STEP_BY_FLAWS: f64 = 0.1;
 /// Ratio of |a_B| to a_A above which the pattern is too near to a circle for a_A to be smooth.
-const MAX_RATIO: f64 = 0.9;
+const CIRCULAR_RATIO: f64 = 0.9;
 /// Distance of the middle row's neighbours, at most, as a share of the shorter side, and ratio of the sides, at most.
 const MAX_GAP: f64 = 0.4;
 const MAX_UNLIKE: f64 = 3.0;
@@ -51,7 +51,7 @@ pub fn steps(rows: &[Row], circles: &[usize]) -> Vec<usize> {
 
 /// The wave's step at the middle one of these rows, over the largest that may seem to be there without a step.
 fn step_ratio(rows: &[Row]) -> f64 {
-    let circular = |row: &Row| row.quadrature.abs() > MAX_RATIO * row.main;
+    let circular = |row: &Row| row.quadrature.abs() > CIRCULAR_RATIO * row.main;
     let Some(times) = Times::of(rows).filter(|_| !rows.iter().any(circular)) else {
         return 0.0;
     };
@@ -180,7 +180,7 @@ mod tests {
                 assert_eq!(found.len(), 1, "{index}, {size}, {at}: {found:?}");
                 let apart = (found[0] as f64 - at).abs();
                 assert!(apart <= 1.0, "{index}, {size}, {at}: {found:?}");
-                // If a circle passed there, it is none.
+                // Near a circular row that was left out there is none.
                 assert!(steps(&rows, &[found[0]]).is_empty());
             }
         }

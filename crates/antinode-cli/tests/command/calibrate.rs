@@ -1,4 +1,4 @@
-//! `antinode calibrate`: the flaws of simulated pick-offs are found, and what it prints takes them out.
+//! `antinode calibrate`: the flaws of simulated pick-offs are found, and the options that it prints remove them.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use crate::common::{Row, Run, rms, rows, run, run_with};
 const FLAWS: &str =
     "--gain-ratio 1.012 --skew-ns 130 --pick-off-angle 0.008 --noise 0.003 --decay-rate 0.05";
 
-/// Two recordings that turn by more than 90° one way and the other.
+/// Records two patterns that turn by more than 90°, one way and the other.
 fn record(here: &Path) {
     for turning in [
         "-o one.wav --angle-rate 0.7 --seed 1",
@@ -19,7 +19,7 @@ fn record(here: &Path) {
     }
 }
 
-/// What `calibrate` makes of the rows of these recordings.
+/// Runs `calibrate` on the rows of these recordings.
 fn calibrate(here: &Path, recordings: &str, options: &str) -> Run {
     let rows = run(
         here,
@@ -29,7 +29,7 @@ fn calibrate(here: &Path, recordings: &str, options: &str) -> Run {
     run_with(here, &format!("calibrate - {options}"), rows.out.into())
 }
 
-/// One such recording of a pattern that turns at this rate, and another of one that turns the other way.
+/// Records a pattern that turns at this rate, and another that turns the other way.
 fn record_both_ways(here: &Path, simulated: &str, rate: f64) {
     for (name, rate) in [("one", rate), ("other", -rate)] {
         let made = run(
@@ -40,7 +40,7 @@ fn record_both_ways(here: &Path, simulated: &str, rate: f64) {
     }
 }
 
-/// What `calibrate` makes of both in such windows.
+/// Runs `calibrate` on both, identified in these windows.
 fn of_windows(here: &Path, windows: &str, options: &str) -> Run {
     let rows = run(
         here,
@@ -50,7 +50,7 @@ fn of_windows(here: &Path, windows: &str, options: &str) -> Run {
     run_with(here, &format!("calibrate - {options}"), rows.out.into())
 }
 
-/// The numbers of the options printed, and the deviations told of them.
+/// The numbers of the options printed, and their deviations in the report.
 fn numbers(run: &Run) -> ([f64; 3], [f64; 3]) {
     assert_eq!(run.code, 0, "{}", run.err);
     let words: Vec<_> = run.out.split_whitespace().collect();
@@ -68,7 +68,7 @@ fn numbers(run: &Run) -> ([f64; 3], [f64; 3]) {
 }
 
 #[test]
-fn windows_in_which_the_pattern_turns_far_tell_the_same() {
+fn windows_in_which_the_pattern_turns_far_give_the_same_result() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for seed in 1..=4 {
@@ -76,7 +76,7 @@ fn windows_in_which_the_pattern_turns_far_tell_the_same() {
             "--sample f32 --seconds 4 --seed {seed} --noise 5e-4 --decay-rate 0.1 --gain-ratio 1.03 --skew-ns 800 --pick-off-angle 0.02"
         );
         record_both_ways(here, &simulated, 1.5);
-        // 4° in each: what they average of the flaws is half a per cent less than there is.
+        // 4° in each: the average over a window shows half a per cent less of the flaws.
         for options in ["", "--gain-ratio 0.98 --skew-ns -100"] {
             let found = of_windows(here, "--periods 250", options);
             let (values, deviations) = numbers(&found);
@@ -94,7 +94,7 @@ fn windows_in_which_the_pattern_turns_far_tell_the_same() {
 }
 
 #[test]
-fn gains_that_are_very_unlike_are_found_to_their_deviations() {
+fn very_unlike_gains_are_found_to_their_deviations() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for (gain, amplitude) in [("3", "0.25"), ("0.33", "0.75")] {
@@ -119,7 +119,7 @@ fn gains_that_are_very_unlike_are_found_to_their_deviations() {
 }
 
 #[test]
-fn flaws_are_found_to_their_deviations_and_taken_out() {
+fn flaws_are_found_to_their_deviations_and_removed() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     record(here);
@@ -139,7 +139,7 @@ fn flaws_are_found_to_their_deviations_and_taken_out() {
     assert!(deviations.iter().zip(limits).all(|(std, most)| *std < most));
     assert!(!both.err.contains("warning"), "{}", both.err);
 
-    // A file of rows each is the same.
+    // One file of rows for each recording gives the same result.
     for name in ["one", "other"] {
         let rows = run(here, &format!("identify --output csv {name}.wav"));
         fs::write(here.join(format!("{name}.csv")), rows.out).unwrap();
@@ -166,7 +166,7 @@ fn flaws_are_found_to_their_deviations_and_taken_out() {
             });
         most - least
     };
-    // The skew makes 4 mrad of quadrature as the pattern turns, noise some 2 in so many windows.
+    // The skew makes 4 mrad of quadrature as the pattern turns, and noise some 2 in this many windows.
     let [before, after] = ["", both.out.trim()].map(spread);
     assert!(before > 2.0 * after && after < 2.5e-3, "{before} {after}");
 }
@@ -207,14 +207,14 @@ fn a_program_reads_the_same_numbers_with_their_deviations() {
 }
 
 #[test]
-fn rows_that_were_calibrated_already_are_told() {
+fn rows_that_were_already_calibrated_are_noticed() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     record(here);
     let first = calibrate(here, "one.wav other.wav", "");
     let told = "the pick-offs look ideal: if the rows were identified with a calibration, give it";
     assert!(!first.err.contains(told), "{}", first.err);
-    // It is told wherever none is given.
+    // The note appears whenever no calibration is given.
     let plain = "\nif the rows were identified with a calibration, give it here too, for what is printed replaces it\n";
     assert!(first.err.ends_with(plain), "{}", first.err);
     let arguments = format!("identify --output csv one.wav other.wav {}", first.out);
@@ -229,7 +229,7 @@ fn rows_that_were_calibrated_already_are_told() {
 }
 
 #[test]
-fn one_way_alone_is_warned_of() {
+fn there_is_a_warning_if_the_pattern_turns_one_way_only() {
     let directory = tempfile::tempdir().unwrap();
     record(directory.path());
     let one = calibrate(directory.path(), "one.wav", "");
@@ -242,7 +242,7 @@ fn one_way_alone_is_warned_of() {
 }
 
 #[test]
-fn what_no_calibration_explains_is_warned_of() {
+fn there_is_a_warning_if_no_calibration_explains_the_rows() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     // Amplitudes that a nonlinear amplifier changes with the angle.
@@ -264,7 +264,7 @@ fn what_no_calibration_explains_is_warned_of() {
 }
 
 #[test]
-fn what_cannot_be_calibrated_is_told() {
+fn rows_that_do_not_allow_a_calibration_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let still = run(here, "simulate -o still.wav --angle-rate 0.1 --noise 0.003");

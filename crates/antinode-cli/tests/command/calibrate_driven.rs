@@ -1,13 +1,13 @@
-//! `antinode calibrate`: what drives the wave between the ring-downs of one recording.
+//! `antinode calibrate`: rows in which something drives the wave, between the ring-downs of one recording.
 
 use crate::common::ring_downs::in_one;
 use crate::common::run_with;
 
 #[test]
-fn rows_that_are_driven_are_left_out_of_the_calibration() {
+fn driven_rows_are_left_out_of_the_calibration() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // Amplitude, angle and phase go on, as 2 s are whole periods.
+    // Amplitude, angle and phase are continuous, as 2 s are whole periods.
     let waves = [(1, "0.7"), (2, "-0.6")].into_iter().flat_map(|(seed, rate)| {
         [
             "--seconds 2 --decay-rate 0".to_owned(),

@@ -1,4 +1,4 @@
-//! `antinode identify` on recordings whose noise is not white: what it tells, and what `--coloured` and `--hum` make of them.
+//! `antinode identify` on recordings whose noise is not white: its warnings, and the effect of `--coloured` and `--hum`.
 
 use std::fs;
 use std::path::Path;
@@ -43,7 +43,7 @@ fn tuned(radius: f64) -> [f64; 2] {
 }
 
 #[test]
-fn noise_of_a_tuned_front_end_is_named_and_no_misfit_with_its_option() {
+fn noise_of_a_tuned_front_end_is_named_and_is_no_misfit_with_its_option() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     record(here, tuned(0.95), 0.0, 0.005);
@@ -60,7 +60,7 @@ fn noise_of_a_tuned_front_end_is_named_and_no_misfit_with_its_option() {
 }
 
 #[test]
-fn rows_that_scatter_more_than_they_state_are_told() {
+fn rows_that_scatter_more_than_they_state_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     record(here, tuned(0.95), 8.0, 0.005);
@@ -73,7 +73,7 @@ fn rows_that_scatter_more_than_they_state_are_told() {
     ] {
         assert!(plain.err.contains(part), "{}", plain.err);
     }
-    // Rows that overlap scatter together: of every tenth the same is told.
+    // Overlapping rows scatter together: of every tenth row the same is reported.
     let (overlapping, ..) = identified(here, "--hop 1");
     assert!(
         overlapping.err.contains("rows scatter by more"),
@@ -85,7 +85,7 @@ fn rows_that_scatter_more_than_they_state_are_told() {
 }
 
 #[test]
-fn rows_that_scatter_less_than_they_state_are_told() {
+fn rows_that_scatter_less_than_they_state_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     record(here, [0.98, 0.0], 5.0, 0.01);
@@ -99,7 +99,7 @@ fn rows_that_scatter_less_than_they_state_are_told() {
 }
 
 #[test]
-fn of_white_noise_and_of_too_few_rows_nothing_is_told() {
+fn white_noise_and_too_few_rows_raise_no_warning() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for (feedback, arguments) in [

@@ -1,4 +1,4 @@
-//! `antinode identify` tells once a recording how many of its rows are flagged, and by what.
+//! `antinode identify` reports, once a recording, how many of its rows are flagged, and by what.
 
 use std::fs;
 #[cfg(unix)]
@@ -11,7 +11,7 @@ use std::{
 use crate::common::send;
 use crate::common::{Row, WAVE, beside_flagged, run, wav};
 
-/// A wave with a hole in it.
+/// A wave with a gap in it.
 fn torn() -> Vec<u8> {
     let mut codes = WAVE.codes(60_000);
     codes[20_000..30_000].fill([0, 0]);
@@ -19,7 +19,7 @@ fn torn() -> Vec<u8> {
 }
 
 #[test]
-fn flagged_rows_are_told_in_every_format() {
+fn flagged_rows_are_reported_in_every_format() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     fs::write(here.join("torn.wav"), torn()).unwrap();
@@ -32,7 +32,7 @@ fn flagged_rows_are_told_in_every_format() {
         let told = run(here, &format!("identify torn.wav good.wav {arguments}"));
         assert_eq!((told.code, told.err.as_str()), (0, csv.err.as_str()));
     }
-    // A fault behind them is told last, and its code stays.
+    // A fault after them is reported last, and its exit code stays.
     fs::write(here.join("torn.wav"), &torn()[..200_003]).unwrap();
     let cut = run(here, "identify --output csv torn.wav none.wav");
     assert_eq!(cut.code, 1);
@@ -43,13 +43,13 @@ fn flagged_rows_are_told_in_every_format() {
     assert!(others[1].starts_with("error: none.wav: "));
 }
 
-/// A command that identifies from a pipe, and has printed rows of the wave behind the hole.
+/// A command that identifies from a pipe, and has printed rows of the wave after the gap.
 #[cfg(unix)]
 struct Begun {
     child: Child,
     input: ChildStdin,
     rows: BufReader<ChildStdout>,
-    /// What it has printed.
+    /// Its output so far.
     text: String,
 }
 
@@ -70,7 +70,7 @@ impl Begun {
         input.write_all(&torn()[..Self::GIVEN]).unwrap();
         let mut rows = BufReader::new(child.stdout.take().unwrap());
         let mut text = String::new();
-        // The wave comes again at 0.3 s.
+        // The wave returns at 0.3 s.
         while !text.contains("\n0.3") {
             assert_ne!(rows.read_line(&mut text).unwrap(), 0);
         }
@@ -85,12 +85,12 @@ impl Begun {
 
 #[cfg(unix)]
 #[test]
-fn an_interruption_tells_them_too() {
+fn an_interruption_reports_them_too() {
     for (signal, goes_on) in [("-INT", false), ("-TERM", true)] {
         let mut begun = Begun::new(&mut Command::new(env!("CARGO_BIN_EXE_antinode")));
         send(signal, &begun.child);
         if goes_on {
-            // What comes meanwhile is not identified.
+            // Samples that arrive meanwhile are not identified.
             let _ = begun.input.write_all(&torn()[Begun::GIVEN..]);
         }
         let output = begun.child.wait_with_output().unwrap();

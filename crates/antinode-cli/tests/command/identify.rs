@@ -1,11 +1,11 @@
-//! `antinode identify` on sound recordings: its rows, in every format.
+//! `antinode identify` on faultless recordings: its rows, in every format.
 
 use std::f64::consts::TAU;
 use std::fs;
 
 use crate::common::{RATE, README, Row, WAVE, names, npy, raw, rows, run, run_with, text, wav};
 
-/// What the rows must begin with.
+/// The header that the rows must begin with.
 const COLUMNS: &str = "time_s,samples,main_amplitude,quadrature_amplitude,angle_rad,phase_rad,\
     frequency_hz,angle_rate_rad_s,decay_rate_s,main_amplitude_std,quadrature_amplitude_std,\
     angle_std_rad,frequency_std_hz,residual_rms,flags,";
@@ -16,7 +16,7 @@ fn a_wav_file_gives_its_wave_at_the_bound() {
     let pairs = 200_000;
     fs::write(directory.path().join("a.wav"), wav(&WAVE.codes(pairs))).unwrap();
     let rows = rows(directory.path(), "a.wav");
-    // Windows of ten periods, without gap: all but what the search takes and the last rest.
+    // Windows of ten periods, without gap: all samples but those of the search and a rest at the end.
     let windows = pairs as f64 / RATE * WAVE.frequency / 10.0;
     assert!(
         (windows - 14.0..=windows).contains(&(rows.len() as f64)),
@@ -31,7 +31,7 @@ fn a_wav_file_gives_its_wave_at_the_bound() {
             WAVE.main * WAVE.decay(time),
             WAVE.quadrature * WAVE.decay(time),
         );
-        // The same instant's phase, in turns from the nearest whole one.
+        // The phase at the same instant, in turns from the nearest whole one.
         let phase = (row.number("phase_rad") - WAVE.phase + TAU * WAVE.frequency * time) / TAU;
         let angle = row.number("angle_rad") - WAVE.angle - WAVE.angle_rate * time;
         let errors = [
@@ -83,7 +83,7 @@ fn a_wav_file_gives_its_wave_at_the_bound() {
 }
 
 #[test]
-fn the_columns_stand_in_their_order() {
+fn the_columns_are_in_their_order() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("a.wav"), wav(&WAVE.codes(2000))).unwrap();
     let csv = run(directory.path(), "identify a.wav --output csv");
@@ -124,7 +124,7 @@ fn every_format_gives_the_same_rows() {
     fs::write(path("a.csv"), text(&codes)).unwrap();
     let expected = rows(directory.path(), "a.wav");
     assert!(expected.len() > 90);
-    // Only integers tell where the converter's rail and steps are.
+    // Only integers show the converter's rail and steps.
     let converter = "--full-scale 0.999969482421875 --resolution 0.000030517578125";
     let wide = codes
         .as_flattened()
@@ -175,7 +175,7 @@ fn every_format_gives_the_same_rows() {
 }
 
 #[test]
-fn a_given_rate_goes_before_the_recordings_own() {
+fn a_given_rate_takes_precedence_over_the_recordings_own() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("a.wav"), wav(&WAVE.codes(2000))).unwrap();
     let own = rows(directory.path(), "a.wav");
@@ -191,7 +191,7 @@ fn a_given_rate_goes_before_the_recordings_own() {
     let given = Row::all(&given.out);
     let ratio = own[0].number("frequency_hz") / given[0].number("frequency_hz");
     assert!((ratio - 2.0).abs() < 1e-6, "{ratio}");
-    // The same but for what a clock is off by, which no header has digits for.
+    // A difference as small as a clock's error, for which a header has no digits, is no conflict.
     rows(directory.path(), "a.wav --rate 100000.5");
 }
 
@@ -206,13 +206,13 @@ fn windows_hop_by_blocks() {
     }
     let running = rows(directory.path(), "a.wav --hop 1");
     assert!(running.len() > 9 * contiguous.len(), "{}", running.len());
-    // A tenth of a window.
+    // A block is a tenth of a window.
     let block = running[0].number("samples") / 10.0;
     for pair in running.windows(2) {
         let step = (pair[1].number("time_s") - pair[0].number("time_s")) * RATE;
         assert!((step - block).abs() < 1e-3, "{step}");
     }
-    // A window of the same blocks is the same, whatever stands between it and the next.
+    // A window of the same blocks is the same, whatever the hop to the next.
     let ten = rows(directory.path(), "a.wav --hop 10");
     assert!(ten.len().abs_diff(contiguous.len()) <= 1, "{}", ten.len());
     for row in &ten {
@@ -270,7 +270,7 @@ fn a_low_frequency_has_all_its_digits() {
 }
 
 #[test]
-fn hum_is_named_and_taken_out() {
+fn hum_is_named_and_removed() {
     let directory = tempfile::tempdir().unwrap();
     let mut codes = WAVE.codes(100_000);
     for (k, pair) in codes.iter_mut().enumerate() {
@@ -324,7 +324,7 @@ fn rows_go_to_a_file_in_the_format_of_its_name() {
         assert_eq!(written.err, told);
         fs::remove_file(here.join(name)).unwrap();
     }
-    // Rows before a fault are kept; where there is none, so is what was there; and no recording is written over.
+    // Rows before a fault are kept; without rows the old file is kept; and no recording is overwritten.
     fs::write(here.join("short.wav"), &wav(&WAVE.codes(20_000))[..70_000]).unwrap();
     let cut = run(here, "identify short.wav -o rows.csv");
     assert_eq!(cut.code, 1);

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use crate::common::{WAVE, raw};
 
-/// Far longer than a loaded machine needs for a second of samples.
+/// Far more than a machine under load needs for a second of samples.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 fn start() -> Child {
@@ -21,7 +21,7 @@ fn start() -> Child {
         .unwrap()
 }
 
-/// The first message, which comes while the pipe stays open behind these samples, and those once it is closed behind the same again.
+/// The messages while the pipe is open after these samples, and once it is closed after as many more.
 fn told(codes: &[[i16; 2]]) -> [String; 2] {
     let mut run = start();
     let mut input = run.stdin.take().unwrap();
@@ -45,7 +45,7 @@ fn told(codes: &[[i16; 2]]) -> [String; 2] {
 }
 
 #[test]
-fn one_signal_on_both_pick_offs_is_told_once() {
+fn one_signal_on_both_pick_offs_is_reported_once() {
     let same: Vec<[i16; 2]> = WAVE.codes(120_000).iter().map(|&[c, _]| [c, c]).collect();
     let [first, rest] = told(&same);
     let expected = "warning: standard input: so far S_C and S_D are the same samples: ";
@@ -54,12 +54,12 @@ fn one_signal_on_both_pick_offs_is_told_once() {
 }
 
 #[test]
-fn samples_that_hold_one_value_are_told() {
+fn constant_samples_are_reported() {
     let [first, rest] = told(&[[100, -100]; 120_000]);
     let expected =
         "warning: standard input: so far S_C and S_D hold one and the same value all the time, ";
     assert!(first.starts_with(expected), "{first}");
-    // There is no row, and a message says why.
+    // There is no row, and the reason is reported.
     assert_eq!(rest.lines().count(), 1, "{rest}");
     assert!(
         rest.starts_with("error: standard input: no period found in 240000 "),

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use crate::common::{Row, rows, run};
 
-/// Amplitudes and angle of every recording here; 20 samples a period, so that a window fits.
+/// Amplitudes and angle of every recording here; 20 samples a period, so that a window has whole periods.
 const WAVE: &str = "--main-amplitude 0.5 --quadrature-amplitude -0.05 --angle 0.3 --frequency 5000";
 const TRUTH: [f64; 3] = [0.5, -0.05, 0.3];
-/// Columns of the exact solution, and with `methodN_` before them of a method.
+/// Columns of the exact solution, and, prefixed by `methodN_`, of a method.
 const VALUES: [&str; 3] = ["main_amplitude", "quadrature_amplitude", "angle_rad"];
 const DEVIATIONS: [&str; 3] = [
     "main_amplitude_std",
@@ -21,7 +21,7 @@ const OFF: [&str; 3] = [
     "angle_off_sigma",
 ];
 
-/// Simulates into a.wav with these options; the rows of all methods, with these options of `identify`.
+/// Simulates a.wav with these options, and returns the rows of all methods, identified with those.
 fn simulated(directory: &Path, simulate: &str, identify: &str) -> Vec<Row> {
     let made = run(
         directory,
@@ -37,7 +37,7 @@ fn of(row: &Row, method: usize, name: &str) -> f64 {
     row.number(&format!("method{method}_{name}"))
 }
 
-/// Of the rows, how many warn.
+/// Number of rows that warn.
 fn warnings(rows: &[Row]) -> usize {
     let warn = |row: &&Row| match row.text("methods_flag") {
         "" => false,
@@ -64,14 +64,14 @@ fn all_methods_find_a_clean_wave_and_none_warns() {
             for i in 0..3 {
                 let (found, exact) = (of(row, method, VALUES[i]), row.number(VALUES[i]));
                 let deviation = row.number(DEVIATIONS[i]);
-                // The difference is what it says it is.
+                // The stated difference is the difference.
                 let told = of(row, method, OFF[i]);
                 let off = (found - exact) / deviation;
                 assert!(
                     (told - off).abs() < 1e-3 * off.abs().max(1.0),
                     "{told} {off}"
                 );
-                // 1 leaves the quadrature out: a_A is larger by a_B²/2a_A, and θ turned.
+                // Method 1 neglects the quadrature: a_A is larger by a_B²/2a_A, and θ turned.
                 let known = if method == 1 {
                     [0.0025, 0.05, 0.006][i]
                 } else {
@@ -83,7 +83,7 @@ fn all_methods_find_a_clean_wave_and_none_warns() {
                     VALUES[i]
                 );
             }
-            // In a window that fits, algorithm 4 is the exact solution but for the offsets.
+            // In a window of whole periods, algorithm 4 is the exact solution but for the offsets.
             assert!(method < 4 || OFF.iter().all(|name| of(row, 4, name).abs() < 0.2));
             assert!(of(row, method, "frequency_off_sigma").abs() < 2.0);
             assert!((of(row, method, "frequency_hz") - 5000.0).abs() < 2.0);
@@ -101,7 +101,7 @@ fn all_methods_find_a_clean_wave_and_none_warns() {
         let monitor = f64::atan2(-2.0 * a * b, (a * a - b * b) * (4.0 * angle).sin());
         assert!((row.number("phase_difference_rad") - monitor).abs() < 0.02);
     }
-    // In white noise (17) and (20) hold, but for a window in some hundred.
+    // In white noise (17) and (20) hold, but for one window in some hundred.
     assert!(
         failed[1] * 50 < rows.len() && failed[2..] == [0, 0],
         "{failed:?}"
@@ -111,7 +111,7 @@ fn all_methods_find_a_clean_wave_and_none_warns() {
 #[test]
 fn ranks_follow_the_conditions_and_then_j() {
     let directory = tempfile::tempdir().unwrap();
-    // Windows of the default frequency do not fit; the nonlinearity's third harmonic is nothing that the delay knows of.
+    // Windows of the default frequency are not whole periods; the delay does not allow for the nonlinearity's third harmonic.
     let mut rows = simulated(directory.path(), "--seconds 0.1 --noise 0.0002", "");
     let clean = rows.len();
     let cubic = "--seconds 0.1 --noise 0.0002 --cubic 0.3";
@@ -147,7 +147,7 @@ fn a_clipped_wave_makes_them_disagree() {
     let said = table.out.matches("warning: the methods disagree").count();
     assert_eq!(said, rows.len(), "{}", table.out);
     assert!(table.out.contains("σ unexplained"));
-    // As JSON the same.
+    // The same as JSON.
     let json = run(
         directory.path(),
         "identify a.wav --methods all --output jsonl",
@@ -172,7 +172,7 @@ fn a_table_shows_each_method_in_the_columns_of_its_row() {
     let lines: Vec<&str> = table.lines().skip(heading.unwrap() + 1).collect();
     assert_eq!(lines.len(), 5 * rows.len());
     for window in lines.chunks(5) {
-        // The decimal points stand below each other.
+        // Decimal points are aligned.
         let points = |line: &str| {
             let places: Vec<usize> = line
                 .chars()
@@ -192,7 +192,7 @@ fn a_table_shows_each_method_in_the_columns_of_its_row() {
 }
 
 #[test]
-fn a_known_skew_is_taken_out_of_all_methods() {
+fn a_known_skew_is_removed_from_all_methods() {
     let directory = tempfile::tempdir().unwrap();
     let clean = format!("--seconds 0.2 --noise 0.001 {WAVE}");
     let without = simulated(directory.path(), &clean, "");
@@ -205,7 +205,7 @@ fn a_known_skew_is_taken_out_of_all_methods() {
             (without.len(), without.len())
         );
         assert_eq!(warnings(&calibrated), 0);
-        // A skew looks like quadrature, to first order: a_A·ωΔ/2·sin 4θ. No method can tell, and none warns.
+        // To first order a skew looks like quadrature, a_A·ωΔ/2·sin 4θ, which no method can distinguish, and none warns of.
         assert_eq!(warnings(&raw), 0);
         let false_quadrature =
             -0.5 * TRUTH[0] * TAU * 5000.0 * skew * 1e-9 * (4.0 * TRUTH[2]).sin();
@@ -214,7 +214,7 @@ fn a_known_skew_is_taken_out_of_all_methods() {
                 for i in 0..3 {
                     let name = VALUES[i];
                     let change = of(calibrated, method, name) - of(without, method, name);
-                    // The same noise, but that of D made from two samples.
+                    // The same noise, but for that of D, which is interpolated from two samples.
                     assert!(
                         change.abs() < 3.0 * without.number(DEVIATIONS[i]),
                         "method {method} {name}: {change}"
@@ -231,7 +231,7 @@ fn a_known_skew_is_taken_out_of_all_methods() {
 }
 
 #[test]
-fn what_a_calibration_does_to_noise_is_no_disagreement() {
+fn noise_changed_by_a_calibration_is_no_disagreement() {
     let directory = tempfile::tempdir().unwrap();
     for flaw in [
         "--gain-ratio 1.5",

@@ -1,9 +1,9 @@
-//! `antinode identify` on samples that are not what they are taken for: rows would look well.
+//! `antinode identify` on samples that are not what they are taken for: rows would look plausible.
 
 use crate::common::{RATE, WAVE, Wave, fault, npy, raw, run, run_with, text, wav};
 
 #[test]
-fn one_pick_off_behind_the_other_is_told() {
+fn one_pick_off_stored_after_the_other_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let codes = WAVE.codes(20_000);
     let [c, d] = [0, 1].map(|channel| codes.iter().map(move |pair| pair[channel]));
@@ -22,7 +22,7 @@ fn one_pick_off_behind_the_other_is_told() {
 }
 
 #[test]
-fn one_signal_on_both_pick_offs_is_told() {
+fn one_signal_on_both_pick_offs_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let codes = WAVE.codes(20_000);
@@ -34,9 +34,9 @@ fn one_signal_on_both_pick_offs_is_told() {
     for (codes, told) in [
         (same, Some("S_C and S_D are the same samples: ")),
         (negative, Some("are the same samples but for the sign: ")),
-        // But for one code in the last pair of all.
+        // Equal but for one code in the last pair of all.
         (nearly, None),
-        // A generator's signal into two inputs has noise, if only that of their codes.
+        // A generator's signal on two inputs differs by noise, if only by that of their codes.
         (codes, None),
     ] {
         for (name, bytes) in [("a.wav", wav(&codes)), ("a.csv", text(&codes).into_bytes())] {
@@ -57,7 +57,7 @@ fn one_signal_on_both_pick_offs_is_told() {
 }
 
 #[test]
-fn a_recording_given_twice_is_told() {
+fn a_recording_given_twice_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for name in ["a.wav", "b.wav"] {
@@ -72,10 +72,10 @@ fn a_recording_given_twice_is_told() {
 }
 
 #[test]
-fn a_pick_off_that_is_not_connected_is_told() {
+fn a_pick_off_that_is_not_connected_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // A code of noise on S_D.
+    // Noise of one code on S_D.
     let codes = WAVE.codes(20_000).into_iter().enumerate();
     let codes: Vec<[i16; 2]> = codes
         .map(|(k, [c, _])| [c, (k * 7919 % 13 / 5) as i16])
@@ -87,7 +87,7 @@ fn a_pick_off_that_is_not_connected_is_told() {
 }
 
 #[test]
-fn a_time_among_raw_samples_is_told() {
+fn a_time_among_raw_samples_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let pair = |(k, pair): (usize, &[i16; 2])| [k as f64 / RATE, f64::from(pair[0])];
     let codes = WAVE.codes(20_000);
@@ -104,7 +104,7 @@ fn a_time_among_raw_samples_is_told() {
         let told = ["standard input: S_C goes up in equal steps"];
         let rows = fault(directory.path(), &arguments, bytes(bits), &told);
         assert!(rows.is_empty());
-        // Fewer pairs are looked at once all are read; what else is wrong with them is told too.
+        // Fewer pairs are checked once all are read; other faults are reported too.
         let all = bytes(bits);
         let few = all[..all.len() / codes.len() * 300 + 3].to_vec();
         let run = run_with(directory.path(), &format!("identify {arguments}"), few);
@@ -117,7 +117,7 @@ fn a_time_among_raw_samples_is_told() {
 }
 
 #[test]
-fn amplitudes_that_are_not_identified_are_told() {
+fn amplitudes_outside_the_range_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let codes = WAVE.codes(20_000);
     for (scale, is_beyond) in [(1e-21, true), (1e-18, false), (1e12, false), (1e14, true)] {
@@ -137,7 +137,7 @@ fn amplitudes_that_are_not_identified_are_told() {
 }
 
 #[test]
-fn an_offset_that_single_precision_rounds_is_told() {
+fn an_offset_that_single_precision_rounds_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let codes = Wave {
         noise: 1e-5,
@@ -159,7 +159,7 @@ fn an_offset_that_single_precision_rounds_is_told() {
 }
 
 #[test]
-fn a_gain_that_ripples_with_the_mains_is_told_in_place_of_what_may_be_done_about_misfits() {
+fn a_gain_that_ripples_with_the_mains_is_reported_in_place_of_remedies_for_misfits() {
     let directory = tempfile::tempdir().unwrap();
     let codes = WAVE.codes(100_000);
     for (ripple, is_told) in [(0.02, true), (0.0, false)] {
@@ -182,7 +182,7 @@ fn a_gain_that_ripples_with_the_mains_is_told_in_place_of_what_may_be_done_about
 }
 
 #[test]
-fn rows_in_a_recordings_place_and_a_recording_in_theirs_are_told() {
+fn rows_given_as_a_recording_and_a_recording_given_as_rows_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let codes = WAVE.codes(20_000);

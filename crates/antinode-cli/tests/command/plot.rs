@@ -1,4 +1,4 @@
-//! `antinode plot`: what is in the rows is in the figure.
+//! `antinode plot`: the figure shows what the rows contain.
 
 use std::collections::HashSet;
 use std::fs;
@@ -83,7 +83,7 @@ fn every_quantity_has_its_panel() {
                 );
             }
         }
-        // A few rows more than those without a flag, each where its time is.
+        // All clean rows are drawn, and a few flagged ones, each at its time.
         let points: usize = lines.iter().map(Vec::len).sum();
         let clean = rows.len() - flagged.len();
         assert!(
@@ -121,7 +121,7 @@ fn every_quantity_has_its_panel() {
 }
 
 #[test]
-fn values_stand_where_they_belong() {
+fn values_are_drawn_in_their_places() {
     let directory = tempfile::tempdir().unwrap();
     // A margin of 8 % of the span is left above and below.
     let rows = HEADER.to_owned()
@@ -130,7 +130,7 @@ fn values_stand_where_they_belong() {
     for (index, panel) in svg.panels().iter().enumerate() {
         let of = |share: f64| panel.down.end - share * (panel.down.end - panel.down.start);
         let shares = match index {
-            // The deviation belongs to the span.
+            // The span includes the deviation.
             0 => [0.0, 2.0 / 2.25, 1.0 / 2.25],
             1 | 2 => [0.0, 1.0, 0.5],
             _ => [0.0, 0.5, 1.0],
@@ -186,7 +186,7 @@ fn recordings_have_colours_and_names() {
 }
 
 #[test]
-fn many_recordings_are_named_and_told_apart() {
+fn many_recordings_are_named_and_distinguishable() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let of = |file: &str| -> String {
@@ -223,7 +223,7 @@ fn many_recordings_are_named_and_told_apart() {
 }
 
 #[test]
-fn what_has_no_number_is_skipped() {
+fn values_that_are_no_numbers_are_skipped() {
     let directory = tempfile::tempdir().unwrap();
     let lines: String = (0..9)
         .map(|k| match k {
@@ -279,7 +279,7 @@ fn a_png_is_as_wide_as_two_pixels_a_column() {
     let png = fs::read(here.join("Ring.PNG")).unwrap();
     assert!(png.starts_with(b"\x89PNG\r\n\x1a\n"));
     assert_eq!(png[16..20], 1980u32.to_be_bytes());
-    // Half of the 340 KB that lines and bands take; axes alone take 120.
+    // Half of the 340 KB with lines and bands; axes alone take 120 KB.
     assert!(png.len() > 170_000, "{}", png.len());
     assert_eq!(
         names(here),

@@ -1,4 +1,4 @@
-//! `antinode plot`: what its axes hold, and what they leave out.
+//! `antinode plot`: the values that its axes hold, and those that they leave out.
 
 use std::fs;
 
@@ -20,7 +20,7 @@ fn a_flagged_value_far_from_the_others_ends_at_the_edge() {
         "9 rows of a; 1 flagged",
     );
     for panel in svg.panels() {
-        // What is clean fills half of the panel and more.
+        // Clean rows fill at least half of the panel.
         let line = &svg.lines(&panel, FIRST)[0];
         let height = panel.down.end - panel.down.start;
         assert!(line[0].1 - line[8].1 > 0.5 * height && line[4].1 < line[8].1);
@@ -73,7 +73,7 @@ fn zeros_show_their_deviation() {
 }
 
 #[test]
-fn times_of_a_clock_that_began_long_ago_can_be_read() {
+fn times_of_a_clock_that_began_long_ago_are_readable() {
     let directory = tempfile::tempdir().unwrap();
     let times = (0..10).map(|k| format!("170000000{k}.5,0.5,0,0,0,5332,0,,a\n"));
     let rows = HEADER.to_owned() + &times.collect::<String>();
@@ -85,7 +85,7 @@ fn times_of_a_clock_that_began_long_ago_can_be_read() {
 }
 
 #[test]
-fn a_long_ring_down_may_have_logarithms() {
+fn a_long_ring_down_may_have_logarithmic_axes() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let lines = "0,1,0,-0.5,0,5332,0.1,,a\n1,0.1,0,0.05,0.1,5333,0.01,,a\n2,0.01,0,-0.005,0.2,5334,0.001,,a\n3,0.01,0,0,0.3,5335,0.001,,a\n";
@@ -98,7 +98,7 @@ fn a_long_ring_down_may_have_logarithms() {
         let share = |k: usize| (panel.down.end - line[k].1) / (panel.down.end - panel.down.start);
         let shares = match index {
             0 | 4 => [1.0, 0.5, 0.0, 0.0],
-            // Its size; 0 is held at the foot.
+            // Its magnitude; 0 is drawn at the lower edge.
             1 => [1.0, 0.5, 0.0, 0.0],
             _ => [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(|share| (share + 0.08) / 1.16),
         };
@@ -117,7 +117,7 @@ fn a_long_ring_down_may_have_logarithms() {
 }
 
 #[test]
-fn rows_near_noise_have_no_say_in_the_axes() {
+fn rows_near_noise_do_not_influence_the_axes() {
     let directory = tempfile::tempdir().unwrap();
     let header = HEADER.replace("residual", "frequency_std_hz,angle_std_rad,residual");
     // The frequency drifts by 20 mHz. At the end its deviation is more than that, and the angle's is soon a small part of a turn.

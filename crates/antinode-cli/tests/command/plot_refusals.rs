@@ -1,4 +1,4 @@
-//! `antinode plot` where there is nothing to draw, or nowhere to write it.
+//! `antinode plot` if there is nothing to draw, or nowhere to write it.
 
 use std::fs;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::common::svg::{HEADER, drawn};
 use crate::common::{Run, names, run_with};
 
-/// A run that fails, with one message.
+/// Runs `plot`, which must fail, with one message that contains all of these texts.
 fn refused(here: &Path, arguments: &str, rows: &str, code: i32, told: &[&str]) {
     let Run { code: is, out, err } = run_with(here, arguments, rows.as_bytes().into());
     assert_eq!((is, out.as_str()), (code, ""), "{arguments}: {err}");
@@ -17,7 +17,7 @@ fn refused(here: &Path, arguments: &str, rows: &str, code: i32, told: &[&str]) {
 }
 
 #[test]
-fn what_is_no_row_is_told() {
+fn faulty_rows_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let good = "0,0.5,0.01,0,0,5332,0.1,,a\n1,0.5,0.01,0,0,5332,0.1,,a\n";
@@ -82,7 +82,7 @@ fn what_is_no_row_is_told() {
 }
 
 #[test]
-fn what_cannot_be_written_is_told_and_harms_nothing() {
+fn a_figure_that_cannot_be_written_is_reported_and_harms_nothing() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let rows = HEADER.to_owned() + "0,0.5,0.01,0,0,5332,0.1,,a\n";
@@ -123,7 +123,7 @@ fn what_cannot_be_written_is_told_and_harms_nothing() {
     );
     fs::remove_dir(here.join("it.svg")).unwrap();
     assert!(names(here).is_empty());
-    // What was there stays, until there is a whole figure.
+    // The old file stays until the figure is complete.
     fs::write(here.join("it.svg"), "good").unwrap();
     refused(here, "plot - -o it.svg", HEADER, 1, &["there is no row"]);
     assert_eq!(fs::read(here.join("it.svg")).unwrap(), b"good");
@@ -132,7 +132,7 @@ fn what_cannot_be_written_is_told_and_harms_nothing() {
 }
 
 #[test]
-fn numbers_beyond_what_an_axis_can_hold_end_too() {
+fn numbers_too_large_for_an_axis_do_not_hang_the_command() {
     let directory = tempfile::tempdir().unwrap();
     for number in ["1e308", "-1.7e308", "1e-310"] {
         for place in 0..4 {

@@ -1,4 +1,4 @@
-//! `antinode resonator`: what simulated resonators have is found to its deviations, in every format, and what is wrong is told.
+//! `antinode resonator`: quantities of simulated resonators are found to their deviations, in every format, and faults are reported.
 
 use std::collections::HashMap;
 use std::fs;
@@ -10,7 +10,7 @@ use crate::common::{RATE, WAVE, run, wav};
 const TRUTH: [(&str, f64); 2] = [("decay_time_s", 12.5), ("quality_factor", 209_387.2)];
 
 #[test]
-fn a_pattern_that_turns_tells_everything() {
+fn a_pattern_that_turns_determines_all_quantities() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let rows = four_seconds(here, "--decay-rate 0.08 --angle-rate 0.4");
@@ -44,7 +44,7 @@ fn a_pattern_that_turns_tells_everything() {
     let std = std.unwrap();
     assert!((frequency - 5332.0).abs() < 4.0 * std && std < 0.01);
 
-    // The same as JSON lines, and to be read.
+    // The same as JSON lines, and as a table.
     let lines = resonator(here, &rows, "--output jsonl").out;
     assert_eq!(lines.lines().count(), numbers.len());
     for line in lines.lines() {
@@ -72,7 +72,7 @@ fn a_pattern_that_turns_tells_everything() {
 }
 
 #[test]
-fn the_unit_of_every_quantity_is_told() {
+fn the_unit_of_every_quantity_is_in_the_help() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let help = run(here, "resonator --help").out;
@@ -96,7 +96,7 @@ fn the_unit_of_every_quantity_is_told() {
 }
 
 #[test]
-fn a_pattern_at_rest_tells_its_decay_and_that_no_more_is_told() {
+fn a_pattern_at_rest_determines_its_decay_alone_and_the_report_says_so() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     fs::write(
@@ -120,7 +120,7 @@ fn a_pattern_at_rest_tells_its_decay_and_that_no_more_is_told() {
 }
 
 #[test]
-fn what_is_wrong_is_told() {
+fn faults_of_the_rows_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     // A wave that is driven holds its amplitude.
@@ -179,10 +179,10 @@ fn what_is_wrong_is_told() {
 }
 
 #[test]
-fn a_table_need_not_turn_steadily() {
+fn a_table_may_turn_unsteadily() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // It turns by 100° and back, and ripples: from a steady rotation it would differ by 500 times the noise.
+    // It turns by 100° and back, and ripples: it differs from a steady rotation by 500 times the noise.
     for (name, way) in [("a.wav", 1.0), ("b.wav", -1.0)] {
         let codes = WAVE.codes_as(400_000, |time| {
             let angle = 0.9 * (1.6 * time).cos() + 1e-3 * (9.0 * time).sin();
@@ -210,7 +210,7 @@ fn a_table_need_not_turn_steadily() {
         let std = std.unwrap();
         assert!(value < 4.0 * std && std < most, "{}", found.out);
     }
-    // It turns both ways in each of them, which is all that a calibration needs.
+    // It turns both ways in each recording, which is all that a calibration needs.
     fs::write(here.join("rows.csv"), identified(here, "a.wav")).unwrap();
     let calibrated = run(here, "calibrate rows.csv");
     assert!(
@@ -271,7 +271,7 @@ fn rows_from_before_the_drive_ended_are_left_out() {
         );
     }
 
-    // So does `calibrate`, or by itself; and where none is left, that is told.
+    // `calibrate` does the same, or finds the rows by itself; if none is left, that is reported.
     fs::write(here.join("rows.csv"), &rows).unwrap();
     let told = |options: &str| run(here, &format!("calibrate rows.csv {options}")).err;
     assert!(

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::common::ring_downs::{in_one, of_resonator, of_run};
 use crate::common::{Run, run_with};
 
-/// What is found in one recording of these waves, each of 3 s.
+/// The result for one recording of these waves, each of 3 s.
 fn found_in(here: &Path, waves: &[String]) -> Run {
     let waves = waves
         .iter()
@@ -18,7 +18,7 @@ fn runs_that_are_driven_are_left_out_of_the_resonator() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let splits = "--damping-split 0.01 --damping-angle 0.5";
-    // It is excited, or held, at the angle where it then rings down.
+    // The wave is excited, or held, at the angle at which it then rings down.
     for driven in ["--decay-rate -0.3", "--decay-rate 0"] {
         let waves: Vec<_> = ["0.3", "0.7", "1.1"]
             .iter()
@@ -55,7 +55,7 @@ fn a_drive_that_is_switched_off_without_a_jump_is_left_out_too() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let splits = "--damping-split 0.01 --damping-angle 0.5";
-    // Amplitude, angle and phase go on, as 3 s are whole periods.
+    // Amplitude, angle and phase are continuous, as 3 s are whole periods.
     let waves: Vec<_> = ["0.3", "0.7", "1.1"]
         .iter()
         .flat_map(|angle| {
@@ -87,7 +87,7 @@ fn a_drive_that_is_switched_off_without_a_jump_is_left_out_too() {
 fn a_slow_ring_down_beside_fast_ones_is_not_left_out() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // As of a resonator that is damped before it is excited anew.
+    // As if a resonator were damped before it is excited anew.
     let waves = ["0.05", "1", "0.05", "1"]
         .map(|rate| format!("--decay-rate {rate} --angle 0.3 --phase {rate}"));
     let found = found_in(here, &waves);
@@ -102,7 +102,7 @@ fn a_slow_ring_down_beside_fast_ones_is_not_left_out() {
 fn a_wave_that_only_seems_to_grow_while_it_turns_is_not_left_out() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // Pick-offs that are not calibrated: two runs seem to grow, one to decay; or each does both, in turn.
+    // With uncalibrated pick-offs, two runs seem to grow and one to decay; or each does both, in turn.
     let slowly = [
         "--angle 0.1 --angle-rate 0.15",
         "--angle 0.1 --angle-rate -0.15",

@@ -1,4 +1,4 @@
-//! `antinode resonator`: the mean frequency, and how it moves with time and with the energy.
+//! `antinode resonator`: the mean frequency, and its variation with time and with the energy.
 
 use std::fs;
 
@@ -27,7 +27,7 @@ fn the_mean_frequency_of_a_ring_down_that_ends_in_noise_is_found_to_its_deviatio
 }
 
 #[test]
-fn the_mean_frequency_is_found_to_its_deviation_where_times_are_dates() {
+fn the_mean_frequency_is_found_to_its_deviation_if_times_are_dates() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let mut all = Vec::new();
@@ -53,7 +53,7 @@ fn the_mean_frequency_is_found_to_its_deviation_where_times_are_dates() {
 }
 
 #[test]
-fn the_mean_frequency_is_that_of_both_modes_wherever_the_patterns_stand() {
+fn the_mean_frequency_is_that_of_both_modes_at_any_pattern_angle() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let all = [(0, -0.3), (1, 0.0), (2, 0.1)].map(|(seed, angle)| {
@@ -74,7 +74,7 @@ fn the_mean_frequency_is_that_of_both_modes_wherever_the_patterns_stand() {
 }
 
 #[test]
-fn a_frequency_that_moves_is_told() {
+fn a_frequency_that_moves_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for (rate, is_told) in [("0", false), ("0.05", true), ("-0.3", true)] {
@@ -105,7 +105,7 @@ fn a_frequency_that_moves_is_told() {
 }
 
 #[test]
-fn a_drift_with_time_is_not_taken_to_go_with_the_energy() {
+fn a_drift_with_time_is_not_taken_for_a_dependence_on_the_energy() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for seed in 1..=4 {

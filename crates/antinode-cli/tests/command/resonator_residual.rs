@@ -1,10 +1,10 @@
-//! `antinode resonator`: what it tells where rows differ from the motion by more than their noise, or by less.
+//! `antinode resonator`: its warnings if rows differ from the motion by more than their noise, or by less.
 
 use crate::common::ring_downs::{four_seconds, resonator, rows};
 use crate::common::run;
 
 #[test]
-fn rows_that_differ_by_less_than_their_noise_are_told() {
+fn rows_that_differ_by_less_than_their_noise_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let told = "times their noise: the converter's steps do so";
@@ -33,7 +33,7 @@ fn rows_that_differ_by_less_than_their_noise_are_told() {
 }
 
 #[test]
-fn feed_through_of_a_drive_is_among_the_causes() {
+fn feed_through_of_a_drive_is_named_among_the_causes() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let rows = four_seconds(

@@ -1,4 +1,4 @@
-//! `antinode resonator`: what it makes of rows that overlap, that come twice, of which one is wild, or of
+//! `antinode resonator` on rows that overlap, that are given twice or have an outlier, and on
 //! recordings that are not one ring-down.
 
 use std::fs;
@@ -8,7 +8,7 @@ use crate::common::ring_downs::{joined, of_resonator, of_run, rows};
 use crate::common::{rms, run, run_with};
 
 #[test]
-fn rows_that_overlap_do_not_make_it_seem_better_known() {
+fn overlapping_rows_do_not_make_deviations_smaller() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let mut deviations = Vec::new();
@@ -48,7 +48,7 @@ fn rows_that_overlap_do_not_make_it_seem_better_known() {
 }
 
 #[test]
-fn a_wild_row_is_left_out_or_refused_and_rows_given_twice_are_refused() {
+fn an_outlier_is_left_out_or_refused_and_rows_given_twice_are_refused() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     rows(
@@ -68,11 +68,11 @@ fn a_wild_row_is_left_out_or_refused_and_rows_given_twice_are_refused() {
             lines.join("\n").into_bytes(),
         )
     };
-    // So near to the beginning that it cannot be a step.
+    // Too near to the beginning to be taken for a step.
     let found = with_wild(5);
     assert_eq!(found.code, 1);
     assert!(found.err.contains("far off all others"), "{}", found.err);
-    // Among others it is one, and in no run.
+    // Among other rows it is taken for a step, and is in no run.
     let found = with_wild(20);
     assert_eq!(found.code, 0, "{}", found.err);
     assert!(
@@ -104,7 +104,7 @@ fn samples(here: &Path, simulated: &str) -> Vec<u8> {
         &format!("simulate -o it.wav --seconds 3 --noise 0.002 --decay-rate 0.1 {simulated}"),
     );
     assert_eq!(made.code, 0, "{}", made.err);
-    // Behind the header.
+    // After the header.
     fs::read(here.join("it.wav")).unwrap().split_off(44)
 }
 
@@ -114,7 +114,7 @@ fn ring_downs_in_one_recording_are_runs_of_their_own() {
     let here = directory.path();
     let [first, second] =
         ["--angle 0.3", "--angle 0.4 --phase 2 --seed 2"].map(|wave| samples(here, wave));
-    // Nothing at all between them, and exact silence, whose rows hold `NaN`.
+    // With nothing between them, and with exact silence, whose rows contain `NaN`.
     for silence in [0, 400_000] {
         let recording = [first.clone(), vec![0; silence], second.clone()].concat();
         let rows = run_with(
@@ -148,10 +148,10 @@ fn ring_downs_in_one_recording_are_runs_of_their_own() {
 }
 
 #[test]
-fn samples_that_are_missing_leave_the_rates_right() {
+fn missing_samples_do_not_falsify_the_rates() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // A hundredth of the time, in two places: what is left seems to turn and decay faster.
+    // A hundredth of the time, in two places: the rest would seem to turn and decay faster.
     rows(
         here,
         "--seconds 6 --noise 0.002 --decay-rate 0.1 --angle-rate 0.4 --lost 200000:3007 --lost 400000:3007",
@@ -170,7 +170,7 @@ fn samples_that_are_missing_leave_the_rates_right() {
 }
 
 #[test]
-fn pick_offs_that_are_not_calibrated_are_told_long_before_rows_are_far_off() {
+fn uncalibrated_pick_offs_are_reported_long_before_rows_are_far_off() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for (gain, is_told) in [("1", false), ("1.001", true)] {
@@ -196,7 +196,7 @@ fn pick_offs_that_are_not_calibrated_are_told_long_before_rows_are_far_off() {
 fn rows_that_overlap_by_a_block_are_not_taken_for_a_change() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // Blocks of 7 or 8 samples a period of 7.5: ten of them are now and then less than a window of ten periods.
+    // Blocks of 7 or 8 samples for a period of 7.5: now and then ten of them are less than a window of ten periods.
     rows(
         here,
         "--seconds 8 --rate 40000 --noise 0.002 --decay-rate 0.1 --frequency 5340",
@@ -208,7 +208,7 @@ fn rows_that_overlap_by_a_block_are_not_taken_for_a_change() {
 }
 
 #[test]
-fn a_pattern_that_is_a_circle_meanwhile_tells_the_resonator() {
+fn a_pattern_that_becomes_a_circle_determines_the_resonator() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let mut all = Vec::new();
@@ -243,7 +243,7 @@ fn a_pattern_that_is_a_circle_meanwhile_tells_the_resonator() {
 }
 
 #[test]
-fn runs_of_a_few_rows_in_noise_are_told_in_one_line() {
+fn short_runs_in_noise_are_reported_in_one_line() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for (seed, turning) in [(1, "0"), (2, "0.4"), (3, "0")] {
@@ -274,7 +274,7 @@ fn runs_of_a_few_rows_in_noise_are_told_in_one_line() {
 }
 
 #[test]
-fn a_recording_in_windows_of_two_lengths_is_told() {
+fn a_recording_in_windows_of_two_lengths_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let wave = "--seconds 4 --noise 0.002 --decay-rate 0.1 --angle-rate 0.4";
@@ -296,7 +296,7 @@ fn a_recording_in_windows_of_two_lengths_is_told() {
         let wave = format!("--seed {seed}");
         let [long, short] = ["--periods 100", "--periods 50"].map(|windows| rows(&wave, windows));
         assert!(is_told(long.clone() + &short) && is_told(short + &long));
-        // Other ring-downs of the same name, from the same place or not.
+        // Not for other ring-downs under the same name, at the same angle or not.
         let other = format!("--seed {seed} --phase {}", 1 + seed);
         assert!(!is_told(long.clone() + &rows(&other, "--periods 50")));
         let other = format!("--seed {seed} --angle {}", 0.1 * f64::from(seed));

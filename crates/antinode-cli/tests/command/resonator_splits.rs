@@ -1,4 +1,4 @@
-//! `antinode resonator`: splits of damping and frequency, and what looks like one or does not.
+//! `antinode resonator`: splits of damping and frequency, and effects that look like one or do not.
 
 use std::f64::consts::TAU;
 use std::fs;
@@ -10,9 +10,9 @@ use crate::common::ring_downs::{
 use crate::common::{WAVE, rms, run, wav};
 
 #[test]
-fn a_split_of_frequency_is_told_by_three_angles() {
+fn three_angles_determine_a_split_of_frequency() {
     let directory = tempfile::tempdir().unwrap();
-    // Along an axis of the frequencies nothing changes; between them energy goes from a_A to a_B and back, as that of two pendulums does.
+    // Along an axis of the frequencies nothing changes; between the axes energy passes from a_A to a_B and back, as between two pendulums.
     let split = 0.03;
     let mut rows = String::from(
         "time_s,main_amplitude,quadrature_amplitude,angle_rad,frequency_hz,main_amplitude_std,quadrature_amplitude_std,angle_std_rad,flags,file\n",
@@ -32,7 +32,7 @@ fn a_split_of_frequency_is_told_by_three_angles() {
         }
     }
     let found = resonator(directory.path(), &rows, "--output csv");
-    // These rows have no noise, whatever they state.
+    // These rows have no noise, whatever deviations they state.
     assert!(
         found.err.starts_with(
             "warning: rows differ from the resonator's motion by only 0.00 times their noise"
@@ -56,7 +56,7 @@ fn a_split_of_frequency_is_told_by_three_angles() {
     }
 }
 
-/// A resonator with splits, and what is to be found of it.
+/// A resonator with splits, and its quantities that are to be found.
 const SPLIT: &str = "--decay-rate 0.08 --damping-split 0.012 --damping-angle 0.5 --frequency-split 0.004 --frequency-angle -0.3";
 const OF_SPLIT: [(&str, f64); 5] = [
     ("decay_time_s", 12.5),
@@ -66,7 +66,7 @@ const OF_SPLIT: [(&str, f64); 5] = [
     ("highest_at_rad", -0.3),
 ];
 
-/// Errors over their stated deviations, of all that is to be found in rows of a resonator with splits, and of the rotation of so many runs.
+/// Errors over their stated deviations, of all these quantities, and of the rotation of this many runs.
 fn errors(here: &Path, rows: &str, runs: u8, rotation: f64) -> Vec<f64> {
     let found = resonator(here, rows, "--output csv");
     if rotation == 0.0 {
@@ -83,7 +83,7 @@ fn errors(here: &Path, rows: &str, runs: u8, rotation: f64) -> Vec<f64> {
         .map(|(run, quantity, truth)| {
             let (value, std) = numbers[&(run, quantity.to_owned())];
             let std = std.unwrap();
-            // Each split is seen to a hundredth.
+            // Each split is known to a hundredth.
             assert!(std < 0.01 * truth.abs().max(0.01), "{}", found.out);
             (value - truth) / std
         });
@@ -117,7 +117,7 @@ fn the_splits_of_simulated_ring_downs_are_found_to_their_deviations() {
 }
 
 #[test]
-fn windows_in_which_the_pattern_turns_far_tell_the_same() {
+fn windows_in_which_the_pattern_turns_far_give_the_same_result() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let mut all = Vec::new();
@@ -129,7 +129,7 @@ fn windows_in_which_the_pattern_turns_far_tell_the_same() {
             ),
         );
         assert_eq!(made.code, 0, "{}", made.err);
-        // 8° in each: what they average of the splits is 1 % less than there is.
+        // 8° in each: the average over a window shows 1 % less of the splits.
         let rows = run(here, "identify --periods 500 --output csv it.wav");
         assert_eq!(rows.code, 0, "{}", rows.err);
         all.extend(errors(here, &rows.out, 1, 1.5));
@@ -138,7 +138,7 @@ fn windows_in_which_the_pattern_turns_far_tell_the_same() {
 }
 
 #[test]
-fn what_flaws_of_the_pick_offs_look_like_is_told_where_the_pattern_turns_one_way() {
+fn splits_that_flaws_of_pick_offs_look_like_are_named_if_the_pattern_turns_one_way() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for (flaw, quantity, which) in [
@@ -168,7 +168,7 @@ fn what_flaws_of_the_pick_offs_look_like_is_told_where_the_pattern_turns_one_way
 }
 
 #[test]
-fn what_amplitudes_turn_a_pattern_by_is_told_and_moves_no_split() {
+fn turning_by_amplitudes_is_reported_and_does_not_change_the_splits() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let gamma = 0.3;
@@ -216,7 +216,7 @@ fn what_amplitudes_turn_a_pattern_by_is_told_and_moves_no_split() {
 }
 
 #[test]
-fn one_pattern_that_rocks_a_little_tells_its_decay() {
+fn one_pattern_that_rocks_a_little_determines_its_decay() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     // By ±1.1°: no steady rotation, and too little for the splits.

@@ -1,4 +1,4 @@
-//! `antinode identify` where no window is a wave: what was found, and what to try.
+//! `antinode identify` where no window is a wave: it says what was found, and what to try.
 
 use std::f64::consts::TAU;
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::common::{RATE, Row, WAVE, Wave, no_rows, rows, run, silence, wav};
 
-/// A 16-bit WAV file of tones, each a frequency and an amplitude.
+/// A 16-bit WAV file of tones, each given by frequency and amplitude.
 fn tones(path: &Path, tones: &[(f64, f64)]) {
     let value = |k: usize| -> f64 {
         let tone = |&(frequency, amplitude): &(f64, f64)| {
@@ -21,13 +21,13 @@ fn tones(path: &Path, tones: &[(f64, f64)]) {
     fs::write(path, wav(&pairs)).unwrap();
 }
 
-/// Runs `identify`, which must exit 1 without a row, with one message that holds all of these.
+/// Runs `identify`, which must exit 1 without a row, with one message that contains all of these texts.
 fn fault(directory: &Path, arguments: &str, told: &[&str]) {
     no_rows(directory, arguments, Vec::new(), told);
 }
 
 #[test]
-fn windows_that_are_no_wave_are_told_from_too_few_samples() {
+fn windows_without_a_wave_are_distinguished_from_too_few_samples() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let refused = "a period was found, but no window of 10 periods in 20000 sample pairs";
@@ -121,7 +121,7 @@ fn an_offset_that_drowns_the_wave_is_named() {
 }
 
 #[test]
-fn a_recording_too_short_for_a_search_is_told() {
+fn a_recording_too_short_for_a_search_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     fs::write(here.join("a.wav"), wav(&WAVE.codes(30))).unwrap();
@@ -133,7 +133,7 @@ fn a_recording_too_short_for_a_search_is_told() {
 }
 
 #[test]
-fn the_other_detector_is_something_to_try() {
+fn the_other_detector_is_suggested() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     tones(&here.join("a.wav"), &[(5321.7, 0.5), (2660.0, 0.28)]);
@@ -144,7 +144,7 @@ fn the_other_detector_is_something_to_try() {
         &[none, "try --detector mean-return", "second tone"],
     );
     let found = run(here, "identify --output csv a.wav --detector mean-return");
-    // The tone makes every row a misfit, and that is told.
+    // The tone makes every row a misfit, which is reported.
     let rows = Row::all(&found.out);
     let all = format!(
         "warning: a.wav: {0} of {0} rows are flagged: misfit {0}",
@@ -173,7 +173,7 @@ fn the_other_detector_is_something_to_try() {
 fn a_known_frequency_is_not_searched() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // Nearly as much noise as there is wave: the search finds nothing in it.
+    // Noise nearly as large as the wave: a search finds nothing.
     let loud = Wave {
         main: 0.2,
         noise: 0.18,
@@ -188,7 +188,7 @@ fn a_known_frequency_is_not_searched() {
         assert_eq!(row.text("flags"), "");
         assert!((row.number("frequency_hz") - 5321.7).abs() < 5.0);
     }
-    // From the first sample on: the middle of ten periods.
+    // The first window begins with the first sample: this is the middle of ten periods.
     fs::write(here.join("clear.wav"), wav(&WAVE.codes(5000))).unwrap();
     let first = &rows(here, "clear.wav --frequency 5200")[0];
     let middle = first.number("samples") / 2.0 / RATE;
@@ -207,7 +207,7 @@ fn a_slow_wave_may_be_known() {
 }
 
 #[test]
-fn a_frequency_that_is_not_the_waves_is_told() {
+fn a_frequency_that_is_not_the_waves_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     tones(&here.join("a.wav"), &[(5321.7, 0.9)]);
@@ -221,14 +221,14 @@ fn a_frequency_that_is_not_the_waves_is_told() {
     let error = "no window of 10 periods in 20000 sample pairs (0.2000 s) is mostly one wave within 5 % of 6600 Hz: check --frequency";
     assert_eq!((run.code, run.out.as_str()), (1, ""));
     assert!(run.err.contains(error), "{}", run.err);
-    // Too short for a window, which is no fault of the frequency.
+    // Too short for a window, for which the frequency is not blamed.
     let short = "a.wav: 20000 sample pairs (0.2000 s) hold no window of 1022 periods";
     tones(&here.join("a.wav"), &[(4000.0, 0.9)]);
     fault(here, "a.wav --frequency 4000 --periods 1022", &[short]);
 }
 
 #[test]
-fn a_frequency_that_cannot_be_is_refused() {
+fn an_impossible_frequency_is_refused() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     tones(&here.join("a.wav"), &[(5321.7, 0.9)]);
@@ -249,7 +249,7 @@ fn a_frequency_that_cannot_be_is_refused() {
 }
 
 #[test]
-fn samples_that_hold_one_value_are_told() {
+fn constant_samples_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let both = "found in 5000 sample pairs (0.0500 s): S_C and S_D hold one and the same value all the time, ";
@@ -266,7 +266,7 @@ fn samples_that_hold_one_value_are_told() {
         let found = run(here, &format!("identify {options}"));
         assert!(!found.err.contains("--detector"), "{}", found.err);
     }
-    // A wave beside one that is dead.
+    // A wave on one pick-off, and the other dead.
     let codes: Vec<[i16; 2]> = (0..5000)
         .map(|k| [(9000.0 * (0.335 * f64::from(k)).sin()) as i16, 9])
         .collect();
@@ -275,7 +275,7 @@ fn samples_that_hold_one_value_are_told() {
     assert_eq!(found.code, 0, "{}", found.err);
     let dead = "warning: one.wav: S_D holds one and the same value all the time, 0.00027";
     assert!(found.err.contains(dead), "{}", found.err);
-    // One without a wave beside one that is dead.
+    // Noise on one pick-off, and the other dead.
     let codes: Vec<[i16; 2]> = silence(0.1)
         .codes(5000)
         .iter()

@@ -1,4 +1,4 @@
-//! `antinode identify` on a wave beside a second tone, as of a neighbouring mode: what it tells, and that the remedy it names is one.
+//! `antinode identify` on a wave beside a second tone, as of a neighbouring mode: its warning, and that the remedy it names works.
 
 use std::f64::consts::TAU;
 use std::fs;
@@ -13,12 +13,12 @@ const STEADY: Wave = Wave {
     ..WAVE
 };
 
-/// The wave in this noise, and beside it a tone 300 Hz above of this share of a_A, which both pick-offs see.
+/// Records the wave in this noise, and a tone 300 Hz above it, of this share of a_A, on both pick-offs.
 fn record(directory: &Path, pairs: usize, noise: f64, share: f64) {
     record_at(STEADY.frequency + 300.0, directory, pairs, noise, share);
 }
 
-/// The same with a tone of this frequency.
+/// The same with a tone at this frequency.
 fn record_at(frequency: f64, directory: &Path, pairs: usize, noise: f64, share: f64) {
     let mut codes = Wave { noise, ..STEADY }.codes(pairs);
     for (k, pair) in codes.iter_mut().enumerate() {
@@ -31,7 +31,7 @@ fn record_at(frequency: f64, directory: &Path, pairs: usize, noise: f64, share: 
 }
 
 #[test]
-fn a_second_tone_is_named_and_its_remedy_is_one() {
+fn a_second_tone_is_named_and_the_remedy_works() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     record(here, 200_000, 0.0006, 0.01);
@@ -73,7 +73,7 @@ fn a_remedy_is_named_for_a_few_long_windows_too() {
 }
 
 #[test]
-fn scatter_between_misfits_or_below_a_step_is_told() {
+fn scatter_between_misfits_or_below_a_step_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     // With --coloured a third of the windows is flagged, and the others are off by several deviations.
@@ -93,7 +93,7 @@ fn scatter_between_misfits_or_below_a_step_is_told() {
 }
 
 #[test]
-fn a_tone_near_the_third_harmonic_is_told_from_it_by_longer_windows() {
+fn longer_windows_distinguish_a_tone_from_the_third_harmonic_near_it() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     record_at(3.0 * STEADY.frequency + 60.0, here, 200_000, 0.0006, 0.01);

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::common::{Row, WAVE, beside_flagged, run, silence, wav};
 
-/// A recording that is silent but for a little noise outside of these pairs.
+/// A recording of a wave that rings in these pairs alone; the others hold a little noise.
 fn ringing(pairs: usize, rings: impl Fn(usize) -> bool) -> Vec<u8> {
     let mut codes = WAVE.codes(pairs);
     for (k, code) in silence(1e-4).codes(pairs).into_iter().enumerate() {
@@ -16,7 +16,7 @@ fn ringing(pairs: usize, rings: impl Fn(usize) -> bool) -> Vec<u8> {
     wav(&codes)
 }
 
-/// What is said beside the flags, and where the rows with a wave end.
+/// The warnings other than the count of flags, and the time at which the rows with a wave end, s.
 fn told(here: &Path, recording: Vec<u8>, arguments: &str) -> (String, f64) {
     fs::write(here.join("a.wav"), recording).unwrap();
     let run = run(here, &format!("identify --output csv a.wav {arguments}"));
@@ -32,7 +32,7 @@ fn told(here: &Path, recording: Vec<u8>, arguments: &str) -> (String, f64) {
     )
 }
 
-/// The seconds behind a word of a message.
+/// The number of seconds after a word of a message.
 fn seconds(text: &str, word: &str) -> f64 {
     let (_, rest) = text
         .split_once(word)
@@ -41,7 +41,7 @@ fn seconds(text: &str, word: &str) -> f64 {
 }
 
 #[test]
-fn a_wave_that_ends_early_or_begins_late_is_told_once() {
+fn a_wave_that_ends_early_or_begins_late_is_reported_once() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for (from, to) in [(0, 60_000), (30_000, 100_000), (30_000, 60_000)] {
@@ -69,7 +69,7 @@ fn a_wave_that_ends_early_or_begins_late_is_told_once() {
     // Windows that begin with the first sample.
     let (said, _) = told(here, ringing(100_000, |k| k < 60_000), "--frequency 5332");
     assert!(said.contains(" go from 0.0000 s to "), "{said}");
-    // By the recording's own times, of the span that was asked for.
+    // In the recording's own times, for the span that was asked for.
     let (said, _) = told(
         here,
         ringing(100_000, |k| k < 60_000),
@@ -86,10 +86,10 @@ fn a_wave_that_ends_early_or_begins_late_is_told_once() {
 }
 
 #[test]
-fn nothing_is_told_of_what_is_usual() {
+fn usual_silence_raises_no_warning() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // Silence between two ring-downs is flagged; one as short as a few windows is usual.
+    // Silence between two ring-downs is flagged; at the ends, a few windows without a wave are usual.
     for (silent, arguments) in [
         (30_000..60_000, ""),
         (0..300, ""),

@@ -13,7 +13,7 @@ fn simulate(directory: &Path, arguments: &str) {
     assert_eq!((run.code, run.err.as_str()), (0, ""), "{arguments}");
 }
 
-/// The largest error of four numbers, in stated deviations, against a wave of this truth.
+/// The largest error of four quantities, in stated deviations, against this truth.
 fn worst(rows: &[Row], truth: &Value) -> f64 {
     let wave = |name: &str| truth["wave"][name].as_f64().unwrap();
     let mut worst = 0f64;
@@ -53,7 +53,7 @@ fn truth(directory: &Path, name: &str) -> Value {
 }
 
 #[test]
-fn a_small_negative_number_is_one_however_it_is_written() {
+fn a_small_negative_number_is_read_however_it_is_written() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     simulate(
@@ -141,7 +141,7 @@ fn calibration_undoes_the_flaws() {
     }
 }
 
-/// Rows whose window touches a span of time, and those that lie well off it.
+/// Rows whose window touches a span of time, and those well away from it.
 fn split(rows: &[Row], from: f64, to: f64) -> (Vec<&Row>, Vec<&Row>) {
     let half = 0.001;
     let touches = |row: &&Row| (from - half..to + half).contains(&row.number("time_s"));
@@ -159,7 +159,7 @@ fn flaws_are_flagged_where_they_are() {
     let here = directory.path();
     let cases = [
         ("--clip-span 0.2:0.25:0.3", 0.2, 0.25, "clipped"),
-        // Within a window; between two it is a jump of the phase.
+        // Within a window; between two windows it is a jump of the phase.
         ("--lost 20000:7", 0.2, 0.2, "misfit"),
         ("--dropout 0.2:0.25:zero", 0.2, 0.25, "lost"),
         ("--dropout 0.2:0.25:noise", 0.2, 0.25, "lost"),
@@ -180,7 +180,7 @@ fn flaws_are_flagged_where_they_are() {
             assert_eq!(row.text("flags"), "", "{option}: {}", row.text("time_s"));
         }
     }
-    // From beginning to end: no row may pass for clean.
+    // From beginning to end: no row may be clean.
     simulate(here, "-o a.wav --seconds 0.2 --noise 0.002 --clip 0.3");
     let rows = rows(here, "a.wav");
     assert!(rows.len() > 90);
@@ -188,7 +188,7 @@ fn flaws_are_flagged_where_they_are() {
 }
 
 #[test]
-fn integers_that_reach_the_rail_are_told() {
+fn integers_that_reach_the_rail_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let told = run(
@@ -218,7 +218,7 @@ fn integers_that_reach_the_rail_are_told() {
 }
 
 #[test]
-fn steps_of_a_converter_are_no_rail_in_any_format() {
+fn steps_of_a_converter_are_not_taken_for_a_rail_in_any_format() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     // At the end the crests are a few codes high, and flat.
@@ -233,7 +233,7 @@ fn steps_of_a_converter_are_no_rail_in_any_format() {
     for (text, codes) in text.iter().zip(&codes) {
         assert_eq!(text.unnamed(), codes.unnamed());
     }
-    // What is asked for goes before what is seen.
+    // An option takes precedence over what the samples show.
     let given = rows(here, "a.csv --resolution 1e-9");
     assert!(given.iter().any(|row| row.text("flags") == "clipped"));
 }

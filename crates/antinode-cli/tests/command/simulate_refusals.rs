@@ -1,11 +1,11 @@
-//! `antinode simulate` where it cannot do what is asked: nothing that was there is harmed.
+//! `antinode simulate` if it cannot do what is asked: no existing file is harmed.
 
 use std::fs;
 
 use crate::common::{names, run};
 
 #[test]
-fn what_makes_no_sense_is_refused() {
+fn options_that_make_no_sense_are_refused() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let cases = [
@@ -126,7 +126,7 @@ fn files_are_replaced_only_when_whole() {
     assert_eq!(fs::read(here.join("a.npy")).unwrap(), b"good");
     assert_eq!(fs::read(here.join("a.npy.json")).unwrap(), b"true");
     assert_eq!(names(here), ["a.npy", "a.npy.json"]);
-    // Where the truth cannot stand, there is no recording either.
+    // If the truth cannot be written, there is no recording either.
     fs::remove_file(here.join("a.npy.json")).unwrap();
     fs::create_dir(here.join("a.npy.json")).unwrap();
     let taken = run(here, "simulate -o a.npy --seconds 0.01");
@@ -138,7 +138,7 @@ fn files_are_replaced_only_when_whole() {
     );
     assert_eq!(fs::read(here.join("a.npy")).unwrap(), b"good");
     assert_eq!(names(here), ["a.npy", "a.npy.json"]);
-    // Whole ones replace what was there.
+    // Complete files replace the old ones.
     fs::remove_dir(here.join("a.npy.json")).unwrap();
     fs::write(here.join("a.npy.json"), "true").unwrap();
     let whole = run(here, "simulate -o a.npy --seconds 0.01");
@@ -156,7 +156,7 @@ fn files_are_replaced_only_when_whole() {
 }
 
 #[test]
-fn a_directory_that_is_not_there_is_told() {
+fn a_missing_directory_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let run = run(directory.path(), "simulate -o none/a.wav");
     assert_eq!((run.code, run.out.as_str()), (1, ""));
@@ -205,7 +205,7 @@ fn an_interruption_leaves_nothing_behind() {
 }
 
 #[test]
-fn what_was_not_simulated_is_not_written_over() {
+fn a_recording_that_was_not_simulated_is_not_overwritten() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     fs::write(here.join("a.wav"), "recorded").unwrap();

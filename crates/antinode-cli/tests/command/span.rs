@@ -11,14 +11,14 @@ use crate::common::{
 
 const PAIRS: usize = 20_000;
 
-/// Text whose time begins at this one, s; as many lines as there are codes.
+/// Text with a time column that begins at `start`, s, and one line for each pair of codes.
 fn timed(codes: &[[i16; 2]], start: f64) -> String {
     printed("time,c,d\n", codes, |k, [c, d]| {
         format!("{:.5},{c},{d}", start + k as f64 / RATE)
     })
 }
 
-/// The rows of a stream, of which nothing is said.
+/// The rows of a stream that raises no message.
 fn piped(here: &Path, bytes: &[u8], arguments: &str) -> Vec<Row> {
     let arguments = format!("identify --output csv - {arguments}");
     let run = run_with(here, &arguments, bytes.to_vec());
@@ -27,7 +27,7 @@ fn piped(here: &Path, bytes: &[u8], arguments: &str) -> Vec<Row> {
 }
 
 #[test]
-fn it_gives_the_rows_of_that_part_alone() {
+fn only_the_rows_of_the_span_are_given() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let codes = WAVE.codes(PAIRS);
@@ -72,7 +72,7 @@ fn it_gives_the_rows_of_that_part_alone() {
                 0.0,
             );
         } else {
-            // A pipe does not tell the converter's step.
+            // The converter's step is not known from a pipe.
             assert_eq!(
                 piped(here, &whole, &format!("{arguments} {span}")).len(),
                 found.len()
@@ -93,7 +93,7 @@ fn it_gives_the_rows_of_that_part_alone() {
 }
 
 #[test]
-fn times_are_those_of_lost_samples_too() {
+fn lost_samples_count_in_the_times() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let text = timed(&WAVE.codes(PAIRS), 0.0);
@@ -101,7 +101,7 @@ fn times_are_those_of_lost_samples_too() {
     fs::write(here.join("whole.csv"), lines.join("\n")).unwrap();
     lines.drain(5001..6001);
     fs::write(here.join("gap.csv"), lines.join("\n")).unwrap();
-    // The gap is before the span, and told neither there nor behind it.
+    // The gap is before the span, and not reported.
     for span in ["--from 0.1 --to 0.15", "--from 0.055 --to 0.1", "--to 0.05"] {
         let expected = rows(
             here,
@@ -116,7 +116,7 @@ fn times_are_those_of_lost_samples_too() {
 }
 
 #[test]
-fn faults_outside_it_are_not_told() {
+fn faults_outside_the_span_are_not_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let text = timed(&WAVE.codes(PAIRS), 0.0);
@@ -141,7 +141,7 @@ fn faults_outside_it_are_not_told() {
 }
 
 #[test]
-fn a_span_that_is_not_there_is_told() {
+fn a_span_outside_the_recording_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let codes = WAVE.codes(PAIRS);
@@ -183,7 +183,7 @@ fn a_span_that_is_not_there_is_told() {
         assert_eq!((run.code, run.out.as_str()), (2, ""));
         assert!(run.err.contains(told), "{}", run.err);
     }
-    // What is there of the span is identified.
+    // The part of the span that the recording has is identified.
     let run = crate::common::run(here, "identify --output csv a.csv --from 4.5 --to 5.3");
     assert_eq!((run.code, Row::all(&run.out)), (0, rows(here, "a.csv")));
     assert_eq!(
@@ -193,7 +193,7 @@ fn a_span_that_is_not_there_is_told() {
 }
 
 #[test]
-fn a_pipe_is_not_waited_for_behind_it() {
+fn the_command_does_not_wait_for_a_pipe_beyond_the_span() {
     let mut child = Command::new(assert_cmd::cargo::cargo_bin("antinode"))
         .args([
             "identify", "-", "--raw", "i16", "--rate", "1e5", "--to", "0.05",

@@ -1,19 +1,19 @@
-//! `antinode study`: its files as they are seen, and what is told where they cannot be.
+//! `antinode study`: its files, and its messages if they cannot be written.
 
 use std::fs;
 use std::path::Path;
 
 use crate::common::run;
 
-/// Width of a chart, and of a letter of a wide font, in its size.
+/// Width of a chart, pixels, and of a letter of a wide font, in units of the font's size.
 const WIDTH: f64 = 740.0;
 const LETTER: f64 = 0.55;
 
 #[test]
-fn captions_fit_and_what_cannot_be_written_is_named() {
+fn captions_fit_and_a_file_that_cannot_be_written_is_named() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // The last one, behind all captions that are long.
+    // The last file, written after all those with long captions.
     fs::create_dir_all(here.join("it/figure-3d.png")).unwrap();
     let made = run(here, "study --out it --runs 1");
     assert_eq!(
@@ -40,11 +40,11 @@ fn captions_fit_and_what_cannot_be_written_is_named() {
     }
 }
 
-/// The values of a curve of a study's panel, by what they stand over.
+/// The points of a curve in a study's panel: x and value.
 fn curve(here: &Path, table: &str, panel: &str, curve: &str) -> Vec<(f64, f64)> {
     let rows = fs::read_to_string(here.join(table)).unwrap();
     let fields = rows.lines().map(|row| row.split(',').collect::<Vec<_>>());
-    // A title may have commas within quotation marks: the curve and all behind it are counted from the end.
+    // A title may have commas within quotation marks: the curve and all fields after it are counted from the end.
     fields
         .filter(|row| row[1] == panel && row.contains(&curve))
         .map(|row| {
@@ -55,7 +55,7 @@ fn curve(here: &Path, table: &str, panel: &str, curve: &str) -> Vec<(f64, f64)> 
 }
 
 #[test]
-fn another_wave_is_studied_and_told_and_the_papers_conclusions_are_not() {
+fn another_wave_is_studied_without_checking_the_papers_conclusions() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let made = run(
@@ -73,7 +73,7 @@ fn another_wave_is_studied_and_told_and_the_papers_conclusions_are_not() {
     }
     assert!(!made.out.contains("onfirmed") && !made.out.contains("CONFIRMED"));
 
-    // An implementation of its own, in double precision, has these.
+    // From an independent implementation, in double precision.
     for (table, panel, name, x, value) in [
         ("figure-1.csv", "a", "1: algorithm 1", 10.0, 2.151378e-2),
         ("figure-1.csv", "b", "2: algorithm 2", 10.0, 7.683052e-2),
@@ -85,7 +85,7 @@ fn another_wave_is_studied_and_told_and_the_papers_conclusions_are_not() {
         let found = points.iter().find(|point| point.0 == x).unwrap().1;
         assert!((found / value - 1.0).abs() < 1e-3, "{name}: {found}");
     }
-    // What they were made with is in the files themselves.
+    // The files themselves state the conditions.
     for (table, made_with) in [
         ("new/it/figure-2.csv", ["1400000", "1", "", ""]),
         ("new/it/figure-3.csv", ["140000", "10", "400", "1"]),
@@ -114,7 +114,7 @@ fn another_wave_is_studied_and_told_and_the_papers_conclusions_are_not() {
         (rms / (0.5 * (2.0f64 / 263.0).sqrt()) - 1.0).abs() < 0.15,
         "{rms}"
     );
-    // Labels have no digits of rounding, though the noise's steps are of 0.025 %.
+    // Labels show no rounding errors, though the noise has steps of 0.025 %.
     let svg = fs::read_to_string(here.join("new/it/figure-3b.svg")).unwrap();
     assert!(
         !svg.contains("0000000") && !svg.contains("9999999"),
@@ -123,7 +123,7 @@ fn another_wave_is_studied_and_told_and_the_papers_conclusions_are_not() {
 }
 
 #[test]
-fn a_study_that_cannot_be_is_refused_before_the_work() {
+fn an_impossible_study_is_refused_before_the_computation() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("taken"), "").unwrap();
     let run = |arguments: &str| run(directory.path(), arguments);

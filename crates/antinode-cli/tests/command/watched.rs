@@ -1,4 +1,4 @@
-//! `antinode identify` where a person watches: what it reads, told on standard error.
+//! `antinode identify` on a terminal: it states on standard error what it reads.
 #![cfg(unix)]
 
 use std::fs::{self, File};
@@ -10,7 +10,7 @@ use std::time::Duration;
 use crate::common::{WAVE, text, wav};
 use serialport::{SerialPort, TTYPort};
 
-/// What a terminal shows of standard error.
+/// Standard error as a terminal shows it.
 fn shown(directory: &Path, arguments: &[&str]) -> String {
     let (mut terminal, end) = TTYPort::pair().unwrap();
     terminal.set_timeout(Duration::from_millis(200)).unwrap();
@@ -33,7 +33,7 @@ fn shown(directory: &Path, arguments: &[&str]) -> String {
 }
 
 #[test]
-fn a_recording_is_told_with_its_format_length_and_rate() {
+fn a_recording_is_named_with_its_format_length_and_rate() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     fs::write(here.join("a.wav"), wav(&WAVE.codes(5000))).unwrap();
@@ -41,12 +41,12 @@ fn a_recording_is_told_with_its_format_length_and_rate() {
     fs::write(here.join("a.bin"), crate::common::raw(&WAVE.codes(5000))).unwrap();
     let sound = "a.wav: WAV of 16-bit integers, 5000 sample pairs at 100000 Hz\n";
     assert_eq!(shown(here, &["a.wav"]), sound);
-    // A rate that is not the header's is warned of first.
+    // A rate that contradicts the header is warned of first.
     let told = shown(here, &["a.wav", "--rate", "5e4"]);
     let (warning, told) = told.split_once('\n').unwrap();
     assert!(warning.starts_with("warning: a.wav: by its header "));
     assert_eq!(told, sound.replace("100000", "50000"));
-    // How long a text is shows at its end.
+    // The length of a text is known at its end.
     let lines = "a.csv: CSV at 100000 Hz\na.csv: 5000 sample pairs\n";
     assert_eq!(shown(here, &["a.csv"]), lines);
     assert_eq!(shown(here, &["a.wav", "a.csv"]), format!("{sound}{lines}"));

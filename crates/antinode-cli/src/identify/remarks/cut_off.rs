@@ -6,7 +6,7 @@ use antinode::Flags;
 /// Ratio of samples at an end to those one step beside it, at least: the crest of a wave that is not cut off has 2.4, and noise makes that
 /// less.
 const MIN_RATIO: u64 = 6;
-/// Samples at the end, and beside it, from which on the ratio is no chance.
+/// Samples at the end, and beside it, from which on the ratio is not due to chance.
 const MIN_AT_END: u64 = 40;
 const MIN_BESIDE: u64 = 5;
 /// Noise, in steps, below which a wave that repeats may give the same few codes over and over.
@@ -29,9 +29,9 @@ struct End {
 /// The ends of both pick-offs' ranges.
 #[derive(Debug)]
 pub(super) struct CutOff {
-    /// The converter's step, where it is known.
+    /// The converter's step, if it is known.
     step: Option<f32>,
-    /// Lowest and highest, of S_C and S_D.
+    /// Lowest and highest end, of S_C and of S_D.
     ends: [[End; 2]; 2],
     /// The current stretch, if it is to be examined, and how many of its pairs have passed.
     stretch: Vec<[f32; 2]>,

@@ -1,4 +1,4 @@
-//! Check for a main amplitude that the mains modulate, as ripple on a gain or a supply does, and additive hum does not.
+//! Check for a main amplitude that the mains modulate through a gain or a supply, as distinct from hum that is added to the signals.
 
 use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
 //! Check for one signal recorded as both pick-offs: its rows show 22.5° without quadrature, and look plausible.
 
-/// Pairs from which on equal samples of two pick-offs are no chance.
+/// Pairs from which on equal samples of two pick-offs are not due to chance.
 const MIN_PAIRS: u64 = 64;
 
 /// Whether S_D is S_C, sample for sample, or its negative.

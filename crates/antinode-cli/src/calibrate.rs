@@ -49,7 +49,7 @@ pub enum Printed {
     Jsonl,
 }
 
-/// A quantity; CSV and JSON lines have what is not skipped, by these names.
+/// A quantity; the fields that are not skipped are the columns of CSV and JSON lines.
 #[derive(Clone, Copy, Serialize)]
 struct Quantity {
     /// Its name in the report.

@@ -29,7 +29,7 @@ impl Score {
         }
     }
 
-    /// Takes one window of a wave.
+    /// Adds one window of a wave.
     pub fn add(&mut self, e: &Estimate, wave: &Wave) {
         let Some(bound) = Bound::new(wave, e.samples, e.time, self.sample_rate) else {
             return;

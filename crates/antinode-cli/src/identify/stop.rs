@@ -46,7 +46,7 @@ impl Stop {
         self.is_asked.load(Ordering::Relaxed)
     }
 
-    /// Begins a recording.
+    /// Sets the current recording.
     pub fn begin(&self, name: &str, flagged: FlagCounts) {
         *self.lock() = Some((name.to_owned(), flagged));
     }

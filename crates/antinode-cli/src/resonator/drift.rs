@@ -52,7 +52,7 @@ mod tests {
         let rows: Vec<_> = (0..60)
             .map(|k| {
                 let time = 1000.0 + f64::from(k);
-                // Of a wave that decays.
+                // As for a wave that decays.
                 let std = 1e-3 * (0.02 * f64::from(k)).exp();
                 Point {
                     time,

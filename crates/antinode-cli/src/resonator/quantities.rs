@@ -73,7 +73,7 @@ pub struct Quantity {
     run: Option<usize>,
     kind: Kind,
     value: f64,
-    /// One standard deviation; 0 where there is none.
+    /// One standard deviation; 0 if there is none.
     std: f64,
 }
 

@@ -237,7 +237,7 @@ mod tests {
     use super::*;
     use crate::deviates::Deviates;
 
-    /// Energies a second apart, of half a logarithm and an angle at a time, with noise of 10⁻⁴.
+    /// Energies a second apart, with half the logarithm and the angle that `wave` gives, and noise of 10⁻⁴.
     fn energies(count: usize, seed: u64, wave: impl Fn(f64) -> [f64; 2]) -> Vec<Energy> {
         let mut random = Deviates(seed);
         let energy = |k: usize| {

@@ -151,7 +151,7 @@ mod tests {
     use super::*;
     use crate::deviates::Deviates;
 
-    /// Rows a second apart, of ln a_A, a_B over a_A and θ at a time beside a decay of 0.2 % a second, with noise of 10⁻⁴.
+    /// Rows a second apart, with ln a_A, a_B over a_A and θ that `wave` gives, a decay of 0.2 % a second, and noise of 10⁻⁴.
     fn rows(count: usize, seed: u64, wave: impl Fn(f64) -> [f64; 3]) -> Vec<Row> {
         let mut random = Deviates(seed);
         let row = |k: usize| {

@@ -83,7 +83,7 @@ struct WaveOptions {
     frequency_angle: f64,
 }
 
-/// What stands between the wave and the file.
+/// The flaws between the wave and the file.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Flaws")]
 struct FlawOptions {

@@ -11,7 +11,7 @@ use crate::ranges;
 /// Steps of figure 3's noise, from 0 to the greatest.
 pub const STEPS: u32 = 20;
 
-/// What is simulated. Frequency and main amplitude are always the paper's: all else counts beside them.
+/// The conditions that are simulated. Frequency and main amplitude are always the paper's: all else is relative to them.
 #[derive(Debug, Clone, Copy, PartialEq, Args)]
 #[command(next_help_heading = "What is simulated", allow_negative_numbers = true)]
 pub struct Simulated {

@@ -1,11 +1,11 @@
-//! `antinode identify` where what was asked cannot be.
+//! `antinode identify` with options that cannot be fulfilled.
 
 use std::fs;
 
 use crate::common::{RATE, WAVE, no_rows as fault, npy, raw, rows, run, wav};
 
 #[test]
-fn a_rate_that_cannot_be_is_told() {
+fn an_impossible_rate_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let codes = WAVE.codes(2000);
@@ -34,7 +34,7 @@ fn a_rate_that_cannot_be_is_told() {
         raw(&codes),
         &["standard input: ", "give --rate HZ"],
     );
-    // The file is good all the same.
+    // The file itself is good.
     assert!(!rows(here, &format!("zero.wav --rate {RATE}")).is_empty());
 }
 

@@ -4,7 +4,7 @@ use std::fs;
 
 use crate::common::{Row, WAVE, fault, rows, run_with, text, wav};
 
-/// Pairs as 32-bit floats, one after the other.
+/// Pairs as consecutive 32-bit floats.
 fn floats(pairs: &[[f32; 2]]) -> Vec<u8> {
     let values = pairs.as_flattened();
     values
@@ -58,7 +58,7 @@ fn one_row_is_flagged(found: &[Row], clean: &[Row], bad: f64) {
 }
 
 #[test]
-fn rows_before_and_after_are_there_and_clean() {
+fn rows_before_and_after_are_present_and_clean() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let codes = WAVE.codes(20_000);
@@ -101,7 +101,7 @@ fn rows_before_and_after_are_there_and_clean() {
 }
 
 #[test]
-fn the_search_recovers_from_a_sample_that_is_not_finite() {
+fn the_search_recovers_from_one_among_the_first() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let good: Vec<[f32; 2]> = WAVE
@@ -115,7 +115,7 @@ fn the_search_recovers_from_a_sample_that_is_not_finite() {
             pairs[at][1] = value;
             let place = format!("sample pair {at} (from 0), S_D (right): the value is {value}");
             let found = fault(here, "- --raw f32 --rate 1e5", floats(&pairs), &[&place]);
-            // At 18.8 samples a period, only a window or two are lost.
+            // At 18.8 samples a period, one or two windows are missing.
             assert!(found.len() >= 24, "{at}: {}", found.len());
             assert!(found.iter().all(|row| row.text("flags").is_empty()));
         }
@@ -123,7 +123,7 @@ fn the_search_recovers_from_a_sample_that_is_not_finite() {
 }
 
 #[test]
-fn a_fault_behind_such_a_sample_is_reported_too() {
+fn a_later_fault_is_reported_too() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let endless = "5".repeat(70_000);

@@ -33,7 +33,7 @@ pub struct FlagCounts {
 }
 
 impl FlagCounts {
-    /// None yet, of an identification with `--hum` and `--coloured` or without.
+    /// No rows yet, of an identification with or without `--hum` and `--coloured`.
     pub fn new(hum: bool, coloured: bool) -> Self {
         Self {
             hum,

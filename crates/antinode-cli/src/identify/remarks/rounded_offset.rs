@@ -58,7 +58,7 @@ mod tests {
 
     #[test]
     fn a_residual_of_rounding_is_told_from_noise() {
-        // Of 0.6, at 18.75 samples a period.
+        // Beside an amplitude of 0.6, at 18.75 samples a period.
         for (offset, residual, is_told) in [
             (60.0, 1.6e-5, true),
             (60.0, 3e-5, false),

@@ -13,7 +13,7 @@ use crate::runs::Row;
 
 /// 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, γ.
 const RESONATOR: [f64; 6] = [0.05, 0.006, -0.008, 0.03, 0.04, 0.0];
-/// One without splits.
+/// A resonator without splits.
 const ROUND: [f64; 6] = [0.05, 0.0, 0.0, 0.0, 0.0, 0.0];
 /// A row's standard deviation of an amplitude.
 const NOISE: f64 = 1e-4;
@@ -31,7 +31,7 @@ fn run(
     run_turned(resonator, |_| -0.5 * kappa, start, count, step, noise, seed)
 }
 
-/// The same, of a pattern that is turned at these rates, rad/s.
+/// The same for a pattern that is turned at these rates, rad/s.
 fn run_turned(
     resonator: &[f64; 6],
     rate: impl Fn(f64) -> f64,
@@ -223,7 +223,7 @@ fn the_decay_along_a_pattern_at_rest_reaches_the_bound() {
         let found = fit(&runs).unwrap();
         assert!(found.resonator().is_none());
         let (decay, deviation) = found.decay_of_run(0);
-        // σ_Q/Q = 4σ/(√E₀·√(fs τ)); a row of n samples knows an amplitude to σ√(2/n), so that this is 2√2 of it times √(Δt/τ).
+        // σ_Q/Q = 4σ/(√E₀·√(fs τ)); a row of n samples has an amplitude to σ√(2/n), so that this is 2√2 of it times √(Δt/τ).
         let bound = 2.0 * 2f64.sqrt() * NOISE * (ROUND[0] * 0.1).sqrt();
         errors += ((decay / ROUND[0] - 1.0) / bound).powi(2) / trials as f64;
         deviations += deviation / ROUND[0] / bound / trials as f64;

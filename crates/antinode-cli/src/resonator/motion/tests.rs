@@ -105,7 +105,7 @@ fn the_motion_is_that_of_the_two_modes() {
                 }
             }
         }
-        // Half a period early.
+        // The means are those of half a period earlier.
         motion.advance(if second == 0 { 1.0 - 0.0025 } else { 1.0 });
         let averaged: [f64; 4] = motion.columns.column(0).into_owned().into();
         for (averaged, mean) in averaged.iter().zip(means) {
@@ -171,7 +171,7 @@ fn residuals_are_what_was_added_to_the_wave() {
         let known = if wave[0] - wave[1].abs() < 1e-6 { 2 } else { 3 };
         let apart = (rest - added).rows(0, known).norm();
         assert!(apart < 1e-11, "{quadrature}: {rest}");
-        // An eighth of a turn, and the signs change: the same pattern, where it is a circle.
+        // After an eighth of a turn the signs change; a circle is the same pattern.
         let turned = Vector3::new(0.0, 0.0, std::f64::consts::FRAC_PI_4);
         let (rest, _) = motion.residuals(&row((wave + turned).into(), 0.0));
         let lesser = wave[0] - wave[1].abs();

@@ -73,7 +73,7 @@ fn one_pattern_that_hardly_swings_determines_no_splits() {
     let run = run_turned(&RESONATOR, swing, [1.0, 0.03, 0.2], 30, 0.2, NOISE, 1);
     let found = fit(&[run]).unwrap();
     assert!(found.is_unsteady() && found.resonator().is_none());
-    // Nor do they move its frequency.
+    // Nor do splits change its frequency.
     assert_eq!(found.splits(&[1.0; 4]), (0.0, 0.0));
 }
 

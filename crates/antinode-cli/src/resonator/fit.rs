@@ -28,9 +28,9 @@ const SETTLED_WITHOUT_STEP: f64 = 1e-2;
 /// Damping beyond which a step leads nowhere.
 const MAX_DAMPING: f64 = 1e3;
 /// Deviations of the splits of damping and of frequency below which they are determined, as shares of the damping.
-const MAX_DEVIATIONS: [f64; 2] = [0.2, 1.0];
+const KNOWN: [f64; 2] = [0.2, 1.0];
 /// The same for the split of frequency, as a share of what is seen of it.
-const MAX_DEVIATION_SHARE: f64 = 0.1;
+const KNOWN_REL: f64 = 0.1;
 
 /// The steps do not converge.
 #[derive(Debug, PartialEq)]
@@ -57,16 +57,14 @@ fn steady(runs: &[Run]) -> Result<Found, Unsettled> {
     let each = found(Model::Each);
     // With a residual beyond noise, even one pattern that hardly moves shows how the splits move it.
     let is_enough = |each: &Found| {
-        each.residual < EXPLAINED
-            && (spread(runs) < MIN_SPREAD || !may_determine_splits(runs, each))
+        each.residual < EXPLAINED && (spread(runs) < MIN_SPREAD || !may_know(runs, each))
     };
     if each.as_ref().is_ok_and(is_enough) {
         return each;
     }
     let determined = |model| {
         let shared = found(model).ok()?;
-        are_splits_determined(|at| shared.variance(at), &shared, each.as_ref().ok())
-            .then_some(shared)
+        is_known(|at| shared.variance(at), &shared, each.as_ref().ok()).then_some(shared)
     };
     // If γ is 0, it is no unknown: it would make all others less certain, above all rotation, which it resembles if quadrature stays.
     let nonlinear = determined(Model::Nonlinear);
@@ -88,11 +86,7 @@ fn unsteady(runs: &[Run]) -> Result<Found, Unsettled> {
     let each = found(runs, Model::EachUnsteady);
     let shared = found(runs, Model::SharedUnsteady);
     match shared {
-        Ok(shared)
-            if are_splits_determined(|at| shared.variance(at), &shared, each.as_ref().ok()) =>
-        {
-            Ok(shared)
-        }
+        Ok(shared) if is_known(|at| shared.variance(at), &shared, each.as_ref().ok()) => Ok(shared),
         _ => each,
     }
 }
@@ -115,7 +109,7 @@ pub fn searched(runs: &[Run], model: Model) -> Result<Found, Unsettled> {
 }
 
 /// True if such runs determine splits that are small: if nothing does, a fit may find large ones, which seem to be determined.
-fn may_determine_splits(runs: &[Run], each: &Found) -> bool {
+fn may_know(runs: &[Run], each: &Found) -> bool {
     let model = Model::Shared;
     let mut values = DVector::zeros(model.unknowns(runs.len()));
     for run in 0..runs.len() {
@@ -124,9 +118,7 @@ fn may_determine_splits(runs: &[Run], each: &Found) -> bool {
         values.rows_mut(model.own_at(run), 4).copy_from(&from);
     }
     let rough = Normal::of(runs, model, &values).equations.factors(0.0);
-    rough.is_some_and(|rough| {
-        are_splits_determined(|at| rough.variance(&[(at, 1.0)]), each, Some(each))
-    })
+    rough.is_some_and(|rough| is_known(|at| rough.variance(&[(at, 1.0)]), each, Some(each)))
 }
 
 /// Spread of the rows' pattern angles, up to 1: the circular variance of 4θ, less the contribution of noise.
@@ -142,11 +134,7 @@ fn spread(runs: &[Run]) -> f64 {
 
 /// True if the rows determine both splits, where `variance` is that of the unknown at a place. The decays along the patterns, in `found`,
 /// are known wherever these stand.
-fn are_splits_determined(
-    variance: impl Fn(usize) -> f64,
-    found: &Found,
-    each: Option<&Found>,
-) -> bool {
+fn is_known(variance: impl Fn(usize) -> f64, found: &Found, each: Option<&Found>) -> bool {
     let runs = found.of_runs.len();
     let decays = (0..runs).map(|run| found.decay_of_run(run).0.abs());
     let decay = decays.sum::<f64>() / runs as f64;
@@ -155,11 +143,8 @@ fn are_splits_determined(
         .flat_map(|each| (0..runs).map(move |run| each.values[each.model.decay_at(run) + 1].abs()));
     let growth = growths.fold(0.0, f64::max);
     let knows = |at: usize, max: f64| (at..at + 2).all(|i| variance(i) < max * max);
-    knows(Model::DAMPING, MAX_DEVIATIONS[0] * decay)
-        && knows(
-            Model::FREQUENCY,
-            (MAX_DEVIATIONS[1] * decay).max(MAX_DEVIATION_SHARE * growth),
-        )
+    knows(Model::DAMPING, KNOWN[0] * decay)
+        && knows(Model::FREQUENCY, (KNOWN[1] * decay).max(KNOWN_REL * growth))
 }
 
 /// Minimises the squares of the residual, from these values on.
@@ -231,15 +216,15 @@ impl Normal {
         let mut shares = [0.0; 2];
         let mut squares = 0.0;
         // Turn of the pattern that is not due to rotation.
-        let (mut beside_rotation, mut of_beside_rotation) = (0.0, RowSVector::zeros());
+        let (mut extra, mut of_extra) = (0.0, RowSVector::zeros());
         // The run's own equations, for the parameters of its motion.
         let mut matrix = SMatrix::<f64, PARAMETERS, PARAMETERS>::zeros();
         let mut right = SVector::<f64, PARAMETERS>::zeros();
         for row in &run.rows {
             let (beyond, derivatives) = model.advance(&mut motion, last, row);
             last = row;
-            beside_rotation += beyond;
-            of_beside_rotation += derivatives;
+            extra += beyond;
+            of_extra += derivatives;
             // The averaging by windows changes the derivatives by too little to matter.
             let (rest, derivatives) = motion.residuals(row);
             for (index, (rest, deviation)) in rest.iter().zip(row.deviations).enumerate() {
@@ -265,16 +250,11 @@ impl Normal {
         self.squares += squares;
         self.count += (model.explained() * run.rows.len()) as f64;
         let seconds = run.seconds();
-        let along = |direction| {
-            of_beside_rotation
-                .transpose()
-                .dot(&SVector::from(direction))
-                / seconds
-        };
+        let along = |direction| of_extra.transpose().dot(&SVector::from(direction)) / seconds;
         self.of_runs.push(RunResult {
             shares,
             residual: (squares / (model.explained() * run.rows.len() - 4) as f64).sqrt(),
-            rotation: (run.turned() - beside_rotation) / seconds,
+            rotation: (run.turned() - extra) / seconds,
             of_rotation: terms
                 .iter()
                 .map(|&(place, by)| (place, -along(by)))

@@ -35,8 +35,9 @@ const COLUMNS: usize = 1 + PARAMETERS;
 const STEP: f64 = 0.02;
 /// Steps from one row to the next, at most: with more, the pattern turns by more than a radian, or the wave is gone, and no rows fit.
 const MAX_STEPS: f64 = 500.0;
-/// Squared change of a wave in half a window, over its own square, up to which the core takes it to grow and turn evenly.
-const MAX_CHANGE: f64 = 1.3;
+/// Squared relative change of a wave in half a window, with half its growth's square added, up to which the core takes it to grow and turn
+/// evenly.
+const MAX_CHANGE: f64 = 1.95;
 
 /// Slopes of the state E, R, S, Q per unit of each rate.
 pub fn by_rates(state: &Vector4<f64>) -> SMatrix<f64, 4, RATES> {
@@ -208,8 +209,8 @@ impl Motion {
         let (greater, lesser) = Self::travelling(&now, sign);
         let [before, after] = [at(-0.5 * seconds), at(0.5 * seconds)];
         let grown = (before.0 * after.0 / (greater * greater)).powf(1.0 / 6.0);
-        let change = 0.5 * (after.1 - before.1);
-        let mean = if change.norm_sqr() < MAX_CHANGE * lesser.norm_sqr() {
+        let change = 0.5 * (after.1 - before.1) / lesser;
+        let mean = if change.norm_sqr() + 0.5 * change.re * change.re < MAX_CHANGE {
             let bent = (before.1 / lesser).ln() + (after.1 / lesser).ln();
             lesser * (bent / 6.0).exp()
         } else {

@@ -59,8 +59,8 @@ pub fn start(rcc: &RCC, flash: &FLASH) -> bool {
     const CRYSTAL: Pll = pll(CRYSTAL_MHZ);
     const OWN: Pll = pll(HSI_MHZ);
     // PWR_CR.VOS stays as after a reset: scale 1, required above 144 MHz (RM0090, 5.4.1).
-    // ACR: five wait states at 168 MHz and 3.3 V (RM0090, 3.5.1), hidden by both caches. No prefetch: it adds noise to the converters
-    // (errata "Internal noise impacting the ADC accuracy", AN4073), and does not work in revision A (ES0182).
+    // ACR: five wait states at 168 MHz and 3.3 V (RM0090, 3.5.1), which both caches hide in part. No prefetch: it adds noise to the
+    // converters (errata "Internal noise impacting the ADC accuracy", AN4073), and does not work in revision A (ES0182).
     flash.acr().modify(|_, w| {
         w.latency().ws5();
         w.icen().set_bit();

@@ -16,8 +16,8 @@ pub enum Error {
     },
     /// The quadrature wave is larger than the main wave, so it would be the main wave itself.
     #[error(
-        "quadrature_amplitude is {quadrature} with main_amplitude {main}: it must not exceed it in size \
-         (exchange their sizes, and take 45 degrees off the angle, or add them to it if it is negative, and 90 off the phase)"
+        "quadrature_amplitude {quadrature} exceeds main_amplitude {main} in size: exchange their sizes, decrease the angle by 45 degrees \
+         (increase it if quadrature_amplitude is negative), and decrease the phase by 90"
     )]
     QuadratureAboveMain {
         /// `main_amplitude` as given, input units.
@@ -38,7 +38,9 @@ pub enum Error {
         to: f64,
     },
     /// Two time spans of one list share a sample of one channel.
-    #[error("two of {what} share sample {index} of a channel: they must not overlap")]
+    #[error(
+        "two {what} overlap at sample {index} of one channel: each must end before the next begins"
+    )]
     Overlap {
         /// The list: `dropouts` or `clip_spans`.
         what: &'static str,

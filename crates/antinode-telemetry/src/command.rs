@@ -57,7 +57,7 @@ impl fmt::Display for CommandError {
             Self::Settings(error) => error.fmt(f),
             Self::Unsupported => f.write_str("this firmware was built without it"),
             Self::Calibrated => f.write_str(
-                "the paper's methods know of no calibration: turn them off, or the calibration",
+                "the paper's methods cannot be used with a calibration: turn the methods off, or set an ideal calibration",
             ),
             Self::Busy => f.write_str("another change is under way: ask again in a moment"),
         }

@@ -28,17 +28,19 @@ impl fmt::Display for Damage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::TooLong => f.write_str("longer than any frame"),
-            Self::Framing => f.write_str("cut, or no frame"),
-            Self::Checksum => f.write_str("the checksum does not fit"),
+            Self::Framing => f.write_str("incomplete, or not a frame"),
+            Self::Checksum => f.write_str("the checksum does not match"),
             Self::Header(header) if header / 2 == PROTOCOL_VERSION => {
-                f.write_str("a frame of the other direction: an echo on the line")
+                f.write_str("a frame of the other direction, as from an echo on the line")
             }
             Self::Header(header) => write!(
                 f,
-                "a frame of protocol version {}, where {PROTOCOL_VERSION} is spoken here: both ends must be of one release",
+                "a frame of protocol version {}, not {PROTOCOL_VERSION}: both ends must be of the same release",
                 header / 2
             ),
-            Self::Content => f.write_str("sound, but with content that is not known here"),
+            Self::Content => f.write_str(
+                "a valid frame of unknown content: both ends must be of the same release",
+            ),
         }
     }
 }

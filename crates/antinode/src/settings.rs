@@ -158,7 +158,7 @@ impl fmt::Display for SettingsError {
                     "sample rate {rate} Hz: it must be a number from 0.001 to 1e12"
                 )
             }
-            Self::PeriodsTooFew(n) => write!(f, "{n} periods a window: it takes at least 2"),
+            Self::PeriodsTooFew(n) => write!(f, "{n} periods a window: there must be at least 2"),
             Self::PeriodsTooMany { periods, most } => {
                 write!(
                     f,
@@ -190,21 +190,18 @@ impl fmt::Display for SettingsError {
             Self::GainRatio(ratio) => write!(f, "gain ratio {ratio}: it must lie within 0.1 to 10"),
             Self::Skew(skew) => write!(f, "skew {skew} s: it must lie within ±0.001 s"),
             Self::PickOffAngle(angle) => {
-                write!(
-                    f,
-                    "pick-off angle error {angle} rad: it must lie within ±0.3"
-                )
+                write!(f, "pick-off angle {angle} rad: it must lie within ±0.3")
             }
             Self::HumPeriods { periods, least } => {
                 write!(
                     f,
-                    "{periods} periods a window: hum is taken out of {least} or more"
+                    "{periods} periods a window: with hum there must be at least {least}"
                 )
             }
             Self::FrequencyTooLow { frequency, most } => {
                 write!(
                     f,
-                    "frequency {frequency} Hz: a period must have {most} sample pairs at most, as many as a block has room for"
+                    "frequency {frequency} Hz: a period must have at most {most} sample pairs, the capacity of a block"
                 )
             }
         }

@@ -66,7 +66,7 @@ fn source(front_end: FrontEnd) -> &'static str {
         FrontEnd::Sai => "external converter on SAI",
         FrontEnd::Dfsdm => "DFSDM",
         FrontEnd::Synthetic => "synthetic wave",
-        _ => "a front end that is not known here",
+        _ => "unknown front end",
     }
 }
 

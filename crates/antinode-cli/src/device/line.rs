@@ -154,15 +154,16 @@ impl Line {
     fn silent(&self, sends: u32) -> Failure {
         let (reports, bytes) = (self.receiver.reports(), self.bytes);
         let why = if bytes == 0 {
-            "nothing came at all: check that the device runs, and the wiring".to_owned()
+            "nothing was received: check that the device runs, and its wiring".to_owned()
         } else if reports == 0 {
             format!(
-                "{bytes} bytes came, and no telemetry: check --baud (it was {}) and the protocol version",
+                "{bytes} bytes were received, but no telemetry: check --baud (it was {}), and that firmware and command use the same \
+                 protocol version",
                 self.baud
             )
         } else {
             format!(
-                "{reports} reports came: check the line from this computer to the device, or wait longer with --timeout"
+                "{reports} reports were received: check the line from this computer to the device, or wait longer with --timeout"
             )
         };
         Failure::Fault(format!(
@@ -170,7 +171,7 @@ impl Line {
             self.name,
             self.patience.as_secs_f64(),
             if sends > 1 {
-                format!(", asked {sends} times")
+                format!(", sent {sends} times")
             } else {
                 String::new()
             }

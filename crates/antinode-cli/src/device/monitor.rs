@@ -71,17 +71,18 @@ pub fn run(options: &Monitor) -> Result<(), Failure> {
     let Screen { name, bytes, .. } = screen;
     if bytes == 0 {
         return Err(Failure::Fault(format!(
-            "{name}: not one byte came; check that the device runs and is wired, or that its bytes were saved or sent"
+            "{name}: no bytes were received; check that the device runs and is wired, or that its bytes were saved or sent"
         )));
     }
     let remedy = if source.is_port {
         format!("check --baud (it was {}), the wiring", options.baud)
     } else {
-        "check that they are a device's, and no samples, which are for identify; that they were received at its speed (--baud is for ports only)"
+        "check that the bytes are a device's telemetry (samples are for `antinode identify`), that they were received at the device's baud \
+         rate (--baud applies to ports only)"
             .to_owned()
     };
     Err(Failure::Fault(format!(
-        "{name}: no telemetry in {bytes} bytes; {remedy}, and that firmware and command speak the same protocol version"
+        "{name}: no telemetry in {bytes} bytes; {remedy}, and that firmware and command use the same protocol version"
     )))
 }
 
@@ -99,12 +100,12 @@ fn follow(source: &Source, screen: &mut Screen<impl Write>) -> Result<(), Failur
             Input::Interrupted => break,
             Input::Fault(error) => {
                 screen.finish();
-                let Screen { name, bytes, .. } = screen;
-                return Err(Failure::Fault(if *bytes == 0 && !source.is_port {
-                    format!("{name}: cannot be read: {error}")
+                let name = &screen.name;
+                return Err(Failure::Fault(if source.is_port {
+                    format!("{name}: the port fails: {error}; check that the device is plugged in")
                 } else {
                     format!(
-                        "{name}: it cannot be read any more: {error}; check that the device is plugged in"
+                        "{name}: cannot be read: {error}; check the disk, the network share or the pipe"
                     )
                 }));
             }
@@ -119,7 +120,7 @@ fn first(source: &Source) -> Option<Input> {
         Ok(input) => Some(input),
         Err(_) => {
             eprintln!(
-                "silent: nothing has come from {} yet; check that the device runs, the wiring, and that it is this port",
+                "silent: nothing was received from {} yet; check that the device runs, its wiring, and that this is its port",
                 source.name
             );
             None
@@ -201,7 +202,9 @@ impl<W: Write> Screen<W> {
                 Ok(()) => eprintln!("command {}: done", answer.id),
                 Err(error) => eprintln!("command {}: refused: {error}", answer.id),
             },
-            _ => eprintln!("report: of a kind that is not known here"),
+            _ => eprintln!(
+                "report: of an unknown kind; use firmware and command of the same release"
+            ),
         }
         Ok(())
     }
@@ -223,7 +226,7 @@ impl<W: Write> Screen<W> {
     fn tell_lost(&mut self) {
         let lost = mem::take(&mut self.lost);
         if lost > 0 {
-            eprintln!("lost: {lost} before this report");
+            eprintln!("lost: {lost} before the next report");
             self.lost_told = Some(Instant::now());
         }
     }

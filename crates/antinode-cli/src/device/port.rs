@@ -54,9 +54,9 @@ pub fn open(path: &Path, baud: u32) -> Result<Box<dyn SerialPort>, Failure> {
             "no permission to use it; on Linux join the group that owns it (dialout or uucp) and log in again".to_owned()
         }
         _ if cfg!(unix) && !path.exists() => format!("there is no such port; {}", ports()),
-        _ if cfg!(unix) && !is_port(path) => format!("this is no serial port; {}", ports()),
+        _ if cfg!(unix) && !is_port(path) => format!("this is not a serial port; {}", ports()),
         ErrorKind::NoDevice => format!(
-            "it does not open: {told}; end any other program that holds it, or else: {}",
+            "it does not open: {told}; close any other program that uses it; {}",
             ports()
         ),
         _ => format!(
@@ -77,9 +77,9 @@ pub fn ports() -> String {
         .map(|port| port.port_name)
         .collect();
     if names.is_empty() {
-        "plug the device in: this computer has no serial port now".to_owned()
+        "this computer has no serial port now: plug the device in".to_owned()
     } else {
-        format!("this computer has: {}", names.join(", "))
+        format!("serial ports of this computer: {}", names.join(", "))
     }
 }
 

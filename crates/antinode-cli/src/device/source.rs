@@ -54,7 +54,7 @@ impl Source {
                 (name, Box::new(Pipe::Named(path.to_owned())))
             } else {
                 return Err(Failure::Fault(format!(
-                    "{name}: there is neither such a port nor such a file; {}",
+                    "{name}: there is no port and no file of this name; {}",
                     port::ports()
                 )));
             }

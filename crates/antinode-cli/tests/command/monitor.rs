@@ -117,19 +117,19 @@ fn rows_are_those_of_identify_but_for_damaged_and_missing_ones() {
         assert_eq!(got[0].text("file"), name);
         let told: Vec<_> = run.err.lines().collect();
         let expected = [
-            "damaged: cut, or no frame",
+            "damaged: incomplete, or not a frame",
             "device: firmware 0.1.0, protocol 7, dual ADC, 100000 Hz, window 10 periods, no hop, methods off, \
              gain ratio 1, skew 0 ns, pick-off angle 0 rad, start angle 0.7853982 rad, frequency 5320 Hz",
             "state: started: brown-out",
             "state: searching for a wave",
-            "damaged: the checksum does not fit",
-            "lost: 1 before this report",
+            "damaged: the checksum does not match",
+            "lost: 1 before the next report",
             "damaged: longer than any frame",
             "counters: up 12.3 s, 1230000 sample pairs, 2 ADC overruns",
             "state: fault: overrun",
             // Within the same second as the one before.
             "lost: 1 more",
-            "damaged: cut, or no frame",
+            "damaged: incomplete, or not a frame",
         ];
         assert_eq!(told[..told.len() - 1], expected);
         let summary = format!(
@@ -194,10 +194,15 @@ fn bytes_that_are_no_telemetry_are_refused() {
         here,
         "none.bin",
         Vec::new(),
-        &["none.bin: ", "neither such a port nor such a file"],
+        &["none.bin: ", "there is no port and no file of this name"],
     );
     fault(here, ".", Vec::new(), &[".: ", "directory"]);
-    fault(here, "-", Vec::new(), &["standard input: ", "not one byte"]);
+    fault(
+        here,
+        "-",
+        Vec::new(),
+        &["standard input: ", "no bytes were received"],
+    );
     let garbage: Vec<u8> = (0..100_000u32)
         .map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8)
         .collect();
@@ -206,7 +211,10 @@ fn bytes_that_are_no_telemetry_are_refused() {
         here,
         "garbage.bin",
         Vec::new(),
-        &["no telemetry in 100000 bytes", "--baud is for ports only"],
+        &[
+            "no telemetry in 100000 bytes",
+            "--baud applies to ports only",
+        ],
     );
     fault(
         here,

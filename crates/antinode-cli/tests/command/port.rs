@@ -110,7 +110,7 @@ fn silence_is_reported_after_the_timeout() {
     assert!(
         asked
             .err
-            .contains("no acknowledgement within 0.3 s; nothing came"),
+            .contains("no acknowledgement within 0.3 s; nothing was received"),
         "{}",
         asked.err
     );
@@ -124,7 +124,7 @@ fn a_command_that_is_not_heard_is_sent_again() {
     assert_eq!(device.asked.try_iter().count(), 1);
     let deaf = Device::hearing(false, 3);
     let get = deaf.command("--timeout 0.1 get");
-    let told = "no acknowledgement within 0.1 s, asked 3 times; nothing came";
+    let told = "no acknowledgement within 0.1 s, sent 3 times; nothing was received";
     assert!(get.code == 1 && get.err.contains(told), "{}", get.err);
     // `restart` is not repeated: two resets are not the same as one.
     let deaf = Device::hearing(false, 1);

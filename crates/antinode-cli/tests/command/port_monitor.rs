@@ -108,7 +108,7 @@ fn a_silent_port_is_reported_while_it_is_waited_for() {
     let mut child = monitor(&path);
     let mut err = BufReader::new(child.stderr.take().unwrap()).lines();
     let told = err.next().unwrap().unwrap();
-    let expected = format!("silent: nothing has come from {path} yet; check ");
+    let expected = format!("silent: nothing was received from {path} yet; check ");
     assert!(told.starts_with(&expected), "{told}");
     let mut buffer = [0; MAX_FRAME];
     let frame = Reporter::new().frame(&estimate().into(), &mut buffer);
@@ -144,7 +144,7 @@ fn a_monitor_of_a_pipe_that_nobody_writes_into_is_interrupted() {
     send("-INT", &child);
     assert!(ends(&mut child));
     let told = told(&mut child);
-    assert!(told.contains("not one byte came"), "{told}");
+    assert!(told.contains("no bytes were received"), "{told}");
 }
 
 #[test]

@@ -28,7 +28,7 @@ pub enum Failure {
     #[error("{file}: interrupted, and not written; run it again")]
     Interrupted { file: String },
     /// Ctrl-C or a signal from the system came before a recording was read to its end.
-    #[error("interrupted: the rows up to there are good")]
+    #[error("interrupted; the rows printed so far are good")]
     Stopped,
     /// The reader of the output has gone, as `head` does: nothing is wrong, and the exit code is 0.
     #[error("")]
@@ -76,16 +76,16 @@ impl From<antinode_sim::Error> for Failure {
                 format!("{}: it must be {need}", simulate_option(what))
             }
             Error::EmptySpan { what, from, to } => format!(
-                "{}: it goes from {from} s to {to} s, but must end after it begins, both at finite times",
+                "{}: it goes from {from} s to {to} s; give FROM before TO, both finite",
                 simulate_option(what)
             ),
             Error::Overlap { what, index } => format!(
-                "{}: two of them share sample {index} of a channel, but must not overlap",
+                "{}: two of them overlap at sample {index} of one channel; let each end before the next begins",
                 simulate_option(what)
             ),
             Error::QuadratureAboveMain { main, quadrature } => format!(
-                "--quadrature-amplitude: {quadrature} exceeds the main amplitude of {main} in size; the same wave has --main-amplitude {}, \
-                 --quadrature-amplitude {}, an angle 45° {} and a phase 90° less",
+                "--quadrature-amplitude: {quadrature} exceeds the main amplitude of {main} in size; for the same wave give \
+                 --main-amplitude {} --quadrature-amplitude {}, an angle 45° {} and a phase 90° less",
                 quadrature.abs(),
                 main.copysign(*quadrature),
                 if *quadrature > 0.0 { "less" } else { "greater" }

@@ -41,8 +41,9 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     // A simulation can be repeated, but a recording that was measured is not overwritten.
     if options.out.is_file() && !beside.exists() {
         return Err(Failure::Fault(format!(
-            "{}: this is there, and was not simulated, for no truth is beside it; give another name, or delete it first",
-            options.out.display()
+            "{}: this file exists, but no {} does, so it was not simulated and is not replaced; give another name, or delete it first",
+            options.out.display(),
+            beside.display()
         )));
     }
     let truth = Truth {
@@ -55,7 +56,7 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     let beyond = write(options, gyro, &truth, &beside)?;
     if options.sample.is_integer() && beyond > 0 {
         eprintln!(
-            "warning: {beyond} of {pairs} sample pairs lay beyond the file's full scale of 1 and were limited to it; \
+            "warning: {beyond} of {pairs} sample pairs exceeded the file's full scale of 1 and were clipped; \
              lower the amplitudes, or give --sample f32"
         );
     }

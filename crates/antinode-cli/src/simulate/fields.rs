@@ -13,7 +13,7 @@ fn number<T: FromStr>(text: &str) -> Result<T, String> {
 pub fn clip_span(text: &str) -> Result<ClipSpan, String> {
     let fields: Vec<_> = text.split(':').collect();
     let [from, to, level] = fields[..] else {
-        return Err("it must be FROM:TO:LEVEL, as 0.2:0.3:0.4".to_owned());
+        return Err("it must be FROM:TO:LEVEL, as in 0.2:0.3:0.4".to_owned());
     };
     Ok(ClipSpan {
         from: number(from)?,
@@ -26,7 +26,7 @@ pub fn clip_span(text: &str) -> Result<ClipSpan, String> {
 pub fn loss(text: &str) -> Result<Loss, String> {
     let fields: Vec<_> = text.split(':').collect();
     let [at, count] = fields[..] else {
-        return Err("it must be INDEX:COUNT, as 500000:3".to_owned());
+        return Err("it must be INDEX:COUNT, as in 500000:3".to_owned());
     };
     Ok(Loss {
         at: number(at)?,
@@ -42,7 +42,7 @@ pub fn dropout(text: &str) -> Result<Dropout, String> {
         [from, to, kind, channel] => (from, to, kind, Some(channel)),
         _ => {
             return Err(
-                "it must be FROM:TO:KIND or FROM:TO:KIND:CHANNEL, as 0.2:0.3:hold".to_owned(),
+                "it must be FROM:TO:KIND or FROM:TO:KIND:CHANNEL, as in 0.2:0.3:hold".to_owned(),
             );
         }
     };
@@ -53,7 +53,7 @@ pub fn dropout(text: &str) -> Result<Dropout, String> {
             "noise" => DropoutKind::NoiseOnly,
             other => {
                 return Err(format!(
-                    "“{other}” is no kind of dropout: zero, hold or noise"
+                    "“{other}” is not a kind of dropout; give zero, hold or noise"
                 ));
             }
         },
@@ -61,7 +61,7 @@ pub fn dropout(text: &str) -> Result<Dropout, String> {
             None => None,
             Some("c" | "C") => Some(Channel::C),
             Some("d" | "D") => Some(Channel::D),
-            Some(other) => return Err(format!("“{other}” is no channel: c or d")),
+            Some(other) => return Err(format!("“{other}” is not a channel; give c or d")),
         },
         from: number(from)?,
         to: number(to)?,

@@ -181,7 +181,7 @@ impl Simulate {
             return Ok(pairs as u64);
         }
         Err(Failure::Usage(format!(
-            "--seconds: {} s at {} Hz are not 1 to {MAX_PAIRS:e} sample pairs",
+            "--seconds: {} s at {} Hz; a recording must have 1 to {MAX_PAIRS:e} sample pairs",
             self.seconds, self.rate
         )))
     }

@@ -100,7 +100,7 @@ fn an_interruption_reports_them_too() {
         let others = beside_flagged(&Row::all(&begun.text), &told);
         assert_eq!(
             others,
-            ["error: interrupted: the rows up to there are good"]
+            ["error: interrupted; the rows printed so far are good"]
         );
         drop(begun.input);
     }

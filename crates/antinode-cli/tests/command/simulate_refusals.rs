@@ -12,9 +12,9 @@ fn options_that_make_no_sense_are_refused() {
         ("", "--out <FILE>"),
         (
             "-o a.ogg",
-            "a.ogg: the extension names no format; end the name in .wav, .csv or .npy",
+            "a.ogg: the extension is not that of a known format; end the name in .wav, .csv or .npy",
         ),
-        ("-o a", "a: the extension names no format"),
+        ("-o a", "a: the extension is not that of a known format"),
         ("-o a.wav --sample f64", "--sample f32"),
         ("-o a.wav --rate 44100.5", "whole number of Hz"),
         ("-o a.wav --rate -1", "--rate: it must be"),
@@ -28,11 +28,11 @@ fn options_that_make_no_sense_are_refused() {
         ),
         (
             "-o a.wav --quadrature-amplitude -0.6",
-            "the same wave has --main-amplitude 0.6, --quadrature-amplitude -0.5, an angle 45° greater and a phase 90° less",
+            "for the same wave give --main-amplitude 0.6 --quadrature-amplitude -0.5, an angle 45° greater and a phase 90° less",
         ),
         (
             "-o a.wav --quadrature-amplitude 0.6",
-            "the same wave has --main-amplitude 0.6, --quadrature-amplitude 0.5, an angle 45° less and a phase 90° less",
+            "for the same wave give --main-amplitude 0.6 --quadrature-amplitude 0.5, an angle 45° less and a phase 90° less",
         ),
         ("-o a.wav --frequency 0", "--frequency: it must be"),
         ("-o a.wav --frequency 50000", "half of --rate, 50000 Hz"),
@@ -61,9 +61,12 @@ fn options_that_make_no_sense_are_refused() {
         ("-o a.wav --full-scale 2", "--bits"),
         (
             "-o a.wav --clip-span 0:1",
-            "it must be FROM:TO:LEVEL, as 0.2:0.3:0.4",
+            "it must be FROM:TO:LEVEL, as in 0.2:0.3:0.4",
         ),
-        ("-o a.wav --lost 10", "it must be INDEX:COUNT, as 500000:3"),
+        (
+            "-o a.wav --lost 10",
+            "it must be INDEX:COUNT, as in 500000:3",
+        ),
         (
             "-o a.wav --angle 30deg",
             "'--angle <RAD>': it must be a number, without its unit",
@@ -79,10 +82,13 @@ fn options_that_make_no_sense_are_refused() {
         ("-o a.wav --lost 5", "INDEX:COUNT"),
         ("-o a.wav --lost 100000:5", "--lost: it begins at 1"),
         ("-o a.wav --dropout 0:1:some", "zero, hold or noise"),
-        ("-o a.wav --dropout 0:1:zero:e", "no channel: c or d"),
+        (
+            "-o a.wav --dropout 0:1:zero:e",
+            "is not a channel; give c or d",
+        ),
         (
             "-o a.wav --dropout 0.1:0.3:zero --dropout 0.2:0.4:hold",
-            "--dropout: two of them share",
+            "--dropout: two of them overlap",
         ),
         (
             "-o a.wav --dropout 5:6:zero",
@@ -214,7 +220,7 @@ fn a_recording_that_was_not_simulated_is_not_overwritten() {
         (refused.code, refused.err.as_str()),
         (
             1,
-            "error: a.wav: this is there, and was not simulated, for no truth is beside it; give another name, or delete it first\n"
+            "error: a.wav: this file exists, but no a.wav.json does, so it was not simulated and is not replaced; give another name, or delete it first\n"
         )
     );
     assert_eq!(fs::read(here.join("a.wav")).unwrap(), b"recorded");

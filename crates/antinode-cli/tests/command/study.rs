@@ -25,8 +25,8 @@ fn captions_fit_and_a_file_that_cannot_be_written_is_named() {
         (
             1,
             "",
-            "error: it/figure-3d.png: cannot be written: the image is not stored whole; check that its directory exists, may be \
-             written and has room\n"
+            "error: it/figure-3d.png: cannot be written: the image is not stored whole; check that its directory exists, is \
+             writable and has free space\n"
         )
     );
     for name in ["figure-1b.svg", "figure-2b.svg"] {

@@ -8,7 +8,7 @@ use crate::recording::Channel;
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     /// The extension names no format that is written.
-    #[error("{file}: the extension names no format; end the name in {endings}")]
+    #[error("{file}: the extension is not that of a known format; end the name in {endings}")]
     Unknown { file: String, endings: &'static str },
     /// A device, a pipe or a directory.
     #[error("{file}: this exists and is not a file; give the path of a file")]
@@ -23,8 +23,8 @@ pub enum OutputError {
     Held { file: String },
     /// All is written, but the file could not be given its name.
     #[error(
-        "{file}: cannot be given this name: {fault}; what was written stands beside it as `{kept}`: check what is there, and whether \
-         another program has it open"
+        "{file}: cannot be given this name: {fault}; the complete data are beside it in `{kept}`: check what is at this path, and \
+         whether another program has it open, then rename them"
     )]
     Unnamed {
         file: String,
@@ -36,7 +36,7 @@ pub enum OutputError {
     NoDirectory { file: String, directory: String },
     /// The system failed to write.
     #[error(
-        "{file}: cannot be written: {fault}; check that its directory exists, may be written and has room"
+        "{file}: cannot be written: {fault}; check that its directory exists, is writable and has free space"
     )]
     Io { file: String, fault: io::Error },
     /// A sample rate that is not positive, or that the format cannot hold.
@@ -48,7 +48,7 @@ pub enum OutputError {
     },
     /// A sample format the container cannot hold.
     #[error(
-        "{file}: a WAV file of 64-bit floats is not written; choose --sample f32, or a .npy or .csv file"
+        "{file}: WAV files of 64-bit floats are not written; choose --sample f32, or a .npy or .csv file"
     )]
     Wav64 { file: String },
     /// WAV files end at 4 GiB.
@@ -58,7 +58,7 @@ pub enum OutputError {
     Full { file: String, pairs: u64 },
     /// A sample that is not a finite number.
     #[error(
-        "{file}: sample pair {pair} (from 0), {channel}: {value} is not a finite number; mend what makes it"
+        "{file}: sample pair {pair} (from 0), {channel}: {value} is not a finite number; correct the values that it is computed from"
     )]
     NotFinite {
         file: String,

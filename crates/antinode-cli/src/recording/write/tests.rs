@@ -118,7 +118,7 @@ fn recordings_that_cannot_be_written_are_named() {
     let f32s = SampleFormat::F32;
     assert!(
         fault("a.flac", 1e5, f32s, &pairs)
-            .starts_with("a.flac: the extension names no format; end the name in")
+            .starts_with("a.flac: the extension is not that of a known format; end the name in")
     );
     let expected = "a.wav: this format cannot hold a sample rate of 100000.5 Hz; give a whole number of Hz below";
     assert!(fault("a.wav", 100_000.5, f32s, &pairs).starts_with(expected));
@@ -131,7 +131,7 @@ fn recordings_that_cannot_be_written_are_named() {
     }
     assert!(
         fault("a.wav", 1e5, SampleFormat::F64, &pairs)
-            .starts_with("a.wav: a WAV file of 64-bit floats is not")
+            .starts_with("a.wav: WAV files of 64-bit floats are not")
     );
     for (pair, channel) in [
         ([f64::NAN, 0.0], "S_C (left): NaN"),
@@ -208,7 +208,7 @@ fn a_file_that_cannot_have_its_name_is_kept() {
     let (_, told) = told
         .split_once("a.csv: cannot be given this name: ")
         .unwrap();
-    let (_, told) = told.split_once("stands beside it as `").unwrap();
+    let (_, told) = told.split_once("are beside it in `").unwrap();
     let (kept, _) = told.split_once('`').unwrap();
     let kept = directory.path().join(kept);
     assert_eq!(fs::read_to_string(kept).unwrap(), "time,c,d\n0.0,1.0,2.0\n");

@@ -33,6 +33,6 @@ impl GivenRows {
 /// The failure if no row lies within the times asked for; the rows' own times go from `first` to `last`, s.
 pub fn none_within(names: &str, [first, last]: [f64; 2]) -> Failure {
     Failure::Fault(format!(
-        "{names}: no row lies within --from and --to: their times go from {first} s to {last} s"
+        "{names}: no row lies between --from and --to: the rows' times go from {first} s to {last} s"
     ))
 }

@@ -84,7 +84,7 @@ impl<R: Read> RowFile<R> {
         };
         if header.is_empty() {
             return Err(Failure::Fault(format!(
-                "{name}: there is nothing in it, not even a header: see what the command that should have written rows has to say"
+                "{name}: there is nothing in it, not even a header; check the messages of the command that should have written the rows"
             )));
         }
         Ok(Self {
@@ -112,7 +112,7 @@ impl<R: Read> RowFile<R> {
             let name = &self.name;
             Failure::Fault(if self.is_table {
                 format!(
-                    "{name}: this is the table to read; add --output csv to the command that prints it"
+                    "{name}: this is the table for reading, which cannot be read back; add --output csv to the command that printed it"
                 )
             } else {
                 format!("{name}: no column {column} in its first line; {REMEDY}")
@@ -133,7 +133,7 @@ impl<R: Read> RowFile<R> {
                 Ok(more) => more,
                 Err(error) if self.lines().is_cut && is_unfinished(&error) => {
                     eprintln!(
-                        "warning: {}, line {}: it does not end, as where writing was stopped, and is left out",
+                        "warning: {}, line {}: it is incomplete, as after an interrupted write, and is left out",
                         self.name,
                         self.lines().number
                     );
@@ -151,7 +151,7 @@ impl<R: Read> RowFile<R> {
     /// The failure if the row last read cannot be used; `what` says why.
     pub fn fault(&self, what: &str) -> Failure {
         Failure::Fault(format!(
-            "{}, line {}: {what}; leave the line out",
+            "{}, line {}: {what}; remove the line",
             self.name,
             self.lines().number
         ))
@@ -220,15 +220,15 @@ fn unreadable(name: &str, line: u64, error: &csv::Error) -> Failure {
     Failure::Fault(match error.kind() {
         // The header cannot be left out.
         ErrorKind::Utf8 { .. } if line <= 1 => {
-            format!("{name}: this is no text; {REMEDY}")
+            format!("{name}: this is not text; {REMEDY}")
         }
         ErrorKind::Utf8 { .. } => {
-            format!("{name}, line {line}: this is no text; leave the line out")
+            format!("{name}, line {line}: this is not text; remove the line")
         }
         ErrorKind::UnequalLengths {
             expected_len, len, ..
         } => format!(
-            "{name}, line {line}: found {len} fields where the first line has {expected_len}; leave the line out"
+            "{name}, line {line}: found {len} fields where the first line has {expected_len}; remove the line"
         ),
         _ => format!("{name}: {error}; {REMEDY}"),
     })
@@ -247,8 +247,11 @@ fn is_unfinished(error: &csv::Error) -> bool {
 
 /// The failure if a line is no JSON object.
 fn no_object(name: &str, line: u64, fault: &io::Error) -> Failure {
+    // The parser adds its own place, which begins anew with each line.
+    let fault = fault.to_string();
+    let fault = fault.split(" at line ").next().unwrap_or_default();
     Failure::Fault(format!(
-        "{name}, line {line}: this is no JSON object: {fault}; leave the line out"
+        "{name}, line {line}: this is not a JSON object: {fault}; remove the line"
     ))
 }
 

@@ -28,7 +28,7 @@ fn faulty_rows_are_reported() {
         "plot bad.csv -o it.svg",
         "",
         1,
-        &["bad.csv, line 4: ", "no number", "leave the line out"],
+        &["bad.csv, line 4: ", "no number", "remove the line"],
     );
     let without = HEADER.replace("residual_rms", "rest") + good;
     refused(
@@ -69,7 +69,7 @@ fn faulty_rows_are_reported() {
         "plot - -o it.svg",
         &short,
         1,
-        &["line 2: found 2 fields", "leave the line out"],
+        &["line 2: found 2 fields", "remove the line"],
     );
     refused(
         here,
@@ -87,7 +87,9 @@ fn a_figure_that_cannot_be_written_is_reported_and_harms_nothing() {
     let here = directory.path();
     let rows = HEADER.to_owned() + "0,0.5,0.01,0,0,5332,0.1,,a\n";
     for name in ["it.pdf", "it", "it.csv"] {
-        let told = format!("{name}: the extension names no format; end the name in .svg or .png");
+        let told = format!(
+            "{name}: the extension is not that of a known format; end the name in .svg or .png"
+        );
         refused(here, &format!("plot - -o {name}"), &rows, 2, &[&told]);
     }
     refused(here, "plot -", &rows, 2, &["--out <FILE>"]);
@@ -103,7 +105,9 @@ fn a_figure_that_cannot_be_written_is_reported_and_harms_nothing() {
         "plot - -o it.svg --from 2",
         &rows,
         1,
-        &["standard input: no row lies within --from and --to: their times go from 0 s to 0 s"],
+        &[
+            "standard input: no row lies between --from and --to: the rows' times go from 0 s to 0 s",
+        ],
     );
     refused(here, "plot -o it.svg", &rows, 2, &["<ROWS>"]);
     refused(

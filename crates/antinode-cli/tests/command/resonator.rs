@@ -290,7 +290,7 @@ fn rows_from_before_the_drive_ended_are_left_out() {
             none.code == 1
                 && none
                     .err
-                    .contains("no row lies within --from and --to: their times go from 0.0"),
+                    .contains("no row lies between --from and --to: the rows' times go from 0.0"),
             "{}",
             none.err
         );

@@ -194,7 +194,7 @@ mod unix {
         assert_eq!(output.status.code(), Some(130));
         let told = String::from_utf8(output.stderr).unwrap();
         assert!(
-            told.ends_with("rows.csv: the rows up to there are written\nerror: interrupted: the rows up to there are good\n"),
+            told.ends_with("rows.csv: the rows up to there are written\nerror: interrupted; the rows printed so far are good\n"),
             "{told}"
         );
         assert_eq!(read(here, "rows.csv"), all);

@@ -86,7 +86,7 @@ fn json_lines_are_read_as_csv_is() {
     let wrong = lines.replacen("\n{", "\n(", 1);
     let wrong = run_with(here, "resonator -", wrong.into());
     assert_eq!(wrong.code, 1);
-    let told = "standard input, line 2: this is no JSON object: ";
+    let told = "standard input, line 2: this is not a JSON object: ";
     assert!(wrong.err.contains(told), "{}", wrong.err);
 }
 
@@ -121,7 +121,7 @@ fn a_last_line_that_does_not_end_is_left_out() {
         let cut = &whole[..last + 40];
         let found = run_with(here, "resonator - --output csv", cut.into());
         let told = format!(
-            "warning: standard input, line {count}: it does not end, as where writing was stopped, and is left out\n"
+            "warning: standard input, line {count}: it is incomplete, as after an interrupted write, and is left out\n"
         );
         let (out, err) = resonator(here, &whole[..last]);
         assert_eq!((found.code, found.err), (0, told + &err));
@@ -153,7 +153,7 @@ fn a_table_is_distinguished_from_rows() {
                 (found.code, found.err.as_str()),
                 (
                     1,
-                    "error: standard input: this is the table to read; add --output csv to the command that prints it\n"
+                    "error: standard input: this is the table for reading, which cannot be read back; add --output csv to the command that printed it\n"
                 )
             );
         }

@@ -66,7 +66,7 @@ pub(super) struct FirstLine<'a> {
     pub width: usize,
     /// What was found in the lines above and below.
     pub start: &'a Start,
-    /// True for the first line that `antinode identify` prints, as CSV or as JSON lines.
+    /// True for what `antinode identify` prints, as CSV, as JSON lines or as a table.
     pub is_of_rows: bool,
 }
 

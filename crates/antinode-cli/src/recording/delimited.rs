@@ -195,20 +195,20 @@ impl Delimited {
         Some(match meaning {
             Meaning::Time => return None,
             Meaning::PerhapsIndex => format!(
-                "the time column goes up by 1 a line, and is read as seconds; if it is an index, {ignored}"
+                "the time column increases by 1 per line, and is read as seconds; if it is an index, {ignored}"
             ),
             Meaning::Index => {
-                "the time column goes up by 1 a line, and is taken for an index because of --rate: times of rows \
-                 are from the first sample on; if it is seconds, leave --rate out"
+                "the time column increases by 1 per line, and is read as an index because --rate is given: times of rows \
+                 count from the first sample; if it is seconds, omit --rate"
                     .to_owned()
             }
             Meaning::OtherRate { own, asked } if self.axis.is_none() => format!(
-                "by its settings the sample rate is {own} Hz, but --rate makes it {asked} Hz, and takes precedence; \
-                 leave --rate out if the settings are right"
+                "the sample rate is {own} Hz by its settings and {asked} Hz by --rate, which takes precedence; \
+                 omit --rate if the settings are right"
             ),
             Meaning::OtherRate { own, asked } => format!(
-                "by the time column the sample rate is {own} Hz, but --rate makes it {asked} Hz, and takes precedence; \
-                 leave --rate out, or if the column is wrong, {ignored}"
+                "the sample rate is {own} Hz by the time column and {asked} Hz by --rate, which takes precedence; \
+                 omit --rate, or if the column is wrong, {ignored}"
             ),
         })
     }

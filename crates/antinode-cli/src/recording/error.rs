@@ -25,6 +25,15 @@ impl fmt::Display for Channel {
     }
 }
 
+/// A file's name as an argument of a command that a message gives: a shell needs quotes around one with blanks.
+pub(super) fn argument(name: &str) -> String {
+    if name.contains(' ') {
+        format!("\"{name}\"")
+    } else {
+        name.to_owned()
+    }
+}
+
 /// Why a recording cannot be opened, or cannot be read further.
 #[derive(Debug, thiserror::Error)]
 pub enum InputError {
@@ -44,15 +53,12 @@ pub enum InputError {
     #[error("{file}: there is nothing in it; check that the recording was saved or sent")]
     Empty { file: String },
     /// A recording without a single pair of samples.
-    #[error(
-        "{file}: there is not one sample pair in it; check that the recording was saved or sent"
-    )]
+    #[error("{file}: there are no sample pairs in it; check that the recording was saved or sent")]
     NoPairs { file: String },
     /// Neither the content nor the extension is known.
     #[error(
-        "{file}: neither its content nor its extension is known; give a .wav, .csv, .tsv, .txt, .lvm \
-         or .npy file, or the sample format of a raw one with --raw u8, i8, u16, i16, i24, i32, \
-         f32 or f64, or the columns of a text with --columns"
+        "{file}: the format is not known, neither by content nor by extension; give a .wav, .csv, .tsv, .txt, .lvm or .npy file, or for \
+         raw samples their format with --raw u8, i8, u16, i16, i24, i32, f32 or f64, or for text the columns with --columns"
     )]
     Unknown { file: String },
     /// The content is of a known format that is not read.
@@ -64,14 +70,17 @@ pub enum InputError {
     },
     /// The content is not what the extension promises.
     #[error(
-        "{file}: this is not {kind}, whatever its extension says; export it again, rename it to what it is, or give the sample format of a \
-         raw one with --raw"
+        "{file}: this is not {kind}, although its extension says so; export it again, correct the extension, or for raw samples give \
+         their format with --raw"
     )]
     NotOfKind { file: String, kind: &'static str },
-    /// Standard input of no known format, or from a terminal, without a sample format.
+    /// Standard input is a terminal, from which no recording comes.
+    #[error("{file}: this is a terminal; pipe a recording into the command, or name a file")]
+    Terminal { file: String },
+    /// Standard input of no known format, without a sample format.
     #[error(
-        "{file}: this is neither WAV, NPY nor CSV, and raw samples do not tell their format; give it \
-         with --raw u8, i8, u16, i16, i24, i32, f32 or f64 (little-endian, S_C and S_D in turn)"
+        "{file}: this is neither WAV, NPY nor CSV; for raw samples give their format with --raw u8, i8, u16, i16, i24, i32, f32 or f64 \
+         (little-endian, S_C and S_D interleaved)"
     )]
     RawFormatNeeded { file: String },
 
@@ -92,25 +101,26 @@ pub enum InputError {
         if *.found < 2 {
             "put S_C on the left channel and S_D on the right, for example with `sox -M c.wav d.wav both.wav`"
         } else {
-            "give those of S_C and S_D, --columns 1,2"
+            "choose those of S_C and S_D, as in --columns 1,2"
         }
     )]
     Channels { file: String, found: usize },
     /// More samples follow than the header promises.
     #[error(
-        "{file}: the WAV header says {promised} sample pairs, and more follow that are not read: it was never finished, or they are too many \
-         for it; mend it, for example with `sox --ignore-length {file} whole.wav`"
+        "{file}: the WAV header promises {promised} sample pairs, but more follow, which are not read: the header was never completed, or \
+         cannot hold so large a number; correct it, for example with `sox --ignore-length {} whole.wav`",
+        argument(file)
     )]
     MoreData { file: String, promised: u64 },
     /// Several WAV files joined byte by byte.
     #[error(
-        "{file}: behind {found} sample pairs another WAV file begins, which is not read: `cat` does not join WAV files; \
-         `sox part1.wav part2.wav whole.wav` does"
+        "{file}: after {found} sample pairs another WAV file begins, which is not read; WAV files cannot be joined by `cat`, but by \
+         `sox part1.wav part2.wav whole.wav`"
     )]
     AnotherWav { file: String, found: u64 },
     /// Chosen channels that do not exist, or are not given by number.
     #[error(
-        "{file}: --columns {chosen}: give the numbers of the channels of S_C and S_D, two of 1 to {channels}"
+        "{file}: --columns {chosen}: give the channel numbers of S_C and S_D, two different ones from 1 to {channels}"
     )]
     ChannelChoice {
         file: String,
@@ -119,13 +129,13 @@ pub enum InputError {
     },
     /// More raw channels than two, and none chosen.
     #[error(
-        "{file}: of {channels} channels in turn (--channels) two are needed; give those of S_C and S_D, --columns 1,2"
+        "{file}: there are {channels} interleaved channels (--channels), but two are needed; choose those of S_C and S_D, as in --columns 1,2"
     )]
     RawChannels { file: String, channels: usize },
     /// Chosen raw channels beyond the two that are assumed without `--channels`, or not given by number.
     #[error(
-        "{file}: --columns {chosen}: raw samples have two channels unless --channels says how many there are; give the \
-         numbers of those of S_C and S_D, 1,2 or 2,1, or --channels too"
+        "{file}: --columns {chosen}: raw samples have two channels unless --channels gives another number; choose 1,2 or 2,1, or give \
+         --channels too"
     )]
     RawChoice { file: String, chosen: String },
     /// Bits below the valid ones are set.
@@ -152,8 +162,8 @@ pub enum InputError {
     },
     /// The data end within a pair, or within the channels that were sampled together.
     #[error(
-        "{file}: sample pair {found} (from 0): the data end in the middle of it; check that {} channels \
-         are there in the format named, and that the recording was not cut off",
+        "{file}: sample pair {found} (from 0): the data end in the middle of it; check that they hold {} channels \
+         in the stated sample format, and that the recording was not cut off",
         if *.channels == 2 { "both".to_owned() } else { format!("all {channels}") }
     )]
     HalfPair {
@@ -164,7 +174,7 @@ pub enum InputError {
     /// Samples that are NaN, infinite, beyond single precision, text, or in a broken line; reported once all is read.
     #[error(
         "{file}{}: sample pair {pair} (from 0), {told}{}; \
-         rows of windows with one are flagged or missing, the others are good: mend what wrote it",
+         rows whose window contains one are flagged or missing, all others are good; check the instrument or program that wrote it",
         place.map_or(String::new(), |place| format!(":{place}")),
         if *.count == 1 { String::new() } else { format!(", the first of {count}") }
     )]
@@ -182,7 +192,7 @@ pub enum InputError {
     /// An array of neither shape (N, 2) nor (2, N).
     #[error(
         "{file}: NPY header: the shape is {shape}, but (N, 2) is needed; of more channels \
-         give two, --columns 2,3 where the first is the time, or save `numpy.stack([c, d], axis=1)`"
+         choose two, as in --columns 2,3 if the first is the time, or save `numpy.stack([c, d], axis=1)`"
     )]
     NpyShape { file: String, shape: String },
     /// An array of a number type that is not read.
@@ -193,7 +203,7 @@ pub enum InputError {
     NpyType { file: String, dtype: String },
     /// An array that stores one channel after the other, in a pipe.
     #[error(
-        "{file}: S_D follows after all of S_C, which a pipe cannot go back for; give a file, or save \
+        "{file}: the array holds all of S_C before S_D, which cannot be read from a pipe; name the file instead, or save \
          `numpy.stack([c, d], axis=1)` in C order"
     )]
     NpyPipe { file: String },
@@ -202,7 +212,7 @@ pub enum InputError {
     /// many. Reported once all is read.
     #[error(
         "{file}:{place}: {told}: the line is left out{}{}; \
-         rows of windows that lack a sample are missing, the others are good: mend what wrote it",
+         rows whose window lacks a sample are missing, all others are good; check the instrument or program that wrote it",
         if *.count == 1 { String::new() } else { format!(", the first of {count}") },
         lost.map_or(String::new(), |(line, lost)| {
             let samples = if lost == 1 { "sample is" } else { "samples are" };

@@ -1,6 +1,7 @@
 //! Formats that are recognised by their first bytes but not read, each with the way to convert it.
 
 use super::content::has_control;
+use super::error::argument;
 
 /// A format that is recognised but not read.
 #[derive(Debug, PartialEq, Eq)]
@@ -38,9 +39,9 @@ const TDMS: &str = "write text in Python with npTDMS, `from nptdms import TdmsFi
                     index=False)`";
 const SCOPE: &str = "save the waveforms as CSV, on the oscilloscope or by its maker's program";
 const SOX: &str = "convert it, `sox FILE -t wav - | antinode identify -`";
-const LOSSY: &str = "what it lost does not come back: record WAV or FLAC; only for a look, `sox FILE -t wav - | antinode identify -`";
+const LOSSY: &str = "its compression is lossy: record WAV or FLAC; only for a quick look, `sox FILE -t wav - | antinode identify -`";
 const SHEET: &str = "save its sheet as CSV";
-const UNZIP: &str = "where it holds one recording alone, `unzip -p FILE | antinode identify -`, and else unpack it first";
+const UNZIP: &str = "if it holds only one recording, `unzip -p FILE | antinode identify -`; otherwise unpack it first";
 
 /// MATLAB files of level 4, which have no mark: they are recognised by their extension alone.
 pub(super) const MAT: Foreign = of(b"", 0, "a MATLAB file", MATLAB);
@@ -94,7 +95,7 @@ static KNOWN: [Foreign; 33] = [
         b"7z\xbc\xaf\x27\x1c",
         0,
         "a 7-Zip archive",
-        "where it holds one recording alone, `7z x -so FILE | antinode identify -`, and else unpack it first",
+        "if it holds only one recording, `7z x -so FILE | antinode identify -`; otherwise unpack it first",
     ),
     of(
         b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1",
@@ -159,16 +160,11 @@ impl Foreign {
 
     /// What to do with a file of this name.
     pub fn remedy(&self, name: Option<&str>) -> String {
+        // Within quotes the name stands as it is.
         let name = name.unwrap_or("FILE");
-        // Within quotes the name stands as it is; elsewhere a shell needs quotes if it has blanks.
-        let argument = if name.contains(' ') {
-            format!("\"{name}\"")
-        } else {
-            name.to_owned()
-        };
         self.remedy
             .replace("'FILE'", &format!("'{name}'"))
-            .replace(" FILE ", &format!(" {argument} "))
+            .replace(" FILE ", &format!(" {} ", argument(name)))
     }
 }
 

@@ -71,19 +71,19 @@ pub(super) fn remedy(text: &str) -> Option<&'static str> {
             .chars()
             .all(|letter| letter.is_ascii_hexdigit());
     Some(if is_stamped {
-        r"switch the terminal's time stamps off, or take them away, `sed -E 's/^.*([a-z] [A-Z][a-z]+ +[0-9]+ [0-9:]+ [0-9]{4}|[0-9]:[0-9.]+)( ->|\])?[[:blank:]]*//' FILE | antinode identify -`"
+        r"switch the terminal's time stamps off, or remove them, `sed -E 's/^.*([a-z] [A-Z][a-z]+ +[0-9]+ [0-9:]+ [0-9]{4}|[0-9]:[0-9.]+)( ->|\])?[[:blank:]]*//' FILE | antinode identify -`"
     } else if text.starts_with("b'") {
-        r#"write text, not bytes, in Python `line.decode()`; of this file `sed -E "s/^b'|(\\\\[rn])+'$//g" FILE | antinode identify -`"#
+        r#"write text instead of bytes, in Python by `line.decode()`; convert this file by `sed -E "s/^b'|(\\\\[rn])+'$//g" FILE | antinode identify -`"#
     } else if text.starts_with("{\"") {
-        "write CSV of JSON lines, `jq -r '[.c,.d]|@csv' FILE | antinode identify -`, with the names of your two signals for c and d"
+        "convert the JSON lines to CSV, `jq -r '[.c,.d]|@csv' FILE | antinode identify -`, with the names of your two signals for c and d"
     } else if text.starts_with(['[', '(', '{', '>']) || text.ends_with([']', ')', '}']) {
-        "take the brackets away, `tr -d '[](){}>' < FILE | antinode identify -`"
+        "remove the brackets, `tr -d '[](){}>' < FILE | antinode identify -`"
     } else if is_measured(text) {
-        r"take the units away, `sed -E 's/([0-9]\.?) *(V|s|sec)/\1/g; s/([0-9]\.?) *m(V|s|sec)/\1e-3/g; s/([0-9]\.?) *(u|µ)(V|s|sec)/\1e-6/g; s/([0-9]\.?) *n(V|s|sec)/\1e-9/g' FILE | antinode identify -`"
+        r"remove the units, `sed -E 's/([0-9]\.?) *(V|s|sec)/\1/g; s/([0-9]\.?) *m(V|s|sec)/\1e-3/g; s/([0-9]\.?) *(u|µ)(V|s|sec)/\1e-6/g; s/([0-9]\.?) *n(V|s|sec)/\1e-9/g' FILE | antinode identify -`"
     } else if is_label {
-        "take the labels away, `sed -E 's/[A-Za-z_][A-Za-z_0-9]* *[:=]//g' FILE | antinode identify -`"
+        "remove the labels, `sed -E 's/[A-Za-z_][A-Za-z_0-9]* *[:=]//g' FILE | antinode identify -`"
     } else if is_hexadecimal {
-        r"write hexadecimal codes in decimal digits; those that are not signed by `perl -pe 's/\b(0x)?([0-9a-f]+)\b/hex $2/gie' FILE | antinode identify -`"
+        r"write the codes in decimal digits; unsigned ones are converted by `perl -pe 's/\b(0x)?([0-9a-f]+)\b/hex $2/gie' FILE | antinode identify -`"
     } else {
         return None;
     })
@@ -121,14 +121,14 @@ mod tests {
             ("[12:34:56.000] -755", Some("switch")),
             ("12:34:56.000 -> C:691", Some("switch")),
             ("5/1/2024 12:34:56 PM", None),
-            ("{\"c\": 2945", Some("write CSV")),
+            ("{\"c\": 2945", Some("convert the JSON")),
             ("b'2945", Some("write text")),
-            ("[3300", Some("take the brackets")),
-            ("2033)", Some("take the brackets")),
-            ("C:691", Some("take the labels")),
-            ("adc_0 = 5", Some("take the labels")),
-            ("0x0ACC", Some("write hex")),
-            ("0ACC", Some("write hex")),
+            ("[3300", Some("remove the brackets")),
+            ("2033)", Some("remove the brackets")),
+            ("C:691", Some("remove the labels")),
+            ("adc_0 = 5", Some("remove the labels")),
+            ("0x0ACC", Some("write the codes")),
+            ("0ACC", Some("write the codes")),
             ("2024-05-01 12:34:56.000", None),
             ("12:34:56", None),
             ("1x", None),
@@ -138,11 +138,11 @@ mod tests {
             ("[12:34:56.000]755", Some("switch")),
             ("Thu Nov 26 10:00:00 2026", None),
             ("Thu Nov 26 10:00:00 2026 -755", Some("switch")),
-            ("> 755", Some("take the brackets")),
-            (">", Some("take the brackets")),
-            ("0.398V", Some("take the units")),
-            ("−398 mV", Some("take the units")),
-            ("1e-05 sec", Some("take the units")),
+            ("> 755", Some("remove the brackets")),
+            (">", Some("remove the brackets")),
+            ("0.398V", Some("remove the units")),
+            ("−398 mV", Some("remove the units")),
+            ("1e-05 sec", Some("remove the units")),
             ("1e-05 min", None),
             ("V", None),
             ("", None),

@@ -10,6 +10,7 @@ use super::text::{fields, is_skipped};
 use super::units::{
     are_bracketed, are_units, bare, has_unknown_unit, is_bracketed, of_name, time_exponent,
 };
+use crate::rows::MAIN_AMPLITUDE;
 
 /// The columns of a text recording.
 pub(super) struct Header {
@@ -53,9 +54,11 @@ impl Header {
         let Beginning { first, next, start } = beginning;
         let mut names: Vec<String> = fields(first, separator).map(lossy).collect();
         let width = names.len();
-        let is_of_rows = names
-            .iter()
-            .any(|name| name.contains("quadrature_amplitude"));
+        // A table for reading may have a title above its heading.
+        let is_of_table = |text: &Vec<u8>| lossy(text).contains(MAIN_AMPLITUDE);
+        let is_of_rows = lossy(first).contains("quadrature_amplitude")
+            || is_of_table(first)
+            || is_of_table(next);
         let counted = counted(&names);
         let has_numbers = counted.is_some_and(|counted| counted.has_numbers);
         let is_timed = has_numbers || names.first().is_some_and(|name| is_time(name));
@@ -200,9 +203,12 @@ impl Header {
             Together::Same | Together::Never => return None,
             Together::Divided(divisors) => {
                 let larger = if divisors[0] > divisors[1] { d } else { c };
-                format!("both are read in {larger}")
+                format!("both are converted to {larger}")
             }
-            Together::Unsure => "they are read as if these were the same".to_owned(),
+            Together::Unsure => {
+                "one of these units is not known, and both signals are read without conversion"
+                    .to_owned()
+            }
         };
         Some(format!("S_C is in {c} and S_D in {d}: {told}"))
     }
@@ -212,8 +218,8 @@ impl Header {
         let name = self.unknown.as_ref()?;
         let samples = self.samples();
         Some(format!(
-            "the time column `{name}` is read as seconds, which its name does not tell; if it is something else, convert it to seconds, or \
-             ignore it with --columns {samples} --rate HZ"
+            "the unit of the time column `{name}` is not known, and its times are read as seconds; if they are not, convert them to \
+             seconds, or ignore the column with --columns {samples} --rate HZ"
         ))
     }
 
@@ -221,7 +227,7 @@ impl Header {
     fn cut(&self) -> Option<String> {
         let line = self.cut?;
         Some(format!(
-            "line {line} seems to lack its beginning, as where a logger is attached in the middle of a line: it is left out"
+            "line {line} seems to lack its beginning, as if the logger had been attached in the middle of it, and is left out"
         ))
     }
 

@@ -113,7 +113,7 @@ impl Recording {
         let stdin = io::stdin();
         let is_described = options.raw.is_some() || options.columns.is_some();
         if !is_described && stdin.is_terminal() {
-            return Err(InputError::RawFormatNeeded { file: name });
+            return Err(InputError::Terminal { file: name });
         }
         let opened = by_content::open(&name, Box::new(stdin), Known::default(), options)?;
         Ok(Self::new(name, opened, None))

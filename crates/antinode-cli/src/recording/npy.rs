@@ -42,7 +42,7 @@ pub(super) fn open(
         (&[pairs, 2], order) => (pairs, 2, order == Order::C),
         (&[2, pairs], order) => (pairs, 2, order == Order::Fortran),
         // The longer side counts the samples: no recording has more channels.
-        (&[one, other], order) if columns.is_some() => (
+        (&[one, other], order) if columns.is_some() && one.min(other) > 1 => (
             one.max(other),
             one.min(other),
             (one > other) == (order == Order::C),

@@ -141,22 +141,22 @@ fn content_that_is_no_recording_is_named() {
         (
             "a.wav",
             b"no sound and more",
-            "a.wav: this is not a WAV file, whatever its extension says; ",
+            "a.wav: this is not a WAV file, although its extension says so; ",
         ),
         (
             "a.npy",
             b"no array and more",
-            "a.npy: this is not an NPY file, whatever its extension says; ",
+            "a.npy: this is not an NPY file, although its extension says so; ",
         ),
         (
             "a.dat",
             b"MATHLAB 5.0 MAT-file",
-            "a.dat: neither its content nor its extension is known; give a .wav",
+            "a.dat: the format is not known, neither by content nor by extension; give a .wav",
         ),
         (
             "a.dat",
             b"\xff\xfeM\0A\0T\0",
-            "a.dat: neither its content nor its extension is known; give a .wav",
+            "a.dat: the format is not known, neither by content nor by extension; give a .wav",
         ),
     ] {
         let (pairs, fault) = read(name, bytes);
@@ -294,7 +294,7 @@ fn a_stream_needs_a_format_unless_it_is_a_file() {
     let fault = |bytes, raw| message(open(bytes, raw).err());
     assert!(
         fault(b"abcd", None).starts_with(
-            "standard input: this is neither WAV, NPY nor CSV, and raw samples do not tell their format; "
+            "standard input: this is neither WAV, NPY nor CSV; for raw samples give their format with --raw "
         )
     );
     assert!(fault(b"", Some(Kind::I16)).starts_with("standard input: there is nothing in it;"));

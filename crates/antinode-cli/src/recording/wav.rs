@@ -35,7 +35,9 @@ pub(super) fn open(
     };
     let (format, data) = header.read()?;
     let start = header.position;
-    let frame = Frame::choose(file, format.channels, options.columns.as_ref())?;
+    // Of a single channel no choice could be right.
+    let columns = options.columns.as_ref().filter(|_| format.channels > 1);
+    let frame = Frame::choose(file, format.channels, columns)?;
     let pair_bytes = (frame.channels * format.code.sample_bytes()) as u64;
     let available = length.map(|length| length.saturating_sub(start));
     let promised = data.promised(pair_bytes, length);
@@ -67,8 +69,8 @@ pub(super) fn open(
 fn rate_warning(own: f64, asked: Option<f64>) -> Option<String> {
     match Meaning::of_rate(own, asked) {
         Meaning::OtherRate { own, asked } => Some(format!(
-            "by its header the sample rate is {own} Hz, but --rate makes it {asked} Hz, and takes precedence; \
-             leave --rate out if the header is right"
+            "the sample rate is {own} Hz by its header and {asked} Hz by --rate, which takes precedence; \
+             omit --rate if the header is right"
         )),
         _ => None,
     }
@@ -196,7 +198,7 @@ impl Reader<'_> {
         let (mut tag, mut valid) = (word(0), bits);
         if tag == 0xfffe {
             if chunk.len() < 40 || chunk[26..40] != SUBTYPE_TAIL {
-                return Err(self.fault("its extensible format is of no known kind"));
+                return Err(self.fault("its extensible format has an unknown subtype"));
             }
             tag = word(24);
             // Some writers leave the number of valid bits at 0.
@@ -229,7 +231,7 @@ impl Reader<'_> {
             || whole && valid != stored
         {
             let fault = format!(
-                "{valid} valid of {bits} bits do not fit {channels} channels of {frame} bytes together"
+                "{valid} valid of {bits} bits in {channels} channels do not fit a frame of {frame} bytes"
             );
             return Err(self.fault(fault));
         }

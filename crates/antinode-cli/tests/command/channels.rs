@@ -60,6 +60,8 @@ fn two_of_many_channels_are_chosen_by_their_numbers() {
         ("rows.npy", npy_of("(20000, 4)", "False", &interleaved)),
         ("columns.npy", npy_of("(20000, 4)", "True", &planes)),
         ("planes.npy", npy_of("(4, 20000)", "False", &planes)),
+        ("one.wav", wav_of(1, &interleaved)),
+        ("one.npy", npy_of("(80000, 1)", "False", &interleaved)),
     ] {
         fs::write(here.join(name), file).unwrap();
     }
@@ -83,15 +85,23 @@ fn two_of_many_channels_are_chosen_by_their_numbers() {
     for (options, told) in [
         (
             "four.wav",
-            "found 4 channels, but two are needed; give those of S_C and S_D, --columns 1,2",
+            "found 4 channels, but two are needed; choose those of S_C and S_D, as in --columns 1,2",
         ),
         (
             "four.wav --columns 2,5",
-            "--columns 2,5: give the numbers of the channels of S_C and S_D, two of 1 to 4",
+            "--columns 2,5: give the channel numbers of S_C and S_D, two different ones from 1 to 4",
         ),
-        ("four.wav --columns 1,2,4", "two of 1 to 4"),
-        ("four.wav --columns c,d", "two of 1 to 4"),
-        ("rows.npy --columns 3,3", "two of 1 to 4"),
+        ("four.wav --columns 1,2,4", "two different ones from 1 to 4"),
+        ("four.wav --columns c,d", "two different ones from 1 to 4"),
+        ("rows.npy --columns 3,3", "two different ones from 1 to 4"),
+        (
+            "one.wav --columns 1,2",
+            "found 1 channel, but two are needed; put",
+        ),
+        (
+            "one.npy --columns 1,2",
+            "the shape is (80000, 1), but (N, 2) is needed",
+        ),
         ("rows.npy", "the shape is (20000, 4)"),
     ] {
         let found = run(here, &format!("identify {options}"));
@@ -115,8 +125,8 @@ fn samples_behind_the_end_by_the_header_are_not_lost_silently() {
         Vec::new(),
         &[
             "half.wav",
-            "says 10000 sample pairs, and more follow",
-            "sox --ignore-length",
+            "promises 10000 sample pairs, but more follow",
+            "sox --ignore-length half.wav whole.wav",
         ],
     );
     assert!(found.len() > 45);
@@ -162,25 +172,33 @@ fn two_of_many_raw_channels_are_chosen_by_their_numbers() {
     // A frame cut off in a pipe: the rows before it, and an error that says where it was.
     let cut = four[..8 * 15_000 + 5].to_vec();
     let options = format!("- {raw} --channels 4 --columns 2,4");
-    let told =
-        "sample pair 15000 (from 0): the data end in the middle of it; check that all 4 channels";
+    let told = "sample pair 15000 (from 0): the data end in the middle of it; check that they hold all 4 channels";
     let found = fault(here, &options, cut, &[told]);
     assert!(found.len() > 70);
     for (options, told) in [
         (
             "four.raw --channels 4",
-            "of 4 channels in turn (--channels) two are needed; give those of S_C and S_D, --columns 1,2",
+            "there are 4 interleaved channels (--channels), but two are needed; choose those of S_C and S_D, as in --columns 1,2",
         ),
         (
             "four.raw --channels 4 --columns 2,5",
-            "--columns 2,5: give the numbers of the channels of S_C and S_D, two of 1 to 4",
+            "--columns 2,5: give the channel numbers of S_C and S_D, two different ones from 1 to 4",
         ),
-        ("four.raw --channels 4 --columns 3,3", "two of 1 to 4"),
-        ("four.raw --channels 4 --columns c,d", "two of 1 to 4"),
-        ("two.raw --channels 2 --columns 1,3", "two of 1 to 2"),
+        (
+            "four.raw --channels 4 --columns 3,3",
+            "two different ones from 1 to 4",
+        ),
+        (
+            "four.raw --channels 4 --columns c,d",
+            "two different ones from 1 to 4",
+        ),
+        (
+            "two.raw --channels 2 --columns 1,3",
+            "two different ones from 1 to 2",
+        ),
         (
             "four.raw --columns 1,3",
-            "--columns 1,3: raw samples have two channels unless --channels says how many",
+            "--columns 1,3: raw samples have two channels unless --channels gives another number",
         ),
     ] {
         let found = run(here, &format!("identify {options} {raw}"));

@@ -30,10 +30,7 @@ fn input_that_is_no_recording_is_refused() {
         ),
         (".", &[".: ", "directory", "name the file"]),
         ("empty.wav", &["empty.wav: ", "nothing in it", "check"]),
-        (
-            "header.wav",
-            &["header.wav: ", "not one sample pair", "check"],
-        ),
+        ("header.wav", &["header.wav: ", "no sample pairs", "check"]),
         (
             "mono.wav",
             &[
@@ -80,7 +77,7 @@ fn input_that_is_no_recording_is_refused() {
         here,
         "- --rate 1e5",
         raw(&codes),
-        &["standard input: ", "give it with --raw"],
+        &["standard input: ", "give their format with --raw"],
     );
 }
 

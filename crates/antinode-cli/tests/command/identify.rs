@@ -184,8 +184,8 @@ fn a_given_rate_takes_precedence_over_the_recordings_own() {
         (given.code, given.err.as_str()),
         (
             0,
-            "warning: a.wav: by its header the sample rate is 100000 Hz, but --rate makes it 50000 Hz, and takes precedence; leave \
-             --rate out if the header is right\n"
+            "warning: a.wav: the sample rate is 100000 Hz by its header and 50000 Hz by --rate, which takes precedence; omit \
+             --rate if the header is right\n"
         )
     );
     let given = Row::all(&given.out);

@@ -197,19 +197,45 @@ fn rows_given_as_a_recording_and_a_recording_given_as_rows_are_reported() {
     let (rows, lines) = (printed("csv"), printed("jsonl"));
     write("rows.csv", rows.as_bytes());
     write("rows.jsonl", lines.as_bytes());
+    write("table.txt", printed("table").as_bytes());
+    let both = run(here, "identify it.wav it.npy --rate 100000");
+    write("both.txt", both.out.as_bytes());
+    let mut broken: Vec<&str> = lines.lines().take(20).collect();
+    broken[10] = "[0.1, 190]";
+    write("broken.jsonl", broken.join("\n").as_bytes());
     let mut broken: Vec<&str> = rows.lines().take(20).collect();
     broken[10] = "0.1,190";
     write("broken.csv", broken.join("\n").as_bytes());
     for (arguments, told) in [
-        ("identify rows.csv", "rows.csv:1: these are rows"),
-        ("identify rows.jsonl", "rows.jsonl:1: these are rows"),
+        ("identify rows.csv", "rows.csv:1: these are rows printed by"),
+        (
+            "identify table.txt",
+            "table.txt:1: these are rows printed by",
+        ),
+        ("identify both.txt", "both.txt:2: these are rows printed by"),
+        (
+            "resonator table.txt",
+            "table.txt: this is the table for reading",
+        ),
+        (
+            "plot both.txt -o it.svg",
+            "both.txt: this is the table for reading",
+        ),
+        (
+            "resonator broken.jsonl",
+            "broken.jsonl, line 11: this is not a JSON object: invalid type: sequence, expected a map; remove the line",
+        ),
+        (
+            "identify rows.jsonl",
+            "rows.jsonl:1: these are rows printed by",
+        ),
         (
             "resonator it.wav",
-            "it.wav: this is no text; give the rows that ",
+            "it.wav: this is not text; give the rows that ",
         ),
         (
             "calibrate it.npy",
-            "it.npy: this is no text; give the rows that ",
+            "it.npy: this is not text; give the rows that ",
         ),
         (
             "plot it.csv -o it.svg",
@@ -218,7 +244,7 @@ fn rows_given_as_a_recording_and_a_recording_given_as_rows_are_reported() {
         ("resonator -", "standard input: there is nothing in it"),
         (
             "resonator broken.csv",
-            "broken.csv, line 11: found 2 fields where the first line has 21; leave",
+            "broken.csv, line 11: found 2 fields where the first line has 21; remove",
         ),
     ] {
         let run = run(here, arguments);

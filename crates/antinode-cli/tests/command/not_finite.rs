@@ -94,7 +94,7 @@ fn rows_before_and_after_are_present_and_clean() {
             here,
             arguments,
             input,
-            &[&place, what, ", the first of 3; ", "mend"],
+            &[&place, what, ", the first of 3; ", "check the instrument"],
         );
         one_row_is_flagged(&found, &clean, 12_000.0);
     }

@@ -53,7 +53,10 @@ fn text_may_come_from_anywhere() {
 fn input_that_is_no_pairs_of_numbers_is_refused() {
     let directory = tempfile::tempdir().unwrap();
     for (input, told) in [
-        ("these are no samples at all", "give it with --raw"),
+        (
+            "these are no samples at all",
+            "give their format with --raw",
+        ),
         ("1\n2\n", "standard input:1: found 1 column"),
         ("1,2\nx,4\nx,4\n", "standard input:2:1: S_C is `x`"),
     ] {

@@ -44,8 +44,8 @@ fn a_line_in_the_place_of_another_costs_the_rows_about_it() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let (lines, expected) = lines(here);
-    let left_out = "the line is left out; rows of windows that lack a sample are missing";
-    let pair = "sample pair 12000 (from 0), a line of 2 fields where the first has 3, so no finite number, the first of 2;";
+    let left_out = "the line is left out; rows whose window lacks a sample are missing";
+    let pair = "sample pair 12000 (from 0), a line of 2 fields where the first has 3, so a sample is missing, the first of 2;";
     let joined = format!("{}{}", lines[12_001], lines[12_002]);
     for (line, place, told) in [
         ("0.12000,0.1", "12002: ", pair),
@@ -76,7 +76,7 @@ fn a_line_in_the_place_of_another_costs_the_rows_about_it() {
         ),
         (
             ",0.1,0.2",
-            "12002:1: the time is missing, not a finite number",
+            "12002:1: the time is missing: the line is left out",
             left_out,
         ),
     ] {
@@ -135,7 +135,7 @@ fn a_first_line_that_lacks_its_beginning_costs_itself_alone() {
         let expected = rows_of(here, &lines[1..].join("\n"), "--rate 1e5");
         let text = lines.join("\n");
         for at in begin..lines[0].len() {
-            let told = "input: line 1 seems to lack its beginning, as where a logger is attached in the middle of a line: it is left out";
+            let told = "input: line 1 seems to lack its beginning, as if the logger had been attached in the middle of it, and is left out";
             let text = text.as_bytes()[at..].to_vec();
             let run = run_with(here, "identify - --rate 1e5 --output csv", text);
             assert_eq!(

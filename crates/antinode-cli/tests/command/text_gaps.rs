@@ -110,7 +110,7 @@ fn time_that_goes_back_or_steps_unevenly_still_ends_the_rows() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let (lines, _) = whole(here, 20_000);
-    for (time, told) in [("0.08990", "must go up"), ("0.090035", "time steps by")] {
+    for (time, told) in [("0.08990", "must increase"), ("0.090035", "time steps by")] {
         let mut lines = lines.clone();
         lines[9_001] = format!("{time},0.1,0.1");
         fs::write(here.join("a.csv"), lines.join("\n")).unwrap();

@@ -180,7 +180,7 @@ fn a_file_of_one_channel_is_refused_and_two_side_by_side_are_read() {
     let here = directory.path();
     let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
     let [c, d] = [0, 1].map(beside);
-    let told = "found the time and one signal, but both are needed, S_C and S_D: export both channels into one file";
+    let told = "found the time and one signal, but both S_C and S_D are needed; export both channels to one file";
     fault(here, "- --rate 1e5", c.clone().into(), &["input:1: ", told]);
     same(here, &pasted(&c, &d), "--columns 4,5,11", &expected, START);
     let above = LECROY.replace("Ampl1,Ampl2", "Ampl");
@@ -227,7 +227,7 @@ fn the_last_setting_may_have_more_than_one_field() {
         text.replace("HUnit, s", "HUnit, Hz").into(),
         &told,
     );
-    let told = "by its settings the sample rate is 100000 Hz, but --rate makes it 50000 Hz, and takes precedence";
+    let told = "the sample rate is 100000 Hz by its settings and 50000 Hz by --rate, which takes precedence";
     let run = run_with(here, "identify - --rate 5e4", text.into_bytes());
     assert!(run.code == 0 && run.err.contains(told), "{}", run.err);
     // And written by Yokogawa's viewer, where units of time stand above both signals.
@@ -308,7 +308,7 @@ fn a_unit_of_time_that_only_settings_name_is_not_assumed() {
         let above = above.replace("\"HORZ_UNITS\", \"S\"", "\"HORZ_UNITS\", \"mS\"");
         let text = recording(&above, timed(','));
         let told = [
-            "input:6: the settings tell a time in `m",
+            "input:6: the settings give the time in `m",
             "`TIME [ms]`, or ignore",
         ];
         assert!(fault(here, "-", text.clone().into(), &told).is_empty());

@@ -47,7 +47,7 @@ fn the_step_in_the_names_gives_the_rate() {
 #[test]
 fn another_rate_than_that_of_the_names_is_warned_of() {
     let directory = tempfile::tempdir().unwrap();
-    let told = "by its settings the sample rate is 100000 Hz, but --rate makes it 50000 Hz, and takes precedence";
+    let told = "the sample rate is 100000 Hz by its settings and 50000 Hz by --rate, which takes precedence";
     let arguments = "identify - --rate 5e4";
     let run = run_with(directory.path(), arguments, recording(MHO).into_bytes());
     assert!(run.code == 0 && run.err.contains(told), "{}", run.err);

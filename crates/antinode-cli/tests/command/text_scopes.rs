@@ -164,7 +164,8 @@ fn a_time_is_known_by_its_unit() {
             7,
         ),
     ] {
-        let told = format!("input:{line}: found the time and one signal, but both are needed");
+        let told =
+            format!("input:{line}: found the time and one signal, but both S_C and S_D are needed");
         let rows = fault(
             here,
             "- --rate 1e5",
@@ -197,7 +198,7 @@ fn a_count_of_lines_is_no_signal_beside_a_time() {
     let one = recording("#,Time(ms),CH1(mV)\n", |k, [c, _]| {
         format!("{k},{:.7},{c}", k as f64 * 1e-2)
     });
-    let told = "input:1: found the time and one signal, but both are needed";
+    let told = "input:1: found the time and one signal, but both S_C and S_D are needed";
     fault(here, "- --rate 1e5", one.into(), &[told]);
     // Names after `#` are a comment if their number differs from that of the columns, or if none is a time.
     for comment in ["#,Time,c,d\n", "#,c,d\n", "#\n#,\n"] {

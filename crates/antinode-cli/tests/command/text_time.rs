@@ -76,13 +76,17 @@ fn a_clock_that_warms_up_is_warned_of_and_costs_no_row() {
     fs::write(here.join("a.csv"), text).unwrap();
     let run = run(here, "identify a.csv --output csv");
     assert_eq!(run.code, 0, "{}", run.err);
-    let told = "warning: a.csv: in the time column the sample rate has gone slowly from 100000.";
+    let told = "warning: a.csv: the sample rate in the time column drifts slowly from 100000.";
     assert!(
         run.err.starts_with(told) && run.err.lines().count() == 1,
         "{}",
         run.err
     );
-    assert!(run.err.contains(" s before that"), "{}", run.err);
+    assert!(
+        run.err.contains(" s later than the time column"),
+        "{}",
+        run.err
+    );
     let rows = Row::all(&run.out);
     assert_eq!(rows.len(), expected.len());
     for (row, expected) in rows.iter().zip(&expected) {
@@ -165,12 +169,12 @@ fn an_index_is_warned_of() {
     let index = |t: f64| format!("{:.0}", 1e5 * t + 500_000.0);
     fs::write(here.join("a.csv"), timed("zeit,c,d\n", 5000, index)).unwrap();
     let (told, _) = warned(here, "");
-    assert!(told.starts_with("warning: a.csv: the time column goes up by 1 a line"));
+    assert!(told.starts_with("warning: a.csv: the time column increases by 1 per line"));
     assert!(told.ends_with("with --columns 2,3 --rate HZ\n"), "{told}");
     // With --rate it is an index, and times begin at 0.
     let (told, rows) = warned(here, "--rate 1e5");
     assert!(
-        told.contains("taken for an index") && told.contains("from the first sample on"),
+        told.contains("read as an index") && told.contains("count from the first sample"),
         "{told}"
     );
     same_later(&rows, &expected, 0.0);
@@ -185,7 +189,7 @@ fn times_that_contradict_the_rate_are_warned_of() {
     let here = directory.path();
     let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
     let (told, rows) = warned(here, "--rate 100200");
-    let both = "by the time column the sample rate is 100000 Hz, but --rate makes it 100200 Hz";
+    let both = "the sample rate is 100000 Hz by the time column and 100200 Hz by --rate";
     assert!(
         told.contains(both) && told.ends_with("--columns 2,3 --rate HZ\n"),
         "{told}"

@@ -25,26 +25,31 @@ fn signals_are_brought_to_the_larger_unit() {
             "Time (s),Channel A (mV),Channel B (V)\n",
             1.0,
             [1e3, 1.0],
-            "S_C is in mV and S_D in V: both are read in V",
+            "S_C is in mV and S_D in V: both are converted to V",
         ),
         (
             "Time,Channel A,Channel B\n(us),(V),(mV)\n\n",
             1e6,
             [1.0, 1e3],
-            "S_C is in V and S_D in mV: both are read in V",
+            "S_C is in V and S_D in mV: both are converted to V",
         ),
         (
             "time,c [µV],d [mV]\n",
             1.0,
             [1e3, 1.0],
-            "S_C is in µV and S_D in mV: both are read in mV",
+            "S_C is in µV and S_D in mV: both are converted to mV",
         ),
-        ("microseconds,V,mV\n", 1e6, [1.0, 1e3], "both are read in V"),
+        (
+            "microseconds,V,mV\n",
+            1e6,
+            [1.0, 1e3],
+            "both are converted to V",
+        ),
         (
             "x-axis,1,2\nsecond,Volt,millivolt\n",
             1.0,
             [1.0, 1e3],
-            "S_C is in Volt and S_D in millivolt: both are read in Volt",
+            "S_C is in Volt and S_D in millivolt: both are converted to Volt",
         ),
     ] {
         fs::write(here.join("a.csv"), scaled(header, time, scales)).unwrap();
@@ -109,7 +114,7 @@ fn an_unknown_unit_beside_a_known_one_is_warned_of() {
     fs::write(here.join("a.csv"), text).unwrap();
     let run = run(here, "identify a.csv");
     assert_eq!(run.code, 0);
-    let told = "warning: a.csv: S_C is in V and S_D in MV: they are read as if these were the same";
+    let told = "warning: a.csv: S_C is in V and S_D in MV: one of these units is not known, and both signals are read without conversion";
     assert!(run.err.starts_with(told), "{}", run.err);
 }
 
@@ -126,7 +131,7 @@ fn units_are_known_in_russian_too() {
         let semicolons = scaled("", time, [c, 1.0]).replace(',', ";");
         fs::write(here.join("a.csv"), format!("{header}{semicolons}")).unwrap();
         let run = run(here, "identify a.csv --output csv");
-        let told = "warning: a.csv: S_C is in мВ and S_D in В: both are read in В\n";
+        let told = "warning: a.csv: S_C is in мВ and S_D in В: both are converted to В\n";
         assert_eq!((run.code, run.err.as_str()), (0, told), "{header}");
         let found = Row::all(&run.out);
         assert_eq!(found.len(), expected.len());
@@ -173,11 +178,11 @@ fn a_time_with_an_unknown_unit_in_its_name_is_read_as_seconds_with_a_warning() {
         fs::write(here.join("a.csv"), text).unwrap();
         let run = run(here, "identify a.csv --output csv");
         assert_eq!((run.code, run.err.lines().count()), (0, 1), "{}", run.err);
-        let told = format!("warning: a.csv: the time column `{name}` is read as seconds, ");
+        let told = format!("warning: a.csv: the unit of the time column `{name}` is not known, ");
         assert!(run.err.starts_with(&told), "{}", run.err);
         assert!(
             run.err
-                .ends_with("ignore it with --columns 2,3 --rate HZ\n")
+                .ends_with("ignore the column with --columns 2,3 --rate HZ\n")
         );
         assert!(Row::all(&run.out).len() > 20);
     }

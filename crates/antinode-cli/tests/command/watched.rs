@@ -10,6 +10,20 @@ use std::time::Duration;
 use crate::common::{WAVE, text, wav};
 use serialport::{SerialPort, TTYPort};
 
+#[test]
+fn a_recording_is_not_read_from_a_terminal() {
+    let (_terminal, end) = TTYPort::pair().unwrap();
+    let input = File::options().read(true).open(end.name().unwrap());
+    let run = Command::new(env!("CARGO_BIN_EXE_antinode"))
+        .args(["identify", "-"])
+        .stdin(Stdio::from(input.unwrap()))
+        .output()
+        .unwrap();
+    assert_eq!(run.status.code(), Some(1));
+    let told = "error: standard input: this is a terminal; pipe a recording into the command, or name a file\n";
+    assert_eq!(String::from_utf8(run.stderr).unwrap(), told);
+}
+
 /// Standard error as a terminal shows it.
 fn shown(directory: &Path, arguments: &[&str]) -> String {
     let (mut terminal, end) = TTYPort::pair().unwrap();
@@ -44,7 +58,7 @@ fn a_recording_is_named_with_its_format_length_and_rate() {
     // A rate that contradicts the header is warned of first.
     let told = shown(here, &["a.wav", "--rate", "5e4"]);
     let (warning, told) = told.split_once('\n').unwrap();
-    assert!(warning.starts_with("warning: a.wav: by its header "));
+    assert!(warning.starts_with("warning: a.wav: the sample rate is 100000 Hz by its header and "));
     assert_eq!(told, sound.replace("100000", "50000"));
     // The length of a text is known at its end.
     let lines = "a.csv: CSV at 100000 Hz\na.csv: 5000 sample pairs\n";

@@ -119,7 +119,7 @@ fn no_column_is_chosen_twice() {
         ("3,2,3", 3),
         ("c,2", 2),
     ] {
-        let told = format!("column {number} is chosen twice; choose one each of");
+        let told = format!("column {number} is chosen twice; choose different columns for");
         let fault = places("time,c,d", Some(chosen)).unwrap_err();
         assert!(fault.starts_with(&told), "{chosen}: {fault}");
     }

@@ -132,7 +132,7 @@ impl Rows {
         {
             let (place, description) = match broken_line {
                 Some(broken) if is_left_out => (of_line, broken),
-                Some(broken) => (of_line, format!("{broken}, so no finite number")),
+                Some(broken) => (of_line, format!("{broken}, so a sample is missing")),
                 None => (
                     self.place(role),
                     describe(Role::ALL[role], texts[role], read),
@@ -195,12 +195,12 @@ impl Rows {
 fn describe(role: Role, text: &[u8], read: Option<f32>) -> String {
     let value = match read {
         _ if text.is_empty() => "missing".to_owned(),
-        Some(read) => read.to_string(),
-        None => format!("`{}`", shown(text)),
+        Some(read) => format!("{read}, not a finite number"),
+        None => format!("`{}`, not a finite number", shown(text)),
     };
     match role {
-        Role::Time => format!("the time is {value}, not a finite number"),
-        Role::Signal(channel) => format!("{channel}: the value is {value}, not a finite number"),
+        Role::Time => format!("the time is {value}"),
+        Role::Signal(channel) => format!("{channel}: the value is {value}"),
     }
 }
 

@@ -107,17 +107,17 @@ fn faults_in_a_line_are_named_by_line_and_column() {
         (
             "1,2\n,3\n",
             2,
-            "a.csv:2:1: sample pair 1 (from 0), S_C (left): the value is missing, ",
+            "a.csv:2:1: sample pair 1 (from 0), S_C (left): the value is missing; rows whose window contains one ",
         ),
         (
             "1,2\n3,\n",
             2,
-            "a.csv:2:2: sample pair 1 (from 0), S_D (right): the value is missing, ",
+            "a.csv:2:2: sample pair 1 (from 0), S_D (right): the value is missing; rows whose window contains one ",
         ),
         (
             "1,2\n,\n",
             2,
-            "a.csv:2:1: sample pair 1 (from 0), S_C (left): the value is missing, not a finite number, the first of 2; ",
+            "a.csv:2:1: sample pair 1 (from 0), S_C (left): the value is missing, the first of 2; ",
         ),
         (
             "1,2\n\"3,4\n5,6\n",
@@ -139,22 +139,22 @@ fn faults_in_a_line_are_named_by_line_and_column() {
         (
             "0x0CEC,0x07F1\n0x0CED,0x07F0\n",
             0,
-            "a.csv:1:1: S_C is `0x0CEC`, not a number; write hexadecimal codes in decimal digits",
+            "a.csv:1:1: S_C is `0x0CEC`, not a number; write the codes in decimal digits; unsigned",
         ),
         (
             "[3300, 2033]\n[3301, 2032]\n",
             0,
-            "a.csv:1:1: S_C is `[3300`, not a number; take the brackets away, `tr -d",
+            "a.csv:1:1: S_C is `[3300`, not a number; remove the brackets, `tr -d",
         ),
         (
             "C:512,D:498\nC:513,D:497\nC:514,D:-6\n",
             0,
-            "a.csv:1:1: S_C is `C:512`, not a number; take the labels away, `sed",
+            "a.csv:1:1: S_C is `C:512`, not a number; remove the labels, `sed",
         ),
         (
             "t=0.1,512,498\nt=0.2,513,497\n",
             0,
-            "a.csv:1:1: the time is `t=0.1`, not a number; take the labels away, `sed",
+            "a.csv:1:1: the time is `t=0.1`, not a number; remove the labels, `sed",
         ),
         (
             "12:34:56.789 -> 512,498\n12:34:56.790 -> 513,497\n",
@@ -215,9 +215,9 @@ fn faults_in_a_line_are_named_by_line_and_column() {
         (
             "# nothing\n\n",
             0,
-            "a.csv: there is not one sample pair in it; ",
+            "a.csv: there are no sample pairs in it; ",
         ),
-        ("c,d\n", 0, "a.csv: there is not one sample pair in it; "),
+        ("c,d\n", 0, "a.csv: there are no sample pairs in it; "),
         (
             "1,2\n3,\x1b[31m4\n",
             2,

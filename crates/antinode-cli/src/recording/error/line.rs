@@ -44,22 +44,22 @@ pub enum LineFault {
             MANY_COLUMNS.. => "give one sample pair a line: of a line for each channel in Python `import numpy; \
                   numpy.savetxt('both.csv', numpy.loadtxt('FILE', delimiter=',').T, delimiter=',')`, with the file's own delimiter in \
                   `loadtxt`",
-            _ => "drop the others, or name the right ones with --columns TIME,C,D, or C,D where there is no time",
+            _ => "remove the others, or choose the right ones with --columns TIME,C,D, or C,D if there is no time",
         },
         if *.are_words { "; if this line is a title, delete it or begin it with #" } else { "" }
     )]
     ColumnCount { found: usize, are_words: bool },
     /// Rows that were identified already.
     #[error(
-        "these are rows as this program prints them, no samples; give the recording, or the rows to `antinode plot`, `resonator` \
-         or `calibrate`"
+        "these are rows printed by `antinode identify` or `monitor`, not samples; give the recording itself, or give the rows to \
+         `antinode plot`, `resonator` or `calibrate`"
     )]
     Rows,
     /// A time and only one signal.
     #[error(
-        "found the time and one signal, but both are needed, S_C and S_D: export both channels into one file, or put \
-         the files of both side by side, `paste -d, c.csv d.csv`, and name the columns with --columns TIME,C,D; if there \
-         are two signals and no time, --columns C,D"
+        "found the time and one signal, but both S_C and S_D are needed; export both channels to one file, or put their files \
+         side by side with `paste -d, c.csv d.csv`, and choose the columns with --columns TIME,C,D; if these are two signals \
+         without a time, give --columns C,D"
     )]
     OneSignal,
     /// A chosen column that does not exist.
@@ -67,7 +67,7 @@ pub enum LineFault {
     ColumnUnknown { wanted: String, known: String },
     /// One column chosen for two of the time, S_C and S_D.
     #[error(
-        "column {number} is chosen twice; choose one each of the time, S_C and S_D with --columns"
+        "column {number} is chosen twice; choose different columns for the time, S_C and S_D with --columns"
     )]
     ColumnTwice { number: usize },
     /// Too few fields.
@@ -88,8 +88,8 @@ pub enum LineFault {
     Number { role: Role, text: String },
     /// Units of different quantities.
     #[error(
-        "S_C is in {} and S_D in {}, which have no common unit; record both alike, mend the units, or choose other columns \
-         with --columns",
+        "S_C is in {} and S_D in {}, which have no common unit; record the same quantity twice, correct the units in the file, or choose \
+         other columns with --columns",
         units[0], units[1]
     )]
     Units { units: [String; 2] },
@@ -106,8 +106,8 @@ pub enum TimeFault {
     Unit { name: String },
     /// A unit of time that the settings name, but not the header of the samples.
     #[error(
-        "the settings tell a time in `{unit}`, but the samples tell no unit; write the true one behind the time's name above \
-         them, as `TIME [ms]`"
+        "the settings give the time in `{unit}`, but the time column has no unit; add the right one to its name above the samples, as in \
+         `TIME [ms]`"
     )]
     UnitUnsure { unit: String },
     /// A line without a time.
@@ -121,24 +121,24 @@ pub enum TimeFault {
     Number { text: String },
     /// Time stands still or runs backwards.
     #[error(
-        "time goes from {from} s to {to} s, but must go up; sort the lines, cut the \
-         recording here, print the time with more digits: what follows is not read"
+        "time goes from {from} s to {to} s, but must increase, and what follows is not read; sort the lines, cut the recording here, \
+         print times with more digits"
     )]
     Backwards { from: f64, to: f64 },
     /// Each time stands in two lines.
     #[error(
-        "each time stands in two lines: where these are a minimum and a maximum (peak detect, envelope), record or export single \
-         samples; where times are rounded, print them with more digits"
+        "each time stands in two lines; if these are a minimum and a maximum (peak detect, envelope), record or export single \
+         samples; if times are rounded, print more digits"
     )]
     Paired,
     /// A gap of `lost` whole samples, the first of `gaps` gaps with `all` samples in all; reported once all is read.
     #[error(
-        "{lost} {} lost before this line (time goes from {from} s to {to} s){}{}; rows of windows with a gap are missing, the \
-         others are good: record it again without loss",
+        "{lost} {} lost before this line (time goes from {from} s to {to} s){}{}; rows whose window spans a gap are missing, \
+         all others are good; record it again without loss",
         if *.lost == 1 { "sample is" } else { "samples are" },
         if *.gaps == 1 { String::new() } else { format!(", the first of {gaps} gaps with {all} samples") },
         every.map_or_else(String::new, |every| format!(
-            ", one every {every} samples, as where packets have times of their own and nothing is lost"
+            ", one every {every} samples, as if packets had their own time stamps and nothing were lost"
         ))
     )]
     Gap {
@@ -153,19 +153,19 @@ pub enum TimeFault {
     /// A step that is no whole number of samples.
     #[error(
         "time steps by {step:.4e} s here, but by {usual:.4e} s elsewhere; sample at a constant \
-         rate, resample it to one"
+         rate, resample the recording to one"
     )]
     Uneven { step: f64, usual: f64 },
     /// The average sample rate has changed.
     #[error(
-        "the sample rate has gone from {from:.3} Hz to {to:.3} Hz; sample at a constant rate, \
-         resample it to one"
+        "the sample rate has changed from {from:.3} Hz to {to:.3} Hz; sample at a constant rate, \
+         resample the recording to one"
     )]
     Drift { from: f64, to: f64 },
     /// Times printed with too few digits.
     #[error(
-        "time is told to {told:.0e} s only, too coarse for samples {usual:.4e} s apart; print \
-         it with more digits"
+        "times are given to {told:.0e} s only, too coarse for samples {usual:.4e} s apart; print \
+         more digits, and keep times in double precision"
     )]
     Coarse { told: f64, usual: f64 },
 }

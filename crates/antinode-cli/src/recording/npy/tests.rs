@@ -76,7 +76,7 @@ fn other_shapes_and_types_are_named() {
         ("()", "()"),
     ] {
         let expected = format!(
-            "a.npy: NPY header: the shape is {shown}, but (N, 2) is needed; of more channels give two, --columns 2,3 where the first is the time, or save `numpy.stack("
+            "a.npy: NPY header: the shape is {shown}, but (N, 2) is needed; of more channels choose two, as in --columns 2,3 if the first is the time, or save `numpy.stack("
         );
         assert!(
             fault("'<i2'", shape).starts_with(&expected),
@@ -105,7 +105,7 @@ fn other_shapes_and_types_are_named() {
         );
     }
     for shape in ["(0, 2)", "(2, 0)"] {
-        let expected = "a.npy: there is not one sample pair in it; ";
+        let expected = "a.npy: there are no sample pairs in it; ";
         assert!(fault("'<i2'", shape).starts_with(expected));
     }
 }
@@ -211,10 +211,9 @@ fn a_pipe_cannot_go_back() {
     };
     let mut recording = Recording::new("pipe".to_owned(), open("(3, 2)").unwrap(), None);
     assert_eq!(drain(&mut recording).0, PAIRS);
-    assert!(
-        message(open("(2, 3)").err())
-            .starts_with("pipe: S_D follows after all of S_C, which a pipe cannot")
-    );
+    assert!(message(open("(2, 3)").err()).starts_with(
+        "pipe: the array holds all of S_C before S_D, which cannot be read from a pipe"
+    ));
 }
 
 #[test]

@@ -176,7 +176,7 @@ fn a_finished_file_of_nothing_has_no_pairs() {
     assert!(
         empty
             .fault()
-            .starts_with("a.wav: there is not one sample pair in it;")
+            .starts_with("a.wav: there are no sample pairs in it;")
     );
 }
 

@@ -20,7 +20,7 @@ fn a_line_without_a_known_time_is_left_out() {
         (
             "0,1,2\n1,1,2\n2,1,2\n,2,3\n3,3,4\n",
             4,
-            "a.csv:4:1: the time is missing, not a finite number: the line is left out; rows",
+            "a.csv:4:1: the time is missing: the line is left out; rows",
         ),
         (
             "0,1,2\n1,1,2\n2,1,2\n3,1,2\nx,2,3\n6,3,4\n",
@@ -74,33 +74,33 @@ fn a_broken_line_whose_place_is_known_is_a_pair_without_its_samples() {
         (
             "1,2\n3\n5,6\n",
             vec!["1 2", "NaN NaN", "5 6"],
-            "a.csv:2: sample pair 1 (from 0), a line of 1 field where the first has 2, so no finite number, the first of 2; rows",
+            "a.csv:2: sample pair 1 (from 0), a line of 1 field where the first has 2, so a sample is missing, the first of 2; rows",
         ),
         (
             "1 2\n3\n5 6\n",
             vec!["1 2", "NaN NaN", "5 6"],
-            "a.csv:2: sample pair 1 (from 0), a line of 1 field where the first has 2, so no finite number, the first of 2; rows",
+            "a.csv:2: sample pair 1 (from 0), a line of 1 field where the first has 2, so a sample is missing, the first of 2; rows",
         ),
         (
             "1,2\n3,4,5\n5,6\n",
             vec!["1 2", "NaN NaN", "5 6"],
-            "a.csv:2: sample pair 1 (from 0), a line of 3 fields where the first has 2, so no finite number, the first of 2; rows",
+            "a.csv:2: sample pair 1 (from 0), a line of 3 fields where the first has 2, so a sample is missing, the first of 2; rows",
         ),
         (
             "1,2\n5,6\n7",
             vec!["1 2", "5 6", "NaN NaN"],
-            "a.csv:3: sample pair 2 (from 0), a line of 1 field where the first has 2, so no finite number, the first of 2; rows",
+            "a.csv:3: sample pair 2 (from 0), a line of 1 field where the first has 2, so a sample is missing, the first of 2; rows",
         ),
         // The last field of a line cut off may be cut itself.
         (
             "0,1,2\n1,15\n2,5,6\n",
             vec!["1 2", "NaN NaN", "5 6"],
-            "a.csv:2: sample pair 1 (from 0), a line of 2 fields where the first has 3, so no finite number, the first of 2; rows",
+            "a.csv:2: sample pair 1 (from 0), a line of 2 fields where the first has 3, so a sample is missing, the first of 2; rows",
         ),
         (
             "time,c,heat,d\n0,1,20,2\n1,3,20\n2,5,20,6\n",
             vec!["1 2", "3 NaN", "5 6"],
-            "a.csv:3: sample pair 1 (from 0), a line of 3 fields where the first has 4, so no finite number; rows",
+            "a.csv:3: sample pair 1 (from 0), a line of 3 fields where the first has 4, so a sample is missing; rows",
         ),
     ] {
         let (_directory, path) = file("a.csv", text.as_bytes());

@@ -68,7 +68,7 @@ fn gaps_as_regular_as_packets_are_reported_as_such() {
     };
     let regular = told(&[50; 7]);
     assert!(
-        regular.contains(", one every 50 samples, as where packets have times of their own"),
+        regular.contains(", one every 50 samples, as if packets had their own time stamps"),
         "{regular}"
     );
     for packets in [[50; 5].as_slice(), &[50, 50, 50, 50, 51, 50, 50]] {
@@ -83,7 +83,7 @@ fn faults_in_time_are_named_by_line() {
         (
             "0,1,2\n1,1,2\n2,1,2\n1.5,1,2\n",
             3,
-            "a.csv:4: time goes from 2 s to 1.5 s, but must go up; sort",
+            "a.csv:4: time goes from 2 s to 1.5 s, but must increase, and what follows is not read; sort",
         ),
         (
             "0,1,2\n1,1,2\n2,1,2\n5,1,2\n6,1,2\n",
@@ -103,17 +103,17 @@ fn faults_in_time_are_named_by_line() {
         (
             "2,1,2\n1,1,2\n",
             1,
-            "a.csv:2: time goes from 2 s to 1 s, but must go up; ",
+            "a.csv:2: time goes from 2 s to 1 s, but must increase, and what follows is not read; ",
         ),
         (
             "2,1,2\n2,1,2\n2,1,2\n",
             1,
-            "a.csv:2: time goes from 2 s to 2 s, but must go up; ",
+            "a.csv:2: time goes from 2 s to 2 s, but must increase, and what follows is not read; ",
         ),
         (
             "2,1,2\n2,1,2\n2,1,2\n3,1,2\n",
             1,
-            "a.csv:2: time is told to 1e0 s only, too coarse for samples ",
+            "a.csv:2: times are given to 1e0 s only, too coarse for samples ",
         ),
     ] {
         let fault = check(text, pairs, expected);

@@ -101,19 +101,19 @@ fn a_damaged_header_is_named() {
         ),
         (
             change(|wav| wav.format[12] = 8),
-            "16 valid of 16 bits do not fit 2 channels of 8 bytes together; ",
+            "16 valid of 16 bits in 2 channels do not fit a frame of 8 bytes; ",
         ),
         (
             change(|wav| wav.format = extensible(1, 16, 24)),
-            "24 valid of 16 bits do not fit 2 channels of 4 bytes together; ",
+            "24 valid of 16 bits in 2 channels do not fit a frame of 4 bytes; ",
         ),
         (
             change(|wav| wav.format = extensible(3, 32, 24)),
-            "24 valid of 32 bits do not fit 2 channels of 8 bytes together; ",
+            "24 valid of 32 bits in 2 channels do not fit a frame of 8 bytes; ",
         ),
         (
             change(|wav| wav.format = format(0xfffe, 2, 16)),
-            "its extensible format is of no known kind; ",
+            "its extensible format has an unknown subtype; ",
         ),
     ] {
         assert!(
@@ -154,7 +154,7 @@ fn another_wav_behind_the_samples_is_reported() {
         both.after = Wav { magic, ..one }.bytes();
         let (pairs, fault) = both.read();
         assert_eq!(pairs, [[0.5, -1.0]; 3]);
-        let expected = "a.wav: behind 3 sample pairs another WAV file begins, which is not read: ";
+        let expected = "a.wav: after 3 sample pairs another WAV file begins, which is not read; ";
         assert!(fault.expect("a fault").starts_with(expected));
     }
 }

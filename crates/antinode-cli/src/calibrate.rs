@@ -125,7 +125,7 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
         };
         let _ = writeln!(
             report,
-            "{look}if the rows were identified with a calibration, give it here too, for what is printed replaces it"
+            "{look}if the rows were identified with a calibration, give it here too: the printed options replace it"
         );
     }
     print(&mut io::stdout().lock(), options.output, &quantities)?;
@@ -186,16 +186,16 @@ fn write_report(
     if !found.knows_splits {
         writeln!(
             out,
-            "warning: the pattern turns one way only: a resonator whose damping or frequency depends on the angle looks like a calibration then; \
-             let it turn the other way in a second recording, and give the rows of both"
+            "warning: the pattern turns only one way, and a resonator's splits of damping and frequency then look like flaws of the \
+             pick-offs; let it turn the other way in a second recording, and give the rows of both"
         )?;
     }
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,
             "warning: rows differ from the calibrated wave by {:.1} times their noise: the wave is still driven in some rows (identify each \
-             ring-down by itself with --from and --to), something else moves with the angle, or a pick-off or the converter is nonlinear; the \
-             deviations above are wider by that, and the values may be further off than these",
+             ring-down by itself with --from and --to), something else changes with the angle, or a pick-off or the converter is nonlinear; \
+             the deviations above include this factor, but the values may be further off",
             found.residual
         )?;
     }

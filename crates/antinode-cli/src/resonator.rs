@@ -74,8 +74,8 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
     rows.runs = runs;
     let found = fit(&rows.runs).map_err(|_| {
         Failure::Fault(format!(
-            "{name}: no resonator explains the rows: see that nothing drives the gyro while it rings down, \
-             and leave out rows that lie far off all others"
+            "{name}: no resonator explains the rows: check that nothing drives the gyro while it rings down, and leave out outlying rows (see \
+             --from and --to)"
         ))
     })?;
     let frequency = frequency(&rows, &found);
@@ -125,8 +125,7 @@ fn write_notes(
     if found.is_unsteady() {
         writeln!(
             out,
-            "the rotation is not steady: the angles of the patterns are taken from the rows as they are, and tell nothing of the splits by \
-             their drift"
+            "no steady rotation explains the rows: pattern angles are taken from the rows, and their drift is not used to find the splits"
         )?;
     }
     note_misfit(out, found)
@@ -137,11 +136,15 @@ fn note_runs(out: &mut impl Write, rows: &Runs, listed: &[usize], found: &Found)
     rows.write_notes(out)?;
     let others = rows.runs.len() - listed.len();
     if others > 0 {
+        let runs = if others == 1 {
+            "1 run".to_owned()
+        } else {
+            format!("{others} runs")
+        };
         let of_listed: usize = listed.iter().map(|&run| rows.runs[run].rows.len()).sum();
         writeln!(
             out,
-            "not listed: runs too short, or too near noise, to tell a decay by themselves, {others} with {} rows; what all rows tell \
-             together holds them",
+            "not listed: {runs} with {} rows, too short or too noisy to show a decay alone; the resonator's values include them",
             rows.used() - of_listed
         )?;
     }
@@ -150,7 +153,7 @@ fn note_runs(out: &mut impl Write, rows: &Runs, listed: &[usize], found: &Found)
         let what = if decay < -DECAY_SEEN * std {
             "grows: something drives it; its decay time and quality factor mean nothing"
         } else if decay < DECAY_SEEN * std {
-            "does not decay beyond its noise: its decay time and quality factor mean nothing; record longer"
+            "does not decay significantly: its decay time and quality factor mean nothing; record longer"
         } else {
             continue;
         };
@@ -170,14 +173,14 @@ fn note_splits(
     if found.resonator().is_none() {
         writeln!(
             out,
-            "the rows do not tell the splits of damping and frequency: give ring-downs at pattern angles of 0°, 22.5° and 45°, or of a \
-             pattern that turns by 45° and more; the mean frequency is that along the patterns, which a split moves"
+            "the rows do not determine the splits of damping and frequency: give ring-downs at pattern angles of 0°, 22.5° and 45°, or of a \
+             pattern that turns by 45° or more; the mean frequency is the one along the patterns, which a split shifts"
         )?;
     } else if let Some(rate) = one_way(rows, listed) {
         let (frequency, _) = frequency.mean;
         writeln!(
             out,
-            "warning: the pattern turns one way only, and what is left of the pick-offs' flaws looks like splits then: a gain ratio that is 0.1 % \
+            "warning: the pattern turns only one way, and remaining flaws of the pick-offs then look like splits: a gain ratio that is 0.1 % \
              off like {:.1e} 1/s of damping, a skew 10 ns off like {:.1e} Hz; give rows of a pattern that turns the other way too",
             4e-3 * rate,
             4e-8 * rate * frequency
@@ -192,23 +195,25 @@ fn note_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<()>
         let with = match frequency.by_energy {
             ByEnergy::Chance => String::new(),
             ByEnergy::Alone(_, drift) => format!(
-                "; what goes with a_A² + a_B² is taken not to be a drift, of which {drift:.0e} Hz/s, unseen, would be as much as its deviation"
+                "; the dependence on a_A² + a_B² is taken not to be a drift; an unseen drift of {drift:.0e} Hz/s would change it by one \
+                 deviation"
             ),
             ByEnergy::Beside(_) => {
-                "; the deviation of what goes with a_A² + a_B² allows for a drift with time".to_owned()
+                "; the deviation of the dependence on a_A² + a_B² allows for a drift with time".to_owned()
             }
             ByEnergy::Denied => {
-                "; what goes with a_A² + a_B² is not told: if the shell's stiffness made it, a_A·a_B would turn the patterns otherwise than it does"
+                "; the dependence on a_A² + a_B² is not reported: if the shell's stiffness caused it, a_A·a_B would turn the patterns at \
+                 another rate than observed"
                     .to_owned()
             }
             ByEnergy::Ambiguous => {
-                "; the rows do not tell what goes with a_A² + a_B² from a drift with time: let the wave ring down further".to_owned()
+                "; the rows do not distinguish a dependence on a_A² + a_B² from a drift with time: let the wave ring down further".to_owned()
             }
         };
         writeln!(
             out,
-            "warning: the frequency moves by {moves:.2e} Hz, rms, beyond noise: with the amplitude, or the temperature, or the sample clock drifts; \
-             the deviation of the mean frequency is wider by that{with}"
+            "warning: the frequency varies by {moves:.2e} Hz rms beyond noise: it depends on the amplitude or the temperature, or the sample \
+             clock drifts; the deviation of the mean frequency includes this{with}"
         )?;
     }
     Ok(())
@@ -216,36 +221,36 @@ fn note_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<()>
 
 /// Warns if the rows differ from the resonator's motion by more or less than noise.
 fn note_misfit(out: &mut impl Write, found: &Found) -> io::Result<()> {
-    let why = "the wave is still driven in some rows (see --from), the damping changes meanwhile, or with the amplitude, a tone at the wave's \
-               frequency is always present, as a drive's feed-through is, the pick-offs are not calibrated, a gain or the wave jumped by too little \
-               to be flagged, a pick-off or the converter is nonlinear, or the converter's steps repeat from row to row";
+    let why = "the wave is still driven in some rows (see --from), the damping changes with time or amplitude, a tone at the wave's frequency \
+               is always present (as from a drive's feed-through), the pick-offs are not calibrated, a gain or the wave jumped by too little \
+               to be flagged, a pick-off or the converter is nonlinear, or the converter's rounding repeats from row to row";
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,
-            "warning: rows differ from the resonator's motion by {:.1} times their noise: {why}; the deviations above are wider by that, and the \
-             values may be further off than these",
+            "warning: rows differ from the resonator's motion by {:.1} times their noise: {why}; the deviations above include this factor, \
+             but the values may be further off",
             found.residual
         )?;
     } else if found.is_below_noise() {
         writeln!(
             out,
-            "warning: rows differ from the resonator's motion by only {:.2} times their noise: the converter's steps do so where its noise is below \
-             half a step, for they repeat from row to row, and values may then be several times further off than the deviations above (use more \
-             of its range, or add noise before it); or noise is less about the wave's frequency than elsewhere, as a filter or a second tone makes \
-             it, and the deviations are larger than need be (see --coloured and --hum of identify)",
+            "warning: rows differ from the resonator's motion by only {:.2} times their noise: if noise is below half a converter step, \
+             rounding repeats from row to row, and values may be off by several times the deviations above (use more of the converter's \
+             range, or add noise before it); or, because of a filter or a second tone, noise is weaker about the wave's frequency than \
+             elsewhere, and the deviations are larger than need be (see --coloured and --hum of identify)",
             found.residual
         )?;
     } else if found.is_alike() {
         writeln!(
             out,
-            "warning: rows that follow each other differ from the resonator's motion alike, which noise does not: {why}; the values may be \
+            "warning: consecutive rows differ from the resonator's motion in the same way, which noise does not do: {why}; the values may be \
              further off than the deviations above"
         )?;
     }
     if found.withholds_turning() {
         writeln!(
             out,
-            "what amplitudes turn the pattern by is not told: flaws of pick-offs that are not calibrated look like it"
+            "the turning by a_A·a_B is not reported: uncalibrated pick-offs have the same effect"
         )?;
     }
     Ok(())

@@ -107,22 +107,22 @@ impl Runs {
             // Rows out of order would otherwise be reported as runs that are too short.
             if 3 * self.backward > self.rows {
                 return fault(format!(
-                    "time does not go on from row to row, {} times in {} rows; give each recording's rows once and in the order of their time",
+                    "time does not increase from row to row, {} times in {} rows; give each recording's rows once, in order of time",
                     self.backward, self.rows
                 ));
             }
             if self.rows < MIN_ROWS {
                 let only = match self.rows {
-                    0 => "there is no row".to_owned(),
-                    1 => "there is only 1".to_owned(),
-                    rows => format!("there are only {rows}"),
+                    0 => "there are no rows".to_owned(),
+                    1 => "there is only 1 row".to_owned(),
+                    rows => format!("there are only {rows} rows"),
                 };
                 return fault(format!(
-                    "no run of {MIN_ROWS} clean rows, for {only}: shorten the windows, or record longer"
+                    "no run of {MIN_ROWS} clean rows, as {only}; shorten the windows, or record longer"
                 ));
             }
             return fault(format!(
-                "no run of {MIN_ROWS} clean rows in which the pattern turns by less than {:.1}° from row to row; see their flags, and \
+                "no run of {MIN_ROWS} clean rows in which the pattern turns by less than {:.1}° from row to row; see the rows' flags, and \
                  shorten the windows if it turns faster",
                 self.max_turn.to_degrees()
             ));
@@ -157,7 +157,7 @@ impl Runs {
         if self.overlapping > 0 {
             writeln!(
                 out,
-                "{} rows are left out whose windows overlap the one before: they tell the same noise again",
+                "{} rows are left out because their windows overlap the one before and share its noise",
                 self.overlapping
             )?;
         }
@@ -169,7 +169,7 @@ impl Runs {
             };
             let more = match self.steps.len() - 1 {
                 0 => String::new(),
-                more => format!(", and at {more} more"),
+                more => format!(", and at {more} more places"),
             };
             writeln!(
                 out,
@@ -183,8 +183,8 @@ impl Runs {
         if let Some((_, run)) = repeated {
             writeln!(
                 out,
-                "warning: rows of {} come again for the same time, as of other windows: their noise is counted twice, and every deviation is \
-                 smaller than it should be, by up to √2; give each recording's rows once",
+                "warning: rows of {} cover the same time twice, perhaps in other windows: their noise is counted twice, and every deviation \
+                 is too small by a factor of up to √2; give each recording's rows once",
                 run.file
             )?;
         }
@@ -226,7 +226,7 @@ impl Runs {
             // Not before: a flagged row need not have numbers.
             let Some(row) = Row::parse(record, &places) else {
                 return Err(rows.fault(
-                    "a time, amplitude, angle, frequency or deviation is no number of single precision, an amplitude or a deviation is not above 0, \
+                    "a time, amplitude, angle, frequency or deviation is not a number in single precision, a_A or a deviation is not above 0, \
                      or a_B exceeds a_A",
                 ));
             };
@@ -287,7 +287,7 @@ impl Run {
 /// The failure for rows that are given twice.
 fn given_twice(what: &str) -> Failure {
     Failure::Fault(format!(
-        "{what} is given twice: its noise would seem to be less than it is; give it once"
+        "{what} is given twice, which would make deviations too small; give it once"
     ))
 }
 

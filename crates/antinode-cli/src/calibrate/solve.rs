@@ -117,14 +117,14 @@ impl Fault {
     pub fn of(&self, name: &str) -> Failure {
         Failure::Fault(match self {
             Self::Still(turned) => format!(
-                "{name}: the pattern turns by only {:.1}°, but must turn by 90° or more: turn the gyro while it rings down; where it does, shorten \
-                 the windows, for it must turn by less than {:.1}° from row to row",
+                "{name}: the pattern turns by only {:.1}°, but must turn by 90° or more: turn the gyro while it rings down; if it did turn \
+                 that far, shorten the windows, as the pattern must turn by less than {:.1}° from row to row",
                 turned.to_degrees(),
                 super::MAX_TURN.to_degrees()
             ),
             Self::Unsettled => format!(
-                "{name}: no calibration explains the rows: see that columns C and D are the pick-offs, and that nothing but the gyro's turning \
-                 moves the pattern"
+                "{name}: no calibration explains the rows: check that S_C and S_D are the pick-offs, and that only the gyro's rotation moves \
+                 the pattern"
             ),
         })
     }

@@ -33,7 +33,7 @@ const DRIFT: Kind = kind("frequency_drift_hz_s", "frequency drift, Hz/s", 1.0);
 /// Both at one input unit squared.
 const BY_ENERGY: Kind = kind(
     "frequency_by_energy_hz",
-    "by a_A² + a_B², Hz per unit²",
+    "rise with a_A² + a_B², Hz/unit²",
     1.0,
 );
 const BY_AMPLITUDES: Kind = kind(
@@ -224,6 +224,6 @@ pub fn table(
     }
     writeln!(
         out,
-        "deviations are those of noise: what a nonlinear pick-off or converter does is in none of them"
+        "deviations cover noise only, not a nonlinear pick-off or converter"
     )
 }

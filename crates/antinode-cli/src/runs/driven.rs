@@ -207,7 +207,7 @@ pub fn warn(out: &mut impl Write, driven: &[Run]) -> io::Result<()> {
     };
     writeln!(
         out,
-        "warning: left out: {count} in which the wave does not decay, as it does in others, so that something drives it: {}",
+        "warning: left out: {count} in which something drives the wave, as it does not decay there but does in others: {}",
         names(driven)
     )
 }

@@ -213,11 +213,11 @@ fn the_reason_for_no_run_is_reported() {
     let few = rows("a", 11, 0.01, |_| "");
     let fault = message(&few).unwrap();
     assert!(
-        fault.contains("no run of 12 clean rows, for there are only 11: shorten"),
+        fault.contains("no run of 12 clean rows, as there are only 11 rows; shorten"),
         "{fault}"
     );
     let flagged = message(&rows("a", 40, 0.01, |_| "misfit")).unwrap();
-    assert!(flagged.contains("see their flags"), "{flagged}");
+    assert!(flagged.contains("see the rows' flags"), "{flagged}");
     let backwards: String = rows("a", 40, 0.01, |_| "")
         .lines()
         .rev()
@@ -225,15 +225,15 @@ fn the_reason_for_no_run_is_reported() {
         .collect();
     let fault = message(&backwards).unwrap();
     assert!(
-        fault.contains("time does not go on from row to row, 39 times in 40 rows"),
+        fault.contains("time does not increase from row to row, 39 times in 40 rows"),
         "{fault}"
     );
     // One recording under two names.
     let copies = rows("a", 40, 0.01, |_| "") + &rows("b", 40, 0.01, |_| "");
     let fault = message(&copies).unwrap();
-    let twice = "it: a run of a and of b, 0.4 s with 40 rows from 0 s on, is given twice: ";
+    let twice = "it: a run of a and of b, 0.4 s with 40 rows from 0 s on, is given twice, which would make deviations too small";
     assert!(fault.starts_with(twice), "{fault}");
-    for (count, reason) in [(0, "for there is no row:"), (1, "for there is only 1:")] {
+    for (count, reason) in [(0, "as there are no rows;"), (1, "as there is only 1 row;")] {
         let fault = message(&rows("a", count, 0.01, |_| "")).unwrap();
         assert!(fault.contains(reason), "{fault}");
     }

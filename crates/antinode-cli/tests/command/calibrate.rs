@@ -215,7 +215,7 @@ fn rows_that_were_already_calibrated_are_noticed() {
     let told = "the pick-offs look ideal: if the rows were identified with a calibration, give it";
     assert!(!first.err.contains(told), "{}", first.err);
     // The note appears whenever no calibration is given.
-    let plain = "\nif the rows were identified with a calibration, give it here too, for what is printed replaces it\n";
+    let plain = "\nif the rows were identified with a calibration, give it here too: the printed options replace it\n";
     assert!(first.err.ends_with(plain), "{}", first.err);
     let arguments = format!("identify --output csv one.wav other.wav {}", first.out);
     let rows = run(here, &arguments).out;
@@ -235,7 +235,7 @@ fn there_is_a_warning_if_the_pattern_turns_one_way_only() {
     let one = calibrate(directory.path(), "one.wav", "");
     numbers(&one);
     assert!(
-        one.err.contains("warning: the pattern turns one way only"),
+        one.err.contains("warning: the pattern turns only one way"),
         "{}",
         one.err
     );

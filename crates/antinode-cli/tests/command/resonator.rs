@@ -108,7 +108,7 @@ fn a_pattern_at_rest_determines_its_decay_alone_and_the_report_says_so() {
     assert!(
         found
             .err
-            .contains("do not tell the splits of damping and frequency")
+            .contains("do not determine the splits of damping and frequency")
             && found.err.contains("22.5° and 45°"),
         "{}",
         found.err
@@ -127,7 +127,7 @@ fn faults_of_the_rows_are_reported() {
     let driven = four_seconds(here, "--decay-rate 0");
     let found = resonator(here, &driven, "");
     assert!(
-        found.code == 0 && found.err.contains("run 1 does not decay beyond its noise"),
+        found.code == 0 && found.err.contains("run 1 does not decay significantly"),
         "{}",
         found.err
     );
@@ -192,7 +192,10 @@ fn a_table_may_turn_unsteadily() {
     }
     let found = resonator(here, &identified(here, "a.wav b.wav"), "--output csv");
     assert!(
-        found.err.starts_with("the rotation is not steady: ") && found.err.lines().count() == 1,
+        found
+            .err
+            .starts_with("no steady rotation explains the rows: ")
+            && found.err.lines().count() == 1,
         "{}",
         found.err
     );

@@ -43,7 +43,7 @@ fn runs_that_are_driven_are_left_out_of_the_resonator() {
             "{driven}: {}",
             found.out
         );
-        let told = "warning: left out: 3 runs in which the wave does not decay, as it does in others, so that something drives it: standard \
+        let told = "warning: left out: 3 runs in which something drives the wave, as it does not decay there but does in others: standard \
                     input, 3.0 s from 0.0 s on; standard input, 3.0 s from 6.0 s on; standard input, 3.0 s from 12.0 s on\n";
         assert_eq!(found.err, told, "{driven}");
         assert!(!found.out.contains("\n4,"), "{}", found.out);

@@ -87,7 +87,7 @@ fn a_frequency_that_moves_is_reported() {
         );
         let found = run(here, "resonator rows.csv --output csv");
         assert_eq!(found.code, 0);
-        for part in ["the frequency moves by", "the sample clock drifts"] {
+        for part in ["the frequency varies by", "the sample clock drifts"] {
             assert_eq!(found.err.contains(part), is_told, "{rate}: {}", found.err);
         }
         let (drift, std) = of_run(&found.out, "1", "frequency_drift_hz_s");

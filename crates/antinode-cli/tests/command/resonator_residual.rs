@@ -7,7 +7,7 @@ use crate::common::run;
 fn rows_that_differ_by_less_than_their_noise_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    let told = "times their noise: the converter's steps do so";
+    let told = "times their noise: if noise is below half a converter step";
     for (noise, bits, is_told) in [
         // 0.01, 0.13 and 0.5 of the steps of 8 bits.
         ("1e-4", "--bits 8", true),

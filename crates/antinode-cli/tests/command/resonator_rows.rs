@@ -71,7 +71,11 @@ fn an_outlier_is_left_out_or_refused_and_rows_given_twice_are_refused() {
     // Too near to the beginning to be taken for a step.
     let found = with_wild(5);
     assert_eq!(found.code, 1);
-    assert!(found.err.contains("far off all others"), "{}", found.err);
+    assert!(
+        found.err.contains("leave out outlying rows"),
+        "{}",
+        found.err
+    );
     // Among other rows it is taken for a step, and is in no run.
     let found = with_wild(20);
     assert_eq!(found.code, 0, "{}", found.err);
@@ -254,11 +258,10 @@ fn short_runs_in_noise_are_reported_in_one_line() {
         rows(here, &simulated, "");
         let found = run(here, "resonator rows.csv");
         let line = found.err.lines().find_map(|line| {
-            let (_, rest) = line
+            let (runs, rest) = line
                 .strip_prefix("not listed: ")?
-                .split_once(" by themselves, ")?;
-            let (runs, rest) = rest.split_once(" with ")?;
-            let (rows, _) = rest.split_once(" rows;")?;
+                .split_once(" runs with ")?;
+            let (rows, _) = rest.split_once(" rows, too short or too noisy")?;
             Some([runs, rows].map(|count| count.parse::<usize>().unwrap()))
         });
         let [runs, of_them] = line.expect(&found.err);
@@ -269,7 +272,7 @@ fn short_runs_in_noise_are_reported_in_one_line() {
             found.out
         );
         assert!(!found.err.contains("of run "), "{}", found.err);
-        assert_eq!(found.err.contains("one way only"), turning != "0");
+        assert_eq!(found.err.contains("only one way"), turning != "0");
     }
 }
 
@@ -285,9 +288,11 @@ fn a_recording_in_windows_of_two_lengths_is_reported() {
     let is_told = |text: String| {
         let found = run_with(here, "resonator -", text.clone().into());
         assert_eq!(found.code, 0, "{}", found.err);
-        let told = found.err.contains("rows of it.wav come again");
+        let told = found
+            .err
+            .contains("rows of it.wav cover the same time twice");
         let calibrated = run_with(here, "calibrate -", text.into());
-        assert_eq!(calibrated.err.contains("come again"), told);
+        assert_eq!(calibrated.err.contains("cover the same time twice"), told);
         told
     };
     let long = rows("", "--periods 100");

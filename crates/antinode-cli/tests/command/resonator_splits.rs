@@ -226,7 +226,7 @@ fn one_pattern_that_rocks_a_little_determines_its_decay() {
     fs::write(here.join("rocks.wav"), wav(&codes)).unwrap();
     let found = resonator(here, &identified(here, "rocks.wav"), "--output csv");
     assert!(
-        found.code == 0 && found.err.contains("the rotation is not steady: "),
+        found.code == 0 && found.err.contains("no steady rotation explains the rows: "),
         "{}",
         found.err
     );

@@ -114,7 +114,7 @@ pub fn numbers(run: &Run) -> HashMap<(String, String), (f64, Option<f64>)> {
 /// Nothing is told but that the pattern turns one way; gives the splits that it names, in 1/s and Hz.
 pub fn is_one_way(err: &str) -> [f64; 2] {
     assert!(
-        err.starts_with("warning: the pattern turns one way only") && err.lines().count() == 1,
+        err.starts_with("warning: the pattern turns only one way") && err.lines().count() == 1,
         "{err}"
     );
     [" 1/s of damping", " Hz; give"].map(|unit| {

@@ -48,9 +48,9 @@ pub fn run() -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     writeln!(
         out,
-        "A simulated gyro rings down for {SECONDS} s, precesses by 10°/s and drifts by 0.05 Hz/s.\n\
-         Two pick-offs at 100 kS/s with noise of 1 % and offsets of 10 % and -5 % of the first amplitude.\n\
-         {} windows of 10 periods, {SHOWN} of them here: identified ± stated deviation, and the truth below.\n",
+        "A simulated gyro rings down for {SECONDS} s, precesses at 10°/s, and its frequency drifts by 0.05 Hz/s.\nTwo pick-offs at 100 kS/s \
+         with noise of 1 % and offsets of 10 % and -5 % of the initial amplitude.\n{} windows of 10 periods, {SHOWN} of them shown: \
+         identified ± standard deviation, and the truth below.\n",
         estimates.len(),
     )?;
     let names = NAMES.map(heading).join(" ");
@@ -65,7 +65,7 @@ pub fn run() -> Result<(), Failure> {
     score.print(&mut out)?;
     writeln!(
         out,
-        "\n`antinode identify FILE` does this with a recording, `antinode simulate -o FILE` makes one."
+        "\n`antinode identify FILE` does this with a recording; `antinode simulate -o FILE` makes one."
     )?;
     Ok(())
 }

@@ -53,10 +53,10 @@ pub fn run(options: &Plot) -> Result<(), Failure> {
         return Err(match (count, span) {
             (0, Some(span)) => none_within(&inputs, span),
             (0, None) => Failure::Fault(format!(
-                "{inputs}: there is no row; identify a recording of more windows"
+                "{inputs}: there are no rows; identify a longer recording"
             )),
             _ => Failure::Fault(format!(
-                "{inputs}: not one of {count} rows has a wave; see their flags"
+                "{inputs}: none of {count} rows has a wave; see their flags"
             )),
         });
     };

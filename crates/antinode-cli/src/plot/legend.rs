@@ -75,7 +75,7 @@ impl Legend {
             .map(|index| (Key::Colour(colours[index]), shortened(names[index])))
             .collect();
         if let Some(others @ 1..) = names.len().checked_sub(MAX_NAMED) {
-            let text = format!("{others} more, of colours between these");
+            let text = format!("{others} more, in colours between these");
             texts.push((Key::Colour(canvas::GREY), text));
         }
         let curves = figure.panels.iter().flat_map(|panel| &panel.curves);

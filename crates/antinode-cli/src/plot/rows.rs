@@ -99,8 +99,9 @@ pub fn read(mut rows: RowFile<impl Read>) -> Result<Vec<Trace>, Failure> {
     let mut current = 0;
     while let Some(record) = rows.next()? {
         let Some(row) = parse(record, time, flags, places, samples) else {
-            return Err(rows
-                .fault("a time, amplitude, angle, frequency, residual or deviation is no number"));
+            return Err(rows.fault(
+                "a time, amplitude, angle, frequency, residual or deviation is not a number",
+            ));
         };
         let name = file.map_or(input.as_str(), |file| &record[file]);
         if traces.get(current).is_none_or(|trace| trace.name != name) {

@@ -197,7 +197,7 @@ fn many_recordings_are_named_and_distinguishable() {
     for file in ["one.csv", "two.csv"] {
         fs::write(here.join(file), HEADER.to_owned() + &of("same")).unwrap();
     }
-    for (others, more) in [(18, None), (48, Some("26 more, of colours between these"))] {
+    for (others, more) in [(18, None), (48, Some("26 more, in colours between these"))] {
         let rows: String = (0..others).map(|k| of(&format!("other{k}"))).collect();
         fs::write(here.join("others.csv"), HEADER.to_owned() + &rows).unwrap();
         let made = run(here, "plot one.csv two.csv others.csv -o it.svg");

@@ -28,7 +28,7 @@ fn faulty_rows_are_reported() {
         "plot bad.csv -o it.svg",
         "",
         1,
-        &["bad.csv, line 4: ", "no number", "remove the line"],
+        &["bad.csv, line 4: ", "not a number", "remove the line"],
     );
     let without = HEADER.replace("residual_rms", "rest") + good;
     refused(
@@ -53,7 +53,7 @@ fn faulty_rows_are_reported() {
         "plot - -o it.png",
         HEADER,
         1,
-        &["standard input: there is no row; "],
+        &["standard input: there are no rows; "],
     );
     let lost = HEADER.to_owned() + "0,NaN,NaN,NaN,NaN,NaN,inf,lost,a\n";
     refused(
@@ -61,7 +61,7 @@ fn faulty_rows_are_reported() {
         "plot - -o it.svg",
         &lost,
         1,
-        &["not one of 1 rows has a wave; see their flags"],
+        &["none of 1 rows has a wave; see their flags"],
     );
     let short = HEADER.to_owned() + "0,0.5\n";
     refused(
@@ -129,7 +129,7 @@ fn a_figure_that_cannot_be_written_is_reported_and_harms_nothing() {
     assert!(names(here).is_empty());
     // The old file stays until the figure is complete.
     fs::write(here.join("it.svg"), "good").unwrap();
-    refused(here, "plot - -o it.svg", HEADER, 1, &["there is no row"]);
+    refused(here, "plot - -o it.svg", HEADER, 1, &["there are no rows"]);
     assert_eq!(fs::read(here.join("it.svg")).unwrap(), b"good");
     drawn(here, &rows, "1 row of a; 0 flagged");
     assert_eq!(names(here), ["it.svg"]);

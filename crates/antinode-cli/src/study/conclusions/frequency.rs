@@ -23,7 +23,8 @@ pub fn alike(first: &Figure) -> Conclusion {
         claim: "Figure 1: the four algorithms' errors of frequency behave alike.",
         verdict: Verdict::confirmed_if(widest < 3.0),
         found: format!(
-            "Largest over least of the four, at any count of periods, in units of half the search's step or more: {widest:.1}."
+            "Largest ratio of two of the four errors at any count of periods, errors below half the search's step taken as half a step: \
+             {widest:.1}."
         ),
     }
 }
@@ -43,7 +44,7 @@ pub fn grid(wave: &Wave, first: &Figure) -> Conclusion {
         claim: "Formulas (9) and (10) are limited by the sample grid; (9) improves over several periods where the grid fits.",
         verdict: Verdict::confirmed_if(tenth > 50.0 && ninth(3) < 0.1 * ninth(0)),
         found: format!(
-            "(10): {tenth:.0} Hz; (9): {:.0} Hz on one period, {:.1} Hz on four, {:.1} Hz on eight.\nWith (10)'s frequency, not refined, \
+            "(10): {tenth:.0} Hz; (9): {:.0} Hz on one period, {:.1} Hz on four, {:.1} Hz on eight.\nWith the unrefined frequency of (10), \
              algorithm 4's a_A is {:.3} on four periods and {:.3} on ten.",
             ninth(0),
             ninth(3),
@@ -106,9 +107,8 @@ pub fn absolutes(wave: &Wave) -> Conclusion {
         claim: "Algorithm 1's functional (15), of absolute values, has a more pronounced minimum over the frequency than (14).",
         verdict: Verdict::confirmed_if(all.iter().all(|[of_14, of_15]| of_15.rise > of_14.rise)),
         found: format!(
-            "Windows of N = 1, 4, 10 periods: 100 Hz/N beside its minimum the residual grows {} times, by the root of (14) {} times.\nThe \
-             minimum of (15) is off by {} Hz, that of (14) by {} Hz: the quadrature that is neglected fills it.\nWith a_B = 0 the \
-             residual grows {} and {} times.",
+            "Windows of N = 1, 4, 10 periods: 100 Hz/N from its minimum, (15) grows {} times, and the root of (14) {} times.\nThe minimum of \
+             (15) is off by {} Hz, that of (14) by {} Hz: neglected quadrature fills it.\nWith a_B = 0 they grow {} and {} times.",
             list(&all, |minimum| minimum.rise, 1, 2),
             list(&all, |minimum| minimum.rise, 0, 2),
             list(&all, |minimum| minimum.off, 1, 0),

@@ -67,10 +67,11 @@ pub fn long_with_a_whole_delay(first: &Figure) -> Conclusion {
     let [whole, fractional] =
         [Name::Algorithm2, Name::Fractional].map(|name| last(first, 'b', name));
     Conclusion {
-        claim: "The same of algorithm 2's quadrature with a whole-sample delay (within 10 % of a_B).",
+        claim: "So does algorithm 2's quadrature with a whole-sample delay (within 10 % of a_B).",
         verdict: Verdict::confirmed_if(whole < 0.01),
         found: format!(
-            "a_B error {whole:.1e} of 0.1 at 10 periods: the delay's grid error does not average; fractional delay: {fractional:.1e}."
+            "a_B error {whole:.1e} of 0.1 at 10 periods: the delay's grid error does not average out; with a fractional delay \
+             {fractional:.1e}."
         ),
     }
 }
@@ -134,8 +135,8 @@ pub fn whole_periods(wave: &Wave) -> Conclusion {
         claim: "Short windows must be whole periods; the longer they are, the less it matters.",
         verdict: Verdict::confirmed_if(falls),
         found: format!(
-            "The most that a_A is off, %, over all phases, in windows of 1, 2, 5, 10, 50, 100 periods, give or take up to half a one:\n\
-             algorithm 4 {}; 3 {}.\nWhole to the nearest sample: algorithm 4 {}; 3 {}.",
+            "Largest error of a_A, %, over all phases, in windows of 1, 2, 5, 10, 50, 100 periods, up to half a period longer or \
+             shorter:\nalgorithm 4 {}; 3 {}.\nIn whole periods, to the nearest sample: algorithm 4 {}; 3 {}.",
             list(any, 1),
             list(any, 0),
             list(fitting, 1),

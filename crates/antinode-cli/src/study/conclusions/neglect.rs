@@ -75,8 +75,8 @@ pub fn longer(wave: &Wave) -> Conclusion {
             _ => Verdict::InPart,
         },
         found: format!(
-            "It depends on the start phase. Here {:.3}° on one period, {:.3}° on eight.\nOver all phases {:.3} to {:.3}° on one, {:.3} to \
-             {:.3}° on eight, worse than on one at {:.0} % of them: it settles at the floor.",
+            "The error depends on the start phase. Here {:.3}° on one period, {:.3}° on eight.\nOver all phases {:.3} to {:.3}° on one, {:.3} \
+             to {:.3}° on eight, worse than on one at {:.0} % of the phases: it settles at the floor.",
             here[0],
             here[1],
             one[0],
@@ -141,8 +141,8 @@ pub fn rougher(wave: &Wave) -> Conclusion {
             here > 10.0 && share > 0.5 && gated.iter().all(|rough| rough.tenth(5) < 5.0),
         ),
         found: format!(
-            "Without a gate {here:.0} times and more here, ten and more in {:.0} % of windows of all phases.\nWith a gate, in a_A, the median \
-             (and eight of ten): {}.\nWhat no gate takes away is a bias: {min:.3} to {max:.3}° in the mean of all phases.",
+            "Without a gate {here:.0} times and more here, ten times and more in {:.0} % of windows of all phases.\nWith a gate, in a_A, the \
+             median (and eight of ten): {}.\nNo gate removes a bias: {min:.3} to {max:.3}° in the mean of all phases.",
             100.0 * share,
             texts.join(", "),
         ),

@@ -35,7 +35,7 @@ pub fn best(figure: &Figure, claim: &'static str, places: [f64; 2]) -> Conclusio
         claim,
         verdict: Verdict::confirmed_if(fits(Name::Algorithm3) == 3 && fits(Name::Algorithm4) == 3),
         found: format!(
-            "Both places are the best two for a_A, a_B, angle: {}; 1 and 2 have floors of their own, below.",
+            "These two are the best places for a_A, a_B and angle: {}; algorithms 1 and 2 have floors of their own, see below.",
             found.join(", ")
         ),
     }
@@ -66,11 +66,11 @@ pub fn divides_by_four(second: &Figure) -> Conclusion {
     };
     let best_elsewhere = others.first().map_or(f64::NAN, |point| point.1);
     Conclusion {
-        claim: "Figure 2: the quadrature of algorithm 2 is best where the count of samples divides by 4.",
+        claim: "Figure 2: the quadrature of algorithm 2 is best where the count of samples is divisible by 4.",
         verdict: Verdict::confirmed_if(those.iter().all(|point| point.1 < best_elsewhere)),
         found: format!(
-            "a_B error {} samples, which divide by 4, and {}, which does not.\nAt the figure's points the delay is no quarter of the period, \
-             nor the window a whole one.",
+            "a_B error {} samples, which are divisible by 4, and {}, which is not.\nAt the figure's points the delay is not a quarter of the \
+             period, nor the window a whole period.",
             list(&those),
             list(&others[..others.len().min(1)]),
         ),
@@ -97,7 +97,7 @@ pub fn divides_by_four_where_the_rate_fits(wave: &Wave) -> Conclusion {
         claim: "The same at rates that make the period a whole number of samples.",
         verdict: Verdict::confirmed_if(divides < 0.1 * rest),
         found: format!(
-            "19 to 190 samples a period: a_B error at most {divides:.1e} where the count divides by 4, at least {rest:.1e} elsewhere."
+            "19 to 190 samples a period: a_B error at most {divides:.1e} where the count is divisible by 4, at least {rest:.1e} elsewhere."
         ),
     }
 }

@@ -193,10 +193,10 @@ fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, 
         (Some(rate), _) => Ok(rate),
         (None, Some(rate)) if (1.0..=1e10).contains(&rate) => Ok(rate),
         (None, Some(rate)) => Err(Failure::Fault(format!(
-            "{name}: its own sample rate of {rate} Hz is absurd; give the true one as --rate HZ"
+            "{name}: the recording states an absurd sample rate of {rate} Hz; give the true one as --rate HZ"
         ))),
         (None, None) => Err(Failure::Fault(format!(
-            "{name}: the sample rate is not known: the recording does not say it; give --rate HZ"
+            "{name}: the recording does not state its sample rate; give it as --rate HZ"
         ))),
     }
 }

@@ -95,7 +95,7 @@ pub(super) fn other_frequency(pairs: &[[f32; 2]], rate: f64, frequency: f32) -> 
     let apart = found / f64::from(frequency) - 1.0;
     (apart.abs() > MAX_MISMATCH).then(|| {
         format!(
-            "a search finds a wave of {found:.0} Hz, where --frequency says {frequency} Hz: unless both are there, rows mean nothing"
+            "a search finds a wave of {found:.0} Hz, but --frequency says {frequency} Hz: rows mean nothing unless both waves are present"
         )
     })
 }

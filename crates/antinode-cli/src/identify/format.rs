@@ -27,7 +27,7 @@ impl TypedValueParser for FormatParser {
             Some(_) => command.clone().error(
                 ErrorKind::InvalidValue,
                 format!(
-                    "--output is the format, and {0} a file: use -o {0}",
+                    "--output is the format, but {0} is a file: give -o {0}",
                     value.display()
                 ),
             ),

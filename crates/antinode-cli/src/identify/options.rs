@@ -153,7 +153,7 @@ impl Identify {
     pub fn check_channels(&self) -> Result<(), Failure> {
         if self.channels.is_some() && self.raw.is_none() {
             return Err(Failure::Usage(
-                "--channels: it is for raw samples, with --raw FORMAT; those of WAV, NPY and text are chosen by --columns alone".to_owned(),
+                "--channels is only for raw samples, with --raw FORMAT; choose the channels of WAV, NPY and text by --columns".to_owned(),
             ));
         }
         Ok(())
@@ -171,7 +171,7 @@ impl Identify {
             Some("jsonl" | "ndjson" | "json") => Ok(Format::Jsonl),
             None | Some("txt") => Ok(Format::Table),
             Some(other) => Err(Failure::Usage(format!(
-                "--out: .{other} names no format of rows; end the name in .csv, .jsonl or .txt, or give --output"
+                "--out: .{other} is not a format of rows; end the name in .csv, .jsonl or .txt, or give --output"
             ))),
         }
     }

@@ -47,7 +47,7 @@ impl Out {
         };
         let name = whole.name().to_owned();
         if rows == 0 {
-            eprintln!("{name}: not written, for there is no row");
+            eprintln!("{name}: not written, as there are no rows");
             return Ok(());
         }
         whole.finish()?;
@@ -62,8 +62,8 @@ impl Out {
             let name = whole.name().to_owned();
             let any = whole.cut();
             match any.and_then(|any| any.then(|| whole.finish()).transpose()) {
-                Ok(Some(())) => eprintln!("{name}: the rows up to there are written"),
-                Ok(None) => eprintln!("{name}: not written, for there is no row"),
+                Ok(Some(())) => eprintln!("{name}: the rows up to this point are written"),
+                Ok(None) => eprintln!("{name}: not written, as there are no rows"),
                 Err(fault) => eprintln!("error: {fault}"),
             }
         }

@@ -35,7 +35,7 @@ impl Search {
     pub fn scale_warning(&self) -> Option<String> {
         self.amplitude_beyond.map(|swing| {
             format!(
-                "the first samples swing by {swing:.0e}, and amplitudes are identified from 1e-15 to 1e17: give the samples in another unit"
+                "the first samples have an amplitude of {swing:.0e}, beyond the range of 1e-15 to 1e17: give the samples in another unit"
             )
         })
     }
@@ -73,22 +73,34 @@ impl Search {
         // A window may be up to a tenth longer than asked.
         let longest = |frequency: f32| 1.1 * f64::from(periods) * rate / f64::from(frequency);
         let known = options.frequency;
+        // A scale or an offset that is beyond single precision is the cause; otherwise some likely ones are listed.
+        let cause = self.scale_warning().or_else(|| self.offset_warning());
+        let also = |warning: Option<String>| {
+            warning.map_or(String::new(), |warning| format!("; {warning}"))
+        };
         let why = if let Some(frequency) = known.filter(|&known| pairs as f64 > longest(known)) {
+            let cause = cause.unwrap_or_else(|| {
+                "check --frequency and the sample rate, or omit --frequency to search for the period; if the wave changes fast, give a \
+                 smaller --periods"
+                    .to_owned()
+            });
             format!(
-                "no window of {periods} periods in {all} is mostly one wave within 5 % of {frequency} Hz: check --frequency and the \
-                 sample rate, or leave --frequency out, and the period is searched; a wave that changes fast wants shorter windows, \
-                 --periods"
+                "no window of {periods} periods in {all} is mostly one wave within 5 % of {frequency} Hz: {cause}"
             )
         } else if self.refused > 0 {
             let hum = if options.hum {
                 ""
             } else {
-                "; or hum is as large as the wave: give --hum"
+                "; if hum is as large as the wave, give --hum"
             };
+            let cause = cause.unwrap_or_else(|| {
+                format!(
+                    "check the sample rate, as the wave may have fewer than 4 samples a period; look for a second tone{hum}; if the wave \
+                     changes fast, give a smaller --periods; check --full-scale and --resolution"
+                )
+            });
             format!(
-                "a period was found, but no window of {periods} periods in {all} is mostly one wave; the wave may have fewer than 4 \
-                 samples a period: check the sample rate; or look for a second tone{hum}; or the wave changes too fast: give a smaller \
-                 --periods; and check the scale_warning of the samples, --full-scale_warning and --resolution"
+                "a period was found, but no window of {periods} periods in {all} is mostly one wave: {cause}"
             )
         } else if !core.is_searching() {
             let found = known.map_or("a period was found, but ", |_| "");
@@ -97,36 +109,34 @@ impl Search {
             );
         } else if pairs < FEW_PAIRS {
             format!(
-                "no period found in only {all}: a search takes 3 periods, in noise 7; record longer, or give --frequency where it is \
-                 known"
+                "no period found in only {all}: a search takes 3 periods, or 7 in noise; record longer, or give --frequency if it is known{}",
+                also(cause)
             )
         } else if let Some(warning) = self.unsearched.warning(rate) {
-            format!("no period found in {all}: {warning}")
+            format!("no period found in {all}: {warning}{}", also(cause))
         } else {
             let other = match options.detector {
                 Detector::Difference => "mean-return",
                 Detector::MeanReturn => "difference",
             };
-            format!(
-                "no period found in {all}: no wave of 4 to 200 samples a period stands out of the noise; check the sample rate, the \
-                 channels and the signal; try --detector {other}, as a second tone may hide the period, or give --frequency where it is \
-                 known, from {SHORTEST_PERIOD} to {LONGEST_PERIOD} samples a period"
-            )
+            let cause = cause.unwrap_or_else(|| {
+                format!(
+                    "no wave of 4 to 200 samples a period stands out from the noise; check the sample rate, the channels and the signal; \
+                     try --detector {other}, as a second tone may hide the period, or give --frequency if it is known and a period has \
+                     {SHORTEST_PERIOD} to {LONGEST_PERIOD} samples"
+                )
+            });
+            format!("no period found in {all}: {cause}")
         };
-        why + &self.fault_of_samples(constant)
+        why + &also(constant.warning())
     }
 
-    /// A fault of the samples themselves, after a semicolon; empty if none is seen.
-    fn fault_of_samples(&self, constant: &ConstantPickOff) -> String {
-        let offset = || {
-            let [mean, rms] = self.offset?;
-            Some(format!(
-                "the samples lie about an offset of {mean:.4e} and only {rms:.1e} rms off it, too little for single precision: \
-                 take the offset off"
-            ))
-        };
-        let scale_warning = self.scale_warning();
-        let fault = scale_warning.or_else(|| constant.warning()).or_else(offset);
-        fault.map_or(String::new(), |fault| format!("; {fault}"))
+    /// A warning if the offset is too large for single precision.
+    fn offset_warning(&self) -> Option<String> {
+        self.offset.map(|[mean, rms]| {
+            format!(
+                "the samples vary by only {rms:.1e} rms about an offset of {mean:.4e}, too little for single precision: subtract the offset"
+            )
+        })
     }
 }

@@ -120,8 +120,8 @@ impl Span {
         let step = start.abs() * f64::EPSILON;
         (step * frequency > MAX_TIME_STEP).then(|| {
             format!(
-                "time begins at {start} s, and such a number has steps of {step:.0e} s: `phase_rad` stands for times that `time_s` does not tell \
-                 so exactly; count the time from the recording's start"
+                "time begins at {start} s, where `time_s` has steps of {step:.0e} s, too coarse for use with `phase_rad`; count time from the \
+                 recording's start"
             )
         })
     }
@@ -132,15 +132,17 @@ impl Span {
         let told = match self.asked {
             _ if self.has_begun() => return None,
             [_, Some(to)] if self.end == 0 => {
-                format!("--to {to} s: the recording begins at {start} s only: give a later time")
+                format!("--to {to} s: the recording begins only at {start} s; give a later time")
             }
             [Some(from), _] if self.number <= self.first => {
                 format!(
-                    "--from {from} s: the recording goes from {start} s to {end:.6} s: give a time within it"
+                    "--from {from} s: the recording goes from {start} s to {end:.6} s; give a time within it"
                 )
             }
             [Some(from), Some(to)] => {
-                format!("--from {from} --to {to}: all samples in that span are lost: give another")
+                format!(
+                    "--from {from} --to {to}: all samples in this span are lost; give another span"
+                )
             }
             _ => return None,
         };

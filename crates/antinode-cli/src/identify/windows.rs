@@ -55,7 +55,8 @@ impl<'a> Windows<'a> {
         let core = Core::new(settings).map_err(|error| match error {
             SettingsError::Frequency(frequency)
             | SettingsError::FrequencyTooLow { frequency, .. } => Failure::Usage(format!(
-                "{name}: --frequency: {frequency} Hz, but at {rate} Hz it must lie within {:.6} to {} Hz, {LONGEST_PERIOD} to {SHORTEST_PERIOD} samples a period{}",
+                "{name}: --frequency: {frequency} Hz is out of range: at a sample rate of {rate} Hz it must be {:.6} to {} Hz, \
+                 {LONGEST_PERIOD} to {SHORTEST_PERIOD} samples a period{}",
                 rate / LONGEST_PERIOD as f64,
                 rate / SHORTEST_PERIOD,
                 alias(f64::from(frequency), rate)
@@ -149,7 +150,7 @@ impl<'a> Windows<'a> {
         let name = self.name;
         if let Some(channel) = ramp(pairs) {
             return Err(Failure::Fault(format!(
-                "{name}: {channel} goes up in equal steps, as a time or a counter does: give the two signals alone"
+                "{name}: {channel} rises in equal steps, as a time or a counter does: give only the two signals (see --columns)"
             )));
         }
         self.search.begin(pairs);

@@ -19,20 +19,24 @@ fn an_impossible_rate_is_reported() {
         here,
         "slow.csv",
         Vec::new(),
-        &["slow.csv: ", "0.2 Hz is absurd", "as --rate HZ"],
+        &["slow.csv: ", "absurd sample rate of 0.2 Hz", "as --rate HZ"],
     );
     fault(
         here,
         "a.npy",
         Vec::new(),
-        &["a.npy: ", "rate is not known", "give --rate HZ"],
+        &[
+            "a.npy: ",
+            "does not state its sample rate",
+            "give it as --rate HZ",
+        ],
     );
     fault(here, "zero.wav", Vec::new(), &["zero.wav: ", "--rate"]);
     fault(
         here,
         "- --raw i16",
         raw(&codes),
-        &["standard input: ", "give --rate HZ"],
+        &["standard input: ", "give it as --rate HZ"],
     );
     // The file itself is good.
     assert!(!rows(here, &format!("zero.wav --rate {RATE}")).is_empty());
@@ -84,11 +88,11 @@ fn options_that_make_no_sense_are_refused() {
         ("--output xml", "table, csv, jsonl"),
         (
             "--output rows.csv",
-            "error: --output is the format, and rows.csv a file: use -o rows.csv",
+            "error: --output is the format, but rows.csv is a file: give -o rows.csv",
         ),
         (
             "--channels 4",
-            "--channels: it is for raw samples, with --raw FORMAT; ",
+            "--channels is only for raw samples, with --raw FORMAT; ",
         ),
         ("--columns a", "two (S_C, S_D) or three"),
         ("--raw u32", "u8, i8, u16, i16, i24, i32, f32, f64"),

@@ -153,7 +153,7 @@ fn a_wave_cut_off_without_a_known_rail_is_warned_of() {
         }
         fs::write(here.join("codes.csv"), codes).unwrap();
         let found = run(here, "identify --rate 1e5 --output csv codes.csv");
-        let told = "warning: codes.csv: S_D stands at its highest value, 2090, ";
+        let told = "warning: codes.csv: S_D is at its highest value, 2090, ";
         assert_eq!(found.err.contains(told), is_told, "{}", found.err);
     }
 }
@@ -328,7 +328,7 @@ fn a_few_values_of_text_without_a_known_step_are_warned_of() {
     let simulate = "simulate -o a.csv --seconds 0.2 --bits 12 --rate 26660";
     assert_eq!(run(here, simulate).code, 0);
     let told = run(here, "identify --frequency 5332 a.csv");
-    let start = "warning: a.csv: the first samples show 10 values over and over: ";
+    let start = "warning: a.csv: the first samples have only 10 distinct values: ";
     assert!(
         told.code == 0 && told.err.starts_with(start),
         "{}",

@@ -56,8 +56,7 @@ fn one_signal_on_both_pick_offs_is_reported_once() {
 #[test]
 fn constant_samples_are_reported() {
     let [first, rest] = told(&[[100, -100]; 120_000]);
-    let expected =
-        "warning: standard input: so far S_C and S_D hold one and the same value all the time, ";
+    let expected = "warning: standard input: so far S_C and S_D are constant at ";
     assert!(first.starts_with(expected), "{first}");
     // There is no row, and the reason is reported.
     assert_eq!(rest.lines().count(), 1, "{rest}");

@@ -101,7 +101,7 @@ fn a_time_among_raw_samples_is_reported() {
     };
     for bits in ["f32", "f64"] {
         let arguments = format!("- --raw {bits} --rate 100000");
-        let told = ["standard input: S_C goes up in equal steps"];
+        let told = ["standard input: S_C rises in equal steps"];
         let rows = fault(directory.path(), &arguments, bytes(bits), &told);
         assert!(rows.is_empty());
         // Fewer pairs are checked once all are read; other faults are reported too.
@@ -109,7 +109,7 @@ fn a_time_among_raw_samples_is_reported() {
         let few = all[..all.len() / codes.len() * 300 + 3].to_vec();
         let run = run_with(directory.path(), &format!("identify {arguments}"), few);
         assert_eq!(run.code, 1);
-        for part in ["S_C goes up in equal steps", "the data end in the middle"] {
+        for part in ["S_C rises in equal steps", "the data end in the middle"] {
             assert!(run.err.contains(part), "{bits}: {}", run.err);
         }
         assert_eq!(run.err.lines().count(), 2, "{}", run.err);
@@ -128,9 +128,7 @@ fn amplitudes_outside_the_range_are_reported() {
             "identify - --raw f32 --rate 100000",
             bytes.collect(),
         );
-        let is_told = run
-            .err
-            .contains("amplitudes are identified from 1e-15 to 1e17");
+        let is_told = run.err.contains("beyond the range of 1e-15 to 1e17");
         assert_eq!(is_told, is_beyond, "{scale}: {}", run.err);
         assert!(is_beyond || run.code == 0, "{scale}: {}", run.err);
     }
@@ -173,11 +171,11 @@ fn a_gain_that_ripples_with_the_mains_is_reported_in_place_of_remedies_for_misfi
             bytes.flatten().collect(),
         );
         assert_eq!(run.code, 0, "{}", run.err);
-        let told = run.err.contains("goes up and down by")
+        let told = run.err.contains("oscillates by")
             && run.err.contains("at 100 Hz")
             && run.err.contains("misfit");
         assert_eq!(told, is_told, "{ripple}: {}", run.err);
-        assert!(!run.err.contains("--hum takes it out"), "{}", run.err);
+        assert!(!run.err.contains("give --hum"), "{}", run.err);
     }
 }
 

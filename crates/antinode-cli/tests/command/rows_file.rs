@@ -29,7 +29,7 @@ fn rows_of_earlier_recordings_are_kept() {
     // If there is no row at all, the earlier file stays, and a message says so.
     let none = run(here, "identify none.wav -o rows.csv");
     assert_eq!(none.code, 1);
-    let told = "rows.csv: not written, for there is no row\n";
+    let told = "rows.csv: not written, as there are no rows\n";
     assert!(none.err.contains(told), "{}", none.err);
     assert_eq!(Row::all(&read(here, "rows.csv")).len(), rows.len());
 }
@@ -55,7 +55,7 @@ fn the_extension_of_the_name_sets_the_format() {
         (unknown.code, unknown.err.as_str()),
         (
             2,
-            "error: --out: .tsv names no format of rows; end the name in .csv, .jsonl or .txt, or give --output\n"
+            "error: --out: .tsv is not a format of rows; end the name in .csv, .jsonl or .txt, or give --output\n"
         )
     );
     assert!(!here.join("rows.tsv").exists());
@@ -155,7 +155,7 @@ mod unix {
         assert!(rows.len() > 2000 && rows.ends_with('\n') && all.starts_with(&rows));
         let err = String::from_utf8(full.stderr).unwrap();
         assert!(
-            err.contains("rows.csv: the rows up to there are written\nerror: rows cannot be written: rows.csv: "),
+            err.contains("rows.csv: the rows up to this point are written\nerror: rows cannot be written: rows.csv: "),
             "{err}"
         );
         assert_eq!(fs::read_dir(here).unwrap().count(), 3, "{err}");
@@ -194,7 +194,7 @@ mod unix {
         assert_eq!(output.status.code(), Some(130));
         let told = String::from_utf8(output.stderr).unwrap();
         assert!(
-            told.ends_with("rows.csv: the rows up to there are written\nerror: interrupted; the rows printed so far are good\n"),
+            told.ends_with("rows.csv: the rows up to this point are written\nerror: interrupted; the rows printed so far are good\n"),
             "{told}"
         );
         assert_eq!(read(here, "rows.csv"), all);

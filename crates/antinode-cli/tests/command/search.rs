@@ -37,12 +37,13 @@ fn windows_without_a_wave_are_distinguished_from_too_few_samples() {
         "two.wav",
         &[
             refused,
-            "second tone; or hum is as large as the wave: give --hum; or",
+            "second tone; if hum is as large as the wave, give --hum; if",
             "fewer than 4 samples a period",
         ],
     );
     tones(&here.join("one.wav"), &[(5321.7, 1.0)]);
-    fault(here, "one.wav --resolution 1", &[refused, "--resolution"]);
+    let settings = "check --full-scale and --resolution";
+    fault(here, "one.wav --resolution 1", &[refused, settings]);
     assert!(rows(here, "one.wav --full-scale 2").len() > 90);
     let mut tiny = String::new();
     for k in 0..20_000 {
@@ -50,7 +51,9 @@ fn windows_without_a_wave_are_distinguished_from_too_few_samples() {
         tiny += &format!("{value:e},{:e}\n", 0.5 * value);
     }
     fs::write(here.join("tiny.csv"), tiny).unwrap();
-    fault(here, "tiny.csv --rate 1e5", &[refused, "scale"]);
+    let scale =
+        "one wave: the first samples have an amplitude of 1e-20, beyond the range of 1e-15 to 1e17";
+    fault(here, "tiny.csv --rate 1e5", &[refused, scale]);
     let short = "hold no window of 1022 periods; record longer or give a smaller --periods";
     fs::write(here.join("short.wav"), wav(&WAVE.codes(5000))).unwrap();
     fault(here, "short.wav --periods 1022", &[short]);
@@ -74,7 +77,7 @@ fn too_few_samples_a_period_are_named() {
         let told = format!("Hz has {samples} samples a period");
         fault(here, "a.wav", &["no period found", &told]);
     }
-    let fast = "undersampled on purpose, such a wave shows at 18750 Hz";
+    let fast = "if undersampled on purpose, this wave appears at 18750 Hz";
     let refused = run(here, "identify a.wav --frequency 218750");
     assert!(
         refused.code == 2 && refused.err.contains(fast),
@@ -110,11 +113,11 @@ fn an_offset_that_drowns_the_wave_is_named() {
         fs::write(here.join("a.csv"), lines).unwrap();
     };
     write(1000.0);
-    let told = "the samples lie about an offset of 1.4142e3 and only 3.9e-1 rms off it";
+    let told = "(0.2000 s): the samples vary by only 3.9e-1 rms about an offset of 1.4142e3";
     fault(
         here,
         "a.csv --rate 1e5",
-        &["no period found", told, "take the offset off"],
+        &["no period found", told, "subtract the offset"],
     );
     write(10.0);
     assert!(rows(here, "a.csv --rate 1e5").len() > 90);
@@ -200,7 +203,8 @@ fn a_slow_wave_may_be_known() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     tones(&here.join("slow.wav"), &[(125.0, 0.9)]);
-    let told = "a wave of about 125 Hz has 800 samples a period, and 4 to 200 are searched";
+    let told =
+        "a wave of about 125 Hz has 800 samples a period, outside the search range of 4 to 200";
     fault(here, "slow.wav", &[told, "give --frequency 125"]);
     let found = rows(here, "slow.wav --periods 4 --frequency 125");
     assert!(found.len() > 4 && found.iter().all(|row| row.text("flags").is_empty()));
@@ -213,7 +217,9 @@ fn a_frequency_that_is_not_the_waves_is_reported() {
     tones(&here.join("a.wav"), &[(5321.7, 0.9)]);
     for (frequency, found) in [("6600", ""), ("3732", "wave of 53"), ("10600", "")] {
         let run = run(here, &format!("identify a.wav --frequency {frequency}"));
-        let warning = format!("where --frequency says {frequency} Hz: unless both are there");
+        let warning = format!(
+            "but --frequency says {frequency} Hz: rows mean nothing unless both waves are present"
+        );
         assert!(run.err.contains(&warning), "{}", run.err);
         assert!(run.err.contains(found), "{}", run.err);
     }
@@ -237,7 +243,7 @@ fn an_impossible_frequency_is_refused() {
         assert_eq!((run.code, run.out.as_str()), (2, ""), "{}", run.err);
         assert!(run.err.contains("--frequency"), "{}", run.err);
     }
-    let range = "a.wav: --frequency: 40001 Hz, but at 100000 Hz it must lie within 97.656250 to 40000 Hz, 1024 to 2.5 samples a period";
+    let range = "a.wav: --frequency: 40001 Hz is out of range: at a sample rate of 100000 Hz it must be 97.656250 to 40000 Hz, 1024 to 2.5 samples a period";
     let told = run(here, "identify a.wav --frequency 40001").err;
     assert!(told.contains(range), "{told}");
     let both = run(
@@ -252,7 +258,7 @@ fn an_impossible_frequency_is_refused() {
 fn constant_samples_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    let both = "found in 5000 sample pairs (0.0500 s): S_C and S_D hold one and the same value all the time, ";
+    let both = "found in 5000 sample pairs (0.0500 s): S_C and S_D are constant at ";
     fs::write(here.join("flat.wav"), wav(&[[8192, -8192]; 5000])).unwrap();
     fs::write(here.join("zero.wav"), wav(&[[0, 0]; 5000])).unwrap();
     for (options, what, value) in [
@@ -273,7 +279,7 @@ fn constant_samples_are_reported() {
     fs::write(here.join("one.wav"), wav(&codes)).unwrap();
     let found = run(here, "identify one.wav");
     assert_eq!(found.code, 0, "{}", found.err);
-    let dead = "warning: one.wav: S_D holds one and the same value all the time, 0.00027";
+    let dead = "warning: one.wav: S_D is constant at 0.00027";
     assert!(found.err.contains(dead), "{}", found.err);
     // Noise on one pick-off, and the other dead.
     let codes: Vec<[i16; 2]> = silence(0.1)
@@ -282,6 +288,6 @@ fn constant_samples_are_reported() {
         .map(|&[c, _]| [c, 9])
         .collect();
     fs::write(here.join("dead.wav"), wav(&codes)).unwrap();
-    let dead = "S_D holds one and the same value all the time, 0.00027";
+    let dead = "S_D is constant at 0.00027";
     fault(here, "dead.wav", &["no period found", dead]);
 }

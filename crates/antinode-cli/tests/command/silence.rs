@@ -52,7 +52,7 @@ fn a_wave_that_ends_early_or_begins_late_is_reported_once() {
         );
         assert_eq!(said.lines().count(), 1, "{said}");
         assert!(
-            said.contains(" of 1.0000 s: the rows that show one go from "),
+            said.contains(" of 1.0000 s: rows with a wave go from "),
             "{said}"
         );
         assert_eq!(said.contains("the first "), from > 0, "{said}");
@@ -80,7 +80,7 @@ fn a_wave_that_ends_early_or_begins_late_is_reported_once() {
         "{said}"
     );
     assert!(
-        said.contains(" of 0.3000 s: the rows that show one go from 0.5"),
+        said.contains(" of 0.3000 s: rows with a wave go from 0.5"),
         "{said}"
     );
 }

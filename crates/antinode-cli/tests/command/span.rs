@@ -111,7 +111,7 @@ fn lost_samples_count_in_the_times() {
     }
     let told = ["gap.csv:5002: 1000 samples are lost before this line"];
     assert!(fault(here, "gap.csv --from 0.03 --to 0.1", Vec::new(), &told).len() > 20);
-    let told = ["gap.csv: --from 0.052 --to 0.058: all samples in that span are lost"];
+    let told = ["gap.csv: --from 0.052 --to 0.058: all samples in this span are lost"];
     fault(here, "gap.csv --from 0.052 --to 0.058", Vec::new(), &told);
 }
 
@@ -150,19 +150,19 @@ fn a_span_outside_the_recording_is_reported() {
     for (arguments, told) in [
         (
             "a.wav --from 0.2",
-            "a.wav: --from 0.2 s: the recording goes from 0 s to 0.200000 s: give a time within it",
+            "a.wav: --from 0.2 s: the recording goes from 0 s to 0.200000 s; give a time within it",
         ),
         (
             "a.csv --from 6",
-            "a.csv: --from 6 s: the recording goes from 5 s to 5.200000 s: give a time within it",
+            "a.csv: --from 6 s: the recording goes from 5 s to 5.200000 s; give a time within it",
         ),
         (
             "a.csv --to 5",
-            "a.csv: --to 5 s: the recording begins at 5 s only: give a later time",
+            "a.csv: --to 5 s: the recording begins only at 5 s; give a later time",
         ),
         (
             "a.csv --from 1 --to 2",
-            "a.csv: --to 2 s: the recording begins at 5 s only",
+            "a.csv: --to 2 s: the recording begins only at 5 s",
         ),
         (
             "a.wav --from 0.1 --to 0.101",

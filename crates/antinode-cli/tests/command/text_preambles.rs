@@ -220,7 +220,7 @@ fn the_last_setting_may_have_more_than_one_field() {
         Date, 2026-06-30\n";
     let text = recording(above, |_, _, [c, d]| format!(",{c},{d}"));
     same(here, &text, "", &expected, START);
-    let told = ["the sample rate is not known"];
+    let told = ["does not state its sample rate"];
     fault(
         here,
         "-",
@@ -235,10 +235,10 @@ fn the_last_setting_may_have_more_than_one_field() {
         HResolution,1e-05,1e-05,\nHOffset,-1e-02,-1e-02,\nHUnit,s,s,\n";
     let text = recording(above, |_, _, [c, d]| format!(",{c},{d}"));
     same(here, &text, "", &expected, START);
-    // If the channels have different steps, the sample rate is not known.
+    // If the channels have different steps, does not state its sample rate.
     let text = text.replace("1e-05,1e-05", "1e-05,2e-05");
     same(here, &text, "--rate 1e5", &expected, 0.0);
-    fault(here, "-", text.into(), &["the sample rate is not known"]);
+    fault(here, "-", text.into(), &["does not state its sample rate"]);
 }
 
 #[test]

@@ -142,7 +142,7 @@ fn an_increment_gives_the_rate_without_a_column_of_numbers() {
     let text = recording("CH1,CH2,Start,Increment,\n", |_, [c, d]| {
         format!("{c},{d},")
     });
-    fault(here, "-", text.into(), &["sample rate is not known"]);
+    fault(here, "-", text.into(), &["does not state its sample rate"]);
 }
 
 #[test]
@@ -219,7 +219,7 @@ fn a_count_of_lines_is_no_clock() {
             let header = format!("{name},ADC1,ADC2\n");
             let counted = recording(&header, |k, [c, d]| format!("{},{c},{d}", k + from));
             same_later(&rows_of(here, &counted, "--rate 1e5"), &expected, 0.0);
-            let told = ["the sample rate is not known", "give --rate HZ"];
+            let told = ["does not state its sample rate", "give it as --rate HZ"];
             fault(here, "a.csv", Vec::new(), &told);
         }
     }

@@ -24,7 +24,7 @@ fn times_too_large_to_resolve_the_phase_are_warned_of() {
     fs::write(here.join("a.csv"), since_1970).unwrap();
     let run = run(here, "identify --output csv a.csv");
     same_later(&Row::all(&run.out), &expected, 1.7e9);
-    let told = "warning: a.csv: time begins at 1700000000 s, and such a number has steps of 4e-7 s: `phase_rad`";
+    let told = "warning: a.csv: time begins at 1700000000 s, where `time_s` has steps of 4e-7 s, too coarse for use with `phase_rad`";
     assert!(run.err.starts_with(told), "{}", run.err);
 }
 

@@ -36,13 +36,13 @@ impl ConstantPickOff {
     pub fn warning(&self) -> Option<String> {
         let first = self.first.filter(|_| self.pairs >= MIN_PAIRS)?;
         let (who, value) = match self.has_moved {
-            [false, false] => ("S_C and S_D hold", format!("{} and {}", first[0], first[1])),
-            [false, true] => ("S_C holds", first[0].to_string()),
-            [true, false] => ("S_D holds", first[1].to_string()),
+            [false, false] => ("S_C and S_D are", format!("{} and {}", first[0], first[1])),
+            [false, true] => ("S_C is", first[0].to_string()),
+            [true, false] => ("S_D is", first[1].to_string()),
             [true, true] => return None,
         };
         Some(format!(
-            "{who} one and the same value all the time, {value}: check the wiring, the converter and which channels were recorded"
+            "{who} constant at {value}: check the wiring, the converter and which channels were recorded"
         ))
     }
 }
@@ -63,21 +63,9 @@ mod tests {
     #[test]
     fn the_pick_off_that_holds_its_value_is_named() {
         for (c, d, start) in [
-            (
-                false,
-                false,
-                "S_C and S_D hold one and the same value all the time, 0.5 and -0.25: ",
-            ),
-            (
-                false,
-                true,
-                "S_C holds one and the same value all the time, 0.5: ",
-            ),
-            (
-                true,
-                false,
-                "S_D holds one and the same value all the time, -0.25: ",
-            ),
+            (false, false, "S_C and S_D are constant at 0.5 and -0.25: "),
+            (false, true, "S_C is constant at 0.5: "),
+            (true, false, "S_D is constant at -0.25: "),
         ] {
             let mut pairs = vec![[0.5, -0.25]; 100];
             pairs[57][0] += f32::from(u8::from(c));

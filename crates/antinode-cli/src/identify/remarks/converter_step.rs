@@ -38,13 +38,13 @@ impl ConverterStep {
         self.has_warned = true;
         Some(if step > assumed {
             format!(
-                "all samples are multiples of {step:?}, and deviations allow for a converter's step of {assumed:?} only: if the converter has the coarser \
-                 one, give --resolution {step:?}"
+                "all samples are multiples of {step:?}, but deviations allow for a converter's step of only {assumed:?}: if the converter has \
+                 the coarser step, give --resolution {step:?}"
             )
         } else {
             format!(
-                "the first samples are multiples of {assumed:?}, which is taken for the converter's step, and later ones of {step:?} only: deviations are \
-                 too large; give --resolution {step:?}"
+                "the first samples are multiples of {assumed:?}, taken for the converter's step, but later ones are multiples of only \
+                 {step:?}: deviations are too large; give --resolution {step:?}"
             )
         })
     }

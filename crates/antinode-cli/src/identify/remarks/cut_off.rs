@@ -108,8 +108,8 @@ impl CutOff {
         });
         let (who, which, end, sign) = all.find(|(_, _, end, _)| end.is_cut())?;
         Some(format!(
-            "{who} stands at its {which} value, {}, {} times as often as a step beside it: if that is the converter's rail, waves are cut off there in \
-             rows without a flag too; give it as --full-scale LOW,HIGH",
+            "{who} is at its {which} value, {}, {} times as often as one step from it: if that is the converter's rail, the wave is cut off \
+             there in unflagged rows too; give both rails as --full-scale LOW,HIGH",
             sign * end.value,
             end.count / end.beside
         ))
@@ -201,7 +201,7 @@ mod tests {
                 // By half a per cent.
                 let cut = warning(period, 2000.0, noise, 2090.0, 0.0, seed).unwrap_or_default();
                 assert!(
-                    cut.starts_with("S_D stands at its highest value, 2090, "),
+                    cut.starts_with("S_D is at its highest value, 2090, "),
                     "{period} {noise}: {cut}"
                 );
             }
@@ -233,7 +233,7 @@ mod tests {
             cut_off
                 .warning(1.0)
                 .unwrap()
-                .contains("S_C stands at its lowest value, -1, 100 times")
+                .contains("S_C is at its lowest value, -1, 100 times")
         );
         cut_off.clipped = 6;
         assert_eq!(cut_off.warning(1.0), None);

@@ -47,8 +47,8 @@ impl FewValues {
         let count = self.values.len();
         (self.is_open && count > 0 && self.pairs >= PAIRS_PER_VALUE * count).then(|| {
             format!(
-                "the first samples show {count} values over and over: if these are codes of a converter, deviations are too small; give its step, \
-                 --resolution STEP"
+                "the first samples have only {count} distinct values: if these are codes of a converter, deviations are too small; give its \
+                 step as --resolution STEP"
             )
         })
     }
@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn a_few_values_raise_a_warning_if_no_step_is_known() {
         let eight = warning(None, 100, 4).unwrap();
-        assert!(eight.contains("show 8 values over and over"), "{eight}");
+        assert!(eight.contains("have only 8 distinct values"), "{eight}");
         assert!(warning(None, 100_000, 64).is_some());
         assert_eq!(warning(None, 100_000, 65), None);
         assert_eq!(warning(Some(0.1), 100, 4), None);

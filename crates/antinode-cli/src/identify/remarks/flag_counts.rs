@@ -10,8 +10,8 @@ const MIN_OF_TENTH: u64 = 20;
 const MIN_OF_HALF: u64 = 4;
 
 /// Remedies for clipped rows.
-const CLIPPED_REMEDY: &str = "give the wave less gain where an amplifier or the converter limits it, or a larger --periods where a tone near \
-                          three times the frequency is taken for its third harmonic";
+const CLIPPED_REMEDY: &str = "reduce the gain if an amplifier or the converter limits the wave, or give a larger --periods if a tone near \
+                              three times the frequency is taken for its third harmonic";
 
 /// The probable cause if most rows are circular.
 const CIRCULAR_CAUSE: &str = "S_C and S_D are one wave a quarter period apart, as I and Q of a lock-in amplifier are: give the pick-offs' own \
@@ -95,7 +95,7 @@ impl FlagCounts {
             {
                 warning += "; ";
                 if alone < flagged {
-                    warning += &format!("{alone} have {flag} alone: ");
+                    warning += &format!("{alone} have only {flag}: ");
                 }
                 warning += &remedies;
             }
@@ -107,7 +107,7 @@ impl FlagCounts {
     fn misfit_remedies(&self) -> String {
         let mut warning = String::new();
         if !self.hum && !self.coloured {
-            warning += "if that is mains hum or an offset that wanders, --hum takes it out; ";
+            warning += "if there is mains hum or a wandering offset, give --hum; ";
         }
         if !self.coloured {
             warning +=
@@ -169,7 +169,7 @@ mod tests {
             ),
             (
                 vec![clean, (1, Flags::STEP), (20, Flags::CLIPPED)],
-                format!("clipped 20, step 1; 20 have clipped alone: {CLIPPED_REMEDY}"),
+                format!("clipped 20, step 1; 20 have only clipped: {CLIPPED_REMEDY}"),
             ),
             (
                 vec![(300, Flags::empty()), (20, Flags::CLIPPED)],

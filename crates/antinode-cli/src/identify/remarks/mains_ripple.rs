@@ -88,8 +88,8 @@ impl MainsRipple {
         let periods = (WINDOW_RIPPLES * self.frequency / line).ceil();
         (2 * self.seen > self.spectra).then(|| {
             format!(
-                "the main amplitude goes up and down by {:.2} % at {line} Hz: mains ripple on a gain or a supply, or a second tone is so far from \
-                 the wave; mend that, or give --coloured and --periods {periods}, which holds several such ripples",
+                "the main amplitude oscillates by {:.2} % at {line} Hz: there is mains ripple on a gain or a supply, or a second tone {line} \
+                 Hz from the wave; remove the cause, or give --coloured and --periods {periods}, so that a window holds several ripples",
                 100.0 * share
             )
         })

@@ -42,8 +42,8 @@ impl RoundedOffset {
     pub fn warning(&self) -> Option<String> {
         (self.rows >= MIN_ROWS && 2 * self.rounded > self.rows).then(|| {
             format!(
-                "the offset is {:.0} times the wave, and what single precision rounds of it is much of the residual: deviations are larger for \
-                 it, and rows may be flagged misfit; take the mean of each pick-off away before, in double precision",
+                "the offset is {:.0} times the wave, and its rounding in single precision is much of the residual: deviations are larger, and \
+                 rows may be flagged misfit; subtract each pick-off's mean first, in double precision",
                 self.offset
             )
         })

@@ -143,10 +143,11 @@ impl RowScatter {
             let hum = if has_option {
                 ""
             } else {
-                "hum, which --hum leaves out, or "
+                "hum (try --hum) or "
             };
             return Some(format!(
-                "rows scatter by only {max:.2} of their stated deviations: most of what was taken for noise is {hum}a tone; what it adds to every row alike does not scatter"
+                "rows scatter by only {max:.2} times their stated deviations: most of the assumed noise is {hum}a tone, which affects all \
+                 rows equally and so does not scatter"
             ));
         }
         let more: Vec<String> = NAMES
@@ -157,8 +158,8 @@ impl RowScatter {
             .collect();
         let step = if 2 * self.coarse > self.count {
             format!(
-                "the converter's step of {:.1e} is coarser than the noise, and its rounding repeats with the wave: give the wave more gain, or \
-                 the converter more bits; or ",
+                "the converter's step of {:.1e} is coarser than the noise, and its rounding repeats with the wave (raise the gain, or use a \
+                 finer converter), ",
                 self.resolution
             )
         } else {
@@ -167,8 +168,8 @@ impl RowScatter {
         let remedy = if has_option { "" } else { " (try --coloured)" };
         (!more.is_empty()).then(|| {
             format!(
-                "rows scatter by more than their stated deviations ({} times): {step}the wave moves, the sampling jitters, the pick-offs share noise, \
-                 there is a second tone or a harmonic (try a larger --periods), or the noise is not white{remedy}",
+                "rows scatter by more than their stated deviations ({} times): {step}the wave is unsteady, the sampling jitters, the \
+                 pick-offs share noise, there is a second tone or a harmonic (try a larger --periods), or the noise is not white{remedy}",
                 more.join(", ")
             )
         })

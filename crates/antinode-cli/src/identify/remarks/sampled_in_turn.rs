@@ -55,8 +55,8 @@ impl SampledInTurn {
     /// A warning if nearly all rows look like one signal.
     pub fn warning(&self) -> Option<String> {
         (self.alike >= MIN_ROWS && self.alike > self.count - self.count / 16).then(|| {
-            "both pick-offs seem to be one signal, sampled in turn: the angle is 22.5° and S_D half a sample late; if all of S_C is stored \
-             before all of S_D, store them pair by pair, or as NPY of shape (2, N); if --raw was given, check its bits"
+            "both pick-offs seem to be one signal, sampled in turn: the angle is 22.5°, and S_D is half a sample late; if all of S_C is \
+             stored before all of S_D, store them pair by pair, or as NPY of shape (2, N); if --raw was given, check its number of bits"
                 .to_owned()
         })
     }

@@ -49,7 +49,7 @@ impl Silence {
         let (begin, end) = (start + begin, start + end);
         (!parts.is_empty()).then(|| {
             format!(
-                "no wave was found in {} of {seconds:.4} s: the rows that show one go from {begin:.4} s to {end:.4} s",
+                "no wave was found in {} of {seconds:.4} s: rows with a wave go from {begin:.4} s to {end:.4} s",
                 parts.join(" and ")
             )
         })

@@ -145,16 +145,16 @@ impl UnsearchedWave {
         let seen = format!("a wave of about {frequency} Hz has {period} samples a period");
         Some(if period < SHORTEST_PERIOD {
             format!(
-                "{seen}, fewer than {SHORTEST_PERIOD}, the least that is identified: check the sample rate, or sample at another"
+                "{seen}, fewer than the minimum of {SHORTEST_PERIOD}: check the sample rate, or sample at another rate"
             )
         } else if period > LONGEST_PERIOD as f64 {
             format!(
-                "{seen}, more than {LONGEST_PERIOD}, the most that is identified: check the sample rate; samples that a lock-in amplifier \
-                 demodulated are not the pick-offs' own"
+                "{seen}, more than the maximum of {LONGEST_PERIOD}: check the sample rate; if a lock-in amplifier demodulated the samples, \
+                 give the pick-offs' own"
             )
         } else {
             format!(
-                "{seen}, and 4 to 200 are searched: if that is the pick-offs' wave, give --frequency {frequency}"
+                "{seen}, outside the search range of 4 to 200: if that is the pick-offs' wave, give --frequency {frequency}"
             )
         })
     }
@@ -166,7 +166,7 @@ pub fn alias(frequency: f64, rate: f64) -> String {
         return String::new();
     }
     let seen = (frequency - rate * (frequency / rate).round()).abs();
-    format!("; undersampled on purpose, such a wave shows at {seen} Hz")
+    format!("; if undersampled on purpose, this wave appears at {seen} Hz")
 }
 
 /// Rounds to three digits, the accuracy of a search.
@@ -217,14 +217,17 @@ mod tests {
     #[test]
     fn waves_beyond_the_search_are_named() {
         for (period, names) in [
-            (2.08, "has 2.08 samples a period, fewer than 2.5"),
+            (
+                2.08,
+                "has 2.08 samples a period, fewer than the minimum of 2.5",
+            ),
             (2.7, "--frequency 37000"),
             (3.3, "--frequency 30300"),
             (243.9, "--frequency 410"),
             (900.0, "--frequency 111"),
             (
                 3300.0,
-                "about 30.3 Hz has 3300 samples a period, more than 1024",
+                "about 30.3 Hz has 3300 samples a period, more than the maximum of 1024",
             ),
         ] {
             for noise in [1e-4, 0.01] {

@@ -185,3 +185,31 @@ fn a_tone_of_twice_the_frequency_is_flagged_in_the_first_window_though_it_looks_
     println!("a tone of twice the frequency: {told} of {runs} first windows flagged");
     assert!(runs == 60 && told > 40, "{told} of {runs}");
 }
+
+#[test]
+fn no_first_window_of_seven_or_ten_pairs_is_clipped_by_noise() {
+    // The wave leaves four or ten degrees of freedom: as often as in one window in twenty most of that is along a third harmonic.
+    for (period, periods, pairs) in [(3.4, 2, 7), (3.3, 3, 10)] {
+        let mut first = 0;
+        for seed in 0..1000 {
+            let wave = random_wave(seed, RATE / period, 0.3);
+            let flaws = Flaws {
+                noise: 0.013 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let settings = Settings {
+                frequency: Some(wave.frequency as f32),
+                ..windows(periods)
+            };
+            for estimate in identify_changed(wave, &flaws, settings, pairs, seed, |_, pair| pair) {
+                first += 1;
+                assert!(
+                    !estimate.flags.contains(Flags::CLIPPED),
+                    "{pairs} pairs, seed {seed}: {}",
+                    estimate.flags
+                );
+            }
+        }
+        assert_eq!(first, 1000);
+    }
+}

@@ -236,3 +236,49 @@ fn steps_of_the_weaker_pick_off_are_stated_whichever_it_is() {
         assert!((0.95..1.05).contains(&ratio), "{period}: {ratio}");
     }
 }
+
+#[test]
+fn a_step_that_is_not_known_shows_only_in_noise_below_0_4_of_it() {
+    // The largest of the errors of a_A, a_B and angle over their deviations, rms, and the share of windows flagged.
+    let seen = |period: f64, noise: f64, is_known: bool| {
+        let (mut squares, mut rows, mut flagged) = ([0f64; 3], 0.0, 0.0);
+        for seed in 0..60 {
+            let wave = Wave {
+                decay_rate: 0.1,
+                angle_rate: 0.05,
+                ..random_wave(seed, RATE / period, 0.3)
+            };
+            let step = wave.main_amplitude / 100.0;
+            let samples = (60.0 * period) as usize;
+            for estimate in in_steps(wave, step, noise, is_known, (samples, seed), f64::INFINITY) {
+                rows += 1.0;
+                flagged += f64::from(u8::from(!estimate.flags.is_empty()));
+                let (errors, stds) = (errors(&estimate, &wave), stated(&estimate));
+                for (i, square) in squares.iter_mut().enumerate() {
+                    *square += (errors[i] / stds[i]).powi(2);
+                }
+            }
+        }
+        let largest = squares.into_iter().fold(0f64, f64::max);
+        ((largest / rows).sqrt(), flagged / rows)
+    };
+    for (period, noise, errors) in [
+        (20.0, 0.4, 0.9..1.15),
+        (20.0, 0.3, 0.95..1.25),
+        (20.0, 0.2, 1.5..2.2),
+        (18.7531, 0.2, 0.9..1.2),
+    ] {
+        let (unknown, flagged) = seen(period, noise, false);
+        let (known, flagged_if_known) = seen(period, noise, true);
+        println!(
+            "{period} samples a period, noise of {noise} steps: {unknown:.2}, {known:.2} if known"
+        );
+        assert!(errors.contains(&unknown), "{period}, {noise}: {unknown}");
+        assert!(known < 1.2, "{period}, {noise}: {known}");
+        assert!(flagged < 0.01 && flagged_if_known == 0.0, "{flagged}");
+    }
+    let (_, flagged) = seen(20.0, 0.0, false);
+    println!("without noise {flagged:.2} of the windows flagged");
+    assert!((0.5..0.95).contains(&flagged), "{flagged}");
+    assert_eq!(seen(20.0, 0.0, true).1, 0.0);
+}

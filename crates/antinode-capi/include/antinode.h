@@ -216,7 +216,8 @@ typedef struct {
     // The greatest value that the converter gives, input units, above `rail_low`: 4095 for 12 bits. Both rails 0, the default: not known.
     float rail_high;
     // Step between neighbouring codes of the converter, input units, > 0: standard deviations then include the error of rounding to it. 0,
-    // the default: not known.
+    // the default: not known. In noise of less than 0.3 of a step, errors may then be many times the standard deviations, and windows
+    // without a fault be flagged ANTINODE_FLAG_CLIPPED or ANTINODE_FLAG_MISFIT: give it.
     float resolution;
     // The wave's frequency, Hz, if it is known, and stays so, within 5 %: it is then never searched for, and the first window begins with
     // the first sample. `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5; 0, the default: the period is found as `detection` says.

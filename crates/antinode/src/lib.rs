@@ -160,7 +160,9 @@
 //! ## Noise
 //!
 //! - Mains hum is flagged as a misfit unless [`Settings::hum`] takes it out. If fewer than 13 blocks fit in a period of the hum, as at 150
-//!   Hz beside a wave of 2 kHz, part of it counts as noise.
+//!   Hz beside a wave of 2 kHz, part of it counts as noise. Hum of more than a hundred times the noise leaves something in any case: beside
+//!   a wave of 5.3 kHz, hum of 0.3 a_A in noise of 10⁻³ of a_A makes one window of 30 periods in 300 a misfit at 50 Hz, and one of 50
+//!   periods in 200 at 150 Hz; in noise of 3·10⁻⁴ it is three in ten of the latter, and part of it counts as noise.
 //! - Deviations and flags take noise to be white; [`Settings::coloured`] is for noise that is not. With it, errors are 0.8 to 1.1 of their
 //!   deviations behind a low-pass or a high-pass, or in noise of 1/f². Behind a band-pass about the wave with a quality of 1, 3 and 10 they
 //!   are 1.1, 1.5 and 2 to 3 of their deviations in windows of ten periods or more; 1.2, 1.8 and 3 to 3.7 if a hop makes blocks shorter;

@@ -18,9 +18,6 @@ pub(super) const SIGNIFICANT: f32 = 36.0;
 const CIRCULAR_RATIO: f32 = 2e-3;
 /// Degrees of freedom with which the noise about the third harmonic is known well enough: those of four blocks.
 const MIN_THIRD_FREEDOM: f32 = 12.0;
-/// Fewest degrees of freedom of the residual with which the third harmonic tells anything: those of eleven sample pairs. What the wave
-/// leaves of fewer looks like a harmonic by chance.
-const MIN_HARMONIC_FREEDOM: f32 = 12.0;
 /// Margin on the third harmonic's share of a sample's noise, which is taken to be the wave's.
 const THIRD_NOISE_MARGIN: f32 = 1.2;
 /// Third harmonic that common electronics may have, as a share of a_A.
@@ -146,7 +143,7 @@ pub(crate) fn within(
 
     let alone = over_total(remains.third_without_image);
     let third_noise = greater(remains.third_without_image, lesser(alone, noise.wide));
-    let harmonic = remains.freedom >= MIN_HARMONIC_FREEDOM
+    let harmonic = remains.third_freedom >= MIN_THIRD_FREEDOM
         && has_harmonic(model, remains, wave, coding, third_noise);
     flags = flags.with_if(harmonic, Flags::CLIPPED);
 

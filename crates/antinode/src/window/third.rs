@@ -46,6 +46,9 @@ pub(super) struct Thirds {
     pub line: Line,
 }
 
+/// Half a window, in samples, above which its third harmonic is known: what the wave leaves of ten sample pairs looks like one by chance.
+const MIN_HALF: f32 = 5.0;
+
 impl Thirds {
     /// No sums yet, for a line.
     pub(super) fn of(line: Line) -> Self {
@@ -122,12 +125,15 @@ impl Thirds {
         remains.third_freedom = freedom;
     }
 
-    /// Factors from the mean sum to an amplitude, and from a sum's variance to a noise variance a sample.
+    /// Factors from the mean sum to an amplitude, 0 in a window too short to know it, and from a sum's variance to a noise variance a
+    /// sample.
     #[inline]
     pub(super) fn scales(model: &Model) -> (f32, f32) {
         // Two over the samples of a block.
         let doubled = model.per_half * f32::from(model.blocks);
         let unit = model.basis.unit;
-        (doubled * unit, doubled * unit * unit)
+        let is_long = model.half > MIN_HALF;
+        let amplitude = if is_long { doubled * unit } else { 0.0 };
+        (amplitude, doubled * unit * unit)
     }
 }

@@ -139,10 +139,10 @@
 //! ## Waves that change
 //!
 //! - Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: that is 260 rad/s and 480 1/s in ten periods
-//!   of 5332 Hz, 2.6 rad/s and 4.8 1/s in a thousand. So quick a turn leaves up to 2·10⁻⁵ of a_A in windows of ten periods, which shows in
-//!   noise of 2·10⁻⁴ of a_A and less, or 5·10⁻⁴ at 150 samples a period: a_A and a_B are then off by up to 6 of their deviations, 2 to 3 rms,
-//!   with no flag. If the pattern turns by more than about 0.6 rad, amplitudes are some per cent off; windows of more than ten periods flag
-//!   this as a misfit, shorter ones may not.
+//!   of 5332 Hz, 2.6 rad/s and 4.8 1/s in a thousand. So fast a turn leaves up to 2·10⁻⁵ of a_A unexplained in windows of ten periods,
+//!   which matters in noise of 2·10⁻⁴ of a_A and less, or 5·10⁻⁴ at 150 samples a period: a_A and a_B are then off by up to 6 of their
+//!   deviations, 2 to 3 rms, with no flag. If the pattern turns by more than about 0.6 rad, amplitudes are some per cent off; windows of
+//!   more than ten periods flag this as a misfit, shorter ones may not.
 //! - A frequency that drifts or depends on the amplitude bends the phase within a window; splits of damping and frequency bend amplitudes
 //!   and θ too. If this is well above both the noise (2 Hz/s in a window of 60 ms, say) and 2·10⁻⁴ of a_A, it is flagged as a misfit. If
 //!   not, nothing is flagged, and values are off by up to 6 of their deviations in windows of 10 periods, and by up to 30 in those of 100
@@ -151,8 +151,8 @@
 //!   If θ̇ jumps, as splits make it do near a circle, f may be off, by 20 deviations at |a_B| of 0.94 a_A in windows of 100 periods. If the
 //!   pattern vibrates, the deviations of f allow for it after some ten windows, or forty if a hop leaves gaps. Until then the pattern is
 //!   taken to turn steadily. If its turn per window grows by 0.01 rad from window to window, f is off in the second and third window by up
-//!   to 7 and 14 deviations at |a_B| of 0.9 a_A, or, if windows overlap, by up to 21 in those of the same time. If a pattern swings to and
-//!   fro during the gaps, f is off by up to 8, 18 and 45 deviations at 0.5, 0.75 and 0.9 a_A.
+//!   to 7 and 14 deviations at |a_B| of 0.9 a_A, or, if windows overlap, by up to 21 in the windows of that time. If a pattern swings to
+//!   and fro during the gaps, f is off by up to 8, 18 and 45 deviations at 0.5, 0.75 and 0.9 a_A.
 //! - Splits of 2 Hz and more make a pattern near a circle turn and slip in phase within a window or two: there one window in ninety is
 //!   flagged as a phase jump though no sample is missing, and at such windows, as at misfits, the continued angle may come to be a quarter
 //!   turn off.
@@ -168,18 +168,19 @@
 //!   are 1.1, 1.5 and 2 to 3 of their deviations in windows of ten periods or more; 1.2, 1.8 and 3 to 3.7 if a hop makes blocks shorter;
 //!   and up to 1.8, 3.3 and 7 in windows of 3 to 5 periods. If noise grows with frequency, some windows remain misfits, as does a fifth of
 //!   long windows with a hop behind a band-pass with a quality of 10.
-//! - A window of a few samples hardly knows its noise. If it has six pairs, as two periods of 2.5 to 3.2 samples do, errors of the first
-//!   window are 2 to 5 of its deviations, rms, one in ten beyond three, those of the second 1.4, of the third 1.2; with seven pairs these
-//!   are 1.4, 1.15 and 1.1. With six pairs one wave in seventy has a step or a misfit flagged by chance in its first windows, with ten one
-//!   in two thousand. In longer windows, errors of the first are up to 1.08 of its deviations, or 1.13 with hum or coloured noise.
-//! - If noise is so loud that windows are flagged as circular by chance, the others are a selection. Where two in five are flagged, as in
-//!   noise of 20 % in nine pairs, a_A of the others is 0.4 of its deviation too large, and errors are up to 1.2 deviations, rms; where nine
-//!   in ten are, these are 1 and 1.4.
+//! - A window of a few samples estimates its noise poorly. If it has six pairs, as two periods of 2.5 to 3.2 samples do, rms errors of the
+//!   first window are 2 to 5 of its deviations, and one error in ten exceeds three; rms errors of the second are 1.4, of the third 1.2;
+//!   with seven pairs these three are 1.4, 1.15 and 1.1. In noise alone, one wave in seventy has a step or a misfit flagged in its first
+//!   windows if they have six pairs, and one in two thousand with ten. In longer windows, rms errors of the first are up to 1.08 of its
+//!   deviations, or 1.13 with hum or coloured noise.
+//! - If noise is so loud that it alone makes some windows circular, the others are a selection. If two in five are flagged, as in noise of
+//!   20 % in nine pairs, a_A of the others is too large by 0.4 of its deviation, and rms errors are up to 1.2 deviations; if nine in ten
+//!   are, these are 1 and 1.4.
 //! - In noise of less than 0.4 of the converter's step, rounding errors repeat with the wave. If the step is known
-//!   ([`Settings::resolution`]), nothing is flagged, and errors of a_A, a_B, θ and phase are at most 1.2 of their deviations, rms, but may be
+//!   ([`Settings::resolution`]), nothing is flagged, and rms errors of a_A, a_B, θ and phase are at most 1.2 of their deviations, but may be
 //!   as small as 0.7, 0.5 and 0.4 of them at noise of 0.3, 0.2 and 0.1 of a step, or 0.2 if the wave has only eight codes. If it is not
-//!   known, they are up to 1.2, 2 and hundreds of deviations where a period is a whole number of samples, and 1.1, 1.5 and 2.4 elsewhere;
-//!   at 0.1, one window in twenty of the former is flagged as clipped or as a misfit, and without noise up to nine in ten.
+//!   known, they are up to 1.2, 2 and hundreds of deviations if a period is a whole number of samples, and 1.1, 1.5 and 2.4 otherwise; in
+//!   the first case one window in twenty is flagged as clipped or as a misfit at 0.1, and up to nine in ten without noise.
 //! - Deviations and flags also assume noise that is independent and equal in both pick-offs. If one has ten times as much, about one window
 //!   in ten thousand is flagged. If a share r of the variance is common to both, deviations are up to √(1 + r) times too small: at an angle
 //!   of 22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.

@@ -18,7 +18,7 @@ const EXAMPLES: &str = "\
 Examples:
   antinode                                              the demonstration
   antinode identify recording.wav                       a table to read
-  antinode identify --output csv a.wav b.npy > rows.csv
+  antinode identify --output csv a.wav b.csv > rows.csv
   antinode identify --rate 100000 --columns t,C,D log.csv
   recorder | antinode identify --raw i16 --rate 100000 -
   antinode identify --output csv cw.wav ccw.wav | antinode calibrate -

@@ -65,7 +65,7 @@ fn a_pattern_that_turns_determines_all_quantities() {
         "turned by rotation, °/s",
         "resonator\n",
         "±",
-        "nonlinearity of pick-offs or converter",
+        "deviations cover noise only, not a nonlinear pick-off or converter",
     ] {
         assert!(table.contains(part), "{table}");
     }

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::columns::Columns;
 use super::content::Content;
-use super::error::InputError;
+use super::error::Fault;
 use super::foreign::{Foreign, MAT};
 use super::raw;
 use super::sample::Kind;
@@ -30,49 +30,40 @@ pub(super) fn open(
     stream: Stream,
     known: Known,
     options: &OpenOptions,
-) -> Result<Opened, InputError> {
+) -> Result<Opened, Fault> {
     let length = known.length;
     let is_named_text = matches!(known.extension.as_str(), "csv" | "tsv" | "txt" | "lvm");
     let mut is_text = options.raw.is_none() && (is_named_text || options.columns.is_some());
     // Raw samples may have any name: where their format is given, a text's extension counts only if the content is text too.
     let try_text = !is_text && (options.raw.is_none() || is_named_text);
-    let look =
-        |stream| Content::look(stream, try_text).map_err(|fault| InputError::io(name, fault));
-    let (mut content, mut stream) = look(stream)?;
+    let (mut content, mut stream) = Content::look(stream, try_text)?;
     // Raw samples may happen to begin as UTF-16 does.
     if content == Content::Utf16 && (is_named_text || options.raw.is_none()) {
         let count = Rc::clone(&known.encoded);
-        let decoded = in_utf8(Counted { stream, count });
-        let decoded = decoded.map_err(|fault| InputError::io(name, fault))?;
-        (content, stream) = look(Box::new(decoded))?;
+        let decoded = in_utf8(Counted { stream, count })?;
+        (content, stream) = Content::look(Box::new(decoded), try_text)?;
         // Once decoded, they can no longer be read as raw samples.
         is_text |= is_named_text;
     }
-    let file = name.to_owned();
-    let foreign = |found: &Foreign| InputError::Foreign {
-        file: file.clone(),
+    let foreign = |found: &Foreign| Fault::Foreign {
         kind: found.kind,
         remedy: found.remedy(known.is_named.then_some(name)),
     };
     match (content, known.extension.as_str(), options.raw) {
-        (Content::Nothing, ..) => Err(InputError::Empty { file }),
+        (Content::Nothing, ..) => Err(Fault::Empty),
         (Content::Wav, ..) => wav::open(name, stream, length, options),
-        (Content::Npy, ..) => npy::open(name, stream, known, options.columns.as_ref()),
+        (Content::Npy, ..) => npy::open(stream, known, options.columns.as_ref()),
         (Content::Foreign(found), _, None) => Err(foreign(found)),
-        (_, "wav" | "wave", None) => Err(InputError::NotOfKind {
-            file,
-            kind: "a WAV file",
-        }),
-        (_, "npy", None) => Err(InputError::NotOfKind {
-            file,
+        (_, "wav" | "wave", None) => Err(Fault::NotOfKind { kind: "a WAV file" }),
+        (_, "npy", None) => Err(Fault::NotOfKind {
             kind: "an NPY file",
         }),
         _ if is_text || content == Content::Text => {
-            delimited::open(name, stream, options, length.is_none())
+            delimited::open(stream, options, length.is_none())
         }
-        (_, _, Some(format)) => raw::open(name, stream, format, options, length),
+        (_, _, Some(format)) => raw::open(stream, format, options, length),
         (_, "mat", None) => Err(foreign(&MAT)),
-        _ if known.is_named => Err(InputError::Unknown { file }),
-        _ => Err(InputError::RawFormatNeeded { file }),
+        _ if known.is_named => Err(Fault::Unknown),
+        _ => Err(Fault::RawFormatNeeded),
     }
 }

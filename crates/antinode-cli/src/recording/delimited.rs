@@ -4,9 +4,9 @@ mod fields;
 mod rows;
 
 use super::columns::Columns;
-use super::error::{InputError, TimeFault};
+use super::error::{Fault, TimeFault};
 use super::gaps::{Gap, Gaps};
-use super::not_finite::Written;
+use super::not_finite::Flaw;
 use super::time::{Meaning, TimeAxis, are_paired, roundest, standstill};
 use super::{OpenOptions, Opened, Source, Stream};
 use rows::{Row, Rows};
@@ -18,20 +18,12 @@ const HEAD_LINES: u64 = 1 << 16;
 const FEW_LINES: u64 = 16;
 
 /// Opens text; pairs of a `live` stream, a pipe, are delivered as they come.
-pub(super) fn open(
-    file: &str,
-    stream: Stream,
-    options: &OpenOptions,
-    live: bool,
-) -> Result<Opened, InputError> {
-    let mut source = Delimited::open(file, stream, options.columns.as_ref())?;
+pub(super) fn open(stream: Stream, options: &OpenOptions, live: bool) -> Result<Opened, Fault> {
+    let mut source = Delimited::open(stream, options.columns.as_ref())?;
     source.live = live;
     source.read_ahead();
     if source.ahead.len() == 0 {
-        let none = InputError::NoPairs {
-            file: file.to_owned(),
-        };
-        return Err(source.fault.take().unwrap_or(none));
+        return Err(source.fault.take().unwrap_or(Fault::NoPairs));
     }
     let (sample_rate, start) = (source.rate(), source.start());
     let axis = source.axis.as_ref();
@@ -43,10 +35,8 @@ pub(super) fn open(
     if is_time && source.rows.header.sequence.is_none() {
         source.used = options.rate.or(sample_rate);
     }
-    let header = &source.rows.header;
-    let of_time = meaning.and_then(|meaning| source.warning(meaning));
-    let told = header.warnings().into_iter().flatten().chain(of_time);
-    let warnings = told.map(|told| format!("{file}: {told}")).collect();
+    let mut warnings = std::mem::take(&mut source.rows.header.warnings);
+    warnings.extend(meaning.and_then(|meaning| source.warning(meaning)));
     Ok(Opened {
         format: "CSV".to_owned(),
         sample_rate,
@@ -64,7 +54,6 @@ pub(super) fn open(
 
 /// A source of pairs from lines of numbers.
 struct Delimited {
-    file: String,
     rows: Rows,
     /// The first number in the time column, or 0 if there is none.
     start: f64,
@@ -80,14 +69,13 @@ struct Delimited {
     /// Pairs read ahead to find the sample rate, not yet delivered.
     ahead: std::vec::IntoIter<[f32; 2]>,
     /// The fault behind the last of them.
-    fault: Option<InputError>,
+    fault: Option<Fault>,
 }
 
 impl Delimited {
-    fn open(file: &str, stream: Stream, chosen: Option<&Columns>) -> Result<Self, InputError> {
+    fn open(stream: Stream, chosen: Option<&Columns>) -> Result<Self, Fault> {
         Ok(Self {
-            file: file.to_owned(),
-            rows: Rows::open(file, stream, chosen)?,
+            rows: Rows::open(stream, chosen)?,
             start: 0.0,
             axis: None,
             gaps: Gaps::default(),
@@ -121,14 +109,23 @@ impl Delimited {
         self.axis = TimeAxis::of(&times, self.rows.printed);
         self.start = times.first().copied().unwrap_or(0.0);
         let uneven = match &self.axis {
-            _ if are_paired(&times) => Some((0, self.time_fault(places[0].0, TimeFault::Paired))),
+            _ if are_paired(&times) => Some((
+                0,
+                self.rows
+                    .header
+                    .time_fault_in(places[0].0, TimeFault::Paired),
+            )),
             Some(_) => (1..times.len()).find_map(|pair| {
                 let (line, left_out) = places[pair];
                 let fault = self.check(pair as u64, line, times[pair], left_out).err()?;
                 Some((pair as u64, fault))
             }),
-            None => standstill(&times, self.rows.printed)
-                .map(|(pair, fault)| (pair as u64, self.time_fault(places[pair].0, fault))),
+            None => standstill(&times, self.rows.printed).map(|(pair, fault)| {
+                (
+                    pair as u64,
+                    self.rows.header.time_fault_in(places[pair].0, fault),
+                )
+            }),
         };
         if let Some((pair, fault)) = uneven
             && broken.as_ref().is_none_or(|&(first, _)| pair < first)
@@ -164,19 +161,13 @@ impl Delimited {
 
     /// Checks the time of a line, and records a gap before it. `before`: the pairs read before the line; `left_out`: the lines left out
     /// just before it.
-    fn check(
-        &mut self,
-        before: u64,
-        line: u64,
-        time: f64,
-        left_out: u64,
-    ) -> Result<(), InputError> {
+    fn check(&mut self, before: u64, line: u64, time: f64, left_out: u64) -> Result<(), Fault> {
         let Some(axis) = &mut self.axis else {
             return Ok(());
         };
         let last = axis.last();
         let lost = axis.check(time, self.rows.printed);
-        let lost = lost.map_err(|fault| self.time_fault(line, fault))?;
+        let lost = lost.map_err(|fault| self.rows.header.time_fault_in(line, fault))?;
         if lost > 0 {
             let sequence = self.rows.header.sequence;
             let times =
@@ -212,14 +203,10 @@ impl Delimited {
             ),
         })
     }
-
-    fn time_fault(&self, line: u64, fault: TimeFault) -> InputError {
-        InputError::line(&self.file, line, self.rows.header.time_fault(fault))
-    }
 }
 
 impl Source for Delimited {
-    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), InputError> {
+    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault> {
         pairs.extend(self.ahead.by_ref().take(capacity));
         while pairs.len() < capacity {
             if let Some(fault) = self.fault.take() {
@@ -270,10 +257,9 @@ impl Source for Delimited {
         self.rows.left_out.look(start, end);
     }
 
-    fn lost(&self) -> Option<InputError> {
+    fn lost(&self) -> Option<Fault> {
         if let Some((first, count)) = self.rows.left_out.reported() {
-            return Some(InputError::LeftOut {
-                file: self.file.clone(),
+            return Some(Fault::LeftOut {
                 place: first.place,
                 told: first.description.clone(),
                 count,
@@ -281,17 +267,15 @@ impl Source for Delimited {
             });
         }
         let (line, fault) = self.gaps.fault()?;
-        Some(self.time_fault(line, fault))
+        Some(self.rows.header.time_fault_in(line, fault))
     }
 
     fn late_warning(&self) -> Option<String> {
-        let axis = self.axis.as_ref()?;
-        let told = axis.late_warning(self.used)?;
-        Some(format!("{}: {told}", self.file))
+        self.axis.as_ref()?.late_warning(self.used)
     }
 
-    fn not_finite(&self) -> Option<Written> {
-        self.rows.not_finite.clone()
+    fn not_finite(&self) -> Option<&Flaw> {
+        self.rows.not_finite.as_ref()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Which two of the channels that were sampled together are S_C and S_D.
 
 use super::columns::Columns;
-use super::error::InputError;
+use super::error::Fault;
 
 /// The channels of a recording, and the places from 0 of S_C and S_D among them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,16 +18,11 @@ impl Frame {
     };
 
     /// The two of `channels` channels that the user chose by `columns`; without a choice, both of two.
-    pub fn choose(
-        file: &str,
-        channels: usize,
-        columns: Option<&Columns>,
-    ) -> Result<Self, InputError> {
-        let file = file.to_owned();
+    pub fn choose(channels: usize, columns: Option<&Columns>) -> Result<Self, Fault> {
         let Some(columns) = columns else {
             return match channels {
                 2 => Ok(Self::PAIR),
-                found => Err(InputError::Channels { file, found }),
+                found => Err(Fault::Channels { found }),
             };
         };
         let chosen = columns
@@ -38,8 +33,7 @@ impl Frame {
                 channels,
                 chosen: [c - 1, d - 1],
             }),
-            None => Err(InputError::ChannelChoice {
-                file,
+            None => Err(Fault::ChannelChoice {
                 chosen: columns.to_string(),
                 channels,
             }),

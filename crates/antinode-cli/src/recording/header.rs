@@ -1,9 +1,10 @@
 //! The header of a text recording: its columns and their units, from the first lines.
 
 use super::columns::{Columns, FirstLine, Places, is_time};
-use super::error::{InputError, LineFault, TimeFault};
+use super::error::{Fault, LineFault, TimeFault};
 use super::heading::is_header;
 use super::lines::{Beginning, Lines};
+use super::preamble::Start;
 use super::sequence::{Counted, Sequence, counted};
 use super::signal_units::{Together, together};
 use super::text::{fields, is_skipped};
@@ -22,43 +23,32 @@ pub(super) struct Header {
     pub sequence: Option<Sequence>,
     /// Divisors of S_C and S_D that bring both to one unit.
     pub divisors: [f32; 2],
-    /// The units of S_C and S_D, and how they are brought together.
-    units: ([String; 2], Together),
-    /// The name of a time column whose brackets hold no unit of time.
-    unknown: Option<String>,
-    /// The start and the increment that the names announce or give, if they do.
-    counted: Option<Counted>,
-    /// The number of a first line that is left out, as it lacks its beginning.
-    cut: Option<usize>,
+    /// The warnings about the first lines.
+    pub warnings: Vec<String>,
 }
 
 /// What was found in the names and a line of units below them.
 #[derive(Default)]
 struct FoundUnits {
     /// Whether the time's unit was found.
-    has_unit: bool,
-    /// The line with the signals' units, and whether they are surely units.
+    has_time: bool,
+    /// The units of S_C and S_D, their line, and whether they are surely units.
+    signals: [String; 2],
     line: u64,
-    are_signals: bool,
+    are_sure: bool,
 }
 
 impl Header {
     /// Reads the names and the units, if there are any, and leaves the samples to be read; `beginning` shows the lines ahead.
     pub fn read(
-        file: &str,
         lines: &mut Lines,
         beginning: &Beginning,
         chosen: Option<&Columns>,
-    ) -> Result<Self, InputError> {
+    ) -> Result<Self, Fault> {
         let separator = lines.separator;
         let Beginning { first, next, start } = beginning;
         let mut names: Vec<String> = fields(first, separator).map(lossy).collect();
         let width = names.len();
-        // A table for reading may have a title above its heading.
-        let is_of_table = |text: &Vec<u8>| lossy(text).contains(MAIN_AMPLITUDE);
-        let is_of_rows = lossy(first).contains("quadrature_amplitude")
-            || is_of_table(first)
-            || is_of_table(next);
         let counted = counted(&names);
         let has_numbers = counted.is_some_and(|counted| counted.has_numbers);
         let is_timed = has_numbers || names.first().is_some_and(|name| is_time(name));
@@ -67,14 +57,13 @@ impl Header {
         }
         let columns = counted.map_or(width, |counted| counted.columns);
         let names = is_header(first, next, separator).then_some(&names[..columns]);
-        let units = units_below(next, separator);
         lines.advance()?;
         let line = FirstLine {
             names,
-            units: &units,
+            units: &units_below(next, separator),
             width: columns,
             start,
-            is_of_rows,
+            is_of_rows: is_of_rows(first, next),
         };
         let places = if counted.is_some() && !is_timed && chosen.is_none() && columns != 2 {
             // No column here is a time.
@@ -83,7 +72,7 @@ impl Header {
         } else {
             line.places(chosen)
         };
-        let places = places.map_err(|fault| InputError::line(file, lines.number(), fault))?;
+        let places = places.map_err(|fault| Fault::line(lines.number(), fault))?;
         let of_names = counted.and_then(|counted| counted.sequence);
         let sequence = start.sequence.or(of_names);
         let mut header = Self {
@@ -92,82 +81,76 @@ impl Header {
             exponent: 0,
             sequence: sequence.filter(|_| places[0].is_none()),
             divisors: [1.0; 2],
-            units: (Default::default(), Together::Same),
-            unknown: None,
-            counted,
-            cut: start.cut,
+            warnings: Vec::new(),
         };
+        header.warnings.extend(start.cut.map(|line| format!(
+            "line {line} seems to lack its beginning, as if the logger had been attached in the middle of it, and is left out"
+        )));
+        header.read_units(lines, names, counted, start)?;
+        Ok(header)
+    }
+
+    /// Reads the units below these names, if there are any, and warns of those that are in doubt.
+    fn read_units(
+        &mut self,
+        lines: &mut Lines,
+        names: Option<&[String]>,
+        counted: Option<Counted>,
+        start: &Start,
+    ) -> Result<(), Fault> {
         let found = match names {
-            Some(names) => header.read_units(file, lines, names)?,
+            Some(names) => self.find_units(lines, names, counted)?,
             None => {
                 lines.back();
                 FoundUnits::default()
             }
         };
-        if !found.has_unit {
-            // Only now do the settings matter: beside a unit in the header, theirs may be that of the screen.
-            let is_other = |unit: &str| time_exponent(unit).is_some_and(|own| own != Some(0));
-            if let Some((unit, line)) = &start.unit
-                && places[0].is_some()
-                && is_other(unit)
-            {
-                let unit = unit.clone();
-                return Err(header.of_time(file, *line as u64, TimeFault::UnitUnsure { unit }));
-            }
-            let name = names.and_then(|names| Some(&names[places[0]?]));
-            header.unknown = name.filter(|name| has_unknown_unit(name)).cloned();
-        }
-        header
-            .bring_together(found.are_signals)
-            .map_err(|fault| InputError::line(file, found.line, fault))?;
-        Ok(header)
+        let doubt = if found.has_time {
+            None
+        } else {
+            self.doubt_time(names, start)?
+        };
+        self.bring_together(found)?;
+        self.warnings.extend(doubt);
+        Ok(())
     }
 
-    /// Reads the units in the names and in the line below them; leaves that line to be read if it holds none.
-    fn read_units(
+    /// Finds the units in the names and in the line below them; leaves that line to be read if it holds none.
+    fn find_units(
         &mut self,
-        file: &str,
         lines: &mut Lines,
         names: &[String],
-    ) -> Result<FoundUnits, InputError> {
+        counted: Option<Counted>,
+    ) -> Result<FoundUnits, Fault> {
         let name = |role: usize| self.places[role].map_or("", |place| &names[place]);
         let (time, signals) = (name(0), [name(1), name(2)]);
+        let line = lines.number();
         let mut found = FoundUnits {
-            has_unit: false,
-            line: lines.number(),
+            has_time: self.set_unit(line, of_name(time), time)?,
+            signals: signals.map(|name| of_name(name).to_owned()),
+            line,
             // Outside of brackets, the end of a name may be a label.
-            are_signals: signals.iter().all(|name| is_bracketed(name)),
+            are_sure: signals.iter().all(|name| is_bracketed(name)),
         };
-        self.units.0 = signals.map(|name| of_name(name).to_owned());
-        found.has_unit = self
-            .set_unit(of_name(time), time)
-            .map_err(|fault| self.of_time(file, found.line, fault))?;
         if !lines.advance()? {
             return Ok(found);
         }
-        let Some(unit) = self.units(lines) else {
+        let Some(unit) = self.units(lines, counted) else {
             lines.back();
             return Ok(found);
         };
         let line = lines.number();
-        match self.set_unit(&unit, &unit) {
-            // Brackets hold a unit: one that is not known cannot be taken for seconds.
-            Ok(false) if is_bracketed(&unit) => {
-                return Err(self.of_time(file, line, TimeFault::Unit { name: unit }));
-            }
-            Ok(is_told) => found.has_unit |= is_told,
-            Err(fault) => return Err(self.of_time(file, line, fault)),
+        let is_of_time = self.set_unit(line, &unit, &unit)?;
+        // Brackets hold a unit: one that is not known cannot be taken for seconds.
+        if !is_of_time && is_bracketed(&unit) {
+            return Err(self.time_fault_in(line, TimeFault::Unit { name: unit }));
         }
+        found.has_time |= is_of_time;
         let own = [1, 2].map(|role| self.field(lines, role));
         if own.iter().any(|unit| !unit.is_empty()) {
-            (self.units.0, found.line, found.are_signals) = (own, line, true);
+            (found.signals, found.line, found.are_sure) = (own, line, true);
         }
         Ok(found)
-    }
-
-    /// The error for a fault of the time in this line.
-    fn of_time(&self, file: &str, line: u64, fault: TimeFault) -> InputError {
-        InputError::line(file, line, self.time_fault(fault))
     }
 
     /// The unit that this line holds for the column of this `role`.
@@ -176,63 +159,52 @@ impl Header {
         bare(&lossy(field.unwrap_or_default())).to_owned()
     }
 
-    /// Finds the divisors that bring both signals to one unit; fails if they measure different things.
-    fn bring_together(&mut self, are_sure: bool) -> Result<(), LineFault> {
-        let (units, outcome) = &mut self.units;
-        *outcome = together([&units[0], &units[1]], are_sure);
-        match outcome {
-            Together::Same | Together::Unsure => {}
-            Together::Divided(divisors) => self.divisors = *divisors,
-            Together::Never => {
-                let units = units.clone();
-                return Err(LineFault::Units { units });
-            }
+    /// The warning about a time in brackets that hold no unit of time; fails if the settings give another unit than s.
+    fn doubt_time(&self, names: Option<&[String]>, start: &Start) -> Result<Option<String>, Fault> {
+        let Some(place) = self.places[0] else {
+            return Ok(None);
+        };
+        // Only now do the settings matter: beside a unit in the header, theirs may be that of the screen.
+        let is_other = |unit: &str| time_exponent(unit).is_some_and(|own| own != Some(0));
+        if let Some((unit, line)) = &start.unit
+            && is_other(unit)
+        {
+            let unit = unit.clone();
+            return Err(self.time_fault_in(*line as u64, TimeFault::UnitUnsure { unit }));
         }
-        Ok(())
+        let name = names.map(|names| &names[place]);
+        let samples = self.samples();
+        Ok(name.filter(|name| has_unknown_unit(name)).map(|name| format!(
+            "the unit of the time column `{name}` is not known, and its times are read as seconds; if they are not, convert them to \
+             seconds, or ignore the column with --columns {samples} --rate HZ"
+        )))
     }
 
-    /// The warnings about the first lines.
-    pub fn warnings(&self) -> [Option<String>; 3] {
-        [self.cut(), self.signal_units(), self.time_unit()]
-    }
-
-    /// The warning about signals in different units, or one of an unknown unit.
-    fn signal_units(&self) -> Option<String> {
-        let ([c, d], together) = &self.units;
-        let told = match together {
-            Together::Same | Together::Never => return None,
+    /// Sets the divisors that bring both signals to one unit, and warns of them; fails if they measure different things.
+    fn bring_together(&mut self, found: FoundUnits) -> Result<(), Fault> {
+        let [c, d] = &found.signals;
+        let told = match together([c, d], found.are_sure) {
+            Together::Same => return Ok(()),
             Together::Divided(divisors) => {
+                self.divisors = divisors;
                 let larger = if divisors[0] > divisors[1] { d } else { c };
-                format!("both are converted to {larger}")
+                &format!("both are converted to {larger}")
             }
             Together::Unsure => {
                 "one of these units is not known, and both signals are read without conversion"
-                    .to_owned()
+            }
+            Together::Never => {
+                let units = found.signals;
+                return Err(Fault::line(found.line, LineFault::Units { units }));
             }
         };
-        Some(format!("S_C is in {c} and S_D in {d}: {told}"))
-    }
-
-    /// The warning about a time whose unit is not known.
-    fn time_unit(&self) -> Option<String> {
-        let name = self.unknown.as_ref()?;
-        let samples = self.samples();
-        Some(format!(
-            "the unit of the time column `{name}` is not known, and its times are read as seconds; if they are not, convert them to \
-             seconds, or ignore the column with --columns {samples} --rate HZ"
-        ))
-    }
-
-    /// The warning about a first line that is left out.
-    fn cut(&self) -> Option<String> {
-        let line = self.cut?;
-        Some(format!(
-            "line {line} seems to lack its beginning, as if the logger had been attached in the middle of it, and is left out"
-        ))
+        self.warnings
+            .push(format!("S_C is in {c} and S_D in {d}: {told}"));
+        Ok(())
     }
 
     /// Sets the time's unit; false if it is no unit of time. `name` stands for it in an error.
-    fn set_unit(&mut self, unit: &str, name: &str) -> Result<bool, TimeFault> {
+    fn set_unit(&mut self, line: u64, unit: &str, name: &str) -> Result<bool, Fault> {
         match time_exponent(unit) {
             None => Ok(false),
             Some(Some(exponent)) => {
@@ -241,13 +213,13 @@ impl Header {
             }
             Some(None) => {
                 let name = name.to_owned();
-                Err(TimeFault::Unit { name })
+                Err(self.time_fault_in(line, TimeFault::Unit { name }))
             }
         }
     }
 
     /// The time's unit, which may be empty, if this is a line of units.
-    fn units(&mut self, lines: &Lines) -> Option<String> {
+    fn units(&mut self, lines: &Lines, counted: Option<Counted>) -> Option<String> {
         let mut found: Vec<String> = lines.fields().map(lossy).collect();
         // A single separator at the end of a line does not begin another field.
         if found.len() == self.width + 1 && found[self.width].is_empty() {
@@ -256,7 +228,7 @@ impl Header {
         if found.len() > self.width {
             return None;
         }
-        if let Some(counted) = self.counted {
+        if let Some(counted) = counted {
             // A time column other than the first holds the times themselves.
             let first = counted.has_numbers.then_some(0);
             let is_first = self.places[0].is_none() || self.places[0] == first;
@@ -291,6 +263,18 @@ impl Header {
         let samples = self.samples();
         LineFault::Time { fault, samples }
     }
+
+    /// The same with the line's number.
+    pub fn time_fault_in(&self, line: u64, fault: TimeFault) -> Fault {
+        Fault::line(line, self.time_fault(fault))
+    }
+}
+
+/// Whether a text that begins with these lines is what `antinode identify` prints.
+fn is_of_rows(first: &[u8], next: &[u8]) -> bool {
+    // A table for reading may have a title above its heading.
+    let is_of_table = |text: &[u8]| lossy(text).contains(MAIN_AMPLITUDE);
+    lossy(first).contains("quadrature_amplitude") || is_of_table(first) || is_of_table(next)
 }
 
 /// The fields of the first of these lines, if it may be one of units; otherwise none.

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::not_finite::Written;
+use super::not_finite::Flaw;
 
 /// Most runs of lines kept: fewer pairs than this are read before they are looked at or passed.
 const MAX_AHEAD: usize = 1 << 19;
@@ -13,7 +13,7 @@ pub(super) struct LeftOut {
     /// Lines behind pairs that are still to be looked at.
     ahead: VecDeque<Run>,
     /// The first line to be reported, and how many there are.
-    first: Option<Written>,
+    first: Option<Flaw>,
     count: u64,
     /// The number of pairs up to the last one looked at.
     looked: u64,
@@ -22,13 +22,13 @@ pub(super) struct LeftOut {
 /// Lines behind the same pair.
 #[derive(Debug)]
 struct Run {
-    first: Written,
+    first: Flaw,
     count: u64,
 }
 
 impl LeftOut {
     /// Adds a line.
-    pub fn add(&mut self, line: Written) {
+    pub fn add(&mut self, line: Flaw) {
         match self.ahead.back_mut() {
             Some(run) if run.first.pair == line.pair => run.count += 1,
             _ => self.ahead.push_back(Run {
@@ -55,7 +55,7 @@ impl LeftOut {
     }
 
     /// The first line to be reported, and how many there are, with those just behind the last pair looked at.
-    pub fn reported(&self) -> Option<(&Written, u64)> {
+    pub fn reported(&self) -> Option<(&Flaw, u64)> {
         let behind = self.ahead.front();
         let behind = behind.filter(|run| run.first.pair == self.looked);
         let first = self.first.as_ref().or(behind.map(|run| &run.first))?;

@@ -1,14 +1,12 @@
 //! The lines of a text recording, cut into fields.
 
-use std::io::{self, BufReader, Cursor, Read};
-
-use csv::{ByteRecord, ReaderBuilder, Terminator};
+use std::io::{BufRead, BufReader, Chain, Cursor, Read};
 
 use super::Stream;
-use super::error::{InputError, LineFault};
+use super::error::{Fault, LineFault};
 use super::preamble::{self, STEADY_LINES, Start};
-use super::quoted::{self, Quoted, has_decimal_commas};
-use super::text::{self, LineEnds, MAX_LINE, Text, bare};
+use super::quoted::{self, has_decimal_commas};
+use super::text::{self, LineEnds, MAX_LINE, bare};
 
 /// The beginning of a text below its settings, which [`Lines`] has still to read.
 pub(super) struct Beginning {
@@ -22,30 +20,32 @@ pub(super) struct Beginning {
 
 /// Reads lines that are neither blank nor comments.
 pub(super) struct Lines {
-    file: String,
-    reader: csv::Reader<Text>,
-    record: ByteRecord,
+    /// The lines read ahead, and those behind them.
+    stream: Chain<Cursor<Vec<u8>>, BufReader<LineEnds>>,
+    /// The line last read, without its end.
+    line: Vec<u8>,
     pub separator: u8,
-    /// The lines and bytes before those that `reader` has.
-    skipped: (u64, u64),
+    /// Whether numbers are in quotes, with decimal commas.
+    is_quoted: bool,
+    number: u64,
+    bytes_read: u64,
     /// True if the line last read is to be read again.
     again: bool,
 }
 
 impl Lines {
     /// Opens text, and gives its first lines beside the reader.
-    pub fn open(file: &str, stream: Stream) -> Result<(Self, Beginning), InputError> {
+    pub fn open(stream: Stream) -> Result<(Self, Beginning), Fault> {
         let mut stream = BufReader::with_capacity(MAX_LINE, LineEnds::new(stream));
-        let (mut begun, line, before) = text::first_line(file, &mut stream)?;
+        let (mut begun, line, before) = text::first_line(&mut stream)?;
         // Reading these lines ahead delays no row of a pipe: each row needs at least as many lines.
         let mut is_quoted = false;
         let mut start = loop {
-            let next = text::next_lines(&mut stream, STEADY_LINES)
-                .map_err(|fault| InputError::io(file, fault))?;
+            let next = text::next_lines(&mut stream, STEADY_LINES)?;
             begun.extend_from_slice(&next);
             is_quoted = is_quoted || has_decimal_commas(&begun);
             if is_quoted {
-                quoted::separate(&mut begun, &mut false);
+                quoted::separate(&mut begun);
             }
             let is_all = next.iter().filter(|&&byte| byte == b'\n').count() < STEADY_LINES;
             if let Some(start) = preamble::find(&begun, is_all) {
@@ -53,7 +53,6 @@ impl Lines {
             }
         };
         let begun = begun.split_off(start.bytes);
-        let skipped = (line - 1 + start.lines as u64, before + start.bytes as u64);
         if let Some((_, unit)) = &mut start.unit {
             *unit += line as usize;
         }
@@ -67,28 +66,13 @@ impl Lines {
             next: next.to_vec(),
             start,
         };
-        let separator = text::separator(&beginning.first);
-        let rest: Stream = if is_quoted {
-            Box::new(Quoted::new(Box::new(stream)))
-        } else {
-            Box::new(stream)
-        };
-        let text = Text::new(Box::new(Cursor::new(begun).chain(rest)));
-        let reader = ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .delimiter(separator)
-            .terminator(Terminator::Any(b'\n'))
-            // A stray quote must not swallow the lines that follow.
-            .quoting(false)
-            .buffer_capacity(MAX_LINE)
-            .from_reader(text);
         let lines = Self {
-            file: file.to_owned(),
-            reader,
-            record: ByteRecord::new(),
-            separator,
-            skipped,
+            separator: text::separator(&beginning.first),
+            stream: Cursor::new(begun).chain(stream),
+            line: Vec::new(),
+            is_quoted,
+            number: line - 1 + beginning.start.lines as u64,
+            bytes_read: before + beginning.start.bytes as u64,
             again: false,
         };
         Ok((lines, beginning))
@@ -96,17 +80,19 @@ impl Lines {
 
     /// The number of the line last read.
     pub fn number(&self) -> u64 {
-        self.skipped.0 + self.reader.position().line() - 1
+        self.number
     }
 
     /// The bytes read so far.
     pub fn bytes_read(&self) -> u64 {
-        self.skipped.1 + self.reader.position().byte()
+        self.bytes_read
     }
 
     /// True when no whole line is left of what has come.
     pub fn is_drained(&self) -> bool {
-        self.reader.position().byte() >= self.reader.get_ref().lines_end()
+        let (begun, rest) = self.stream.get_ref();
+        let is_begun = begun.position() < begun.get_ref().len() as u64;
+        !is_begun && !rest.buffer().contains(&b'\n')
     }
 
     /// Has [`advance`](Self::advance) give the line last read once more.
@@ -115,42 +101,45 @@ impl Lines {
     }
 
     /// Goes to the next line; false at the end.
-    pub fn advance(&mut self) -> Result<bool, InputError> {
+    pub fn advance(&mut self) -> Result<bool, Fault> {
         if std::mem::take(&mut self.again) {
             return Ok(true);
         }
         loop {
-            let read = self.reader.read_byte_record(&mut self.record);
-            if !read.map_err(|fault| self.broken(fault))? {
+            self.line.clear();
+            let mut line = self.stream.by_ref().take(MAX_LINE as u64);
+            let read = line.read_until(b'\n', &mut self.line)?;
+            if read == 0 {
                 return Ok(false);
             }
-            // A line of nothing but separators is not blank: its numbers are missing.
-            let whole = self.record.len() <= 1 || self.separator == b' ';
-            let start = if whole {
-                self.record.as_slice()
-            } else {
-                &self.record[0]
-            };
-            if !(text::is_skipped(start) && (whole || text::is_comment(start))) {
+            self.number += 1;
+            self.bytes_read += read as u64;
+            if read == MAX_LINE {
+                let fault = LineFault::LineTooLong { limit: MAX_LINE };
+                return Err(Fault::line(self.number, fault));
+            }
+            self.line.pop_if(|last| *last == b'\n');
+            if self.is_quoted {
+                quoted::separate(&mut self.line);
+            }
+            if !self.is_skipped() {
                 return Ok(true);
             }
         }
     }
 
-    /// The fields of this line; where blanks separate them, only those that are not empty.
-    pub fn fields(&self) -> impl Iterator<Item = &[u8]> {
-        let fields = self.record.iter().map(bare);
-        fields.filter(|field| self.separator != b' ' || !field.is_empty())
+    /// Whether this line is blank or a comment. One of nothing but separators is not blank: its numbers are missing.
+    fn is_skipped(&self) -> bool {
+        let is_field = |part: &&[u8]| self.separator != b' ' || !part.is_empty();
+        let parts = self.line.split(|&byte| byte == self.separator);
+        let mut parts = parts.filter(is_field);
+        let first = parts.next().unwrap_or_default();
+        text::is_comment(first) || first.trim_ascii().is_empty() && parts.next().is_none()
     }
 
-    fn broken(&self, fault: csv::Error) -> InputError {
-        match fault.into_kind() {
-            csv::ErrorKind::Io(fault) if fault.kind() == io::ErrorKind::InvalidData => {
-                let fault = LineFault::LineTooLong { limit: MAX_LINE };
-                InputError::line(&self.file, self.number() + 1, fault)
-            }
-            csv::ErrorKind::Io(fault) => InputError::io(&self.file, fault),
-            other => InputError::io(&self.file, io::Error::other(format!("{other:?}"))),
-        }
+    /// The fields of this line; where blanks separate them, only those that are not empty.
+    pub fn fields(&self) -> impl Iterator<Item = &[u8]> {
+        let fields = self.line.split(|&byte| byte == self.separator).map(bare);
+        fields.filter(|field| self.separator != b' ' || !field.is_empty())
     }
 }

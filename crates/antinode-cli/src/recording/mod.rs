@@ -41,6 +41,7 @@ use std::rc::Rc;
 pub use by_content::OpenOptions;
 use codes::Lowest;
 pub use columns::Columns;
+use error::Fault;
 pub use error::{Channel, InputError};
 pub use gaps::Gap;
 use not_finite::NotFinite;
@@ -70,7 +71,7 @@ pub struct Recording {
     lowest: Option<Lowest>,
     not_finite: NotFinite,
     /// A fault that was met while good pairs were still to be delivered.
-    fault: Option<InputError>,
+    fault: Option<Fault>,
     ended: bool,
 }
 
@@ -101,7 +102,8 @@ impl Recording {
             length,
             again,
         };
-        let opened = by_content::open(&name, Box::new(file), known, options)?;
+        let opened = by_content::open(&name, Box::new(file), known, options)
+            .map_err(|fault| InputError::new(&name, fault))?;
         Ok(Self {
             encoded,
             ..Self::new(name, opened, length)
@@ -113,13 +115,17 @@ impl Recording {
         let stdin = io::stdin();
         let is_described = options.raw.is_some() || options.columns.is_some();
         if !is_described && stdin.is_terminal() {
-            return Err(InputError::Terminal { file: name });
+            return Err(InputError::new(&name, Fault::Terminal));
         }
-        let opened = by_content::open(&name, Box::new(stdin), Known::default(), options)?;
+        let opened = by_content::open(&name, Box::new(stdin), Known::default(), options)
+            .map_err(|fault| InputError::new(&name, fault))?;
         Ok(Self::new(name, opened, None))
     }
 
     fn new(name: String, mut opened: Opened, bytes_total: Option<u64>) -> Self {
+        for warning in &mut opened.warnings {
+            *warning = format!("{name}: {warning}");
+        }
         let unit = opened.integers.map(|code| unit(code.full_scale()));
         let (head, step, fault) = if bytes_total.is_some() {
             // Found in the first samples that are not silent: integers, too, may come from a converter of fewer bits.
@@ -172,7 +178,8 @@ impl Recording {
 
     /// A warning that can be given only once all is read.
     pub fn late_warning(&self) -> Option<String> {
-        self.opened.source.late_warning()
+        let told = self.opened.source.late_warning()?;
+        Some(format!("{}: {told}", self.name))
     }
 
     /// The number of pairs, if the format tells it; those that are there, if the header promises more.
@@ -222,17 +229,19 @@ impl Recording {
 
     /// The error for those of the samples looked at so far that are not finite numbers, if any are.
     pub fn not_finite(&self) -> Option<InputError> {
-        let first = self.not_finite.first?;
+        let first = self.not_finite.first.as_ref()?;
         // The first that the source met may be none of those looked at.
         let written = self.opened.source.not_finite();
-        let written = written.filter(|written| written.pair == first.pair);
-        Some(InputError::NotFinite {
-            file: self.name.clone(),
-            place: written.as_ref().map(|written| written.place),
+        let first = written
+            .filter(|written| written.pair == first.pair)
+            .unwrap_or(first);
+        let fault = Fault::NotFinite {
+            place: first.place,
             pair: first.pair,
-            told: written.map_or_else(|| first.describe(), |written| written.description),
+            told: first.description.clone(),
             count: self.not_finite.count,
-        })
+        };
+        Some(InputError::new(&self.name, fault))
     }
 
     /// The next gap in the samples' own time; each gap among delivered pairs must be passed by [`pass_gap`](Self::pass_gap), in order.
@@ -247,7 +256,8 @@ impl Recording {
 
     /// The error for the gaps passed so far that are to be reported and for the lines left out, if there are any.
     pub fn lost(&self) -> Option<InputError> {
-        self.opened.source.lost()
+        let fault = self.opened.source.lost()?;
+        Some(InputError::new(&self.name, fault))
     }
 
     /// Clears `buffer` and fills it to its capacity with the next pairs [S_C, S_D]; `Ok(0)` at the end.
@@ -266,7 +276,8 @@ impl Recording {
         }
         if buffer.is_empty() {
             self.ended = true;
-            return self.fault.take().map_or(Ok(0), Err);
+            let fault = self.fault.take();
+            return fault.map_or(Ok(0), |fault| Err(InputError::new(&self.name, fault)));
         }
         Ok(buffer.len())
     }

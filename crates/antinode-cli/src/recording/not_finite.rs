@@ -1,40 +1,23 @@
 //! Samples that are not finite numbers: they are delivered as they are, and reported at the end.
 
-use super::error::{Channel, Place};
+use super::error::Place;
 use super::sample::channel_at;
 
-/// The first sample that is not a finite number.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct First {
-    pub pair: u64,
-    pub channel: Channel,
-    pub value: f32,
-}
-
-impl First {
-    /// A description of it.
-    pub fn describe(self) -> String {
-        format!(
-            "{}: the value is {}, not a finite number",
-            self.channel, self.value
-        )
-    }
-}
-
-/// A fault of a line of text that costs no more than the line or its pair.
+/// A fault that costs no more than a pair, or a line of text.
 #[derive(Debug, Clone)]
-pub(super) struct Written {
+pub(super) struct Flaw {
     /// The number of pairs before it.
     pub pair: u64,
-    pub place: Place,
+    /// The place in text, if known.
+    pub place: Option<Place>,
     /// A description of it.
     pub description: String,
 }
 
 /// The samples seen so far that are not finite numbers.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Default)]
 pub(super) struct NotFinite {
-    pub first: Option<First>,
+    pub first: Option<Flaw>,
     /// The number of samples, not of pairs.
     pub count: u64,
 }
@@ -53,11 +36,12 @@ impl NotFinite {
         }
         self.count += u64::from(count);
         let index = values.iter().position(|value| !value.is_finite());
-        if let (None, Some(index)) = (self.first, index) {
-            self.first = Some(First {
+        if let (None, Some(index)) = (&self.first, index) {
+            let (channel, value) = (channel_at(index), values[index]);
+            self.first = Some(Flaw {
                 pair: before + index as u64 / 2,
-                channel: channel_at(index),
-                value: values[index],
+                place: None,
+                description: format!("{channel}: the value is {value}, not a finite number"),
             });
         }
     }

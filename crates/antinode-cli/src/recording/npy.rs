@@ -6,9 +6,9 @@ use std::io::{self, Read, Seek, SeekFrom};
 use npyz::{DType, Endianness, NpyHeader, Order, TypeChar};
 
 use super::columns::Columns;
-use super::error::InputError;
+use super::error::Fault;
 use super::frame::Frame;
-use super::raw::{Interleaved, bad_sample};
+use super::raw::Interleaved;
 use super::sample::{Kind, SampleCode};
 use super::source::Known;
 use super::{Opened, Source, Stream};
@@ -24,68 +24,36 @@ const PLANE_PAIRS: usize = 1 << 14;
 
 /// Opens an NPY file; `columns` are the channels asked for.
 pub(super) fn open(
-    file: &str,
     mut stream: Stream,
     Known { again, length, .. }: Known,
     columns: Option<&Columns>,
-) -> Result<Opened, InputError> {
-    let text = header_text(file, &mut stream)?;
-    let damaged = InputError::NpyHeader {
-        file: file.to_owned(),
+) -> Result<Opened, Fault> {
+    let text = header_text(&mut stream)?;
+    let damaged = || Fault::NpyHeader {
         fault: "it cannot be understood",
     };
-    let Ok(header) = NpyHeader::from_reader(text.as_slice()) else {
-        return Err(damaged);
-    };
-    let code = code(file, &header.dtype())?;
-    let (pairs, channels, interleaved) = match (header.shape(), header.order()) {
-        (&[pairs, 2], order) => (pairs, 2, order == Order::C),
-        (&[2, pairs], order) => (pairs, 2, order == Order::Fortran),
-        // The longer side counts the samples: no recording has more channels.
-        (&[one, other], order) if columns.is_some() && one.min(other) > 1 => (
-            one.max(other),
-            one.min(other),
-            (one > other) == (order == Order::C),
-        ),
-        (shape, _) => {
-            return Err(InputError::NpyShape {
-                file: file.to_owned(),
-                shape: shown(shape),
-            });
-        }
-    };
-    let frame = Frame::choose(
-        file,
-        usize::try_from(channels).unwrap_or(usize::MAX),
-        columns,
-    )?;
+    let header = NpyHeader::from_reader(text.as_slice()).map_err(|_| damaged())?;
+    let code = code(&header.dtype())?;
+    let (pairs, channels, is_interleaved) = layout(&header, columns.is_some())?;
+    let frame = Frame::choose(usize::try_from(channels).unwrap_or(usize::MAX), columns)?;
     if pairs == 0 {
-        return Err(InputError::NoPairs {
-            file: file.to_owned(),
-        });
+        return Err(Fault::NoPairs);
     }
     let start = text.len() as u64;
     let size = code.sample_bytes() as u64;
-    let Some(bytes) = pairs.checked_mul(channels * size) else {
-        return Err(damaged);
-    };
+    let bytes = pairs.checked_mul(channels * size).ok_or_else(damaged)?;
     let available = length.map_or(bytes, |length| bytes.min(length.saturating_sub(start)));
-    let (source, there): (Box<dyn Source>, u64) = if interleaved {
-        let source = Interleaved::new(file, stream, code, start)
-            .of(frame)
-            .live(length.is_none());
+    let (source, there): (Box<dyn Source>, u64) = if is_interleaved {
+        let source = Interleaved::new(stream, code, frame, start, length.is_none());
         (
             Box::new(source.promise(bytes)),
             available / (channels * size),
         )
     } else {
-        let again = again.ok_or_else(|| InputError::NpyPipe {
-            file: file.to_owned(),
-        })?;
+        let again = again.ok_or(Fault::NpyPipe)?;
         let [c, d] = frame.chosen.map(|place| place as u64 * pairs * size);
         let there = (available.saturating_sub(c.max(d)) / size).min(pairs);
         let planes = Planes {
-            file: file.to_owned(),
             stream: again,
             code,
             starts: [start + c, start + d],
@@ -99,20 +67,30 @@ pub(super) fn open(
     Ok(Opened::of_samples("NPY of", code, source, Some(there)))
 }
 
+/// The numbers of pairs and channels, and whether the samples of a pair follow each other; two channels unless others `are_chosen`.
+fn layout(header: &NpyHeader, are_chosen: bool) -> Result<(u64, u64, bool), Fault> {
+    Ok(match (header.shape(), header.order()) {
+        (&[pairs, 2], order) => (pairs, 2, order == Order::C),
+        (&[2, pairs], order) => (pairs, 2, order == Order::Fortran),
+        // The longer side counts the samples: no recording has more channels.
+        (&[one, other], order) if are_chosen && one.min(other) > 1 => (
+            one.max(other),
+            one.min(other),
+            (one > other) == (order == Order::C),
+        ),
+        (shape, _) => {
+            let shape = shown(shape);
+            return Err(Fault::NpyShape { shape });
+        }
+    })
+}
+
 /// Reads the header, and refuses one that would harm its parser.
-fn header_text(file: &str, stream: &mut Stream) -> Result<Vec<u8>, InputError> {
-    let fault = |fault| InputError::NpyHeader {
-        file: file.to_owned(),
-        fault,
-    };
+fn header_text(stream: &mut Stream) -> Result<Vec<u8>, Fault> {
+    let fault = |fault| Fault::NpyHeader { fault };
     let mut text = Vec::new();
     let mut read = |text: &mut Vec<u8>, count: usize| {
-        let end = text.len() + count;
-        stream
-            .take(count as u64)
-            .read_to_end(text)
-            .map_err(|fault| InputError::io(file, fault))?;
-        if text.len() < end {
+        if stream.take(count as u64).read_to_end(text)? < count {
             Err(fault("the file ends inside it"))
         } else {
             Ok(())
@@ -155,9 +133,8 @@ fn header_text(file: &str, stream: &mut Stream) -> Result<Vec<u8>, InputError> {
 }
 
 /// How samples of this number type are stored.
-fn code(file: &str, dtype: &DType) -> Result<SampleCode, InputError> {
-    let refused = || InputError::NpyType {
-        file: file.to_owned(),
+fn code(dtype: &DType) -> Result<SampleCode, Fault> {
+    let refused = || Fault::NpyType {
         dtype: dtype.descr(),
     };
     let DType::Plain(plain) = dtype else {
@@ -194,7 +171,6 @@ fn shown(shape: &[u64]) -> String {
 
 /// A source of pairs from an array that stores one channel after the other.
 struct Planes {
-    file: String,
     stream: File,
     code: SampleCode,
     /// Where S_C and S_D begin in the file, bytes.
@@ -236,26 +212,20 @@ fn interleave<const N: usize>(c: &[u8], d: &[u8], both: &mut Vec<u8>) {
 }
 
 impl Source for Planes {
-    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), InputError> {
+    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault> {
         while pairs.len() < capacity {
             let left = usize::try_from(self.there - self.read).unwrap_or(usize::MAX);
             let count = left.min(capacity - pairs.len()).min(PLANE_PAIRS);
             if count == 0 {
-                let (file, promised, found) = (self.file.clone(), self.promised, self.there);
+                let (promised, found) = (self.promised, self.there);
                 return if found < promised {
-                    Err(InputError::Truncated {
-                        file,
-                        promised,
-                        found,
-                    })
+                    Err(Fault::Truncated { promised, found })
                 } else {
                     Ok(())
                 };
             }
-            self.read(count)
-                .map_err(|fault| InputError::io(&self.file, fault))?;
-            let decoded = self.code.decode(&self.chunks[2], pairs);
-            decoded.map_err(|bad| bad_sample(&self.file, self.code, self.read, bad))?;
+            self.read(count)?;
+            self.code.decode(&self.chunks[2], pairs, self.read)?;
             self.read += count as u64;
         }
         Ok(())

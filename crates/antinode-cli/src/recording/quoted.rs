@@ -1,40 +1,17 @@
 //! Numbers in quotes with a decimal comma, between commas: `"0,498","0,042"`. Outside of quotes commas become semicolons, byte for byte.
 
-use std::io::{self, Read};
-
-use super::Stream;
 use super::number::number;
 use super::text::separator;
 
-/// A stream of text from the beginning of a line on, given with semicolons between its fields.
-pub(super) struct Quoted {
-    stream: Stream,
-    is_inside: bool,
-}
-
-impl Quoted {
-    pub fn new(stream: Stream) -> Self {
-        let is_inside = false;
-        Self { stream, is_inside }
-    }
-}
-
-impl Read for Quoted {
-    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        let count = self.stream.read(bytes)?;
-        separate(&mut bytes[..count], &mut self.is_inside);
-        Ok(count)
-    }
-}
-
-/// Replaces the commas between fields by semicolons; `is_inside` a quote is carried over to the next piece of text.
-pub(super) fn separate(text: &mut [u8], is_inside: &mut bool) {
+/// Replaces the commas between fields by semicolons.
+pub(super) fn separate(text: &mut [u8]) {
+    let mut is_inside = false;
     for byte in text {
         match *byte {
-            b'"' => *is_inside = !*is_inside,
+            b'"' => is_inside = !is_inside,
             // A stray quote must not reach into the lines that follow.
-            b'\n' => *is_inside = false,
-            b',' if !*is_inside => *byte = b';',
+            b'\n' => is_inside = false,
+            b',' if !is_inside => *byte = b';',
             _ => {}
         }
     }
@@ -91,7 +68,7 @@ mod tests {
         let mut text = b"t,\"c\",d\n1,\"0,5\",\"0,3\"\n2,\"0,5,3\n4,5".to_vec();
         let expected = b"t;\"c\";d\n1;\"0,5\";\"0,3\"\n2;\"0,5,3\n4;5";
         for _ in 0..2 {
-            separate(&mut text, &mut false);
+            separate(&mut text);
             assert_eq!(text, expected);
         }
     }

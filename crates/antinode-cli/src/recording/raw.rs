@@ -1,11 +1,10 @@
 //! Interleaved samples, one pair after the other: the body of WAV and most NPY files, and raw streams.
 
 use std::io::{self, Read};
-use std::mem;
 
-use super::error::InputError;
+use super::error::Fault;
 use super::frame::Frame;
-use super::sample::{BadSample, Kind, SampleCode};
+use super::sample::{Kind, SampleCode};
 use super::{OpenOptions, Opened, Source, Stream};
 
 /// Bytes read at a time: enough that system calls cost nothing, few enough to stay in the cache.
@@ -14,18 +13,8 @@ const CHUNK_BYTES: usize = 3 << 16;
 /// Bytes of a WAV chunk's name and size.
 const CHUNK_HEADER: usize = 8;
 
-/// What a file holds behind the samples that its header promises.
-#[derive(Debug, PartialEq, Eq)]
-enum Behind {
-    /// Another WAV file, as `cat` makes them.
-    Wav,
-    /// More samples, or anything else that is no chunk.
-    Data,
-}
-
 /// A source of pairs from interleaved samples.
 pub(super) struct Interleaved {
-    file: String,
     stream: Stream,
     code: SampleCode,
     frame: Frame,
@@ -42,52 +31,46 @@ pub(super) struct Interleaved {
     /// The bytes of an incomplete pair, at the front of `chunk`.
     begun: usize,
     live: bool,
-    /// True if only other chunks of a WAV file may follow the promised data.
-    before_chunks: bool,
+    /// The name of a WAV file, in which only other chunks may follow the promised data.
+    wav: Option<String>,
 }
 
 /// Opens samples without a header, of as many channels as the options say.
 pub(super) fn open(
-    file: &str,
     stream: Stream,
     kind: Kind,
     options: &OpenOptions,
     length: Option<u64>,
-) -> Result<Opened, InputError> {
+) -> Result<Opened, Fault> {
     let code = SampleCode::new(kind);
-    let source = Interleaved::new(file, stream, code, 0)
-        .of(frame(file, options)?)
-        .live(length.is_none());
+    let source = Interleaved::new(stream, code, frame(options)?, 0, length.is_none());
     let frame_bytes = source.frame_bytes() as u64;
     let pairs = length.map(|length| length / frame_bytes);
     Ok(Opened::of_samples("raw", code, Box::new(source), pairs))
 }
 
 /// The channels of raw samples, whose number only the options tell.
-fn frame(file: &str, options: &OpenOptions) -> Result<Frame, InputError> {
+fn frame(options: &OpenOptions) -> Result<Frame, Fault> {
     let channels = options.channels.unwrap_or(2);
     if channels != 2 && options.columns.is_none() {
-        return Err(InputError::RawChannels {
-            file: file.to_owned(),
-            channels,
-        });
+        return Err(Fault::RawChannels { channels });
     }
-    Frame::choose(file, channels, options.columns.as_ref()).map_err(|fault| match fault {
-        InputError::ChannelChoice { file, chosen, .. } if options.channels.is_none() => {
-            InputError::RawChoice { file, chosen }
+    Frame::choose(channels, options.columns.as_ref()).map_err(|fault| match fault {
+        Fault::ChannelChoice { chosen, .. } if options.channels.is_none() => {
+            Fault::RawChoice { chosen }
         }
         fault => fault,
     })
 }
 
 impl Interleaved {
-    /// Samples to the end of `stream`, of which `consumed` bytes of header are read already.
-    pub fn new(file: &str, stream: Stream, code: SampleCode, consumed: u64) -> Self {
+    /// Samples to the end of `stream`, of which `consumed` bytes of header are read already; if it is `live`, what is there is delivered
+    /// instead of waiting for more.
+    pub fn new(stream: Stream, code: SampleCode, frame: Frame, consumed: u64, live: bool) -> Self {
         Self {
-            file: file.to_owned(),
             stream,
             code,
-            frame: Frame::PAIR,
+            frame,
             picked: Vec::new(),
             promised: None,
             left: None,
@@ -95,22 +78,15 @@ impl Interleaved {
             pairs: 0,
             chunk: vec![0; CHUNK_BYTES],
             begun: 0,
-            live: false,
-            before_chunks: false,
+            live,
+            wav: None,
         }
     }
 
-    /// The same, with only other chunks of a WAV file to follow the promised data.
-    pub fn before_chunks(self) -> Self {
-        Self {
-            before_chunks: true,
-            ..self
-        }
-    }
-
-    /// Takes the two channels out of frames with others.
-    pub fn of(self, frame: Frame) -> Self {
-        Self { frame, ..self }
+    /// The same, with only other chunks of this WAV file to follow the promised data.
+    pub fn of_wav(self, file: &str) -> Self {
+        let wav = Some(file.to_owned());
+        Self { wav, ..self }
     }
 
     /// The bytes of one pair and of the other channels that were sampled with it.
@@ -123,11 +99,6 @@ impl Interleaved {
         self.promised = Some(bytes / self.frame_bytes() as u64);
         self.left = Some(bytes);
         self
-    }
-
-    /// The same, which if `live` delivers what is there instead of waiting for more.
-    pub fn live(self, live: bool) -> Self {
-        Self { live, ..self }
     }
 
     /// Reads bytes behind those of an incomplete pair, up to `pairs` pairs with these; 0 at the end.
@@ -148,70 +119,52 @@ impl Interleaved {
         }
     }
 
-    /// What follows the promised data, unless it is padding or a chunk, known by a name in ASCII. A pipe is not waited for.
+    /// The fault if something else than padding or chunks follows the promised data of a WAV file. A pipe is not waited for.
     ///
     /// It looks only once: what follows the name of a chunk may be anything.
-    fn behind(&mut self) -> Option<Behind> {
+    fn behind(&mut self) -> Option<Fault> {
+        let is_to_come = self.left != Some(0) || self.live;
+        let file = self.wav.take().filter(|_| !is_to_come)?;
         let mut header = [0; CHUNK_HEADER];
-        let is_there = self.left == Some(0)
-            && mem::take(&mut self.before_chunks)
-            && !self.live
-            && self.stream.read_exact(&mut header).is_ok();
+        self.stream.read_exact(&mut header).ok()?;
         match &header[..4] {
-            _ if !is_there || header == [0; CHUNK_HEADER] => None,
-            b"RIFF" | b"RF64" => Some(Behind::Wav),
+            _ if header == [0; CHUNK_HEADER] => None,
+            // As `cat` joins files.
+            b"RIFF" | b"RF64" => Some(Fault::AnotherWav { found: self.pairs }),
             name if name
                 .iter()
                 .all(|byte| byte.is_ascii_graphic() || *byte == b' ') =>
             {
                 None
             }
-            _ => Some(Behind::Data),
+            _ => Some(Fault::MoreData {
+                file,
+                promised: self.promised?,
+            }),
         }
     }
 
-    fn end(&mut self) -> Result<(), InputError> {
-        let behind = self.behind();
-        let (file, found) = (self.file.clone(), self.pairs);
+    fn end(&mut self) -> Result<(), Fault> {
+        if let Some(fault) = self.behind() {
+            return Err(fault);
+        }
+        let found = self.pairs;
         match self.promised {
-            Some(_) if behind == Some(Behind::Wav) => Err(InputError::AnotherWav { file, found }),
-            Some(promised) if behind == Some(Behind::Data) => {
-                Err(InputError::MoreData { file, promised })
-            }
-            Some(promised) if found < promised => Err(InputError::Truncated {
-                file,
-                promised,
-                found,
-            }),
-            _ if self.begun > 0 => Err(InputError::HalfPair {
-                file,
+            Some(promised) if found < promised => Err(Fault::Truncated { promised, found }),
+            _ if self.begun > 0 => Err(Fault::HalfPair {
                 found,
                 channels: self.frame.channels,
             }),
-            _ if found == 0 => Err(InputError::NoPairs { file }),
+            _ if found == 0 => Err(Fault::NoPairs),
             _ => Ok(()),
         }
     }
 }
 
-/// The error for a sample that is `bad`, `pairs` pairs after the start.
-pub(super) fn bad_sample(file: &str, code: SampleCode, pairs: u64, bad: BadSample) -> InputError {
-    let (valid, container) = code.bits();
-    InputError::Padding {
-        file: file.to_owned(),
-        pair: pairs + bad.pair as u64,
-        channel: bad.channel,
-        valid,
-        container,
-    }
-}
-
 impl Source for Interleaved {
-    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), InputError> {
+    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault> {
         while pairs.len() < capacity {
-            let read = self
-                .read(capacity - pairs.len())
-                .map_err(|fault| InputError::io(&self.file, fault))?;
+            let read = self.read(capacity - pairs.len())?;
             if read == 0 {
                 return self.end();
             }
@@ -227,9 +180,7 @@ impl Source for Interleaved {
                     .pick(&self.chunk[..whole], size, &mut self.picked);
                 &self.picked
             };
-            self.code
-                .decode(bytes, pairs)
-                .map_err(|bad| bad_sample(&self.file, self.code, self.pairs, bad))?;
+            self.code.decode(bytes, pairs, self.pairs)?;
             self.pairs += (whole / self.frame_bytes()) as u64;
             self.chunk.copy_within(whole..there, 0);
             self.begun = there - whole;

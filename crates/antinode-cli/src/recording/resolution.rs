@@ -1,6 +1,6 @@
 //! The step between a converter's codes, found in the samples.
 
-use super::error::InputError;
+use super::error::Fault;
 use super::{BLOCK_PAIRS, Source, codes};
 
 /// Samples needed for each distinct value of a channel, if these are few: a noise-free wave repeats a few values too.
@@ -27,7 +27,7 @@ pub(super) fn resolution(pairs: &[[f32; 2]]) -> Option<f32> {
 }
 
 /// The first pairs of a file, the step found in them, and the fault behind them, if any.
-pub(super) fn of_head(source: &mut dyn Source) -> (Vec<[f32; 2]>, Option<f32>, Option<InputError>) {
+pub(super) fn of_head(source: &mut dyn Source) -> (Vec<[f32; 2]>, Option<f32>, Option<Fault>) {
     let mut head = Vec::with_capacity(BLOCK_PAIRS);
     let mut end = 0;
     loop {

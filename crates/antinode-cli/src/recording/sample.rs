@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 
-use super::error::Channel;
+use super::error::{Channel, Fault};
 
 /// How one sample is stored: of raw ones little-endian, the channels in turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -32,13 +32,6 @@ pub(super) struct SampleCode {
     big_endian: bool,
     /// The number of upper bits of an integer that are in use; those below are zero.
     valid_bits: u32,
-}
-
-/// Where decoding stopped, `pair` pairs into the bytes given: bits are set below the valid ones.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct BadSample {
-    pub pair: usize,
-    pub channel: Channel,
 }
 
 impl SampleCode {
@@ -129,8 +122,8 @@ impl SampleCode {
         format!("{}-bit {kind}", self.valid_bits)
     }
 
-    /// Appends the whole pairs in `bytes` to `pairs`, up to the first bad one.
-    pub fn decode(self, bytes: &[u8], pairs: &mut Vec<[f32; 2]>) -> Result<(), BadSample> {
+    /// Appends the whole pairs in `bytes`, `before` which there are others, to `pairs`, up to the first with bits below the valid ones.
+    pub fn decode(self, bytes: &[u8], pairs: &mut Vec<[f32; 2]>, before: u64) -> Result<(), Fault> {
         let start = pairs.len();
         match (self.kind, self.big_endian) {
             (Kind::U8, _) => push(bytes, pairs, |[b]| (f32::from(b) - 128.0) / 128.0),
@@ -152,17 +145,21 @@ impl SampleCode {
             (Kind::F64, false) => push(bytes, pairs, |b| f64::from_le_bytes(b) as f32),
             (Kind::F64, true) => push(bytes, pairs, |b| f64::from_be_bytes(b) as f32),
         }
-        match self.padding(bytes) {
-            Some(bad) => {
-                pairs.truncate(start + bad.pair);
-                Err(bad)
-            }
-            None => Ok(()),
-        }
+        let Some(index) = self.padding(bytes) else {
+            return Ok(());
+        };
+        pairs.truncate(start + index / 2);
+        let (valid, container) = self.bits();
+        Err(Fault::Padding {
+            pair: before + index as u64 / 2,
+            channel: channel_at(index),
+            valid,
+            container,
+        })
     }
 
-    /// The first sample with bits set below its valid ones, which only little-endian WAV files can have.
-    fn padding(self, bytes: &[u8]) -> Option<BadSample> {
+    /// The index of the first sample with bits set below its valid ones, which only little-endian WAV files can have.
+    fn padding(self, bytes: &[u8]) -> Option<usize> {
         let (valid, stored) = self.bits();
         let mask = (1u32 << (stored - valid)) - 1;
         if mask == 0 {
@@ -176,13 +173,9 @@ impl SampleCode {
                 .fold(0, |code, &byte| code << 8 | u32::from(byte))
                 & mask
         };
-        let index = bytes[..whole]
+        bytes[..whole]
             .chunks_exact(self.sample_bytes())
-            .position(|sample| low(sample) != 0)?;
-        Some(BadSample {
-            pair: index / 2,
-            channel: channel_at(index),
-        })
+            .position(|sample| low(sample) != 0)
     }
 }
 

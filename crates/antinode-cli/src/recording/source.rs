@@ -8,9 +8,9 @@ use std::rc::Rc;
 
 use encoding_rs_io::DecodeReaderBytesBuilder;
 
-use super::error::InputError;
+use super::error::{Fault, InputError};
 use super::gaps::Gap;
-use super::not_finite::Written;
+use super::not_finite::Flaw;
 use super::sample::SampleCode;
 
 /// Bytes that show UTF-16 without a byte order mark: as many as the shortest recording has, `1,2` and an end of line.
@@ -23,7 +23,7 @@ pub(super) type Stream = Box<dyn Read>;
 pub fn open_file(path: &Path) -> Result<File, InputError> {
     let file = path.display().to_string();
     match fs::metadata(path) {
-        Ok(metadata) if metadata.is_dir() => Err(InputError::Directory { file }),
+        Ok(metadata) if metadata.is_dir() => Err(InputError::new(&file, Fault::Directory)),
         found => found
             .and_then(|_| File::open(path))
             .map_err(|fault| InputError::io(&file, fault)),
@@ -76,7 +76,7 @@ impl Read for Counted {
 /// A source of pairs: the reader of one format.
 pub(super) trait Source {
     /// Appends pairs until there are `capacity`, fewer from a live stream, none at the end. Good pairs come before an error.
-    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), InputError>;
+    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault>;
 
     /// The bytes read so far, the header included.
     fn bytes_read(&self) -> u64;
@@ -97,8 +97,8 @@ pub(super) trait Source {
     /// Notes that the pairs from `start` up to `end` are asked for: lines left out among them are reported at the end.
     fn look(&mut self, _start: u64, _end: u64) {}
 
-    /// The error to report at the end for samples that are missing and lines that are left out.
-    fn lost(&self) -> Option<InputError> {
+    /// The fault to report at the end for samples that are missing and lines that are left out.
+    fn lost(&self) -> Option<Fault> {
         None
     }
 
@@ -108,7 +108,7 @@ pub(super) trait Source {
     }
 
     /// The first sample that is not a finite number, with its place, in text.
-    fn not_finite(&self) -> Option<Written> {
+    fn not_finite(&self) -> Option<&Flaw> {
         None
     }
 }

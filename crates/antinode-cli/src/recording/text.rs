@@ -4,7 +4,7 @@ use std::io::{self, BufRead, Read};
 
 use super::Stream;
 use super::columns::is_time;
-use super::error::{InputError, LineFault};
+use super::error::{Fault, LineFault};
 
 /// Longest line read, bytes: a few numbers need less, and a file without ends of line must not fill the memory.
 pub(super) const MAX_LINE: usize = 1 << 16;
@@ -77,65 +77,9 @@ impl Read for LineEnds {
     }
 }
 
-/// Text for the CSV reader: an end is added to a last line without one, and a line that is too long is an error.
-pub(super) struct Text {
-    stream: Stream,
-    /// The number of bytes given.
-    given: u64,
-    /// The number of bytes given of an unfinished line.
-    line: usize,
-    last: u8,
-}
-
-impl Text {
-    pub fn new(stream: Stream) -> Self {
-        Self {
-            stream,
-            given: 0,
-            line: 0,
-            last: b'\n',
-        }
-    }
-
-    /// The number of bytes of whole lines given.
-    pub fn lines_end(&self) -> u64 {
-        self.given - self.line as u64
-    }
-}
-
-impl Read for Text {
-    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        let count = self.stream.read(bytes)?;
-        let bytes = match count {
-            0 if self.last == b'\n' => return Ok(0),
-            0 => match bytes.first_mut() {
-                Some(end) => {
-                    *end = b'\n';
-                    std::slice::from_mut(end)
-                }
-                None => return Ok(0),
-            },
-            _ => &mut bytes[..count],
-        };
-        self.line = match bytes.iter().rposition(|&byte| byte == b'\n') {
-            Some(end) => bytes.len() - end - 1,
-            None => self.line + bytes.len(),
-        };
-        self.given += bytes.len() as u64;
-        self.last = bytes.last().copied().unwrap_or(self.last);
-        if self.line > MAX_LINE {
-            return Err(io::ErrorKind::InvalidData.into());
-        }
-        Ok(bytes.len())
-    }
-}
-
 /// The first line that is neither blank nor a comment, perhaps with the next, its number, and the bytes before it. If the line above
 /// holds names that begin with `#` for a count of lines, these come first, with `n` in place of `#`.
-pub(super) fn first_line(
-    file: &str,
-    stream: &mut impl BufRead,
-) -> Result<(Vec<u8>, u64, u64), InputError> {
+pub(super) fn first_line(stream: &mut impl BufRead) -> Result<(Vec<u8>, u64, u64), Fault> {
     let (mut line, mut number, mut before) = (Vec::new(), 0, 0);
     let mut counted = None;
     loop {
@@ -146,15 +90,11 @@ pub(super) fn first_line(
             .by_ref()
             .take(MAX_LINE as u64)
             .read_until(b'\n', &mut line);
-        match read.map_err(|fault| InputError::io(file, fault))? {
-            0 => {
-                return Err(InputError::NoPairs {
-                    file: file.to_owned(),
-                });
-            }
+        match read? {
+            0 => return Err(Fault::NoPairs),
             MAX_LINE => {
                 let fault = LineFault::LineTooLong { limit: MAX_LINE };
-                return Err(InputError::line(file, number, fault));
+                return Err(Fault::line(number, fault));
             }
             _ => {}
         }
@@ -173,8 +113,7 @@ pub(super) fn first_line(
         };
         let has_time = has_time(&names);
         if !has_time {
-            let next = next_lines(stream, 1).map_err(|fault| InputError::io(file, fault))?;
-            line.extend_from_slice(&next);
+            line.extend_from_slice(&next_lines(stream, 1)?);
         }
         if !has_time && !are_counted(&line) {
             return Ok((line, number, before));

@@ -2,7 +2,7 @@
 
 use std::io::{self, Read};
 
-use super::error::InputError;
+use super::error::Fault;
 use super::frame::Frame;
 use super::raw::Interleaved;
 use super::sample::{Kind, SampleCode};
@@ -27,9 +27,8 @@ pub(super) fn open(
     stream: Stream,
     length: Option<u64>,
     options: &OpenOptions,
-) -> Result<Opened, InputError> {
+) -> Result<Opened, Fault> {
     let mut header = Reader {
-        file,
         stream,
         position: 0,
     };
@@ -37,7 +36,7 @@ pub(super) fn open(
     let start = header.position;
     // Of a single channel no choice could be right.
     let columns = options.columns.as_ref().filter(|_| format.channels > 1);
-    let frame = Frame::choose(file, format.channels, columns)?;
+    let frame = Frame::choose(format.channels, columns)?;
     let pair_bytes = (frame.channels * format.code.sample_bytes()) as u64;
     let available = length.map(|length| length.saturating_sub(start));
     let promised = data.promised(pair_bytes, length);
@@ -45,11 +44,9 @@ pub(super) fn open(
         (Some(promised), Some(available)) => Some(promised.min(available)),
         (promised, available) => promised.or(available),
     };
-    let source = Interleaved::new(file, header.stream, format.code, start)
-        .of(frame)
-        .live(length.is_none());
+    let source = Interleaved::new(header.stream, format.code, frame, start, length.is_none());
     let source = match promised {
-        Some(promised) => source.promise(promised).before_chunks(),
+        Some(promised) => source.promise(promised).of_wav(file),
         None => source,
     };
     let sample_rate = (format.rate > 0).then_some(f64::from(format.rate));
@@ -57,10 +54,7 @@ pub(super) fn open(
     let pairs = bytes.map(|bytes| bytes / pair_bytes);
     Ok(Opened {
         sample_rate,
-        warnings: warning
-            .map(|told| format!("{file}: {told}"))
-            .into_iter()
-            .collect(),
+        warnings: warning.into_iter().collect(),
         ..Opened::of_samples("WAV of", format.code, Box::new(source), pairs)
     })
 }
@@ -104,17 +98,16 @@ impl Data {
 }
 
 /// Reads a header and counts its bytes.
-struct Reader<'a> {
-    file: &'a str,
+struct Reader {
     stream: Stream,
     position: u64,
 }
 
-impl Reader<'_> {
-    fn read(&mut self) -> Result<(Format, Data), InputError> {
+impl Reader {
+    fn read(&mut self) -> Result<(Format, Data), Fault> {
         let [riff, size, wave] = self.words()?;
         if wave != *b"WAVE" || riff == *b"RIFX" {
-            return Err(self.fault("it is big-endian (RIFX)"));
+            return Err(damaged("it is big-endian (RIFX)"));
         }
         let mut riff_bytes = u64::from(u32::from_le_bytes(size));
         let mut long_data = None;
@@ -133,7 +126,7 @@ impl Reader<'_> {
                 }
                 b"data" => {
                     let Some(format) = format else {
-                        return Err(self.fault("the data come before their format"));
+                        return Err(damaged("the data come before their format"));
                     };
                     let data_bytes = if size == UNKNOWN {
                         long_data.unwrap_or(size)
@@ -155,50 +148,41 @@ impl Reader<'_> {
         }
     }
 
-    fn fault(&self, fault: impl Into<String>) -> InputError {
-        InputError::WavHeader {
-            file: self.file.to_owned(),
-            fault: fault.into(),
-        }
-    }
-
-    fn bytes(&mut self, bytes: &mut [u8]) -> Result<(), InputError> {
+    fn bytes(&mut self, bytes: &mut [u8]) -> Result<(), Fault> {
         self.position += bytes.len() as u64;
-        self.stream
-            .read_exact(bytes)
-            .map_err(|fault| match fault.kind() {
-                io::ErrorKind::UnexpectedEof => self.fault("the file ends before the data begin"),
-                _ => InputError::io(self.file, fault),
-            })
+        let read = self.stream.read_exact(bytes);
+        read.map_err(|fault| match fault.kind() {
+            io::ErrorKind::UnexpectedEof => damaged("the file ends before the data begin"),
+            _ => fault.into(),
+        })
     }
 
-    fn words<const N: usize>(&mut self) -> Result<[[u8; 4]; N], InputError> {
+    fn words<const N: usize>(&mut self) -> Result<[[u8; 4]; N], Fault> {
         let mut words = [[0; 4]; N];
         self.bytes(words.as_flattened_mut())?;
         Ok(words)
     }
 
     /// The first `wanted` bytes of a chunk of `size` bytes; the others and the padding are skipped.
-    fn chunk(&mut self, size: u64, wanted: usize) -> Result<Vec<u8>, InputError> {
+    fn chunk(&mut self, size: u64, wanted: usize) -> Result<Vec<u8>, Fault> {
         if size < wanted as u64 {
-            return Err(self.fault("a chunk is too short"));
+            return Err(damaged("a chunk is too short"));
         }
         let mut chunk = vec![0; wanted];
         self.bytes(&mut chunk)?;
         let rest = size.next_multiple_of(2) - wanted as u64;
-        let skipped = io::copy(&mut self.stream.by_ref().take(rest), &mut io::sink());
-        self.position += skipped.map_err(|fault| InputError::io(self.file, fault))?;
+        self.position += io::copy(&mut self.stream.by_ref().take(rest), &mut io::sink())?;
         Ok(chunk)
     }
 
-    fn format(&mut self, size: u64) -> Result<Format, InputError> {
+    fn format(&mut self, size: u64) -> Result<Format, Fault> {
         let chunk = self.chunk(size, if size < 40 { 16 } else { 40 })?;
         let word = |at: usize| u16::from_le_bytes([chunk[at], chunk[at + 1]]);
         let (channels, frame, bits) = (word(2), u32::from(word(12)), u32::from(word(14)));
         let (mut tag, mut valid) = (word(0), bits);
         if tag == 0xfffe {
             if chunk.len() < 40 || chunk[26..40] != SUBTYPE_TAIL {
-                return Err(self.fault("its extensible format has an unknown subtype"));
+                return Err(damaged("its extensible format has an unknown subtype"));
             }
             tag = word(24);
             // Some writers leave the number of valid bits at 0.
@@ -216,10 +200,8 @@ impl Reader<'_> {
             (3, 32) => Kind::F32,
             (3, 64) => Kind::F64,
             _ => {
-                return Err(InputError::WavEncoding {
-                    file: self.file.to_owned(),
-                    encoding: encoding(tag, bits),
-                });
+                let encoding = encoding(tag, bits);
+                return Err(Fault::WavEncoding { encoding });
             }
         };
         let code = SampleCode::new(kind);
@@ -233,7 +215,7 @@ impl Reader<'_> {
             let fault = format!(
                 "{valid} valid of {bits} bits in {channels} channels do not fit a frame of {frame} bytes"
             );
-            return Err(self.fault(fault));
+            return Err(damaged(fault));
         }
         let rate = u32::from_le_bytes([chunk[4], chunk[5], chunk[6], chunk[7]]);
         Ok(Format {
@@ -242,6 +224,12 @@ impl Reader<'_> {
             rate,
         })
     }
+}
+
+/// The fault of a damaged header.
+fn damaged(fault: impl Into<String>) -> Fault {
+    let fault = fault.into();
+    Fault::WavHeader { fault }
 }
 
 /// The name of an encoding that is not read.

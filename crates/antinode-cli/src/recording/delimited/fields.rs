@@ -1,6 +1,6 @@
 //! The fields of a line, and which of them can be trusted.
 
-use super::super::error::{InputError, LineFault, Place, Role, TimeFault};
+use super::super::error::{Fault, LineFault, Place, Role, TimeFault};
 use super::super::header::Header;
 use super::super::lines::Lines;
 
@@ -8,12 +8,12 @@ use super::super::lines::Lines;
 pub(super) struct Fields<'a> {
     /// The time and the two samples as they are written; empty if not asked for, missing, or uncertain in a broken line.
     pub texts: [&'a [u8]; 3],
-    /// The error for a line of too many or too few fields, and a description of the line.
-    pub broken: Option<(InputError, String)>,
+    /// The fault of a line of too many or too few fields, and a description of the line.
+    pub broken: Option<(Fault, String)>,
 }
 
 /// The fields of this line.
-pub(super) fn cut<'a>(file: &str, lines: &'a Lines, header: &Header) -> Fields<'a> {
+pub(super) fn cut<'a>(lines: &'a Lines, header: &Header) -> Fields<'a> {
     let mut found = [None; 3];
     let (mut count, mut last_is_blank) = (0, false);
     for field in lines.fields() {
@@ -33,9 +33,9 @@ pub(super) fn cut<'a>(file: &str, lines: &'a Lines, header: &Header) -> Fields<'
             found: count,
             expected: header.width,
         };
-        Some(InputError::line(file, lines.number(), fault))
+        Some(Fault::line(lines.number(), fault))
     } else {
-        short.map(|role| missing(file, header, place(lines, header, role), role))
+        short.map(|role| missing(header, place(lines, header, role), role))
     };
     for (text, place) in found.iter_mut().zip(header.places) {
         // In two lines run together no field is certain; in a line cut off, all are but the one that is cut.
@@ -64,15 +64,11 @@ pub(super) fn place(lines: &Lines, header: &Header, role: usize) -> Place {
     }
 }
 
-/// The error for a line without a field of this `role`.
-pub(super) fn missing(file: &str, header: &Header, place: Place, role: usize) -> InputError {
+/// The fault of a line without a field of this `role`.
+pub(super) fn missing(header: &Header, place: Place, role: usize) -> Fault {
     let fault = match Role::ALL[role] {
         Role::Time => header.time_fault(TimeFault::Missing),
         role => LineFault::FieldMissing { role },
     };
-    InputError::Line {
-        file: file.to_owned(),
-        place,
-        fault,
-    }
+    Fault::Line { place, fault }
 }

@@ -2,13 +2,13 @@
 
 use super::super::Stream;
 use super::super::columns::Columns;
-use super::super::error::{InputError, LineFault, Place, Role, TimeFault};
+use super::super::error::{Fault, LineFault, Place, Role, TimeFault};
 use super::super::forms::remedy;
 use super::super::header::{Header, lossy};
 use super::super::left_out::LeftOut;
 use super::super::lines::Lines;
 use super::super::no_number::stand_in;
-use super::super::not_finite::Written;
+use super::super::not_finite::Flaw;
 use super::super::number::number;
 use super::super::printed::Printed;
 use super::fields::{cut, missing, place};
@@ -29,12 +29,11 @@ pub(super) enum Row {
 
 /// Reads lines of numbers.
 pub(super) struct Rows {
-    file: String,
     pub lines: Lines,
     pub header: Header,
     pub printed: Printed,
     /// The first sample that is not a finite number.
-    pub not_finite: Option<Written>,
+    pub not_finite: Option<Flaw>,
     /// The lines that are left out.
     pub left_out: LeftOut,
     /// The lines read, and the pairs among them.
@@ -42,19 +41,18 @@ pub(super) struct Rows {
     pairs: u64,
     /// Lines among them with too many or too few fields, or one that is neither a number nor stands for a missing one.
     garbled: u64,
-    /// The first garbled line: the pairs before it, and its error.
-    first_garbled: Option<(u64, InputError)>,
+    /// The first garbled line: the pairs before it, and its fault.
+    first_garbled: Option<(u64, Fault)>,
     /// Garbled lines before the first good one.
     garbled_before: u64,
 }
 
 impl Rows {
     /// Opens text and reads its header.
-    pub fn open(file: &str, stream: Stream, chosen: Option<&Columns>) -> Result<Self, InputError> {
-        let (mut lines, beginning) = Lines::open(file, stream)?;
-        let header = Header::read(file, &mut lines, &beginning, chosen)?;
+    pub fn open(stream: Stream, chosen: Option<&Columns>) -> Result<Self, Fault> {
+        let (mut lines, beginning) = Lines::open(stream)?;
+        let header = Header::read(&mut lines, &beginning, chosen)?;
         Ok(Self {
-            file: file.to_owned(),
             lines,
             header,
             printed: Printed::default(),
@@ -73,8 +71,8 @@ impl Rows {
         self.garbled_before >= MIN_GARBLED_BEGINNING
     }
 
-    /// If most lines are garbled, the first of them: the pairs before it, and its error. It is given only once.
-    pub fn mostly_garbled(&mut self) -> Option<(u64, InputError)> {
+    /// If most lines are garbled, the first of them: the pairs before it, and its fault. It is given only once.
+    pub fn mostly_garbled(&mut self) -> Option<(u64, Fault)> {
         let are_most = 2 * self.garbled > self.read || self.begin_garbled();
         let first = self.first_garbled.take_if(|_| are_most);
         if first.is_some() {
@@ -84,7 +82,7 @@ impl Rows {
     }
 
     /// The next line's row; none at the end.
-    pub fn next(&mut self) -> Result<Option<Row>, InputError> {
+    pub fn next(&mut self) -> Result<Option<Row>, Fault> {
         loop {
             if !self.lines.advance()? {
                 return Ok(None);
@@ -95,13 +93,9 @@ impl Rows {
                 break;
             }
         }
-        let line = cut(&self.file, &self.lines, &self.header);
+        let line = cut(&self.lines, &self.header);
         let texts = line.texts;
         let (broken, broken_line) = line.broken.unzip();
-        let of_line = Place {
-            line: self.lines.number(),
-            column: None,
-        };
         let mut time =
             number::<f64>(texts[0], self.lines.separator).filter(|time| time.is_finite());
         let mut pair = [f32::NAN; 2];
@@ -130,17 +124,18 @@ impl Rows {
         if let Some((role, read)) = odd
             && (is_left_out || self.not_finite.is_none())
         {
-            let (place, description) = match broken_line {
-                Some(broken) if is_left_out => (of_line, broken),
-                Some(broken) => (of_line, format!("{broken}, so a sample is missing")),
-                None => (
-                    self.place(role),
-                    describe(Role::ALL[role], texts[role], read),
-                ),
+            let mut place = self.place(role);
+            if broken_line.is_some() {
+                place.column = None;
+            }
+            let description = match broken_line {
+                Some(broken) if is_left_out => broken,
+                Some(broken) => format!("{broken}, so a sample is missing"),
+                None => describe(Role::ALL[role], texts[role], read),
             };
-            let written = Written {
+            let written = Flaw {
                 pair: self.pairs,
-                place,
+                place: Some(place),
                 description,
             };
             if is_left_out {
@@ -171,10 +166,10 @@ impl Rows {
         place(&self.lines, &self.header, role)
     }
 
-    /// The error for `text` in the column of this `role`, which is no number.
-    fn no_number(&self, role: usize, text: &[u8]) -> InputError {
+    /// The fault of `text` in the column of this `role`, which is no number.
+    fn no_number(&self, role: usize, text: &[u8]) -> Fault {
         if text.is_empty() {
-            return missing(&self.file, &self.header, self.place(role), role);
+            return missing(&self.header, self.place(role), role);
         }
         let text = shown(text);
         let fault = match Role::ALL[role] {
@@ -183,8 +178,7 @@ impl Rows {
             }
             role => LineFault::Number { role, text },
         };
-        InputError::Line {
-            file: self.file.clone(),
+        Fault::Line {
             place: self.place(role),
             fault,
         }

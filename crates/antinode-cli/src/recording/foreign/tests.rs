@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use super::super::columns::Columns;
 use super::super::tests::{message, raw, read, read_with};
-use super::super::{Kind, OpenOptions, by_content, source::Known};
+use super::super::{InputError, Kind, OpenOptions, by_content, source::Known};
 use super::*;
 
 /// The beginning of a file of this format.
@@ -92,7 +92,11 @@ fn a_remedy_names_the_file_as_a_shell_wants_it() {
         Known::default(),
         &OpenOptions::default(),
     );
-    let told = message(opened.err());
+    let told = message(
+        opened
+            .err()
+            .map(|fault| InputError::new("standard input", fault)),
+    );
     let expected = "standard input: this is compressed by gzip, which is not read; unpack it, `gzip -dc FILE | antinode identify -`";
     assert_eq!(told, expected);
 }

@@ -5,7 +5,7 @@ mod types;
 use std::process::Command;
 
 use super::super::tests::{Dribble, drain, file, message, read};
-use super::super::{OpenOptions, Recording};
+use super::super::{InputError, OpenOptions, Recording};
 
 fn npy(descr: &str, fortran: bool, shape: &str, data: &[u8]) -> Vec<u8> {
     let fortran = if fortran { "True" } else { "False" };
@@ -203,11 +203,11 @@ fn a_pipe_cannot_go_back() {
     let open = |shape| {
         let bytes = npy("'<i2'", false, shape, &codes(&INTERLEAVED));
         super::open(
-            "pipe",
             Box::new(Dribble::new(bytes, 5)),
             super::Known::default(),
             None,
         )
+        .map_err(|fault| InputError::new("pipe", fault))
     };
     let mut recording = Recording::new("pipe".to_owned(), open("(3, 2)").unwrap(), None);
     assert_eq!(drain(&mut recording).0, PAIRS);

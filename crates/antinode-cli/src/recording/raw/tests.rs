@@ -12,7 +12,7 @@ fn raw(bytes: Vec<u8>, kind: Kind) -> Recording {
 
 fn of_stream(stream: Stream, kind: Kind) -> Recording {
     let name = "standard input";
-    let opened = open(name, stream, kind, &OpenOptions::default(), None);
+    let opened = open(stream, kind, &OpenOptions::default(), None);
     Recording::new(name.to_owned(), opened.unwrap(), None)
 }
 
@@ -84,9 +84,8 @@ fn messages_and_the_readme_name_every_format() {
     let names: Vec<String> = names.collect();
     let (last, others) = names.split_last().expect("there are formats");
     let expected = format!("--raw {} or {last}", others.join(", "));
-    let file = "a".to_owned();
-    let needed = InputError::RawFormatNeeded { file: file.clone() }.to_string();
-    let unknown = InputError::Unknown { file }.to_string();
+    let needed = Fault::RawFormatNeeded.to_string();
+    let unknown = Fault::Unknown.to_string();
     let readme = include_str!("../../../../../README.md").replace('`', "");
     for text in [needed, unknown, readme] {
         assert!(text.contains(&expected), "{expected} is not in {text}");

@@ -59,8 +59,6 @@ struct Delimited {
     start: f64,
     axis: Option<TimeAxis>,
     gaps: Gaps,
-    /// The pairs read.
-    pairs: u64,
     /// The lines left out since the last pair.
     left_out: u64,
     live: bool,
@@ -79,7 +77,6 @@ impl Delimited {
             start: 0.0,
             axis: None,
             gaps: Gaps::default(),
-            pairs: 0,
             left_out: 0,
             live: false,
             used: None,
@@ -136,7 +133,6 @@ impl Delimited {
             pairs.truncate(pair as usize);
             self.fault = Some(fault);
         }
-        self.pairs = pairs.len() as u64;
         self.ahead = pairs.into_iter();
     }
 
@@ -217,17 +213,19 @@ impl Source for Delimited {
             };
             if let Row::Pair(Some(time), _) = row {
                 let left_out = std::mem::take(&mut self.left_out);
-                self.check(self.pairs, self.rows.lines.number(), time, left_out)?;
+                self.check(
+                    self.rows.pairs - 1,
+                    self.rows.lines.number(),
+                    time,
+                    left_out,
+                )?;
             }
             if let Some((_, fault)) = self.rows.mostly_garbled() {
                 return Err(fault);
             }
             match row {
                 Row::LeftOut => self.left_out += 1,
-                Row::Pair(_, pair) => {
-                    self.pairs += 1;
-                    pairs.push(pair);
-                }
+                Row::Pair(_, pair) => pairs.push(pair),
             }
             // A live stream must not be held up by its next line.
             if self.live && self.rows.lines.is_drained() && !pairs.is_empty() {

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use super::Channel;
 pub use encode::SampleFormat;
-use encode::{Encoder, Format};
+use encode::{Format, Output};
 pub use error::OutputError;
 pub use whole::WholeFile;
 
@@ -16,17 +16,14 @@ pub use whole::WholeFile;
 pub struct RecordingWriter {
     whole: WholeFile,
     sample: SampleFormat,
-    encoder: Encoder,
+    rate: f64,
+    output: Output,
     pairs: u64,
 }
 
 impl RecordingWriter {
     /// Begins a `.wav`, `.csv` or `.npy` file; whatever is at `path` stays there until it is finished.
-    pub fn create(
-        path: &Path,
-        sample_rate: f64,
-        sample: SampleFormat,
-    ) -> Result<Self, OutputError> {
+    pub fn create(path: &Path, rate: f64, sample: SampleFormat) -> Result<Self, OutputError> {
         let file = path.display().to_string();
         let extension = path
             .extension()
@@ -37,23 +34,20 @@ impl RecordingWriter {
                 endings: ".wav, .csv or .npy",
             });
         };
-        if let Err(remedy) = format.check_rate(sample_rate, sample) {
-            return Err(OutputError::Rate {
-                file,
-                rate: sample_rate,
-                remedy,
-            });
+        if let Err(remedy) = format.check_rate(rate, sample) {
+            return Err(OutputError::Rate { file, rate, remedy });
         }
         if format == Format::Wav && sample == SampleFormat::F64 {
             return Err(OutputError::Wav64 { file });
         }
         let (whole, output) = WholeFile::create(path)?;
-        let encoder = Encoder::begin(format, output, sample_rate, sample)
+        let output = Output::begin(format, output, rate, sample)
             .map_err(|fault| OutputError::io(&file, fault))?;
         Ok(Self {
             whole,
             sample,
-            encoder,
+            rate,
+            output,
             pairs: 0,
         })
     }
@@ -63,13 +57,14 @@ impl RecordingWriter {
         let [Some(c), Some(d)] = pair.map(|value| self.sample.store(value)) else {
             return Err(self.not_finite(pair));
         };
-        if self.encoder.is_full(self.pairs) {
+        if self.output.is_full(self.sample, self.pairs) {
             return Err(OutputError::Full {
                 file: self.whole.name().to_owned(),
                 pairs: self.pairs,
             });
         }
-        let written = self.encoder.write(self.pairs, [c, d]);
+        let seconds = self.pairs as f64 / self.rate;
+        let written = self.output.write(self.sample, seconds, [c, d]);
         written.map_err(|fault| OutputError::io(self.whole.name(), fault))?;
         self.pairs += 1;
         Ok(())
@@ -77,8 +72,8 @@ impl RecordingWriter {
 
     /// Completes the file and gives it its name; dropped without this, it leaves nothing behind.
     pub fn finish(self) -> Result<(), OutputError> {
-        self.encoder
-            .finish(self.pairs)
+        self.output
+            .finish(self.sample, self.pairs)
             .map_err(|fault| OutputError::io(self.whole.name(), fault))?;
         self.whole.finish()
     }

@@ -11,7 +11,7 @@ use super::super::no_number::stand_in;
 use super::super::not_finite::Flaw;
 use super::super::number::number;
 use super::super::printed::Printed;
-use super::fields::{cut, missing, place};
+use super::fields::{Fields, cut, missing, place};
 
 /// Characters of a bad field that an error shows, at most.
 const MAX_SHOWN: usize = 40;
@@ -38,7 +38,7 @@ pub(super) struct Rows {
     pub left_out: LeftOut,
     /// The lines read, and the pairs among them.
     pub read: u64,
-    pairs: u64,
+    pub pairs: u64,
     /// Lines among them with too many or too few fields, or one that is neither a number nor stands for a missing one.
     garbled: u64,
     /// The first garbled line: the pairs before it, and its fault.
@@ -83,21 +83,11 @@ impl Rows {
 
     /// The next line's row; none at the end.
     pub fn next(&mut self) -> Result<Option<Row>, Fault> {
-        loop {
-            if !self.lines.advance()? {
-                return Ok(None);
-            }
-            // Separators alone are a blank line of a spreadsheet if lines have a time; without a time column they are a missing pair.
-            let is_blank = || self.lines.fields().all(<[u8]>::is_empty);
-            if self.header.places[0].is_none() || !is_blank() {
-                break;
-            }
+        if !self.advance()? {
+            return Ok(None);
         }
-        let line = cut(&self.lines, &self.header);
-        let texts = line.texts;
-        let (broken, broken_line) = line.broken.unzip();
-        let mut time =
-            number::<f64>(texts[0], self.lines.separator).filter(|time| time.is_finite());
+        let Fields { texts, broken } = cut(&self.lines, &self.header);
+        let (broken, broken_line) = broken.unzip();
         let mut pair = [f32::NAN; 2];
         // The roles of the first field that is no finite number, and of the first that does not even stand for one.
         let (mut odd, mut garbled) = (None, None);
@@ -113,39 +103,62 @@ impl Rows {
                 odd = odd.or(Some((role, read)));
             }
         }
-        if let Some(time) = &mut time {
-            self.printed.see(texts[0], *time, self.header.exponent);
-            *time /= 10f64.powi(-self.header.exponent);
+        let time = number::<f64>(texts[0], self.lines.separator).filter(|time| time.is_finite());
+        if let Some(time) = time {
+            self.printed.see(texts[0], time, self.header.exponent);
         }
         let is_left_out = time.is_none() && self.header.places[0].is_some();
         if is_left_out {
-            (odd, garbled) = (Some((0, None)), Some(0));
-        }
-        if let Some((role, read)) = odd
-            && (is_left_out || self.not_finite.is_none())
-        {
-            let mut place = self.place(role);
-            if broken_line.is_some() {
-                place.column = None;
-            }
-            let description = match broken_line {
-                Some(broken) if is_left_out => broken,
-                Some(broken) => format!("{broken}, so a sample is missing"),
-                None => describe(Role::ALL[role], texts[role], read),
-            };
-            let written = Flaw {
-                pair: self.pairs,
-                place: Some(place),
-                description,
-            };
-            if is_left_out {
-                self.left_out.add(written);
-            } else {
-                self.not_finite = Some(written);
-            }
+            let flaw = self.flaw(0, texts[0], None, broken_line);
+            self.left_out.add(flaw);
+            garbled = Some(0);
+        } else if let (Some((role, read)), None) = (odd, &self.not_finite) {
+            self.not_finite = Some(self.flaw(role, texts[role], read, broken_line));
         }
         let garbled = garbled.map(|role| self.no_number(role, texts[role]));
-        if let Some(fault) = broken.or(garbled) {
+        self.count(broken.or(garbled));
+        if is_left_out {
+            return Ok(Some(Row::LeftOut));
+        }
+        self.pairs += 1;
+        let time = time.map(|time| time / 10f64.powi(-self.header.exponent));
+        Ok(Some(Row::Pair(time, pair)))
+    }
+
+    /// Goes to the next line that is not blank; false at the end.
+    fn advance(&mut self) -> Result<bool, Fault> {
+        // Separators alone are a blank line of a spreadsheet if lines have a time; without a time column they are a missing pair.
+        let is_timed = self.header.places[0].is_some();
+        while self.lines.advance()? {
+            if !(is_timed && self.lines.fields().all(<[u8]>::is_empty)) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// The flaw of this line, whose `text` in the column of this `role` is no finite number; `broken` describes a line of too many or too
+    /// few fields.
+    fn flaw(&self, role: usize, text: &[u8], read: Option<f32>, broken: Option<String>) -> Flaw {
+        let mut place = self.place(role);
+        if broken.is_some() {
+            place.column = None;
+        }
+        let description = match broken {
+            Some(broken) if role == 0 => broken,
+            Some(broken) => format!("{broken}, so a sample is missing"),
+            None => describe(Role::ALL[role], text, read),
+        };
+        Flaw {
+            pair: self.pairs,
+            place: Some(place),
+            description,
+        }
+    }
+
+    /// Counts this line, which is garbled if it has a `fault`.
+    fn count(&mut self, fault: Option<Fault>) {
+        if let Some(fault) = fault {
             if self.garbled == 0 {
                 self.first_garbled = Some((self.pairs, fault));
             }
@@ -155,11 +168,6 @@ impl Rows {
         if self.garbled == self.read {
             self.garbled_before = self.garbled;
         }
-        if is_left_out {
-            return Ok(Some(Row::LeftOut));
-        }
-        self.pairs += 1;
-        Ok(Some(Row::Pair(time, pair)))
     }
 
     fn place(&self, role: usize) -> Place {

@@ -113,78 +113,72 @@ impl Format {
 }
 
 /// A file that is being written.
-pub(super) struct Encoder {
-    sample: SampleFormat,
-    rate: f64,
-    output: Output,
-}
-
-enum Output {
+pub(super) enum Output {
     // Boxed, as it is far larger than the others.
     Wav(Box<WavWriter<BufWriter<File>>>),
     Csv(BufWriter<File>),
     Npy(BufWriter<File>),
 }
 
-impl Encoder {
+impl Output {
     pub fn begin(format: Format, file: File, rate: f64, sample: SampleFormat) -> io::Result<Self> {
         let mut output = BufWriter::with_capacity(BUFFER_BYTES, file);
-        let output = match format {
+        Ok(match format {
             Format::Wav => {
                 let wav = WavWriter::new(output, spec(rate, sample)).map_err(wav_fault)?;
-                Output::Wav(Box::new(wav))
+                Self::Wav(Box::new(wav))
             }
             Format::Csv => {
                 output.write_all(b"time,c,d\n")?;
-                Output::Csv(output)
+                Self::Csv(output)
             }
             Format::Npy => {
                 output.write_all(&npy_header(sample, 0))?;
-                Output::Npy(output)
+                Self::Npy(output)
             }
-        };
-        Ok(Self {
-            sample,
-            rate,
-            output,
         })
     }
 
     /// Whether the format has no room for one more pair.
-    pub fn is_full(&self, pairs: u64) -> bool {
-        let limited = matches!(self.output, Output::Wav(_));
-        limited && (pairs + 1).saturating_mul(self.sample.pair_bytes()) > MAX_WAV_DATA
+    pub fn is_full(&self, sample: SampleFormat, pairs: u64) -> bool {
+        let limited = matches!(self, Self::Wav(_));
+        limited && (pairs + 1).saturating_mul(sample.pair_bytes()) > MAX_WAV_DATA
     }
 
-    /// Writes the pair of this `index`.
-    pub fn write(&mut self, index: u64, [c, d]: [Stored; 2]) -> io::Result<()> {
-        match &mut self.output {
-            Output::Wav(wav) => {
+    /// Writes a pair, and in text its time.
+    pub fn write(
+        &mut self,
+        sample: SampleFormat,
+        seconds: f64,
+        [c, d]: [Stored; 2],
+    ) -> io::Result<()> {
+        match self {
+            Self::Wav(wav) => {
                 write_wav(wav, c)?;
                 write_wav(wav, d)
             }
-            Output::Csv(output) => {
-                write!(output, "{:?},", index as f64 / self.rate)?;
-                write_text(output, self.sample, c)?;
+            Self::Csv(output) => {
+                write!(output, "{seconds:?},")?;
+                write_text(output, sample, c)?;
                 output.write_all(b",")?;
-                write_text(output, self.sample, d)?;
+                write_text(output, sample, d)?;
                 output.write_all(b"\n")
             }
-            Output::Npy(output) => {
-                write_npy(output, self.sample, c)?;
-                write_npy(output, self.sample, d)
+            Self::Npy(output) => {
+                write_npy(output, sample, c)?;
+                write_npy(output, sample, d)
             }
         }
     }
 
     /// Completes the file by what is known only once all `pairs` are written.
-    pub fn finish(self, pairs: u64) -> io::Result<()> {
-        match self.output {
-            Output::Wav(wav) => wav.finalize().map_err(wav_fault),
-            Output::Csv(mut output) => output.flush(),
-            Output::Npy(mut output) => {
+    pub fn finish(self, sample: SampleFormat, pairs: u64) -> io::Result<()> {
+        match self {
+            Self::Wav(wav) => wav.finalize().map_err(wav_fault),
+            Self::Csv(mut output) => output.flush(),
+            Self::Npy(mut output) => {
                 output.seek(SeekFrom::Start(0))?;
-                output.write_all(&npy_header(self.sample, pairs))?;
+                output.write_all(&npy_header(sample, pairs))?;
                 output.flush()
             }
         }

@@ -23,25 +23,25 @@ const MAX_ABOVE_TABLE: usize = 4;
 const MARKS: [u8; 3] = [b',', b';', b'\t'];
 
 /// All lines, beginning with those that were looked at to find the header.
-type Source<R> = Lines<Chain<Cursor<Vec<u8>>, BufReader<R>>>;
+type Source = Lines<Chain<Cursor<Vec<u8>>, BufReader<Box<dyn Read>>>>;
 
 /// The records of a file, in either form.
-enum Records<R: Read> {
-    Fields(Box<Reader<Source<R>>>),
-    Objects(Source<R>),
+enum Records {
+    Fields(Box<Reader<Source>>),
+    Objects(Source),
 }
 
 /// A file of rows, read line by line.
-pub struct RowFile<R: Read> {
+pub struct RowFile {
     name: String,
-    records: Records<R>,
+    records: Records,
     header: StringRecord,
     record: StringRecord,
     /// True if the file holds the table for reading, in place of rows.
     is_table: bool,
 }
 
-impl RowFile<Box<dyn Read>> {
+impl RowFile {
     /// Opens a file, or standard input if `path` is `-`.
     pub fn open(path: &Path) -> Result<Self, Failure> {
         if path == Path::new("-") {
@@ -57,11 +57,9 @@ impl RowFile<Box<dyn Read>> {
         let text = text.map_err(|fault| unreadable(&name, 1, &fault.into()))?;
         Self::new(&name, Box::new(text))
     }
-}
 
-impl<R: Read> RowFile<R> {
     /// Reads the header.
-    pub fn new(name: &str, source: R) -> Result<Self, Failure> {
+    pub fn new(name: &str, source: Box<dyn Read>) -> Result<Self, Failure> {
         let mut source = BufReader::new(source);
         let (head, first) =
             head(&mut source).map_err(|fault| unreadable(name, 1, &fault.into()))?;
@@ -157,7 +155,7 @@ impl<R: Read> RowFile<R> {
         ))
     }
 
-    fn lines(&self) -> &Source<R> {
+    fn lines(&self) -> &Source {
         match &self.records {
             Records::Fields(reader) => reader.get_ref(),
             Records::Objects(lines) => lines,

@@ -9,7 +9,7 @@ mod step;
 pub mod way;
 
 use std::f64::consts::FRAC_PI_2;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::ops::Range;
 
 use antinode::Flags;
@@ -192,7 +192,7 @@ impl Runs {
     }
 
     /// Adds the rows of a file.
-    fn read(&mut self, mut rows: RowFile<impl Read>) -> Result<(), Failure> {
+    fn read(&mut self, mut rows: RowFile) -> Result<(), Failure> {
         let places = Places::of(&rows)?;
         let flags = rows.needed("flags")?;
         let file = rows.place("file");

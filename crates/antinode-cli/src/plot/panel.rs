@@ -231,7 +231,9 @@ mod tests {
                 _ => format!("{time},0.{time},NaN,0.{time},533{time},0.{time},\n"),
             };
         }
-        let traces = read(RowFile::new("it", text.as_bytes()).unwrap()).unwrap();
+        let traces =
+            read(RowFile::new("it", Box::new(std::io::Cursor::new(text.to_owned()))).unwrap())
+                .unwrap();
         figure(&traces, 800, false).unwrap()
     }
 

@@ -1,7 +1,6 @@
 //! The rows to be drawn, by recording.
 
 use std::collections::HashMap;
-use std::io::Read;
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -84,7 +83,7 @@ pub fn open(paths: &[PathBuf]) -> Result<(Vec<Trace>, String), Failure> {
 }
 
 /// The recordings of a file of rows.
-pub fn read(mut rows: RowFile<impl Read>) -> Result<Vec<Trace>, Failure> {
+pub fn read(mut rows: RowFile) -> Result<Vec<Trace>, Failure> {
     let time = rows.needed("time_s")?;
     let flags = rows.needed("flags")?;
     let mut places = [(0, None); COLUMNS.len()];
@@ -212,7 +211,7 @@ mod tests {
             format!("{time},{samples},0.5,0,0.1,5332,0.01,{flags},{file}\n")
         });
         let text: String = std::iter::once(HEADER.to_owned()).chain(lines).collect();
-        read(RowFile::new("it", text.as_bytes()).unwrap()).unwrap()
+        read(RowFile::new("it", Box::new(std::io::Cursor::new(text.to_owned()))).unwrap()).unwrap()
     }
 
     /// Indices of the rows at which a line begins, apart from the first.

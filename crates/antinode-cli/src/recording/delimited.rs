@@ -3,7 +3,6 @@
 mod fields;
 mod rows;
 
-use super::columns::Columns;
 use super::error::{Fault, TimeFault};
 use super::gaps::{Gap, Gaps};
 use super::not_finite::Flaw;
@@ -19,8 +18,17 @@ const FEW_LINES: u64 = 16;
 
 /// Opens text; pairs of a `live` stream, a pipe, are delivered as they come.
 pub(super) fn open(stream: Stream, options: &OpenOptions, live: bool) -> Result<Opened, Fault> {
-    let mut source = Delimited::open(stream, options.columns.as_ref())?;
-    source.live = live;
+    let mut source = Delimited {
+        rows: Rows::open(stream, options.columns.as_ref())?,
+        start: 0.0,
+        axis: None,
+        gaps: Gaps::default(),
+        left_out: 0,
+        live,
+        used: None,
+        ahead: Vec::new().into_iter(),
+        fault: None,
+    };
     source.read_ahead();
     if source.ahead.len() == 0 {
         return Err(source.fault.take().unwrap_or(Fault::NoPairs));
@@ -71,20 +79,6 @@ struct Delimited {
 }
 
 impl Delimited {
-    fn open(stream: Stream, chosen: Option<&Columns>) -> Result<Self, Fault> {
-        Ok(Self {
-            rows: Rows::open(stream, chosen)?,
-            start: 0.0,
-            axis: None,
-            gaps: Gaps::default(),
-            left_out: 0,
-            live: false,
-            used: None,
-            ahead: Vec::new().into_iter(),
-            fault: None,
-        })
-    }
-
     /// Reads as many lines as it takes to find the sample rate, and checks their times.
     fn read_ahead(&mut self) {
         let is_timed = self.rows.header.places[0].is_some();

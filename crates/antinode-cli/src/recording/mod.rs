@@ -86,28 +86,18 @@ impl Recording {
         let file = open_file(path)?;
         let metadata = file.metadata().map_err(io)?;
         let length = metadata.is_file().then_some(metadata.len());
-        let again = if length.is_some() {
-            Some(file.try_clone().map_err(io)?)
-        } else {
-            None
-        };
+        let again = length.map(|_| file.try_clone()).transpose().map_err(io)?;
         let extension = path
             .extension()
             .map(|text| text.to_string_lossy().to_lowercase());
-        let encoded = Rc::default();
         let known = Known {
-            encoded: Rc::clone(&encoded),
             is_named: true,
             extension: extension.unwrap_or_default(),
             length,
             again,
+            encoded: Rc::default(),
         };
-        let opened = by_content::open(&name, Box::new(file), known, options)
-            .map_err(|fault| InputError::new(&name, fault))?;
-        Ok(Self {
-            encoded,
-            ..Self::new(name, opened, length)
-        })
+        Self::of_stream(name, Box::new(file), known, options)
     }
 
     fn standard_input(options: &OpenOptions) -> Result<Self, InputError> {
@@ -117,9 +107,23 @@ impl Recording {
         if !is_described && stdin.is_terminal() {
             return Err(InputError::new(&name, Fault::Terminal));
         }
-        let opened = by_content::open(&name, Box::new(stdin), Known::default(), options)
-            .map_err(|fault| InputError::new(&name, fault))?;
-        Ok(Self::new(name, opened, None))
+        Self::of_stream(name, Box::new(stdin), Known::default(), options)
+    }
+
+    fn of_stream(
+        name: String,
+        stream: Stream,
+        known: Known,
+        options: &OpenOptions,
+    ) -> Result<Self, InputError> {
+        let (length, encoded) = (known.length, Rc::clone(&known.encoded));
+        match by_content::open(&name, stream, known, options) {
+            Ok(opened) => Ok(Self {
+                encoded,
+                ..Self::new(name, opened, length)
+            }),
+            Err(fault) => Err(InputError::new(&name, fault)),
+        }
     }
 
     fn new(name: String, mut opened: Opened, bytes_total: Option<u64>) -> Self {

@@ -122,7 +122,7 @@ impl SampleCode {
         format!("{}-bit {kind}", self.valid_bits)
     }
 
-    /// Appends the whole pairs in `bytes`, `before` which there are others, to `pairs`, up to the first with bits below the valid ones.
+    /// Appends the whole pairs in `bytes` to `pairs`, up to the first with bits below the valid ones; `before`: how many came before them.
     pub fn decode(self, bytes: &[u8], pairs: &mut Vec<[f32; 2]>, before: u64) -> Result<(), Fault> {
         let start = pairs.len();
         match (self.kind, self.big_endian) {

@@ -1,7 +1,6 @@
 //! The values of a row that fits use.
 
 use std::f64::consts::TAU;
-use std::io::Read;
 
 use csv::StringRecord;
 
@@ -64,7 +63,7 @@ pub struct Places {
 
 impl Places {
     /// The places in a file.
-    pub fn of(rows: &RowFile<impl Read>) -> Result<Self, Failure> {
+    pub fn of(rows: &RowFile) -> Result<Self, Failure> {
         let mut needed = [0; COLUMNS.len()];
         for (to, column) in needed.iter_mut().zip(COLUMNS) {
             *to = rows.needed(column)?;
@@ -226,7 +225,8 @@ mod tests {
                 let [a, b] = [0.5 * (plus + minus), 0.5 * (plus - minus)];
                 text += &format!("0,{a},{b},0,5332,{std},{std},{std}\n");
             }
-            let mut rows = RowFile::new("a.csv", text.as_bytes()).unwrap();
+            let mut rows =
+                RowFile::new("a.csv", Box::new(std::io::Cursor::new(text.to_owned()))).unwrap();
             let places = Places::of(&rows).unwrap();
             let mut sums = [0.0; 3];
             while let Some(record) = rows.next().unwrap() {

@@ -31,7 +31,10 @@ fn read(rows: &str) -> Runs {
 }
 
 fn add(all: &mut Runs, text: &str) -> Result<(), Failure> {
-    all.read(RowFile::new("it", text.as_bytes())?)
+    all.read(RowFile::new(
+        "it",
+        Box::new(std::io::Cursor::new(text.to_owned())),
+    )?)
 }
 
 /// Number of rows of each run.

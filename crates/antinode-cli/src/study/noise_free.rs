@@ -15,9 +15,11 @@ const FLOOR: f64 = 1e-9;
 /// Figure 1: windows of 1 to 10 periods.
 pub fn against_periods(simulated: &Simulated) -> Figure {
     let wave = &simulated.wave();
-    let windows = (1..=10).map(|periods| Samples::simulate(wave, periods, simulated.rate, 0.0, 0));
+    let windows: Vec<Samples> = (1..=10)
+        .map(|periods| Samples::simulate(wave, periods, simulated.rate, 0.0, 0))
+        .collect();
     let x = (1..=10).map(f64::from).collect();
-    figure(1, "periods in the window", x, windows, wave)
+    figure(1, "periods in the window", x, &windows, wave)
 }
 
 /// Figure 2: one period, at 1 to 10 times the rate.
@@ -27,17 +29,10 @@ pub fn against_samples(simulated: &Simulated) -> Figure {
         .map(|times| Samples::simulate(wave, 1, simulated.rate * f64::from(times), 0.0, 0))
         .collect();
     let x = windows.iter().map(|window| window.count as f64).collect();
-    figure(
-        2,
-        "samples in the window of one period",
-        x,
-        windows.into_iter(),
-        wave,
-    )
+    figure(2, "samples in the window of one period", x, &windows, wave)
 }
 
-/// The panels of the errors, with curves that have no points yet.
-fn error_panels(wave: &Wave) -> Vec<Panel> {
+fn figure(number: u8, axis: &'static str, x: Vec<f64>, windows: &[Samples], wave: &Wave) -> Figure {
     let (a, b) = (wave.main_amplitude, wave.quadrature_amplitude);
     let units = "absolute error, input units";
     let kinds = [
@@ -50,77 +45,62 @@ fn error_panels(wave: &Wave) -> Vec<Panel> {
         ),
         ('d', "frequency".into(), "absolute error, Hz"),
     ];
-    kinds
-        .map(|(letter, title, axis)| Panel {
+    let errors: Vec<_> = windows.iter().map(|window| errors(window, wave)).collect();
+    let bounds: Vec<_> = windows.iter().map(|window| window.bounds(wave)).collect();
+    let noise = BOUND_NOISE * wave.main_amplitude;
+    let panels = kinds.into_iter().enumerate();
+    let panels = panels.map(|(i, (letter, title, axis))| {
+        let found = CURVES.into_iter().enumerate().map(|(c, name)| Curve {
+            name,
+            y: errors
+                .iter()
+                .map(|all| all[c][i].abs().max(FLOOR))
+                .collect(),
+        });
+        let found = found.filter(|curve| has_error(curve.name, letter));
+        let names = [Name::Bound, Name::CentredBound].into_iter().enumerate();
+        let bounds = names.map(|(c, name)| Curve {
+            name,
+            y: bounds.iter().map(|both| both[c][i] * noise).collect(),
+        });
+        Panel {
             letter,
             title: format!("{title}, without noise (bounds: noise of 0.01 %)"),
             axis,
             logarithmic: true,
-            curves: CURVES
-                .into_iter()
-                .chain([Name::Bound, Name::CentredBound])
-                .map(|name| Curve {
-                    name,
-                    y: Vec::new(),
-                })
-                .collect(),
-        })
-        .into()
-}
-
-fn figure(
-    number: u8,
-    axis: &'static str,
-    x: Vec<f64>,
-    windows: impl Iterator<Item = Samples>,
-    wave: &Wave,
-) -> Figure {
-    let mut panels = error_panels(wave);
-    let (mut deviation, mut points) = (Vec::new(), Vec::new());
-    for window in windows {
-        let noise = BOUND_NOISE * wave.main_amplitude;
-        let bounds = window.bounds(wave).map(|bound| bound.map(|x| x * noise));
-        let errors = errors(&window, wave);
-        for (i, panel) in panels.iter_mut().enumerate() {
-            let values = errors
-                .iter()
-                .map(|error| error[i].abs().max(FLOOR))
-                .chain(bounds.map(|bound| bound[i]));
-            for (curve, value) in panel.curves.iter_mut().zip(values) {
-                curve.y.push(value);
-            }
+            curves: found.chain(bounds).collect(),
         }
-        deviation.push(window.deviation().abs());
-        points.push(Point {
-            periods: window.periods,
-            rate: window.rate,
-        });
-    }
-    for panel in &mut panels {
-        // By name, as a missing value has become the floor here, like one that is too small.
-        panel.curves.retain(|curve| {
-            !matches!(
-                (curve.name, panel.letter),
-                (Name::MeanReturn | Name::Difference, 'a'..='c') | (Name::Fractional, 'd')
-            )
-        });
-    }
-    panels.push(Panel {
+    });
+    let deviations = windows.iter().map(|window| window.deviation().abs());
+    let deviation = Panel {
         letter: 'e',
         title: "relative deviation of the sampled span from whole periods".into(),
         axis: "|n/(N·P) − 1|",
         logarithmic: false,
         curves: vec![Curve {
             name: Name::Deviation,
-            y: deviation,
+            y: deviations.collect(),
         }],
+    };
+    let points = windows.iter().map(|window| Point {
+        periods: window.periods,
+        rate: window.rate,
     });
     Figure {
         number,
         axis,
         x,
-        points,
+        points: points.collect(),
         runs: None,
-        panels,
+        panels: panels.chain([deviation]).collect(),
+    }
+}
+
+/// True if a method gives the quantity of this panel.
+fn has_error(name: Name, letter: char) -> bool {
+    match name {
+        Name::MeanReturn | Name::Difference => letter == 'd',
+        Name::Fractional => letter != 'd',
+        _ => true,
     }
 }

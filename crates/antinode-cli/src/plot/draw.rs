@@ -115,15 +115,12 @@ fn size(legend: &Legend, figure: &Figure, units: u32) -> (u32, u32) {
     (units * WIDTH, units * height)
 }
 
-fn draw<B: DrawingBackend>(
+fn draw<B: DrawingBackend<ErrorType: 'static>>(
     area: &DrawingArea<B, Shift>,
     figure: &Figure,
     legend: &Legend,
     medium: Medium,
-) -> Result<(), Box<dyn Error>>
-where
-    B::ErrorType: 'static,
-{
+) -> Result<(), Box<dyn Error>> {
     let units = medium.units;
     area.fill(&WHITE)?;
     let (top, mut rest) = area.split_vertically(units * legend.height());
@@ -139,16 +136,13 @@ where
     Ok(())
 }
 
-fn draw_panel<B: DrawingBackend>(
+fn draw_panel<B: DrawingBackend<ErrorType: 'static>>(
     area: &DrawingArea<B, Shift>,
     figure: &Figure,
     panel: &Panel,
     legend: &Legend,
     (medium, foot): (Medium, u32),
-) -> Result<(), Box<dyn Error>>
-where
-    B::ErrorType: 'static,
-{
+) -> Result<(), Box<dyn Error>> {
     let units = medium.units;
     let place = ((LEFT * units) as i32, ((TITLE - TEXT - 4) * units) as i32);
     area.draw(&Text::new(
@@ -194,15 +188,12 @@ where
 }
 
 /// Draws the lower edge of a panel, the marks of flagged rows on it, and the arrows to values beyond.
-fn draw_marks<B: DrawingBackend>(
+fn draw_marks<B: DrawingBackend<ErrorType: 'static>>(
     plane: &DrawingArea<B, Cartesian2d<Values, Values>>,
     figure: &Figure,
     panel: &Panel,
     units: u32,
-) -> Result<(), Box<dyn Error>>
-where
-    B::ErrorType: 'static,
-{
+) -> Result<(), Box<dyn Error>> {
     let range = &panel.axis.range;
     let (width, height) = plane.dim_in_pixel();
     let foot = range.start;
@@ -236,15 +227,12 @@ where
 }
 
 /// Draws a band, and its line over it; both end at the panel's edges.
-fn draw_piece<B: DrawingBackend>(
+fn draw_piece<B: DrawingBackend<ErrorType: 'static>>(
     plane: &DrawingArea<B, Cartesian2d<Values, Values>>,
     piece: &Piece,
     (colour, band): (RGBColor, RGBAColor),
     Medium { units, joins }: Medium,
-) -> Result<(), Box<dyn Error>>
-where
-    B::ErrorType: 'static,
-{
+) -> Result<(), Box<dyn Error>> {
     let edge = |which: usize| {
         let band = piece.band.iter();
         band.map(move |(time, edges)| (*time, edges[which]))

@@ -124,14 +124,11 @@ impl Legend {
     }
 
     /// Draws the legend, with `units` units a pixel.
-    pub fn draw<B: DrawingBackend>(
+    pub fn draw<B: DrawingBackend<ErrorType: 'static>>(
         &self,
         area: &DrawingArea<B, Shift>,
         units: u32,
-    ) -> Result<(), Box<dyn Error>>
-    where
-        B::ErrorType: 'static,
-    {
+    ) -> Result<(), Box<dyn Error>> {
         for Entry { key, text, x, y } in &self.entries {
             let at =
                 |right: u32, down: u32| ((units * (x + right)) as i32, (units * (y + down)) as i32);

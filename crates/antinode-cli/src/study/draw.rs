@@ -44,14 +44,11 @@ pub fn write(path: &Path, figure: &Figure, panel: &Panel) -> Result<(), OutputEr
     .map_err(|_| failed(&png, canvas::not_stored()))
 }
 
-fn draw<B: DrawingBackend>(
+fn draw<B: DrawingBackend<ErrorType: 'static>>(
     area: &DrawingArea<B, Shift>,
     figure: &Figure,
     panel: &Panel,
-) -> Result<(), Box<dyn Error>>
-where
-    B::ErrorType: 'static,
-{
+) -> Result<(), Box<dyn Error>> {
     area.fill(&WHITE)?;
     let (area, beside) = area.split_horizontally(SIZE.0 - KEY_WIDTH);
     key(&beside, panel)?;
@@ -107,8 +104,7 @@ fn fill<'a, B, Y>(
     label: &dyn Fn(&f64) -> String,
 ) -> Result<(), Box<dyn Error>>
 where
-    B: DrawingBackend + 'a,
-    B::ErrorType: 'static,
+    B: DrawingBackend<ErrorType: 'static> + 'a,
     Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
 {
     chart
@@ -145,10 +141,10 @@ where
 }
 
 /// Draws the legend.
-fn key<B: DrawingBackend>(area: &DrawingArea<B, Shift>, panel: &Panel) -> Result<(), Box<dyn Error>>
-where
-    B::ErrorType: 'static,
-{
+fn key<B: DrawingBackend<ErrorType: 'static>>(
+    area: &DrawingArea<B, Shift>,
+    panel: &Panel,
+) -> Result<(), Box<dyn Error>> {
     for (row, curve) in (0..).zip(&panel.curves) {
         let (color, width) = style(curve.name);
         let y = 60 + 26 * row;

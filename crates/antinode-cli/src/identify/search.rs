@@ -11,6 +11,10 @@ use unsearched_wave::UnsearchedWave;
 /// Three of the longest periods that are searched: fewer pairs may be too few to find a period.
 const FEW_PAIRS: u64 = 600;
 
+/// Likely causes if no window is a wave of the frequency given.
+const OTHER_FREQUENCY: &str = "check --frequency and the sample rate, or omit --frequency to search for the period; if the wave changes fast, \
+                               give a smaller --periods";
+
 /// The outcome of the search for a period.
 #[derive(Debug, Default)]
 pub(super) struct Search {
@@ -63,12 +67,12 @@ impl Search {
         let all = format!("{pairs} sample pairs ({:.4} s)", pairs as f64 / rate);
         let periods = options.periods;
         if let Some(warning) = constant.warning().filter(|_| constant.are_both_constant()) {
-            let what = if core.is_searching() {
+            let sought = if core.is_searching() {
                 "period"
             } else {
                 "wave"
             };
-            return format!("no {what} found in {all}: {warning}");
+            return format!("no {sought} found in {all}: {warning}");
         }
         // A window may be up to a tenth longer than asked.
         let longest = |frequency: f32| 1.1 * f64::from(periods) * rate / f64::from(frequency);
@@ -79,26 +83,12 @@ impl Search {
             warning.map_or(String::new(), |warning| format!("; {warning}"))
         };
         let why = if let Some(frequency) = known.filter(|&known| pairs as f64 > longest(known)) {
-            let cause = cause.unwrap_or_else(|| {
-                "check --frequency and the sample rate, or omit --frequency to search for the period; if the wave changes fast, give a \
-                 smaller --periods"
-                    .to_owned()
-            });
+            let cause = cause.unwrap_or(OTHER_FREQUENCY.to_owned());
             format!(
                 "no window of {periods} periods in {all} is mostly one wave within 5 % of {frequency} Hz: {cause}"
             )
         } else if self.refused > 0 {
-            let hum = if options.hum {
-                ""
-            } else {
-                "; if hum is as large as the wave, give --hum"
-            };
-            let cause = cause.unwrap_or_else(|| {
-                format!(
-                    "check the sample rate, as the wave may have fewer than 4 samples a period; look for a second tone{hum}; if the wave \
-                     changes fast, give a smaller --periods; check --full-scale and --resolution"
-                )
-            });
+            let cause = cause.unwrap_or_else(|| causes_of_refusal(options.hum));
             format!(
                 "a period was found, but no window of {periods} periods in {all} is mostly one wave: {cause}"
             )
@@ -115,17 +105,7 @@ impl Search {
         } else if let Some(warning) = self.unsearched.warning(rate) {
             format!("no period found in {all}: {warning}{}", also(cause))
         } else {
-            let other = match options.detector {
-                Detector::Difference => "mean-return",
-                Detector::MeanReturn => "difference",
-            };
-            let cause = cause.unwrap_or_else(|| {
-                format!(
-                    "no wave of 4 to 200 samples a period stands out from the noise; check the sample rate, the channels and the signal; \
-                     try --detector {other}, as a second tone may hide the period, or give --frequency if it is known and a period has \
-                     {SHORTEST_PERIOD} to {LONGEST_PERIOD} samples"
-                )
-            });
+            let cause = cause.unwrap_or_else(|| causes_without_period(options.detector));
             format!("no period found in {all}: {cause}")
         };
         why + &also(constant.warning())
@@ -139,4 +119,30 @@ impl Search {
             )
         })
     }
+}
+
+/// Likely causes if a period was found, but no window was a wave; without the remedy for hum if `hum` was given.
+fn causes_of_refusal(hum: bool) -> String {
+    let hum = if hum {
+        ""
+    } else {
+        "; if hum is as large as the wave, give --hum"
+    };
+    format!(
+        "check the sample rate, as the wave may have fewer than 4 samples a period; look for a second tone{hum}; if the wave changes fast, \
+         give a smaller --periods; check --full-scale and --resolution"
+    )
+}
+
+/// Likely causes if this detector found no period.
+fn causes_without_period(detector: Detector) -> String {
+    let other = match detector {
+        Detector::Difference => "mean-return",
+        Detector::MeanReturn => "difference",
+    };
+    format!(
+        "no wave of 4 to 200 samples a period stands out from the noise; check the sample rate, the channels and the signal; try --detector \
+         {other}, as a second tone may hide the period, or give --frequency if it is known and a period has {SHORTEST_PERIOD} to \
+         {LONGEST_PERIOD} samples"
+    )
 }

@@ -16,13 +16,6 @@ pub struct Ideal {
     factor: f64,
 }
 
-/// A sample's neighbour.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Side {
-    Before,
-    After,
-}
-
 impl Ideal {
     /// For a wave at `omega` rad a sample, at a sample rate in Hz.
     pub fn new(calibration: &Calibration, omega: f64, sample_rate: f64) -> Self {
@@ -36,35 +29,24 @@ impl Ideal {
         }
     }
 
-    /// The side to which D is interpolated, and the one that serves instead at an end.
-    fn sides(&self) -> [Side; 2] {
-        if self.delay >= 0.0 {
-            [Side::Before, Side::After]
-        } else {
-            [Side::After, Side::Before]
-        }
-    }
-
-    /// Weights of a sample of D and its neighbour that give D `delay` earlier: exact for a sinusoid, on either side.
-    fn shares(&self, side: Side) -> [f64; 2] {
-        let delay = if side == Side::Before {
-            self.delay
-        } else {
-            -self.delay
-        };
-        [1.0 - delay, delay].map(|samples| (self.omega * samples).sin() / self.omega.sin())
+    /// Weights of a sample of D and its neighbour that give D this many samples towards the neighbour: exact for a sinusoid, also away
+    /// from it.
+    fn shares(&self, towards: f64) -> [f64; 2] {
+        [1.0 - towards, towards].map(|samples| (self.omega * samples).sin() / self.omega.sin())
     }
 
     /// The pairs of ideal pick-offs, after subtraction of the `offsets` of the raw signals, (4).
     pub fn pairs(&self, raw: &[Pair], offsets: [f32; 2]) -> Vec<Pair> {
         let d = |k: usize| raw.get(k).map(|pair| f64::from(pair[1] - offsets[1]));
-        let beside = |k: usize, side| match side {
-            Side::Before => k.checked_sub(1).and_then(d),
-            Side::After => d(k + 1),
-        };
+        let shares = [self.delay.abs(), -self.delay.abs()].map(|towards| self.shares(towards));
         let earlier = |k: usize, own: f64| {
-            let mut sides = self.sides().into_iter();
-            let found = sides.find_map(|side| Some((self.shares(side), beside(k, side)?)));
+            // The neighbour that D lies towards, and the one that serves instead at an end.
+            let mut others = [k.checked_sub(1).and_then(d), d(k + 1)];
+            if self.delay < 0.0 {
+                others.swap(0, 1);
+            }
+            let mut others = shares.iter().zip(others);
+            let found = others.find_map(|(shares, other)| Some((shares, other?)));
             match found {
                 Some(([share, of_other], other)) if self.delay != 0.0 => {
                     share * own + of_other * other
@@ -84,7 +66,7 @@ impl Ideal {
     /// Noise of the ideal pairs, if that of the raw ones is white with `variance` a sample; `lag` is that of the delayed sums.
     pub fn noise(&self, variance: f64, lag: u16) -> Noise {
         let [own, other] = self
-            .shares(self.sides()[0])
+            .shares(self.delay.abs())
             .map(|share| share / self.gain_ratio);
         let square = self.factor * self.factor;
         Noise {

@@ -76,42 +76,7 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
     {
         (found, rows.runs, driven) = (others, runs, left_out);
     }
-    let PickOffs {
-        gain_ratio,
-        skew,
-        angle,
-    } = found.pick_offs;
-    let [of_gain, of_skew, of_angle] = found.deviations;
-    let of = |label, option, quantity, value, std| Quantity {
-        label,
-        option,
-        quantity,
-        value,
-        std,
-    };
-    let quantities = [
-        of(
-            "gain ratio",
-            "--gain-ratio",
-            "gain_ratio",
-            gain_ratio,
-            of_gain,
-        ),
-        of(
-            "skew, ns",
-            "--skew-ns",
-            "skew_ns",
-            skew * 1e9,
-            of_skew * 1e9,
-        ),
-        of(
-            "pick-off angle, rad",
-            "--pick-off-angle",
-            "pick_off_angle_rad",
-            angle,
-            of_angle,
-        ),
-    ];
+    let quantities = quantities(&found);
     let mut report = io::stderr().lock();
     // The result goes to standard output: standard error may be closed.
     let _ = driven::warn(&mut report, &driven)
@@ -130,6 +95,33 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
     }
     print(&mut io::stdout().lock(), options.output, &quantities)?;
     Ok(())
+}
+
+/// The quantities of a calibration.
+fn quantities(found: &Found) -> [Quantity; 3] {
+    let of = |names: [&'static str; 3], value, std| {
+        let [label, option, quantity] = names;
+        Quantity {
+            label,
+            option,
+            quantity,
+            value,
+            std,
+        }
+    };
+    let gain_ratio = ["gain ratio", "--gain-ratio", "gain_ratio"];
+    let skew = ["skew, ns", "--skew-ns", "skew_ns"];
+    let angle = [
+        "pick-off angle, rad",
+        "--pick-off-angle",
+        "pick_off_angle_rad",
+    ];
+    let (pick_offs, [of_gain, of_skew, of_angle]) = (found.pick_offs, found.deviations);
+    [
+        of(gain_ratio, pick_offs.gain_ratio, of_gain),
+        of(skew, pick_offs.skew * 1e9, of_skew * 1e9),
+        of(angle, pick_offs.angle, of_angle),
+    ]
 }
 
 /// Prints the quantities.

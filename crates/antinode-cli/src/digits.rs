@@ -12,6 +12,12 @@ const MIN_FIXED_STD: f64 = 1e-8;
 /// Values from this on show enough digits in [`MAX_DECIMALS`] decimals, whatever their standard deviation.
 const MIN_FIXED_VALUE: f64 = 1e-3;
 
+/// A count of what a noun names, such as 1 row or 2 rows.
+pub fn counted(count: u64, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{plural}")
+}
+
 /// A number rounded to `digits` significant digits, 1 or more.
 pub fn significant(x: f64, digits: usize) -> f64 {
     format!("{x:.*e}", digits - 1).parse().unwrap_or(x)

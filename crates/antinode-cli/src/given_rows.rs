@@ -30,6 +30,23 @@ impl GivenRows {
     }
 }
 
+/// The index of the recording of the next row, which `is_its` recognises; it is added as `new` if it is missing. Rows of several
+/// recordings may be interleaved in the order of their times, but most follow one of the recording at `current`.
+pub fn recording_of<T>(
+    recordings: &mut Vec<T>,
+    current: usize,
+    is_its: impl Fn(&T) -> bool,
+    new: impl FnOnce() -> T,
+) -> usize {
+    if recordings.get(current).is_some_and(&is_its) {
+        return current;
+    }
+    recordings.iter().position(is_its).unwrap_or_else(|| {
+        recordings.push(new());
+        recordings.len() - 1
+    })
+}
+
 /// The failure if no row lies within the times asked for; the rows' own times go from `first` to `last`, s.
 pub fn none_within(names: &str, [first, last]: [f64; 2]) -> Failure {
     Failure::Fault(format!(

@@ -36,6 +36,22 @@ impl Equations {
         &self.right
     }
 
+    /// Adds an equation of a run with a weight: its entries, as places and factors of unknowns, and the value seen.
+    pub fn add_equation(
+        &mut self,
+        run: usize,
+        entries: impl Iterator<Item = (usize, f64)> + Clone,
+        seen: f64,
+        weight: f64,
+    ) {
+        for (i, left) in entries.clone() {
+            self.add_right(i, weight * left * seen);
+            for (j, right) in entries.clone() {
+                self.add(run, [i, j], weight * left * right);
+            }
+        }
+    }
+
     /// Adds to the right-hand side of an unknown.
     pub fn add_right(&mut self, place: usize, more: f64) {
         self.right[place] += more;

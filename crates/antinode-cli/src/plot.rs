@@ -17,6 +17,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::canvas;
+use crate::digits::counted;
 use crate::failure::Failure;
 use crate::given_rows::{GivenRows, none_within};
 use crate::recording::{OutputError, WholeFile};
@@ -63,21 +64,21 @@ pub fn run(options: &Plot) -> Result<(), Failure> {
     let (whole, mut file) = WholeFile::create(&options.out)?;
     let names: Vec<_> = traces.iter().map(|trace| trace.name.as_str()).collect();
     let written = match format {
-        Format::Svg => draw::svg(&figure, &names).map(|text| file.write_all(text.as_bytes())),
+        Format::Svg => draw::svg(&figure, &names)
+            .map_err(|error| io::Error::other(error.to_string()))
+            .and_then(|text| file.write_all(text.as_bytes())),
         Format::Png => {
-            Ok(draw::png(whole.temporary(), &figure, &names).map_err(|_| canvas::not_stored()))
+            draw::png(whole.temporary(), &figure, &names).map_err(|_| canvas::not_stored())
         }
     };
-    written
-        .unwrap_or_else(|error| Err(io::Error::other(error.to_string())))
-        .map_err(|fault| OutputError::io(whole.name(), fault))?;
+    written.map_err(|fault| OutputError::io(whole.name(), fault))?;
     whole.finish()?;
     let flagged = rows().filter(|row| row.trust != Trust::Clean).count();
     writeln!(
         io::stdout(),
-        "{}: {count} {} of {}; {flagged} flagged",
+        "{}: {} of {}; {flagged} flagged",
         options.out.display(),
-        if count == 1 { "row" } else { "rows" },
+        counted(count as u64, "row"),
         match names.as_slice() {
             [name] => (*name).to_owned(),
             names => format!("{} recordings", names.len()),

@@ -21,6 +21,7 @@ use std::io::{self, Write};
 use antinode::Flags;
 use clap::Args;
 
+use crate::digits::counted;
 use crate::failure::Failure;
 use crate::given_rows::GivenRows;
 use crate::options::Format;
@@ -72,7 +73,7 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
     let energies: Vec<_> = rows.runs.iter().map(Run::energies).collect();
     let [runs, driven] = undriven(&rows.runs, &energies, BY_FLAWS);
     rows.runs = runs;
-    let found = fit(&rows.runs).map_err(|_| {
+    let found = fit(&rows.runs).ok_or_else(|| {
         Failure::Fault(format!(
             "{name}: no resonator explains the rows: check that nothing drives the gyro while it rings down, and leave out outlying rows (see \
              --from and --to)"
@@ -136,15 +137,11 @@ fn note_runs(out: &mut impl Write, rows: &Runs, listed: &[usize], found: &Found)
     rows.write_notes(out)?;
     let others = rows.runs.len() - listed.len();
     if others > 0 {
-        let runs = if others == 1 {
-            "1 run".to_owned()
-        } else {
-            format!("{others} runs")
-        };
         let of_listed: usize = listed.iter().map(|&run| rows.runs[run].rows.len()).sum();
         writeln!(
             out,
-            "not listed: {runs} with {} rows, too short or too noisy to show a decay alone; the resonator's values include them",
+            "not listed: {} with {} rows, too short or too noisy to show a decay alone; the resonator's values include them",
+            counted(others as u64, "run"),
             rows.used() - of_listed
         )?;
     }

@@ -15,9 +15,9 @@ use std::ops::Range;
 use antinode::Flags;
 
 use crate::failure::Failure;
-use crate::given_rows::{GivenRows, none_within};
+use crate::given_rows::{GivenRows, none_within, recording_of};
 use crate::row_file::{self, RowFile};
-use recording::{Recording, Taken};
+use recording::Recording;
 use row::Places;
 pub use row::{BOWS, Row};
 
@@ -210,14 +210,8 @@ impl Runs {
             }
             self.rows += 1;
             let from = file.map_or("", |file| &record[file]);
-            // Rows of several recordings may be interleaved in the order of their times.
-            if recordings.get(current).is_none_or(|one| one.file != from) {
-                let known = recordings.iter().position(|one| one.file == from);
-                current = known.unwrap_or(recordings.len());
-                if known.is_none() {
-                    recordings.push(Recording::new(from));
-                }
-            }
+            let is_its = |one: &Recording| one.file == from;
+            current = recording_of(&mut recordings, current, is_its, || Recording::new(from));
             if !record[flags].is_empty() {
                 let flags = row_file::flags(&record[flags]);
                 recordings[current].leave_out(flags, self.breaks, places.way(record));
@@ -230,14 +224,12 @@ impl Runs {
                      or a_B exceeds a_A",
                 ));
             };
-            match recordings[current].take(row, self.max_turn) {
-                Taken::Kept => {}
-                Taken::Overlaps => self.overlapping += 1,
-                Taken::Backward => self.backward += 1,
-            }
+            recordings[current].take(row, self.max_turn);
         }
         for mut recording in recordings {
             recording.end();
+            self.overlapping += recording.overlapping;
+            self.backward += recording.backward;
             self.runs.append(&mut recording.runs);
             let steps = recording.steps.into_iter();
             self.steps
@@ -248,6 +240,22 @@ impl Runs {
 }
 
 impl Run {
+    /// A run of these rows, of the same recording.
+    pub fn with(&self, rows: Vec<Row>) -> Self {
+        let file = self.file.clone();
+        Self { rows, file }
+    }
+
+    /// Its recording, length and beginning, in words.
+    pub fn named(&self) -> String {
+        let file = match self.file.as_str() {
+            "" => String::new(),
+            file => format!("{file}, "),
+        };
+        let (seconds, from) = (self.seconds(), self.rows[0].time);
+        format!("{file}{seconds:.1} s from {from:.1} s on")
+    }
+
     /// Time from the first row to the last, s.
     pub fn seconds(&self) -> f64 {
         self.rows[self.rows.len() - 1].time - self.rows[0].time

@@ -220,30 +220,15 @@ impl Normal {
                     let weight = 1.0 / variance;
                     let columns = (0..shared).chain([first, first + 1]);
                     let entries = row.into_iter().take(shared).chain([1.0, time]);
-                    normal.add(index, columns.zip(entries), seen, weight);
+                    let entries = columns.zip(entries);
+                    normal.equations.add_equation(index, entries, seen, weight);
+                    normal.squares += weight * seen * seen;
                 }
                 normal.omega += moment.omega;
             }
         }
         normal.omega /= runs.iter().map(|run| run.moments.len()).sum::<usize>() as f64;
         normal
-    }
-
-    /// Adds one equation of a run, whose entries are given with their columns.
-    fn add(
-        &mut self,
-        run: usize,
-        entries: impl Iterator<Item = (usize, f64)> + Clone,
-        seen: f64,
-        weight: f64,
-    ) {
-        for (i, left) in entries.clone() {
-            self.equations.add_right(i, weight * left * seen);
-            for (j, right) in entries.clone() {
-                self.equations.add(run, [i, j], weight * left * right);
-            }
-        }
-        self.squares += weight * seen * seen;
     }
 }
 

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::options::Identify;
+use crate::digits::counted;
 use crate::failure::Failure;
 use crate::recording::{OutputError, WholeFile};
 
@@ -51,7 +52,7 @@ impl Out {
             return Ok(());
         }
         whole.finish()?;
-        eprintln!("{name}: {rows} {}", if rows == 1 { "row" } else { "rows" });
+        eprintln!("{name}: {}", counted(rows, "row"));
         Ok(())
     }
 

@@ -9,6 +9,7 @@ use csv::StringRecord;
 
 use super::numbers::drawable;
 use crate::failure::Failure;
+use crate::given_rows::recording_of;
 use crate::row_file::{self, RowFile, number};
 
 /// Quantities that are drawn: their columns, and those of their deviations.
@@ -103,17 +104,11 @@ pub fn read(mut rows: RowFile) -> Result<Vec<Trace>, Failure> {
             ));
         };
         let name = file.map_or(input.as_str(), |file| &record[file]);
-        if traces.get(current).is_none_or(|trace| trace.name != name) {
-            current = traces
-                .iter()
-                .position(|trace| trace.name == name)
-                .unwrap_or(traces.len());
-            if current == traces.len() {
-                let name = name.to_owned();
-                let rows = Vec::new();
-                traces.push(Trace { name, rows });
-            }
-        }
+        let new = || Trace {
+            name: name.to_owned(),
+            rows: Vec::new(),
+        };
+        current = recording_of(&mut traces, current, |trace| trace.name == name, new);
         if drawable(row.time).is_some() {
             traces[current].rows.push(row);
         }

@@ -7,6 +7,7 @@
 
 use super::SIGNIFICANT;
 use super::found::Measured;
+use super::frequency::widened;
 
 /// Highest power of time if no drift is seen; the lowest and highest allowed if one is; and the highest that is computed.
 const UNSEEN_POWER: usize = 1;
@@ -67,12 +68,7 @@ pub fn by_energy(
     let beside = without_powers(runs);
     let (rows, count): (usize, usize) = (runs.iter().map(Vec::len).sum(), runs.len());
     let scatter = |sums: &Sums, unknowns: usize| {
-        let scatter = sums.left() / (rows - unknowns) as f64;
-        if are_weighted {
-            scatter.max(1.0)
-        } else {
-            scatter
-        }
+        widened(sums.left() / (rows - unknowns) as f64, are_weighted)
     };
     let noise = scatter(&beside[POWERS], (POWERS + 1) * count + 1);
     let is_more = |before: &Sums, after: usize, terms: usize| {
@@ -97,16 +93,14 @@ pub fn by_energy(
     };
     let slow = beside[power].left() - beside[POWERS].left();
     let slow = slow / ((POWERS - power) * count) as f64;
-    let widened = scatter(&beside[power], (power + 1) * count + 1).max(slow);
-    if beside[power].is_significant(widened) {
-        let by_energy = beside[power].measured(widened);
-        if is_denied(by_energy) {
-            ByEnergy::Denied
-        } else {
-            ByEnergy::Beside(by_energy)
-        }
-    } else {
+    let scatter = scatter(&beside[power], (power + 1) * count + 1).max(slow);
+    let by_energy = beside[power].measured(scatter);
+    if !beside[power].is_significant(scatter) {
         ByEnergy::Ambiguous
+    } else if is_denied(by_energy) {
+        ByEnergy::Denied
+    } else {
+        ByEnergy::Beside(by_energy)
     }
 }
 

@@ -26,10 +26,7 @@ fn straightened(run: &Run) -> Run {
         }
         row
     };
-    Run {
-        rows: run.rows.iter().enumerate().map(straightened).collect(),
-        file: run.file.clone(),
-    }
+    run.with(run.rows.iter().enumerate().map(straightened).collect())
 }
 
 /// Mean distance of chords from the pattern at a row, rad, if both its neighbours are equally far from it.

@@ -2,6 +2,7 @@
 
 use super::by_energy::Point;
 use super::found::Measured;
+use super::frequency::widened;
 use super::line::Times;
 
 /// Deviations from which on a drift is significant.
@@ -26,11 +27,7 @@ pub fn drift(run: &[Point], are_weighted: bool) -> Drift {
         .iter()
         .map(|row| row.weight * (row.excess - mean).powi(2));
     let scatter = (all.sum::<f64>() - squares) / (run.len() - 2) as f64;
-    let scatter = if are_weighted {
-        scatter.max(1.0)
-    } else {
-        scatter
-    };
+    let scatter = widened(scatter, are_weighted);
     Drift {
         slope: (slope, (scatter / times.along).sqrt()),
         squares: if are_weighted && squares > SEEN * SEEN * scatter {

@@ -32,39 +32,34 @@ const KNOWN: [f64; 2] = [0.2, 1.0];
 /// The same for the split of frequency, as a share of what is seen of it.
 const KNOWN_REL: f64 = 0.1;
 
-/// The steps do not converge.
-#[derive(Debug, PartialEq)]
-pub struct Unsettled;
-
-/// Finds the resonator whose waves come nearest to the rows.
-pub fn fit(runs: &[Run]) -> Result<Found, Unsettled> {
+/// Finds the resonator whose waves come nearest to the rows; `None` if the steps do not converge.
+pub fn fit(runs: &[Run]) -> Option<Found> {
     let steady = steady(runs);
-    if steady.as_ref().is_ok_and(Found::is_explained) {
+    if steady.as_ref().is_some_and(Found::is_explained) {
         return steady;
     }
     // As for a table that speeds up, ripples or goes to and fro.
     let unsteady = unsteady(runs);
     match (steady, unsteady) {
-        (Ok(steady), Ok(unsteady)) if unsteady.explains_more(&steady) => Ok(unsteady),
-        (Err(_), unsteady) => unsteady,
-        (steady, _) => steady,
+        (Some(steady), Some(unsteady)) if unsteady.explains_more(&steady) => Some(unsteady),
+        (steady, unsteady) => steady.or(unsteady),
     }
 }
 
 /// The fit if only the resonator and a steady rotation turn the patterns.
-fn steady(runs: &[Run]) -> Result<Found, Unsettled> {
+fn steady(runs: &[Run]) -> Option<Found> {
     let found = |model| found(runs, model);
     let each = found(Model::Each);
     // With a residual beyond noise, even one pattern that hardly moves shows how the splits move it.
     let is_enough = |each: &Found| {
         each.residual < EXPLAINED && (spread(runs) < MIN_SPREAD || !may_know(runs, each))
     };
-    if each.as_ref().is_ok_and(is_enough) {
+    if each.as_ref().is_some_and(is_enough) {
         return each;
     }
     let determined = |model| {
-        let shared = found(model).ok()?;
-        is_known(|at| shared.variance(at), &shared, each.as_ref().ok()).then_some(shared)
+        let shared = found(model)?;
+        is_known(|at| shared.variance(at), &shared, each.as_ref()).then_some(shared)
     };
     // If γ is 0, it is no unknown: it would make all others less certain, above all rotation, which it resembles if quadrature stays.
     let nonlinear = determined(Model::Nonlinear);
@@ -77,35 +72,33 @@ fn steady(runs: &[Run]) -> Result<Found, Unsettled> {
         })
     };
     let nonlinear = nonlinear.filter(Found::is_nonlinear);
-    nonlinear.or_else(linear).map_or(each, Ok)
+    nonlinear.or_else(linear).or(each)
 }
 
 /// The fit if patterns are turned unsteadily.
-fn unsteady(runs: &[Run]) -> Result<Found, Unsettled> {
+fn unsteady(runs: &[Run]) -> Option<Found> {
     let runs = &chords::through(runs);
     let each = found(runs, Model::EachUnsteady);
-    let shared = found(runs, Model::SharedUnsteady);
-    match shared {
-        Ok(shared) if is_known(|at| shared.variance(at), &shared, each.as_ref().ok()) => Ok(shared),
-        _ => each,
-    }
+    let shared = found(runs, Model::SharedUnsteady)
+        .filter(|shared| is_known(|at| shared.variance(at), shared, each.as_ref()));
+    shared.or(each)
 }
 
 /// The fit of a model, if need be across long gaps.
-pub fn found(runs: &[Run], model: Model) -> Result<Found, Unsettled> {
+pub fn found(runs: &[Run], model: Model) -> Option<Found> {
     let found = searched(runs, model);
-    if !model.is_shared() || model.is_unsteady() || found.as_ref().is_ok_and(Found::is_explained) {
+    if !model.is_shared() || model.is_unsteady() || found.as_ref().is_some_and(Found::is_explained)
+    {
         return found;
     }
     let residual = found.as_ref().map_or(f64::INFINITY, |found| found.residual);
     let across = gaps::across(runs, model).filter(|across| across.residual < residual);
-    across.map_or(found, Ok)
+    across.or(found)
 }
 
 /// The same, starting from the values that the integrals give.
-pub fn searched(runs: &[Run], model: Model) -> Result<Found, Unsettled> {
-    let values = start(runs, model).ok_or(Unsettled)?;
-    settle(runs, model, values)
+pub fn searched(runs: &[Run], model: Model) -> Option<Found> {
+    settle(runs, model, start(runs, model)?)
 }
 
 /// True if such runs determine splits that are small: if nothing does, a fit may find large ones, which seem to be determined.
@@ -148,17 +141,17 @@ fn is_known(variance: impl Fn(usize) -> f64, found: &Found, each: Option<&Found>
 }
 
 /// Minimises the squares of the residual, from these values on.
-pub fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Result<Found, Unsettled> {
+pub fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Option<Found> {
     let mut normal = Normal::of(runs, model, &values);
     let mut damping = 1e-3;
     let mut limit = SETTLED;
     for _ in 0..STEPS {
-        let whole = normal.step(0.0).ok_or(Unsettled)?;
+        let whole = normal.step(0.0)?;
         if normal.equations.right().dot(&whole) < limit * normal.widening(&values) {
             let values = values + whole;
             return Normal::of(runs, model, &values).conclude(model, values);
         }
-        let moved = &values + normal.step(damping).ok_or(Unsettled)?;
+        let moved = &values + normal.step(damping)?;
         let next = Normal::of(runs, model, &moved);
         // False if it is not a number.
         if next.squares < normal.squares {
@@ -172,7 +165,7 @@ pub fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Result<Fo
             }
         }
     }
-    Err(Unsettled)
+    None
 }
 
 /// The normal equations of all runs about some values.
@@ -279,10 +272,10 @@ impl Normal {
         self.residual(values).max(1.0).powi(2)
     }
 
-    fn conclude(self, model: Model, values: DVector<f64>) -> Result<Found, Unsettled> {
-        Ok(Found {
+    fn conclude(self, model: Model, values: DVector<f64>) -> Option<Found> {
+        Some(Found {
             model,
-            factors: self.equations.factors(0.0).ok_or(Unsettled)?,
+            factors: self.equations.factors(0.0)?,
             widening: self.widening(&values),
             residual: self.residual(&values),
             // Correlation of residuals far below the rows' own deviations does no harm.

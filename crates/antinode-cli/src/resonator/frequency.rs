@@ -7,7 +7,7 @@ use super::drift::drift;
 use super::found::{Found, Measured, Moved};
 use super::is_alike;
 use super::stretches::{RowFrequency, stretches};
-use crate::runs::Runs;
+use crate::runs::{Row, Runs};
 
 /// Stretches per run to aim at, if it has that many rows.
 const STRETCHES: usize = 100;
@@ -36,50 +36,30 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
     // Relative to the first, so as to keep digits.
     let from = rows.runs[0].rows[0].frequency;
     let (mut of_rows, mut mean_by) = (0.0, [0.0; 4]);
-    let mut weigh = |row, moved: &Moved| {
-        let weighed = RowFrequency {
-            row,
-            by_splits: found.splits(&moved.by_splits).0 / TAU,
-            by_splits_since: found.splits(&moved.by_splits_since).0 / TAU,
-            weight: if are_weighted {
-                row.frequency_deviation.hypot(moved.change / TAU).powi(-2)
-            } else {
-                1.0
-            },
-        };
-        of_rows += weighed.weight;
-        for (sum, by) in mean_by.iter_mut().zip(moved.by_splits) {
-            *sum += weighed.weight * by;
-        }
-        weighed
-    };
     let runs = rows.runs.iter().map(|run| {
         let pairs = run.rows.iter().zip(&mut moved);
-        let weighed: Vec<_> = pairs.map(|(row, moved)| weigh(row, &moved)).collect();
+        let weighed = pairs.map(|(row, moved)| {
+            let weighed = weighed(row, &moved, found, are_weighted);
+            of_rows += weighed.weight;
+            for (sum, by) in mean_by.iter_mut().zip(moved.by_splits) {
+                *sum += weighed.weight * by;
+            }
+            weighed
+        });
         let max_rows = if are_weighted {
-            weighed.len().div_ceil(STRETCHES)
+            run.rows.len().div_ceil(STRETCHES)
         } else {
             1
         };
-        stretches(&weighed, max_rows, from)
+        stretches(&weighed.collect::<Vec<_>>(), max_rows, from)
     });
     let runs: Vec<Vec<Point>> = runs.collect();
     let all = || runs.iter().flatten();
     let weights: f64 = all().map(|point| point.weight).sum();
     let mean = all().map(|point| point.weight * point.excess).sum::<f64>() / weights;
-    let (mut squares, mut neighbours, mut before) = (0.0, 0.0, 0.0);
-    for point in all() {
-        let rest = point.weight.sqrt() * (point.excess - mean);
-        squares += rest * rest;
-        neighbours += rest * std::mem::replace(&mut before, rest);
-    }
+    let (squares, neighbours) = residuals(all(), mean);
     let count = all().count() as f64;
-    let scatter = squares / (count - 1.0);
-    let widened = if are_weighted {
-        scatter.max(1.0)
-    } else {
-        scatter
-    };
+    let widened = widened(squares / (count - 1.0), are_weighted);
     let beside = without_mean(&runs);
     let alone = beside.0;
     let is_along = alone.is_significant(widened);
@@ -102,15 +82,52 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
         moves,
         drifts: drifts.iter().map(|drift| drift.slope).collect(),
         by_energy: if is_along {
-            // θ turns by −γ a_A a_B, and the frequency rises by 3γ (a_A² + a_B²) rad/s.
-            // Flaws of pick-offs look like it, but leave residuals beyond noise.
-            let by_turning = found.turning_by_amplitudes();
-            let by_turning = by_turning.filter(|_| !found.is_beyond_noise());
-            let by_turning =
-                by_turning.map(|(turning, std)| (-3.0 * turning / TAU, 3.0 * std / TAU));
-            by_energy(&runs, beside, are_weighted, by_turning)
+            by_energy(&runs, beside, are_weighted, by_turning(found))
         } else {
             ByEnergy::Chance
         },
     }
+}
+
+/// The frequency of a row, weighted by its variance if that is known.
+fn weighed<'a>(row: &'a Row, moved: &Moved, found: &Found, is_weighted: bool) -> RowFrequency<'a> {
+    RowFrequency {
+        row,
+        by_splits: found.splits(&moved.by_splits).0 / TAU,
+        by_splits_since: found.splits(&moved.by_splits_since).0 / TAU,
+        weight: if is_weighted {
+            row.frequency_deviation.hypot(moved.change / TAU).powi(-2)
+        } else {
+            1.0
+        },
+    }
+}
+
+/// Sum of squared residuals about a mean, in deviations, and of the products of consecutive ones.
+fn residuals<'a>(points: impl Iterator<Item = &'a Point>, mean: f64) -> (f64, f64) {
+    let (mut squares, mut neighbours, mut before) = (0.0, 0.0, 0.0);
+    for point in points {
+        let rest = point.weight.sqrt() * (point.excess - mean);
+        squares += rest * rest;
+        neighbours += rest * std::mem::replace(&mut before, rest);
+    }
+    (squares, neighbours)
+}
+
+/// Factor of variances if values scatter by this mean square: of known variances not below 1, and of unknown ones the scatter itself.
+pub fn widened(scatter: f64, are_weighted: bool) -> f64 {
+    if are_weighted {
+        scatter.max(1.0)
+    } else {
+        scatter
+    }
+}
+
+/// Rise of the frequency with the energy that the turning of patterns by their amplitudes implies, Hz at one input unit squared.
+fn by_turning(found: &Found) -> Option<Measured> {
+    // θ turns by −γ a_A a_B, and the frequency rises by 3γ (a_A² + a_B²) rad/s.
+    // Flaws of pick-offs look like it, but leave residuals beyond noise.
+    let turning = found.turning_by_amplitudes();
+    let turning = turning.filter(|_| !found.is_beyond_noise());
+    turning.map(|(turning, std)| (-3.0 * turning / TAU, 3.0 * std / TAU))
 }

@@ -13,7 +13,7 @@ const LONG: f64 = 8.0;
 /// The fit of a shared model, starting from a fit to the pieces of runs between long gaps; `None` if there are no such gaps.
 pub fn across(runs: &[Run], model: Model) -> Option<Found> {
     let (pieces, firsts) = cut(runs)?;
-    let of_pieces = searched(&pieces, model).ok()?;
+    let of_pieces = searched(&pieces, model)?;
     let mut values = DVector::zeros(model.unknowns(runs.len()));
     let mut copy = |to, from, count| {
         let from = of_pieces.values.rows(from, count);
@@ -23,7 +23,7 @@ pub fn across(runs: &[Run], model: Model) -> Option<Found> {
     for (run, first) in firsts.into_iter().enumerate() {
         copy(model.own_at(run), model.own_at(first), model.own());
     }
-    settle(runs, model, values).ok()
+    settle(runs, model, values)
 }
 
 /// The pieces of the runs, and which of them each run begins with; `None` if there is no gap, or a run begins with too few rows.
@@ -35,10 +35,7 @@ fn cut(runs: &[Run]) -> Option<(Vec<Run>, Vec<usize>)> {
         firsts.push(pieces.len());
         for (index, rows) in of_run.enumerate() {
             if rows.len() >= MIN_ROWS {
-                pieces.push(Run {
-                    rows: rows.to_vec(),
-                    file: run.file.clone(),
-                });
+                pieces.push(run.with(rows.to_vec()));
             } else if index == 0 {
                 return None;
             }

@@ -39,6 +39,18 @@ const MAX_STEPS: f64 = 500.0;
 /// evenly.
 const MAX_CHANGE: f64 = 1.95;
 
+/// The state E, R, S, Q of a wave with these a_A, a_B and θ.
+pub fn state(main: f64, quadrature: f64, angle: f64) -> Vector4<f64> {
+    let (sine, cosine) = (4.0 * angle).sin_cos();
+    let apart = main * main - quadrature * quadrature;
+    Vector4::new(
+        main * main + quadrature * quadrature,
+        apart * cosine,
+        apart * sine,
+        2.0 * main * quadrature,
+    )
+}
+
 /// Slopes of the state E, R, S, Q per unit of each rate.
 pub fn by_rates(state: &Vector4<f64>) -> SMatrix<f64, 4, RATES> {
     let [e, r, s, q] = (*state).into();
@@ -67,13 +79,7 @@ impl Motion {
     /// The motion with these parameters, at its start.
     pub fn new(&[rates @ .., main, quadrature, angle]: &[f64; PARAMETERS]) -> Self {
         let (sine, cosine) = (4.0 * angle).sin_cos();
-        let apart = main * main - quadrature * quadrature;
-        let state = Vector4::new(
-            main * main + quadrature * quadrature,
-            apart * cosine,
-            apart * sine,
-            2.0 * main * quadrature,
-        );
+        let state = state(main, quadrature, angle);
         let by_start = Matrix4x3::new(
             main,
             quadrature,

@@ -128,9 +128,9 @@ pub fn quantities(
     let resonator = found.resonator();
     for (index, &place) in listed.iter().enumerate() {
         let run = Some(index);
-        let decay_time = time(found.decay_of_run(place));
-        add(run, DECAY_TIME, decay_time);
-        add(run, QUALITY_FACTOR, scaled(decay_time, PI * mean_frequency));
+        for (kind, value) in of_decay(found.decay_of_run(place), mean_frequency) {
+            add(run, kind, value);
+        }
         if let Some(resonator) = &resonator {
             add(run, ROTATION, resonator.rotations[place]);
         }
@@ -147,36 +147,34 @@ pub fn quantities(
     let Some(resonator) = resonator else {
         return list;
     };
-    let decay_time = time(resonator.decay);
-    add(None, DECAY_TIME, decay_time);
-    add(
-        None,
-        QUALITY_FACTOR,
-        scaled(decay_time, PI * mean_frequency),
-    );
-    for ([split, angle], size, at, unit) in [
-        (resonator.damping_split, DAMPING_SPLIT, MOST_DAMPED, 1.0),
-        (
-            resonator.frequency_split,
-            FREQUENCY_SPLIT,
-            HIGHEST,
-            1.0 / TAU,
-        ),
-    ] {
+    for (kind, value) in of_decay(resonator.decay, mean_frequency) {
+        add(None, kind, value);
+    }
+    let mut add_split = |[split, angle]: [Measured; 2], size, at, unit| {
         add(None, size, scaled(split, unit));
         if split.0 > SPLIT_SEEN * split.1 {
             add(None, at, angle);
         }
-    }
+    };
+    add_split(resonator.damping_split, DAMPING_SPLIT, MOST_DAMPED, 1.0);
+    let in_hertz = 1.0 / TAU;
+    add_split(
+        resonator.frequency_split,
+        FREQUENCY_SPLIT,
+        HIGHEST,
+        in_hertz,
+    );
     if let Some(turning) = resonator.turning_by_amplitudes {
         add(None, BY_AMPLITUDES, turning);
     }
     list
 }
 
-/// The inverse of a rate, with its deviation.
-fn time((rate, std): Measured) -> Measured {
-    (1.0 / rate, std / (rate * rate))
+/// Decay time and quality factor at a decay rate, 1/s, and a frequency, Hz.
+fn of_decay((rate, std): Measured, frequency: f64) -> [(Kind, Measured); 2] {
+    let time = (1.0 / rate, std / (rate * rate));
+    let quality_factor = scaled(time, PI * frequency);
+    [(DECAY_TIME, time), (QUALITY_FACTOR, quality_factor)]
 }
 
 fn scaled((value, std): Measured, by: f64) -> Measured {
@@ -197,17 +195,11 @@ pub fn table(
             Some(index) => {
                 let run = &rows.runs[listed[index]];
                 let turned = fixed(1, run.turned().to_degrees());
-                let file = if run.file.is_empty() {
-                    String::new()
-                } else {
-                    format!("{}, ", run.file)
-                };
                 writeln!(
                     out,
-                    "run {}: {file}{:.1} s from {:.1} s on, the pattern at {}° turns by {}{turned}°",
+                    "run {}: {}, the pattern at {}° turns by {}{turned}°",
                     index + 1,
-                    run.seconds(),
-                    run.rows[0].time,
+                    run.named(),
                     fixed(1, run.rows[0].angle.to_degrees()),
                     if turned.starts_with('-') { "" } else { "+" },
                 )?;

@@ -6,9 +6,9 @@
 use nalgebra::{DVector, Matrix4, SVector, Vector4};
 
 use super::model::{Model, Term};
-use super::motion::{RATES, by_rates};
+use super::motion::{RATES, by_rates, state};
 use crate::normal::Equations;
-use crate::runs::{Row, Run};
+use crate::runs::Run;
 
 /// Share of each unknown's own weight that is added to it, so that unknowns that the rows do not determine stay near 0.
 const RIDGE: f64 = 1e-10;
@@ -22,33 +22,19 @@ pub fn start(runs: &[Run], model: Model) -> Option<DVector<f64>> {
     let from = |run: usize| shared + each * run;
     for (index, run) in runs.iter().enumerate() {
         let begin = from(index);
-        let begins = if model.is_unsteady() {
-            vec![(0, begin), (3, begin + 1)]
+        let begins: &[_] = if model.is_unsteady() {
+            &[(0, 0), (3, 1)]
         } else {
-            vec![
-                (0, begin + 1),
-                (1, begin + 2),
-                (2, begin + 3),
-                (3, begin + own),
-            ]
+            &[(0, 1), (1, 2), (2, 3), (3, own)]
         };
-        let terms = model
-            .terms(index, run)
-            .into_iter()
-            .map(|(place, direction)| {
-                let place = if place < shared {
-                    place
-                } else {
-                    place - model.own_at(index) + begin
-                };
-                (place, direction)
-            });
-        add(
-            &mut equations,
-            (index, run),
-            &terms.collect::<Vec<_>>(),
-            &begins,
-        );
+        let begins: Vec<_> = begins.iter().map(|&(of, at)| (of, begin + at)).collect();
+        let mut terms = model.terms(index, run);
+        for (place, _) in &mut terms {
+            if *place >= shared {
+                *place = *place - model.own_at(index) + begin;
+            }
+        }
+        add(&mut equations, (index, run), &terms, &begins);
     }
     let found = equations.factors(RIDGE)?.solve(equations.right());
     let mut values = DVector::zeros(model.unknowns(runs.len()));
@@ -57,20 +43,19 @@ pub fn start(runs: &[Run], model: Model) -> Option<DVector<f64>> {
         let found = found.rows(from(index), each);
         let mut values = values.rows_mut(model.own_at(index), own);
         values.copy_from(&found.rows(0, own));
+        // The amplitudes and the angle from E, R, S and Q.
         if model.is_unsteady() {
             let [e, q] = [found[0], found[1]];
             let main = (0.5 * (e + (e * e - q * q).max(0.0).sqrt())).sqrt();
-            values[0] = main;
-            values[1] = 0.5 * q / main;
-            continue;
+            (values[0], values[1]) = (main, 0.5 * q / main);
+        } else {
+            let [r, s, q] = [found[2], found[3], found[own]];
+            let apart = r.hypot(s);
+            let main = (0.5 * (apart.hypot(q) + apart)).sqrt();
+            values[0] -= 2.0 * run.turned() / run.seconds();
+            (values[1], values[2]) = (main, 0.5 * q / main);
+            values[3] = 0.25 * s.atan2(r);
         }
-        let [r, s, q] = [found[2], found[3], found[own]];
-        let apart = r.hypot(s);
-        let main = (0.5 * (apart.hypot(q) + apart)).sqrt();
-        values[0] -= 2.0 * run.turned() / run.seconds();
-        values[1] = main;
-        values[2] = 0.5 * q / main;
-        values[3] = 0.25 * s.atan2(r);
     }
     let is_sound = values.iter().all(|value| value.is_finite());
     is_sound.then_some(values)
@@ -100,7 +85,7 @@ fn add(
     let mut before: Option<(f64, Vec<Vector4<f64>>)> = None;
     for row in &run.rows {
         let back = turned(-rate * (row.time - run.rows[0].time));
-        let state = state(row);
+        let state = state(row.main, row.quadrature, row.angle);
         let by_rates = back * by_rates(&state);
         let slopes: Vec<_> = moves.iter().map(|rates| by_rates * rates).collect();
         if let Some((time, last)) = before {
@@ -113,16 +98,11 @@ fn add(
         let weight = 1.0 / (state[0] * row.deviations[0].powi(2));
         let turned = back * state;
         for (begin, &(equation, _)) in begins.iter().enumerate() {
-            let seen = turned[equation];
-            let mut entries = vec![0.0; begins.len()];
-            entries[begin] = 1.0;
-            entries.extend(integrals.iter().map(|integral| integral[equation]));
-            for (&place, left) in places.iter().zip(&entries) {
-                equations.add_right(place, weight * left * seen);
-                for (&other, right) in places.iter().zip(&entries) {
-                    equations.add(index, [place, other], weight * left * right);
-                }
-            }
+            let mut factors = vec![0.0; begins.len()];
+            factors[begin] = 1.0;
+            factors.extend(integrals.iter().map(|integral| integral[equation]));
+            let entries = places.iter().copied().zip(factors.iter().copied());
+            equations.add_equation(index, entries, turned[equation], weight);
         }
     }
 }
@@ -134,17 +114,4 @@ fn turned(angle: f64) -> Matrix4<f64> {
     (matrix[(1, 1)], matrix[(1, 2)]) = (cosine, -sine);
     (matrix[(2, 1)], matrix[(2, 2)]) = (sine, cosine);
     matrix
-}
-
-/// E, R, S and Q of a row.
-fn state(row: &Row) -> Vector4<f64> {
-    let [main, quadrature] = [row.main, row.quadrature].map(|size| size * size);
-    let (sine, cosine) = (4.0 * row.angle).sin_cos();
-    let apart = main - quadrature;
-    Vector4::new(
-        main + quadrature,
-        apart * cosine,
-        apart * sine,
-        2.0 * row.main * row.quadrature,
-    )
 }

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use super::{MIN_ROWS, Row, Run, turn};
+use crate::digits::counted;
 
 /// Deviations by which a decay, or the lack of one, must be significant.
 const SIGNIFICANT: f64 = 10.0;
@@ -190,44 +191,26 @@ pub fn undriven(runs: &[Run], energies: &[Vec<Energy>], by_flaws: f64) -> [Vec<R
     }
     let mut found = [Vec::new(), Vec::new()];
     for ((run, _, range), line) in parts.into_iter().zip(&lines) {
-        found[usize::from(is_driven(line))].push(Run {
-            rows: run.rows[range].to_vec(),
-            file: run.file.clone(),
-        });
+        found[usize::from(is_driven(line))].push(run.with(run.rows[range].to_vec()));
     }
     found
 }
 
 /// Warns of runs that were left out because something drives them.
 pub fn warn(out: &mut impl Write, driven: &[Run]) -> io::Result<()> {
-    let count = match driven.len() {
-        0 => return Ok(()),
-        1 => "1 run".to_owned(),
-        runs => format!("{runs} runs"),
-    };
-    writeln!(
-        out,
-        "warning: left out: {count} in which something drives the wave, as it does not decay there but does in others: {}",
-        names(driven)
-    )
-}
-
-/// The runs' recordings, lengths and beginnings.
-fn names(driven: &[Run]) -> String {
-    let name = |run: &Run| {
-        let file = if run.file.is_empty() {
-            String::new()
-        } else {
-            format!("{}, ", run.file)
-        };
-        let (seconds, from) = (run.seconds(), run.rows[0].time);
-        format!("{file}{seconds:.1} s from {from:.1} s on")
-    };
-    let mut names: Vec<_> = driven.iter().take(MAX_NAMED).map(name).collect();
+    if driven.is_empty() {
+        return Ok(());
+    }
+    let mut names: Vec<_> = driven.iter().take(MAX_NAMED).map(Run::named).collect();
     if driven.len() > MAX_NAMED {
         names.push(format!("and {} more", driven.len() - MAX_NAMED));
     }
-    names.join("; ")
+    writeln!(
+        out,
+        "warning: left out: {} in which something drives the wave, as it does not decay there but does in others: {}",
+        counted(driven.len() as u64, "run"),
+        names.join("; ")
+    )
 }
 
 #[cfg(test)]

@@ -21,6 +21,10 @@ pub(super) struct Recording {
     pub runs: Vec<Run>,
     /// Times at which runs ended at a step between clean rows, s.
     pub steps: Vec<f64>,
+    /// Rows left out because their windows overlap the one before.
+    pub overlapping: usize,
+    /// Rows that are not later than the one before.
+    pub backward: usize,
     /// The run that has not ended.
     run: Run,
     /// Number of rows before some that were left out for more than a circle, until a row after these is known as well.
@@ -31,23 +35,14 @@ pub(super) struct Recording {
     between: Vec<Option<[f64; 2]>>,
 }
 
-/// What was done with a row.
-#[derive(PartialEq, Eq)]
-pub(super) enum Taken {
-    /// It continues the run, or begins another.
-    Kept,
-    /// It is left out, as its window overlaps the one before.
-    Overlaps,
-    /// It begins another run, as it is not later than the one before.
-    Backward,
-}
-
 impl Recording {
     pub fn new(file: &str) -> Self {
         Self {
             file: file.to_owned(),
             runs: Vec::new(),
             steps: Vec::new(),
+            overlapping: 0,
+            backward: 0,
             run: Run::default(),
             torn: None,
             circles: Vec::new(),
@@ -68,15 +63,16 @@ impl Recording {
         }
     }
 
-    /// Takes the next row; the run ends if the pattern has turned by more than `max_turn` rad since the last.
-    pub fn take(&mut self, mut row: Row, max_turn: f64) -> Taken {
-        let mut taken = Taken::Kept;
+    /// Takes the next row, unless it overlaps the last; the run ends if the row is not later than that, or if the pattern has turned by
+    /// more than `max_turn` rad since.
+    pub fn take(&mut self, mut row: Row, max_turn: f64) {
         if let Some(last) = self.run.rows.last() {
-            if row.time <= last.time {
-                taken = Taken::Backward;
-            } else if self.run.overlaps(&row) {
-                return Taken::Overlaps;
+            let is_backward = row.time <= last.time;
+            if !is_backward && self.run.overlaps(&row) {
+                self.overlapping += 1;
+                return;
             }
+            self.backward += usize::from(is_backward);
             let is_turned = turn(row.angle - last.angle).abs() > max_turn;
             let before = self
                 .torn
@@ -85,7 +81,7 @@ impl Recording {
                 // Rows in between may belong to either side.
                 self.run.rows.truncate(before);
             }
-            if taken == Taken::Backward || before.is_some() || is_turned {
+            if is_backward || before.is_some() || is_turned {
                 self.end();
             }
         }
@@ -95,7 +91,6 @@ impl Recording {
             row.bow = bow(last, &row, &between);
         }
         self.run.rows.push(row);
-        taken
     }
 
     /// True if a row is known too little to tell whether the wave is still that of the first `torn` rows; false after many such rows.

@@ -67,6 +67,22 @@ pub struct Resonator {
     pub output: Format,
 }
 
+/// What the rows show.
+struct Results {
+    rows: Runs,
+    /// Indices of the runs that are listed, as they are informative by themselves.
+    listed: Vec<usize>,
+    found: Found,
+    frequency: Frequency,
+}
+
+impl Results {
+    /// The runs that are listed.
+    fn listed(&self) -> impl Iterator<Item = &Run> {
+        self.listed.iter().map(|&run| &self.rows.runs[run])
+    }
+}
+
 /// Finds the resonator and prints it.
 pub fn run(options: &Resonator) -> Result<(), Failure> {
     let (mut rows, name) = Runs::open(&options.given, MAX_TURN, BREAKS)?;
@@ -79,32 +95,35 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
              --from and --to)"
         ))
     })?;
-    let frequency = frequency(&rows, &found);
-    let listed = informing(&rows.runs, &found);
-    let quantities = quantities(&rows, &listed, &found, &frequency);
+    let results = Results {
+        listed: informing(&rows.runs, &found),
+        frequency: frequency(&rows, &found),
+        rows,
+        found,
+    };
+    let quantities = quantities(&results);
     let mut out = io::stdout().lock();
-    let rows_of = || quantities.iter().map(|one| Row::new(one, &rows, &listed));
+    let rows_of = || quantities.iter().map(|one| Row::new(one, &results));
     match options.output {
-        Format::Table => table(&mut out, &name, &rows, &listed, &quantities)?,
+        Format::Table => table(&mut out, &name, &results, &quantities)?,
         Format::Csv => serialized::csv(&mut out, rows_of())?,
         Format::Jsonl => serialized::jsonl(&mut out, rows_of())?,
     }
     // The result is printed already: standard error may be closed.
     let mut err = io::stderr().lock();
-    let _ = driven::warn(&mut err, &driven)
-        .and_then(|()| write_notes(&mut err, &rows, &listed, &found, &frequency));
+    let _ = driven::warn(&mut err, &driven).and_then(|()| write_notes(&mut err, &results));
     Ok(())
 }
 
 /// Rate at which the patterns turn, rad/s, if all that turn do so one way and too few are at rest.
-fn one_way(rows: &Runs, listed: &[usize]) -> Option<f64> {
-    let runs = listed.iter().map(|&run| &rows.runs[run]);
+fn one_way(results: &Results) -> Option<f64> {
     let furthest = |run: &Run| {
         let [back, forth] = run.turns();
         [-back, forth].map(|turned| turned > TURNS)
     };
-    let (turning, still): (Vec<&Run>, Vec<&Run>) =
-        runs.partition(|run| furthest(run).contains(&true));
+    let (turning, still): (Vec<&Run>, Vec<&Run>) = results
+        .listed()
+        .partition(|run| furthest(run).contains(&true));
     let ways = furthest(turning.first()?);
     let is_one_way = ways != [true; 2] && turning.iter().all(|run| furthest(run) == ways);
     let turned: f64 = turning.iter().map(|run| run.turned().abs()).sum();
@@ -113,31 +132,26 @@ fn one_way(rows: &Runs, listed: &[usize]) -> Option<f64> {
 }
 
 /// Writes what the numbers leave open.
-fn write_notes(
-    out: &mut impl Write,
-    rows: &Runs,
-    listed: &[usize],
-    found: &Found,
-    frequency: &Frequency,
-) -> io::Result<()> {
-    note_runs(out, rows, listed, found)?;
-    note_splits(out, rows, listed, found, frequency)?;
-    note_frequency(out, frequency)?;
-    if found.is_unsteady() {
+fn write_notes(out: &mut impl Write, results: &Results) -> io::Result<()> {
+    note_runs(out, results)?;
+    note_splits(out, results)?;
+    note_frequency(out, &results.frequency)?;
+    if results.found.is_unsteady() {
         writeln!(
             out,
             "no steady rotation explains the rows: pattern angles are taken from the rows, and their drift is not used to find the splits"
         )?;
     }
-    note_misfit(out, found)
+    note_misfit(out, &results.found)
 }
 
 /// Writes which runs are not listed, and which do not decay.
-fn note_runs(out: &mut impl Write, rows: &Runs, listed: &[usize], found: &Found) -> io::Result<()> {
+fn note_runs(out: &mut impl Write, results: &Results) -> io::Result<()> {
+    let Results { rows, listed, .. } = results;
     rows.write_notes(out)?;
     let others = rows.runs.len() - listed.len();
     if others > 0 {
-        let of_listed: usize = listed.iter().map(|&run| rows.runs[run].rows.len()).sum();
+        let of_listed: usize = results.listed().map(|run| run.rows.len()).sum();
         writeln!(
             out,
             "not listed: {} with {} rows, too short or too noisy to show a decay alone; the resonator's values include them",
@@ -146,7 +160,7 @@ fn note_runs(out: &mut impl Write, rows: &Runs, listed: &[usize], found: &Found)
         )?;
     }
     for (index, &run) in listed.iter().enumerate() {
-        let (decay, std) = found.decay_of_run(run);
+        let (decay, std) = results.found.decay_of_run(run);
         let what = if decay < -DECAY_SEEN * std {
             "grows: something drives it; its decay time and quality factor mean nothing"
         } else if decay < DECAY_SEEN * std {
@@ -160,21 +174,15 @@ fn note_runs(out: &mut impl Write, rows: &Runs, listed: &[usize], found: &Found)
 }
 
 /// Writes if the splits are not determined, or if flaws of the pick-offs look like them.
-fn note_splits(
-    out: &mut impl Write,
-    rows: &Runs,
-    listed: &[usize],
-    found: &Found,
-    frequency: &Frequency,
-) -> io::Result<()> {
-    if found.resonator().is_none() {
+fn note_splits(out: &mut impl Write, results: &Results) -> io::Result<()> {
+    if results.found.resonator().is_none() {
         writeln!(
             out,
             "the rows do not determine the splits of damping and frequency: give ring-downs at pattern angles of 0°, 22.5° and 45°, or of a \
              pattern that turns by 45° or more; the mean frequency is the one along the patterns, which a split shifts"
         )?;
-    } else if let Some(rate) = one_way(rows, listed) {
-        let (frequency, _) = frequency.mean;
+    } else if let Some(rate) = one_way(results) {
+        let (frequency, _) = results.frequency.mean;
         writeln!(
             out,
             "warning: the pattern turns only one way, and remaining flaws of the pick-offs then look like splits: a gain ratio that is 0.1 % \

@@ -5,10 +5,9 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::found::{Found, Measured};
-use super::frequency::Frequency;
+use super::Results;
+use super::found::Measured;
 use crate::digits::{fixed, significant, significant_or_known, with_small_std};
-use crate::runs::Runs;
 
 /// Deviations below which a split has no angle.
 const SPLIT_SEEN: f64 = 3.0;
@@ -92,9 +91,9 @@ pub struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    /// The row of a quantity; `listed` are the indices of the listed runs in `rows`.
-    pub fn new(quantity: &Quantity, rows: &'a Runs, listed: &[usize]) -> Self {
-        let run = quantity.run.map(|run| &rows.runs[listed[run]]);
+    /// The row of a quantity.
+    pub fn new(quantity: &Quantity, results: &'a Results) -> Self {
+        let run = quantity.run.and_then(|run| results.listed().nth(run));
         Self {
             run: quantity.run.map(|run| run + 1),
             quantity: quantity.kind.name,
@@ -109,12 +108,10 @@ impl<'a> Row<'a> {
 }
 
 /// All quantities, of each run listed and then of the resonator.
-pub fn quantities(
-    rows: &Runs,
-    listed: &[usize],
-    found: &Found,
-    frequency: &Frequency,
-) -> Vec<Quantity> {
+pub fn quantities(results: &Results) -> Vec<Quantity> {
+    let Results {
+        found, frequency, ..
+    } = results;
     let mut list = Vec::new();
     let mut add = |run, kind, (value, std): Measured| {
         list.push(Quantity {
@@ -126,7 +123,7 @@ pub fn quantities(
     };
     let (mean_frequency, _) = frequency.mean;
     let resonator = found.resonator();
-    for (index, &place) in listed.iter().enumerate() {
+    for (index, &place) in results.listed.iter().enumerate() {
         let run = Some(index);
         for (kind, value) in of_decay(found.decay_of_run(place), mean_frequency) {
             add(run, kind, value);
@@ -135,7 +132,7 @@ pub fn quantities(
             add(run, ROTATION, resonator.rotations[place]);
         }
         add(run, DRIFT, frequency.drifts[place]);
-        let count = rows.runs[place].rows.len();
+        let count = results.rows.runs[place].rows.len();
         add(run, RESIDUAL, found.residual_of_run(place, count));
     }
     add(None, FREQUENCY, frequency.mean);
@@ -185,10 +182,10 @@ fn scaled((value, std): Measured, by: f64) -> Measured {
 pub fn table(
     out: &mut impl Write,
     name: &str,
-    rows: &Runs,
-    listed: &[usize],
+    results: &Results,
     quantities: &[Quantity],
 ) -> io::Result<()> {
+    let Results { rows, listed, .. } = results;
     writeln!(out, "{name}: {} of {} rows", rows.used(), rows.rows)?;
     for of in quantities.chunk_by(|one, next| one.run == next.run) {
         match of[0].run {

@@ -1,0 +1,67 @@
+//! A run of rows, and how its pattern turns.
+
+use super::{Row, turn};
+
+/// Distance of windows, as a share of their length, below which they overlap: the length is known to a few per cent.
+const MIN_DISTANCE: f64 = 0.97;
+
+/// A span of rows without a break.
+#[derive(Debug, Clone, Default)]
+pub struct Run {
+    pub rows: Vec<Row>,
+    /// Name of the recording, as in its rows.
+    pub file: String,
+}
+
+impl Run {
+    /// A run of these rows, of the same recording.
+    pub fn with(&self, rows: Vec<Row>) -> Self {
+        let file = self.file.clone();
+        Self { rows, file }
+    }
+
+    /// Its recording, length and beginning, in words.
+    pub fn named(&self) -> String {
+        let file = match self.file.as_str() {
+            "" => String::new(),
+            file => format!("{file}, "),
+        };
+        let (seconds, from) = (self.seconds(), self.rows[0].time);
+        format!("{file}{seconds:.1} s from {from:.1} s on")
+    }
+
+    /// Time from the first row to the last, s.
+    pub fn seconds(&self) -> f64 {
+        self.rows[self.rows.len() - 1].time - self.rows[0].time
+    }
+
+    /// Turns of the pattern from row to row, rad.
+    fn steps(&self) -> impl Iterator<Item = f64> {
+        let pairs = self.rows.windows(2);
+        pairs.map(|pair| turn(pair[1].angle - pair[0].angle))
+    }
+
+    /// Turn of the pattern from the first row to the last, rad.
+    pub fn turned(&self) -> f64 {
+        self.steps().sum()
+    }
+
+    /// Largest turns of the pattern from any row to any later one, rad: backwards, at most 0, and forwards, at least 0.
+    pub fn turns(&self) -> [f64; 2] {
+        let (mut angle, mut turns) = (0.0, [0f64; 2]);
+        let (mut min, mut max) = (0f64, 0f64);
+        for step in self.steps() {
+            angle += step;
+            (min, max) = (min.min(angle), max.max(angle));
+            turns = [turns[0].min(angle - max), turns[1].max(angle - min)];
+        }
+        turns
+    }
+
+    /// True if the window of the last row, if any, shares samples with that of this one.
+    pub(super) fn overlaps(&self, row: &Row) -> bool {
+        let apart = 0.5 * MIN_DISTANCE * row.seconds;
+        let last = self.rows.last();
+        last.is_some_and(|last| row.time - last.time < 0.5 * MIN_DISTANCE * last.seconds + apart)
+    }
+}

@@ -25,36 +25,20 @@ impl Axis {
 
 /// The conversion of values to an axis's numbers.
 #[derive(Debug, Clone, Copy)]
-pub struct Scale {
-    less: f64,
-    times: f64,
-    is_log: bool,
+pub enum Scale {
+    /// Decimal logarithms.
+    Logarithmic,
+    /// Values less `less`, multiplied by `times`.
+    Linear { less: f64, times: f64 },
 }
 
 impl Scale {
-    /// Decimal logarithms.
-    pub const LOG: Self = Self {
-        less: 0.0,
-        times: 1.0,
-        is_log: true,
-    };
-
-    /// Values less `less`, multiplied by `times`.
-    pub fn linear(less: f64, times: f64) -> Self {
-        Self {
-            less,
-            times,
-            is_log: false,
-        }
-    }
-
     /// The axis's number of a value.
     pub fn of(self, number: f64) -> f64 {
-        let scaled = (number - self.less) * self.times;
-        match self.is_log {
+        match self {
             // Of 0 and negative values: minus infinity.
-            true => scaled.max(0.0).log10(),
-            false => scaled,
+            Self::Logarithmic => number.max(0.0).log10(),
+            Self::Linear { less, times } => (number - less) * times,
         }
     }
 
@@ -63,7 +47,7 @@ impl Scale {
         Axis {
             title,
             range: self.of(range.start)..self.of(range.end),
-            is_log: self.is_log,
+            is_log: matches!(self, Self::Logarithmic),
         }
     }
 }

@@ -68,7 +68,7 @@ fn time_scale(span: &Range<f64>, first: f64) -> (Scale, String) {
         0.0 => "time, s".to_owned(),
         less => format!("time − {less} s, s"),
     };
-    (Scale::linear(less, 1.0), title)
+    (Scale::Linear { less, times: 1.0 }, title)
 }
 
 /// Spans of columns that hold flagged rows.

@@ -108,7 +108,8 @@ fn axis(traces: &[Trace], quantity: usize, is_log: bool) -> (Axis, Range<f64>, S
             QUADRATURE => format!("|{}|", TITLES[quantity]),
             _ => TITLES[quantity].to_owned(),
         };
-        return (Scale::LOG.axis(title, &range), range, Scale::LOG);
+        let scale = Scale::Logarithmic;
+        return (scale.axis(title, &range), range, scale);
     }
     let min_span = match (quantity, extent.size()) {
         // If all are 0, their deviations give the span.
@@ -158,8 +159,8 @@ fn extent(traces: &[Trace], quantity: usize, is_log: bool) -> Extent {
 /// The scale of a quantity, and the title that states it.
 fn scale(traces: &[Trace], quantity: usize, range: &Range<f64>, size: f64) -> (Scale, String) {
     let title = TITLES[quantity];
-    match quantity {
-        ANGLE => (Scale::linear(0.0, 180.0 / PI), title.to_owned()),
+    let (less, times, title) = match quantity {
+        ANGLE => (0.0, 180.0 / PI, title.to_owned()),
         FREQUENCY => {
             let wide = range.end - range.start;
             let (unit, times) = frequency_unit(wide / 2.0);
@@ -168,16 +169,15 @@ fn scale(traces: &[Trace], quantity: usize, range: &Range<f64>, size: f64) -> (S
             // Exactly the printed value is subtracted.
             let text = format!("{middle:.decimals$}");
             let less = text.parse().unwrap_or(middle);
-            (
-                Scale::linear(less, times),
-                format!("{title} less its median of {text} Hz, {unit}"),
-            )
+            let title = format!("{title} less its median of {text} Hz, {unit}");
+            (less, times, title)
         }
         _ => {
             let (times, text) = factor(if size > 0.0 { size } else { range.end });
-            (Scale::linear(0.0, times), format!("{title}{text}"))
+            (0.0, times, format!("{title}{text}"))
         }
-    }
+    };
+    (Scale::Linear { less, times }, title)
 }
 
 /// The median frequency of the clean rows if most are clean, or else of all.

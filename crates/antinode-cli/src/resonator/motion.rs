@@ -121,8 +121,7 @@ impl Motion {
 
     /// The pattern angle that the motion reaches in this time, s.
     pub fn angle_after(&self, seconds: f64) -> f64 {
-        let now = self.columns.column(0).into_owned();
-        let then = self.moved(now, seconds, |state| self.slope(state));
+        let then = self.state_after(seconds);
         0.25 * then[2].atan2(then[1])
     }
 
@@ -138,6 +137,16 @@ impl Motion {
         self.columns.set_row(2, &(along * sine));
         let beyond = turn(0.25 * s.atan2(r) - angle);
         (beyond, across.fixed_columns::<PARAMETERS>(1).into_owned())
+    }
+
+    /// The state E, R, S, Q now.
+    fn state(&self) -> Vector4<f64> {
+        self.columns.column(0).into_owned()
+    }
+
+    /// The state after this time, s, which may be negative.
+    fn state_after(&self, seconds: f64) -> Vector4<f64> {
+        self.moved(self.state(), seconds, |state| self.slope(state))
     }
 
     /// The slope of a state.
@@ -207,12 +216,8 @@ impl Motion {
     /// As in the core, each is taken to grow and to turn evenly within a window, or to change along a straight line if it changes by more
     /// than its size. Any departure from that is averaged: the result is the mean of its logarithm, or of itself, by Simpson's rule.
     fn averaged(&self, seconds: f64, sign: f64) -> (f64, Complex<f64>) {
-        let now = self.columns.column(0).into_owned();
-        let at = |by: f64| {
-            let state = self.moved(now, by, |state| self.slope(state));
-            Self::travelling(&state, sign)
-        };
-        let (greater, lesser) = Self::travelling(&now, sign);
+        let at = |by: f64| Self::travelling(&self.state_after(by), sign);
+        let (greater, lesser) = Self::travelling(&self.state(), sign);
         let [before, after] = [at(-0.5 * seconds), at(0.5 * seconds)];
         let grown = (before.0 * after.0 / (greater * greater)).powf(1.0 / 6.0);
         let change = 0.5 * (after.1 - before.1) / lesser;
@@ -227,15 +232,14 @@ impl Motion {
 
     /// R/E and S/E now.
     pub fn shares(&self) -> [f64; 2] {
-        let state = self.columns.column(0);
-        [state[1] / state[0], state[2] / state[0]]
+        let [e, r, s, _] = self.state().into();
+        [r / e, s / e]
     }
 
     /// Contributions to the frequency, after this time, s, of one rad/s each of δ c_τ, δ s_τ, Δω c_ω and Δω s_ω, rad/s:
     /// together they are ½ Δω cos 4(θ−θ_ω) E/D − ½ δ sin 4(θ−θ_τ) Q/D.
     pub fn frequency_by_splits(&self, seconds: f64) -> [f64; 4] {
-        let now = self.columns.column(0).into_owned();
-        let [e, r, s, q] = self.moved(now, seconds, |state| self.slope(state)).into();
+        let [e, r, s, q] = self.state_after(seconds).into();
         let apart = r * r + s * s;
         [-q * s, q * r, e * r, e * s]
             .map(|product: f64| 0.5 * product / apart.max(f64::MIN_POSITIVE))
@@ -244,7 +248,7 @@ impl Motion {
     /// Contribution of the pattern's turning now to the frequency, relative to the mean of both travelling waves weighted by their
     /// energies, rad/s: 2 θ̇ Q/E.
     pub fn frequency_by_turning(&self) -> f64 {
-        let state = self.columns.column(0).into_owned();
+        let state = self.state();
         let [e, r, s, q] = state.into();
         let slope = self.slope(&state);
         let turning = 0.25 * (r * slope[2] - s * slope[1]) / (r * r + s * s).max(f64::MIN_POSITIVE);
@@ -257,8 +261,7 @@ impl Motion {
     /// travelling wave, and from the components of the lesser one along that of the row and across it, which elsewhere is equivalent.
     pub fn residuals(&self, row: &Row) -> (Vector3<f64>, SMatrix<f64, 3, PARAMETERS>) {
         let sign = 1f64.copysign(row.quadrature);
-        let state = self.columns.column(0).into_owned();
-        let (now, lesser) = Self::travelling(&state, sign);
+        let (now, lesser) = Self::travelling(&self.state(), sign);
         let back = Complex::from_polar(1.0, -4.0 * row.angle);
         let [along, across] = [lesser * back, back * Complex::i()];
         // Derivatives by E, R, S and Q of the greater wave, and of the lesser along that of the row and across it.

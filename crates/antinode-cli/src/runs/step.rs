@@ -58,10 +58,10 @@ fn step_ratio(rows: &[Row]) -> f64 {
     let middle = rows[SIDE];
     let of_main = times.course(rows, |row| row.log_beside(&middle));
     let of_ratio = times.course(rows, Row::ratio);
-    let courses = [of_main, of_ratio].map(|course| course.unwrap_or_default());
     let largest = |more: f64| {
-        let ratios = courses.map(|course| course.step.abs() / (course.allowed + more));
-        ratios[0].max(ratios[1])
+        let ratio = |course: Course| course.step.abs() / (course.allowed + more);
+        let [by_main, by_ratio] = [of_main, of_ratio].map(|course| course.map_or(0.0, ratio));
+        by_main.max(by_ratio)
     };
     if largest(0.0) < 1.0 {
         return 0.0;
@@ -85,15 +85,6 @@ struct Course {
     step: f64,
     /// The largest step that there may seem to be without one.
     allowed: f64,
-}
-
-impl Default for Course {
-    fn default() -> Self {
-        Self {
-            step: 0.0,
-            allowed: f64::INFINITY,
-        }
-    }
 }
 
 /// The rows but for the middle one, which may belong to both sides.

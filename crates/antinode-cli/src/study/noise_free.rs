@@ -71,17 +71,6 @@ fn figure(number: u8, axis: &'static str, x: Vec<f64>, windows: &[Samples], wave
             curves: found.chain(bounds).collect(),
         }
     });
-    let deviations = windows.iter().map(|window| window.deviation().abs());
-    let deviation = Panel {
-        letter: 'e',
-        title: "relative deviation of the sampled span from whole periods".into(),
-        axis: "|n/(N·P) − 1|",
-        logarithmic: false,
-        curves: vec![Curve {
-            name: Name::Deviation,
-            y: deviations.collect(),
-        }],
-    };
     let points = windows.iter().map(|window| Point {
         periods: window.periods,
         rate: window.rate,
@@ -92,7 +81,22 @@ fn figure(number: u8, axis: &'static str, x: Vec<f64>, windows: &[Samples], wave
         x,
         points: points.collect(),
         runs: None,
-        panels: panels.chain([deviation]).collect(),
+        panels: panels.chain([deviations(windows)]).collect(),
+    }
+}
+
+/// The panel of the windows' own deviations from whole periods.
+fn deviations(windows: &[Samples]) -> Panel {
+    let deviations = windows.iter().map(|window| window.deviation().abs());
+    Panel {
+        letter: 'e',
+        title: "relative deviation of the sampled span from whole periods".into(),
+        axis: "|n/(N·P) − 1|",
+        logarithmic: false,
+        curves: vec![Curve {
+            name: Name::Deviation,
+            y: deviations.collect(),
+        }],
     }
 }
 

@@ -17,21 +17,11 @@ const MAX_APART: f32 = 0.02;
 const MAX_PAIRS: u32 = 1_000_000;
 
 /// A search whose period is accepted once it is found several times in a row.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct PeriodSearch {
     detector: Box<DifferenceDetector<f32>>,
     period: f32,
     alike: u32,
-}
-
-impl Default for PeriodSearch {
-    fn default() -> Self {
-        Self {
-            detector: Box::new(DifferenceDetector::new()),
-            period: 0.0,
-            alike: 0,
-        }
-    }
 }
 
 impl PeriodSearch {

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use antinode::methods::{Moments, Products, algorithm1, algorithm4, functional, phase};
 use antinode_sim::Wave;
 
-use super::{Conclusion, FOUR, Verdict, at};
+use super::{Conclusion, FOUR, Verdict, at, pure};
 use crate::study::RATE;
 use crate::study::figure::{Figure, Name};
 use crate::study::period;
@@ -93,11 +93,8 @@ fn minima(wave: &Wave, periods: u32) -> [Minimum; 2] {
 }
 
 pub fn absolutes(wave: &Wave) -> Conclusion {
-    let pure = Wave {
-        quadrature_amplitude: 0.0,
-        ..*wave
-    };
-    let [all, without] = [wave, &pure].map(|wave| [1, 4, 10].map(|periods| minima(wave, periods)));
+    let [all, without] =
+        [wave, &pure(wave)].map(|wave| [1, 4, 10].map(|periods| minima(wave, periods)));
     let list = |all: &[[Minimum; 2]; 3], get: fn(&Minimum) -> f64, which: usize, places: usize| {
         all.each_ref()
             .map(|minima| format!("{:.places$}", get(&minima[which])))

@@ -115,3 +115,11 @@ fn phases(wave: &Wave) -> impl Iterator<Item = Wave> + use<'_> {
         ..*wave
     })
 }
+
+/// The wave without quadrature.
+fn pure(wave: &Wave) -> Wave {
+    Wave {
+        quadrature_amplitude: 0.0,
+        ..*wave
+    }
+}

@@ -3,7 +3,7 @@
 use antinode::methods::{Moments, Ratio, algorithm1};
 use antinode_sim::Wave;
 
-use super::{Conclusion, Verdict, at, error, phases};
+use super::{Conclusion, Verdict, at, error, phases, pure};
 use crate::study::RATE;
 use crate::study::figure::{Figure, Name};
 use crate::study::samples::Samples;
@@ -15,10 +15,7 @@ pub fn floor(wave: &Wave, first: &Figure) -> Conclusion {
     let place = 3;
     let [a, angle] = ['a', 'c'].map(|letter| at(first, letter, Name::Algorithm1, place));
     let third = at(first, 'a', Name::Algorithm3, place);
-    let pure = Wave {
-        quadrature_amplitude: 0.0,
-        ..*wave
-    };
+    let pure = pure(wave);
     let without = error(
         &Samples::simulate(&pure, 4, RATE, 0.0, 0),
         &pure,

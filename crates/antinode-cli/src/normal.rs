@@ -37,16 +37,10 @@ impl Equations {
     }
 
     /// Adds an equation of a run with a weight: its entries, as places and factors of unknowns, and the value seen.
-    pub fn add_equation(
-        &mut self,
-        run: usize,
-        entries: impl Iterator<Item = (usize, f64)> + Clone,
-        seen: f64,
-        weight: f64,
-    ) {
-        for (i, left) in entries.clone() {
+    pub fn add_equation(&mut self, run: usize, entries: &[(usize, f64)], seen: f64, weight: f64) {
+        for &(i, left) in entries {
             self.add_right(i, weight * left * seen);
-            for (j, right) in entries.clone() {
+            for &(j, right) in entries {
                 self.add(run, [i, j], weight * left * right);
             }
         }

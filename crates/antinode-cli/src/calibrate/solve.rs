@@ -220,8 +220,8 @@ impl Normal {
                     let weight = 1.0 / variance;
                     let columns = (0..shared).chain([first, first + 1]);
                     let entries = row.into_iter().take(shared).chain([1.0, time]);
-                    let entries = columns.zip(entries);
-                    normal.equations.add_equation(index, entries, seen, weight);
+                    let entries: Vec<_> = columns.zip(entries).collect();
+                    normal.equations.add_equation(index, &entries, seen, weight);
                     normal.squares += weight * seen * seen;
                 }
                 normal.omega += moment.omega;

@@ -101,8 +101,8 @@ fn add(
             let mut factors = vec![0.0; begins.len()];
             factors[begin] = 1.0;
             factors.extend(integrals.iter().map(|integral| integral[equation]));
-            let entries = places.iter().copied().zip(factors.iter().copied());
-            equations.add_equation(index, entries, turned[equation], weight);
+            let entries: Vec<_> = places.iter().copied().zip(factors).collect();
+            equations.add_equation(index, &entries, turned[equation], weight);
         }
     }
 }

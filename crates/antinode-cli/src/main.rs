@@ -13,6 +13,7 @@ mod failure;
 mod given_rows;
 mod identify;
 mod interrupt;
+mod median;
 mod methods;
 mod normal;
 mod options;

@@ -2,6 +2,7 @@
 
 use super::moments::Run;
 use super::solve::{Found, PickOffs, solve};
+use crate::median::median;
 use crate::runs::driven::{undriven, unevenness};
 use crate::runs::{self, BEYOND_NOISE};
 
@@ -56,6 +57,5 @@ fn median_unevenness(runs: &[Run], pick_offs: &PickOffs) -> f64 {
     let mut each: Vec<_> = each
         .map(|run| unevenness(&run.energies(pick_offs)))
         .collect();
-    each.sort_by(f64::total_cmp);
-    each.get(each.len() / 2).copied().unwrap_or(f64::INFINITY)
+    median(&mut each).unwrap_or(f64::INFINITY)
 }

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::rows::median;
 use super::values::to_marks;
+use crate::median::median;
 
 /// Widening of a range on either side, at most, in units of its span, by values that it need not hold and by deviations.
 const MAX_WIDENING: f64 = 0.5;

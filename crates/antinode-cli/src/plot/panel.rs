@@ -7,7 +7,8 @@ use super::axis::{Axis, Scale};
 use super::extent::{Extent, Measured};
 use super::numbers::{decimals, drawable, factor, frequency_unit};
 use super::reduce::{Piece, Sample, column, reduce};
-use super::rows::{COLUMNS, Row, Trace, Trust, median};
+use super::rows::{COLUMNS, Row, Trace, Trust};
+use crate::median::median;
 
 /// Titles of the panels, in the order of [`COLUMNS`].
 const TITLES: [&str; COLUMNS.len()] = [

@@ -10,6 +10,7 @@ use csv::StringRecord;
 use super::numbers::drawable;
 use crate::failure::Failure;
 use crate::given_rows::recording_of;
+use crate::median::median;
 use crate::row_file::{self, RowFile, number};
 
 /// Quantities that are drawn: their columns, and those of their deviations.
@@ -187,12 +188,6 @@ pub fn retain(traces: &mut Vec<Trace>, times: &Range<f64>) {
         trace.rows.retain(|row| times.contains(&row.time));
     }
     traces.retain(|trace| !trace.rows.is_empty());
-}
-
-/// The median of finite numbers; `None` without numbers.
-pub fn median(numbers: &mut [f64]) -> Option<f64> {
-    let middle = numbers.len() / 2;
-    (!numbers.is_empty()).then(|| *numbers.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ mod late;
 use super::error::TimeFault;
 use super::printed::Printed;
 use crate::digits::significant;
+use crate::median::median;
 
 /// Largest deviation of a step from whole samples, in samples.
 const STEP_TOLERANCE: f64 = 0.01;
@@ -79,9 +80,7 @@ impl TimeAxis {
     pub fn of(first: &[f64], printed: Printed) -> Option<Self> {
         let [start, .., end] = first else { return None };
         let steps: Vec<f64> = first.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let (_, &mut median, _) = steps
-            .clone()
-            .select_nth_unstable_by(steps.len() / 2, f64::total_cmp);
+        let median = median(&mut steps.clone())?;
         if median <= 0.0 {
             return None;
         }

@@ -99,23 +99,22 @@ impl Delimited {
         let mut broken = self.rows.mostly_garbled();
         self.axis = TimeAxis::of(&times, self.rows.printed);
         self.start = times.first().copied().unwrap_or(0.0);
-        let uneven = match &self.axis {
-            _ if are_paired(&times) => Some((
-                0,
-                self.rows
-                    .header
-                    .time_fault_in(places[0].0, TimeFault::Paired),
-            )),
-            Some(_) => (1..times.len()).find_map(|pair| {
+        let without_rate = if are_paired(&times) {
+            Some((0, TimeFault::Paired))
+        } else if self.axis.is_none() {
+            standstill(&times, self.rows.printed)
+        } else {
+            None
+        };
+        let uneven = match without_rate {
+            Some((pair, fault)) => {
+                let fault = self.rows.header.time_fault_in(places[pair].0, fault);
+                Some((pair as u64, fault))
+            }
+            None => (1..times.len()).find_map(|pair| {
                 let (line, left_out) = places[pair];
                 let fault = self.check(pair as u64, line, times[pair], left_out).err()?;
                 Some((pair as u64, fault))
-            }),
-            None => standstill(&times, self.rows.printed).map(|(pair, fault)| {
-                (
-                    pair as u64,
-                    self.rows.header.time_fault_in(places[pair].0, fault),
-                )
             }),
         };
         if let Some((pair, fault)) = uneven

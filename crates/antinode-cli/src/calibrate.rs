@@ -16,7 +16,7 @@ use crate::given_rows::GivenRows;
 use crate::options::Corrected;
 use crate::runs::{BEYOND_NOISE, Runs, driven};
 use crate::serialized;
-use solve::{Found, PickOffs, solve};
+use solve::{Found, MIN_TURN_BACK, PickOffs, solve};
 use undriven::{moments, without_driven};
 
 /// Deviations below which a flaw is not significant.
@@ -178,8 +178,9 @@ fn write_report(
     if !found.knows_splits {
         writeln!(
             out,
-            "warning: the pattern turns only one way, and a resonator's splits of damping and frequency then look like flaws of the \
-             pick-offs; let it turn the other way in a second recording, and give the rows of both"
+            "warning: the pattern turns only one way, or the other by less than {:.1}°, and a resonator's splits of damping and frequency \
+             then look like flaws of the pick-offs; let it turn the other way in a second recording, and give the rows of both",
+            MIN_TURN_BACK.to_degrees()
         )?;
     }
     if found.residual > BEYOND_NOISE {

@@ -7,7 +7,7 @@
 //! A resonator whose damping or frequency differs along two axes has a similar effect, but by the integrals of R/E and S/E over time, which
 //! change sign with the direction of turning: turned both ways, the two are distinguishable.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 
 use nalgebra::Complex;
 
@@ -24,6 +24,8 @@ const SPLITS: usize = 4;
 const OWN: usize = 4;
 /// Turn that is needed, at least, rad: 4θ goes around once.
 const MIN_TURN: f64 = FRAC_PI_2;
+/// Turn the other way, at least, rad, with which splits are distinguishable from flaws: a quarter turn of 4θ.
+pub const MIN_TURN_BACK: f64 = FRAC_PI_8;
 /// Steps, at most; four are enough if the pick-offs are nearly ideal.
 const STEPS: usize = 50;
 /// Length of a step, at most, in ln g and rad: the way from an ideal pick-off to one with a tenth of its gain is not straight.
@@ -135,11 +137,11 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
     let turned = runs.iter().fold([0f64; 2], |[back, forth], run| {
         [back.min(run.turns[0]), forth.max(run.turns[1])]
     });
-    let [back, forth] = turned.map(|turned| turned.abs() >= MIN_TURN);
-    if !back && !forth {
-        return Err(Fault::Still(turned[1].max(-turned[0])));
+    let [back, forth] = turned.map(f64::abs);
+    if back.max(forth) < MIN_TURN {
+        return Err(Fault::Still(back.max(forth)));
     }
-    let knows_splits = back && forth;
+    let knows_splits = back.min(forth) >= MIN_TURN_BACK;
     let rows: usize = runs.iter().map(|run| run.moments.len()).sum();
     let mut pick_offs = start;
     for _ in 0..STEPS {

@@ -105,11 +105,14 @@ fn turning_both_ways_distinguishes_splits_from_flaws() {
         angle: -0.01,
     };
     let one_way = run(&SPLIT, 0.25, &truth, 0.0, 1);
-    let other_way = run(&SPLIT, -0.2, &truth, 0.0, 1);
-    let found = solve(&[one_way.clone(), other_way], PickOffs::IDEAL).unwrap();
-    assert!(found.knows_splits);
-    for error in errors(&found.pick_offs, &truth) {
-        assert!(error.abs() < 2e-5, "{found:?}");
+    // The other way by 115° and by 26°.
+    for kappa in [-0.2, -0.045] {
+        let other_way = run(&SPLIT, kappa, &truth, 0.0, 1);
+        let found = solve(&[one_way.clone(), other_way], PickOffs::IDEAL).unwrap();
+        assert!(found.knows_splits);
+        for error in errors(&found.pick_offs, &truth) {
+            assert!(error.abs() < 2e-5, "{kappa}: {found:?}");
+        }
     }
     let found = solve(&[one_way], PickOffs::IDEAL).unwrap();
     assert!(!found.knows_splits);

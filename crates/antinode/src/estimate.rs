@@ -14,20 +14,22 @@ impl Flags {
     /// No significant wave: the other numbers mean nothing.
     pub const LOST: Self = Self(1 << 1);
     /// The phase does not continue from the last window without [`MISFIT`](Self::MISFIT): samples are missing between the two windows or
-    /// within one.
+    /// within one. Half of the jumps that exceed 0.02 rad by 20 of the deviations stated are flagged, and all that exceed it by 30; within a
+    /// window, where [`MISFIT`](Self::MISFIT) may stand instead, these limits are 50 and 70.
     pub const PHASE_JUMP: Self = Self(1 << 2);
     /// Amplitude, angle or offset stepped between the window before and this one. Half of the steps that exceed 0.2 % of a_A or 2 mrad by
-    /// 20 of the deviations stated are flagged, and all that exceed it by 30. In the middle of a window, where [`MISFIT`](Self::MISFIT) may
-    /// stand instead, these limits are 25 and 45 deviations for an amplitude, and 60 and 85 for the angle, where a step looks like a turn.
-    /// An offset that goes on moving as it did over the windows before wanders, and does not step.
+    /// 20 of the deviations stated are flagged, and all that exceed it by 30, or by 36 and 54 if a hop leaves a gap as long as a window,
+    /// and more in proportion if it is longer. In the middle of a window, where [`MISFIT`](Self::MISFIT) may stand instead, these limits are
+    /// 25 and 45 deviations for an amplitude, and 60 and 85 for the angle, where a step looks like a turn. An offset that goes on moving as
+    /// it did over the windows before wanders, and does not step.
     pub const STEP: Self = Self(1 << 3);
     /// |a_B| ≈ a_A: the pattern is circular, and the angle has no meaning.
     pub const CIRCULAR: Self = Self(1 << 4);
     /// The samples are not one wave with steady rates plus noise: a step, a dropout, a second tone within the window.
     pub const MISFIT: Self = Self(1 << 5);
     /// One pick-off gave one and the same value for the whole window, or lost its wave while the other kept it. Half of such losses are
-    /// flagged if the wave lost was 25 deviations of an amplitude, and all if it was 35. After a new search a dead pick-off looks like a
-    /// pattern on the other's axis, and is not flagged.
+    /// flagged if the wave lost exceeds 0.4 % of a_A by 20 deviations of an amplitude between windows, or by 30 within one, and all if it
+    /// does by 30 or 55. After a new search a dead pick-off looks like a pattern on the other's axis, and is not flagged.
     pub const DEAD_CHANNEL: Self = Self(1 << 6);
     /// First window after the wave was lost, or after a gap or misfits in which the pattern may have turned by a quarter turn more or less:
     /// the angle is known modulo π/2 only. Also the first window after a change of calibration or settings, unless it is the first of all,

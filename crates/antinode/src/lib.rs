@@ -143,6 +143,9 @@
 //!   which matters in noise of 2·10⁻⁴ of a_A and less, or 5·10⁻⁴ at 150 samples a period: a_A and a_B are then off by up to 6 of their
 //!   deviations, 2 to 3 rms, with no flag. If the pattern turns by more than about 0.6 rad, amplitudes are some per cent off; windows of
 //!   more than ten periods flag this as a misfit, shorter ones may not.
+//! - If pick-offs differ in gain, and so in noise after calibration, deviations are those of a pattern at rest. Over all angles they hold,
+//!   but at the worst angle a pattern that turns by 0.1, 0.25 and 0.5 rad within a window has errors of up to 1.3, 1.9 and 2.7 of its
+//!   deviations at a gain ratio of 10 or 0.1, and of up to 1.3 at 0.5 rad and a ratio of 2 or 0.5.
 //! - A frequency that drifts or depends on the amplitude bends the phase within a window; splits of damping and frequency bend amplitudes
 //!   and θ too. If this is well above both the noise (2 Hz/s in a window of 60 ms, say) and 2·10⁻⁴ of a_A, it is flagged as a misfit. If
 //!   not, nothing is flagged, and values are off by up to 6 of their deviations in windows of 10 periods, and by up to 30 in those of 100

@@ -2,7 +2,7 @@
 
 use antinode::{Flags, Identifier, Settings, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::score::errors;
+use host_tests::score::{errors, stated};
 use host_tests::{Core, RATE, calibrated, gyro, identify, stream, windows};
 
 /// True if the core accepts windows of ten periods with this change.
@@ -203,4 +203,71 @@ fn a_row_that_is_not_lost_states_a_frequency_and_deviations() {
         }
     }
     assert!(rows > 100, "{rows}");
+}
+
+/// The largest ratio, over angles, of rms errors of a_A, a_B and θ to their deviations, and the rms over all angles, for a pattern that
+/// turns by `turn` in a window of ten periods.
+fn of_turning(gain_ratio: f64, turn: f64) -> [f64; 2] {
+    let angle_rate = turn * RATE / 190.0;
+    let (mut worst, mut all, mut count) = (0f64, 0.0, 0.0);
+    for place in 0..16 {
+        let (mut squares, mut rows) = ([0.0; 3], 0.0);
+        for seed in 0..150 {
+            // The second window, of 190 pairs, has this angle at its middle.
+            let middle = std::f64::consts::FRAC_PI_2 * f64::from(place) / 16.0;
+            let wave = Wave {
+                main_amplitude: 1.0,
+                quadrature_amplitude: 0.1,
+                angle: middle - angle_rate * 284.5 / RATE,
+                phase: 0.1 * seed as f64,
+                angle_rate,
+                ..Wave::default()
+            };
+            let flaws = Flaws {
+                noise: 5e-3 * gain_ratio.min(1.0),
+                gain_ratio,
+                ..Flaws::default()
+            };
+            let settings = Settings {
+                frequency: Some(5332.0),
+                ..calibrated(&flaws, 10)
+            };
+            let estimate = identify(wave, &flaws, settings, 400, seed)[1];
+            assert_eq!((estimate.start, estimate.samples), (190, 190));
+            let stds = stated(&estimate);
+            rows += 1.0;
+            for (i, square) in squares.iter_mut().enumerate() {
+                let ratio = errors(&estimate, &wave)[i] / stds[i];
+                *square += ratio * ratio;
+                all += ratio * ratio;
+                count += 1.0;
+            }
+        }
+        worst = squares
+            .into_iter()
+            .fold(worst, |w, s| w.max((s / rows).sqrt()));
+    }
+    [worst, f64::sqrt(all / count)]
+}
+
+#[test]
+fn turning_patterns_behind_unequal_gains_exceed_their_deviations_as_documented() {
+    for (gain_ratio, turn, most) in [
+        (10.0, 0.1, 1.3),
+        (10.0, 0.25, 1.9),
+        (10.0, 0.5, 2.7),
+        (0.1, 0.5, 2.7),
+        (2.0, 0.5, 1.3),
+        (0.5, 0.5, 1.3),
+    ] {
+        let [worst, all] = of_turning(gain_ratio, turn);
+        println!(
+            "gain ratio {gain_ratio}, {turn} rad: {worst:.2} at the worst angle, {all:.2} over all"
+        );
+        // The largest of 48 ratios scatters.
+        assert!(
+            (0.9 * most..1.1 * most).contains(&worst) && all < 1.15,
+            "{gain_ratio}, {turn} rad: {worst} {all}"
+        );
+    }
 }

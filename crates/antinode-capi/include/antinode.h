@@ -96,9 +96,9 @@
 // The samples are not one wave with steady rates plus noise: there is a step, a dropout or a second tone within the window.
 #define ANTINODE_FLAG_MISFIT 32u
 
-// A pick-off gave a constant value, or lost its wave while the other kept it. Half of such losses are flagged if the lost wave was 25
-// standard deviations of an amplitude, and all if it was 35. After a new search a dead pick-off looks like a pattern on the other
-// pick-off's axis, and is not flagged.
+// A pick-off gave a constant value, or lost its wave while the other kept it. Half of such losses are flagged if the lost wave
+// exceeded 0.4 % of the main amplitude by 20 standard deviations of an amplitude between windows, or by 30 within one, and all if by 30
+// or 55. After a new search a dead pick-off looks like a pattern on the other pick-off's axis, and is not flagged.
 #define ANTINODE_FLAG_DEAD_CHANNEL 64u
 
 // The angle is known modulo pi/2 only: set on the first window after the wave was lost, or after a gap or misfits in which the pattern may

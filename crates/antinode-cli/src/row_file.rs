@@ -10,11 +10,10 @@ use antinode::Flags;
 use csv::{ErrorKind, Reader, ReaderBuilder, StringRecord};
 
 use crate::failure::Failure;
-use crate::recording::{in_utf8, open_file};
+use crate::recording::{STANDARD_INPUT, in_utf8, open_file};
 use crate::rows::MAIN_AMPLITUDE;
 use lines::{Lines, is_skipped};
 
-const STANDARD_INPUT: &str = "standard input";
 /// Longest header of rows, bytes.
 const MAX_HEADER: u64 = 1 << 16;
 /// Most lines above the heading of a table.

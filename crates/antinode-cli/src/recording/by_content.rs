@@ -1,14 +1,12 @@
 //! The choice of a reader for a stream: by its content, or else by its extension and the options.
 
-use std::rc::Rc;
-
 use super::columns::Columns;
 use super::content::Content;
 use super::error::Fault;
-use super::foreign::{Foreign, MAT};
+use super::foreign::MAT;
 use super::raw;
 use super::sample::Kind;
-use super::source::{Counted, Known, Opened, Stream, in_utf8};
+use super::source::{Known, Opened, Stream, in_utf8};
 use super::{delimited, npy, wav};
 
 /// What the user tells of a recording beside its content.
@@ -25,12 +23,7 @@ pub struct OpenOptions {
 }
 
 /// Opens a stream by its content, or else by what is known about it otherwise.
-pub(super) fn open(
-    name: &str,
-    stream: Stream,
-    known: Known,
-    options: &OpenOptions,
-) -> Result<Opened, Fault> {
+pub(super) fn open(stream: Stream, known: Known, options: &OpenOptions) -> Result<Opened, Fault> {
     let length = known.length;
     let is_named_text = matches!(known.extension.as_str(), "csv" | "tsv" | "txt" | "lvm");
     let mut is_text = options.raw.is_none() && (is_named_text || options.columns.is_some());
@@ -39,21 +32,15 @@ pub(super) fn open(
     let (mut content, mut stream) = Content::look(stream, try_text)?;
     // Raw samples may happen to begin as UTF-16 does.
     if content == Content::Utf16 && (is_named_text || options.raw.is_none()) {
-        let count = Rc::clone(&known.encoded);
-        let decoded = in_utf8(Counted { stream, count })?;
-        (content, stream) = Content::look(Box::new(decoded), try_text)?;
+        (content, stream) = Content::look(Box::new(in_utf8(stream)?), try_text)?;
         // Once decoded, they can no longer be read as raw samples.
         is_text |= is_named_text;
     }
-    let foreign = |found: &Foreign| Fault::Foreign {
-        kind: found.kind,
-        remedy: found.remedy(known.is_named.then_some(name)),
-    };
     match (content, known.extension.as_str(), options.raw) {
         (Content::Nothing, ..) => Err(Fault::Empty),
-        (Content::Wav, ..) => wav::open(name, stream, length, options),
+        (Content::Wav, ..) => wav::open(stream, length, options),
         (Content::Npy, ..) => npy::open(stream, known, options.columns.as_ref()),
-        (Content::Foreign(found), _, None) => Err(foreign(found)),
+        (Content::Foreign(found), _, None) => Err(Fault::Foreign(found)),
         (_, "wav" | "wave", None) => Err(Fault::NotOfKind { kind: "a WAV file" }),
         (_, "npy", None) => Err(Fault::NotOfKind {
             kind: "an NPY file",
@@ -62,7 +49,7 @@ pub(super) fn open(
             delimited::open(stream, options, length.is_none())
         }
         (_, _, Some(format)) => raw::open(stream, format, options, length),
-        (_, "mat", None) => Err(foreign(&MAT)),
+        (_, "mat", None) => Err(Fault::Foreign(&MAT)),
         _ if known.is_named => Err(Fault::Unknown),
         _ => Err(Fault::RawFormatNeeded),
     }

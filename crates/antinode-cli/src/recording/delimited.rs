@@ -228,10 +228,6 @@ impl Source for Delimited {
         Ok(())
     }
 
-    fn bytes_read(&self) -> u64 {
-        self.rows.lines.bytes_read()
-    }
-
     fn ahead(&self) -> &[[f32; 2]] {
         self.ahead.as_slice()
     }

@@ -1,11 +1,15 @@
-//! Errors of recordings, each worded as `FILE: place: what is wrong; remedy`.
+//! Errors of recordings, each worded as `FILE: place: what is wrong; remedy`. Commands in them have `FILE` for the file's name.
 
 mod line;
 
 use std::fmt;
 use std::io;
 
+use super::foreign::Foreign;
 pub use line::{LineFault, Place, Role, TimeFault};
+
+/// The name of standard input in messages.
+pub const STANDARD_INPUT: &str = "standard input";
 
 /// One of the two pick-off signals of a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,15 +26,6 @@ impl fmt::Display for Channel {
             Self::C => "S_C (left)",
             Self::D => "S_D (right)",
         })
-    }
-}
-
-/// A file's name as an argument of a command that a message gives: a shell needs quotes around one with blanks.
-pub(super) fn argument(name: &str) -> String {
-    if name.contains(' ') {
-        format!("\"{name}\"")
-    } else {
-        name.to_owned()
     }
 }
 
@@ -57,11 +52,24 @@ impl InputError {
 impl fmt::Display for InputError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { file, fault } = self;
-        match fault.place() {
-            Some(place) => write!(formatter, "{file}:{place}: {fault}"),
-            None => write!(formatter, "{file}: {fault}"),
+        write!(formatter, "{file}:")?;
+        if let Some(place) = fault.place() {
+            write!(formatter, "{place}:")?;
         }
+        write!(formatter, " {}", with_name(fault.to_string(), file))
     }
+}
+
+/// A message whose commands name this file, unless it is standard input.
+fn with_name(message: String, file: &str) -> String {
+    if file == STANDARD_INPUT {
+        return message;
+    }
+    // A shell needs quotes around a name with blanks; within quotes it stands as it is.
+    let quote = if file.contains(' ') { "\"" } else { "" };
+    message
+        .replace("'FILE'", &format!("'{file}'"))
+        .replace(" FILE ", &format!(" {quote}{file}{quote} "))
 }
 
 /// What is wrong with a recording.
@@ -92,8 +100,8 @@ pub enum Fault {
     )]
     Unknown,
     /// The content is of a known format that is not read.
-    #[error("this is {kind}, which is not read; {remedy}")]
-    Foreign { kind: &'static str, remedy: String },
+    #[error("this is {}, which is not read; {}", .0.kind, .0.remedy)]
+    Foreign(&'static Foreign),
     /// The content is not what the extension promises.
     #[error(
         "this is not {kind}, although its extension says so; export it again, correct the extension, or for raw samples give \
@@ -134,10 +142,9 @@ pub enum Fault {
     /// More samples follow than the header promises.
     #[error(
         "the WAV header promises {promised} sample pairs, but more follow, which are not read: the header was never completed, or \
-         cannot hold so large a number; correct it, for example with `sox --ignore-length {} whole.wav`",
-        argument(file)
+         cannot hold so large a number; correct it, for example with `sox --ignore-length FILE whole.wav`"
     )]
-    MoreData { file: String, promised: u64 },
+    MoreData { promised: u64 },
     /// Several WAV files joined byte by byte.
     #[error(
         "after {found} sample pairs another WAV file begins, which is not read; WAV files cannot be joined by `cat`, but by \

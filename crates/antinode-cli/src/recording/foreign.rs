@@ -1,7 +1,6 @@
 //! Formats that are recognised by their first bytes but not read, each with the way to convert it.
 
 use super::content::has_control;
-use super::error::argument;
 
 /// A format that is recognised but not read.
 #[derive(Debug, PartialEq, Eq)]
@@ -12,7 +11,7 @@ pub(super) struct Foreign {
     /// The format in words, as after "this is".
     pub kind: &'static str,
     /// What to do, with `FILE` for its name.
-    remedy: &'static str,
+    pub remedy: &'static str,
 }
 
 /// Number of first bytes that identifies most of these formats.
@@ -44,7 +43,7 @@ const SHEET: &str = "save its sheet as CSV";
 const UNZIP: &str = "if it holds only one recording, `unzip -p FILE | antinode identify -`; otherwise unpack it first";
 
 /// MATLAB files of level 4, which have no mark: they are recognised by their extension alone.
-pub(super) const MAT: Foreign = of(b"", 0, "a MATLAB file", MATLAB);
+pub(super) static MAT: Foreign = of(b"", 0, "a MATLAB file", MATLAB);
 const ARRAYS: Foreign = of(ZIP, 0, "an NPZ archive of NumPy", NPZ);
 const WORKBOOK: Foreign = of(ZIP, 0, "a spreadsheet", SHEET);
 const ARCHIVE: Foreign = of(ZIP, 0, "a ZIP archive", UNZIP);
@@ -156,15 +155,6 @@ impl Foreign {
                 .is_some_and(|head| head.starts_with(known.mark));
             begins && !(is_text && known.mark.len() <= MAX_TEXT_LIKE)
         })
-    }
-
-    /// What to do with a file of this name.
-    pub fn remedy(&self, name: Option<&str>) -> String {
-        // Within quotes the name stands as it is.
-        let name = name.unwrap_or("FILE");
-        self.remedy
-            .replace("'FILE'", &format!("'{name}'"))
-            .replace(" FILE ", &format!(" {} ", argument(name)))
     }
 }
 

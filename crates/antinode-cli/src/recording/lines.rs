@@ -28,7 +28,6 @@ pub(super) struct Lines {
     /// Whether numbers are in quotes, with decimal commas.
     is_quoted: bool,
     number: u64,
-    bytes_read: u64,
     /// True if the line last read is to be read again.
     again: bool,
 }
@@ -37,7 +36,7 @@ impl Lines {
     /// Opens text, and gives its first lines beside the reader.
     pub fn open(stream: Stream) -> Result<(Self, Beginning), Fault> {
         let mut stream = BufReader::with_capacity(MAX_LINE, LineEnds::new(stream));
-        let (mut begun, line, before) = text::first_line(&mut stream)?;
+        let (mut begun, line) = text::first_line(&mut stream)?;
         // Reading these lines ahead delays no row of a pipe: each row needs at least as many lines.
         let mut is_quoted = false;
         let mut start = loop {
@@ -72,7 +71,6 @@ impl Lines {
             line: Vec::new(),
             is_quoted,
             number: line - 1 + beginning.start.lines as u64,
-            bytes_read: before + beginning.start.bytes as u64,
             again: false,
         };
         Ok((lines, beginning))
@@ -81,11 +79,6 @@ impl Lines {
     /// The number of the line last read.
     pub fn number(&self) -> u64 {
         self.number
-    }
-
-    /// The bytes read so far.
-    pub fn bytes_read(&self) -> u64 {
-        self.bytes_read
     }
 
     /// True when no whole line is left of what has come.
@@ -113,7 +106,6 @@ impl Lines {
                 return Ok(false);
             }
             self.number += 1;
-            self.bytes_read += read as u64;
             if read == MAX_LINE {
                 let fault = LineFault::LineTooLong { limit: MAX_LINE };
                 return Err(Fault::line(self.number, fault));

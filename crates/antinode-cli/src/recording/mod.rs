@@ -42,11 +42,11 @@ pub use by_content::OpenOptions;
 use codes::Lowest;
 pub use columns::Columns;
 use error::Fault;
-pub use error::{Channel, InputError};
+pub use error::{Channel, InputError, STANDARD_INPUT};
 pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use sample::Kind;
-use source::{Known, Opened, Source, Stream};
+use source::{Counted, Known, Opened, Source, Stream};
 pub use source::{in_utf8, open_file};
 pub use write::{OutputError, RecordingWriter, SampleFormat, WholeFile};
 
@@ -60,8 +60,7 @@ const MIN_UNIT: f32 = 1.0 / 2_147_483_648.0;
 pub struct Recording {
     name: String,
     bytes_total: Option<u64>,
-    /// Bytes read of a UTF-16 text, counted before decoding.
-    encoded: Rc<Cell<u64>>,
+    bytes_read: Rc<Cell<u64>>,
     opened: Opened,
     /// Pairs read ahead to find the resolution, not yet delivered.
     head: std::vec::IntoIter<[f32; 2]>,
@@ -95,13 +94,13 @@ impl Recording {
             extension: extension.unwrap_or_default(),
             length,
             again,
-            encoded: Rc::default(),
+            read: Rc::default(),
         };
         Self::of_stream(name, Box::new(file), known, options)
     }
 
     fn standard_input(options: &OpenOptions) -> Result<Self, InputError> {
-        let name = "standard input".to_owned();
+        let name = STANDARD_INPUT.to_owned();
         let stdin = io::stdin();
         let is_described = options.raw.is_some() || options.columns.is_some();
         if !is_described && stdin.is_terminal() {
@@ -116,10 +115,12 @@ impl Recording {
         known: Known,
         options: &OpenOptions,
     ) -> Result<Self, InputError> {
-        let (length, encoded) = (known.length, Rc::clone(&known.encoded));
-        match by_content::open(&name, stream, known, options) {
+        let (length, bytes_read) = (known.length, Rc::clone(&known.read));
+        let count = Rc::clone(&known.read);
+        let stream = Box::new(Counted { stream, count });
+        match by_content::open(stream, known, options) {
             Ok(opened) => Ok(Self {
-                encoded,
+                bytes_read,
                 ..Self::new(name, opened, length)
             }),
             Err(fault) => Err(InputError::new(&name, fault)),
@@ -144,7 +145,7 @@ impl Recording {
         Self {
             name,
             bytes_total,
-            encoded: Rc::default(),
+            bytes_read: Rc::default(),
             opened,
             head: head.into_iter(),
             step,
@@ -198,10 +199,7 @@ impl Recording {
 
     /// The bytes read so far.
     pub fn bytes_read(&self) -> u64 {
-        // A text file without a last end of line is read as if it had one.
-        let most = self.bytes_total.unwrap_or(u64::MAX);
-        let read = self.opened.source.bytes_read();
-        read.max(self.encoded.get()).min(most)
+        self.bytes_read.get()
     }
 
     /// The magnitude from which an integer sample is at its rail, 32767/32768 for 16 bits, 2047/2048 where only the upper 12 are in use;

@@ -1,7 +1,9 @@
 //! NPY files, as `numpy.save` writes them: (N, 2) or (2, N) numbers.
 
+use std::cell::Cell;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
+use std::rc::Rc;
 
 use npyz::{DType, Endianness, NpyHeader, Order, TypeChar};
 
@@ -25,7 +27,12 @@ const PLANE_PAIRS: usize = 1 << 14;
 /// Opens an NPY file; `columns` are the channels asked for.
 pub(super) fn open(
     mut stream: Stream,
-    Known { again, length, .. }: Known,
+    Known {
+        again,
+        length,
+        read: count,
+        ..
+    }: Known,
     columns: Option<&Columns>,
 ) -> Result<Opened, Fault> {
     let text = header_text(&mut stream)?;
@@ -44,7 +51,7 @@ pub(super) fn open(
     let bytes = pairs.checked_mul(channels * size).ok_or_else(damaged)?;
     let available = length.map_or(bytes, |length| bytes.min(length.saturating_sub(start)));
     let (source, there): (Box<dyn Source>, u64) = if is_interleaved {
-        let source = Interleaved::new(stream, code, frame, start, length.is_none());
+        let source = Interleaved::new(stream, code, frame, length.is_none());
         (
             Box::new(source.promise(bytes)),
             available / (channels * size),
@@ -60,6 +67,7 @@ pub(super) fn open(
             promised: pairs,
             there,
             read: 0,
+            count,
             chunks: [Vec::new(), Vec::new(), Vec::new()],
         };
         (Box::new(planes), there)
@@ -179,6 +187,8 @@ struct Planes {
     /// The number of pairs of which both samples are there.
     there: u64,
     read: u64,
+    /// The bytes read.
+    count: Rc<Cell<u64>>,
     /// S_C, S_D, and both interleaved.
     chunks: [Vec<u8>; 3],
 }
@@ -191,6 +201,7 @@ impl Planes {
             self.stream
                 .seek(SeekFrom::Start(start + self.read * size as u64))?;
             self.stream.read_exact(chunk)?;
+            self.count.set(self.count.get() + chunk.len() as u64);
         }
         let [c, d, both] = &mut self.chunks;
         both.clear();
@@ -229,10 +240,6 @@ impl Source for Planes {
             self.read += count as u64;
         }
         Ok(())
-    }
-
-    fn bytes_read(&self) -> u64 {
-        self.starts[0] + self.read * self.code.pair_bytes() as u64
     }
 }
 

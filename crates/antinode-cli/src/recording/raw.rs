@@ -24,15 +24,13 @@ pub(super) struct Interleaved {
     promised: Option<u64>,
     /// The bytes of data not yet read, if the header promises their number.
     left: Option<u64>,
-    /// The bytes read, the header included.
-    consumed: u64,
     pairs: u64,
     chunk: Vec<u8>,
     /// The bytes of an incomplete pair, at the front of `chunk`.
     begun: usize,
     live: bool,
-    /// The name of a WAV file, in which only other chunks may follow the promised data.
-    wav: Option<String>,
+    /// Whether it is to be checked that only other chunks of a WAV file follow the promised data.
+    is_wav: bool,
 }
 
 /// Opens samples without a header, of as many channels as the options say.
@@ -43,7 +41,7 @@ pub(super) fn open(
     length: Option<u64>,
 ) -> Result<Opened, Fault> {
     let code = SampleCode::new(kind);
-    let source = Interleaved::new(stream, code, frame(options)?, 0, length.is_none());
+    let source = Interleaved::new(stream, code, frame(options)?, length.is_none());
     let frame_bytes = source.frame_bytes() as u64;
     let pairs = length.map(|length| length / frame_bytes);
     Ok(Opened::of_samples("raw", code, Box::new(source), pairs))
@@ -64,9 +62,8 @@ fn frame(options: &OpenOptions) -> Result<Frame, Fault> {
 }
 
 impl Interleaved {
-    /// Samples to the end of `stream`, of which `consumed` bytes of header are read already; if it is `live`, what is there is delivered
-    /// instead of waiting for more.
-    pub fn new(stream: Stream, code: SampleCode, frame: Frame, consumed: u64, live: bool) -> Self {
+    /// Samples to the end of `stream`; if it is `live`, what is there is delivered instead of waiting for more.
+    pub fn new(stream: Stream, code: SampleCode, frame: Frame, live: bool) -> Self {
         Self {
             stream,
             code,
@@ -74,19 +71,20 @@ impl Interleaved {
             picked: Vec::new(),
             promised: None,
             left: None,
-            consumed,
             pairs: 0,
             chunk: vec![0; CHUNK_BYTES],
             begun: 0,
             live,
-            wav: None,
+            is_wav: false,
         }
     }
 
-    /// The same, with only other chunks of this WAV file to follow the promised data.
-    pub fn of_wav(self, file: &str) -> Self {
-        let wav = Some(file.to_owned());
-        Self { wav, ..self }
+    /// The same, with only other chunks of a WAV file to follow the promised data.
+    pub fn of_wav(self) -> Self {
+        Self {
+            is_wav: true,
+            ..self
+        }
     }
 
     /// The bytes of one pair and of the other channels that were sampled with it.
@@ -124,7 +122,9 @@ impl Interleaved {
     /// It looks only once: what follows the name of a chunk may be anything.
     fn behind(&mut self) -> Option<Fault> {
         let is_to_come = self.left != Some(0) || self.live;
-        let file = self.wav.take().filter(|_| !is_to_come)?;
+        if !std::mem::take(&mut self.is_wav) || is_to_come {
+            return None;
+        }
         let mut header = [0; CHUNK_HEADER];
         self.stream.read_exact(&mut header).ok()?;
         match &header[..4] {
@@ -138,7 +138,6 @@ impl Interleaved {
                 None
             }
             _ => Some(Fault::MoreData {
-                file,
                 promised: self.promised?,
             }),
         }
@@ -168,7 +167,6 @@ impl Source for Interleaved {
             if read == 0 {
                 return self.end();
             }
-            self.consumed += read as u64;
             self.left = self.left.map(|left| left - read as u64);
             let there = self.begun + read;
             let whole = there - there % self.frame_bytes();
@@ -189,10 +187,6 @@ impl Source for Interleaved {
             }
         }
         Ok(())
-    }
-
-    fn bytes_read(&self) -> u64 {
-        self.consumed
     }
 }
 

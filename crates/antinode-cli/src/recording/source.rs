@@ -78,9 +78,6 @@ pub(super) trait Source {
     /// Appends pairs until there are `capacity`, fewer from a live stream, none at the end. Good pairs come before an error.
     fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault>;
 
-    /// The bytes read so far, the header included.
-    fn bytes_read(&self) -> u64;
-
     /// Pairs that are read ahead and not yet delivered.
     fn ahead(&self) -> &[[f32; 2]] {
         &[]
@@ -124,8 +121,8 @@ pub(super) struct Known {
     pub length: Option<u64>,
     /// A second handle of a file, to seek in.
     pub again: Option<File>,
-    /// The bytes read so far of a UTF-16 text, before decoding; its reader counts those after.
-    pub encoded: Rc<Cell<u64>>,
+    /// The bytes read so far, which a reader that seeks counts itself.
+    pub read: Rc<Cell<u64>>,
 }
 
 /// A source, and what its header tells.

@@ -287,9 +287,9 @@ fn a_stream_needs_a_format_unless_it_is_a_file() {
             ..OpenOptions::default()
         };
         let stream = Box::new(Cursor::new(bytes.to_vec()));
-        by_content::open("standard input", stream, Known::default(), &options)
+        by_content::open(stream, Known::default(), &options)
             .map(|opened| opened.integers)
-            .map_err(|fault| InputError::new("standard input", fault))
+            .map_err(|fault| InputError::new(STANDARD_INPUT, fault))
     };
     assert!(open(b"abcd", Some(Kind::F32)).is_ok());
     let fault = |bytes, raw| message(open(bytes, raw).err());

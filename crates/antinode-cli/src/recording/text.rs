@@ -77,13 +77,12 @@ impl Read for LineEnds {
     }
 }
 
-/// The first line that is neither blank nor a comment, perhaps with the next, its number, and the bytes before it. If the line above
+/// The first line that is neither blank nor a comment, perhaps with the next, and its number. If the line above
 /// holds names that begin with `#` for a count of lines, these come first, with `n` in place of `#`.
-pub(super) fn first_line(stream: &mut impl BufRead) -> Result<(Vec<u8>, u64, u64), Fault> {
-    let (mut line, mut number, mut before) = (Vec::new(), 0, 0);
+pub(super) fn first_line(stream: &mut impl BufRead) -> Result<(Vec<u8>, u64), Fault> {
+    let (mut line, mut number) = (Vec::new(), 0);
     let mut counted = None;
     loop {
-        before += line.len() as u64;
         number += 1;
         line.clear();
         let read = stream
@@ -99,28 +98,26 @@ pub(super) fn first_line(stream: &mut impl BufRead) -> Result<(Vec<u8>, u64, u64
             _ => {}
         }
         if number == 1 {
-            let rest = without_mark(&line).to_vec();
-            before += (line.len() - rest.len()) as u64;
-            line = rest;
+            line = without_mark(&line).to_vec();
         }
         if is_skipped(&line) || is_log_head(&line) {
-            counted = has_count(&line).then(|| (line.clone(), number, before));
+            counted = has_count(&line).then(|| (line.clone(), number));
             continue;
         }
-        let above = counted.filter(|(names, ..)| are_as_many(names, &line));
-        let Some((mut names, of_names, before_names)) = above else {
-            return Ok((line, number, before));
+        let above = counted.filter(|(names, _)| are_as_many(names, &line));
+        let Some((mut names, of_names)) = above else {
+            return Ok((line, number));
         };
         let has_time = has_time(&names);
         if !has_time {
             line.extend_from_slice(&next_lines(stream, 1)?);
         }
         if !has_time && !are_counted(&line) {
-            return Ok((line, number, before));
+            return Ok((line, number));
         }
         names[0] = b'n';
         names.extend_from_slice(&line);
-        return Ok((names, of_names, before_names));
+        return Ok((names, of_names));
     }
 }
 

@@ -23,7 +23,6 @@ const UNKNOWN: u64 = 0xffff_ffff;
 
 /// Opens a WAV file; `length` is that of the file, if it has one.
 pub(super) fn open(
-    file: &str,
     stream: Stream,
     length: Option<u64>,
     options: &OpenOptions,
@@ -44,9 +43,9 @@ pub(super) fn open(
         (Some(promised), Some(available)) => Some(promised.min(available)),
         (promised, available) => promised.or(available),
     };
-    let source = Interleaved::new(header.stream, format.code, frame, start, length.is_none());
+    let source = Interleaved::new(header.stream, format.code, frame, length.is_none());
     let source = match promised {
-        Some(promised) => source.promise(promised).of_wav(file),
+        Some(promised) => source.promise(promised).of_wav(),
         None => source,
     };
     let sample_rate = (format.rate > 0).then_some(f64::from(format.rate));

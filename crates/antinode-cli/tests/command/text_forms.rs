@@ -106,9 +106,8 @@ fn converted(here: &std::path::Path, told: &str) -> String {
     let command = told.rsplit('`').nth(1).unwrap();
     let (command, end) = command.rsplit_once(" | ").unwrap();
     assert_eq!(end, "antinode identify -");
-    let command = command.replace("FILE", "a.csv");
     let output = std::process::Command::new("sh")
-        .args(["-c", &command])
+        .args(["-c", command])
         .current_dir(here)
         .output()
         .unwrap();

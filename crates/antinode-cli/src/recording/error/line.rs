@@ -42,7 +42,7 @@ pub enum LineFault {
             1 => "give one sample pair a line: of two files `paste -d, c.csv d.csv`, of two variables in MATLAB or Octave \
                   `dlmwrite('both.csv', [c(:) d(:)], 'precision', 9)`",
             MANY_COLUMNS.. => "give one sample pair a line: of a line for each channel in Python `import numpy; \
-                  numpy.savetxt('both.csv', numpy.loadtxt('FILE', delimiter=',').T, delimiter=',')`, with the file's own delimiter in \
+                  numpy.savetxt('both.csv', numpy.loadtxt(r'FILE', delimiter=',').T, delimiter=',')`, with the file's own delimiter in \
                   `loadtxt`",
             _ => "remove the others, or choose the right ones with --columns TIME,C,D, or C,D if there is no time",
         },

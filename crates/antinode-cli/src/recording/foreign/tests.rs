@@ -86,12 +86,7 @@ fn a_remedy_names_the_file_as_a_shell_wants_it() {
     let (_, fault) = read("a b.mat", b"MATLAB 5.0 MAT-file");
     assert!(fault.is_some_and(|fault| fault.contains("`load('a b.mat'); ")));
     let stream = Box::new(Cursor::new(b"\x1f\x8b\x08\x00".to_vec()));
-    let opened = by_content::open(
-        "standard input",
-        stream,
-        Known::default(),
-        &OpenOptions::default(),
-    );
+    let opened = by_content::open(stream, Known::default(), &OpenOptions::default());
     let told = message(
         opened
             .err()

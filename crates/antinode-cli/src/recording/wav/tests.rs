@@ -204,7 +204,6 @@ fn a_pipe_needs_no_length() {
     piped.size = 0xffff_ffff;
     let open = |wav: &Wav| {
         let opened = super::open(
-            "pipe",
             Box::new(Dribble::new(wav.bytes(), 5)),
             None,
             &OpenOptions::default(),

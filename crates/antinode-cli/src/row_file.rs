@@ -43,17 +43,15 @@ pub struct RowFile {
 impl RowFile {
     /// Opens a file, or standard input if `path` is `-`.
     pub fn open(path: &Path) -> Result<Self, Failure> {
-        if path == Path::new("-") {
+        let (name, source): (_, Box<dyn Read>) = if path == Path::new("-") {
             if io::stdin().is_terminal() {
                 eprintln!("reading rows from standard input; Ctrl-D ends them");
             }
-            let text = in_utf8(io::stdin());
-            let text = text.map_err(|fault| unreadable(STANDARD_INPUT, 1, &fault.into()))?;
-            return Self::new(STANDARD_INPUT, Box::new(text));
-        }
-        let name = path.display().to_string();
-        let text = in_utf8(open_file(path)?);
-        let text = text.map_err(|fault| unreadable(&name, 1, &fault.into()))?;
+            (STANDARD_INPUT.to_owned(), Box::new(io::stdin()))
+        } else {
+            (path.display().to_string(), Box::new(open_file(path)?))
+        };
+        let text = in_utf8(source).map_err(|fault| unreadable(&name, 1, &fault.into()))?;
         Self::new(&name, Box::new(text))
     }
 
@@ -145,12 +143,14 @@ impl RowFile {
         }
     }
 
-    /// The failure if the row last read cannot be used; `what` says why.
-    pub fn fault(&self, what: &str) -> Failure {
+    /// The failure if the row last read cannot be used, as this field is not what it must be.
+    pub fn unusable(&self, Unusable { place, needed }: Unusable) -> Failure {
         Failure::Fault(format!(
-            "{}, line {}: {what}; remove the line",
+            "{}, line {}: {} is `{}`, not {needed}; remove the line",
             self.name,
-            self.lines().number
+            self.lines().number,
+            &self.header[place],
+            &self.record[place]
         ))
     }
 
@@ -197,6 +197,15 @@ fn head(source: &mut impl BufRead) -> io::Result<(Vec<u8>, usize)> {
 fn holds(text: &[u8], words: &str) -> bool {
     text.windows(words.len())
         .any(|text| text == words.as_bytes())
+}
+
+/// A field of a row that is not what it must be.
+#[derive(Debug)]
+pub struct Unusable {
+    /// The index of its column.
+    pub place: usize,
+    /// What it must be, as after "not".
+    pub needed: &'static str,
 }
 
 /// The number in a field of a row, its decimal mark a point or a comma.

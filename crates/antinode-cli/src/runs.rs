@@ -210,11 +210,9 @@ impl Runs {
                 continue;
             }
             // Not before: a flagged row need not have numbers.
-            let Some(row) = Row::parse(record, &places) else {
-                return Err(rows.fault(
-                    "a time, amplitude, angle, frequency or deviation is not a number in single precision, a_A or a deviation is not above 0, \
-                     or a_B exceeds a_A",
-                ));
+            let row = match Row::parse(record, &places) {
+                Ok(row) => row,
+                Err(unusable) => return Err(rows.unusable(unusable)),
             };
             recordings[current].take(row, self.max_turn);
         }

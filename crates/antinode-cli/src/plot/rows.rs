@@ -11,7 +11,7 @@ use super::numbers::drawable;
 use crate::failure::Failure;
 use crate::given_rows::recording_of;
 use crate::median::median;
-use crate::row_file::{self, RowFile, number};
+use crate::row_file::{self, RowFile, Unusable, number};
 
 /// Quantities that are drawn: their columns, and those of their deviations.
 pub const COLUMNS: [(&str, Option<&str>); 5] = [
@@ -99,10 +99,9 @@ pub fn read(mut rows: RowFile) -> Result<Vec<Trace>, Failure> {
     let mut traces: Vec<Trace> = Vec::new();
     let mut current = 0;
     while let Some(record) = rows.next()? {
-        let Some(row) = parse(record, time, flags, places, samples) else {
-            return Err(rows.fault(
-                "a time, amplitude, angle, frequency, residual or deviation is not a number",
-            ));
+        let row = match parse(record, time, flags, places, samples) {
+            Ok(row) => row,
+            Err(unusable) => return Err(rows.unusable(unusable)),
         };
         let name = file.map_or(input.as_str(), |file| &record[file]);
         let new = || Trace {
@@ -120,15 +119,18 @@ pub fn read(mut rows: RowFile) -> Result<Vec<Trace>, Failure> {
     Ok(traces)
 }
 
-/// Reads a row; `None` if a number is missing.
+/// Reads a row; fails if a field is no number.
 fn parse(
     record: &StringRecord,
     time: usize,
     flags: usize,
     places: [(usize, Option<usize>); COLUMNS.len()],
     samples: Option<usize>,
-) -> Option<Row> {
-    let number = |place| number(record, place);
+) -> Result<Row, Unusable> {
+    let number = |place| {
+        let needed = "a number";
+        number(record, place).ok_or(Unusable { place, needed })
+    };
     let mut values = [0.0; COLUMNS.len()];
     let mut deviations = [f32::NAN; COLUMNS.len()];
     for (index, (value, deviation)) in places.into_iter().enumerate() {
@@ -137,10 +139,10 @@ fn parse(
             deviations[index] = number(deviation)? as f32;
         }
     }
-    let samples = samples.map_or(Some(1.0), number)?;
-    let names = record.get(flags)?;
+    let samples = samples.map_or(Ok(1.0), number)?;
+    let names = &record[flags];
     let flags = row_file::flags(names);
-    Some(Row {
+    Ok(Row {
         time: number(time)?,
         values,
         deviations,

@@ -6,7 +6,7 @@ use csv::StringRecord;
 
 use super::turn;
 use crate::failure::Failure;
-use crate::row_file::{RowFile, number};
+use crate::row_file::{RowFile, Unusable, number};
 
 /// Columns that rows must have.
 const COLUMNS: [&str; 8] = [
@@ -88,11 +88,6 @@ impl Places {
     }
 }
 
-/// Whether a number is finite in single precision, as rows have it.
-fn is_finite(number: f64) -> bool {
-    (number as f32).is_finite()
-}
-
 /// Mean increase of a travelling wave's amplitude by noise, which lengthens any vector: its components have twice the variance
 /// of a_A. The increase is a small part of a deviation, but the same in all rows.
 fn increase_by_noise(travelling: f64, of_main: f64) -> f64 {
@@ -154,45 +149,56 @@ impl Row {
         (ratio, of_quadrature.hypot(ratio * of_main) / self.main)
     }
 
-    /// Reads a row; `None` if a number is missing, not finite or out of the range that rows in single precision have.
-    pub fn parse(record: &StringRecord, places: &Places) -> Option<Self> {
+    /// Reads a row; fails if a number is missing, not finite or out of the range that rows in single precision have.
+    pub fn parse(record: &StringRecord, places: &Places) -> Result<Self, Unusable> {
         // The squares of numbers beyond single precision may be 0 or infinite.
-        let finite = |place| number(record, place).filter(|number: &f64| is_finite(*number));
+        let field = |place, needed, is_good: fn(f32) -> bool| {
+            let number = number(record, place).filter(|&number: &f64| is_good(number as f32));
+            number.ok_or(Unusable { place, needed })
+        };
+        let finite = |place| field(place, "a finite number in single precision", f32::is_finite);
+        let size = |place| {
+            let is_size = |size: f32| size > 0.0 && size.is_finite();
+            field(place, "a number above 0 in single precision", is_size)
+        };
+        let deviation = |place: Option<usize>| {
+            let of = |place| field(place, "a number above 0", |size| size > 0.0);
+            place.map_or(Ok(f64::INFINITY), of)
+        };
         let [
-            Some(time),
-            Some(main),
-            Some(quadrature),
-            Some(angle),
-            Some(frequency),
-            Some(of_main),
-            Some(of_quadrature),
-            Some(of_angle),
-        ] = places.needed.map(finite)
-        else {
-            return None;
-        };
-        let other =
-            |place: Option<usize>| place.map_or(Some(f64::INFINITY), |place| number(record, place));
-        let [Some(of_frequency), Some(of_rate), Some(of_phase)] = places.others.map(other) else {
-            return None;
-        };
-        let deviations = [of_main, of_quadrature, of_angle];
-        let mut positive = deviations
-            .into_iter()
-            .chain([main, of_frequency, of_rate, of_phase]);
+            time,
+            main,
+            place_of_quadrature,
+            angle,
+            frequency,
+            of_main,
+            of_quadrature,
+            of_angle,
+        ] = places.needed;
+        let (time, angle, frequency) = (finite(time)?, finite(angle)?, finite(frequency)?);
+        let (main, quadrature) = (size(main)?, finite(place_of_quadrature)?);
+        // Rounding of the digits may make |a_B| slightly greater than a_A.
+        if quadrature.abs() >= 1.01 * main {
+            return Err(Unusable {
+                place: place_of_quadrature,
+                needed: "within ±main_amplitude",
+            });
+        }
+        let deviations = [size(of_main)?, size(of_quadrature)?, size(of_angle)?];
+        let [of_main, ..] = deviations;
+        let [of_frequency, of_rate, of_phase] = places.others;
+        let of_frequency = deviation(of_frequency)?;
+        let (of_rate, of_phase) = (deviation(of_rate)?, deviation(of_phase)?);
         // The phase belongs to the time before rounding: doubles as large as a date, in s since 1970, are 0.2 µs apart.
         let rounded = TAU * frequency * (time.abs().next_up() - time.abs()) / 12f64.sqrt();
-        // Rounding of the digits may make |a_B| slightly greater than a_A.
-        let is_usable =
-            positive.all(|number| number as f32 > 0.0) && quadrature.abs() < 1.01 * main;
         let [more, less] =
             [1.0, -1.0].map(|sign| increase_by_noise(main + sign * quadrature, of_main));
-        is_usable.then_some(Self {
+        Ok(Self {
             time,
             main: main - 0.5 * (more + less),
             quadrature: quadrature - 0.5 * (more - less),
             angle,
-            phase: places.phase.and_then(finite),
+            phase: places.phase.and_then(|place| finite(place).ok()),
             phase_deviation: of_phase.hypot(rounded),
             frequency,
             frequency_deviation: of_frequency,

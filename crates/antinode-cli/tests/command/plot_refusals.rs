@@ -28,7 +28,7 @@ fn faulty_rows_are_reported() {
         "plot bad.csv -o it.svg",
         "",
         1,
-        &["bad.csv, line 4: ", "not a number", "remove the line"],
+        &["bad.csv, line 4: main_amplitude_std is `x`, not a number; remove the line"],
     );
     let without = HEADER.replace("residual_rms", "rest") + good;
     refused(

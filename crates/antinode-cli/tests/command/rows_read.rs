@@ -56,6 +56,34 @@ fn rows_of_other_programs_are_the_same_rows() {
 }
 
 #[test]
+fn a_field_that_cannot_be_used_is_named() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let text = ring_down(here);
+    let columns: Vec<_> = text.lines().next().unwrap().split(',').collect();
+    for (column, field, needed) in [
+        ("angle_rad", "x", "a finite number in single precision"),
+        (
+            "main_amplitude",
+            "1e39",
+            "a number above 0 in single precision",
+        ),
+        ("quadrature_amplitude", "2", "within ±main_amplitude"),
+        ("phase_std_rad", "0", "a number above 0"),
+    ] {
+        let mut lines: Vec<_> = text.lines().map(str::to_owned).collect();
+        let mut fields: Vec<_> = lines[7].split(',').collect();
+        fields[columns.iter().position(|name| *name == column).unwrap()] = field;
+        lines[7] = fields.join(",");
+        let found = run_with(here, "resonator -", lines.join("\n").into_bytes());
+        let told = format!(
+            "error: standard input, line 8: {column} is `{field}`, not {needed}; remove the line\n"
+        );
+        assert_eq!((found.code, found.err), (1, told));
+    }
+}
+
+#[test]
 fn json_lines_are_read_as_csv_is() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

@@ -12,7 +12,7 @@ use super::panel::Panel;
 use super::reduce::Piece;
 use super::values::{self, Values};
 use crate::canvas::{self, FONT};
-use crate::recording::OutputError;
+use crate::recording::{OutputError, OutputFault, extension};
 
 /// Width of a panel's plotting area, in columns of pixels.
 pub const COLUMNS: usize = 880;
@@ -65,14 +65,14 @@ pub enum Format {
 impl Format {
     /// The format that the ending of a file's name says.
     pub fn of(path: &Path) -> Result<Self, OutputError> {
-        let ending = path.extension().unwrap_or_default().to_string_lossy();
-        match ending.to_lowercase().as_str() {
+        match extension(path).as_str() {
             "svg" => Ok(Self::Svg),
             "png" => Ok(Self::Png),
-            _ => Err(OutputError::Unknown {
-                file: path.display().to_string(),
-                endings: ".svg or .png",
-            }),
+            _ => {
+                let endings = ".svg or .png";
+                let fault = OutputFault::Unknown { endings };
+                Err(OutputError::new(&path.display().to_string(), fault))
+            }
         }
     }
 }

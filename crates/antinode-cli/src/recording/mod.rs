@@ -47,8 +47,8 @@ pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use sample::Kind;
 use source::{Counted, Known, Opened, Source, Stream};
-pub use source::{in_utf8, open_file};
-pub use write::{OutputError, RecordingWriter, SampleFormat, WholeFile};
+pub use source::{extension, in_utf8, open_file};
+pub use write::{OutputError, OutputFault, RecordingWriter, SampleFormat, WholeFile};
 
 /// Capacity, in pairs, given to a buffer that has none: small enough to stay in the cache.
 pub const BLOCK_PAIRS: usize = 1 << 14;
@@ -86,12 +86,9 @@ impl Recording {
         let metadata = file.metadata().map_err(io)?;
         let length = metadata.is_file().then_some(metadata.len());
         let again = length.map(|_| file.try_clone()).transpose().map_err(io)?;
-        let extension = path
-            .extension()
-            .map(|text| text.to_string_lossy().to_lowercase());
         let known = Known {
             is_named: true,
-            extension: extension.unwrap_or_default(),
+            extension: extension(path),
             length,
             again,
             read: Rc::default(),

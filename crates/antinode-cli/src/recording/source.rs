@@ -30,6 +30,12 @@ pub fn open_file(path: &Path) -> Result<File, InputError> {
     }
 }
 
+/// The ending of a file's name, in lower case; empty if there is none.
+pub fn extension(path: &Path) -> String {
+    let extension = path.extension().unwrap_or_default();
+    extension.to_string_lossy().to_lowercase()
+}
+
 /// Decodes text to UTF-8. UTF-16, as Windows and PowerShell's `>` write it, is known by a byte order mark or a zero in every other byte.
 pub fn in_utf8(mut text: impl Read) -> io::Result<impl Read> {
     let mut head = Vec::new();

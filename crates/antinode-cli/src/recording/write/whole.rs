@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{PathPersistError, TempPath};
 
-use super::OutputError;
+use super::{OutputError, OutputFault};
 
 /// Longest line of a text that is written, bytes.
 const MAX_LINE: u64 = 1 << 16;
@@ -23,22 +23,23 @@ impl WholeFile {
     /// Begins a file, and gives the handle to write to it.
     pub fn create(path: &Path) -> Result<(Self, File), OutputError> {
         let file = path.display().to_string();
+        let error = |fault| OutputError::new(&file, fault);
         let there = fs::metadata(path).ok();
         let target = match &there {
-            Some(there) if !there.is_file() => return Err(OutputError::NotAFile { file }),
+            Some(there) if !there.is_file() => return Err(error(OutputFault::NotAFile)),
             Some(there) if there.permissions().readonly() => {
-                return Err(OutputError::ReadOnly { file });
+                return Err(error(OutputFault::ReadOnly));
             }
-            Some(_) if is_held(path) => return Err(OutputError::Held { file }),
+            Some(_) if is_held(path) => return Err(error(OutputFault::Held)),
             // A link is kept: the file that it leads to is replaced.
-            Some(_) => fs::canonicalize(path).map_err(|fault| OutputError::io(&file, fault))?,
+            Some(_) => fs::canonicalize(path).map_err(|fault| error(OutputFault::Io(fault)))?,
             None => path.to_owned(),
         };
         let parent = target.parent().filter(|name| !name.as_os_str().is_empty());
         let directory = parent.unwrap_or(Path::new("."));
         if !directory.is_dir() {
             let directory = directory.display().to_string();
-            return Err(OutputError::NoDirectory { file, directory });
+            return Err(error(OutputFault::NoDirectory { directory }));
         }
         let mut builder = tempfile::Builder::new();
         // Encoders choose the format by the extension.
@@ -51,7 +52,7 @@ impl WholeFile {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         // The temporary name would tell the user nothing.
-        let plain = |fault: io::Error| OutputError::io(&file, fault.kind().into());
+        let plain = |fault: io::Error| error(OutputFault::Io(fault.kind().into()));
         let (output, temporary) = builder.tempfile_in(directory).map_err(plain)?.into_parts();
         // Set while the file is empty, as others may not be allowed to read its content.
         if let Some(there) = there {
@@ -91,11 +92,10 @@ impl WholeFile {
         };
         // The file is kept: it may be the work of hours.
         Err(match path.keep() {
-            Ok(kept) => OutputError::Unnamed {
-                file,
-                fault: error,
-                kept: kept.file_name().unwrap_or_default().display().to_string(),
-            },
+            Ok(kept) => {
+                let kept = kept.file_name().unwrap_or_default().display().to_string();
+                OutputError::new(&file, OutputFault::Unnamed { fault: error, kept })
+            }
             Err(_) => OutputError::io(&file, error),
         })
     }

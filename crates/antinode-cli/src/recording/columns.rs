@@ -64,6 +64,8 @@ pub(super) struct FirstLine<'a> {
     /// The fields of the line below, if that may hold units; otherwise none.
     pub units: &'a [String],
     pub width: usize,
+    /// False if a start and a step give the times, so that no column need be one.
+    pub may_be_timed: bool,
     /// What was found in the lines above and below.
     pub start: &'a Start,
     /// True for what `antinode identify` prints, as CSV, as JSON lines or as a table.
@@ -180,13 +182,12 @@ impl FirstLine<'_> {
         // The same name over all columns does not make one of them the time: `HUnit,s,s` of Yokogawa.
         let name = |place: usize| self.names.map(|names| &names[place]);
         let time = time.filter(|&time| places().any(|place| name(place) != name(time)));
-        // If the settings give a start and a step, no column is the time.
-        let is_timed = self.start.sequence.is_none();
         // Names in another order than usual must not swap the signals.
         if c.is_some() && d.is_some() {
             let unnamed = places().find(|&place| role(place).is_none());
             let index = |place: &usize| self.names.is_some_and(|names| is_index(&names[*place]));
-            let other = unnamed.filter(|place| is_timed && columns.len() == 3 && !index(place));
+            let other =
+                unnamed.filter(|place| self.may_be_timed && columns.len() == 3 && !index(place));
             return Ok([time.or(other), c, d]);
         }
         // With settings above or beside it, the first column may be a time without a name.
@@ -194,7 +195,7 @@ impl FirstLine<'_> {
         let is_count = |place: usize| self.names.is_some_and(|names| is_count(&names[place]));
         let first = columns.first().copied();
         let clock = first.filter(|&first| {
-            is_timed
+            self.may_be_timed
                 && !is_count(first)
                 && (columns.len() == 3
                     || columns.len() == 2

@@ -1,6 +1,6 @@
 //! The header of a text recording: its columns and their units, from the first lines.
 
-use super::columns::{Columns, FirstLine, Places, is_time};
+use super::columns::{Columns, FirstLine, Places};
 use super::error::{Fault, LineFault, TimeFault};
 use super::heading::is_header;
 use super::lines::{Beginning, Lines};
@@ -51,7 +51,6 @@ impl Header {
         let width = names.len();
         let counted = counted(&names);
         let has_numbers = counted.is_some_and(|counted| counted.has_numbers);
-        let is_timed = has_numbers || names.first().is_some_and(|name| is_time(name));
         if has_numbers && chosen.is_none() {
             names[0] = "time".to_owned();
         }
@@ -62,16 +61,11 @@ impl Header {
             names,
             units: &units_below(next, separator),
             width: columns,
+            may_be_timed: start.sequence.is_none() && (counted.is_none() || has_numbers),
             start,
             is_of_rows: is_of_rows(first, next),
         };
-        let places = if counted.is_some() && !is_timed && chosen.is_none() && columns != 2 {
-            // No column here is a time.
-            let (found, are_words) = (columns, false);
-            Err(LineFault::ColumnCount { found, are_words })
-        } else {
-            line.places(chosen)
-        };
+        let places = line.places(chosen);
         let places = places.map_err(|fault| Fault::line(lines.number(), fault))?;
         let of_names = counted.and_then(|counted| counted.sequence);
         let sequence = start.sequence.or(of_names);

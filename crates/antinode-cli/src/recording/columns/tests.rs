@@ -11,6 +11,7 @@ fn places(header: &str, chosen: Option<&str>) -> Result<Places, String> {
         names: Some(&names),
         units: &[],
         width: names.len(),
+        may_be_timed: true,
         start: &Start::default(),
         is_of_rows: false,
     };

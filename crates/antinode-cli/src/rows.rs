@@ -99,12 +99,8 @@ pub struct Rows<W: Write> {
     before: u64,
     /// True if each row has the methods' columns too.
     wide: bool,
-    /// True once the header of a wide CSV is written.
-    headed: bool,
     /// The line above the next table, if it is not yet written.
     title: Option<String>,
-    /// Tables begun.
-    tables: u64,
 }
 
 impl<W: Write> Rows<W> {
@@ -125,9 +121,7 @@ impl<W: Write> Rows<W> {
             count: 0,
             before: 0,
             title: None,
-            tables: 0,
             wide,
-            headed: false,
         }
     }
 
@@ -151,14 +145,13 @@ impl<W: Write> Rows<W> {
             Sink::Table(out) => {
                 // A recording without a row gets no heading.
                 if self.count == 1 {
-                    if self.wide && self.tables == 0 {
+                    if self.wide && self.before == 0 {
                         method_table::legend(out)?;
                     }
                     if let Some(title) = self.title.take() {
-                        writeln!(out, "{}{title}", if self.tables > 0 { "\n" } else { "" })?;
+                        writeln!(out, "{}{title}", if self.before > 0 { "\n" } else { "" })?;
                     }
                     table_heading(out)?;
-                    self.tables += 1;
                 }
                 table(out, estimate)?;
                 methods.map_or(Ok(()), |methods| {
@@ -166,9 +159,12 @@ impl<W: Write> Rows<W> {
                 })
             }
             Sink::Csv(out) if self.wide => {
-                if !std::mem::replace(&mut self.headed, true) {
+                if self.before + self.count == 1 {
                     let own = header(&row)?;
-                    out.write_record(own.iter().map(String::from).chain(of_methods::names()))?;
+                    out.write_record(
+                        own.iter()
+                            .chain(of_methods::NAMES.iter().map(String::as_str)),
+                    )?;
                 }
                 out.serialize((row, of_methods::fields(methods)))
                     .map_err(io::Error::from)

@@ -1,7 +1,9 @@
 //! The methods of a window as columns.
 
+use std::sync::LazyLock;
+
 use antinode::methods::comparison::{Comparison, Method};
-use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde::ser::{Serialize, Serializer};
 
 use super::Methods;
 use crate::digits::significant;
@@ -44,15 +46,15 @@ const OF_ALL: [&str; 7] = [
 ];
 
 /// The names of all columns, in order.
-pub fn names() -> Vec<String> {
+pub static NAMES: LazyLock<Vec<String>> = LazyLock::new(|| {
     let of_methods = (1..=4).flat_map(|i| OF_A_METHOD.map(|name| format!("method{i}_{name}")));
     of_methods.chain(OF_ALL.map(String::from)).collect()
-}
+});
 
 /// The values of all columns, in order.
 pub fn fields(methods: Option<&Methods>) -> Vec<Field> {
     let Some(methods) = methods else {
-        return vec![Field::Missing; names().len()];
+        return vec![Field::Missing; NAMES.len()];
     };
     let mut fields = Vec::new();
     let comparison = &methods.comparison;
@@ -117,11 +119,7 @@ pub struct Columns<'a>(pub Option<&'a Methods>);
 
 impl Serialize for Columns<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        for (name, field) in names().iter().zip(fields(self.0)) {
-            map.serialize_entry(name, &field)?;
-        }
-        map.end()
+        serializer.collect_map(NAMES.iter().zip(fields(self.0)))
     }
 }
 
@@ -160,13 +158,13 @@ mod tests {
     #[test]
     fn every_column_has_its_value() {
         let methods = last(|pair| pair);
-        let (names, fields) = (names(), fields(Some(&methods)));
+        let fields = fields(Some(&methods));
         assert_eq!(
-            (names.len(), fields.len(), super::fields(None).len()),
+            (NAMES.len(), fields.len(), super::fields(None).len()),
             (55, 55, 55)
         );
         let value =
-            |name: &str| match fields[names.iter().position(|n| n == name).expect("a column")] {
+            |name: &str| match fields[NAMES.iter().position(|n| n == name).expect("a column")] {
                 Field::Number(x) => x,
                 Field::Count(n) => n.into(),
                 _ => panic!("{name} is no number"),

@@ -16,15 +16,16 @@ use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use antinode::{Identifier, Settings};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 
 use crate::failure::Failure;
 use crate::options::Format;
+use crate::progress;
 use crate::ranges::in_order;
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
 pub use options::Identify;
-use options::{MAX_PERIODS, Methods};
+use options::{MAX_PERIODS, Shown};
 use out::{Out, check_is_no_input};
 use remarks::flag_counts::FlagCounts;
 use stop::Stop;
@@ -54,7 +55,7 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     let format = options.format()?;
     warn_of_duplicates(&options.files);
     let (out, to) = Out::open(options)?;
-    let mut rows = Rows::new(to, format, options.methods == Methods::All);
+    let mut rows = Rows::new(to, format, options.methods == Shown::All);
     let stop = Stop::new(&out)?;
     let mut failure = None;
     for path in &options.files {
@@ -204,13 +205,10 @@ fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, 
 /// A progress bar for a large file whose rows are not shown on the terminal; hidden otherwise.
 fn progress(recording: &Recording, is_shown: bool) -> ProgressBar {
     match recording.bytes_total() {
-        Some(total) if total > LARGE_FILE && !is_shown => {
-            let style = ProgressStyle::with_template(
-                "{wide_bar} {bytes}/{total_bytes} {bytes_per_sec} {eta}",
-            );
-            ProgressBar::new(total)
-                .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-        }
+        Some(total) if total > LARGE_FILE && !is_shown => progress::bar(
+            total,
+            "{wide_bar} {bytes}/{total_bytes} {bytes_per_sec} {eta}",
+        ),
         _ => ProgressBar::hidden(),
     }
 }

@@ -18,6 +18,7 @@ mod methods;
 mod normal;
 mod options;
 mod plot;
+mod progress;
 mod ranges;
 mod recording;
 mod resonator;

@@ -9,6 +9,7 @@ use clap::{Args, Subcommand, ValueEnum, value_parser};
 
 use super::line::Line;
 use super::{BAUD, describe};
+use crate::digits::counted;
 use crate::failure::Failure;
 use crate::{options, ranges};
 
@@ -137,7 +138,7 @@ fn words(command: &Command) -> String {
         Command::SetHop { blocks: None } => "no hop".to_owned(),
         Command::SetHop {
             blocks: Some(blocks),
-        } => format!("hop of {}", describe::blocks(*blocks)),
+        } => format!("hop of {}", counted((*blocks).into(), "block")),
         Command::SetCalibration(c) => format!(
             "calibration: gain ratio {}, skew {} ns, pick-off angle {} rad",
             c.gain_ratio,

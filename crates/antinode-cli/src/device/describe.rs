@@ -3,7 +3,7 @@
 use antinode::Detection;
 use antinode_telemetry::{Configuration, Counters, FrontEnd, Hello, Methods};
 
-use crate::digits::significant;
+use crate::digits::{counted, significant};
 use crate::methods::table::DISAGREE;
 
 /// The device's version and configuration in one line.
@@ -16,7 +16,7 @@ pub fn hello(hello: &Hello) -> String {
     let c = &s.calibration;
     let hop = match s.hop {
         None => "no hop".to_owned(),
-        Some(blocks) => format!("hop {}", self::blocks(blocks)),
+        Some(blocks) => format!("hop {}", counted(blocks.into(), "block")),
     };
     let level = |name, value: Option<f32>| value.map_or(String::new(), |x| format!(", {name} {x}"));
     format!(
@@ -46,11 +46,6 @@ pub fn hello(hello: &Hello) -> String {
         if s.hum { ", hum" } else { "" },
         if s.coloured { ", coloured noise" } else { "" },
     )
-}
-
-/// The length of a hop in words.
-pub fn blocks(count: u16) -> String {
-    format!("{count} block{}", if count == 1 { "" } else { "s" })
 }
 
 /// A skew in ns, rounded to the digits that single precision keeps of any number, so that it reads as it was typed.

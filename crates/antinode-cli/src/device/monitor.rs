@@ -12,6 +12,7 @@ use super::source::{Input, Source};
 use super::{BAUD, describe};
 use crate::failure::Failure;
 use crate::options::Format;
+use crate::recording::InputError;
 use crate::rows::Rows;
 
 /// `antinode monitor`.
@@ -101,13 +102,13 @@ fn follow(source: &Source, screen: &mut Screen<impl Write>) -> Result<(), Failur
             Input::Fault(error) => {
                 screen.finish();
                 let name = &screen.name;
-                return Err(Failure::Fault(if source.is_port {
-                    format!("{name}: the port fails: {error}; check that the device is plugged in")
+                return Err(if source.is_port {
+                    Failure::Fault(format!(
+                        "{name}: the port fails: {error}; check that the device is plugged in"
+                    ))
                 } else {
-                    format!(
-                        "{name}: cannot be read: {error}; check the disk, the network share or the pipe"
-                    )
-                }));
+                    InputError::io(name, error).into()
+                });
             }
         }
     }

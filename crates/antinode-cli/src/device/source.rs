@@ -11,7 +11,7 @@ use std::thread;
 use super::port;
 use crate::failure::Failure;
 use crate::interrupt::on_interrupt;
-use crate::recording::open_file;
+use crate::recording::{STANDARD_INPUT, open_file};
 
 /// What comes from a source.
 pub enum Input {
@@ -40,7 +40,7 @@ impl Source {
     pub fn open(path: &Path, baud: u32, greeting: &[u8]) -> Result<Self, Failure> {
         let is_port = path != Path::new("-") && port::is_port(path);
         let (name, from): (String, Box<dyn Read + Send>) = if path == Path::new("-") {
-            ("standard input".to_owned(), Box::new(io::stdin()))
+            (STANDARD_INPUT.to_owned(), Box::new(io::stdin()))
         } else {
             let name = path.display().to_string();
             if is_port {

@@ -120,13 +120,13 @@ pub struct Identify {
     /// With `all`, columns method1_… to method4_… follow in CSV and JSON lines; those that end in off_sigma are differences from the
     /// exact solution in its standard deviations. They are empty in windows without a wave, or with less than a quarter of a period of
     /// samples before them. It takes some 16 times as long.
-    #[arg(long, value_enum, default_value_t = Methods::Exact, help_heading = "Output")]
-    pub methods: Methods,
+    #[arg(long, value_enum, default_value_t = Shown::Exact, help_heading = "Output")]
+    pub methods: Shown,
 }
 
 /// Which methods a row shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Methods {
+pub enum Shown {
     /// The exact solution alone.
     Exact,
     /// The paper's four methods beside it, ranked, with a warning where they disagree beyond noise.

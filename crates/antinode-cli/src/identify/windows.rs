@@ -5,7 +5,7 @@ use std::io::Write;
 use antinode::{Estimate, SettingsError};
 
 use super::first_pairs::{FirstPairs, other_frequency, ramp};
-use super::options::{Identify, Methods};
+use super::options::{Identify, Shown};
 use super::remarks::Remarks;
 use super::search::Search;
 use super::search::unsearched_wave::alias;
@@ -66,7 +66,7 @@ impl<'a> Windows<'a> {
         // A known frequency may be off.
         let known = |frequency| (1.1 * rate / f64::from(frequency)) as usize + 1;
         let longest = options.frequency.map_or(LONGEST_SEARCHED, known);
-        let history = (options.methods == Methods::All).then(|| History::new(&settings, longest));
+        let history = (options.methods == Shown::All).then(|| History::new(&settings, longest));
         Ok(Self {
             name,
             options,

@@ -6,6 +6,7 @@ use std::fmt;
 use std::io;
 
 use super::foreign::Foreign;
+use crate::digits::counted;
 pub use line::{LineFault, Place, Role, TimeFault};
 
 /// The name of standard input in messages.
@@ -130,8 +131,8 @@ pub enum Fault {
     WavEncoding { encoding: String },
     /// A WAV file of other than two channels, of which none are chosen.
     #[error(
-        "WAV header: found {found} {}, but two are needed; {}",
-        if *.found == 1 { "channel" } else { "channels" },
+        "WAV header: found {}, but two are needed; {}",
+        counted(*.found as u64, "channel"),
         if *.found < 2 {
             "put S_C on the left channel and S_D on the right, for example with `sox -M c.wav d.wav both.wav`"
         } else {

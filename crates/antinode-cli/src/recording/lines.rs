@@ -107,8 +107,7 @@ impl Lines {
             }
             self.number += 1;
             if read == MAX_LINE {
-                let fault = LineFault::LineTooLong { limit: MAX_LINE };
-                return Err(Fault::line(self.number, fault));
+                return Err(Fault::line(self.number, LineFault::LineTooLong));
             }
             self.line.pop_if(|last| *last == b'\n');
             if self.is_quoted {

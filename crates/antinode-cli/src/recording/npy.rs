@@ -164,17 +164,9 @@ fn code(dtype: &DType) -> Result<SampleCode, Fault> {
 
 /// A shape as `numpy` shows it.
 fn shown(shape: &[u64]) -> String {
-    match shape {
-        [one] => format!("({one},)"),
-        _ => format!(
-            "({})",
-            shape
-                .iter()
-                .map(u64::to_string)
-                .collect::<Vec<_>>()
-                .join(", ")
-        ),
-    }
+    let sizes = format!("{shape:?}");
+    let comma = if shape.len() == 1 { "," } else { "" };
+    format!("({}{comma})", sizes.trim_matches(['[', ']']))
 }
 
 /// A source of pairs from an array that stores one channel after the other.

@@ -63,11 +63,6 @@ impl SampleCode {
         bytes(self.kind)
     }
 
-    /// The bytes of one pair.
-    pub fn pair_bytes(self) -> usize {
-        2 * self.sample_bytes()
-    }
-
     /// The valid and the stored bits of one sample.
     pub fn bits(self) -> (u32, u32) {
         (self.valid_bits, 8 * self.sample_bytes() as u32)
@@ -122,7 +117,7 @@ impl SampleCode {
         format!("{}-bit {kind}", self.valid_bits)
     }
 
-    /// Appends the whole pairs in `bytes` to `pairs`, up to the first with bits below the valid ones; `before`: how many came before them.
+    /// Appends the pairs in `bytes`, all whole, to `pairs`, up to the first with bits below the valid ones; `before`: how many came before them.
     pub fn decode(self, bytes: &[u8], pairs: &mut Vec<[f32; 2]>, before: u64) -> Result<(), Fault> {
         let start = pairs.len();
         match (self.kind, self.big_endian) {
@@ -165,7 +160,6 @@ impl SampleCode {
         if mask == 0 {
             return None;
         }
-        let whole = bytes.len() / self.pair_bytes() * self.pair_bytes();
         let low = |sample: &[u8]| {
             sample
                 .iter()
@@ -173,7 +167,7 @@ impl SampleCode {
                 .fold(0, |code, &byte| code << 8 | u32::from(byte))
                 & mask
         };
-        bytes[..whole]
+        bytes
             .chunks_exact(self.sample_bytes())
             .position(|sample| low(sample) != 0)
     }

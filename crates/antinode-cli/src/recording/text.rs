@@ -92,8 +92,7 @@ pub(super) fn first_line(stream: &mut impl BufRead) -> Result<(Vec<u8>, u64), Fa
         match read? {
             0 => return Err(Fault::NoPairs),
             MAX_LINE => {
-                let fault = LineFault::LineTooLong { limit: MAX_LINE };
-                return Err(Fault::line(number, fault));
+                return Err(Fault::line(number, LineFault::LineTooLong));
             }
             _ => {}
         }

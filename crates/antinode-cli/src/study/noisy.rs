@@ -1,12 +1,12 @@
 //! Figure 3: rms errors in windows of one length over noise.
 
-use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
 use super::evaluate::{CURVES, errors};
 use super::figure::{Curve, Figure, Name, Panel, Point};
 use super::samples::Samples;
 use super::simulated::{STEPS, Simulated};
+use crate::progress;
 
 /// Runs that one core takes at a time. Sums over them are added in order, so that results do not depend on the number of cores.
 const CHUNK: u32 = 250;
@@ -45,9 +45,10 @@ pub fn rms(simulated: &Simulated, steps: &[u32], runs: u32, seed: u64) -> Vec<[[
     let chunks: Vec<(usize, u32)> = (0..steps.len())
         .flat_map(|i| (0..runs.div_ceil(CHUNK)).map(move |chunk| (i, chunk * CHUNK)))
         .collect();
-    let style = ProgressStyle::with_template("figure 3: {wide_bar} {percent} % {eta}");
-    let bar = ProgressBar::new(chunks.len() as u64)
-        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let bar = progress::bar(
+        chunks.len() as u64,
+        "figure 3: {wide_bar} {percent} % {eta}",
+    );
     let parts: Vec<_> = chunks
         .par_iter()
         .map(|&(i, start)| {

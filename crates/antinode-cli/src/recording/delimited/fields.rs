@@ -3,6 +3,7 @@
 use super::super::error::{Fault, LineFault, Place, Role, TimeFault};
 use super::super::header::Header;
 use super::super::lines::Lines;
+use crate::digits::counted;
 
 /// The fields of a line that are to be read.
 pub(super) struct Fields<'a> {
@@ -43,12 +44,9 @@ pub(super) fn cut<'a>(lines: &'a Lines, header: &Header) -> Fields<'a> {
             *text = None;
         }
     }
-    let fields = if count == 1 { "field" } else { "fields" };
     let description = || {
-        format!(
-            "a line of {count} {fields} where the first has {}",
-            header.width
-        )
+        let fields = counted(count as u64, "field");
+        format!("a line of {fields} where the first has {}", header.width)
     };
     Fields {
         texts: found.map(Option::unwrap_or_default),

@@ -4,7 +4,9 @@ use std::fmt;
 use std::num::NonZeroU32;
 
 use super::Channel;
+use crate::digits::counted;
 use crate::recording::forms::remedy;
+use crate::recording::text::MAX_LINE;
 
 /// A line, and a column in it, both from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,13 +33,13 @@ const MANY_COLUMNS: usize = 100;
 pub enum LineFault {
     /// No end of line within the limit: not lines of text.
     #[error(
-        "more than {limit} bytes without an end of line; give text with one sample pair a line"
+        "more than {MAX_LINE} bytes without an end of line; give text with one sample pair a line"
     )]
-    LineTooLong { limit: usize },
+    LineTooLong,
     /// More or fewer columns than can be understood.
     #[error(
-        "found {found} {}, but two (S_C, S_D) or three (time in s, S_C, S_D) are needed; {}{}",
-        if *.found == 1 { "column" } else { "columns" },
+        "found {}, but two (S_C, S_D) or three (time in s, S_C, S_D) are needed; {}{}",
+        counted(*.found as u64, "column"),
         match *.found {
             1 => "give one sample pair a line: of two files `paste -d, c.csv d.csv`, of two variables in MATLAB or Octave \
                   `dlmwrite('both.csv', [c(:) d(:)], 'precision', 9)`",

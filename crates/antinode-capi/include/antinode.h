@@ -204,7 +204,7 @@ typedef struct {
     // samples become 2.31.
     uint32_t periods;
     // Blocks from the start of one window to the start of the next, 1 to 65535; a block is then about a period, or a tenth of a window of
-    // less than ten periods, rounded to whole samples: 0.9 to 1.25 periods if these are short. For windows that follow each other without
+    // less than ten periods, rounded to whole samples: 0.87 to 1.33 periods if these are short. For windows that follow each other without
     // gap or overlap give 0, the default, not the number of periods.
     uint32_t hop_blocks;
     // The first window's angle is chosen within pi/4 of this angle, rad. Within +-10000: subtract whole turns from a greater one. Default

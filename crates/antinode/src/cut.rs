@@ -123,6 +123,13 @@ mod tests {
                                 && (off < 0.1 || samples == least),
                             "{period} samples a period, {periods} periods, hop {has_hop}, blocks up to {max_length}: {blocks} of {length}"
                         );
+                        // As the C header states.
+                        let block = f32::from(length) / period;
+                        let is_about_a_period = (0.87..1.34).contains(&block);
+                        assert!(
+                            !has_hop || periods < 10 || is_about_a_period,
+                            "{period} samples a period, {periods} periods: a block of {block}"
+                        );
                     }
                 }
             }

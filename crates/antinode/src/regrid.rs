@@ -6,7 +6,7 @@
 //!
 //! Each output is one product with a row of filter taps, a windowed sinc whose response at the wave's own frequency is made exactly 1; rows
 //! are tabulated at 64 places between two samples, and interpolated linearly. The wave itself passes with a relative error below
-//! (2π/64P)²/8, with P samples a period: 3.5·10⁻⁶ at 18.75.
+//! (2π/64P)²/8, with P samples a period, plus rounding: 3.5·10⁻⁶ at 18.75, and up to 10⁻⁶ at 50 and more with up to 400 taps.
 //!
 //! # Example
 //!

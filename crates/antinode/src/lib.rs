@@ -132,17 +132,21 @@
 //! - θ is known modulo π/2, and phase modulo 2π: θ is unwrapped only by continuity from window to window. If a pattern turns by a quarter
 //!   turn more or less during a gap than its rate predicts, and has its old rate again after the gap, nothing shows this.
 //! - A period must have 4 to 200 samples, or, with [`Settings::frequency`], 2.5 to as many as a block holds.
-//! - Amplitudes must be 10⁻¹⁵ to 10¹⁷ input units, so that their squares fit in f32. Beyond that there may be no estimate, and no flag.
-//! - Sums of f32 are rounded: at 140 samples a period or more, in noise below 2·10⁻⁴ of a_A, an offset beyond twenty times a_A is flagged
-//!   as a misfit. With codes it is not, nor with f32 samples whose offset is subtracted first.
+//! - Amplitudes must be 10⁻¹⁵ to 10¹⁷ input units, and samples of f32 within ±1.5·10¹⁷, so that sums of their squares fit in f32; in
+//!   windows of more than 10⁴ pairs they must be smaller, by the root of that, as 10¹⁶ in those of 10⁶. Beyond that there may be no
+//!   estimate, and no flag.
+//! - Sums of f32 are rounded: at 140 samples a period or more, in noise below 2·10⁻⁴ of a_A, an offset beyond twenty times a_A in windows
+//!   of hundreds of periods, or forty in shorter ones, may be flagged as a misfit. With codes it is not, nor with f32 samples whose offset
+//!   is subtracted first.
 //!
 //! ## Waves that change
 //!
 //! - Within one window the pattern may turn by 0.5 rad and the wave lose 0.6 of its amplitude: that is 260 rad/s and 480 1/s in ten periods
-//!   of 5332 Hz, 2.6 rad/s and 4.8 1/s in a thousand. So fast a turn leaves up to 2·10⁻⁵ of a_A unexplained in windows of ten periods,
-//!   which matters in noise of 2·10⁻⁴ of a_A and less, or 5·10⁻⁴ at 150 samples a period: a_A and a_B are then off by up to 6 of their
-//!   deviations, 2 to 3 rms, with no flag. If the pattern turns by more than about 0.6 rad, amplitudes are some per cent off; windows of
-//!   more than ten periods flag this as a misfit, shorter ones may not.
+//!   of 5332 Hz, 2.6 rad/s and 4.8 1/s in a thousand. So fast a turn leaves up to 3·10⁻⁵ of a_A unexplained in windows of ten periods,
+//!   which matters in noise of 2·10⁻⁴ of a_A and less, or 5·10⁻⁴ at 150 samples a period: a_A, a_B, θ and phase are then off by up to 6 of
+//!   their deviations in noise of 10⁻⁴, 16 in noise of 2·10⁻⁵, and 30 without noise, with no flag. If the pattern turns by more than about
+//!   0.6 rad, or 1 rad with little quadrature, amplitudes may be up to a quarter off; in noise of up to 1 % windows of ten periods and more
+//!   flag this as a misfit, but shorter ones may not, nor any in noise of 10 %.
 //! - If pick-offs differ in gain, and so in noise after calibration, deviations are those of a pattern at rest. Over all angles they hold,
 //!   but at the worst angle a pattern that turns by 0.1, 0.25 and 0.5 rad within a window has errors of up to 1.3, 1.9 and 2.7 of its
 //!   deviations at a gain ratio of 10 or 0.1, and of up to 1.3 at 0.5 rad and a ratio of 2 or 0.5.

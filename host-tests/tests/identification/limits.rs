@@ -271,3 +271,24 @@ fn turning_patterns_behind_unequal_gains_exceed_their_deviations_as_documented()
         );
     }
 }
+
+#[test]
+fn the_greatest_waves_and_samples_are_identified_in_windows_of_ten_thousand_pairs() {
+    for (amplitude, offset) in [(1e17, 0.0), (0.4e17, 1e17)] {
+        let wave = Wave {
+            main_amplitude: amplitude,
+            quadrature_amplitude: 0.1 * amplitude,
+            frequency: RATE / 199.0,
+            ..Wave::default()
+        };
+        let flaws = Flaws {
+            noise: 1e-3 * amplitude,
+            offset_c: offset,
+            offset_d: offset,
+            ..Flaws::default()
+        };
+        let found = identify(wave, &flaws, windows(50), 34_000, 1);
+        assert!(found.len() == 3, "{amplitude:e}: {}", found.len());
+        assert!(found.iter().all(|row| row.flags.is_empty()), "{found:?}");
+    }
+}

@@ -177,9 +177,10 @@
 //!   long windows with a hop behind a band-pass with a quality of 10.
 //! - A window of a few samples estimates its noise poorly. If it has six pairs, as two periods of 2.5 to 3.2 samples do, rms errors of the
 //!   first window are 2 to 5 of its deviations, and one error in ten exceeds three; rms errors of the second are 1.4, of the third 1.2;
-//!   with seven pairs these three are 1.4, 1.15 and 1.1. In noise alone, one wave in seventy has a step or a misfit flagged in its first
-//!   windows if they have six pairs, and one in two thousand with ten. In longer windows, rms errors of the first are up to 1.08 of its
-//!   deviations, or 1.13 with hum or coloured noise.
+//!   with seven pairs these three are 1.4, 1.15 and 1.1. With eight, nine and ten pairs rms errors of the first are 1.25, 1.15 and 1.15 of
+//!   its deviations, and in longer windows up to 1.1, or 1.13 with hum or coloured noise. In noise alone, one wave in seventy has a step or
+//!   a misfit flagged in its first windows if they have six pairs, and one in two thousand with ten; if a period has nearly six samples, so
+//!   that the third harmonic is at half the sample rate, one in 400 has a misfit or clipping flagged in its first window of 25 to 60 pairs.
 //! - If noise is so loud that it alone makes some windows circular, the others are a selection. If two in five are flagged, as in noise of
 //!   20 % in nine pairs, a_A of the others is too large by 0.4 of its deviation, and rms errors are up to 1.2 deviations; if nine in ten
 //!   are, these are 1 and 1.4.

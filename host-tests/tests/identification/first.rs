@@ -2,7 +2,8 @@
 
 use antinode::{Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::{Core, RATE, identify_changed, stream, windows};
+use host_tests::score::StatedRatio;
+use host_tests::{Core, RATE, identify, identify_changed, stream, windows};
 
 #[test]
 fn a_spike_or_a_small_step_in_the_first_window_is_flagged() {
@@ -211,5 +212,38 @@ fn no_first_window_of_seven_or_ten_pairs_is_clipped_by_noise() {
             }
         }
         assert_eq!(first, 1000);
+    }
+}
+
+#[test]
+fn the_shortest_first_windows_exceed_their_deviations_as_documented() {
+    for (period, periods, pairs, most) in [
+        (3.4, 2, 7, 1.45),
+        (2.6, 3, 8, 1.3),
+        (3.0, 3, 9, 1.2),
+        (3.4, 3, 10, 1.2),
+        (4.0, 3, 12, 1.14),
+        (6.1, 3, 18, 1.12),
+        (18.75, 2, 36, 1.12),
+    ] {
+        let mut ratio = StatedRatio::default();
+        for seed in 0..3000 {
+            let wave = random_wave(seed, RATE / period, 0.5);
+            let flaws = Flaws {
+                noise: 0.01 * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            let settings = Settings {
+                frequency: Some(wave.frequency as f32),
+                ..windows(periods)
+            };
+            for row in identify(wave, &flaws, settings, pairs, seed) {
+                assert_eq!(row.samples as usize, pairs);
+                ratio.add(&row, &wave);
+            }
+        }
+        let ratios = ratio.ratios();
+        println!("first windows of {pairs} pairs: error over stated {ratios:.3?}");
+        assert!(ratios.iter().all(|&ratio| ratio < most), "{pairs} pairs");
     }
 }

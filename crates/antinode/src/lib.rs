@@ -192,9 +192,9 @@
 //! - Deviations and flags also assume noise that is independent and equal in both pick-offs. If one has ten times as much, about one window
 //!   in ten thousand is flagged. If a share r of the variance is common to both, deviations are up to √(1 + r) times too small: at an angle
 //!   of 22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.
-//! - White jitter of the sampling, common to both pick-offs, makes f and phase scatter by 1.8 of their deviations, but θ and a_B by only a
-//!   fifth of theirs. A sampling clock that wanders moves phase and frequency: 1/f jitter of 0.1 to 3 ns moves them by up to 78 and 37 of
-//!   their deviations in windows of up to 1000 periods, and one row in twenty is flagged.
+//! - White jitter of the sampling, common to both pick-offs, makes f and phase scatter by 1.8 of their deviations, but θ and a_B by only 2
+//!   and 1 times |a_B|/a_A of theirs, if that is small. A sampling clock that wanders moves phase and frequency: 1/f jitter of 0.1 to 3 ns
+//!   moves them by up to 78 and 37 of their deviations in windows of up to 1000 periods, and one row in twenty is flagged.
 //!
 //! ## What raises no flag
 //!

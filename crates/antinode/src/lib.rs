@@ -205,11 +205,12 @@
 //!   not a whole number of samples, and leaks up to 7·10⁻² of itself into a_A, a_B, θ and phase in windows of 10 periods, 1.6·10⁻² in those
 //!   of 50. If a period is a whole number of samples, 1.6·10⁻³ of it leaks.
 //! - Samples at known rails ([`Settings::rails`]) are always flagged. Where no rails are known, or a limiter lies within them, clipping is
-//!   recognised by flat crests or the third harmonic: at 4.3 samples a period or more, in windows of 10 periods and noise of 10⁻³ of a_A,
-//!   all windows of a wave that would exceed the limit by a fifth are flagged, and if by a tenth or a twentieth, at least three in four or
-//!   one in five; the others' a_A is up to 3.5 % or 1.5 % off. At fewer samples this depends on the period: at some from 2.6 to 3.2 and
-//!   from 3.7 to 4.25 half of the windows are flagged or fewer, and none at 3 and 4, though a_A is up to 17 % off if the limit is exceeded
-//!   by a fifth, and up to 50 % if twofold. Windows of 50 periods miss it within 0.03 of 3 and of 4 only.
+//!   recognised by flat crests or the third harmonic: at 4.35 samples a period or more, in windows of 10 periods and noise of 10⁻³ of a_A,
+//!   19 in 20 windows or more of a wave that would exceed the limit by a fifth are flagged. If by a tenth, two in three or more are, but
+//!   hardly any near 5.1 samples, where other harmonics fold onto the third; if by a twentieth, as many at 6.3 to 9.5 samples and from 10.5
+//!   on, and elsewhere none at some periods. The others' a_A is up to 4 %, 3.5 % and 2 % off. At fewer samples this depends on the period:
+//!   at some from 2.6 to 3.2 and from 3.7 to 4.25 half of the windows are flagged or fewer, and none at 3 and 4, though a_A is up to 17 %
+//!   off if the limit is exceeded by a fifth, and up to 50 % if twofold. Windows of 50 periods miss it within 0.03 of 3 and of 4 only.
 //! - A fault that repeats with the wave, such as a stuck bit of the converter, is flagged where it begins, but may soon be taken for a new
 //!   noise level: with a bit worth a twelfth of a_A, two in three or more of the windows of 10 periods that follow have no flag, and a_A is
 //!   up to 1.7 % off, 12 of its deviations. With a sixth of a_A it is one in three, 4.4 %, 21 deviations; with a third, one in ten, 7.5 %,

@@ -218,8 +218,8 @@ pub struct Estimate {
     pub angle_std: f32,
     /// Standard deviation of α, rad.
     pub phase_std: f32,
-    /// Standard deviation of f, Hz. In a wave's first window the pattern has to be taken to be at rest: if it turns, the error may be up to
-    /// twice this with a quadrature of up to 0.7 a_A, and six times at 0.95 a_A.
+    /// Standard deviation of f, Hz. In a wave's first window the pattern has to be taken to be at rest: if it turns, rms errors may be up
+    /// to twice this with a quadrature of up to 0.7 a_A, and six times at 0.95 a_A, single ones up to 10 and 60 times.
     pub frequency_std: f32,
     /// Standard deviation of θ̇, rad/s.
     pub angle_rate_std: f32,

@@ -94,7 +94,7 @@
 //!
 //! [`Front::UNSET`], [`Tracker::UNSET`] and [`Identifier::UNSET`] are all zeros: statics initialised with them, for example in a
 //! `ConstStaticCell` of the crate `static_cell`, take neither flash nor stack; call `configure` before use. The result of
-//! [`Identifier::new`] is copied: an identifier of 5 KB takes 12 KB of stack, and 1 KB more flash.
+//! [`Identifier::new`] is copied: an identifier of 5 KB takes 16 KB of stack, and 1 KB more flash.
 //!
 //! `opt-level = 2` is as fast as 3 and smaller. On a Cortex-M4 give rustc `-Ctarget-cpu=cortex-m4`: without it rustc mistakes three-cycle
 //! multiply-accumulates for single-cycle ones. With it the core is 2 KB larger. Cargo does not take such flags from a dependency: they
@@ -158,7 +158,7 @@
 //!   If θ̇ jumps, as splits make it do near a circle, f may be off, by 20 deviations at |a_B| of 0.94 a_A in windows of 100 periods. If the
 //!   pattern vibrates, the deviations of f allow for it after some ten windows, or forty if a hop leaves gaps. Until then the pattern is
 //!   taken to turn steadily. If its turn per window grows by 0.01 rad from window to window, f is off in the second and third window by up
-//!   to 7 and 14 deviations at |a_B| of 0.9 a_A, or, if windows overlap, by up to 21 in the windows of that time. If a pattern swings to
+//!   to 8 and 20 deviations at |a_B| of 0.9 a_A, or, if windows overlap, by up to 35 in the windows of that time. If a pattern swings to
 //!   and fro during the gaps, f is off by up to 8, 18 and 45 deviations at 0.5, 0.75 and 0.9 a_A.
 //! - Splits of 2 Hz and more make a pattern near a circle turn and slip in phase within a window or two: there one window in ninety is
 //!   flagged as a phase jump though no sample is missing, and at such windows, as at misfits, the continued angle may come to be a quarter
@@ -169,7 +169,7 @@
 //! - Mains hum is flagged as a misfit unless [`Settings::hum`] takes it out. If fewer than 13 blocks fit in a period of the hum, as at 150
 //!   Hz beside a wave of 2 kHz, part of it counts as noise. Hum of more than a hundred times the noise leaves something in any case: beside
 //!   a wave of 5.3 kHz, hum of 0.3 a_A in noise of 10⁻³ of a_A makes one window of 30 periods in 300 a misfit at 50 Hz, and one of 50
-//!   periods in 200 at 150 Hz; in noise of 3·10⁻⁴ it is three in ten of the latter, and part of it counts as noise.
+//!   periods in 40 and of 100 in three at 150 Hz; in noise of 3·10⁻⁴ it is up to half of those of 50, and part of it counts as noise.
 //! - Deviations and flags take noise to be white; [`Settings::coloured`] is for noise that is not. With it, errors are 0.8 to 1.1 of their
 //!   deviations behind a low-pass or a high-pass, or in noise of 1/f². Behind a band-pass about the wave with a quality of 1, 3 and 10 they
 //!   are 1.1, 1.5 and 2 to 3 of their deviations in windows of ten periods or more; 1.2, 1.8 and 3 to 3.7 if a hop makes blocks shorter;

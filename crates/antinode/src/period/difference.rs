@@ -56,8 +56,8 @@ impl<S: Sample> Candidate<S> {
 ///   few values. It is taken for a wave some 3·10⁻⁶ times per pair, and the first window shows that it is none.
 /// - Small waves: one of a dozen codes is found a third of a period later than a greater one; one of four codes may not be found at all,
 ///   nor one of eight in i32.
-/// - Speed: a wave in 20 % noise is found within three periods on average and 6.5 at the latest, one with a tone of 20 % beside it within
-///   five, and never at a fraction or a multiple of its period.
+/// - Speed: a wave in 20 % noise is found within three periods on average, or five if they have 4 samples, and 8 at the latest, one with
+///   a tone of 20 % beside it within 5.5, and never at a fraction or a multiple of its period.
 /// - Other signals: one that looks like a wave for ever, such as two tones, is examined less often after five trials. It then takes at
 ///   most 2.4 times the work of a wave, and a wave that begins meanwhile is found at most a fraction of a period later.
 #[derive(Debug, Clone)]

@@ -1,7 +1,7 @@
 //! General tests of one window's residuals, by themselves and against the noise of the windows before.
 //!
-//! Thresholds are set for fewer than 10⁻⁹ false alarms a window in white noise, about 10⁻⁵ in a first window of 10 to 25 sample pairs, plus
-//! a floor below which a deviation is no fault.
+//! Thresholds are set for fewer than 10⁻⁹ false alarms a window in white noise, about 10⁻⁵ in a first window of 10 to 25 sample pairs (more
+//! near six samples a period, where sums about the third harmonic are nearly real), plus a floor below which a deviation is no fault.
 
 use super::noise::{FIRST_NOISE_SIGMAS, MAX_RISE, NOISE_SIGMAS, Noise, is_louder, limit_of};
 use super::standing::Standing;

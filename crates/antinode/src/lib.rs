@@ -116,7 +116,8 @@
 //!
 //! | wave | error |
 //! |---|---|
-//! | noise-free, constant, 2 to 100 periods a window, 4.3 to 190 samples a period, any offset up to a_A | below 10⁻⁶ of a_A, 10⁻⁶ rad, 2·10⁻⁷ of f |
+//! | noise-free, constant, \|a_B\| up to 0.5 a_A, 2 to 100 periods a window, 4.3 to 190 samples a period, any offset up to a_A | below 10⁻⁶ of a_A, 10⁻⁶ rad, 2·10⁻⁷ of f |
+//! | the same, \|a_B\| up to 0.9 a_A | below 10⁻⁶ of a_A, 10⁻⁶ rad, 6·10⁻⁷ of f |
 //! | white noise of 0.1 to 20 % of a_A, 2 to 50 periods a window, from cold | rms 0.97 to 1.05 of the Cramér–Rao bound |
 //! | turning at 6 rad/s, decaying with τ = 0.3 s, drifting 2 Hz/s, 0.2 % noise, 10 periods | rms 1.00 to 1.07 of the bound |
 //!

@@ -71,11 +71,11 @@ pub struct Settings {
     pub rails: Option<[f32; 2]>,
     /// Step between neighbouring codes of the converter, input units, > 0; 1 if samples are codes, `None` if it is not known. With less
     /// noise than a step, rounding errors repeat with the signal and do not average out: deviations include them only if the step is given.
-    /// A wave of about a step or less is not found.
     pub resolution: Option<f32>,
     /// The wave's frequency in Hz, if it is known within 5 %: no period is searched for, and the first window begins with the first sample,
     /// even in noise nearly as large as the wave. A period may then have 2.5 samples to as many as a block holds, `N`. If the wave is at
-    /// another frequency there is no window, or a flagged one. `None`: the period is found as `detection` says.
+    /// another frequency there is no window, or a flagged one. `None`: the period is found as `detection` says, but that of a wave of fewer
+    /// than 12 codes, or 16 if samples are `i32`, may not be found at all.
     pub frequency: Option<f32>,
     /// How the period is found from cold.
     #[cfg_attr(feature = "serde", serde(default))]

@@ -31,6 +31,7 @@ mod recovery;
 mod regrid;
 mod repeating;
 mod rounding;
+mod small_waves;
 mod stated;
 mod step_sizes;
 mod steps;

@@ -54,8 +54,9 @@ impl<S: Sample> Candidate<S> {
 /// - False alarms: white noise is taken for a wave with a probability of 3·10⁻⁸ per frame; the residual of codes is never taken to be
 ///   below their own rounding. If f32 samples have coarse steps, or codes come in steps of several, noise below half a step has only a
 ///   few values. It is taken for a wave some 3·10⁻⁶ times per pair, and the first window shows that it is none.
-/// - Small waves: one of a dozen codes is found a third of a period later than a greater one; one of four codes may not be found at all,
-///   nor one of eight in i32.
+/// - Small waves: one of a dozen codes is found a third of a period later than a greater one. One of fewer codes, or 16 in i32, may not be
+///   found at all: in i16 a tenth of those of four codes is missed in 60 periods, and a hundredth of those of six; in i32 all of those of
+///   four, and a third of those of eight.
 /// - Speed: a wave in 20 % noise is found within three periods on average, or five if they have 4 samples, and 8 at the latest, one with
 ///   a tone of 20 % beside it within 5.5, and never at a fraction or a multiple of its period.
 /// - Other signals: one that looks like a wave for ever, such as two tones, is examined less often after five trials. It then takes at

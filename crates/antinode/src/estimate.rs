@@ -20,7 +20,8 @@ impl Flags {
     /// Amplitude, angle or offset stepped between the window before and this one. Half of the steps that exceed 0.2 % of a_A or 2 mrad by
     /// 20 of the deviations stated are flagged, and all that exceed it by 30, or by 36 and 54 if a hop leaves a gap as long as a window,
     /// and more in proportion if it is longer. In the middle of a window, where [`MISFIT`](Self::MISFIT) may stand instead, these limits are
-    /// 25 and 45 deviations for an amplitude, and 60 and 85 for the angle, where a step looks like a turn. An offset that goes on moving as
+    /// 25 and 45 deviations for an amplitude, and 60 and 85 for the angle, where a step looks like a turn; a tenth of a window from its ends
+    /// they are 35 and 55 for both. In windows of 10 to 16 pairs, 0.4 % of a_A takes the place of 0.2 %. An offset that goes on moving as
     /// it did over the windows before wanders, and does not step.
     pub const STEP: Self = Self(1 << 3);
     /// |a_B| ≈ a_A: the pattern is circular, and the angle has no meaning.
@@ -207,7 +208,7 @@ pub struct Estimate {
     pub angle_rate: f32,
     /// −ȧ_A/a_A in 1/s: positive while the wave decays.
     pub decay_rate: f32,
-    /// Offsets of the raw S_C and S_D; in white noise their standard deviation is `residual_rms`/√`samples`, and up to 15 % more in the
+    /// Offsets of the raw S_C and S_D; in white noise their standard deviation is `residual_rms`/√`samples`, and up to 20 % more in the
     /// shortest windows.
     pub offsets: [f32; 2],
     /// Standard deviation of a_A.

@@ -83,7 +83,7 @@ fn flagged(of: Of, deviations: f64, depth: usize, gap: usize) -> f64 {
 
 #[test]
 fn steps_are_flagged_from_the_stated_sizes_on() {
-    // Between two windows, and in the middle of one: sizes at which half of them are flagged, and all.
+    // Between two windows, in the middle of one, and near its ends: sizes at which half of them are flagged, and all.
     for (of, depth, half, all) in [
         (Of::Main, 0, 20.0, 30.0),
         (Of::Quadrature, 0, 20.0, 30.0),
@@ -93,6 +93,9 @@ fn steps_are_flagged_from_the_stated_sizes_on() {
         (Of::Quadrature, WINDOW / 2, 25.0, 35.0),
         (Of::Angle, WINDOW / 2, 60.0, 85.0),
         (Of::Phase, WINDOW / 2, 50.0, 70.0),
+        (Of::Main, WINDOW / 10, 35.0, 55.0),
+        (Of::Quadrature, 9 * WINDOW / 10, 35.0, 55.0),
+        (Of::Angle, 9 * WINDOW / 10, 35.0, 55.0),
     ] {
         let [some, most] = [half, all].map(|size| flagged(of, size, depth, 0));
         println!("{of:?} at {depth}: {some:.2} of {half} deviations, {most:.2} of {all}");

@@ -186,10 +186,12 @@
 //!   20 % in nine pairs, a_A of the others is too large by 0.4 of its deviation, and rms errors are up to 1.2 deviations; if nine in ten
 //!   are, these are 1 and 1.4.
 //! - In noise of less than 0.4 of the converter's step, rounding errors repeat with the wave. If the step is known
-//!   ([`Settings::resolution`]), nothing is flagged, and rms errors of a_A, a_B, θ and phase are at most 1.2 of their deviations, but may be
-//!   as small as 0.7, 0.5 and 0.4 of them at noise of 0.3, 0.2 and 0.1 of a step, or 0.2 if the wave has only eight codes. If it is not
-//!   known, they are up to 1.2, 2 and hundreds of deviations if a period is a whole number of samples, and 1.1, 1.5 and 2.4 otherwise; in
-//!   the first case one window in twenty is flagged as clipped or as a misfit at 0.1, and up to nine in ten without noise.
+//!   ([`Settings::resolution`]), nothing is flagged, and rms errors of a_A, a_B, θ and phase are at most 1.2 of their deviations, but may
+//!   be as small as 0.7, 0.5 and 0.4 of them at noise of 0.3, 0.2 and 0.1 of a step, or 0.2 if the wave has only eight codes. These are rms
+//!   over waves: those of a steady wave are nearly the same in every window, and in noise of up to 0.1 of a step one wave in 300 of 8 to 32
+//!   codes is off by more than 2 deviations in all of them, by 4.8 in the worst case that a search found. If the step is not known, they
+//!   are up to 1.2, 2 and hundreds of deviations if a period is a whole number of samples, and 1.1, 1.5 and 2.4 otherwise; in the first
+//!   case one window in twenty is flagged as clipped or as a misfit at 0.1, and up to nine in ten without noise.
 //! - Deviations and flags also assume noise that is independent and equal in both pick-offs. If one has ten times as much, about one window
 //!   in ten thousand is flagged. If a share r of the variance is common to both, deviations are up to √(1 + r) times too small: at an angle
 //!   of 22.5° those of a_A, f and phase, at −22.5° those of a_B and θ.

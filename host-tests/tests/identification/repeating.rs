@@ -1,8 +1,8 @@
-//! Errors that repeat with the wave are hardly distinguished from it: a second harmonic, and a stuck bit of the converter.
+//! Errors that repeat with the wave are hardly distinguished from it: a second harmonic, a stuck bit, and the steps of a quiet converter.
 
 use std::f64::consts::TAU;
 
-use antinode::Estimate;
+use antinode::{Estimate, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::codes::{codes, converted, identify, settings};
 use host_tests::methods::list;
@@ -164,4 +164,42 @@ fn a_stuck_bit_is_flagged_where_it_begins_and_later_as_the_documentation_states(
             );
         }
     }
+}
+
+#[test]
+fn errors_of_a_steady_wave_behind_a_quiet_converter_repeat() {
+    // The worst wave that a search found: its errors are the same in every window.
+    let amplitude = 1.0 / 0.12;
+    let wave = Wave {
+        main_amplitude: amplitude,
+        quadrature_amplitude: 0.040_985_616 * amplitude,
+        angle: 0.545_434_34,
+        phase: 0.7,
+        frequency: RATE / 44.165_015_224,
+        ..Wave::default()
+    };
+    let flaws = Flaws {
+        noise: 0.054,
+        offset_c: -0.049_185_05 * amplitude,
+        offset_d: -0.120_051_88 * amplitude,
+        ..Flaws::default()
+    };
+    let settings = Settings {
+        resolution: Some(1.0),
+        frequency: Some(wave.frequency as f32),
+        ..windows(17)
+    };
+    let found = identify_changed(wave, &flaws, settings, 40_000, 4, |_, pair| {
+        pair.map(f64::round)
+    });
+    assert!(found.len() > 45);
+    let ratios = found.iter().map(|estimate| {
+        assert!(estimate.flags.is_empty(), "{estimate:?}");
+        errors(estimate, &wave)[0].abs() / stated(estimate)[0]
+    });
+    let ratios: Vec<f64> = ratios.collect();
+    let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+    println!("a_A off by {mean:.2} deviations");
+    assert!((4.0..5.5).contains(&mean), "{mean}");
+    assert!(ratios.iter().all(|ratio| (3.5..6.5).contains(ratio)));
 }

@@ -213,7 +213,9 @@
 //!   hardly any near 5.1 samples, where other harmonics fold onto the third; if by a twentieth, as many at 6.3 to 9.5 samples and from 10.5
 //!   on, and elsewhere none at some periods. The others' a_A is up to 4 %, 3.5 % and 2 % off. At fewer samples this depends on the period:
 //!   at some from 2.6 to 3.2 and from 3.7 to 4.25 half of the windows are flagged or fewer, and none at 3 and 4, though a_A is up to 17 %
-//!   off if the limit is exceeded by a fifth, and up to 50 % if twofold. Windows of 50 periods miss it within 0.03 of 3 and of 4 only.
+//!   off if the limit is exceeded by a fifth, and up to 50 % if twofold. Windows of 50 periods miss it within 0.03 of 3 and of 4 only. Shorter
+//!   windows need more samples a period: those of 5 and 7 periods 5, of 4 periods 8, of 3 periods 10.5, of two 14. At fewer, nearly all may
+//!   be without a flag, and a_A is up to 10, 25 and 42 % off if the limit is exceeded by a fifth, a half and twofold.
 //! - A fault that repeats with the wave, such as a stuck bit of the converter, is flagged where it begins, but may soon be taken for a new
 //!   noise level: with a bit worth a twelfth of a_A, two in three or more of the windows of 10 periods that follow have no flag, and a_A is
 //!   up to 1.7 % off, 12 of its deviations. With a sixth of a_A it is one in three, 4.4 %, 21 deviations; with a third, one in ten, 7.5 %,

@@ -1,14 +1,12 @@
 //! Two tones at once: which of them is found, and that none is found between them.
 
+use antinode::Settings;
 use antinode::period::DifferenceDetector;
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
-use host_tests::{Core, RATE, stream, windows};
+use host_tests::score::{errors, stated};
+use host_tests::{Core, RATE, identify_changed, stream, windows};
 
-/// A wave with a period of 4 to 200 samples, spaced evenly in its logarithm.
-fn wave(seed: u64) -> (Wave, f64) {
-    let period = 4.0 * 50f64.powf((seed as f64 * 0.618_034).fract());
-    (random_wave(seed, RATE / period, 0.5), period)
-}
+use crate::detector::wave;
 
 #[test]
 fn two_unrelated_tones_are_no_wave() {
@@ -124,6 +122,104 @@ fn a_spur_does_not_hide_the_wave() {
         assert!(
             worst < 0.5 * share.max(0.02) && latest < 5.5,
             "spur of {share}: {worst} {latest}"
+        );
+    }
+}
+
+/// Windows with a tone of 1 % of a_A beside the wave, in noise of 2·10⁻⁴: the share without a flag, and the largest errors of a_A and a_B
+/// in these, as shares of the tone and in deviations.
+fn beside(ratios: [f64; 2], settings: impl Fn(u16) -> Settings, periods: [u16; 2]) -> [f64; 3] {
+    let (mut rows, mut clean, mut leaked, mut most) = (0.0, 0.0, 0f64, 0f64);
+    for seed in 0..400 {
+        let part = |step: f64| (seed as f64 * step).fract();
+        let period = 5.0 * 12f64.powf(part(0.618_034));
+        let ratio = ratios[0] + (ratios[1] - ratios[0]) * part(0.754_878);
+        let wave = random_wave(seed, RATE / period, 0.5);
+        let a = wave.main_amplitude;
+        let flaws = Flaws {
+            noise: 2e-4 * a,
+            ..Flaws::default()
+        };
+        let count =
+            periods[0] + (f64::from(periods[1] - periods[0]) * part(0.569_84)).round() as u16;
+        let samples = (period * f64::from(count) * 15.0) as usize;
+        let tone = |k: usize| {
+            let phase = std::f64::consts::TAU * ratio / period * k as f64 + seed as f64;
+            [0.01 * a * phase.cos(), 0.01 * a * (phase + 1.0).sin()]
+        };
+        for estimate in
+            identify_changed(wave, &flaws, settings(count), samples, seed, |k, [c, d]| {
+                let [of_c, of_d] = tone(k);
+                [c + of_c, d + of_d]
+            })
+        {
+            rows += 1.0;
+            if estimate.flags.is_empty() {
+                clean += 1.0;
+                let (errors, stated) = (errors(&estimate, &wave), stated(&estimate));
+                for i in 0..2 {
+                    leaked = leaked.max(errors[i].abs() / (0.01 * a));
+                    most = most.max(errors[i].abs() / stated[i]);
+                }
+            }
+        }
+    }
+    [clean / rows, leaked, most]
+}
+
+#[test]
+fn tones_that_blocks_do_not_see_leak_as_documented() {
+    let coloured = |periods| Settings {
+        coloured: true,
+        ..windows(periods)
+    };
+    let hop = |periods| Settings {
+        hop: Some(periods),
+        ..windows(periods)
+    };
+    for (name, [share, leaked, deviations], of_clean, of_leaked, most) in [
+        (
+            "f/2",
+            beside([0.45, 0.55], windows, [8, 24]),
+            0.5..1.0,
+            0.05..0.13,
+            60.0,
+        ),
+        (
+            "3f/2",
+            beside([1.45, 1.55], windows, [8, 24]),
+            0.5..1.0,
+            0.05..0.13,
+            60.0,
+        ),
+        (
+            "f/2 with a hop",
+            beside([0.45, 0.55], hop, [10, 24]),
+            0.0..1.0,
+            0.0..0.13,
+            5.0,
+        ),
+        (
+            "2f",
+            beside([1.9, 2.1], windows, [8, 24]),
+            0.8..1.01,
+            0.01..0.08,
+            30.0,
+        ),
+        (
+            "coloured",
+            beside([0.24, 0.34], coloured, [7, 8]),
+            0.9..1.01,
+            0.05..0.3,
+            100.0,
+        ),
+    ] {
+        println!(
+            "a tone near {name}: {share:.2} without a flag, {leaked:.3} of it leaks, {deviations:.0} deviations"
+        );
+        assert!(
+            of_clean.contains(&share) && of_leaked.contains(&leaked) && deviations < most,
+            "{name}: {share} {leaked} {deviations}"
         );
     }
 }

@@ -153,8 +153,9 @@
 //!   deviations at a gain ratio of 10 or 0.1, and of up to 1.3 at 0.5 rad and a ratio of 2 or 0.5.
 //! - A frequency that drifts or depends on the amplitude bends the phase within a window; splits of damping and frequency bend amplitudes
 //!   and θ too. If this is well above both the noise (2 Hz/s in a window of 60 ms, say) and 2·10⁻⁴ of a_A, it is flagged as a misfit. If
-//!   not, nothing is flagged, and values are off by up to 6 of their deviations in windows of 10 periods, and by up to 30 in those of 100
-//!   or more: the phase by 6·10⁻⁵ rad in noise of 10⁻⁴ of a_A, and by 4·10⁻⁴ rad in noise of 10⁻³. Use shorter windows.
+//!   not, nothing is flagged, and values are off by up to 11 of their deviations in windows of up to 20 periods, by up to 15 in those of up
+//!   to 100, and by up to 30 in longer ones: the phase by 6·10⁻⁵ rad in noise of 10⁻⁴ of a_A, and by 4·10⁻⁴ rad in noise of 10⁻³. Use
+//!   shorter windows.
 //! - A turning pattern looks like a frequency off by 2 a_A a_B θ̇/(π(a_A² + a_B²)), which is corrected with the θ̇ of the windows before.
 //!   If θ̇ jumps, as splits make it do near a circle, f may be off, by 20 deviations at |a_B| of 0.94 a_A in windows of 100 periods. If the
 //!   pattern vibrates, the deviations of f allow for it after some ten windows, or forty if a hop leaves gaps. Until then the pattern is
@@ -168,14 +169,16 @@
 //! ## Noise
 //!
 //! - Mains hum is flagged as a misfit unless [`Settings::hum`] takes it out. If fewer than 13 blocks fit in a period of the hum, as at 150
-//!   Hz beside a wave of 2 kHz, part of it counts as noise. Hum of more than a hundred times the noise leaves something in any case: beside
-//!   a wave of 5.3 kHz, hum of 0.3 a_A in noise of 10⁻³ of a_A makes one window of 30 periods in 300 a misfit at 50 Hz, and one of 50
-//!   periods in 40 and of 100 in three at 150 Hz; in noise of 3·10⁻⁴ it is up to half of those of 50, and part of it counts as noise.
+//!   Hz beside a wave of 2 kHz, part of it counts as noise, and rms errors are up to 5 of their deviations. Hum of more than a hundred
+//!   times the noise leaves something in any case: beside a wave of 5.3 kHz, hum of 0.3 a_A in noise of 10⁻³ of a_A makes one window of 30
+//!   periods in 300 a misfit at 50 Hz, and one of 50 periods in 40 and of 100 in three at 150 Hz; in noise of 3·10⁻⁴ it is up to half of
+//!   those of 50, and part of it counts as noise.
 //! - Deviations and flags take noise to be white; [`Settings::coloured`] is for noise that is not. With it, errors are 0.8 to 1.1 of their
 //!   deviations behind a low-pass or a high-pass, or in noise of 1/f². Behind a band-pass about the wave with a quality of 1, 3 and 10 they
-//!   are 1.1, 1.5 and 2 to 3 of their deviations in windows of ten periods or more; 1.2, 1.8 and 3 to 3.7 if a hop makes blocks shorter;
-//!   and up to 1.8, 3.3 and 7 in windows of 3 to 5 periods. If noise grows with frequency, some windows remain misfits, as does a fifth of
-//!   long windows with a hop behind a band-pass with a quality of 10.
+//!   are 1.1, 1.5 and 2 to 3 of their deviations in windows of ten periods or more, up to 1.3, 1.9 and 4 in those of 6 to 9 periods, 1.8,
+//!   3.3 and 7 in those of 3 to 5, and 2.3, 4.5 and 9 in those of two. If a hop makes blocks shorter they are 1.2, 1.8 and 3 to 3.7 in the
+//!   longest and up to 2.9, 6 and 12 in the shortest. If noise grows with frequency, some windows remain misfits, as does a fifth of long
+//!   windows with a hop behind a band-pass with a quality of 10.
 //! - A window of a few samples estimates its noise poorly. If it has six pairs, as two periods of 2.5 to 3.2 samples do, rms errors of the
 //!   first window are 2 to 5 of its deviations, and one error in ten exceeds three; rms errors of the second are 1.4, of the third 1.2;
 //!   with seven pairs these three are 1.4, 1.15 and 1.1. With eight, nine and ten pairs rms errors of the first are 1.25, 1.15 and 1.15 of

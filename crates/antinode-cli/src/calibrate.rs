@@ -1,5 +1,6 @@
 //! `antinode calibrate`: rows of a pattern that turned in, the pick-offs' calibration out.
 
+mod equations;
 mod moments;
 mod solve;
 mod undriven;

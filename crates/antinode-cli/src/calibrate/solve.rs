@@ -9,19 +9,20 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 
-use nalgebra::Complex;
+use nalgebra::{Complex, DVector};
 
+use super::equations::{Equation, by_integrals, equations};
 use super::moments::Run;
 use crate::failure::Failure;
-use crate::normal::Equations;
+use crate::normal::{Equations, Factors};
 use crate::options::Corrected;
 
 /// Unknowns of the pick-offs: ln g, 2πf·Δ and ε.
-const FLAWS: usize = 3;
+pub const FLAWS: usize = 3;
 /// Unknowns of the resonator: its splits of damping and of frequency, each along two axes.
-const SPLITS: usize = 4;
+pub const SPLITS: usize = 4;
 /// Unknowns of a run: ln E and Q/E at its middle, and their slopes.
-const OWN: usize = 4;
+pub const OWN: usize = 4;
 /// Turn that is needed, at least, rad: 4θ goes around once.
 const MIN_TURN: f64 = FRAC_PI_2;
 /// Turn the other way, at least, rad, with which splits are distinguishable from flaws: a quarter turn of 4θ.
@@ -144,8 +145,9 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
     let knows_splits = back.min(forth) >= MIN_TURN_BACK;
     let rows: usize = runs.iter().map(|run| run.moments.len()).sum();
     let mut pick_offs = start;
+    let mut splits = knows_splits.then_some([0.0; SPLITS]);
     for _ in 0..STEPS {
-        let normal = Normal::of(runs, &pick_offs, knows_splits);
+        let normal = Normal::of(runs, &pick_offs, splits);
         let unknowns = normal.equations.unknowns();
         let Some(factors) = normal.equations.factors(0.0) else {
             return Err(Fault::Unsettled);
@@ -153,6 +155,9 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
         let step = factors.solve(normal.equations.right());
         let omega = normal.omega;
         let part = (MAX_STEP / step.rows(0, FLAWS).amax()).min(1.0);
+        if let Some(splits) = &mut splits {
+            splits.copy_from_slice(step.rows(FLAWS, SPLITS).as_slice());
+        }
         pick_offs.gain_ratio *= (part * step[0]).exp();
         pick_offs.skew += part * step[1] / omega;
         pick_offs.angle += part * step[2];
@@ -164,7 +169,8 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
             // Residual after the step, per degree of freedom.
             let residual_squares = (normal.squares - normal.equations.right().dot(&step)).max(0.0);
             let residual = (residual_squares / (2 * rows - unknowns) as f64).sqrt();
-            let deviation = |i: usize| factors.variance(&[(i, 1.0)]).sqrt() * residual.max(1.0);
+            let variances = variances_of_flaws(runs, &pick_offs, (&factors, unknowns), splits);
+            let deviation = |i: usize| variances[i].sqrt() * residual.max(1.0);
             return Ok(Found {
                 pick_offs,
                 deviations: [
@@ -181,6 +187,34 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
     Err(Fault::Unsettled)
 }
 
+/// Variances of the flaws if the splits are these, noise in the integrals included.
+fn variances_of_flaws(
+    runs: &[Run],
+    pick_offs: &PickOffs,
+    (factors, unknowns): (&Factors, usize),
+    splits: Option<[f64; SPLITS]>,
+) -> [f64; FLAWS] {
+    let mut variances = [0, 1, 2].map(|flaw| factors.variance(&[(flaw, 1.0)]));
+    if let Some(splits) = splits {
+        let unit = |flaw| DVector::from_fn(unknowns, |at, _| f64::from(u8::from(at == flaw)));
+        let of_flaws = [0, 1, 2].map(|flaw| factors.solve(&unit(flaw)));
+        for run in runs.iter().enumerate() {
+            let moments = equations(run, pick_offs, FLAWS + SPLITS, splits, longest(runs));
+            let more = by_integrals(&moments, splits, &of_flaws);
+            for (variance, more) in variances.iter_mut().zip(more) {
+                *variance += more;
+            }
+        }
+    }
+    variances
+}
+
+/// Length of the longest run, s.
+fn longest(runs: &[Run]) -> f64 {
+    let span = |run: &Run| run.moments[run.moments.len() - 1].time - run.moments[0].time;
+    runs.iter().map(span).fold(0.0, f64::max)
+}
+
 /// The normal equations of all runs, about a calibration.
 struct Normal {
     equations: Equations,
@@ -191,43 +225,33 @@ struct Normal {
 }
 
 impl Normal {
-    fn of(runs: &[Run], pick_offs: &PickOffs, knows_splits: bool) -> Self {
-        let shared = FLAWS + if knows_splits { SPLITS } else { 0 };
+    fn of(runs: &[Run], pick_offs: &PickOffs, splits: Option<[f64; SPLITS]>) -> Self {
+        let shared = FLAWS + splits.map_or(0, |splits| splits.len());
         let mut normal = Self {
             equations: Equations::new(shared, OWN, runs.len()),
             squares: 0.0,
             omega: 0.0,
         };
-        let span = |run: &Run| run.moments[run.moments.len() - 1].time - run.moments[0].time;
-        let longest = runs.iter().map(span).fold(0.0, f64::max);
+        let longest = longest(runs);
         for (index, run) in runs.iter().enumerate() {
-            let own = shared + OWN * index;
-            let middle = run.moments[0].time + 0.5 * span(run);
-            let mut sums = Sums::default();
-            let tangent = (2.0 * pick_offs.angle).tan();
-            for (moment, ideal) in run.moments.iter().zip(run.ideal(pick_offs)) {
-                let [energy, r, s, q] = shares(ideal);
-                sums.advance(moment.time, [r, s, q * r, q * s]);
-                let [to_r, to_s, to_qr, to_qs] = sums.value.map(|sum| sum / longest);
-                let time = 2.0 * (moment.time - middle) / longest;
-                let of_angle = 2.0 * (s - tangent * r);
-                let of_energy = [-r, 0.0, -of_angle, to_r, to_s, 0.0, 0.0];
-                let of_quadrature = [q * r, s, q * of_angle, -to_qr, -to_qs, to_r, to_s];
-                let variances = variances(ideal, pick_offs).map(|part| part * moment.variance);
-                for ((row, seen, first), variance) in
-                    [(of_energy, energy.ln(), own), (of_quadrature, q, own + 2)]
-                        .into_iter()
-                        .zip(variances)
+            for moment in equations(
+                (index, run),
+                pick_offs,
+                shared,
+                splits.unwrap_or_default(),
+                longest,
+            ) {
+                for Equation {
+                    entries,
+                    seen,
+                    weight,
+                } in [moment.energy, moment.quadrature]
                 {
-                    let weight = 1.0 / variance;
-                    let columns = (0..shared).chain([first, first + 1]);
-                    let entries = row.into_iter().take(shared).chain([1.0, time]);
-                    let entries: Vec<_> = columns.zip(entries).collect();
                     normal.equations.add_equation(index, &entries, seen, weight);
                     normal.squares += weight * seen * seen;
                 }
-                normal.omega += moment.omega;
             }
+            normal.omega += run.moments.iter().map(|moment| moment.omega).sum::<f64>();
         }
         normal.omega /= runs.iter().map(|run| run.moments.len()).sum::<usize>() as f64;
         normal
@@ -261,24 +285,6 @@ pub fn variances([c, d]: [Complex<f64>; 2], pick_offs: &PickOffs) -> [f64; 2] {
         variances[1] += (quadrature - energy * q).norm_sqr();
     }
     variances.map(|sum| 4.0 * sum / (energy * energy))
-}
-
-/// Integrals over time, by the trapezoidal rule.
-#[derive(Default)]
-struct Sums {
-    value: [f64; SPLITS],
-    last: Option<(f64, [f64; SPLITS])>,
-}
-
-impl Sums {
-    fn advance(&mut self, time: f64, now: [f64; SPLITS]) {
-        if let Some((before, last)) = self.last {
-            for ((value, last), now) in self.value.iter_mut().zip(last).zip(now) {
-                *value += 0.5 * (time - before) * (last + now);
-            }
-        }
-        self.last = Some((time, now));
-    }
 }
 
 #[cfg(test)]

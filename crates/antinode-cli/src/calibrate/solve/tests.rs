@@ -8,6 +8,8 @@ use crate::resonator::motion::Motion;
 /// Length of a run, s, and rows in it.
 const SECONDS: f64 = 20.0;
 const ROWS: usize = 2000;
+/// 2πf, rad/s.
+const OMEGA: f64 = std::f64::consts::TAU * 5332.0;
 
 /// 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω and γ of a resonator, as [`Motion`] has them.
 type Resonator = [f64; 6];
@@ -15,11 +17,14 @@ type Resonator = [f64; 6];
 const ROUND: Resonator = [0.02, 0.0, 0.0, 0.0, 0.0, 0.0];
 /// Splits that turn the pattern's quadrature by some per cent while it turns once.
 const SPLIT: Resonator = [0.02, 0.004, -0.003, 0.01, 0.006, 0.0];
+/// A split that makes circles of lines meanwhile.
+const WIDE_SPLIT: Resonator = [0.02, 0.004, -0.003, 0.4, 0.5, 0.0];
 
 /// The phasors (1) to (3) of a free decay, row by row.
 fn decay(resonator: &Resonator, kappa: f64) -> Vec<[Complex<f64>; 2]> {
     let [decay, dc, ds, wc, ws, gamma] = *resonator;
-    let mut motion = Motion::new(&[decay, dc, ds, wc, ws, gamma, kappa, 1.0, 0.03, 0.4]);
+    let parameters = [decay, dc, ds, wc, ws, gamma, kappa, 1.0, 0.03, 0.4];
+    let mut motion = Motion::new(&parameters);
     let row = |_| {
         let [main, quadrature, angle] = motion.wave().into();
         motion.advance(SECONDS / ROWS as f64);
@@ -35,19 +40,18 @@ fn decay(resonator: &Resonator, kappa: f64) -> Vec<[Complex<f64>; 2]> {
 /// A run as pick-offs show it; `kappa` turns the pattern by κ/2 rad/s backwards.
 fn run(resonator: &Resonator, kappa: f64, pick_offs: &PickOffs, noise: f64, seed: u64) -> Run {
     let mut random = Deviates(seed);
-    let omega = std::f64::consts::TAU * 5332.0;
     let moments = decay(resonator, kappa)
         .into_iter()
         .enumerate()
         .map(|(index, ideal)| {
-            let mut raw = pick_offs.distort(ideal, omega);
+            let mut raw = pick_offs.distort(ideal, OMEGA);
             for z in &mut raw {
                 *z += Complex::new(random.draw(), random.draw()) * noise;
             }
             Moment {
                 time: SECONDS / ROWS as f64 * index as f64,
                 raw,
-                omega,
+                omega: OMEGA,
                 variance: noise.max(1e-9).powi(2),
                 corrected: PickOffs::IDEAL,
                 seconds: 0.0,
@@ -67,7 +71,7 @@ fn run(resonator: &Resonator, kappa: f64, pick_offs: &PickOffs, noise: f64, seed
 fn errors(found: &PickOffs, truth: &PickOffs) -> [f64; 3] {
     [
         found.gain_ratio / truth.gain_ratio - 1.0,
-        (found.skew - truth.skew) * std::f64::consts::TAU * 5332.0,
+        (found.skew - truth.skew) * OMEGA,
         found.angle - truth.angle,
     ]
 }
@@ -123,7 +127,12 @@ fn turning_both_ways_distinguishes_splits_from_flaws() {
 #[test]
 fn stated_deviations_are_the_rms_errors() {
     // With unlike gains, noise that is small on one pick-off is large on the other.
-    for gain_ratio in [1.02, 3.0, 0.33] {
+    for (gain_ratio, resonator) in [
+        (1.02, SPLIT),
+        (3.0, SPLIT),
+        (0.33, SPLIT),
+        (1.02, WIDE_SPLIT),
+    ] {
         let truth = PickOffs {
             gain_ratio,
             skew: 300e-9,
@@ -134,13 +143,13 @@ fn stated_deviations_are_the_rms_errors() {
         let runs = 60;
         for seed in 0..runs {
             let both = [
-                run(&SPLIT, 0.25, &truth, 1e-3, 2 * seed + 1),
-                run(&SPLIT, -0.2, &truth, 1e-3, 2 * seed + 2),
+                run(&resonator, 0.25, &truth, 1e-3, 2 * seed + 1),
+                run(&resonator, -0.2, &truth, 1e-3, 2 * seed + 2),
             ];
             let found = solve(&both, PickOffs::IDEAL).unwrap();
             let [gain, phase, angle] = errors(&found.pick_offs, &truth);
             let [of_gain, of_skew, of_angle] = found.deviations;
-            let of_phase = of_skew * std::f64::consts::TAU * 5332.0;
+            let of_phase = of_skew * OMEGA;
             for (sum, (error, deviation)) in squares.iter_mut().zip([
                 (gain * truth.gain_ratio, of_gain),
                 (phase, of_phase),

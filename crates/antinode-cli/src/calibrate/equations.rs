@@ -1,0 +1,158 @@
+//! The equations of a run's moments: what pick-offs and splits do to the energy and the quadrature.
+
+use nalgebra::DVector;
+
+use super::moments::Run;
+use super::solve::{FLAWS, OWN, PickOffs, SPLITS, shares, variances};
+
+/// An equation of least squares: places and factors of unknowns, the value seen, and one over its variance.
+pub struct Equation {
+    pub entries: Vec<(usize, f64)>,
+    pub seen: f64,
+    pub weight: f64,
+}
+
+/// The equations of ln E and of Q/E at a moment.
+pub struct Equations {
+    /// Time, in units of that in which the splits are unknowns.
+    pub time: f64,
+    /// R/E, S/E and Q/E, and the variance of each across the vector of all three.
+    pub state: [f64; 3],
+    pub variance: f64,
+    pub energy: Equation,
+    pub quadrature: Equation,
+}
+
+/// The equations of the run with this index, if `shared` unknowns are those of all runs; the splits, about these, are per `unit` of
+/// time, s.
+pub fn equations(
+    (index, run): (usize, &Run),
+    pick_offs: &PickOffs,
+    shared: usize,
+    [dc, ds, ws, wc]: [f64; SPLITS],
+    unit: f64,
+) -> Vec<Equations> {
+    let ideal = run.ideal(pick_offs);
+    let (first, last) = (run.moments[0].time, run.moments[ideal.len() - 1].time);
+    let middle = 0.5 * (first + last);
+    let own = shared + OWN * index;
+    let tangent = (2.0 * pick_offs.angle).tan();
+    let mut sums = Sums::default();
+    let each = run.moments.iter().zip(&ideal);
+    let each = each.map(|(moment, &ideal)| {
+        let [energy, r, s, q] = shares(ideal);
+        // R/E, S/E and Q/E, and their derivatives by ln g, by the phase of D, and by ε.
+        let of_gain = [r * r - 1.0, r * s, q * r];
+        let of_phase = [0.0, -q, s];
+        let of_angle = [
+            2.0 * s * (1.0 + r) - 2.0 * tangent * of_gain[0],
+            2.0 * (s * s - r - 1.0) - 2.0 * tangent * of_gain[1],
+            2.0 * s * q - 2.0 * tangent * of_gain[2],
+        ];
+        let products = |[dr, ds, dq]: [f64; 3]| [dr, ds, q * dr + r * dq, q * ds + s * dq];
+        let now = [r, s, q * r, q * s];
+        sums.advance(
+            moment.time,
+            [
+                now,
+                products(of_gain),
+                products(of_phase),
+                products(of_angle),
+            ],
+        );
+        let [[to_r, to_s, to_qr, to_qs], of_flaws @ ..] =
+            sums.value.map(|sums| sums.map(|sum| sum / unit));
+        let more = 2.0 * (s - tangent * r);
+        let mut of_energy = [-r, 0.0, -more, to_r, to_s, 0.0, 0.0];
+        let mut of_quadrature = [
+            of_gain[2],
+            of_phase[2],
+            of_angle[2],
+            -to_qr,
+            -to_qs,
+            to_r,
+            to_s,
+        ];
+        // Flaws also change the integrals.
+        for (flaw, [to_r, to_s, to_qr, to_qs]) in of_flaws.into_iter().enumerate() {
+            of_energy[flaw] -= dc * to_r + ds * to_s;
+            of_quadrature[flaw] -= ws * to_r + wc * to_s - dc * to_qr - ds * to_qs;
+        }
+        let variances = variances(ideal, pick_offs).map(|part| part * moment.variance);
+        let equation = |row: [f64; FLAWS + SPLITS], seen: f64, first: usize, variance: f64| {
+            let columns = (0..shared).chain([first, first + 1]);
+            let time = 2.0 * (moment.time - middle) / unit;
+            let entries = row.into_iter().take(shared).chain([1.0, time]);
+            Equation {
+                entries: columns.zip(entries).collect(),
+                seen,
+                weight: 1.0 / variance,
+            }
+        };
+        Equations {
+            time: moment.time / unit,
+            state: [r, s, q],
+            variance: variances[0],
+            energy: equation(of_energy, energy.ln(), own, variances[0]),
+            quadrature: equation(of_quadrature, q, own + 2, variances[1]),
+        }
+    });
+    each.collect()
+}
+
+/// Variances that noise in the integrals adds to those of the flaws, whose part of a solution is changed by `of_flaws` for each change of
+/// the right-hand side, if the splits are these.
+///
+/// The integrals are those of what is seen, so that noise of one moment acts on all later ones.
+pub fn by_integrals(
+    run: &[Equations],
+    [dc, ds, ws, wc]: [f64; SPLITS],
+    of_flaws: &[DVector<f64>; FLAWS],
+) -> [f64; FLAWS] {
+    of_flaws.each_ref().map(|of_flaw| {
+        let along = |equation: &Equation| {
+            let each = equation.entries.iter();
+            equation.weight * each.map(|&(at, by)| by * of_flaw[at]).sum::<f64>()
+        };
+        let (mut later_energy, mut later_quadrature, mut sum) = (0.0, 0.0, 0.0);
+        for (index, row) in run.iter().enumerate().rev() {
+            let [r, s, q] = row.state;
+            let before = &run[index.saturating_sub(1)];
+            let after = &run[(index + 1).min(run.len() - 1)];
+            let time = 0.5 * (after.time - before.time);
+            let (of_energy, of_quadrature) = (later_energy * time, later_quadrature * time);
+            let by = [
+                -dc * of_energy - (ws - dc * q) * of_quadrature,
+                -ds * of_energy - (wc - ds * q) * of_quadrature,
+                (dc * r + ds * s) * of_quadrature,
+            ];
+            let now = along(&row.quadrature);
+            // R/E, S/E and Q/E are a vector of length 1: noise acts across it.
+            let radial = by[0] * r + by[1] * s + by[2] * q;
+            let across = by.iter().map(|by| by * by).sum::<f64>() - radial * radial;
+            sum += row.variance * (across + 2.0 * now * (by[2] - q * radial));
+            later_energy += along(&row.energy);
+            later_quadrature += now;
+        }
+        sum
+    })
+}
+
+/// Integrals over time, by the trapezoidal rule.
+#[derive(Default)]
+struct Sums {
+    value: [[f64; SPLITS]; 1 + FLAWS],
+    last: Option<(f64, [[f64; SPLITS]; 1 + FLAWS])>,
+}
+
+impl Sums {
+    fn advance(&mut self, time: f64, now: [[f64; SPLITS]; 1 + FLAWS]) {
+        if let Some((before, last)) = self.last {
+            let values = self.value.as_flattened_mut().iter_mut();
+            for ((value, last), now) in values.zip(last.as_flattened()).zip(now.as_flattened()) {
+                *value += 0.5 * (time - before) * (last + now);
+            }
+        }
+        self.last = Some((time, now));
+    }
+}

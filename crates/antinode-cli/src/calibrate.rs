@@ -69,14 +69,20 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
     let corrected = PickOffs::from(&options.corrected);
     let (mut rows, name) = Runs::open(&options.given, MAX_TURN, Flags::REACQUIRED)?;
     let every = moments(&rows.runs, &corrected);
-    let mut found = solve(&every, corrected).map_err(|fault| fault.of(&name))?;
+    let mut found = solve(&every, corrected);
+    // Driven rows may spoil it so far that there is none.
+    let all = found.as_ref();
+    let all = all.map_or((corrected, f64::INFINITY), |all| {
+        (all.pick_offs, all.residual)
+    });
     let mut driven = Vec::new();
-    if found.residual > BEYOND_NOISE
+    if all.1 > BEYOND_NOISE
         && let Some((others, [runs, left_out])) =
-            without_driven(&rows.runs, &every, &corrected, &found)
+            without_driven(&rows.runs, &every, &corrected, all)
     {
-        (found, rows.runs, driven) = (others, runs, left_out);
+        (found, rows.runs, driven) = (Ok(others), runs, left_out);
     }
+    let found = found.map_err(|fault| fault.of(&name))?;
     let quantities = quantities(&found);
     let mut report = io::stderr().lock();
     // The result goes to standard output: standard error may be closed.

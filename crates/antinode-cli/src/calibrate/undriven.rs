@@ -21,12 +21,12 @@ pub fn moments(runs: &[runs::Run], corrected: &PickOffs) -> Vec<Run> {
 }
 
 /// The calibration without the runs in which something drives the wave, with the other runs and the driven ones; `every` has the
-/// moments of every run. `None` if it does not explain the rows better.
+/// moments of every run, which a calibration explains with a residual. `None` if it does not explain the rows better.
 pub fn without_driven(
     runs: &[runs::Run],
     every: &[Run],
     corrected: &PickOffs,
-    all: &Found,
+    (all, residual): (PickOffs, f64),
 ) -> Option<(Found, [Vec<runs::Run>; 2])> {
     let without = |pick_offs: &PickOffs| {
         let energies: Vec<_> = every.iter().map(|run| run.energies(pick_offs)).collect();
@@ -37,17 +37,19 @@ pub fn without_driven(
     // Driven rows spoil the calibration that is to reveal them; that from a part without any makes most parts decay evenly.
     let parts: Vec<_> = every.iter().flat_map(|run| run.parts(PARTS)).collect();
     let some = parts.iter().step_by(parts.len().div_ceil(TRIED).max(1));
-    let of_some = some.filter_map(|part| solve(std::slice::from_ref(part), all.pick_offs).ok());
+    let of_some = some.filter_map(|part| solve(std::slice::from_ref(part), all).ok());
     let rough = of_some
         .map(|found| found.pick_offs)
-        .chain([all.pick_offs])
+        .chain([all])
         .map(|pick_offs| (pick_offs, median_unevenness(&parts, &pick_offs)))
         .min_by(|(_, one), (_, other)| one.total_cmp(other));
     let mut found = without(&rough?.0)?;
     for _ in 0..REPETITIONS {
         found = without(&found.0.pick_offs)?;
     }
-    (found.0.residual < BEYOND_NOISE.max(MAX_RESIDUAL_SHARE * all.residual)).then_some(found)
+    let is_better = found.0.residual < BEYOND_NOISE.max(MAX_RESIDUAL_SHARE * residual);
+    let [_, driven] = &found.1;
+    (is_better && !driven.is_empty()).then_some(found)
 }
 
 /// How unevenly energy decays in runs if the pick-offs are these: the median of the mean squared residuals, over the moments' own

@@ -241,5 +241,10 @@ pub fn turn(change: f64) -> f64 {
     change - FRAC_PI_2 * (change / FRAC_PI_2).round()
 }
 
+/// One over 2πf, s/rad; 0, as if periods were infinitely short, where this is no frequency of a wave but stands for one unknown.
+pub fn per_radian(omega: f64) -> f64 {
+    if omega.abs() < 1.0 { 0.0 } else { 1.0 / omega }
+}
+
 #[cfg(test)]
 mod tests;

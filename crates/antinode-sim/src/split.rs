@@ -10,11 +10,15 @@
 //! period, the splits couple them:
 //!
 //! ```text
-//! d/dt (F, G) = (N - decay_rate) (F, G),   N = (2j angle_rate, p; q, -2j angle_rate)
-//! p, q = -delta / 2 exp(+-4j (theta_delta - theta)) + j pi Delta f exp(+-4j (theta_f - theta))
+//! d/dt (F, G) = (N - decay_rate) (F, G),   N = M + K + j ((KM - MK) / 2 + decay_rate P) / omega
+//! M = (2j angle_rate, p; p*, -2j angle_rate),   p = -delta / 2 exp(4j (theta_delta - theta))
+//! K = (0, k; -k*, 0),                           k = j pi Delta f exp(4j (theta_f - theta))
+//! P = M with p = 0
 //! ```
 //!
-//! delta being the damping split, Delta f the frequency split, theta_delta and theta_f their angles. The square of N is s^2 times
+//! delta being the damping split, Delta f the frequency split, theta_delta and theta_f their angles. This is exact to the second order
+//! in rates over omega = 2 pi f: what is left out is rates^2 / omega^2 of the wave, and rates^3 / omega^2 of it per second. Other terms
+//! of the second order are parts of f and of Delta f, which are those that the wave shows. The square of N is s^2 times
 //! unity, so that exp(N t) = cosh(s t) + N sinh(s t) / s at any t. If splits and rotation cancel, s is 0 and N has only one eigenvector;
 //! sinh(s t) / s then becomes t, and nothing else is special.
 
@@ -55,14 +59,21 @@ impl SplitWave {
         let frequency = Complex::new(0.0, PI * wave.frequency_split);
         let [damped, fast] = [wave.damping_angle, wave.frequency_angle]
             .map(|at| polar(1.0, 4.0 * (at - wave.angle)));
-        let p = damped * damping + fast * frequency;
-        let q = damped.conj() * damping + fast.conj() * frequency;
+        let zero = Complex::from(0.0);
         let turn = Complex::new(0.0, 2.0 * wave.angle_rate);
+        let turning = Matrix2::new(turn, zero, zero, -turn);
+        let damping = Matrix2::new(zero, damped * damping, damped.conj() * damping, zero);
+        let frequency = Matrix2::new(zero, fast * frequency, fast.conj() * frequency, zero);
+        let first = turning + damping;
+        let within_period = (frequency * first - first * frequency) * Complex::from(0.5)
+            + turning * Complex::from(wave.decay_rate);
+        let by_omega = Complex::new(0.0, 1.0 / (TAU * wave.frequency));
+        let matrix = first + frequency + within_period * by_omega;
         let (a, b) = (wave.main_amplitude, wave.quadrature_amplitude);
         SplitWave {
             wave: *wave,
-            matrix: Matrix2::new(turn, p, q, -turn),
-            root: root(turn * turn + p * q),
+            matrix,
+            root: root(matrix.m11 * matrix.m11 + matrix.m12 * matrix.m21),
             start: Vector2::new(Complex::from(a + b), Complex::from(a - b)),
         }
     }

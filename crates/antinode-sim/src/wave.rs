@@ -9,6 +9,9 @@ use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
 /// The true wave; all values are those at t = 0, the time of the first sample.
 ///
+/// With splits it moves as both modes do, to the second order in rates over omega: rotation then also acts within a period, together with
+/// damping and splits. Without splits it turns and decays exactly as its rates say.
+///
 /// (theta, alpha) and (theta + pi/2, alpha + pi) are the same motion: an angle found from the signals is known modulo pi/2.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]

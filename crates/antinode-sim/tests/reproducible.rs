@@ -129,8 +129,8 @@ fn golden_hashes() {
         0x3658_add8_94f0_14cc,
         0x47c0_1c5e_8b35_44ea,
         0x777d_ea0d_40b1_c0d9,
-        0x7b07_73f6_bafe_25d4,
-        0x2d08_8104_f1f9_0d15,
+        0xe3ee_9916_72dd_24be,
+        0x1b35_0be2_1d21_cf23,
     ];
     assert_eq!(found, expected, "{found:#x?}");
 }

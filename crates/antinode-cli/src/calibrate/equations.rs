@@ -4,6 +4,7 @@ use nalgebra::DVector;
 
 use super::moments::Run;
 use super::solve::{FLAWS, OWN, PickOffs, SPLITS, shares, variances};
+use crate::runs::per_radian;
 
 /// An equation of least squares: places and factors of unknowns, the value seen, and one over its variance.
 pub struct Equation {
@@ -62,16 +63,18 @@ pub fn equations(
         );
         let [[to_r, to_s, to_qr, to_qs], of_flaws @ ..] =
             sums.value.map(|sums| sums.map(|sum| sum / unit));
+        // At equal energy the mode of the higher frequency moves less, by the share Δω/2ω.
+        let [more_r, more_s] = [r, s].map(|part| 0.5 * part * per_radian(moment.omega) / unit);
         let more = 2.0 * (s - tangent * r);
-        let mut of_energy = [-r, 0.0, -more, to_r, to_s, 0.0, 0.0];
+        let mut of_energy = [-r, 0.0, -more, to_r, to_s, -more_s, more_r];
         let mut of_quadrature = [
             of_gain[2],
             of_phase[2],
             of_angle[2],
             -to_qr,
             -to_qs,
-            to_r,
-            to_s,
+            to_r + q * more_s,
+            to_s - q * more_r,
         ];
         // Flaws also change the integrals.
         for (flaw, [to_r, to_s, to_qr, to_qs]) in of_flaws.into_iter().enumerate() {

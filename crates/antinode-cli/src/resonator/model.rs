@@ -1,5 +1,7 @@
 //! The unknowns of each run's motion.
 
+use std::f64::consts::TAU;
+
 use nalgebra::{DVector, RowSVector};
 
 use super::motion::{GAMMA, KAPPA, Motion, PARAMETERS, RATES};
@@ -101,7 +103,7 @@ impl Model {
         if self.is_unsteady() {
             parameters[RATES + 2] = run.rows[0].angle;
         }
-        Motion::new(&parameters)
+        Motion::new(&parameters).of_frequency(TAU * run.rows[0].frequency)
     }
 
     /// Moves on from one row to another. If patterns are turned unsteadily, returns the part of the turn that is not due to rotation, rad,

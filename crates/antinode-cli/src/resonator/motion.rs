@@ -11,22 +11,29 @@
 //! where 1/τ is the mean of the damping of both modes and δ its split, Δω the split of the frequencies in rad/s, c and s the cosine and sine
 //! of four times the angle at which the damping, or the frequency, is greatest, and −κ/2 the rate at which rotation turns the pattern.
 //!
+//! Within a period κ also acts together with 1/τ and Δω. To the second order in rates over the frequency 2πf = ω this adds
+//!
+//! ```text
+//! Ė:  (κ/ω)(2Q/τ + Δω(s_ω R − c_ω S))        Ṙ:  (κ/ω) Δω s_ω E
+//! Q̇:  (κ/ω) 2E/τ                             Ṡ: −(κ/ω) Δω c_ω E
+//! ```
+//!
+//! Both modes obey ü + 2Mu̇ + (ω² + ωN)u = 0, with u the travelling waves z₊ and z₋, so that u̇ = (jω + A)u with
+//! A = −M + jN/2 − j(M² + N²/4)/2ω − (MN − NM)/4ω. The other terms of the second order are constants: they are part of f, Δω and κ.
+//!
 //! A shell whose stiffness depends on its deflection turns a pattern that has quadrature: κ then has a part γQ. For a stiffness of
 //! ω²(1 + βr²), with r the deflection of both pick-offs' modes together, γ is βω/8, and the frequency also rises by 3γE rad/s.
+
+mod rates;
 
 use nalgebra::{
     Complex, Matrix3x4, Matrix4, Matrix4x3, RowSVector, RowVector4, SMatrix, SVector, Vector3,
     Vector4,
 };
 
-use crate::runs::{Row, turn};
+use crate::runs::{Row, per_radian, turn};
+pub use rates::{GAMMA, KAPPA, RATES, by_rates, state};
 
-/// Number of rates that move a wave: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, γ, κ.
-pub const RATES: usize = 7;
-/// The place of γ among them.
-pub const GAMMA: usize = 5;
-/// The place of κ.
-pub const KAPPA: usize = 6;
 /// Number of parameters: the rates, and the wave at the start, a_A, a_B, θ.
 pub const PARAMETERS: usize = RATES + 3;
 /// The state and its derivatives by all parameters.
@@ -39,33 +46,6 @@ const MAX_STEPS: f64 = 500.0;
 /// evenly.
 const MAX_CHANGE: f64 = 1.95;
 
-/// The state E, R, S, Q of a wave with these a_A, a_B and θ.
-pub fn state(main: f64, quadrature: f64, angle: f64) -> Vector4<f64> {
-    let (sine, cosine) = (4.0 * angle).sin_cos();
-    let apart = main * main - quadrature * quadrature;
-    Vector4::new(
-        main * main + quadrature * quadrature,
-        apart * cosine,
-        apart * sine,
-        2.0 * main * quadrature,
-    )
-}
-
-/// Slopes of the state E, R, S, Q per unit of each rate.
-pub fn by_rates(state: &Vector4<f64>) -> SMatrix<f64, 4, RATES> {
-    let [e, r, s, q] = (*state).into();
-    let turning = Vector4::new(0.0, 2.0 * s, -2.0 * r, 0.0);
-    SMatrix::from_columns(&[
-        state * -2.0,
-        Vector4::new(-r, -e, 0.0, 0.0),
-        Vector4::new(-s, 0.0, -e, 0.0),
-        Vector4::new(0.0, 0.0, -q, s),
-        Vector4::new(0.0, q, 0.0, -r),
-        turning * q,
-        turning,
-    ])
-}
-
 /// The state E, R, S, Q, and its derivatives by the rates and by the wave at the start.
 #[derive(Debug, Clone)]
 pub struct Motion {
@@ -73,6 +53,8 @@ pub struct Motion {
     rates: SVector<f64, RATES>,
     /// The matrix by which all rates but γ and κ move the state.
     matrix: Matrix4<f64>,
+    /// The matrix by which κ moves it within a period, per unit of κ.
+    within_period: Matrix4<f64>,
 }
 
 impl Motion {
@@ -111,7 +93,21 @@ impl Motion {
             columns,
             rates,
             matrix: Matrix4::from_columns(&moved.collect::<Vec<_>>()),
+            within_period: Matrix4::zeros(),
         }
+    }
+
+    /// The same for a wave of this 2πf, rad/s: without it, periods are taken to be infinitely short.
+    pub fn of_frequency(mut self, omega: f64) -> Self {
+        let [decay, _, _, wc, ws, _, _]: [f64; RATES] = self.rates.into();
+        let [decay, wc, ws] = [2.0 * decay, wc, ws].map(|rate| rate * per_radian(omega));
+        self.within_period = Matrix4::new(
+            0.0, ws, -wc, decay, //
+            ws, 0.0, 0.0, 0.0, //
+            -wc, 0.0, 0.0, 0.0, //
+            decay, 0.0, 0.0, 0.0,
+        );
+        self
     }
 
     /// Sets the rate at which rotation turns the pattern from now on, rad/s; the splits turn it further.
@@ -151,12 +147,12 @@ impl Motion {
 
     /// The slope of a state.
     fn slope(&self, state: &Vector4<f64>) -> Vector4<f64> {
-        by_rates(state) * self.rates
+        self.at(state) * state
     }
 
     /// The matrix by which this state moves.
     fn at(&self, state: &Vector4<f64>) -> Matrix4<f64> {
-        let mut matrix = self.matrix;
+        let mut matrix = self.matrix + self.within_period * self.rates[KAPPA];
         let turning = 2.0 * (self.rates[KAPPA] + self.rates[GAMMA] * state[3]);
         matrix[(1, 2)] += turning;
         matrix[(2, 1)] -= turning;
@@ -172,7 +168,8 @@ impl Motion {
             // A difference in Q also changes the rate of turning.
             let turning = by_rates.column(KAPPA) * self.rates[GAMMA];
             slope += turning * columns.row(3);
-            slope.set_column(0, &(by_rates * self.rates));
+            slope.set_column(0, &self.slope(&state));
+            // The effects within a period change these by too little to matter.
             let mut of_rates = slope.fixed_columns_mut::<RATES>(1);
             of_rates += by_rates;
             slope

@@ -131,9 +131,10 @@ fn a_drift_with_time_is_not_taken_for_a_dependence_on_the_energy() {
 fn csv_and_json_lines_show_two_digits_of_the_deviation_of_a_frequency() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
+    // Only with a split, however small, does a simulated wave show what rotation does within a period: in so little noise it is seen.
     rows(
         here,
-        "--seconds 60 --rate 25000 --noise 1e-7 --sample f32 --decay-rate 0.02 --angle-rate 0.02",
+        "--seconds 60 --rate 25000 --noise 1e-7 --sample f32 --decay-rate 0.02 --angle-rate 0.02 --damping-split 1e-9",
         "--periods 50",
     );
     let found = run(here, "resonator rows.csv --output csv");
@@ -152,4 +153,36 @@ fn csv_and_json_lines_show_two_digits_of_the_deviation_of_a_frequency() {
         lines.contains(&format!("\"frequency_hz\",\"value\":{value},")),
         "{lines}"
     );
+}
+
+#[test]
+fn rows_without_a_true_frequency_show_the_splits_all_the_same() {
+    let directory = tempfile::tempdir().unwrap();
+    let turning = [0.4, -0.4].map(|rate| {
+        format!(
+            "--seconds 4 --noise 0.002 --decay-rate 0.1 --frequency-split 0.01 --angle-rate {rate}"
+        )
+    });
+    let rows = joined(directory.path(), turning, "--periods 50");
+    let rows = String::from_utf8(rows).unwrap();
+    let names: Vec<_> = rows.lines().next().unwrap().split(',').collect();
+    let place = names.iter().position(|name| *name == "frequency_hz");
+    for frequency in ["0", "1e-30"] {
+        let mut text = String::new();
+        for line in rows.lines() {
+            let mut fields: Vec<_> = line.split(',').collect();
+            if fields != names {
+                fields[place.unwrap()] = frequency;
+            }
+            text += &(fields.join(",") + "\n");
+        }
+        let found = run_with(
+            directory.path(),
+            "resonator - --output csv",
+            text.into_bytes(),
+        );
+        assert_eq!(found.code, 0, "{}", found.err);
+        let (split, std) = of_resonator(&found.out, "frequency_split_hz");
+        assert!((split - 0.01).abs() < 4.0 * std, "{}", found.out);
+    }
 }

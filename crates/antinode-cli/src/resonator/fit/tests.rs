@@ -4,6 +4,8 @@ mod frequency;
 mod gaps;
 mod unsteady;
 
+use std::f64::consts::TAU;
+
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::super::motion::Motion;
@@ -47,7 +49,8 @@ fn run_turned(
     let [decay, dc, ds, wc, ws, gamma] = *resonator;
     let [main, quadrature, angle] = start;
     let kappa = -2.0 * rate(0.0);
-    let mut motion = Motion::new(&[decay, dc, ds, wc, ws, gamma, kappa, main, quadrature, angle]);
+    let parameters = [decay, dc, ds, wc, ws, gamma, kappa, main, quadrature, angle];
+    let mut motion = Motion::new(&parameters).of_frequency(TAU * 5332.0);
     let rows = (0..count)
         .map(|index| {
             let part = step / PARTS as f64;
@@ -322,7 +325,7 @@ fn steps_converge_if_windows_turn_far_and_rows_are_not_quite_a_decay() {
 #[test]
 fn stiffness_that_depends_on_the_amplitude_is_determined_beside_the_splits() {
     // The frequency falls by 1 mHz meanwhile: γ is a third of that at E of one, rad/s.
-    let gamma = 1e-3 * std::f64::consts::TAU / 3.0;
+    let gamma = 1e-3 * TAU / 3.0;
     let mut stiff = RESONATOR;
     stiff[5] = gamma;
     for kappas in [[4e-5; 3], [0.2, -0.2, 0.1]] {

@@ -1,6 +1,6 @@
 //! Comparison with the two modes' own equations of motion, and of derivatives with differences.
 
-use nalgebra::Complex;
+use nalgebra::{Complex, Matrix2, Vector2};
 
 use super::*;
 
@@ -283,4 +283,45 @@ fn the_turn_to_an_angle_is_returned_with_its_derivatives() {
             derivatives[i]
         );
     }
+}
+
+#[test]
+fn rotation_acts_within_a_period() {
+    // Travelling waves u of both modes obey ü + 2Mu̇ + (ω² + ωN)u = 0, and u̇ = (jω + A)u, so that A² + 2jωA + 2M(jω + A) + ωN = 0.
+    let omega = 2000.0;
+    let [decay, dc, ds, wc, ws, _, kappa] = RATES_OF_ALL;
+    let (damping, split) = (Complex::new(dc, ds), Complex::new(wc, ws));
+    let slope = |kappa: f64| {
+        let own = Complex::new(decay, kappa);
+        let half = damping * 0.5;
+        let m = Matrix2::new(own, half, half.conj(), own.conj());
+        let n = Matrix2::new(0.0.into(), split, split.conj(), 0.0.into());
+        let first = n * Complex::new(0.0, 0.5) - m;
+        let mut a = first;
+        for _ in 0..20 {
+            a = first + (a + m * Complex::from(2.0)) * a * Complex::new(0.0, 0.5 / omega);
+        }
+        // z₊ and z₋ of a_A = 0.8, a_B = 0.3 and θ = 0.6.
+        let wave = Vector2::new(
+            Complex::from_polar(1.1, 1.2),
+            Complex::from_polar(0.5, -1.2),
+        );
+        let slope = a * wave;
+        let of_squares = [0, 1].map(|i| 2.0 * (wave[i].conj() * slope[i]).re);
+        let of_product = slope[0] * wave[1].conj() + wave[0] * slope[1].conj();
+        Vector4::new(
+            0.5 * (of_squares[0] + of_squares[1]),
+            of_product.re,
+            of_product.im,
+            0.5 * (of_squares[0] - of_squares[1]),
+        )
+    };
+    let found = |kappa: f64| {
+        let parameters = [decay, dc, ds, wc, ws, 0.0, kappa, 0.8, 0.3, 0.6];
+        let motion = Motion::new(&parameters).of_frequency(omega);
+        motion.slope(&motion.state())
+    };
+    // Terms that do not change sign with κ are parts of Δω, f and κ.
+    let apart = found(kappa) - found(-kappa) - (slope(kappa) - slope(-kappa));
+    assert!(apart.norm() < 1e-7, "{apart:e}");
 }

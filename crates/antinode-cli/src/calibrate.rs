@@ -70,15 +70,15 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
     let (mut rows, name) = Runs::open(&options.given, MAX_TURN, Flags::REACQUIRED)?;
     let every = moments(&rows.runs, &corrected);
     let mut found = solve(&every, corrected);
-    // Driven rows may spoil it so far that there is none.
-    let all = found.as_ref();
-    let all = all.map_or((corrected, f64::INFINITY), |all| {
-        (all.pick_offs, all.residual)
-    });
+    let (start, residual) = match &found {
+        Ok(found) => (found.pick_offs, found.residual),
+        // Driven rows may spoil it so far that there is none.
+        Err(_) => (corrected, f64::INFINITY),
+    };
     let mut driven = Vec::new();
-    if all.1 > BEYOND_NOISE
+    if residual > BEYOND_NOISE
         && let Some((others, [runs, left_out])) =
-            without_driven(&rows.runs, &every, &corrected, all)
+            without_driven(&rows.runs, &every, &corrected, (start, residual))
     {
         (found, rows.runs, driven) = (Ok(others), runs, left_out);
     }

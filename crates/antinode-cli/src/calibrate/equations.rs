@@ -14,7 +14,7 @@ pub struct Equation {
 }
 
 /// The equations of ln E and of Q/E at a moment.
-pub struct Equations {
+pub struct AtMoment {
     /// Time, in units of that in which the splits are unknowns.
     pub time: f64,
     /// R/E, S/E and Q/E, and the variance of each across the vector of all three.
@@ -32,7 +32,7 @@ pub fn equations(
     shared: usize,
     [dc, ds, ws, wc]: [f64; SPLITS],
     unit: f64,
-) -> Vec<Equations> {
+) -> Vec<AtMoment> {
     let ideal = run.ideal(pick_offs);
     let (first, last) = (run.moments[0].time, run.moments[ideal.len() - 1].time);
     let middle = 0.5 * (first + last);
@@ -92,7 +92,7 @@ pub fn equations(
                 weight: 1.0 / variance,
             }
         };
-        Equations {
+        AtMoment {
             time: moment.time / unit,
             state: [r, s, q],
             variance: variances[0],
@@ -108,7 +108,7 @@ pub fn equations(
 ///
 /// The integrals are those of what is seen, so that noise of one moment acts on all later ones.
 pub fn by_integrals(
-    run: &[Equations],
+    run: &[AtMoment],
     [dc, ds, ws, wc]: [f64; SPLITS],
     of_flaws: &[DVector<f64>; FLAWS],
 ) -> [f64; FLAWS] {

@@ -1,8 +1,10 @@
 //! `antinode monitor` on a port or a pipe that stays open.
 #![cfg(unix)]
 
-use std::io::{BufRead, BufReader, Read, Write};
+use std::fs;
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::process::{Child, Command, Stdio};
+use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
 
@@ -22,9 +24,13 @@ fn estimate() -> Estimate {
 
 /// A monitor of this port or pipe.
 fn monitor(path: &str) -> Child {
+    monitor_to(path, Stdio::piped())
+}
+
+fn monitor_to(path: &str, out: impl Into<Stdio>) -> Child {
     Command::new(env!("CARGO_BIN_EXE_antinode"))
         .args(["monitor", path, "--format", "csv"])
-        .stdout(Stdio::piped())
+        .stdout(out)
         .stderr(Stdio::piped())
         .spawn()
         .unwrap()
@@ -121,6 +127,23 @@ fn a_silent_port_is_reported_while_it_is_waited_for() {
     assert!(last.contains(": 1 estimates"), "{last}");
 }
 
+/// Waits until a command catches SIGINT; where the system does not tell, for a second.
+fn wait_until_interruptible(child: &Child) {
+    for _ in 0..500 {
+        let Ok(status) = fs::read_to_string(format!("/proc/{}/status", child.id())) else {
+            return thread::sleep(Duration::from_secs(1));
+        };
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+        let caught = u64::from_str_radix(caught.unwrap().trim(), 16).unwrap();
+        // Signal 2 has bit 1.
+        if caught & 2 != 0 {
+            return;
+        }
+        thread::sleep(Duration::from_millis(20));
+    }
+    panic!("SIGINT is not caught");
+}
+
 #[test]
 fn a_monitor_of_a_pipe_that_nobody_writes_into_is_interrupted() {
     let directory = tempfile::tempdir().unwrap();
@@ -140,7 +163,7 @@ fn a_monitor_of_a_pipe_that_nobody_writes_into_is_interrupted() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    thread::sleep(Duration::from_millis(300));
+    wait_until_interruptible(&child);
     send("-INT", &child);
     assert!(ends(&mut child));
     let told = told(&mut child);
@@ -150,16 +173,28 @@ fn a_monitor_of_a_pipe_that_nobody_writes_into_is_interrupted() {
 #[test]
 fn a_monitor_whose_rows_nobody_reads_ends_at_the_second_interrupt() {
     let device = Device::start(false);
-    let mut child = monitor(&device.path);
+    let (reader, mut writer) = io::pipe().unwrap();
+    let mut child = monitor_to(&device.path, writer.try_clone().unwrap());
     assert_eq!(
         device.asked.recv_timeout(Duration::from_secs(10)),
         Ok(Asked::Get)
     );
-    // More rows than a pipe holds.
-    let estimate = estimate();
-    for _ in 0..2000 {
-        device.reports.send(estimate.into()).unwrap();
-    }
+    device.reports.send(estimate().into()).unwrap();
+    let mut lines = BufReader::new(reader).lines();
+    assert!(lines.nth(1).is_some());
+    // Another writer fills the pipe and waits, so that the next row waits too.
+    let (is_filled, filled) = mpsc::channel();
+    thread::spawn(move || {
+        loop {
+            // It fails once nobody can read any more.
+            if writer.write_all(&[0; 1 << 14]).is_err() {
+                break;
+            }
+            is_filled.send(()).unwrap();
+        }
+    });
+    while filled.recv_timeout(Duration::from_secs(1)).is_ok() {}
+    device.reports.send(estimate().into()).unwrap();
     thread::sleep(Duration::from_secs(2));
     send("-INT", &child);
     thread::sleep(Duration::from_millis(200));

@@ -2,7 +2,7 @@
 
 use antinode::{Flags, Identifier, Settings, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::score::{errors, stated};
+use host_tests::score::{StatedRatio, errors};
 use host_tests::{Core, RATE, calibrated, gyro, identify, stream, windows};
 
 /// True if the core accepts windows of ten periods with this change.
@@ -208,10 +208,14 @@ fn a_row_that_is_not_lost_states_a_frequency_and_deviations() {
 /// The largest ratio, over angles, of rms errors of a_A, a_B and θ to their deviations, and the rms over all angles, for a pattern that
 /// turns by `turn` in a window of ten periods.
 fn of_turning(gain_ratio: f64, turn: f64) -> [f64; 2] {
+    let of_three = |ratio: &StatedRatio| {
+        let [main, quadrature, angle, _] = ratio.ratios();
+        [main, quadrature, angle]
+    };
     let angle_rate = turn * RATE / 190.0;
-    let (mut worst, mut all, mut count) = (0f64, 0.0, 0.0);
+    let (mut worst, mut all) = (0f64, StatedRatio::default());
     for place in 0..16 {
-        let (mut squares, mut rows) = ([0.0; 3], 0.0);
+        let mut here = StatedRatio::default();
         for seed in 0..150 {
             // The second window, of 190 pairs, has this angle at its middle.
             let middle = std::f64::consts::FRAC_PI_2 * f64::from(place) / 16.0;
@@ -234,20 +238,13 @@ fn of_turning(gain_ratio: f64, turn: f64) -> [f64; 2] {
             };
             let estimate = identify(wave, &flaws, settings, 400, seed)[1];
             assert_eq!((estimate.start, estimate.samples), (190, 190));
-            let stds = stated(&estimate);
-            rows += 1.0;
-            for (i, square) in squares.iter_mut().enumerate() {
-                let ratio = errors(&estimate, &wave)[i] / stds[i];
-                *square += ratio * ratio;
-                all += ratio * ratio;
-                count += 1.0;
-            }
+            here.add(&estimate, &wave);
+            all.add(&estimate, &wave);
         }
-        worst = squares
-            .into_iter()
-            .fold(worst, |w, s| w.max((s / rows).sqrt()));
+        worst = of_three(&here).into_iter().fold(worst, f64::max);
     }
-    [worst, f64::sqrt(all / count)]
+    let squares: f64 = of_three(&all).map(|ratio| ratio * ratio).iter().sum();
+    [worst, (squares / 3.0).sqrt()]
 }
 
 #[test]

@@ -7,24 +7,36 @@ use host_tests::RATE;
 
 use crate::detector::wave;
 
+/// Periods after which a wave of so many codes is found in noise of `noise` codes, if it is within so many periods.
+fn found_after<S: Sample>(
+    (seed, codes): (u64, f64),
+    (noise, offsets): (f64, [f64; 2]),
+    periods: f64,
+    code: fn(f64) -> S,
+) -> Option<f64>
+where
+    [S; 2]: SamplePair<S>,
+{
+    let (wave, period) = wave(seed);
+    let scale = codes / wave.main_amplitude;
+    let flaws = Flaws {
+        noise: noise / scale,
+        ..Flaws::default()
+    };
+    let mut detector = DifferenceDetector::<S>::new();
+    let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
+    let found = gyro
+        .take((periods * period) as usize)
+        .map(|[c, d]| [scale * c + offsets[0], scale * d + offsets[1]])
+        .position(|pair| detector.push(pair.map(|x| code(x.round()))).is_some());
+    found.map(|at| at as f64 / period)
+}
+
 #[test]
 fn a_wave_of_a_dozen_codes_is_found_soon() {
     let (mut latest, mut sum) = (0f64, 0.0);
     for seed in 0..4000 {
-        let (wave, period) = wave(seed);
-        let scale = 12.0 / wave.main_amplitude;
-        let flaws = Flaws {
-            noise: 0.5 / scale,
-            offset_c: 31.0 / scale,
-            ..Flaws::default()
-        };
-        let mut detector = DifferenceDetector::<i16>::new();
-        let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
-        let codes = gyro.map(|pair| pair.map(|x| (scale * x).round() as i16));
-        let found = codes
-            .take((30.0 * period) as usize)
-            .position(|pair| detector.push(pair).is_some());
-        let time = found.unwrap() as f64 / period;
+        let time = found_after((seed, 12.0), (0.5, [31.0, 0.0]), 30.0, |x| x as i16).unwrap();
         latest = latest.max(time);
         sum += time;
     }
@@ -39,24 +51,11 @@ where
     [S; 2]: SamplePair<S>,
 {
     const WAVES: u64 = 500;
-    let count = (0..WAVES)
-        .filter(|&seed| {
-            let (wave, period) = wave(seed);
-            let scale = codes / wave.main_amplitude;
-            let flaws = Flaws {
-                noise: 0.3 / scale,
-                ..Flaws::default()
-            };
-            let offset = (seed as f64 * 0.569_84).fract();
-            let mut detector = DifferenceDetector::<S>::new();
-            let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
-            !gyro
-                .take((60.0 * period) as usize)
-                .map(|pair| pair.map(|x| code((scale * x + offset).round())))
-                .any(|pair| detector.push(pair).is_some())
-        })
-        .count();
-    count as f64 / WAVES as f64
+    let is_missed = |&seed: &u64| {
+        let offset = (seed as f64 * 0.569_84).fract();
+        found_after((seed, codes), (0.3, [offset; 2]), 60.0, code).is_none()
+    };
+    (0..WAVES).filter(is_missed).count() as f64 / WAVES as f64
 }
 
 #[test]

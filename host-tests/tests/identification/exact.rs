@@ -11,10 +11,10 @@ fn even(seed: u64, step: f64) -> f64 {
     (seed as f64 * step).fract()
 }
 
-/// The largest errors of a_A, a_B and f, relative, and of θ, of 600 waves with |a_B| up to `share` of a_A, in windows of 2 to 100 periods at
+/// The largest errors of a_A, a_B and f, relative, and of θ, and the largest relative residual and deviation of a_A, of 600 waves with |a_B| up to `share` of a_A, in windows of 2 to 100 periods at
 /// 4.3 to 190 samples a period, both spaced evenly in their logarithm.
-fn worst(share: f64, hop: Option<u16>) -> [f64; 4] {
-    let mut worst = [0f64; 4];
+fn worst(share: f64, hop: Option<u16>) -> [f64; 6] {
+    let mut worst = [0f64; 6];
     for seed in 0..600 {
         let period = 4.3 * (190.0f64 / 4.3).powf(even(seed, 0.618_034));
         let periods = (2.0 * 50f64.powf(even(seed, 0.754_878))).round() as u16;
@@ -39,7 +39,16 @@ fn worst(share: f64, hop: Option<u16>) -> [f64; 4] {
         for estimate in estimates {
             assert!(estimate.flags.is_empty(), "seed {seed}: {}", estimate.flags);
             let [main, quadrature, angle, frequency] = errors(&estimate, &wave);
-            let relative = [main / a, quadrature / a, angle, frequency / wave.frequency];
+            let [residual, deviation] =
+                [estimate.residual_rms, estimate.main_amplitude_std].map(f64::from);
+            let relative = [
+                main / a,
+                quadrature / a,
+                angle,
+                frequency / wave.frequency,
+                residual / a,
+                deviation / a,
+            ];
             for (worst, error) in worst.iter_mut().zip(relative) {
                 *worst = worst.max(error.abs());
             }
@@ -62,8 +71,8 @@ fn errors_are_below_rounding_in_any_window_at_any_offset_and_rate() {
     ] {
         let worst = worst(share, hop);
         println!(
-            "|a_B| up to {share} a_A, hop {hop:?}: a_A {:.1e}, a_B {:.1e} of a_A, θ {:.1e} rad, f {:.1e} of f",
-            worst[0], worst[1], worst[2], worst[3]
+            "|a_B| up to {share} a_A, hop {hop:?}: a_A {:.1e}, a_B {:.1e} of a_A, θ {:.1e} rad, f {:.1e} of f; residual {:.1e}, deviation {:.1e} of a_A",
+            worst[0], worst[1], worst[2], worst[3], worst[4], worst[5]
         );
         assert!(worst[0] < 1e-6 && worst[1] < 1e-6, "{worst:?}");
         assert!(worst[2] < 1e-6, "{worst:?}");

@@ -25,11 +25,13 @@
 //! ω²(1 + βr²), with r the deflection of both pick-offs' modes together, γ is βω/8, and the frequency also rises by 3γE rad/s.
 
 mod rates;
+mod series;
 
 use nalgebra::{
     Complex, Matrix3x4, Matrix4, Matrix4x3, RowSVector, RowVector4, SMatrix, SVector, Vector3,
     Vector4,
 };
+use series::Series;
 
 use crate::runs::{Row, per_radian, turn};
 pub use rates::{GAMMA, KAPPA, RATES, by_rates, state};
@@ -38,10 +40,6 @@ pub use rates::{GAMMA, KAPPA, RATES, by_rates, state};
 pub const PARAMETERS: usize = RATES + 3;
 /// The state and its derivatives by all parameters.
 const COLUMNS: usize = 1 + PARAMETERS;
-/// Fastest rate times a step of the integration, at most: the error of a step is the fifth power of this over 120.
-const STEP: f64 = 0.02;
-/// Steps from one row to the next, at most: with more, the pattern turns by more than a radian, or the wave is gone, and no rows fit.
-const MAX_STEPS: f64 = 500.0;
 /// Squared relative change of a wave in half a window, with half its growth's square added, up to which the core takes it to grow and turn
 /// evenly.
 const MAX_CHANGE: f64 = 1.95;
@@ -142,62 +140,28 @@ impl Motion {
 
     /// The state after this time, s, which may be negative.
     fn state_after(&self, seconds: f64) -> Vector4<f64> {
-        self.moved(self.state(), seconds, |state| self.slope(state))
+        self.series().moved(self.state(), seconds)
     }
 
-    /// The slope of a state.
-    fn slope(&self, state: &Vector4<f64>) -> Vector4<f64> {
-        self.at(state) * state
-    }
-
-    /// The matrix by which this state moves.
-    fn at(&self, state: &Vector4<f64>) -> Matrix4<f64> {
-        let mut matrix = self.matrix + self.within_period * self.rates[KAPPA];
-        let turning = 2.0 * (self.rates[KAPPA] + self.rates[GAMMA] * state[3]);
-        matrix[(1, 2)] += turning;
-        matrix[(2, 1)] -= turning;
-        matrix
-    }
-
-    /// Moves on by this time, s, by Runge and Kutta's method of the fourth order.
+    /// Moves on by this time, s.
     pub fn advance(&mut self, seconds: f64) {
-        let slope = |columns: &SMatrix<f64, 4, COLUMNS>| {
-            let state = columns.column(0).into_owned();
-            let by_rates = by_rates(&state);
-            let mut slope = self.at(&state) * columns;
-            // A difference in Q also changes the rate of turning.
-            let turning = by_rates.column(KAPPA) * self.rates[GAMMA];
-            slope += turning * columns.row(3);
-            slope.set_column(0, &self.slope(&state));
-            // The effects within a period change these by too little to matter.
-            let mut of_rates = slope.fixed_columns_mut::<RATES>(1);
-            of_rates += by_rates;
-            slope
-        };
-        self.columns = self.moved(self.columns, seconds, slope);
+        self.columns = self.series().moved(self.columns, seconds);
     }
 
-    /// The columns, the first of which is the state, after this time, s, which may be negative; `slope` is their derivative by time.
-    fn moved<const N: usize>(
-        &self,
-        mut columns: SMatrix<f64, 4, N>,
-        seconds: f64,
-        slope: impl Fn(&SMatrix<f64, 4, N>) -> SMatrix<f64, 4, N>,
-    ) -> SMatrix<f64, 4, N> {
-        let fastest = self.at(&columns.column(0).into_owned()).norm();
-        let steps = (fastest * seconds.abs() / STEP).ceil().max(1.0);
-        if steps > MAX_STEPS {
-            return columns * f64::NAN;
+    /// The slope of the state now.
+    fn slope(&self) -> Vector4<f64> {
+        self.series().slope(&self.state())
+    }
+
+    /// What moves the state now.
+    fn series(&self) -> Series {
+        let mut linear = self.matrix + self.within_period * self.rates[KAPPA];
+        linear[(1, 2)] += 2.0 * self.rates[KAPPA];
+        linear[(2, 1)] -= 2.0 * self.rates[KAPPA];
+        Series {
+            linear,
+            gamma: self.rates[GAMMA],
         }
-        let step = seconds / steps;
-        for _ in 0..steps as u64 {
-            let k1 = slope(&columns);
-            let k2 = slope(&(columns + k1 * (0.5 * step)));
-            let k3 = slope(&(columns + k2 * (0.5 * step)));
-            let k4 = slope(&(columns + k3 * step));
-            columns += (k1 + (k2 + k3) * 2.0 + k4) * (step / 6.0);
-        }
-        columns
     }
 
     /// The travelling waves of a state, of which that of `sign` is the greater: its size, and the lesser one, whose phase against it is 4θ.
@@ -247,7 +211,7 @@ impl Motion {
     pub fn frequency_by_turning(&self) -> f64 {
         let state = self.state();
         let [e, r, s, q] = state.into();
-        let slope = self.slope(&state);
+        let slope = self.slope();
         let turning = 0.25 * (r * slope[2] - s * slope[1]) / (r * r + s * s).max(f64::MIN_POSITIVE);
         2.0 * turning * q / e
     }

@@ -1,0 +1,106 @@
+//! The Taylor series of a motion over time.
+//!
+//! The slope is linear in the state, but for γ, which multiplies it with Q. So the coefficients follow from one another: that of each order
+//! is the slope of the one before, with the products taken term by term, over the order.
+
+use nalgebra::{Matrix4, SMatrix, Vector4};
+
+use super::rates::{GAMMA, RATES, by_rates};
+
+/// Fastest rate times a step, at most: the coefficients then fall fast.
+const STEP: f64 = 0.5;
+/// Bound of a coefficient, as a share of the state, below which it is the last.
+const LAST: f64 = 1e-12;
+/// Fastest rate times the time, at most: with more, the pattern turns by more than a radian, or the wave is gone, and no rows fit.
+const LONGEST: f64 = 10.0;
+
+/// What moves a state.
+pub struct Series {
+    /// The matrix by which all moves but that of γ.
+    pub linear: Matrix4<f64>,
+    /// γ.
+    pub gamma: f64,
+}
+
+impl Series {
+    /// These columns after this time, s, which may be negative. The first is the state; its derivatives by the rates follow, if any.
+    pub fn moved<const N: usize>(
+        &self,
+        columns: SMatrix<f64, 4, N>,
+        seconds: f64,
+    ) -> SMatrix<f64, 4, N> {
+        let [energy, quadrature] = [0, 3].map(|row| columns[(row, 0)]);
+        // What Q may become meanwhile.
+        let gained = self.linear.fixed_view::<1, 2>(3, 1).norm() * energy * seconds;
+        let quadrature = quadrature.abs() + gained.abs();
+        let fastest = self.linear.norm() + 4.0 * self.gamma.abs() * quadrature;
+        let span = fastest * seconds.abs();
+        if span.is_nan() || span > LONGEST {
+            return columns * f64::NAN;
+        }
+        let steps = (span / STEP).ceil().max(1.0);
+        let step = seconds / steps;
+        // E, R, S and Q each with its derivatives in one piece: sums over them take half as long.
+        let mut moved = columns.transpose();
+        let mut terms = Vec::with_capacity(16);
+        for _ in 0..steps as u64 {
+            terms.clear();
+            terms.push(moved);
+            let (mut order, mut bound) = (0.0, 1.0);
+            while bound > LAST {
+                order += 1.0;
+                bound *= span / steps / order;
+                let term = self.next(&terms) * (step / order);
+                moved += term;
+                terms.push(term);
+            }
+        }
+        moved.transpose()
+    }
+
+    /// The slope of a state.
+    pub fn slope(&self, state: &Vector4<f64>) -> Vector4<f64> {
+        self.next(&[state.transpose()]).transpose()
+    }
+
+    /// The slope of the last of these terms of a series, whose products take all of them.
+    fn next<const N: usize>(&self, terms: &[SMatrix<f64, N, 4>]) -> SMatrix<f64, N, 4> {
+        let last = &terms[terms.len() - 1];
+        let mut slope = last * self.linear.transpose();
+        let has_derivatives = N > 1;
+        if self.gamma == 0.0 && !has_derivatives {
+            return slope;
+        }
+        let products = || terms.iter().zip(terms.iter().rev());
+        // 2QS and −2QR.
+        let mut turning = [0.0; 2];
+        for (a, b) in products() {
+            turning[0] += 2.0 * a[(0, 3)] * b[(0, 2)];
+            turning[1] -= 2.0 * a[(0, 3)] * b[(0, 1)];
+        }
+        if has_derivatives {
+            // The effects within a period change these by too little to matter.
+            let mut by_rates = by_rates(&last.row(0).transpose());
+            by_rates.set_column(GAMMA, &Vector4::new(0.0, turning[0], turning[1], 0.0));
+            let mut of_rates = slope.rows_mut(1, RATES);
+            of_rates += by_rates.transpose();
+        }
+        if self.gamma != 0.0 {
+            let mut products_of_all = SMatrix::<f64, N, 2>::zeros();
+            for (a, b) in products() {
+                products_of_all += b.fixed_columns::<2>(1) * (2.0 * a[(0, 3)]);
+                products_of_all += a.column(3) * (b.fixed_view::<1, 2>(0, 1) * 2.0);
+            }
+            slope
+                .column_mut(1)
+                .axpy(self.gamma, &products_of_all.column(1), 1.0);
+            slope
+                .column_mut(2)
+                .axpy(-self.gamma, &products_of_all.column(0), 1.0);
+            // A derivative of a product has two terms, the state itself one.
+            slope[(0, 1)] -= self.gamma * turning[0];
+            slope[(0, 2)] -= self.gamma * turning[1];
+        }
+        slope
+    }
+}

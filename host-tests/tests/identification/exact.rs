@@ -77,6 +77,8 @@ fn errors_are_below_rounding_in_any_window_at_any_offset_and_rate() {
         assert!(worst[0] < 1e-6 && worst[1] < 1e-6, "{worst:?}");
         assert!(worst[2] < 1e-6, "{worst:?}");
         assert!(worst[3] < of_frequency, "{worst:?}");
+        // What rounding leaves, and what the stated deviations allow for it.
+        assert!(worst[4] < 1e-5 && worst[5] < 1e-6, "{worst:?}");
     }
 }
 

@@ -240,6 +240,29 @@ fn overlapping_windows_learn_the_rate_of_turning() {
 }
 
 #[test]
+fn rates_of_fast_turns_scatter_a_little_more_than_stated() {
+    // Quadrature, rad a window, and the ratio documented.
+    for (share, turn, most) in [(0.0, 0.0, 1.0), (0.0, 0.5, 1.08), (0.9, 0.5, 1.15)] {
+        let (mut squares, mut count) = (0.0, 0);
+        for seed in 0..100 {
+            let wave = turning(seed, 5332.0, share, turn * 5332.0 / 50.0);
+            let found = identify(wave, &noisy(&wave, 0.005), windows(50), 19_000, seed);
+            for estimate in found.iter().skip(1).filter(|e| e.flags.is_empty()) {
+                let error = f64::from(estimate.angle_rate) - wave.angle_rate;
+                squares += (error / f64::from(estimate.angle_rate_std)).powi(2);
+                count += 1;
+            }
+        }
+        let ratio = (squares / f64::from(count)).sqrt();
+        println!("a_B {share} a_A, {turn} rad: {ratio:.2} of {count} windows");
+        assert!(
+            count > 1500 && (most - 0.06..most + 0.06).contains(&ratio),
+            "{ratio}"
+        );
+    }
+}
+
+#[test]
 fn after_a_pause_of_a_thousand_windows_all_numbers_are_finite() {
     // A thousand windows and more: the information of earlier angles on the present rate is lost in rounding, and must not be used.
     for exponent in [4.0, 5.0, 6.0, 7.0, 8.0] {

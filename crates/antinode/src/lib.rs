@@ -34,17 +34,23 @@
 //!
 //! static WANTED: AtomicU32 = AtomicU32::new(0);
 //!
-//! let settings = Settings { rails: Some([-32768.0, 32767.0]), resolution: Some(1.0), ..Settings::new(100_000.0) };
+//! let settings = Settings {
+//!     rails: Some([-32768.0, 32767.0]),
+//!     resolution: Some(1.0),
+//!     ..Settings::new(100_000.0)
+//! };
 //! let mut front = Front::<i16, 200>::new(settings)?;
 //! let mut tracker = Tracker::<16>::new(settings)?;
 //! let mut queue = Queue::<Block<i16>, 8>::new();
 //! let (mut blocks, mut gathered) = queue.split();
 //!
-//! // Whenever the DMA has filled half of its buffer. A timer's interrupt would `Front::push` each pair.
+//! // Whenever the DMA has filled half of its buffer.
+//! // A timer's interrupt would `Front::push` each pair.
 //! let mut interrupt = |pairs: &[[i16; 2]]| {
 //!     front.search_if_wanted(WANTED.load(Relaxed));
 //!     front.extend(pairs, |block| {
-//!         // A block that finds the queue full costs its window, no more: the tracker sees that it is missing.
+//!         // A block that finds the queue full costs its window, no more:
+//!         // the tracker sees that it is missing.
 //!         let _ = blocks.enqueue(*block);
 //!     });
 //! };
@@ -75,22 +81,35 @@
 //! # Ok::<(), antinode::SettingsError>(())
 //! ```
 //!
-//! Calibration and settings are changed in place: the calibration by [`Tracker::calibrate`] in the main loop alone, settings on both sides,
-//! in this order:
+//! The queue must have room for all blocks of a slice, and for those that end while the main loop is busy; `Queue<_, 8>` holds seven. If it
+//! has not, windows are missing without a flag: count the blocks that are dropped. At 18.75 samples a period 128 pairs end up to
 //!
-//! 1. the main loop calls [`Tracker::configure`],
-//! 2. sends the settings to the interrupt, by a queue say,
-//! 3. and only then stores [`Tracker::wanted_search`];
-//! 4. the interrupt passes any settings received to [`Front::configure`], and only then calls [`Front::search_if_wanted`].
+//! | periods a window | 10 | 4 | 2 |
+//! |---|--:|--:|--:|
+//! | blocks | 4 | 9 | 22 |
+//! | blocks, with a hop | 7 | 16 | 32 |
 //!
-//! Blocks of the old settings then bear an old search number, and the tracker leaves them out. In any other order some of them bear the new
-//! number, and give windows with a wrong frequency or length without a flag. Report samples that the interrupt missed to [`Front::skip`].
+//! Report samples that the interrupt missed to [`Front::skip`], before the pairs that follow them. The calibration is changed by
+//! [`Tracker::calibrate`] in the main loop alone, settings on both sides, in place and in this order:
+//!
+//! 1. the main loop sees that there is room for step 3, and calls [`Tracker::change`],
+//! 2. then [`Tracker::search`],
+//! 3. sends the settings to the interrupt, by a queue say,
+//! 4. and only then stores [`Tracker::wanted_search`];
+//! 5. the interrupt passes any settings received to [`Front::configure`], and only then calls [`Front::search_if_wanted`].
+//!
+//! The angle goes on; to begin anew with the start angle, call [`Tracker::configure`] instead of the first two. Blocks of the old settings
+//! then bear an old search number, and the tracker leaves them out. In any other order some of them bear the new number, and give windows
+//! with a wrong frequency or length without a flag.
 //!
 //! | bytes of RAM on a 32-bit core | `i16` | `f32` | `i32` |
 //! |---|---|---|---|
 //! | [`Front`], with `N` the most sample pairs of a block | 1680 + 8 `N` | 2760 + 8 `N` | 3000 + 8 `N` |
 //! | [`Block`], each in the queue | 72 | 128 | 128 |
 //! | [`Tracker`], with `BLOCKS` the length of its ring | 696 + 68 `BLOCKS` | the same | the same |
+//!
+//! On a Cortex-M4F [`Tracker::push`] takes 1.1 KB of stack, and 11 000 cycles where it completes a window of 10 periods; [`Front::extend`]
+//! takes 0.4 KB of stack.
 //!
 //! [`Front::UNSET`], [`Tracker::UNSET`] and [`Identifier::UNSET`] are all zeros: statics initialised with them, for example in a
 //! `ConstStaticCell` of the crate `static_cell`, take neither flash nor stack; call `configure` before use. The result of
@@ -141,6 +160,8 @@ extern crate std;
 
 mod arch;
 pub mod block;
+/// What no flag shows, and what fast turns, hum, filters, coarse steps, clipping and tones cost, in numbers.
+#[doc = ""]
 #[doc = include_str!("../docs/limits.md")]
 pub mod limits {}
 pub mod methods;
@@ -164,6 +185,7 @@ mod sum;
 mod tracker;
 mod window;
 
+#[doc(inline)]
 pub use block::{Block, Pair};
 pub use calibration::Calibration;
 pub use estimate::{Estimate, Flags};

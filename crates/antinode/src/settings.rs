@@ -41,7 +41,8 @@ pub enum Detection {
 /// let calibration = Calibration { gain_ratio: 1.02, skew: 150e-9, pick_off_angle: -0.004 };
 /// let calibrated = Settings { calibration, ..base };
 /// // Codes of a signed converter of 24 bits.
-/// let codes = Settings { rails: Some([-8_388_608.0, 8_388_607.0]), resolution: Some(1.0), ..base };
+/// let rails = Some([-8_388_608.0, 8_388_607.0]);
+/// let codes = Settings { rails, resolution: Some(1.0), ..base };
 /// for settings in [known, overlapping, hum, tuned, calibrated, codes] {
 ///     Identifier::<i32, 200, 64>::new(settings)?;
 /// }

@@ -20,6 +20,7 @@ mod flash;
 mod gap_rates;
 mod gaps;
 mod given_up;
+mod halves;
 mod hum;
 mod known;
 mod limiters;

@@ -46,6 +46,8 @@ impl Configuration {
 
     /// This configuration after a command, checked for a ring of `blocks` blocks; unchanged by commands that change none.
     ///
+    /// The core [takes new settings in a certain order](antinode#on-a-microcontroller), and a new calibration more simply.
+    ///
     /// # Errors
     ///
     /// [`CommandError::Settings`] names the value that is out of range, and the range; [`CommandError::Calibrated`] if methods and a

@@ -26,6 +26,11 @@
 //!   before the restart, if it asks for one.
 //! * The device sends [`Report::Counters`] about once a second, and soon after blocks or pairs were lost; all else when it happens.
 //!
+//! # Features
+//!
+//! `mean-return`, on by default, is that of [`antinode`], whose settings are sent. Firmware that does without it sets `default-features =
+//! false` for both crates: if one of them has the feature, both do.
+//!
 //! # Example
 //!
 //! The device numbers its reports with a [`Reporter`] and takes commands with a [`Decoder`], byte by byte as the USART gives them:

@@ -25,6 +25,8 @@ const HARMONIC_FLOOR: f32 = 1e-3;
 /// Variance that hum adds to a third harmonic, as a share of its mean square: [`SIGMAS`] times the root is 0.1. Its slopes within blocks
 /// leave up to 0.05 of its rms there, as seen at a twentieth of the wave's frequency in windows of five periods.
 const HUM_IN_HARMONIC: f32 = 2e-4;
+/// Standard deviations that the rate of an amplitude must have for its size to be no chance.
+const PARTIAL_SIGMAS: f32 = 4.0;
 /// Residual variance that rounding and converters may leave, as a share of a_A²: (2·10⁻⁴)².
 const RESIDUAL_FLOOR: f32 = 4e-8;
 /// Residual of a window's blocks, as a share of the wave's power in them, beyond which there is no wave: 20 % noise leaves 0.1.
@@ -138,7 +140,8 @@ pub(crate) fn within(
     let outlier = stands_out(remains.worst_block, sums, 6.0 * floor);
     // A step within the window, or rates that change.
     let stepped = stands_out(remains.step, 4.0, (8.0 + 0.1 * remains.freedom) * floor);
-    let misfit = coloured || louder || outlier || stepped || !fit.settled;
+    let misfit =
+        coloured || louder || outlier || stepped || is_partial(model, wave) || !fit.settled;
     flags = flags.with_if(misfit, Flags::MISFIT);
 
     let alone = over_total(remains.third_without_image);
@@ -163,6 +166,15 @@ pub(crate) fn within(
         noise.count_raised(advance, model.blocks);
     }
     flags
+}
+
+/// True when the wave seems to change by more than a_A, as one that begins or ends within the window. In a first window nothing else may
+/// tell.
+fn is_partial(model: &Model, wave: &Standing) -> bool {
+    let main = &wave.record.main;
+    let change = 2.0 * model.half * main.rate;
+    change.abs() > main.value
+        && main.rate * main.rate > PARTIAL_SIGMAS * PARTIAL_SIGMAS * main.rate_variance
 }
 
 /// True when a pick-off shows a third harmonic beyond its noise and beyond what electronics with its gain may have.

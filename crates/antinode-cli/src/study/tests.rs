@@ -75,7 +75,8 @@ fn conclusions_and_files_are_as_in_the_documentation() {
         (8, "1.989 on four periods and 1.943 on ten"),
         (
             9,
-            "1.08, 1.02, 1.01 times, and the root of (14) 1.23, 1.21, 1.21",
+            "1.08, 1.02, 1.01 times on the flatter side and 1.38, 1.28, 1.24 times on the other, and the root of (14) 1.23, 1.21, 1.21 and \
+             1.24, 1.21, 1.21",
         ),
         (9, "(15) is off by 66, 12, 5 Hz"),
         (13, "algorithm 4 22, 9.2, 3.4, 1.7, 0.33, 0.16; 3 12,"),

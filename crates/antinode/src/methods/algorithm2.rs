@@ -45,7 +45,7 @@ pub fn choose_lag(pairs: &[Pair], start: usize, near: u16) -> u16 {
 
 /// The monitor (20): Δφ_CD = φ_C − φ_D in rad, (−π, π], from tg Δφ_CD = q/⟨S_C S_D⟩, with S_C ∝ cos(ωt − φ_C) and S_D ∝ cos(ωt − φ_D).
 ///
-/// Without quadrature it is 0, or π if S_C and S_D have opposite signs; it passes ±π/2 as the main wave passes a pick-off's axis.
+/// Without quadrature it is 0, or π if S_C and S_D have opposite signs; with it, ±π/2 as the main wave passes a pick-off's axis.
 pub fn phase_difference(moments: &Moments, q: f64) -> f64 {
     let (_, _, cd) = moments.means();
     libm::atan2(q, cd)

@@ -9,7 +9,7 @@ use std::{
 
 #[cfg(unix)]
 use crate::common::send;
-use crate::common::{Row, WAVE, beside_flagged, run, wav};
+use crate::common::{Row, WAVE, beside_flagged, identified, run, wav};
 
 /// A wave with a gap in it.
 fn torn() -> Vec<u8> {
@@ -41,6 +41,22 @@ fn flagged_rows_are_reported_in_every_format() {
     assert!(cut.err.starts_with("warning: torn.wav: "), "{}", cut.err);
     assert!(others[0].starts_with("error: torn.wav: at its end: "));
     assert!(others[1].starts_with("error: none.wav: "));
+}
+
+#[test]
+fn longer_windows_show_a_pattern_that_noise_makes_a_circle() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let wave = "--main-amplitude 0.4 --quadrature-amplitude -0.37 --noise 0.1";
+    assert_eq!(
+        run(here, &format!("simulate -o a.wav --seconds 2 {wave}")).code,
+        0
+    );
+    let (told, rows, flagged) = identified(here, "--periods 20");
+    assert!(10 * flagged > 9 * rows.len(), "{flagged}");
+    assert!(told.err.contains("give a larger --periods"), "{}", told.err);
+    let (told, _, flagged) = identified(here, "--periods 400");
+    assert_eq!((flagged, told.err.as_str()), (0, ""));
 }
 
 /// A command that identifies from a pipe, and has printed rows of the wave after the gap.

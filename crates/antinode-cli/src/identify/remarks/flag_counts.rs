@@ -13,9 +13,9 @@ const MIN_OF_HALF: u64 = 4;
 const CLIPPED_REMEDY: &str = "reduce the gain if an amplifier or the converter limits the wave, or give a larger --periods if a tone near \
                               three times the frequency is taken for its third harmonic";
 
-/// The probable cause if most rows are circular.
-const CIRCULAR_CAUSE: &str = "S_C and S_D are one wave a quarter period apart, as I and Q of a lock-in amplifier are: give the pick-offs' own \
-                           samples, not demodulated ones";
+/// Remedies for circular rows, if these are most.
+const CIRCULAR_REMEDIES: &str = "if noise hides by how much the amplitudes differ, give a larger --periods; if S_C and S_D are I and Q of a \
+                                 lock-in amplifier, which are one wave a quarter period apart, give the pick-offs' own samples";
 
 /// Counts of rows by their flags.
 #[derive(Debug, Default)]
@@ -88,7 +88,7 @@ impl FlagCounts {
         for (alone, flag, remedies) in [
             (misfits, "misfit", self.misfit_remedies()),
             (self.clipped_alone, "clipped", CLIPPED_REMEDY.to_owned()),
-            (circular, "circular", CIRCULAR_CAUSE.to_owned()),
+            (circular, "circular", CIRCULAR_REMEDIES.to_owned()),
         ] {
             if alone >= MIN_OF_TENTH && 10 * alone > rows
                 || alone >= MIN_OF_HALF && 2 * alone > rows
@@ -177,7 +177,7 @@ mod tests {
             ),
             (
                 vec![(6, Flags::empty()), (18, Flags::CIRCULAR)],
-                format!("circular 18; {CIRCULAR_CAUSE}"),
+                format!("circular 18; {CIRCULAR_REMEDIES}"),
             ),
             (
                 vec![(30, Flags::empty()), (29, Flags::CIRCULAR)],

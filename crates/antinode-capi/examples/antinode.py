@@ -10,9 +10,10 @@
 The command `antinode identify` takes the converter's step and rails from the format of a recording; here give `resolution`, `rail_low` and
 `rail_high`, such as 1/32768 and ±32767/32768 for 16 bits. A window has at most 50 periods, and a period at most 200 samples.
 
-Needs numpy and the shared library. On Linux `crates/antinode-capi/install PREFIX` installs it; if the system does not find it, name it in
-ANTINODE_LIBRARY: PREFIX/lib/libantinode.so. Elsewhere `cargo rustc --profile capi -p antinode-capi --lib --crate-type cdylib` builds it in
-target/capi. Built together with the static library, as by `cargo build`, it would not load on Linux.
+Needs numpy and the shared library. On Linux `crates/antinode-capi/install PREFIX` installs both, this file in PREFIX/share/antinode, where
+it finds the library by itself; if the library is elsewhere, name it in ANTINODE_LIBRARY. On other systems
+`cargo rustc --profile capi -p antinode-capi --lib --crate-type cdylib` builds it in target/capi. Built together with the static library, as
+by `cargo build`, it would not load on Linux.
 """
 
 import ctypes
@@ -71,7 +72,9 @@ class _Health(ctypes.Structure):
     _fields_ = [(name, ctypes.c_uint32) for name in ("searching", "has_wave", "waiting", "dropped")]
 
 
-_library = ctypes.CDLL(os.environ.get("ANTINODE_LIBRARY", "libantinode.so"))
+#: Where `install` puts the library beside this file.
+_installed = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../lib/libantinode.so")
+_library = ctypes.CDLL(os.environ.get("ANTINODE_LIBRARY", _installed if os.path.exists(_installed) else "libantinode.so"))
 _library.antinode_settings_default.argtypes = [ctypes.c_double]
 _library.antinode_settings_default.restype = _Settings
 _library.antinode_status_string.restype = ctypes.c_char_p

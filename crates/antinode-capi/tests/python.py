@@ -1,4 +1,4 @@
-"""examples/antinode.py against the header and the rows of `antinode identify`:  python.py RECORDING.wav ROWS.csv"""
+"""antinode.py, of PYTHONPATH or else of examples, against the header and the rows of `antinode identify`:  python.py RECORDING.wav ROWS.csv"""
 
 import csv
 import ctypes
@@ -10,7 +10,7 @@ import wave
 import numpy
 
 folder = pathlib.Path(__file__).parent.parent
-sys.path.insert(0, str(folder / "examples"))
+sys.path.append(str(folder / "examples"))
 import antinode
 
 header = (folder / "include/antinode.h").read_text()

@@ -101,9 +101,9 @@
 // or 55. After a new search a dead pick-off looks like a pattern on the other pick-off's axis, and is not flagged.
 #define ANTINODE_FLAG_DEAD_CHANNEL 64u
 
-// The angle is known modulo pi/2 only: set on the first window after the wave was lost, or after a gap or misfits in which the pattern may
-// have turned unseen, and on the first window after a new calibration, unless it is the first of all. The flag stays set up to and
-// including the first window without MISFIT, NOT_FINITE and DEAD_CHANNEL, whose angle later windows continue.
+// The angle is known modulo pi/2 only: set on the first window after the wave was lost, or after a gap, misfits or circular windows in
+// which the pattern may have turned unseen, and on the first window after a new calibration, unless it is the first of all. The flag
+// stays set up to and including the first window without MISFIT, NOT_FINITE and DEAD_CHANNEL, whose angle later windows continue.
 #define ANTINODE_FLAG_REACQUIRED 128u
 
 // A sample is NaN or infinite, or so large that its sums are not finite.

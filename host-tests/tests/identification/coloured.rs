@@ -20,6 +20,9 @@ const LOW_PASS: Filters = &[
 const TUNED: Filters = &[(Type::BandPass, 5332.0, 1.0)];
 /// The same, far sharper: noise about the third harmonic is a sixtieth of that about the wave.
 const SHARP: Filters = &[(Type::BandPass, 5332.0, 3.0)];
+/// Low-passes that end at the wave.
+const ONE_POLE: Filters = &[(Type::SinglePoleLowPass, 5332.0, 1.0)];
+const TWO_POLES: Filters = &[(Type::LowPass, 5332.0, Q_BUTTERWORTH_F64)];
 /// A transformer or a coupling capacitor.
 const HIGH_PASS: Filters = &[(Type::HighPass, 2500.0, Q_BUTTERWORTH_F64)];
 /// Noise of 1/f² from 300 Hz on.
@@ -105,6 +108,38 @@ fn deviations_hold_in_coloured_noise_and_nothing_is_flagged() {
             assert!(rows > 1000 && flagged == 0, "{flagged} of {rows}");
             for (ratio, name) in ratios.into_iter().zip(NAMES) {
                 assert!(range.contains(&ratio), "{name} {ratio}");
+            }
+        }
+    }
+}
+
+#[test]
+fn short_windows_exceed_their_deviations_in_coloured_noise_as_documented() {
+    // Of windows of two to five periods, each within a fifth.
+    for (name, filters, documented) in [
+        ("one pole", ONE_POLE, [1.8, 1.2, 1.0, 1.0]),
+        ("two poles", TWO_POLES, [2.5, 1.3, 1.0, 1.1]),
+        ("high-pass", HIGH_PASS, [1.0, 1.1, 1.1, 1.1]),
+        ("slow", INVERSE_SQUARE, [1.5, 0.7, 0.5, 0.9]),
+    ] {
+        for (periods, documented) in [2, 3, 4, 5].into_iter().zip(documented) {
+            let mut honesty = StatedRatio::default();
+            for seed in 0..10 {
+                let wave = random_wave(seed, 5332.0, 0.5);
+                for estimate in
+                    identified(filters, settings(periods, true), &Flaws::default(), seed)
+                {
+                    honesty.add(&estimate, &wave);
+                }
+            }
+            let ratios = honesty.ratios();
+            println!("{name}, {periods} periods: error over stated {ratios:.3?}");
+            for (ratio, of) in ratios.into_iter().zip(NAMES) {
+                let off = ratio / documented;
+                assert!(
+                    (0.8..1.2).contains(&off),
+                    "{name}, {periods} periods: {of} {ratio}"
+                );
             }
         }
     }

@@ -55,6 +55,12 @@ fn longer_windows_show_a_pattern_that_noise_makes_a_circle() {
     let (told, rows, flagged) = identified(here, "--periods 20");
     assert!(10 * flagged > 9 * rows.len(), "{flagged}");
     assert!(told.err.contains("give a larger --periods"), "{}", told.err);
+    // Nothing else interrupts the angle.
+    let flags: Vec<&str> = rows.iter().map(|row| row.text("flags")).collect();
+    let mut after = flags
+        .windows(2)
+        .filter(|pair| pair[1].contains("reacquired"));
+    assert!(after.all(|pair| pair[0].contains("circular")), "{flags:?}");
     let (told, _, flagged) = identified(here, "--periods 400");
     assert_eq!((flagged, told.err.as_str()), (0, ""));
 }

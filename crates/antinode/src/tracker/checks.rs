@@ -140,9 +140,9 @@ pub(crate) fn within(
     let outlier = stands_out(remains.worst_block, sums, 6.0 * floor);
     // A step within the window, or rates that change.
     let stepped = stands_out(remains.step, 4.0, (8.0 + 0.1 * remains.freedom) * floor);
-    let misfit =
-        coloured || louder || outlier || stepped || is_partial(model, wave) || !fit.settled;
+    let misfit = coloured || louder || outlier || stepped || !fit.settled;
     flags = flags.with_if(misfit, Flags::MISFIT);
+    flags = flags.with_if(is_partial(model, wave), Flags::MISFIT);
 
     let alone = over_total(remains.third_without_image);
     let third_noise = greater(remains.third_without_image, lesser(alone, noise.wide));

@@ -96,6 +96,14 @@ impl StatedRatio {
         }
     }
 
+    /// Adds the windows of a wave that have no flag; returns the count of the others.
+    pub fn add_clean(&mut self, found: &[Estimate], wave: &Wave) -> usize {
+        let clean = found.iter().filter(|estimate| estimate.flags.is_empty());
+        let before = self.windows;
+        clean.for_each(|estimate| self.add(estimate, wave));
+        found.len() - (self.windows - before) as usize
+    }
+
     /// Rms error over the stated standard deviation.
     pub fn ratios(&self) -> [f64; 4] {
         self.squares.map(|sum| (sum / self.windows).sqrt())

@@ -126,15 +126,10 @@ fn the_shortest_windows_know_their_noise() {
         let (mut honesty, mut rows, mut flagged) = (StatedRatio::default(), 0, 0);
         for seed in 0..100 {
             let (wave, flaws) = noisy(period, seed);
-            for estimate in identify(wave, &flaws, told(2, wave.frequency, 0.0), 3000, seed) {
-                assert!(estimate.samples >= 6, "{estimate:?}");
-                rows += 1;
-                if estimate.flags.is_empty() {
-                    honesty.add(&estimate, &wave);
-                } else {
-                    flagged += 1;
-                }
-            }
+            let found = identify(wave, &flaws, told(2, wave.frequency, 0.0), 3000, seed);
+            assert!(found.iter().all(|estimate| estimate.samples >= 6));
+            rows += found.len();
+            flagged += honesty.add_clean(&found, &wave);
         }
         let ratios = honesty.ratios();
         println!(

@@ -98,10 +98,12 @@ impl StatedRatio {
 
     /// Adds the windows of a wave that have no flag; returns the count of the others.
     pub fn add_clean(&mut self, found: &[Estimate], wave: &Wave) -> usize {
-        let clean = found.iter().filter(|estimate| estimate.flags.is_empty());
-        let before = self.windows;
-        clean.for_each(|estimate| self.add(estimate, wave));
-        found.len() - (self.windows - before) as usize
+        let is_clean = |estimate: &&Estimate| estimate.flags.is_empty();
+        let (clean, flagged): (Vec<_>, Vec<_>) = found.iter().partition(is_clean);
+        clean
+            .into_iter()
+            .for_each(|estimate| self.add(estimate, wave));
+        flagged.len()
     }
 
     /// Rms error over the stated standard deviation.

@@ -11,8 +11,8 @@ fn even(seed: u64, step: f64) -> f64 {
     (seed as f64 * step).fract()
 }
 
-/// The largest errors of a_A, a_B and f, relative, and of θ, and the largest relative residual and deviation of a_A, of 600 waves with |a_B| up to `share` of a_A, in windows of 2 to 100 periods at
-/// 4.3 to 190 samples a period, both spaced evenly in their logarithm.
+/// The largest errors of a_A, a_B and f, relative, and of θ, and the largest residual and deviation of a_A, relative to it, of 600 waves
+/// with |a_B| up to `share` of a_A, in windows of 2 to 100 periods at 4.3 to 190 samples a period, both spaced evenly in their logarithm.
 fn worst(share: f64, hop: Option<u16>) -> [f64; 6] {
     let mut worst = [0f64; 6];
     for seed in 0..600 {

@@ -20,28 +20,23 @@ fn settings_changed_in_the_documented_order_show_in_no_block_of_the_old_ones() {
     let (mut blocks, mut changes, mut wanted) = (VecDeque::new(), VecDeque::new(), 0);
     let mut estimates = Vec::new();
     for (half, pairs) in pairs.chunks(128).enumerate() {
-        if half % 50 == 25 {
+        let phase = half % 50;
+        if phase == 25 {
             settings.periods += 5;
             tracker.change(settings).unwrap();
             tracker.search();
             changes.push_back(settings);
         }
-        let mut interrupt = |wanted| {
-            while let Some(settings) = changes.pop_front() {
-                front.configure(settings).unwrap();
-            }
-            front.search_if_wanted(wanted);
-            front.extend(pairs, |block| blocks.push_back(*block));
-        };
-        // At a change the interrupt comes between sending and storing.
-        if half % 50 == 25 {
-            interrupt(wanted);
-            wanted = tracker.wanted_search();
-            continue;
+        // The interrupt: at a change it comes between sending and storing.
+        while let Some(settings) = changes.pop_front() {
+            front.configure(settings).unwrap();
         }
-        interrupt(wanted);
-        // The main loop is behind before a change.
-        if half % 50 < 22 || half % 50 > 25 {
+        front.search_if_wanted(wanted);
+        front.extend(pairs, |block| blocks.push_back(*block));
+        if phase == 25 {
+            wanted = tracker.wanted_search();
+        } else if !(22..25).contains(&phase) {
+            // Before a change the main loop is behind.
             while let Some(block) = blocks.pop_front() {
                 estimates.extend(tracker.push(&block));
                 wanted = tracker.wanted_search();

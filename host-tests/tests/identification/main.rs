@@ -28,6 +28,7 @@ mod limits;
 mod methods;
 mod methods_shared;
 mod oracle;
+mod parts;
 mod recovery;
 mod regrid;
 mod repeating;

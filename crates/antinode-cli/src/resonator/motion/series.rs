@@ -3,7 +3,7 @@
 //! The slope is linear in the state, but for γ, which multiplies it with Q. So the coefficients follow from one another: that of each order
 //! is the slope of the one before, with the products taken term by term, over the order.
 
-use nalgebra::{Matrix4, SMatrix, Vector4};
+use nalgebra::{Matrix4, RowVector4, SMatrix, Vector4};
 
 use super::rates::{GAMMA, RATES, by_rates};
 
@@ -72,34 +72,32 @@ impl Series {
             return slope;
         }
         let products = || terms.iter().zip(terms.iter().rev());
-        // 2QS and −2QR.
-        let mut turning = [0.0; 2];
-        for (a, b) in products() {
-            turning[0] += 2.0 * a[(0, 3)] * b[(0, 2)];
-            turning[1] -= 2.0 * a[(0, 3)] * b[(0, 1)];
-        }
+        // By which γ moves the state: 2QS and −2QR.
+        let turning: RowVector4<f64> = products()
+            .map(|(a, b)| RowVector4::new(0.0, b[(0, 2)], -b[(0, 1)], 0.0) * (2.0 * a[(0, 3)]))
+            .sum();
         if has_derivatives {
             // The effects within a period change these by too little to matter.
             let mut by_rates = by_rates(&last.row(0).transpose());
-            by_rates.set_column(GAMMA, &Vector4::new(0.0, turning[0], turning[1], 0.0));
+            by_rates.set_column(GAMMA, &turning.transpose());
             let mut of_rates = slope.rows_mut(1, RATES);
             of_rates += by_rates.transpose();
         }
         if self.gamma != 0.0 {
-            let mut products_of_all = SMatrix::<f64, N, 2>::zeros();
+            let mut of_products = SMatrix::<f64, N, 2>::zeros();
             for (a, b) in products() {
-                products_of_all += b.fixed_columns::<2>(1) * (2.0 * a[(0, 3)]);
-                products_of_all += a.column(3) * (b.fixed_view::<1, 2>(0, 1) * 2.0);
+                of_products += b.fixed_columns::<2>(1) * (2.0 * a[(0, 3)]);
+                of_products += a.column(3) * (b.fixed_view::<1, 2>(0, 1) * 2.0);
             }
             slope
                 .column_mut(1)
-                .axpy(self.gamma, &products_of_all.column(1), 1.0);
+                .axpy(self.gamma, &of_products.column(1), 1.0);
             slope
                 .column_mut(2)
-                .axpy(-self.gamma, &products_of_all.column(0), 1.0);
+                .axpy(-self.gamma, &of_products.column(0), 1.0);
             // A derivative of a product has two terms, the state itself one.
-            slope[(0, 1)] -= self.gamma * turning[0];
-            slope[(0, 2)] -= self.gamma * turning[1];
+            let mut state = slope.row_mut(0);
+            state -= turning * self.gamma;
         }
         slope
     }

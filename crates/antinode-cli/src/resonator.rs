@@ -1,7 +1,9 @@
 //! `antinode resonator`: rows of ring-downs in, quality factor and splits out.
 
 mod by_energy;
+mod changing;
 mod chords;
+mod curve;
 mod drift;
 mod fit;
 mod found;
@@ -11,6 +13,7 @@ mod informing;
 mod line;
 mod model;
 pub mod motion;
+mod normal;
 mod quantities;
 mod start;
 mod stretches;
@@ -33,6 +36,7 @@ use fit::fit;
 use found::Found;
 use frequency::{Frequency, frequency};
 use informing::informing;
+use model::Damping;
 use quantities::{HELP, Row, quantities, table};
 
 /// Turn of the pattern from row to row, at most, rad: half of that up to which the angle is unambiguous.
@@ -136,6 +140,7 @@ fn write_notes(out: &mut impl Write, results: &Results) -> io::Result<()> {
     note_runs(out, results)?;
     note_splits(out, results)?;
     note_frequency(out, &results.frequency)?;
+    note_damping(out, &results.found)?;
     if results.found.is_unsteady() {
         writeln!(
             out,
@@ -224,11 +229,30 @@ fn note_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<()>
     Ok(())
 }
 
+/// Warns if the damping changes, and says what the numbers then are.
+fn note_damping(out: &mut impl Write, found: &Found) -> io::Result<()> {
+    let what = match found.damping() {
+        Damping::Steady => return Ok(()),
+        Damping::ByEnergy => {
+            "with the amplitude, or pick-offs or converter are nonlinear: decay times are those of small waves"
+        }
+        Damping::InTime(_) => {
+            "with time, or a gain does, or pick-offs are not calibrated: each run has a decay of its own, that of a straight line through the \
+             logarithm of its amplitude"
+        }
+    };
+    writeln!(
+        out,
+        "warning: the damping changes {what}; the change is allowed for in all other quantities"
+    )
+}
+
 /// Warns if the rows differ from the resonator's motion by more or less than noise.
 fn note_misfit(out: &mut impl Write, found: &Found) -> io::Result<()> {
-    let why = "the wave is still driven in some rows (see --from), the damping changes with time or amplitude, a tone at the wave's frequency \
-               is always present (as from a drive's feed-through), the pick-offs are not calibrated, a gain or the wave jumped by too little \
-               to be flagged, a pick-off or the converter is nonlinear, or the converter's rounding repeats from row to row";
+    let why = "the wave is still driven in some rows (see --from), the damping changes in other ways than are allowed for, a tone at the \
+               wave's frequency is always present (as from a drive's feed-through), the pick-offs are not calibrated, a gain or the wave \
+               jumped by too little to be flagged, a pick-off or the converter is nonlinear, or the converter's rounding repeats from row \
+               to row";
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,

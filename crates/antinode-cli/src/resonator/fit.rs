@@ -5,15 +5,15 @@
 //! pattern at rest shows only one component of each split. If no steady rotation explains the rows, their angles are taken as they are:
 //! they say where the splits act, and only the amplitudes are explained. The steps are those of Levenberg and Marquardt.
 
-use nalgebra::{Complex, DVector, RowSVector, SMatrix, SVector};
+use nalgebra::{Complex, DVector};
 
+use super::changing::changing;
 use super::chords;
-use super::found::{EXPLAINED, Found, RunResult};
+use super::found::{EXPLAINED, Found};
 use super::gaps;
-use super::model::{Model, Term};
-use super::motion::PARAMETERS;
+use super::model::{Kind, Model};
+use super::normal::Normal;
 use super::start::start;
-use crate::normal::Equations;
 use crate::runs::Run;
 
 /// Spread below which all patterns count as one, and apparent differences as noise: 3° between two runs, 5° of one that turns.
@@ -34,7 +34,7 @@ const KNOWN_REL: f64 = 0.1;
 
 /// Finds the resonator whose waves come nearest to the rows; `None` if the steps do not converge.
 pub fn fit(runs: &[Run]) -> Option<Found> {
-    let steady = steady(runs);
+    let steady = steady(runs).map(|found| changing(runs, found));
     if steady.as_ref().is_some_and(Found::is_explained) {
         return steady;
     }
@@ -48,8 +48,8 @@ pub fn fit(runs: &[Run]) -> Option<Found> {
 
 /// The fit if only the resonator and a steady rotation turn the patterns.
 fn steady(runs: &[Run]) -> Option<Found> {
-    let found = |model| found(runs, model);
-    let each = found(Model::Each);
+    let found = |kind| found(runs, Model::steady(kind));
+    let each = found(Kind::Each);
     // With a residual beyond noise, even one pattern that hardly moves shows how the splits move it.
     let is_enough = |each: &Found| {
         each.residual < EXPLAINED && (spread(runs) < MIN_SPREAD || !may_know(runs, each))
@@ -57,15 +57,15 @@ fn steady(runs: &[Run]) -> Option<Found> {
     if each.as_ref().is_some_and(is_enough) {
         return each;
     }
-    let determined = |model| {
-        let shared = found(model)?;
-        is_known(|at| shared.variance(at), &shared, each.as_ref()).then_some(shared)
+    let determined = |kind| {
+        let shared = found(kind)?;
+        shared.is_known(each.as_ref()).then_some(shared)
     };
     // If γ is 0, it is no unknown: it would make all others less certain, above all rotation, which it resembles if quadrature stays.
-    let nonlinear = determined(Model::Nonlinear);
+    let nonlinear = determined(Kind::Nonlinear);
     let turning = nonlinear.as_ref().and_then(Found::turning_by_amplitudes);
     let linear = || {
-        let shared = determined(Model::Shared)?;
+        let shared = determined(Kind::Shared)?;
         Some(Found {
             unseen_turning: turning,
             ..shared
@@ -78,10 +78,10 @@ fn steady(runs: &[Run]) -> Option<Found> {
 /// The fit if patterns are turned unsteadily.
 fn unsteady(runs: &[Run]) -> Option<Found> {
     let runs = &chords::through(runs);
-    let each = found(runs, Model::EachUnsteady);
-    let shared = found(runs, Model::SharedUnsteady)
-        .filter(|shared| is_known(|at| shared.variance(at), shared, each.as_ref()));
-    shared.or(each)
+    let found = |kind| found(runs, Model::steady(kind));
+    let each = found(Kind::EachUnsteady);
+    let shared = found(Kind::SharedUnsteady).filter(|shared| shared.is_known(each.as_ref()));
+    shared.or(each).map(|found| changing(runs, found))
 }
 
 /// The fit of a model, if need be across long gaps.
@@ -103,7 +103,7 @@ pub fn searched(runs: &[Run], model: Model) -> Option<Found> {
 
 /// True if such runs determine splits that are small: if nothing does, a fit may find large ones, which seem to be determined.
 fn may_know(runs: &[Run], each: &Found) -> bool {
-    let model = Model::Shared;
+    let model = Model::steady(Kind::Shared);
     let mut values = DVector::zeros(model.unknowns(runs.len()));
     for run in 0..runs.len() {
         values[model.decay_at(run)] += each.values[each.model.decay_at(run)] / runs.len() as f64;
@@ -111,7 +111,7 @@ fn may_know(runs: &[Run], each: &Found) -> bool {
         values.rows_mut(model.own_at(run), 4).copy_from(&from);
     }
     let rough = Normal::of(runs, model, &values).equations.factors(0.0);
-    rough.is_some_and(|rough| is_known(|at| rough.variance(&[(at, 1.0)]), each, Some(each)))
+    rough.is_some_and(|rough| is_known(model, |at| rough.variance(&[(at, 1.0)]), each, Some(each)))
 }
 
 /// Spread of the rows' pattern angles, up to 1: the circular variance of 4θ, less the contribution of noise.
@@ -127,7 +127,12 @@ fn spread(runs: &[Run]) -> f64 {
 
 /// True if the rows determine both splits, where `variance` is that of the unknown at a place. The decays along the patterns, in `found`,
 /// are known wherever these stand.
-fn is_known(variance: impl Fn(usize) -> f64, found: &Found, each: Option<&Found>) -> bool {
+pub(super) fn is_known(
+    model: Model,
+    variance: impl Fn(usize) -> f64,
+    found: &Found,
+    each: Option<&Found>,
+) -> bool {
     let runs = found.of_runs.len();
     let decays = (0..runs).map(|run| found.decay_of_run(run).0.abs());
     let decay = decays.sum::<f64>() / runs as f64;
@@ -136,8 +141,8 @@ fn is_known(variance: impl Fn(usize) -> f64, found: &Found, each: Option<&Found>
         .flat_map(|each| (0..runs).map(move |run| each.values[each.model.decay_at(run) + 1].abs()));
     let growth = growths.fold(0.0, f64::max);
     let knows = |at: usize, max: f64| (at..at + 2).all(|i| variance(i) < max * max);
-    knows(Model::DAMPING, KNOWN[0] * decay)
-        && knows(Model::FREQUENCY, (KNOWN[1] * decay).max(KNOWN_REL * growth))
+    let [damping, frequency] = model.splits_at();
+    knows(damping, KNOWN[0] * decay) && knows(frequency, (KNOWN[1] * decay).max(KNOWN_REL * growth))
 }
 
 /// Minimises the squares of the residual, from these values on.
@@ -166,126 +171,6 @@ pub fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Option<Fo
         }
     }
     None
-}
-
-/// The normal equations of all runs about some values.
-struct Normal {
-    equations: Equations,
-    /// Sum of squared residuals, in deviations.
-    squares: f64,
-    /// Sum of the products of consecutive rows' residuals.
-    neighbours: f64,
-    of_runs: Vec<RunResult>,
-    /// Number of values in the rows that are explained.
-    count: f64,
-}
-
-impl Normal {
-    fn of(runs: &[Run], model: Model, values: &DVector<f64>) -> Self {
-        let mut normal = Self {
-            equations: Equations::new(model.shared(), model.own(), runs.len()),
-            squares: 0.0,
-            neighbours: 0.0,
-            of_runs: Vec::with_capacity(runs.len()),
-            count: 0.0,
-        };
-        for (index, run) in runs.iter().enumerate() {
-            normal.add((index, run), model, &model.terms(index, run), values);
-        }
-        normal
-    }
-
-    /// Adds the rows of a run.
-    fn add(
-        &mut self,
-        (index, run): (usize, &Run),
-        model: Model,
-        terms: &[Term],
-        values: &DVector<f64>,
-    ) {
-        let mut motion = model.motion(run, terms, values);
-        let mut before = [0.0; 3];
-        let mut last = &run.rows[0];
-        let mut shares = [0.0; 2];
-        let mut squares = 0.0;
-        // Turn of the pattern that is not due to rotation.
-        let (mut extra, mut of_extra) = (0.0, RowSVector::zeros());
-        // The run's own equations, for the parameters of its motion.
-        let mut matrix = SMatrix::<f64, PARAMETERS, PARAMETERS>::zeros();
-        let mut right = SVector::<f64, PARAMETERS>::zeros();
-        for row in &run.rows {
-            let (beyond, derivatives) = model.advance(&mut motion, last, row);
-            last = row;
-            extra += beyond;
-            of_extra += derivatives;
-            // The averaging by windows changes the derivatives by too little to matter.
-            let (rest, derivatives) = motion.residuals(row);
-            for (index, (rest, deviation)) in rest.iter().zip(row.deviations).enumerate() {
-                let (rest, line) = (*rest / deviation, derivatives.row(index) / deviation);
-                squares += rest * rest;
-                self.neighbours += rest * std::mem::replace(&mut before[index], rest);
-                right += line.transpose() * rest;
-                matrix += line.transpose() * line;
-            }
-            for (sum, share) in shares.iter_mut().zip(motion.shares()) {
-                *sum += share / run.rows.len() as f64;
-            }
-        }
-        for &(place, direction) in terms {
-            let direction = SVector::from(direction);
-            self.equations.add_right(place, right.dot(&direction));
-            let along = matrix * direction;
-            for &(other, direction) in terms {
-                let more = along.dot(&SVector::from(direction));
-                self.equations.add(index, [place, other], more);
-            }
-        }
-        self.squares += squares;
-        self.count += (model.explained() * run.rows.len()) as f64;
-        let seconds = run.seconds();
-        let along = |direction| of_extra.transpose().dot(&SVector::from(direction)) / seconds;
-        self.of_runs.push(RunResult {
-            shares,
-            residual: (squares / (model.explained() * run.rows.len() - 4) as f64).sqrt(),
-            rotation: (run.turned() - extra) / seconds,
-            of_rotation: terms
-                .iter()
-                .map(|&(place, by)| (place, -along(by)))
-                .collect(),
-            rotation_noise: run.rows[0].deviations[2].hypot(last.deviations[2]) / seconds,
-        });
-    }
-
-    /// The step with this damping.
-    fn step(&self, damping: f64) -> Option<DVector<f64>> {
-        let factors = self.equations.factors(damping)?;
-        Some(factors.solve(self.equations.right()))
-    }
-
-    /// The rms residual over the rows' own deviations.
-    fn residual(&self, values: &DVector<f64>) -> f64 {
-        (self.squares / (self.count - values.len() as f64)).sqrt()
-    }
-
-    /// Factor by which variances are widened if the residual exceeds the rows' own deviations.
-    fn widening(&self, values: &DVector<f64>) -> f64 {
-        self.residual(values).max(1.0).powi(2)
-    }
-
-    fn conclude(self, model: Model, values: DVector<f64>) -> Option<Found> {
-        Some(Found {
-            model,
-            factors: self.equations.factors(0.0)?,
-            widening: self.widening(&values),
-            residual: self.residual(&values),
-            // Correlation of residuals far below the rows' own deviations does no harm.
-            alike: self.neighbours / self.squares.max(self.count),
-            values,
-            count: self.count,
-            of_runs: self.of_runs,
-            unseen_turning: None,
-        })
-    }
 }
 
 #[cfg(test)]

@@ -2,8 +2,10 @@
 
 use nalgebra::DVector;
 
+use super::curve;
+use super::fit;
 use super::is_alike;
-use super::model::Model;
+use super::model::{Damping, Kind, Model};
 use crate::normal::Factors;
 use crate::runs::{BEYOND_NOISE, Run};
 
@@ -91,6 +93,11 @@ impl Found {
         self.factors.variance(&[(place, 1.0)]) * self.widening
     }
 
+    /// True if the rows determine both splits; `each` is the fit without them, if there is one.
+    pub(super) fn is_known(&self, each: Option<&Self>) -> bool {
+        fit::is_known(self.model, |at| self.variance(at), self, each)
+    }
+
     /// A value with its deviation, from its derivatives by the unknowns.
     fn measured(&self, value: f64, gradient: &[(usize, f64)]) -> Measured {
         let variance = self.factors.variance(gradient) * self.widening;
@@ -107,18 +114,58 @@ impl Found {
     pub fn decay_of_run(&self, run: usize) -> Measured {
         let mut terms = vec![(self.model.decay_at(run), 1.0)];
         if self.model.is_shared() {
+            let [damping, _] = self.model.splits_at();
             let shares = self.of_runs[run].shares.iter().enumerate();
-            terms.extend(shares.map(|(i, share)| (Model::DAMPING + i, 0.5 * share)));
+            terms.extend(shares.map(|(i, share)| (damping + i, 0.5 * share)));
         }
         self.sum(&terms)
     }
 
+    /// The mean 1/τ of both modes, 1/s: if each run has its own, their mean weighted by their variances.
+    fn decay(&self) -> Measured {
+        let runs = self.of_runs.len();
+        if self.model.is_decay_shared() {
+            return self.sum(&[(self.model.decay_at(0), 1.0)]);
+        }
+        let mut weights = DVector::zeros(self.model.unknowns(runs));
+        for place in (0..runs).map(|run| self.model.decay_at(run)) {
+            weights[place] = 1.0 / self.variance(place);
+        }
+        weights /= weights.sum();
+        let variance = self.factors.solve(&weights).dot(&weights) * self.widening;
+        (self.values.dot(&weights), variance.sqrt())
+    }
+
+    /// Sum of the squared residuals, in the rows' own deviations.
+    pub(super) fn squares(&self) -> f64 {
+        self.residual * self.residual * (self.count - self.values.len() as f64)
+    }
+
+    /// How the damping changes.
+    pub fn damping(&self) -> Damping {
+        self.model.damping
+    }
+
+    /// Change of the decay rate of a run with time, 1/s², if the damping changes with time.
+    pub fn decay_drift(&self, run: usize, seconds: f64) -> Option<Measured> {
+        let by = curve::drift(seconds);
+        let is_seen = self.model.curves() > 0;
+        is_seen.then(|| self.sum(&[(self.model.curves_at(run), by)]))
+    }
+
+    /// Rise of the decay rate at an a_A² + a_B² of one input unit squared, 1/s, if the damping depends on it.
+    pub fn decay_by_energy(&self) -> Option<Measured> {
+        let is_seen = self.model.damping == Damping::ByEnergy;
+        is_seen.then(|| self.sum(&[(self.model.by_energy_at(), 1.0)]))
+    }
+
     /// The resonator, if the runs determine it.
     pub fn resonator(&self) -> Option<Resonator> {
+        let [damping, frequency] = self.model.splits_at();
         self.model.is_shared().then(|| Resonator {
-            decay: self.sum(&[(self.model.decay_at(0), 1.0)]),
-            damping_split: self.split(Model::DAMPING),
-            frequency_split: self.split(Model::FREQUENCY),
+            decay: self.decay(),
+            damping_split: self.split(damping),
+            frequency_split: self.split(frequency),
             rotations: (0..self.of_runs.len())
                 .map(|run| self.rotation(run))
                 .collect(),
@@ -181,8 +228,8 @@ impl Found {
 
     /// Rate at which a_A a_B of one input unit squared turns a pattern, rad/s, significant or not, if the rows determine it.
     pub(super) fn turning_by_amplitudes(&self) -> Option<Measured> {
-        if self.model == Model::Nonlinear {
-            Some(self.sum(&[(Model::GAMMA, -1.0)]))
+        if self.model.kind == Kind::Nonlinear {
+            Some(self.sum(&[(self.model.gamma_at(), -1.0)]))
         } else {
             self.unseen_turning
         }
@@ -210,7 +257,8 @@ impl Found {
         let mut list = Vec::new();
         for (index, run) in runs.iter().enumerate() {
             let terms = self.model.terms(index, run);
-            let mut motion = self.model.motion(run, &terms, &self.values);
+            let parameters = Model::parameters(&terms, &self.values);
+            let mut motion = self.model.motion(run, &parameters);
             let mut last = &run.rows[0];
             let mut before = motion.frequency_by_turning();
             let mut by_splits_before = motion.frequency_by_splits(0.0);
@@ -240,8 +288,8 @@ impl Found {
         if !self.model.is_shared() {
             return (0.0, 0.0);
         }
-        let terms = by.iter().enumerate();
-        let terms: Vec<_> = terms.map(|(i, &by)| (Model::DAMPING + i, by)).collect();
+        let [damping, _] = self.model.splits_at();
+        let terms: Vec<_> = (damping..).zip(by.iter().copied()).collect();
         self.sum(&terms)
     }
 

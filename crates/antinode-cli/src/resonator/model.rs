@@ -4,11 +4,15 @@ use std::f64::consts::TAU;
 
 use nalgebra::{DVector, RowSVector};
 
-use super::motion::{GAMMA, KAPPA, Motion, PARAMETERS, RATES};
+use super::curve::{BY_ENERGY, CURVES, IN_TIME};
+use super::motion::{KAPPA, Motion, PARAMETERS, RATES};
 use crate::runs::{BOWS, Row, Run, turn};
 
-/// An unknown of a run's motion: its place among all, and its direction in the parameters of the motion.
-pub type Term = (usize, [f64; PARAMETERS]);
+/// Number of parameters of the motion and of its curves of damping.
+pub const ALL: usize = PARAMETERS + CURVES;
+
+/// An unknown of a run's motion: its place among all, and its direction in the parameters.
+pub type Term = (usize, [f64; ALL]);
 
 /// Steady pieces into which an unsteady turn between two rows is divided.
 const PIECES: u32 = 64;
@@ -17,9 +21,9 @@ const PIECES: u32 = 64;
 const DECAY: usize = 0;
 const FREQUENCY: usize = 3;
 
-/// The unknowns that the runs share.
+/// What the runs share, and what turns their patterns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Model {
+pub enum Kind {
     /// Nothing: each has the decay along its pattern, and the component of the frequency split that makes its quadrature grow.
     Each,
     /// The resonator: 1/τ, and both splits.
@@ -32,21 +36,54 @@ pub enum Model {
     SharedUnsteady,
 }
 
+/// How the damping of both modes changes while a wave rings down.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Damping {
+    Steady,
+    /// In proportion to the energy, and in all runs alike.
+    ByEnergy,
+    /// In each run by itself, with so many [curves](super::curve) over time, which make 1/τ one of its own too.
+    InTime(usize),
+}
+
+/// The unknowns of a fit: the shared ones, which are 1/τ, the splits, γ and the damping by energy, as far as there are any; then each run's
+/// own, which are κ, a_A, a_B and θ, or only the amplitudes, its decay, its component of the frequency split, and its curves of damping.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Model {
+    pub kind: Kind,
+    pub damping: Damping,
+}
+
 impl Model {
-    /// The places of the first components of the splits of damping and frequency if they are shared, after 1/τ.
-    pub const DAMPING: usize = 1;
-    pub const FREQUENCY: usize = 3;
-    /// The place of γ, if it is an unknown.
-    pub const GAMMA: usize = GAMMA;
+    /// The model with a damping that is steady.
+    pub fn steady(kind: Kind) -> Self {
+        Self {
+            kind,
+            damping: Damping::Steady,
+        }
+    }
 
     /// True if the runs share a resonator.
     pub fn is_shared(self) -> bool {
-        !matches!(self, Self::Each | Self::EachUnsteady)
+        !matches!(self.kind, Kind::Each | Kind::EachUnsteady)
     }
 
     /// True if patterns are turned unsteadily.
     pub fn is_unsteady(self) -> bool {
-        matches!(self, Self::EachUnsteady | Self::SharedUnsteady)
+        matches!(self.kind, Kind::EachUnsteady | Kind::SharedUnsteady)
+    }
+
+    /// True if all runs have the same 1/τ.
+    pub fn is_decay_shared(self) -> bool {
+        self.is_shared() && self.curves() == 0
+    }
+
+    /// Number of curves of damping that a run has of its own.
+    pub fn curves(self) -> usize {
+        match self.damping {
+            Damping::Steady | Damping::ByEnergy => 0,
+            Damping::InTime(curves) => curves,
+        }
     }
 
     /// Number of values in a row that are explained: a_A and a_B, and θ unless it is taken as it is.
@@ -54,22 +91,44 @@ impl Model {
         if self.is_unsteady() { 2 } else { 3 }
     }
 
+    /// The places of the first components of the splits of damping and frequency if they are shared.
+    pub fn splits_at(self) -> [usize; 2] {
+        let damping = usize::from(self.is_decay_shared());
+        [damping, damping + 2]
+    }
+
+    /// The place of γ, if it is an unknown.
+    pub fn gamma_at(self) -> usize {
+        self.splits_at()[1] + 2
+    }
+
+    /// The place of the damping by energy, if it is an unknown.
+    pub fn by_energy_at(self) -> usize {
+        match self.kind {
+            Kind::Each | Kind::EachUnsteady => 0,
+            Kind::Shared | Kind::SharedUnsteady => self.gamma_at(),
+            Kind::Nonlinear => self.gamma_at() + 1,
+        }
+    }
+
     /// Number of shared unknowns.
     pub fn shared(self) -> usize {
-        match self {
-            Self::Each | Self::EachUnsteady => 0,
-            Self::Shared | Self::SharedUnsteady => GAMMA,
-            Self::Nonlinear => GAMMA + 1,
-        }
+        self.by_energy_at() + usize::from(self.damping == Damping::ByEnergy)
+    }
+
+    /// Number of unknowns of a run's wave: κ, a_A, a_B and θ, or only the amplitudes.
+    fn of_wave(self) -> usize {
+        if self.is_unsteady() { 2 } else { 4 }
     }
 
     /// Number of unknowns that a run has of its own.
     pub fn own(self) -> usize {
-        match self {
-            Self::Each => 6,
-            Self::Shared | Self::Nonlinear | Self::EachUnsteady => 4,
-            Self::SharedUnsteady => 2,
-        }
+        let of_decay = match (self.is_shared(), self.is_decay_shared()) {
+            (true, true) => 0,
+            (true, false) => 1,
+            (false, _) => 2,
+        };
+        self.of_wave() + of_decay + self.curves()
     }
 
     /// Number of all unknowns.
@@ -77,29 +136,57 @@ impl Model {
         self.shared() + self.own() * runs
     }
 
-    /// The place of a run's first own unknown. Its unknowns are κ, a_A, a_B and θ, or only the amplitudes; then its decay and its component
-    /// of the frequency split, if it has them.
+    /// The place of a run's first own unknown.
     pub fn own_at(self, run: usize) -> usize {
         self.shared() + self.own() * run
     }
 
     /// The place of the decay of a run.
     pub fn decay_at(self, run: usize) -> usize {
-        match self {
-            Self::Each => self.own_at(run) + 4,
-            Self::EachUnsteady => self.own_at(run) + 2,
-            Self::Shared | Self::Nonlinear | Self::SharedUnsteady => 0,
+        if self.is_decay_shared() {
+            0
+        } else {
+            self.own_at(run) + self.of_wave()
         }
     }
 
-    /// The motion of a run from its first row on, for these values of all unknowns, of which the run has `terms`.
-    pub fn motion(self, run: &Run, terms: &[Term], values: &DVector<f64>) -> Motion {
-        let mut parameters = [0.0; PARAMETERS];
+    /// The place of a run's first curve of damping, if it has any.
+    pub fn curves_at(self, run: usize) -> usize {
+        self.own_at(run + 1) - self.curves()
+    }
+
+    /// These values of the unknowns of another model of the same kind as values of this one, with 0 for unknowns that it lacks.
+    pub fn values_from(self, other: Self, values: &DVector<f64>, runs: usize) -> DVector<f64> {
+        let mut all = DVector::zeros(self.unknowns(runs));
+        let mut copy = |to: usize, from: usize, count: usize| {
+            all.rows_mut(to, count).copy_from(&values.rows(from, count));
+        };
+        if self.is_shared() {
+            let [to, from] = [self, other].map(|model| model.splits_at()[0]);
+            copy(to, from, other.by_energy_at() - from);
+        }
+        for run in 0..runs {
+            let [to, from] = [self, other].map(|model| model.own_at(run));
+            copy(to, from, self.own().min(other.own()));
+            copy(self.decay_at(run), other.decay_at(run), 1);
+        }
+        all
+    }
+
+    /// The values of a run's parameters, of which it has `terms`, for these values of all unknowns.
+    pub fn parameters(terms: &[Term], values: &DVector<f64>) -> [f64; ALL] {
+        let mut parameters = [0.0; ALL];
         for (place, direction) in terms {
             for (parameter, by) in parameters.iter_mut().zip(direction) {
                 *parameter += by * values[*place];
             }
         }
+        parameters
+    }
+
+    /// The motion of a run from its first row on, with these parameters, without the curves of damping.
+    pub fn motion(self, run: &Run, parameters: &[f64; ALL]) -> Motion {
+        let mut parameters: [f64; PARAMETERS] = std::array::from_fn(|i| parameters[i]);
         if self.is_unsteady() {
             parameters[RATES + 2] = run.rows[0].angle;
         }
@@ -153,17 +240,25 @@ impl Model {
             terms.push((own, unit(KAPPA)));
             terms.extend((0..3).map(|i| (own + 1 + i, unit(RATES + i))));
         }
-        match self {
-            Self::Each | Self::EachUnsteady => {
-                // The frequency is highest 22.5° from the pattern.
-                let (sine, cosine) = (4.0 * run.rows[0].angle).sin_cos();
-                let mut across = [0.0; PARAMETERS];
-                (across[FREQUENCY], across[FREQUENCY + 1]) = (-sine, cosine);
-                let decay = self.decay_at(index);
-                terms.extend([(decay, unit(DECAY)), (decay + 1, across)]);
-            }
-            Self::Shared | Self::Nonlinear | Self::SharedUnsteady => {
-                terms.extend((0..self.shared()).map(|i| (i, unit(i))));
+        let decay = self.decay_at(index);
+        terms.push((decay, unit(DECAY)));
+        if self.is_shared() {
+            let [damping, _] = self.splits_at();
+            let splits_and_gamma = damping..self.by_energy_at();
+            terms.extend(splits_and_gamma.map(|at| (at, unit(DECAY + 1 + at - damping))));
+        } else {
+            // The frequency is highest 22.5° from the pattern.
+            let (sine, cosine) = (4.0 * run.rows[0].angle).sin_cos();
+            let mut across = [0.0; ALL];
+            (across[FREQUENCY], across[FREQUENCY + 1]) = (-sine, cosine);
+            terms.push((decay + 1, across));
+        }
+        match self.damping {
+            Damping::Steady => {}
+            Damping::ByEnergy => terms.push((self.by_energy_at(), unit(PARAMETERS + BY_ENERGY))),
+            Damping::InTime(curves) => {
+                let at = self.curves_at(index);
+                terms.extend((0..curves).map(|i| (at + i, unit(PARAMETERS + IN_TIME + i))));
             }
         }
         terms

@@ -27,6 +27,13 @@ const DEGREES: f64 = 180.0 / PI;
 const DECAY_TIME: Kind = kind("decay_time_s", "decay time, s", 1.0);
 const QUALITY_FACTOR: Kind = kind("quality_factor", "quality factor", 1.0);
 const ROTATION: Kind = kind("rotation_rad_s", "turned by rotation, °/s", DEGREES);
+const DECAY_DRIFT: Kind = kind("decay_rate_drift_s2", "decay rate drift, 1/s²", 1.0);
+/// At one input unit squared, like that of the frequency below.
+const DECAY_BY_ENERGY: Kind = kind(
+    "decay_rate_by_energy_s",
+    "1/τ rises with a_A² + a_B², 1/s/unit²",
+    1.0,
+);
 const FREQUENCY: Kind = kind("frequency_hz", "mean frequency, Hz", 1.0);
 const DRIFT: Kind = kind("frequency_drift_hz_s", "frequency drift, Hz/s", 1.0);
 /// Both at one input unit squared.
@@ -52,6 +59,8 @@ pub const HELP: &str = "\
 Quantities of CSV and JSON lines, their units, and those of their deviations:
   decay_time_s                 s      of amplitudes, to 1/e
   quality_factor               none
+  decay_rate_drift_s2          1/s², of 1/τ with time, if it changes
+  decay_rate_by_energy_s       1/s, at a_A² + a_B² of one input unit squared, if 1/τ depends on it
   rotation_rad_s               rad/s
   frequency_drift_hz_s         Hz/s, of a straight line through the frequencies
   frequency_hz                 Hz
@@ -128,6 +137,10 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
         for (kind, value) in of_decay(found.decay_of_run(place), mean_frequency) {
             add(run, kind, value);
         }
+        let seconds = results.rows.runs[place].seconds();
+        if let Some(drift) = found.decay_drift(place, seconds) {
+            add(run, DECAY_DRIFT, drift);
+        }
         if let Some(resonator) = &resonator {
             add(run, ROTATION, resonator.rotations[place]);
         }
@@ -138,6 +151,9 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
     add(None, FREQUENCY, frequency.mean);
     if let Some(by_energy) = frequency.by_energy.value() {
         add(None, BY_ENERGY, by_energy);
+    }
+    if let Some(by_energy) = found.decay_by_energy() {
+        add(None, DECAY_BY_ENERGY, by_energy);
     }
     let of_residual = found.residual / (2.0 * found.count).sqrt();
     add(None, RESIDUAL, (found.residual, of_residual));

@@ -24,6 +24,7 @@ mod port_monitor;
 mod reading;
 mod readme;
 mod resonator;
+mod resonator_damping;
 mod resonator_driven;
 mod resonator_frequency;
 mod resonator_residual;

@@ -1,5 +1,6 @@
 //! Tests with rows from the averaged equations of a resonator, with noise.
 
+mod damping;
 mod frequency;
 mod gaps;
 mod unsteady;
@@ -11,7 +12,7 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use super::super::motion::Motion;
 use super::*;
 use crate::deviates::Deviates;
-use crate::runs::Row;
+use crate::runs::{MIN_ROWS, Row};
 
 /// 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, γ.
 const RESONATOR: [f64; 6] = [0.05, 0.006, -0.008, 0.03, 0.04, 0.0];

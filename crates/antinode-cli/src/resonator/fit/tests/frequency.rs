@@ -15,7 +15,7 @@ fn the_splits_part_of_the_frequency_is_averaged_across_rows_left_out() {
     // Their part of the phase, rad: from these averages, and from the rows alone.
     let phases = |run: Run| {
         let runs = [run];
-        let found = found(&runs, Model::Shared).unwrap();
+        let found = found(&runs, Model::steady(Kind::Shared)).unwrap();
         let moved = found.frequency_moved(&runs);
         let mut phases = [0.0; 2];
         for (pair, moved) in runs[0].rows.windows(2).zip(moved.windows(2)) {
@@ -36,7 +36,7 @@ fn turning_by_amplitudes_is_known_though_it_is_no_unknown() {
     let quadrature = [0.3, -0.3].map(|quadrature| [1.0, quadrature, 0.3]);
     let runs = quadrature.map(|start| run(&RESONATOR, 0.3, start, 400, 0.1, NOISE, 1));
     let found = fit(&runs).unwrap();
-    assert_eq!(found.model, Model::Shared);
+    assert_eq!(found.model, Model::steady(Kind::Shared));
     let (turning, std) = found.turning_by_amplitudes().unwrap();
     assert!(turning.abs() < 4.0 * std && std < 1e-3, "{turning} {std}");
 }

@@ -1,0 +1,88 @@
+//! Whether the damping changes while waves ring down, by temperature or by amplitude.
+
+use nalgebra::DVector;
+
+use super::curve::MAX_IN_TIME;
+use super::fit::settle;
+use super::found::Found;
+use super::model::{Damping, Model};
+use super::normal::Normal;
+use crate::runs::Run;
+
+/// Deviations from which on a change is significant.
+const SEEN: f64 = 5.0;
+/// The same for curves beyond the first: a higher limit would leave more than it spares.
+const USED: f64 = 2.0;
+
+/// This fit, or the same with a damping that changes, if that is significant and explains the rows.
+///
+/// A change that takes more than a parabola in each run is taken to depend on the amplitude if that explains as much.
+pub fn changing(runs: &[Run], found: Found) -> Found {
+    let mut in_time: Option<Found> = None;
+    let mut is_parabola = true;
+    for curves in 1..=MAX_IN_TIME {
+        let from = in_time.as_ref().unwrap_or(&found);
+        let least = if curves == 1 { SEEN } else { USED };
+        let Some((next, seen)) = changed(runs, from, Damping::InTime(curves), least) else {
+            break;
+        };
+        is_parabola &= curves == 1 || seen < SEEN;
+        in_time = Some(next);
+    }
+    let by_energy = if in_time.is_some() && is_parabola {
+        None
+    } else {
+        changed(runs, &found, Damping::ByEnergy, SEEN).map(|(found, _)| found)
+    };
+    let changed = match (in_time, by_energy) {
+        (Some(in_time), Some(by_energy)) if explains_more(&in_time, &by_energy) => Some(in_time),
+        (in_time, by_energy) => by_energy.or(in_time),
+    };
+    // If it leaves more than noise, the cause may be another: flaws of pick-offs look like damping that changes while a pattern turns.
+    changed.filter(Found::is_explained).unwrap_or(found)
+}
+
+/// True if curves over time explain more than the energy does, beyond what chance adds with their number.
+fn explains_more(in_time: &Found, by_energy: &Found) -> bool {
+    let more = (in_time.values.len() - by_energy.values.len()) as f64;
+    by_energy.squares() - in_time.squares() > more + SEEN * (2.0 * more).sqrt()
+}
+
+/// A fit with this damping, starting from another, and the deviations that show it; `None` if these are not so many, or if splits are no
+/// longer determined.
+fn changed(runs: &[Run], from: &Found, damping: Damping, least: f64) -> Option<(Found, f64)> {
+    let model = Model {
+        damping,
+        ..from.model
+    };
+    let values = model.values_from(from.model, &from.values, runs.len());
+    let seen = seen(runs, model, &values)?;
+    if seen < least {
+        return None;
+    }
+    let found = Found {
+        unseen_turning: from.unseen_turning,
+        ..settle(runs, model, values)?
+    };
+    (!model.is_shared() || found.is_known(None)).then_some((found, seen))
+}
+
+/// Deviations by which a step from these values moves the last unknown of a damping, at most in any run.
+fn seen(runs: &[Run], model: Model, values: &DVector<f64>) -> Option<f64> {
+    let normal = Normal::of(runs, model, values);
+    let factors = normal.equations.factors(0.0)?;
+    let step = factors.solve(normal.equations.right());
+    let widening = normal.widening(values);
+    let seen = |place: usize| {
+        let variance = widening * factors.variance(&[(place, 1.0)]);
+        step[place].abs() / variance.sqrt()
+    };
+    match model.damping {
+        Damping::Steady => None,
+        Damping::ByEnergy => Some(seen(model.by_energy_at())),
+        Damping::InTime(curves) => {
+            let last = |run| model.curves_at(run) + curves - 1;
+            (0..runs.len()).map(|run| seen(last(run))).reduce(f64::max)
+        }
+    }
+}

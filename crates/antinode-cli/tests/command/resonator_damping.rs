@@ -1,0 +1,91 @@
+//! `antinode resonator`: damping that changes while the wave rings down is found, and told.
+
+use crate::common::ring_downs::{four_seconds, of_resonator, of_run, resonator};
+
+/// Rows of a ring-down with amplitudes smaller by e^−p, where p is given for the time, s.
+fn damped(rows: &str, p: impl Fn(f64) -> f64) -> String {
+    let mut lines = rows.lines();
+    let header = lines.next().unwrap();
+    let place = |name| header.split(',').position(|column| column == name).unwrap();
+    let time = place("time_s");
+    let amplitudes = [place("main_amplitude"), place("quadrature_amplitude")];
+    let damped = lines.map(|line| {
+        let mut fields: Vec<_> = line.split(',').map(str::to_owned).collect();
+        let by = (-p(fields[time].parse().unwrap())).exp();
+        for place in amplitudes {
+            fields[place] = (by * fields[place].parse::<f64>().unwrap()).to_string();
+        }
+        fields.join(",")
+    });
+    let lines: Vec<_> = std::iter::once(header.to_owned()).chain(damped).collect();
+    lines.join("\n")
+}
+
+#[test]
+fn a_drift_is_printed_and_does_not_move_the_decay_time() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // 1/τ rises by a tenth in 4 s, also of a pattern at rest.
+    let drift = 0.008 / 4.0;
+    for wave in ["--angle 0.3", "--angle-rate 0.4"] {
+        let rows = four_seconds(here, &format!("--decay-rate 0.08 {wave}"));
+        let steady = resonator(here, &rows, "--output csv");
+        assert!(
+            !steady.out.contains("decay_rate") && !steady.err.contains("damping changes"),
+            "{}{}",
+            steady.out,
+            steady.err
+        );
+        let rows = damped(&rows, |time| 0.5 * drift * time * (time - 4.0));
+        let found = resonator(here, &rows, "--output csv");
+        assert!(
+            found.err.contains("the damping changes with time") && !found.err.contains("noise:"),
+            "{}",
+            found.err
+        );
+        let (value, std) = of_run(&found.out, "1", "decay_time_s");
+        assert!(
+            (value - 12.5).abs() < 4.0 * std && std < 0.02,
+            "{}",
+            found.out
+        );
+        let (value, std) = of_run(&found.out, "1", "decay_rate_drift_s2");
+        assert!(
+            (value - drift).abs() < 4.0 * std && std < 0.1 * drift,
+            "{}",
+            found.out
+        );
+        let table = resonator(here, &rows, "").out;
+        assert!(table.contains("decay rate drift, 1/s²"), "{table}");
+    }
+}
+
+#[test]
+fn a_dependence_on_the_amplitude_is_printed_with_the_decay_time_of_small_waves() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // Over four decay times, from a_A = 0.5 and a_B = 0.025 on.
+    let rows = four_seconds(here, "--decay-rate 1 --angle-rate 0.4");
+    let by_energy = 0.2;
+    let energy = 0.250_625;
+    let p = |time: f64| 0.5 * (by_energy * energy * -(-2.0 * time).exp_m1()).ln_1p();
+    let found = resonator(here, &damped(&rows, p), "--output csv");
+    assert!(
+        found.err.contains("the damping changes with the amplitude")
+            && found.err.contains("those of small waves"),
+        "{}",
+        found.err
+    );
+    let (value, std) = of_resonator(&found.out, "decay_rate_by_energy_s");
+    assert!(
+        (value - by_energy).abs() < 4.0 * std && std < 0.1 * by_energy,
+        "{}",
+        found.out
+    );
+    let (value, std) = of_resonator(&found.out, "decay_time_s");
+    assert!(
+        (value - 1.0).abs() < 4.0 * std && std < 0.01,
+        "{}",
+        found.out
+    );
+}

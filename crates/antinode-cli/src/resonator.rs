@@ -29,7 +29,7 @@ use crate::failure::Failure;
 use crate::given_rows::GivenRows;
 use crate::options::Format;
 use crate::runs::driven::{self, undriven};
-use crate::runs::{BEYOND_NOISE, Run, Runs};
+use crate::runs::{BEYOND_NOISE, Run, Runs, turn};
 use crate::serialized;
 use by_energy::ByEnergy;
 use fit::fit;
@@ -135,6 +135,20 @@ fn one_way(results: &Results) -> Option<f64> {
     (is_one_way && still.len() < ENOUGH_STILL).then(|| turned / seconds)
 }
 
+/// True if all patterns stand where the first one does, and rotation turns none far: the splits are found from how they move it.
+fn is_one_pattern(results: &Results) -> bool {
+    let Results { rows, found, .. } = results;
+    let Some(resonator) = found.resonator().filter(|_| !found.is_unsteady()) else {
+        return false;
+    };
+    let first = rows.runs[0].rows[0].angle;
+    let mut all = rows.runs.iter().zip(resonator.rotations);
+    all.all(|(run, (rotation, _))| {
+        let apart = turn(run.rows[0].angle - first);
+        apart.abs() < TURNS && (rotation * run.seconds()).abs() < TURNS
+    })
+}
+
 /// Writes what the numbers leave open.
 fn write_notes(out: &mut impl Write, results: &Results) -> io::Result<()> {
     note_runs(out, results)?;
@@ -194,6 +208,12 @@ fn note_splits(out: &mut impl Write, results: &Results) -> io::Result<()> {
              off like {:.1e} 1/s of damping, a skew 10 ns off like {:.1e} Hz; give rows of a pattern that turns the other way too",
             4e-3 * rate,
             4e-8 * rate * frequency
+        )?;
+    } else if is_one_pattern(results) && results.found.damping() == Damping::Steady {
+        writeln!(
+            out,
+            "warning: only one pattern that is not turned shows the splits, and damping that changes by 1 % meanwhile looks like a split of \
+             damping; give ring-downs at other pattern angles, or of a pattern that turns"
         )?;
     }
     Ok(())

@@ -89,3 +89,17 @@ fn a_dependence_on_the_amplitude_is_printed_with_the_decay_time_of_small_waves()
         found.out
     );
 }
+
+#[test]
+fn splits_that_only_one_pattern_shows_are_told_of() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let split = "--decay-rate 0.3 --frequency-split 0.3 --damping-split 0.1 --angle 0.2";
+    for (rate, is_told) in [("0", true), ("0.4", false)] {
+        let rows = four_seconds(here, &format!("{split} --angle-rate {rate}"));
+        let found = resonator(here, &rows, "--output csv");
+        assert!(found.out.contains("damping_split_s"), "{}", found.out);
+        let told = found.err.contains("only one pattern that is not turned");
+        assert_eq!(told, is_told, "{}", found.err);
+    }
+}

@@ -191,7 +191,29 @@ mod tests {
             assert_eq!(found.is_none(), is_within, "{scale}");
             assert!(found.is_none_or(|found| (found / f64::from(scale) - 1.0).abs() < 0.1));
         }
+        // A wave on S_D alone.
+        let other = pairs(100, |_| 0.0);
+        let other: Vec<[f32; 2]> = other.iter().map(|pair| pair.map(|x| 1e18 * x)).collect();
+        assert!(amplitude_beyond(&other).is_some());
         assert_eq!(amplitude_beyond(&[]), None);
         assert_eq!(amplitude_beyond(&[[0.0; 2]; 9]), None);
+    }
+    #[test]
+    fn an_offset_far_larger_than_the_samples_vary_is_found() {
+        for (offset, is_large) in [
+            ([290.0, 0.0], false),
+            ([310.0, 0.0], true),
+            ([0.0, -310.0], true),
+            ([220.0, 220.0], true),
+        ] {
+            // With an rms of 1 about the mean, both pick-offs together.
+            let pair = |k: usize| {
+                let side = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+                [offset[0] + side, offset[1]]
+            };
+            let pairs: Vec<[f32; 2]> = (0..512).map(pair).collect();
+            assert_eq!(large_offset(&pairs).is_some(), is_large, "{offset:?}");
+        }
+        assert_eq!(large_offset(&[[1.0; 2]; 512]), None);
     }
 }

@@ -336,6 +336,17 @@ fn a_few_values_of_text_without_a_known_step_are_warned_of() {
     );
     let given = "identify --frequency 5332 --resolution 0.00048828125 a.csv";
     assert_eq!(run(here, given).err, "");
+    // Without a wave there are no deviations.
+    let few: String = (0..2000)
+        .map(|k| format!("{},{}\n", 0.1 * f64::from(k * 7919 % 13), 0.3))
+        .collect();
+    fs::write(here.join("none.csv"), few).unwrap();
+    let told = run(here, "identify --rate 26660 none.csv");
+    assert!(
+        told.code == 1 && !told.err.contains("distinct"),
+        "{}",
+        told.err
+    );
     // Whole numbers show their step.
     let text = fs::read_to_string(here.join("a.csv")).unwrap();
     let whole = text.lines().skip(1).map(|line| {

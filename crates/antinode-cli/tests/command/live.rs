@@ -6,7 +6,7 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
 
-use crate::common::{WAVE, raw};
+use crate::common::{WAVE, raw, run_with};
 
 /// Far more than a machine under load needs for a second of samples.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -64,4 +64,19 @@ fn constant_samples_are_reported() {
         rest.starts_with("error: standard input: no period found in 240000 "),
         "{rest}"
     );
+}
+
+#[test]
+fn only_a_second_of_samples_without_a_row_shows_a_constant_pick_off() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut late = vec![[100, -100]; 50_000];
+    late.extend(WAVE.codes(100_000));
+    // The flags of rows show a dead pick-off.
+    let dead: Vec<[i16; 2]> = WAVE.codes(120_000).iter().map(|&[c, _]| [c, 9]).collect();
+    for codes in [late, dead] {
+        let arguments = "identify - --raw i16 --rate 1e5";
+        let run = run_with(directory.path(), arguments, raw(&codes));
+        assert_eq!(run.code, 0, "{}", run.err);
+        assert!(!run.err.contains("so far"), "{}", run.err);
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::common::{WAVE, run, run_with, wav};
+use crate::common::{WAVE, rows, run, run_with, wav};
 
 /// The lines, none wider than a terminal has room for and none that ends in spaces.
 fn lines(text: &str, width: usize) -> Vec<&str> {
@@ -100,6 +100,47 @@ fn a_table_is_aligned() {
         two.out,
         format!("{}{body}\n{}{body}", title("a.wav"), title("b.wav"))
     );
+}
+
+#[test]
+fn a_table_shows_the_numbers_of_the_rows_with_angles_in_degrees() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let wave = "--noise 0.005 --angle-rate 2 --decay-rate 3";
+    let made = run(here, &format!("simulate -o a.wav --seconds 0.1 {wave}"));
+    assert_eq!(made.code, 0);
+    let rows = rows(here, "a.wav");
+    let run = run(here, "identify a.wav");
+    let table = lines(&run.out, 120);
+    assert_eq!(table.len(), 1 + rows.len());
+    for (line, row) in table[1..].iter().zip(&rows) {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let shown = |i: usize| words[i].trim_start_matches('±').parse::<f64>().unwrap();
+        let degrees = |name: &str| row.number(name).to_degrees();
+        for (i, value) in [
+            (0, row.number("time_s")),
+            (1, row.number("main_amplitude")),
+            (3, row.number("quadrature_amplitude")),
+            (5, degrees("angle_rad")),
+            (7, row.number("frequency_hz")),
+            (9, degrees("angle_rate_rad_s")),
+            (10, row.number("decay_rate_s")),
+        ] {
+            // To the last digit.
+            let decimals = words[i].split('.').nth(1).unwrap().len() as i32;
+            let unit = 10f64.powi(-decimals);
+            assert!((shown(i) - value).abs() < 0.51 * unit, "{i}: {line}");
+        }
+        for (i, value) in [
+            (2, row.number("main_amplitude_std")),
+            (4, row.number("quadrature_amplitude_std")),
+            (6, degrees("angle_std_rad")),
+            (8, row.number("frequency_std_hz")),
+            (11, row.number("residual_rms")),
+        ] {
+            assert!((shown(i) / value - 1.0).abs() < 0.06, "{i}: {line}");
+        }
+    }
 }
 
 #[test]

@@ -78,7 +78,7 @@ fn too_few_samples_a_period_are_named() {
         fault(here, "a.wav", &["no period found", &told]);
     }
     let fast = "if undersampled on purpose, this wave appears at 18750 Hz";
-    let refused = run(here, "identify a.wav --frequency 218750");
+    let refused = run(here, "identify a.wav --frequency 281250");
     assert!(
         refused.code == 2 && refused.err.contains(fast),
         "{}",
@@ -127,12 +127,11 @@ fn an_offset_that_drowns_the_wave_is_named() {
 fn a_recording_too_short_for_a_search_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    fs::write(here.join("a.wav"), wav(&WAVE.codes(30))).unwrap();
-    fault(
-        here,
-        "a.wav",
-        &["no period found in only 30 sample pairs", "record longer"],
-    );
+    for (wave, pairs) in [(WAVE, 30), (silence(0.005), 590)] {
+        fs::write(here.join("a.wav"), wav(&wave.codes(pairs))).unwrap();
+        let told = format!("no period found in only {pairs} sample pairs");
+        fault(here, "a.wav", &[&told, "record longer"]);
+    }
 }
 
 #[test]

@@ -66,6 +66,11 @@ fn a_wave_that_ends_early_or_begins_late_is_reported_once() {
             assert!((seconds(&said, "the last ") - 0.4).abs() < 0.005, "{said}");
         }
     }
+    let (said, _) = told(here, ringing(100_000, |k| k > 2000), "");
+    assert!(
+        (seconds(&said, "the first ") - 0.02).abs() < 0.005,
+        "{said}"
+    );
     // Windows that begin with the first sample.
     let (said, _) = told(here, ringing(100_000, |k| k < 60_000), "--frequency 5332");
     assert!(said.contains(" go from 0.0000 s to "), "{said}");
@@ -90,15 +95,18 @@ fn usual_silence_raises_no_warning() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     // Silence between two ring-downs is flagged; at the ends, a few windows without a wave are usual.
-    for (silent, arguments) in [
-        (30_000..60_000, ""),
-        (0..300, ""),
-        (0..300, "--periods 2"),
-        (0..0, "--periods 300"),
-        (0..0, "--hop 1000"),
-        (0..0, "--frequency 5321 --periods 1000"),
+    for (pairs, silent, arguments) in [
+        (100_000, 30_000..60_000, ""),
+        (100_000, 0..300, ""),
+        (100_000, 0..300, "--periods 2"),
+        (100_000, 0..700, ""),
+        (100_000, 90_000..100_000, "--periods 300"),
+        (20_000, 0..250, "--periods 2"),
+        (100_000, 0..0, "--periods 300"),
+        (100_000, 0..0, "--hop 1000"),
+        (100_000, 0..0, "--frequency 5321 --periods 1000"),
     ] {
-        let recording = ringing(100_000, |k| !silent.contains(&k));
+        let recording = ringing(pairs, |k| !silent.contains(&k));
         assert_eq!(told(here, recording, arguments).0, "", "{arguments}");
     }
 }

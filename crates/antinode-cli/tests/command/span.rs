@@ -190,6 +190,13 @@ fn a_span_outside_the_recording_is_reported() {
         run.err,
         "warning: a.csv: the recording begins at 5 s, after --from 4.5 s, and ends at 5.200000 s, before --to 5.3 s\n"
     );
+    // Nothing is missing before the first sample.
+    rows(here, "a.csv --from 4.999998");
+    // A recording that is cut short ends there for that reason.
+    let whole = wav(&codes);
+    fs::write(here.join("a.wav"), &whole[..whole.len() - 4000]).unwrap();
+    let cut = crate::common::run(here, "identify a.wav --to 0.3");
+    assert_eq!((cut.code, cut.err.lines().count()), (1, 1), "{}", cut.err);
 }
 
 #[test]

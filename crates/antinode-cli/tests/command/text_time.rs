@@ -20,12 +20,16 @@ fn times_too_large_to_resolve_the_phase_are_warned_of() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
-    let since_1970 = timed("time,c,d\n", 5000, |t| format!("{:.6}", 1.7e9 + t));
-    fs::write(here.join("a.csv"), since_1970).unwrap();
-    let run = run(here, "identify --output csv a.csv");
-    same_later(&Row::all(&run.out), &expected, 1.7e9);
-    let told = "warning: a.csv: time begins at 1700000000 s, where `time_s` has steps of 4e-7 s, too coarse for use with `phase_rad`";
-    assert!(run.err.starts_with(told), "{}", run.err);
+    for (start, step) in [(1.7e9, "4e-7"), (2e8, "4e-8")] {
+        let late = timed("time,c,d\n", 5000, |t| format!("{:.6}", start + t));
+        fs::write(here.join("a.csv"), late).unwrap();
+        let run = run(here, "identify --output csv a.csv");
+        same_later(&Row::all(&run.out), &expected, start);
+        let told = format!(
+            "warning: a.csv: time begins at {start} s, where `time_s` has steps of {step} s, too coarse for use with `phase_rad`"
+        );
+        assert!(run.err.starts_with(&told), "{}", run.err);
+    }
 }
 
 #[test]

@@ -235,6 +235,9 @@ mod tests {
                 .unwrap()
                 .contains("S_C is at its lowest value, -1, 100 times")
         );
+        assert_eq!(cut_off.warning(0.29), None);
+        cut_off.clipped = 5;
+        assert!(cut_off.warning(1.0).is_some());
         cut_off.clipped = 6;
         assert_eq!(cut_off.warning(1.0), None);
     }

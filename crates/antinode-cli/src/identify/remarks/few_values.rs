@@ -78,5 +78,10 @@ mod tests {
         assert_eq!(warning(Some(0.1), 100, 4), None);
         assert_eq!(warning(None, 31, 4), None);
         assert_eq!(warning(None, 0, 4), None);
+        // Only the first samples count.
+        let mut few = FewValues::new(None);
+        few.see(&[[0.0, 1.0]; EXAMINED_PAIRS]);
+        few.see(&(0..1000).map(|k| [k as f32; 2]).collect::<Vec<_>>());
+        assert!(few.warning().is_some());
     }
 }

@@ -176,6 +176,15 @@ mod tests {
                 "flagged: clipped 20".to_owned(),
             ),
             (
+                vec![(150, Flags::empty()), (20, Flags::CLIPPED)],
+                format!("clipped 20; {CLIPPED_REMEDY}"),
+            ),
+            (
+                vec![clean, (19, Flags::CLIPPED)],
+                "flagged: clipped 19".to_owned(),
+            ),
+            (vec![(3, Flags::CLIPPED)], "flagged: clipped 3".to_owned()),
+            (
                 vec![(6, Flags::empty()), (18, Flags::CIRCULAR)],
                 format!("circular 18; {CIRCULAR_REMEDIES}"),
             ),

@@ -152,8 +152,13 @@ mod tests {
 
     /// A ring-down with a ripple of 0.6 % at this frequency, Hz.
     fn rippled(frequency: f32) -> impl Fn(f32, &mut Estimate) {
+        rippled_by(0.006, frequency)
+    }
+
+    /// A ring-down with a ripple of this share.
+    fn rippled_by(share: f32, frequency: f32) -> impl Fn(f32, &mut Estimate) {
         move |time, row| {
-            let ripple = 1.0 + 0.006 * (TAU as f32 * frequency * time + 1.0).cos();
+            let ripple = 1.0 + share * (TAU as f32 * frequency * time + 1.0).cos();
             row.main_amplitude *= ripple * (-time).exp();
         }
     }
@@ -188,8 +193,37 @@ mod tests {
                     .unwrap();
                 let share: f64 = share.parse().unwrap();
                 assert!((share - 0.6).abs() < 0.03, "{frequency} {count}: {warning}");
+                // Three ripples of a wave of 5332 Hz.
+                let periods = if frequency < 90.0 {
+                    3.2 * 5332.0 / frequency
+                } else {
+                    171.0
+                };
+                let told = format!("--periods {}, so", periods.ceil());
+                assert!(frequency > 110.0 || warning.contains(&told), "{warning}");
             }
         }
+    }
+
+    #[test]
+    fn rows_of_overlapping_windows_and_of_several_ring_downs_show_a_ripple() {
+        let overlapping = |_: f32, row: &mut Estimate| {
+            row.start /= 10;
+            row.time = (row.start + 100) as f64 / 1e5;
+            rippled(100.0)(row.time as f32, row);
+        };
+        assert!(warning(false, 3000, overlapping).is_some());
+        let several = |time: f32, row: &mut Estimate| {
+            rippled(100.0)(time, row);
+            let index = row.start / 200;
+            if index % 400 < 5 {
+                row.flags = Flags::LOST;
+            }
+            if index % 800 < 400 {
+                row.main_amplitude *= 0.2;
+            }
+        };
+        assert!(warning(false, 3000, several).is_some());
     }
 
     #[test]
@@ -202,6 +236,12 @@ mod tests {
             rippled(171.0)(time, row);
         };
         assert_eq!(warning(true, 3000, beat), None);
+        let beside_less = |time: f32, row: &mut Estimate| {
+            rippled(100.0)(time, row);
+            rippled_by(0.002, 171.0)(time, row);
+        };
+        assert_eq!(warning(true, 3000, beside_less), None);
+        assert_eq!(warning(true, 3000, rippled_by(3e-4, 100.0)), None);
         let once = |time: f32, row: &mut Estimate| {
             if time < 0.5 {
                 rippled(100.0)(time, row);

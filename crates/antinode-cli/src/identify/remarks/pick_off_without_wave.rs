@@ -96,8 +96,8 @@ mod tests {
 
     #[test]
     fn a_wave_on_both_raises_no_warning() {
-        assert_eq!(warning(1000, 2e-3, [0.5, 0.0], 1e-3), None);
-        assert_eq!(warning(1000, 0.0, [0.5, 2e-3], 1e-3), None);
+        assert_eq!(warning(1000, 1e-3, [0.5, 0.0], 1e-3), None);
+        assert_eq!(warning(1000, 0.0, [0.5, 1e-3], 1e-3), None);
         assert_eq!(warning(1000, 0.4, [0.5, 0.3], 1e-3), None);
         // Too few rows, or too much noise.
         assert_eq!(warning(15, 0.0, [0.5, 0.0], 1e-6), None);

@@ -56,29 +56,45 @@ mod tests {
     use super::*;
     use crate::deviates::Deviates;
 
+    /// The warning for this many rows beside an amplitude of 0.6, one in `every` of them with this residual, the others with noise.
+    fn warning(
+        samples_a_period: f64,
+        offset: f32,
+        residual: f32,
+        rows: u64,
+        every: u64,
+    ) -> Option<String> {
+        let (mut rounded, mut deviates) = (RoundedOffset::default(), Deviates(1));
+        for index in 0..rows {
+            let mut row = row(index, 1.0, &mut deviates);
+            row.residual_rms = if index % every == 0 { residual } else { 1.0 };
+            row.offsets = [offset, 0.0];
+            let rate = samples_a_period * row.frequency;
+            rounded.see(&row, rate);
+            row.flags = Flags::LOST;
+            rounded.see(&row, rate);
+        }
+        rounded.warning()
+    }
+
     #[test]
     fn a_residual_of_rounding_is_told_from_noise() {
-        // Beside an amplitude of 0.6, at 18.75 samples a period.
-        for (offset, residual, is_told) in [
-            (60.0, 1.6e-5, true),
-            (60.0, 3e-5, false),
-            (60.0, 5e-6, false),
-            (1.0, 1e-8, false),
-            (0.0, 0.0, false),
-            (f32::NAN, 1e-5, false),
+        for (samples, offset, residual, is_told) in [
+            (18.75, 60.0, 1.6e-5, true),
+            (18.75, 60.0, 3e-5, false),
+            (18.75, 60.0, 5e-6, false),
+            (18.75, 1.0, 1e-8, false),
+            (18.75, 0.0, 0.0, false),
+            (18.75, f32::NAN, 1e-5, false),
+            // The wave itself is rounded as much.
+            (1000.0, 1.2, 1.3e-5, false),
         ] {
-            let (mut rounded, mut deviates) = (RoundedOffset::default(), Deviates(1));
-            for index in 0..9 {
-                let mut row = row(index, 1.0, &mut deviates);
-                row.residual_rms = if index % 2 == 0 { residual } else { 1.0 };
-                row.offsets = [offset, 0.0];
-                rounded.see(&row, 1e5);
-                row.flags = Flags::LOST;
-                rounded.see(&row, 1e5);
-            }
-            let warning = rounded.warning();
-            assert_eq!(warning.is_some(), is_told, "{offset} {residual}");
+            let warning = warning(samples, offset, residual, 9, 2);
+            assert_eq!(warning.is_some(), is_told, "{samples} {offset} {residual}");
             assert!(warning.is_none_or(|warning| warning.starts_with("the offset is 100 times")));
         }
+        // Too few rows, or too few of them.
+        assert_eq!(warning(18.75, 60.0, 1.6e-5, 3, 1), None);
+        assert_eq!(warning(18.75, 60.0, 1.6e-5, 9, 3), None);
     }
 }

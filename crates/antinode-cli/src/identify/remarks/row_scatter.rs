@@ -250,6 +250,32 @@ pub(super) mod tests {
     }
 
     #[test]
+    fn rows_far_apart_are_not_compared() {
+        let few_together = |index: u64, row: &mut Estimate| {
+            if index % 12 >= 4 {
+                row.flags = Flags::MISFIT;
+            }
+        };
+        assert_eq!(warning(1.6, few_together), None);
+    }
+
+    #[test]
+    fn options_that_were_given_are_not_suggested() {
+        for times in [0.4, 1.6] {
+            let (mut scatter, mut deviates) = (RowScatter::new(None), Deviates(3));
+            (0..1000).for_each(|index| scatter.see(&row(index, times, &mut deviates)));
+            for has_option in [false, true] {
+                let warning = scatter.warning(has_option).unwrap();
+                assert_eq!(warning.contains("try --hum"), times < 1.0 && !has_option);
+                assert_eq!(
+                    warning.contains("try --coloured"),
+                    times > 1.0 && !has_option
+                );
+            }
+        }
+    }
+
+    #[test]
     fn one_jump_is_no_scatter() {
         // As if an excitation were switched off just between two windows.
         let jump = |index: u64, row: &mut Estimate| {
@@ -263,6 +289,8 @@ pub(super) mod tests {
         // Harmonics and the converter leave a residual, which need not scatter from row to row.
         let quiet = |_, row: &mut Estimate| row.residual_rms = 3e-5;
         assert_eq!(warning(0.4, quiet), None);
+        // Little less scatter may be chance.
+        assert_eq!(warning(0.73, |_, _| ()), None);
         assert!(warning(1.6, quiet).is_some());
         // Rounding may scatter in any way.
         assert_eq!(warning(1.6, |_, row| row.residual_rms = 3e-6), None);

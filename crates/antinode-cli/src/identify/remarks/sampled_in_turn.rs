@@ -122,12 +122,17 @@ mod tests {
         for (angle, share, noise) in [
             (FRAC_PI_8, 0.0, 1e-3),
             (FRAC_PI_8 + 0.02, -half, 1e-3),
+            (FRAC_PI_8 + 5e-4, -half, 1e-3),
             (FRAC_PI_8, half, 1e-3),
             (FRAC_PI_8, -half, 0.1),
         ] {
             let pairs = samples(angle, 0.8 * share, 5332.0, noise);
             assert!(warning(&pairs).is_none(), "{angle} {share} {noise}");
         }
-        assert!(warning(&samples(FRAC_PI_8, -0.8 * half, 5332.0, 1e-3)).is_some());
+        let alike = samples(FRAC_PI_8, -0.8 * half, 5332.0, 1e-3);
+        assert!(warning(&alike).is_some());
+        // Too few rows, or too few of them.
+        assert!(warning(&alike[..1500]).is_none());
+        assert!(warning(&[alike, samples(0.3, 0.02, 5332.0, 1e-3)].concat()).is_none());
     }
 }

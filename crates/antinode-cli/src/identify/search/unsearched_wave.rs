@@ -246,5 +246,7 @@ mod tests {
         // Two tones that hide each other's period from the search.
         assert_eq!(told(&[(18.8, 0.5), (37.6, 0.28)], 1e-3), None);
         assert_eq!(told(&[(18.8, 0.45), (14.3, 0.45)], 1e-3), None);
+        // A fast tone that is not most of the samples.
+        assert_eq!(told(&[(18.8, 0.9), (3.3, 0.3)], 1e-3), None);
     }
 }

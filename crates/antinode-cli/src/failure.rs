@@ -54,13 +54,8 @@ impl Failure {
 
 impl From<SettingsError> for Failure {
     fn from(error: SettingsError) -> Self {
+        // The parsers of all other options check their ranges.
         let option = match error {
-            SettingsError::GainRatio(_) => "--gain-ratio: ",
-            SettingsError::Skew(_) => "--skew-ns: ",
-            SettingsError::PickOffAngle(_) => "--pick-off-angle: ",
-            SettingsError::Rails(_) => "--full-scale: ",
-            SettingsError::Resolution(_) => "--resolution: ",
-            SettingsError::StartAngle(_) => "--start-angle: ",
             SettingsError::HumPeriods { .. } => "--hum: ",
             _ => "",
         };

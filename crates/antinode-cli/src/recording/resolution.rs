@@ -22,7 +22,9 @@ const MAX_HEAD_BLOCKS: usize = 16;
 /// None for a continuous signal, however it was rounded: the steps of single precision itself are not a converter's.
 pub(super) fn resolution(pairs: &[[f32; 2]]) -> Option<f32> {
     let steps = [0, 1].map(|channel| step(pairs.iter().map(|pair| pair[channel])));
+    // Below the normal numbers there is no wave to be identified.
     let step = steps.into_iter().flatten().reduce(f32::max);
+    let step = step.filter(|step| step.is_normal());
     step.or_else(|| codes::of_whole(pairs))
 }
 
@@ -150,6 +152,20 @@ mod tests {
                     "{amplitude} {step} {decimals} {noise}: {found}"
                 );
             }
+        }
+    }
+
+    #[test]
+    fn the_greater_step_counts_if_the_pick_offs_differ() {
+        let wave = printed(0.9, 0.01, |value| value as f32);
+        let stepped = |steps: [f32; 2]| -> Vec<[f32; 2]> {
+            let code = |value: f32, step: f32| (value / step).round() * step;
+            let pair = |&[c, d]: &[f32; 2]| [code(c, steps[0]), code(d, steps[1])];
+            wave.iter().map(pair).collect()
+        };
+        for steps in [[0.01, 0.03], [0.03, 0.01]] {
+            let found = resolution(&stepped(steps)).unwrap();
+            assert!((found / 0.03 - 1.0).abs() < 1e-2, "{steps:?}: {found}");
         }
     }
 

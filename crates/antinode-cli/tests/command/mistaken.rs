@@ -111,7 +111,7 @@ fn a_time_among_raw_samples_is_reported() {
         for (more, parts) in [(0, &told[..]), (3, &[told[0], cut])] {
             let run = run_with(
                 directory.path(),
-                &format!("identify {arguments}"),
+                &format!("identify {arguments} --periods 20"),
                 all[..few + more].to_vec(),
             );
             assert_eq!(run.code, 1);
@@ -127,14 +127,18 @@ fn a_time_among_raw_samples_is_reported() {
 fn amplitudes_outside_the_range_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let codes = WAVE.codes(20_000);
-    for (scale, is_beyond) in [(1e-21, true), (1e-18, false), (1e12, false), (1e14, true)] {
+    for (scale, is_beyond) in [
+        (1e-43, true),
+        (1e-21, true),
+        (1e-18, false),
+        (1e12, false),
+        (1e14, true),
+    ] {
         let samples = codes.as_flattened().iter();
         let bytes = samples.flat_map(|&code| (scale * f32::from(code)).to_le_bytes());
-        let run = run_with(
-            directory.path(),
-            "identify - --raw f32 --rate 100000",
-            bytes.collect(),
-        );
+        // In a file, the converter's step is looked for.
+        std::fs::write(directory.path().join("a.raw"), bytes.collect::<Vec<_>>()).unwrap();
+        let run = run(directory.path(), "identify a.raw --raw f32 --rate 100000");
         let is_told = run.err.contains("beyond the range of 1e-15 to 1e17");
         assert_eq!(is_told, is_beyond, "{scale}: {}", run.err);
         assert!(is_beyond || run.code == 0, "{scale}: {}", run.err);

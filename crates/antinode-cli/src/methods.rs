@@ -14,7 +14,6 @@ use antinode::methods::{
 };
 use antinode::{Calibration, Estimate, Flags, Pair, Settings};
 
-use crate::recording::BLOCK_PAIRS;
 use ideal::Ideal;
 
 /// The results of the methods in one window.
@@ -56,7 +55,7 @@ impl History {
         Self {
             pairs: VecDeque::new(),
             lead,
-            capacity: lead + window * 6 / 5 + BLOCK_PAIRS,
+            capacity: lead + window * 6 / 5,
             start: 0,
             calibration: settings.calibration,
             sample_rate: settings.sample_rate,

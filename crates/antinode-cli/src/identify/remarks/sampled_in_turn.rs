@@ -4,9 +4,9 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 
 use antinode::Estimate;
 
-/// Rows with sufficiently small deviations that are needed for a verdict.
-const MIN_ROWS: u32 = 16;
-/// Deviations by which such a row may be off, at most.
+/// One row with small deviations in this many may look like something else; fewer rows are too few for a verdict.
+const ONE_IN: u32 = 16;
+/// Deviations by which a row that looks like one signal may be off, at most.
 const MAX_OFF: f64 = 4.0;
 /// Deviations beyond which a row is left out: of the angle, rad, and of the quadrature's share of a_A, relative to the share expected.
 const MAX_DEVIATIONS: [f64; 2] = [2e-3, 0.05];
@@ -54,7 +54,7 @@ impl SampledInTurn {
 
     /// A warning if nearly all rows look like one signal.
     pub fn warning(&self) -> Option<String> {
-        (self.alike >= MIN_ROWS && self.alike > self.count - self.count / 16).then(|| {
+        (self.alike > self.count - self.count / ONE_IN).then(|| {
             "both pick-offs seem to be one signal, sampled in turn: the angle is 22.5°, and S_D is half a sample late; if all of S_C is \
              stored before all of S_D, store them pair by pair, or as NPY of shape (2, N); if --raw was given, check its number of bits"
                 .to_owned()

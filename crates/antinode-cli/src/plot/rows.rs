@@ -226,7 +226,14 @@ mod tests {
         assert_eq!(begins(&at(&[0.0, 1.0, 2.0, 0.5, 1.5, 2.5])), [3]);
         assert!(begins(&at(&[1.0])).is_empty());
         // Windows that become longer.
-        let longer = [(0.0, 100), (1.0, 100), (2.0, 100), (3.5, 200), (5.5, 200)];
+        let longer = [
+            (0.0, 100),
+            (1.0, 100),
+            (2.0, 100),
+            (3.0, 100),
+            (4.5, 200),
+            (6.5, 200),
+        ];
         assert!(begins(&longer.map(|(time, samples)| (time, samples, "", "a"))).is_empty());
     }
 

@@ -237,6 +237,31 @@ mod tests {
     }
 
     #[test]
+    fn a_few_driven_runs_are_named_and_the_others_counted() {
+        let row = |time: f64| Row::of(time, [1.0, 0.0, 0.0], [1e-3; 3]);
+        let run = Run {
+            rows: vec![row(1.0), row(3.0)],
+            file: "a".to_owned(),
+        };
+        let told = |count: usize| {
+            let mut told = Vec::new();
+            warn(&mut told, &vec![run.clone(); count]).unwrap();
+            String::from_utf8(told).unwrap()
+        };
+        assert_eq!(told(0), "");
+        let named = "a, 2.0 s from 1.0 s on";
+        let one = told(1);
+        assert!(
+            one.starts_with("warning: left out: 1 run in which"),
+            "{one}"
+        );
+        assert!(one.ends_with(&format!("in others: {named}\n")), "{one}");
+        let seven = told(7);
+        assert_eq!(seven.matches(named).count(), MAX_NAMED);
+        assert!(seven.ends_with("; and 2 more\n"), "{seven}");
+    }
+
+    #[test]
     fn the_beginning_or_end_of_a_drive_is_found() {
         for seed in 0..60 {
             let at = 40.0 + 1.7 * seed as f64;

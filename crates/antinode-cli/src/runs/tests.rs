@@ -204,6 +204,17 @@ fn a_row_with_a_flag_need_not_have_numbers() {
 }
 
 #[test]
+fn a_circle_whose_digits_are_rounded_is_read() {
+    let circle = |quadrature: &str| {
+        let text = rows("a", 20, 0.01, |_| "").replace(",0.02,", quadrature);
+        add(&mut runs(0.1), &(HEADER.to_owned() + &text))
+    };
+    assert!(circle(",-0.5025,").is_ok());
+    let fault = circle(",-0.51,").unwrap_err().to_string();
+    assert!(fault.contains("not within ±main_amplitude"), "{fault}");
+}
+
+#[test]
 fn headers_of_joined_files_are_skipped() {
     let text = rows("a", 20, 0.01, |_| "") + HEADER + &rows("b", 30, 0.01, |_| "");
     let all = read(&text);
@@ -241,6 +252,55 @@ fn the_reason_for_no_run_is_reported() {
         assert!(fault.contains(reason), "{fault}");
     }
     assert_eq!(message(&rows("a", 40, 0.01, |_| "")), None);
+}
+
+#[test]
+fn the_times_of_rows_are_told_if_none_is_asked_for() {
+    let mut all = Runs::new(7.0..8.0, 0.1, Flags::REACQUIRED);
+    let later = rows("a", 40, 0.01, |_| "");
+    let earlier = rows("b", 20, 0.01, |_| "");
+    add(&mut all, &(HEADER.to_owned() + &later + &earlier)).unwrap();
+    let told = all.fault("it").unwrap().to_string();
+    assert!(told.ends_with("the rows' times go from 0 s to 0.39 s"));
+}
+
+/// What is noted of these rows.
+fn notes(all: &Runs) -> String {
+    let mut notes = Vec::new();
+    all.write_notes(&mut notes).unwrap();
+    String::from_utf8(notes).unwrap()
+}
+
+#[test]
+fn further_steps_are_counted() {
+    let mut all = read(&rows("a", 40, 0.01, |_| ""));
+    assert_eq!(notes(&all), "");
+    for (time, told) in [
+        (1.0, "1.00 s of a: "),
+        (2.0, "1.00 s of a, and at 1 more places: "),
+    ] {
+        all.steps.push(("a".to_owned(), time));
+        let notes = notes(&all);
+        assert!(
+            notes.starts_with(&format!("a gain or the wave steps at {told}")),
+            "{notes}"
+        );
+    }
+}
+
+#[test]
+fn a_short_part_of_a_recording_repeats_it() {
+    let whole = rows("a", 400, 0.0, |_| "");
+    // Between the rows of the whole that are compared.
+    let part: String = (0..20)
+        .map(|k| {
+            let time = 1.045 + 0.01 * f64::from(k);
+            format!("a,{time},0.5,0.02,0,5332,0.001,0.001,0.001,\n")
+        })
+        .collect();
+    let all = read(&(part + &whole));
+    assert_eq!(lengths(&all), [20, 400]);
+    assert!(notes(&all).contains("rows of a cover the same time twice"));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
-use crate::common::{RATE, Row, WAVE, Wave, npy, rms, rows, run, run_with};
+use crate::common::{RATE, Row, WAVE, Wave, npy, rms, rows, run, run_with, silence};
 
 /// The rows of a simulated recording.
 fn identified(here: &Path, name: &str, simulate: &str, identify: &str) -> Vec<Row> {
@@ -130,8 +130,10 @@ fn rails_given_as_codes_are_warned_of_with_their_scaled_values() {
         !told.contains("--full-scale") && share > 0.9,
         "{told} {share}"
     );
-    let (told, _) = identify("2.5");
-    assert!(told.contains("within ±1\n"), "{told}");
+    for rails in ["2.5", "-5,1"] {
+        let (told, _) = identify(rails);
+        assert!(told.contains("within ±1\n"), "{told}");
+    }
 }
 
 #[test]
@@ -337,10 +339,12 @@ fn a_few_values_of_text_without_a_known_step_are_warned_of() {
     let given = "identify --frequency 5332 --resolution 0.00048828125 a.csv";
     assert_eq!(run(here, given).err, "");
     // Without a wave there are no deviations.
-    let few: String = (0..2000)
-        .map(|k| format!("{},{}\n", 0.1 * f64::from(k * 7919 % 13), 0.3))
-        .collect();
-    fs::write(here.join("none.csv"), few).unwrap();
+    let noise = silence(0.005).codes(2000);
+    let value = |code: i16| f64::from(code.rem_euclid(13)).sqrt();
+    let few = noise
+        .iter()
+        .map(|&[c, d]| format!("{:.6},{:.6}\n", value(c), value(d)));
+    fs::write(here.join("none.csv"), few.collect::<String>()).unwrap();
     let told = run(here, "identify --rate 26660 none.csv");
     assert!(
         told.code == 1 && !told.err.contains("distinct"),

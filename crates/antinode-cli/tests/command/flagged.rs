@@ -1,5 +1,6 @@
 //! `antinode identify` reports, once a recording, how many of its rows are flagged, and by what.
 
+use std::f64::consts::TAU;
 use std::fs;
 #[cfg(unix)]
 use std::{
@@ -9,7 +10,7 @@ use std::{
 
 #[cfg(unix)]
 use crate::common::send;
-use crate::common::{Row, WAVE, beside_flagged, identified, run, wav};
+use crate::common::{RATE, Row, WAVE, beside_flagged, identified, run, run_with, wav};
 
 /// A wave with a gap in it.
 fn torn() -> Vec<u8> {
@@ -41,6 +42,30 @@ fn flagged_rows_are_reported_in_every_format() {
     assert!(cut.err.starts_with("warning: torn.wav: "), "{}", cut.err);
     assert!(others[0].starts_with("error: torn.wav: at its end: "));
     assert!(others[1].starts_with("error: none.wav: "));
+}
+
+#[test]
+fn misfits_of_a_known_cause_have_no_other_remedy() {
+    let directory = tempfile::tempdir().unwrap();
+    // A gain that the rectified mains modulate.
+    let samples = (0..100_000).flat_map(|k| {
+        let time = f64::from(k) / RATE;
+        let gain = 1.0 + 0.2 * (TAU * 100.0 * time).cos();
+        [0.5, 0.2].map(|share| share * gain * (TAU * 5321.7 * time).cos())
+    });
+    let bytes = samples.flat_map(|sample| (sample as f32).to_le_bytes());
+    let arguments = "identify - --raw f32 --rate 100000";
+    let told = run_with(directory.path(), arguments, bytes.collect()).err;
+    let lines: Vec<&str> = told.lines().collect();
+    let [flagged, cause] = lines[..] else {
+        panic!("{told}")
+    };
+    let (_, misfits) = flagged.split_once(" flagged: misfit ").unwrap();
+    assert!(misfits.parse::<u32>().unwrap() > 400, "{told}");
+    assert!(
+        cause.contains(" Hz: there is mains ripple on a gain"),
+        "{told}"
+    );
 }
 
 #[test]

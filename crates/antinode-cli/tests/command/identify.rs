@@ -24,6 +24,7 @@ fn a_wav_file_gives_its_wave_at_the_bound() {
         rows.len()
     );
     let mut squares = [[0.0; 2]; 4];
+    let mut of_stated = [0.0; 7];
     for row in &rows {
         let (time, samples) = (row.number("time_s"), row.number("samples"));
         assert_eq!(row.text("flags"), "", "{time}");
@@ -55,7 +56,8 @@ fn a_wav_file_gives_its_wave_at_the_bound() {
                 "decay_rate_std_s",
             ),
         ];
-        for (error, std) in errors {
+        for (sum, (error, std)) in of_stated.iter_mut().zip(errors) {
+            *sum += (error / row.number(std)).powi(2) / rows.len() as f64;
             assert!(
                 error.abs() < 5.0 * row.number(std),
                 "{time}: {std}: {error} {}",
@@ -80,6 +82,11 @@ fn a_wav_file_gives_its_wave_at_the_bound() {
         let ratio = (error / bound).sqrt();
         assert!((0.8..1.2).contains(&ratio), "quantity {i}: {ratio}");
     }
+    let ratios = of_stated.map(f64::sqrt);
+    assert!(
+        ratios.iter().all(|ratio| (0.8..1.2).contains(ratio)),
+        "{ratios:?}"
+    );
 }
 
 #[test]

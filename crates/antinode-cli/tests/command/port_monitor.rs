@@ -76,6 +76,8 @@ fn a_monitor_on_a_port_shows_what_comes_until_it_is_interrupted() {
         told.starts_with("device: firmware 1.2.3, protocol 7"),
         "{told}"
     );
+    // The greeting is no command of the user's.
+    assert!(!told.contains("command 0"), "{told}");
     assert!(
         told.contains(": 1 estimates and 2 other reports; 0 lost, 0 damaged"),
         "{told}"

@@ -227,9 +227,9 @@ fn a_frequency_that_is_not_the_waves_is_reported() {
     assert_eq!((run.code, run.out.as_str()), (1, ""));
     assert!(run.err.contains(error), "{}", run.err);
     // Too short for a window, for which the frequency is not blamed.
-    let short = "a.wav: 20000 sample pairs (0.2000 s) hold no window of 1022 periods";
+    let short = "a.wav: 20000 sample pairs (0.2000 s) hold no window of 850 periods";
     tones(&here.join("a.wav"), &[(4000.0, 0.9)]);
-    fault(here, "a.wav --frequency 4000 --periods 1022", &[short]);
+    fault(here, "a.wav --frequency 4000 --periods 850", &[short]);
 }
 
 #[test]

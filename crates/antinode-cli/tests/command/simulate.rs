@@ -188,6 +188,16 @@ fn flaws_are_flagged_where_they_are() {
 }
 
 #[test]
+fn lost_samples_make_a_recording_last_longer() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let flaws = "--seconds 0.1 --lost 1000:5000 --dropout 0.12:0.14:zero";
+    simulate(here, &format!("-o a.wav {flaws}"));
+    let rows = rows(here, "a.wav");
+    assert!(rows.iter().any(|row| row.text("flags").contains("lost")));
+}
+
+#[test]
 fn integers_that_reach_the_rail_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

@@ -42,6 +42,10 @@ fn options_that_make_no_sense_are_refused() {
             "--frequency: 49999 Hz drifts to 50001 Hz",
         ),
         (
+            "-o a.wav --frequency-rate -60000",
+            "--frequency: 5332 Hz drifts to -54668 Hz",
+        ),
+        (
             "-o a.wav --damping-split inf",
             "--damping-split: it must be",
         ),

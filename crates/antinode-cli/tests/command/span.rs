@@ -176,6 +176,10 @@ fn a_span_outside_the_recording_is_reported() {
             "a.wav --from 0.2 --to 0.1",
             "error: --to: 0.1 s must be later than --from, 0.2 s",
         ),
+        (
+            "a.wav --from 0.1 --to 0.1",
+            "error: --to: 0.1 s must be later than --from, 0.1 s",
+        ),
         ("a.wav --from x", "it must be a number of seconds"),
         ("a.wav --to inf", "it must be a number of seconds"),
     ] {

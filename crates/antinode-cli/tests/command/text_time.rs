@@ -182,6 +182,10 @@ fn an_index_is_warned_of() {
         "{told}"
     );
     same_later(&rows, &expected, 0.0);
+    // An index has no decimals.
+    let decimals = |t: f64| format!("{:.1}", 1e5 * t + 500_000.5);
+    rows_of(here, &timed("time,c,d\n", 5000, decimals), "");
+    fs::write(here.join("a.csv"), timed("zeit,c,d\n", 5000, index)).unwrap();
     // With --rate 1 the column is still seconds.
     let seconds = crate::common::rows(here, "a.csv --rate 1");
     assert!(seconds[0].number("time_s") > 500_000.0);

@@ -241,7 +241,7 @@ mod tests {
             rippled_by(0.002, 171.0)(time, row);
         };
         assert_eq!(warning(true, 3000, beside_less), None);
-        assert_eq!(warning(true, 3000, rippled_by(3e-4, 100.0)), None);
+        assert_eq!(warning(true, 3000, rippled_by(4.5e-4, 100.0)), None);
         let once = |time: f32, row: &mut Estimate| {
             if time < 0.5 {
                 rippled(100.0)(time, row);

@@ -162,6 +162,16 @@ fn truncated_data_are_delivered_before_the_error() {
         );
         assert!(fault.expect("a fault").starts_with(&expected));
     }
+    // Whichever of the channels is cut off.
+    let bytes = npy("'<i2'", false, "(2, 3)", &codes(&PLANES));
+    let swapped = OpenOptions {
+        columns: Some("2,1".parse().unwrap()),
+        ..OpenOptions::default()
+    };
+    let (_directory, path) = file("a.npy", &bytes[..bytes.len() - 3]);
+    let (pairs, fault) = drain(&mut Recording::open(&path, &swapped).unwrap());
+    assert_eq!(pairs, [[0.5, 0.0]]);
+    assert!(message(fault).contains("but there are 1; "));
     let (pairs, fault) = read(
         "a.npy",
         &npy("'<i2'", false, "(2, 3)", &codes(&PLANES[..2])),

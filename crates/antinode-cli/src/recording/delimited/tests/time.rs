@@ -136,4 +136,12 @@ fn a_gap_far_behind_the_first_lines_is_found() {
         "{fault}"
     );
     assert_eq!(rate(&text), Some(96_000.0));
+    // It is known where it belongs.
+    let (_directory, path) = file("a.csv", text.as_bytes());
+    let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+    while recording.next_gap().is_none() {
+        recording.read(&mut Vec::new()).unwrap();
+    }
+    let gap = recording.next_gap().unwrap();
+    assert_eq!((gap.before, gap.lost), (140_000, 1));
 }

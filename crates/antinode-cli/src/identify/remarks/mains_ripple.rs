@@ -241,7 +241,14 @@ mod tests {
             rippled_by(0.002, 171.0)(time, row);
         };
         assert_eq!(warning(true, 3000, beside_less), None);
-        assert_eq!(warning(true, 3000, rippled_by(4.5e-4, 100.0)), None);
+        // Too small to matter, even without noise and decay.
+        for (share, is_told) in [(4e-4, false), (6e-4, true)] {
+            let small = |time: f32, row: &mut Estimate| {
+                row.main_amplitude = 0.6 * time.exp();
+                rippled_by(share, 100.0)(time, row);
+            };
+            assert_eq!(warning(true, 3000, small).is_some(), is_told, "{share}");
+        }
         let once = |time: f32, row: &mut Estimate| {
             if time < 0.5 {
                 rippled(100.0)(time, row);

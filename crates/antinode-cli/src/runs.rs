@@ -15,6 +15,7 @@ use std::ops::Range;
 
 use antinode::Flags;
 
+use crate::digits::counted;
 use crate::failure::Failure;
 use crate::given_rows::{GivenRows, none_within, recording_of};
 use crate::row_file::{self, RowFile};
@@ -161,7 +162,7 @@ impl Runs {
             };
             let more = match self.steps.len() - 1 {
                 0 => String::new(),
-                more => format!(", and at {more} more places"),
+                more => format!(", and at {} more", counted(more as u64, "place")),
             };
             writeln!(
                 out,

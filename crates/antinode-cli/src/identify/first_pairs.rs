@@ -198,6 +198,7 @@ mod tests {
         assert_eq!(amplitude_beyond(&[]), None);
         assert_eq!(amplitude_beyond(&[[0.0; 2]; 9]), None);
     }
+
     #[test]
     fn an_offset_far_larger_than_the_samples_vary_is_found() {
         for (offset, is_large) in [

@@ -1,8 +1,8 @@
 //! Damping that changes while a wave rings down.
 //!
 //! If it changes for both modes alike, by g(t), it only makes the whole wave smaller, by e^−p with p = ∫g dt: the motion is linear, but for
-//! γ, whose effect is too small to tell the difference. So rows are compared with the motion after they have been made larger by e^p. A
-//! gain that both pick-offs share acts in the same way.
+//! γ, whose effect becomes smaller by a share of 2p, which is neglected. So rows are compared with the motion after they have been made
+//! larger by e^p. A gain that both pick-offs share acts in the same way.
 
 use crate::runs::{Row, Run};
 

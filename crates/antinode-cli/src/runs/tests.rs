@@ -277,7 +277,7 @@ fn further_steps_are_counted() {
     assert_eq!(notes(&all), "");
     for (time, told) in [
         (1.0, "1.00 s of a: "),
-        (2.0, "1.00 s of a, and at 1 more places: "),
+        (2.0, "1.00 s of a, and at 1 place more: "),
     ] {
         all.steps.push(("a".to_owned(), time));
         let notes = notes(&all);

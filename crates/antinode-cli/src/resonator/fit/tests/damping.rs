@@ -139,3 +139,47 @@ fn what_damping_does_not_explain_is_not_taken_for_it() {
     assert_eq!(found.model.damping, Damping::Steady);
     assert!(found.residual > 2.0, "{}", found.residual);
 }
+
+#[test]
+fn a_table_may_turn_unsteadily_meanwhile() {
+    let drift = 0.05 * RESONATOR[0] / 39.9;
+    let p = |time: f64, _| 0.5 * drift * time * (time - 39.9);
+    let slower = |time: f64| 0.2 * (-0.05 * time).exp();
+    let is_found = |found: &Found| found.is_unsteady() && found.model.curves() > 0;
+    let runs = |seed| {
+        let one = |way: f64, angle, seed| {
+            let start = [1.0, 0.03, angle];
+            run_turned(
+                &RESONATOR,
+                |t| way * slower(t),
+                start,
+                400,
+                0.1,
+                NOISE,
+                seed,
+            )
+        };
+        damped(
+            vec![one(1.0, 0.2, 2 * seed), one(-1.0, 0.9, 2 * seed + 1)],
+            p,
+        )
+    };
+    check(runs, RESONATOR[0], is_found);
+}
+
+#[test]
+fn the_run_that_knows_its_decay_best_counts_most() {
+    let drift = 0.2 * RESONATOR[0] / 39.9;
+    let p = |time: f64, _| 0.5 * drift * time * time;
+    let mut runs = turning_both_ways(1);
+    runs[1].rows.truncate(60);
+    let found = fit(&damped(runs, p)).unwrap();
+    let (value, std) = found.resonator().unwrap().decay;
+    let decay = RESONATOR[0] + 0.5 * drift * 39.9;
+    assert!((value / decay - 1.0).abs() < 0.01, "{value} {decay}");
+    let [best, other] = [0, 1].map(|run| found.variance(found.model.decay_at(run)).sqrt());
+    assert!(
+        std < 1.001 * best && best < 0.25 * other,
+        "{std} {best} {other}"
+    );
+}

@@ -1,5 +1,6 @@
 //! Damping that changes while waves ring down.
 
+use super::super::super::curve::MAX_IN_TIME;
 use super::super::super::model::Damping;
 use super::*;
 
@@ -182,4 +183,35 @@ fn the_run_that_knows_its_decay_best_counts_most() {
         std < 1.001 * best && best < 0.25 * other,
         "{std} {best} {other}"
     );
+}
+
+#[test]
+fn the_equations_are_the_slope_of_the_squares_also_in_noise() {
+    let start = [1.0, 0.03, 0.3];
+    let runs = [run(&RESONATOR, 0.2, start, 200, 0.1, 500.0 * NOISE, 1)];
+    for damping in [Damping::ByEnergy, Damping::InTime(MAX_IN_TIME)] {
+        let kind = Kind::Shared;
+        let model = Model { kind, damping };
+        let steady = Model::steady(kind);
+        let values = found(&runs, steady).unwrap().values;
+        let values = model.values_from(steady, &values, 1);
+        let normal = Normal::of(&runs, model, &values);
+        let places = match damping {
+            Damping::InTime(_) => model.curves_at(0)..model.unknowns(1),
+            _ => model.by_energy_at()..model.by_energy_at() + 1,
+        };
+        for place in places {
+            let squares = |by: f64| {
+                let mut moved = values.clone();
+                moved[place] += by;
+                Normal::of(&runs, model, &moved).squares
+            };
+            let slope = (squares(1e-5) - squares(-1e-5)) / 2e-5;
+            let stated = -2.0 * normal.equations.right()[place];
+            assert!(
+                (slope - stated).abs() < 0.01 * stated.abs().max(10.0),
+                "{place}: {slope} {stated}"
+            );
+        }
+    }
 }

@@ -17,7 +17,7 @@ use crate::given_rows::GivenRows;
 use crate::options::Corrected;
 use crate::runs::{BEYOND_NOISE, Runs, driven};
 use crate::serialized;
-use solve::{Found, MIN_TURN_BACK, PickOffs, solve};
+use solve::{Damping, Found, MIN_TURN_BACK, PickOffs, solve};
 use undriven::{moments, without_driven};
 
 /// Deviations below which a flaw is not significant.
@@ -188,6 +188,12 @@ fn write_report(
             "warning: the pattern turns only one way, or the other by less than {:.1}°, and a resonator's splits of damping and frequency \
              then look like flaws of the pick-offs; let it turn the other way in a second recording, and give the rows of both",
             MIN_TURN_BACK.to_degrees()
+        )?;
+    }
+    if found.damping == Damping::Changing {
+        writeln!(
+            out,
+            "the damping changes while the wave rings down, or a gain of both pick-offs does: this is allowed for"
         )?;
     }
     if found.residual > BEYOND_NOISE {

@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::moments::Run;
-use super::solve::{FLAWS, OWN, PickOffs, SPLITS, shares, variances};
+use super::solve::{Damping, FLAWS, PickOffs, SPLITS, shares, variances};
 use crate::runs::per_radian;
 
 /// An equation of least squares: places and factors of unknowns, the value seen, and one over its variance.
@@ -29,6 +29,7 @@ pub struct AtMoment {
 pub fn equations(
     (index, run): (usize, &Run),
     pick_offs: &PickOffs,
+    damping: Damping,
     shared: usize,
     [dc, ds, ws, wc]: [f64; SPLITS],
     unit: f64,
@@ -36,7 +37,7 @@ pub fn equations(
     let ideal = run.ideal(pick_offs);
     let (first, last) = (run.moments[0].time, run.moments[ideal.len() - 1].time);
     let middle = 0.5 * (first + last);
-    let own = shared + OWN * index;
+    let own = shared + damping.own() * index;
     let tangent = (2.0 * pick_offs.angle).tan();
     let mut sums = Sums::default();
     let each = run.moments.iter().zip(&ideal);
@@ -82,9 +83,9 @@ pub fn equations(
             of_quadrature[flaw] -= ws * to_r + wc * to_s - dc * to_qr - ds * to_qs;
         }
         let variances = variances(ideal, pick_offs).map(|part| part * moment.variance);
+        let time = 2.0 * (moment.time - middle) / unit;
         let equation = |row: [f64; FLAWS + SPLITS], seen: f64, first: usize, variance: f64| {
             let columns = (0..shared).chain([first, first + 1]);
-            let time = 2.0 * (moment.time - middle) / unit;
             let entries = row.into_iter().take(shared).chain([1.0, time]);
             Equation {
                 entries: columns.zip(entries).collect(),
@@ -92,11 +93,14 @@ pub fn equations(
                 weight: 1.0 / variance,
             }
         };
+        let mut of_energy = equation(of_energy, energy.ln(), own, variances[0]);
+        let bend = damping.bend_at(own).map(|place| (place, time * time));
+        of_energy.entries.extend(bend);
         AtMoment {
             time: moment.time / unit,
             state: [r, s, q],
             variance: variances[0],
-            energy: equation(of_energy, energy.ln(), own, variances[0]),
+            energy: of_energy,
             quadrature: equation(of_quadrature, q, own + 2, variances[1]),
         }
     });

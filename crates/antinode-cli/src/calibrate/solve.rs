@@ -22,7 +22,10 @@ pub const FLAWS: usize = 3;
 /// Unknowns of the resonator: its splits of damping and of frequency, each along two axes.
 pub const SPLITS: usize = 4;
 /// Unknowns of a run: ln E and Q/E at its middle, and their slopes.
-pub const OWN: usize = 4;
+const OWN: usize = 4;
+/// Deviations from which on a damping that changes is significant, and the residual over noise that it may then leave.
+const SEEN: f64 = 5.0;
+const EXPLAINED: f64 = 1.5;
 /// Turn that is needed, at least, rad: 4θ goes around once.
 const MIN_TURN: f64 = FRAC_PI_2;
 /// Turn the other way, at least, rad, with which splits are distinguishable from flaws: a quarter turn of 4θ.
@@ -92,6 +95,26 @@ impl PickOffs {
     }
 }
 
+/// What is assumed of the damping.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Damping {
+    Steady,
+    /// It changes steadily within each run: ln E is a parabola, whose bend is the last unknown of the run.
+    Changing,
+}
+
+impl Damping {
+    /// Number of unknowns of a run.
+    pub fn own(self) -> usize {
+        OWN + usize::from(self == Self::Changing)
+    }
+
+    /// The place of a run's bend, if it is an unknown, for that of its first unknown.
+    pub fn bend_at(self, own: usize) -> Option<usize> {
+        (self == Self::Changing).then_some(own + OWN)
+    }
+}
+
 /// The result of the fit.
 #[derive(Debug)]
 pub struct Found {
@@ -100,6 +123,9 @@ pub struct Found {
     pub deviations: [f64; 3],
     /// The rms residual over the rows' own deviations: 1 in noise alone.
     pub residual: f64,
+    /// The damping, and the deviations by which it changes in a run, at most.
+    pub damping: Damping,
+    changes: f64,
     /// True if the resonator's splits are among the unknowns.
     pub knows_splits: bool,
     /// Largest turns within a run, rad: backwards, at most 0, and forwards, at least 0.
@@ -133,8 +159,19 @@ impl Fault {
     }
 }
 
-/// Finds the calibration with which energy and quadrature run evenly; the search begins at `start`.
+/// Finds the calibration with which energy and quadrature run evenly; the search begins at `start`. If the damping is seen to change, this
+/// is allowed for: flaws of pick-offs would look like it.
 pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
+    let steady = search(runs, Damping::Steady, start)?;
+    let changing = search(runs, Damping::Changing, steady.pick_offs);
+    let changing = changing
+        .ok()
+        .filter(|found| found.changes > SEEN && found.residual < EXPLAINED);
+    Ok(changing.unwrap_or(steady))
+}
+
+/// The same if this is assumed of the damping.
+fn search(runs: &[Run], damping: Damping, start: PickOffs) -> Result<Found, Fault> {
     let turned = runs.iter().fold([0f64; 2], |[back, forth], run| {
         [back.min(run.turns[0]), forth.max(run.turns[1])]
     });
@@ -147,7 +184,7 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
     let mut pick_offs = start;
     let mut splits = knows_splits.then_some([0.0; SPLITS]);
     for _ in 0..STEPS {
-        let normal = Normal::of(runs, &pick_offs, splits);
+        let normal = Normal::of(runs, &pick_offs, damping, splits);
         let unknowns = normal.equations.unknowns();
         let Some(factors) = normal.equations.factors(0.0) else {
             return Err(Fault::Unsettled);
@@ -169,8 +206,15 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
             // Residual after the step, per degree of freedom.
             let residual_squares = (normal.squares - normal.equations.right().dot(&step)).max(0.0);
             let residual = (residual_squares / (2 * rows - unknowns) as f64).sqrt();
-            let variances = variances_of_flaws(runs, &pick_offs, (&factors, unknowns), splits);
+            let variances =
+                variances_of_flaws(runs, &pick_offs, damping, (&factors, unknowns), splits);
             let deviation = |i: usize| variances[i].sqrt() * residual.max(1.0);
+            let first = unknowns - damping.own() * runs.len();
+            let bends =
+                (0..runs.len()).filter_map(|run| damping.bend_at(first + damping.own() * run));
+            let changes = bends.map(|at| {
+                step[at].abs() / (factors.variance(&[(at, 1.0)]).sqrt() * residual.max(1.0))
+            });
             return Ok(Found {
                 pick_offs,
                 deviations: [
@@ -179,6 +223,8 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
                     deviation(2),
                 ],
                 residual,
+                damping,
+                changes: changes.fold(0.0, f64::max),
                 knows_splits,
                 turned,
             });
@@ -191,6 +237,7 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
 fn variances_of_flaws(
     runs: &[Run],
     pick_offs: &PickOffs,
+    damping: Damping,
     (factors, unknowns): (&Factors, usize),
     splits: Option<[f64; SPLITS]>,
 ) -> [f64; FLAWS] {
@@ -199,7 +246,8 @@ fn variances_of_flaws(
         let unit = |flaw| DVector::from_fn(unknowns, |at, _| f64::from(u8::from(at == flaw)));
         let of_flaws = [0, 1, 2].map(|flaw| factors.solve(&unit(flaw)));
         for run in runs.iter().enumerate() {
-            let moments = equations(run, pick_offs, FLAWS + SPLITS, splits, longest(runs));
+            let shared = FLAWS + SPLITS;
+            let moments = equations(run, pick_offs, damping, shared, splits, longest(runs));
             let more = by_integrals(&moments, splits, &of_flaws);
             for (variance, more) in variances.iter_mut().zip(more) {
                 *variance += more;
@@ -225,10 +273,15 @@ struct Normal {
 }
 
 impl Normal {
-    fn of(runs: &[Run], pick_offs: &PickOffs, splits: Option<[f64; SPLITS]>) -> Self {
+    fn of(
+        runs: &[Run],
+        pick_offs: &PickOffs,
+        damping: Damping,
+        splits: Option<[f64; SPLITS]>,
+    ) -> Self {
         let shared = FLAWS + splits.map_or(0, |splits| splits.len());
         let mut normal = Self {
-            equations: Equations::new(shared, OWN, runs.len()),
+            equations: Equations::new(shared, damping.own(), runs.len()),
             squares: 0.0,
             omega: 0.0,
         };
@@ -237,6 +290,7 @@ impl Normal {
             for moment in equations(
                 (index, run),
                 pick_offs,
+                damping,
                 shared,
                 splits.unwrap_or_default(),
                 longest,

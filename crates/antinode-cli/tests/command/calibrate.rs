@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use crate::common::ring_downs::damped;
 use crate::common::{Row, Run, rms, rows, run, run_with};
 
 const FLAWS: &str =
@@ -292,5 +293,30 @@ fn rows_that_do_not_allow_a_calibration_are_reported() {
             "{}",
             run.err
         );
+    }
+}
+
+#[test]
+fn damping_that_changes_is_told_and_does_not_look_like_flaws() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    record(here);
+    let rows = run(here, "identify --output csv one.wav other.wav --periods 20");
+    // 1/τ rises by a fifth in 3 s.
+    let drift = 0.01 / 3.0;
+    for (drift, is_told) in [(0.0, false), (drift, true)] {
+        let rows = damped(&rows.out, |time| 0.5 * drift * time * time);
+        let found = run_with(here, "calibrate -", rows.into());
+        assert_eq!(
+            found.err.contains("the damping changes"),
+            is_told,
+            "{}",
+            found.err
+        );
+        let (values, deviations) = numbers(&found);
+        for ((value, deviation), truth) in values.iter().zip(deviations).zip([1.012, 130.0, 0.008])
+        {
+            assert!((value - truth).abs() < 4.0 * deviation, "{}", found.err);
+        }
     }
 }

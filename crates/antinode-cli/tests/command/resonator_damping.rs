@@ -1,25 +1,6 @@
 //! `antinode resonator`: damping that changes while the wave rings down is found, and told.
 
-use crate::common::ring_downs::{four_seconds, of_resonator, of_run, resonator};
-
-/// Rows of a ring-down with amplitudes smaller by e^−p, where p is given for the time, s.
-fn damped(rows: &str, p: impl Fn(f64) -> f64) -> String {
-    let mut lines = rows.lines();
-    let header = lines.next().unwrap();
-    let place = |name| header.split(',').position(|column| column == name).unwrap();
-    let time = place("time_s");
-    let amplitudes = [place("main_amplitude"), place("quadrature_amplitude")];
-    let damped = lines.map(|line| {
-        let mut fields: Vec<_> = line.split(',').map(str::to_owned).collect();
-        let by = (-p(fields[time].parse().unwrap())).exp();
-        for place in amplitudes {
-            fields[place] = (by * fields[place].parse::<f64>().unwrap()).to_string();
-        }
-        fields.join(",")
-    });
-    let lines: Vec<_> = std::iter::once(header.to_owned()).chain(damped).collect();
-    lines.join("\n")
-}
+use crate::common::ring_downs::{damped, four_seconds, of_resonator, of_run, resonator};
 
 #[test]
 fn a_drift_is_printed_and_does_not_move_the_decay_time() {

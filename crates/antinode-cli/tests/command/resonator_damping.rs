@@ -1,6 +1,8 @@
 //! `antinode resonator`: damping that changes while the wave rings down is found, and told.
 
-use crate::common::ring_downs::{damped, four_seconds, of_resonator, of_run, resonator};
+use crate::common::ring_downs::{
+    damped, four_seconds, identified, of_resonator, of_run, record, resonator,
+};
 
 #[test]
 fn a_drift_is_printed_and_does_not_move_the_decay_time() {
@@ -76,8 +78,12 @@ fn splits_that_only_one_pattern_shows_are_told_of() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let split = "--decay-rate 0.3 --frequency-split 0.3 --damping-split 0.1 --angle 0.2";
-    for (rate, is_told) in [("0", true), ("0.4", false)] {
-        let rows = four_seconds(here, &format!("{split} --angle-rate {rate}"));
+    for (rates, is_told) in [(vec!["0"], true), (vec!["0.4", "-0.4"], false)] {
+        let names: Vec<_> = rates.iter().map(|rate| format!("it{rate}.wav")).collect();
+        for (name, rate) in names.iter().zip(rates) {
+            record(here, name, &format!("{split} --angle-rate {rate}"));
+        }
+        let rows = identified(here, &names.join(" "));
         let found = resonator(here, &rows, "--output csv");
         assert!(found.out.contains("damping_split_s"), "{}", found.out);
         let told = found.err.contains("only one pattern that is not turned");

@@ -26,6 +26,8 @@ pub use run::Run;
 
 /// Rms residual over the rows' own deviations, from which on there is a warning that it is more than noise.
 pub const BEYOND_NOISE: f64 = 2.0;
+/// The same from which on a fit does not explain the rows.
+pub const EXPLAINED: f64 = 1.5;
 /// Fewest rows of a run, which has four unknowns of its own.
 pub const MIN_ROWS: usize = 12;
 

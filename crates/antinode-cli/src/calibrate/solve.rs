@@ -16,6 +16,7 @@ use super::moments::Run;
 use crate::failure::Failure;
 use crate::normal::{Equations, Factors};
 use crate::options::Corrected;
+use crate::runs::EXPLAINED;
 
 /// Unknowns of the pick-offs: ln g, 2πf·Δ and ε.
 pub const FLAWS: usize = 3;
@@ -23,9 +24,8 @@ pub const FLAWS: usize = 3;
 pub const SPLITS: usize = 4;
 /// Unknowns of a run: ln E and Q/E at its middle, and their slopes.
 const OWN: usize = 4;
-/// Deviations from which on a damping that changes is significant, and the residual over noise that it may then leave.
+/// Deviations from which on a damping that changes is significant.
 const SEEN: f64 = 5.0;
-const EXPLAINED: f64 = 1.5;
 /// Turn that is needed, at least, rad: 4θ goes around once.
 const MIN_TURN: f64 = FRAC_PI_2;
 /// Turn the other way, at least, rad, with which splits are distinguishable from flaws: a quarter turn of 4θ.

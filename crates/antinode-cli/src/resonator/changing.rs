@@ -2,6 +2,7 @@
 
 use nalgebra::DVector;
 
+use super::SIGNIFICANT;
 use super::curve::MAX_IN_TIME;
 use super::fit::settle;
 use super::found::Found;
@@ -9,47 +10,48 @@ use super::model::{Damping, Model};
 use super::normal::Normal;
 use crate::runs::Run;
 
-/// Deviations from which on a change is significant.
-const SEEN: f64 = 5.0;
-/// The same for curves beyond the first: a higher limit would leave more than it spares.
+/// Deviations from which on curves beyond the first are used: a higher limit would leave more than it spares.
 const USED: f64 = 2.0;
 
-/// This fit, or the same with a damping that changes, if that is significant and explains the rows.
+/// This fit, or the same with a damping that changes, if that is significant, explains the rows and leaves the splits determined.
 ///
-/// A change that takes more than a parabola in each run is taken to depend on the amplitude if that explains as much.
+/// A change that takes more than a parabola in each run is taken to depend on the amplitude if that explains as much. Otherwise nothing
+/// tells the two apart, and the decay of small waves would be far off.
 pub fn changing(runs: &[Run], found: Found) -> Found {
     let mut in_time: Option<Found> = None;
     let mut is_parabola = true;
     for curves in 1..=MAX_IN_TIME {
         let from = in_time.as_ref().unwrap_or(&found);
-        let least = if curves == 1 { SEEN } else { USED };
+        let least = if curves == 1 { SIGNIFICANT } else { USED };
         let Some((next, seen)) = changed(runs, from, Damping::InTime(curves), least) else {
             break;
         };
-        is_parabola &= curves == 1 || seen < SEEN;
+        is_parabola &= curves == 1 || seen < SIGNIFICANT;
         in_time = Some(next);
     }
-    let by_energy = if in_time.is_some() && is_parabola {
+    let by_energy = if is_parabola {
         None
     } else {
-        changed(runs, &found, Damping::ByEnergy, SEEN).map(|(found, _)| found)
+        changed(runs, &found, Damping::ByEnergy, SIGNIFICANT).map(|(found, _)| found)
     };
     let changed = match (in_time, by_energy) {
         (Some(in_time), Some(by_energy)) if explains_more(&in_time, &by_energy) => Some(in_time),
         (in_time, by_energy) => by_energy.or(in_time),
     };
     // If it leaves more than noise, the cause may be another: flaws of pick-offs look like damping that changes while a pattern turns.
-    changed.filter(Found::is_explained).unwrap_or(found)
+    let is_cause = |changed: &Found| {
+        changed.is_explained() && (!changed.model.is_shared() || changed.is_known(None))
+    };
+    changed.filter(is_cause).unwrap_or(found)
 }
 
 /// True if curves over time explain more than the energy does, beyond what chance adds with their number.
 fn explains_more(in_time: &Found, by_energy: &Found) -> bool {
     let more = (in_time.values.len() - by_energy.values.len()) as f64;
-    by_energy.squares() - in_time.squares() > more + SEEN * (2.0 * more).sqrt()
+    by_energy.squares() - in_time.squares() > more + SIGNIFICANT * (2.0 * more).sqrt()
 }
 
-/// A fit with this damping, starting from another, and the deviations that show it; `None` if these are not so many, or if splits are no
-/// longer determined.
+/// A fit with this damping, starting from another, and the deviations that show it; `None` if these are not so many.
 fn changed(runs: &[Run], from: &Found, damping: Damping, least: f64) -> Option<(Found, f64)> {
     let model = Model {
         damping,
@@ -64,7 +66,7 @@ fn changed(runs: &[Run], from: &Found, damping: Damping, least: f64) -> Option<(
         unseen_turning: from.unseen_turning,
         ..settle(runs, model, values)?
     };
-    (!model.is_shared() || found.is_known(None)).then_some((found, seen))
+    Some((found, seen))
 }
 
 /// Deviations by which a step from these values moves the last unknown of a damping, at most in any run.

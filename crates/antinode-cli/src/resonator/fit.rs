@@ -9,12 +9,12 @@ use nalgebra::{Complex, DVector};
 
 use super::changing::changing;
 use super::chords;
-use super::found::{EXPLAINED, Found};
+use super::found::Found;
 use super::gaps;
 use super::model::{Kind, Model};
 use super::normal::Normal;
 use super::start::start;
-use crate::runs::Run;
+use crate::runs::{EXPLAINED, Run};
 
 /// Spread below which all patterns count as one, and apparent differences as noise: 3° between two runs, 5° of one that turns.
 const MIN_SPREAD: f64 = 0.005;

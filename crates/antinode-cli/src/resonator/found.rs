@@ -7,15 +7,12 @@ use super::fit;
 use super::is_alike;
 use super::model::{Damping, Kind, Model};
 use crate::normal::Factors;
-use crate::runs::{BEYOND_NOISE, Run};
+use crate::runs::{BEYOND_NOISE, EXPLAINED, Run};
 
 /// Deviations below which the turning of patterns by amplitudes is taken to be 0: a higher limit would miss more than it spares.
 const NONLINEAR_USED: f64 = 2.0;
 /// Deviations below which it is not reported: at the limit above, one in twenty resonators without it would seem to have it.
 const NONLINEAR_REPORTED: f64 = 3.0;
-
-/// Residual over the rows' own deviations from which on a fit does not explain the rows.
-pub(super) const EXPLAINED: f64 = 1.5;
 
 /// Residual that slightly coloured noise may leave, and the deviations of chance by which a smaller one is below noise.
 const BELOW_NOISE: f64 = 0.9;

@@ -31,7 +31,7 @@ const DECAY_DRIFT: Kind = kind("decay_rate_drift_s2", "decay rate drift, 1/s²",
 /// At one input unit squared, like that of the frequency below.
 const DECAY_BY_ENERGY: Kind = kind(
     "decay_rate_by_energy_s",
-    "1/τ rises with a_A² + a_B², 1/s/unit²",
+    "1/τ with a_A² + a_B², 1/s/unit²",
     1.0,
 );
 const FREQUENCY: Kind = kind("frequency_hz", "mean frequency, Hz", 1.0);

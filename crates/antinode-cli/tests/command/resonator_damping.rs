@@ -88,5 +88,16 @@ fn splits_that_only_one_pattern_shows_are_told_of() {
         assert!(found.out.contains("damping_split_s"), "{}", found.out);
         let told = found.err.contains("only one pattern that is not turned");
         assert_eq!(told, is_told, "{}", found.err);
+        if is_told {
+            // It cannot look like one if it is allowed for.
+            let rows = damped(&rows, |time| 0.02 * time * (time - 4.0));
+            let found = resonator(here, &rows, "--output csv");
+            assert!(found.out.contains("damping_split_s"), "{}", found.out);
+            assert!(
+                found.err.contains("the damping changes") && !found.err.contains("only one"),
+                "{}",
+                found.err
+            );
+        }
     }
 }

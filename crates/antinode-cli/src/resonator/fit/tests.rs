@@ -84,6 +84,14 @@ fn run_turned(
     }
 }
 
+/// The rms of each of several errors over trials.
+fn rms<const N: usize>(trials: &[[f64; N]]) -> [f64; N] {
+    std::array::from_fn(|i| {
+        let squares = trials.iter().map(|errors| errors[i] * errors[i]);
+        (squares.sum::<f64>() / trials.len() as f64).sqrt()
+    })
+}
+
 /// Ring-downs at three angles 22.5° apart on a table at rest, where the Earth turns the patterns.
 fn at_three_angles(noise: f64, seed: u64) -> Vec<Run> {
     [0.2, 0.59, 0.98]

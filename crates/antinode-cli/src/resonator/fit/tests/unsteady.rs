@@ -37,9 +37,7 @@ fn deviations_hold_however_patterns_are_turned() {
             })
         });
         let errors: Vec<[f64; 7]> = errors.collect();
-        for i in 0..7 {
-            let squares = errors.iter().map(|errors| errors[i] * errors[i]);
-            let rms = (squares.sum::<f64>() / trials as f64).sqrt();
+        for (i, rms) in rms(&errors).into_iter().enumerate() {
             // The rms of 100 trials scatters by 7 %.
             assert!((0.75..1.25).contains(&rms), "{index}, {i}: {rms}");
         }

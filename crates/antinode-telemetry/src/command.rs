@@ -22,6 +22,21 @@ pub enum Command {
     },
     /// Change the correction of the pick-offs; its ranges are those of [`Calibration`].
     SetCalibration(Calibration),
+    /// Change what is known of the frequency.
+    SetFrequency {
+        /// The wave's frequency, Hz, known within 5 %, with 2.5 sample pairs a period or more; with `None` it is searched for.
+        hertz: Option<f32>,
+    },
+    /// Allow for mains hum or a wandering offset, or no longer: [`Settings::hum`](antinode::Settings::hum).
+    SetHum {
+        /// True to allow for it.
+        on: bool,
+    },
+    /// Allow for noise that is not white, or no longer: [`Settings::coloured`](antinode::Settings::coloured).
+    SetColoured {
+        /// True to allow for it.
+        on: bool,
+    },
     /// Switch the computation of the paper's methods beside every estimate on or off.
     SetMethods {
         /// True to send them.

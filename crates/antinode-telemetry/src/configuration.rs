@@ -46,7 +46,9 @@ impl Configuration {
 
     /// This configuration after a command, checked for a ring of `blocks` blocks; unchanged by commands that change none.
     ///
-    /// The core [takes new settings in a certain order](antinode#on-a-microcontroller), and a new calibration more simply.
+    /// Whether a front can hold a period of a known frequency is for [`Front::check`](antinode::Front::check). The core
+    /// [takes new settings in a certain order](antinode#on-a-microcontroller), and more simply those that change no block: calibration,
+    /// hum and coloured noise.
     ///
     /// # Errors
     ///
@@ -58,6 +60,9 @@ impl Configuration {
             Command::SetWindow { periods } => new.settings.periods = periods,
             Command::SetHop { blocks } => new.settings.hop = blocks,
             Command::SetCalibration(calibration) => new.settings.calibration = calibration,
+            Command::SetFrequency { hertz } => new.settings.frequency = hertz,
+            Command::SetHum { on } => new.settings.hum = on,
+            Command::SetColoured { on } => new.settings.coloured = on,
             Command::SetMethods { on } => new.methods = on,
             Command::Get | Command::Restart => {}
         }
@@ -88,6 +93,11 @@ mod tests {
             Command::SetWindow { periods: 20 },
             Command::SetHop { blocks: Some(5) },
             Command::SetCalibration(calibration),
+            Command::SetFrequency {
+                hertz: Some(5332.0),
+            },
+            Command::SetHum { on: true },
+            Command::SetColoured { on: true },
             Command::Get,
             Command::Restart,
         ];
@@ -101,6 +111,9 @@ mod tests {
                     periods: 20,
                     hop: Some(5),
                     calibration,
+                    frequency: Some(5332.0),
+                    hum: true,
+                    coloured: true,
                     ..PLAIN.settings
                 },
                 ..PLAIN
@@ -132,6 +145,12 @@ mod tests {
         assert_eq!(
             PLAIN.after(&Command::SetHop { blocks: Some(0) }, 64),
             Err(CommandError::Settings(SettingsError::Hop))
+        );
+        let hertz = 40_001.0;
+        let too_high = Command::SetFrequency { hertz: Some(hertz) };
+        assert_eq!(
+            PLAIN.after(&too_high, 64),
+            Err(CommandError::Settings(SettingsError::Frequency(hertz)))
         );
     }
 }

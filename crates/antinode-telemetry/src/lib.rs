@@ -94,7 +94,7 @@ pub use report::FIRMWARE_BYTES;
 pub use report::{Acknowledgement, Cause, Counters, Hello, MethodValues, Methods, Report, State};
 
 /// Version of the protocol. It is in every frame, and changes with every change of a message.
-pub const PROTOCOL_VERSION: u8 = 7;
+pub const PROTOCOL_VERSION: u8 = 8;
 
 /// Longest frame on the wire, bytes, delimiters included.
 pub const MAX_FRAME: usize = frame::MAX_PAYLOAD + 3;

@@ -157,7 +157,7 @@ fn a_frame_is_laid_out_as_documented() {
         number: 0,
         report: Report::State(State::Tracking),
     });
-    // Python: zlib.crc32(bytes([14, 0, 2, 2])) is 0x1da3ab81.
-    let expected = [0, 2, 14, 7, 2, 2, 0x81, 0xab, 0xa3, 0x1d, 0];
+    // Python: zlib.crc32(bytes([16, 0, 2, 2])) is 0xad658b2d.
+    let expected = [0, 2, 16, 7, 2, 2, 0x2d, 0x8b, 0x65, 0xad, 0];
     assert_eq!(sent, expected);
 }

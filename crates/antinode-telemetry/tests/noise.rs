@@ -152,9 +152,9 @@ proptest! {
 
 #[test]
 fn another_version_is_named() {
-    let got = decode::<ReportFrame>(&checked(&[16, 0, 2, 2]));
-    assert_eq!(got, [Err(Damage::Header(16))]);
-    assert!(Damage::Header(16).to_string().contains("version 8"));
+    let got = decode::<ReportFrame>(&checked(&[18, 0, 2, 2]));
+    assert_eq!(got, [Err(Damage::Header(18))]);
+    assert!(Damage::Header(18).to_string().contains("version 9"));
 }
 
 #[test]

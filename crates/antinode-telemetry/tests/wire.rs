@@ -189,13 +189,19 @@ fn reports() -> Vec<Report> {
     reports
 }
 
-fn commands() -> [Command; 7] {
+fn commands() -> [Command; 11] {
     [
         Command::Get,
         Command::SetWindow { periods: 20 },
         Command::SetHop { blocks: None },
         Command::SetHop { blocks: Some(5) },
         Command::SetCalibration(Numbers(0).calibration()),
+        Command::SetFrequency { hertz: None },
+        Command::SetFrequency {
+            hertz: Some(5332.0),
+        },
+        Command::SetHum { on: true },
+        Command::SetColoured { on: false },
         Command::SetMethods { on: true },
         Command::Restart,
     ]
@@ -212,7 +218,7 @@ fn the_bytes_of_every_message_are_those_of_the_version() {
     let sum = crc::Crc::<u64>::new(&crc::CRC_64_XZ).checksum(&wire);
     assert_eq!(
         (PROTOCOL_VERSION, wire.len(), sum),
-        (7, 2281, 13792632325492984725),
+        (8, 2329, 6229996079505654109),
         "where the bytes differ and the version does not, count PROTOCOL_VERSION up; then put in what is on the left"
     );
 }

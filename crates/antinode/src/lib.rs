@@ -90,7 +90,8 @@
 //! | blocks, with a hop | 7 | 16 | 32 |
 //!
 //! Report samples that the interrupt missed to [`Front::skip`], before the pairs that follow them. The calibration is changed by
-//! [`Tracker::calibrate`] in the main loop alone, settings on both sides, in place and in this order:
+//! [`Tracker::calibrate`] in the main loop alone, `hum` and `coloured` by [`Tracker::change`] there, other settings on both sides, in place
+//! and in this order:
 //!
 //! 1. the main loop sees that there is room for step 3, and calls [`Tracker::change`],
 //! 2. then [`Tracker::search`],

@@ -1,12 +1,12 @@
 //! Execution and acknowledgement of commands.
 
-use antinode::Sample;
+use antinode::{Front, Sample};
 use antinode_telemetry::{Acknowledgement, Command, CommandError, CommandFrame, Report};
 
 use super::Instrument;
 use crate::gather::Request;
 use crate::methods::AVAILABLE;
-use crate::settings::RING;
+use crate::settings::{LONGEST_PERIOD, RING};
 
 impl<S: Sample> Instrument<'_, S> {
     /// Executes a command and acknowledges it; true if it succeeded.
@@ -38,11 +38,22 @@ impl<S: Sample> Instrument<'_, S> {
                 self.configuration = configuration;
                 self.hello();
             }
-            Command::SetWindow { .. } | Command::SetHop { .. } | Command::SetCalibration(_) => {
+            Command::SetWindow { .. }
+            | Command::SetHop { .. }
+            | Command::SetCalibration(_)
+            | Command::SetFrequency { .. }
+            | Command::SetHum { .. }
+            | Command::SetColoured { .. } => {
                 let configuration = self.configuration.after(command, RING)?;
-                // A calibration changes no block, so that none need be discarded.
-                let is_new = !matches!(command, Command::SetCalibration(_));
-                if is_new {
+                Front::<S, LONGEST_PERIOD>::check(&configuration.settings)?;
+                // Only these change blocks: those that wait need not be discarded otherwise.
+                let changes_blocks = matches!(
+                    command,
+                    Command::SetWindow { .. }
+                        | Command::SetHop { .. }
+                        | Command::SetFrequency { .. }
+                );
+                if changes_blocks {
                     self.ask(Request::Configure(configuration.settings))?;
                     // Discards the blocks that wait: they were gathered with the old settings.
                     self.tracker.search();

@@ -2,7 +2,7 @@
 
 use antinode::{Calibration, Flags, SettingsError};
 use antinode_telemetry::{Acknowledgement, Cause, Command, CommandError, Report, State};
-use firmware::settings::RING;
+use firmware::settings::{LONGEST_PERIOD, RING};
 
 use crate::emulator::{Device, bytes};
 use crate::same::timeless;
@@ -24,6 +24,21 @@ fn settings_are_changed_or_refused() {
         (Command::SetWindow { periods: 20 }, Ok(())),
         (Command::SetHop { blocks: Some(5) }, Ok(())),
         (Command::SetCalibration(calibration), Ok(())),
+        (
+            Command::SetFrequency {
+                hertz: Some(5250.0),
+            },
+            Ok(()),
+        ),
+        (Command::SetHum { on: true }, Ok(())),
+        (Command::SetColoured { on: true }, Ok(())),
+        (
+            Command::SetFrequency { hertz: Some(400.0) },
+            refused(SettingsError::FrequencyTooLow {
+                frequency: 400.0,
+                most: LONGEST_PERIOD as u16,
+            }),
+        ),
         (
             Command::SetWindow { periods: 99 },
             refused(SettingsError::PeriodsTooMany { periods: 99, most }),
@@ -67,6 +82,10 @@ fn settings_are_changed_or_refused() {
     assert_eq!(
         (last.periods, last.hop, last.calibration),
         (20, Some(5), calibration)
+    );
+    assert_eq!(
+        (last.frequency, last.hum, last.coloured),
+        (Some(5250.0), true, true)
     );
 }
 

@@ -28,6 +28,11 @@ fn a_command_leaves_the_angle_continued_or_flagged() {
         Command::SetWindow { periods: 20 },
         Command::SetHop { blocks: Some(5) },
         Command::SetCalibration(calibration),
+        Command::SetFrequency {
+            hertz: Some(5250.0),
+        },
+        Command::SetHum { on: true },
+        Command::SetColoured { on: true },
     ] {
         let sent = bytes(1, command);
         let reports = reports_of::<i16>(Recorded::new(&recording), (ROUND, &sent), 1);
@@ -44,8 +49,11 @@ fn a_command_leaves_the_angle_continued_or_flagged() {
         // A search is reported.
         let is_state = |state| move |report: &&Report| **report == Report::State(state);
         let searches = reports[at..].iter().filter(is_state(State::Searching));
-        let is_calibrated = matches!(command, Command::SetCalibration(_));
-        assert_eq!(searches.count(), usize::from(!is_calibrated));
+        let keeps_blocks = matches!(
+            command,
+            Command::SetCalibration(_) | Command::SetHum { .. } | Command::SetColoured { .. }
+        );
+        assert_eq!(searches.count(), usize::from(!keeps_blocks));
     }
 }
 

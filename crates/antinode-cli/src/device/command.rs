@@ -62,6 +62,25 @@ pub enum Ask {
         #[arg(long, value_name = "RAD", value_parser = ranges::pick_off_angle)]
         pick_off_angle: Option<f32>,
     },
+    /// Changes what is known of the wave's frequency.
+    #[command(allow_negative_numbers = true)]
+    Frequency {
+        /// The frequency, Hz, if it is known within 5 %; `search`: it is searched for.
+        #[arg(value_name = "HZ|search", value_parser = frequency)]
+        hertz: Frequency,
+    },
+    /// Allows for mains hum or a wandering offset.
+    Hum {
+        /// Whether it is allowed for.
+        #[arg(value_enum)]
+        switch: Switch,
+    },
+    /// Allows for noise that is not white, as behind a tuned front end.
+    Coloured {
+        /// Whether it is allowed for.
+        #[arg(value_enum)]
+        switch: Switch,
+    },
     /// Turns reports of the paper's four methods, beside every estimate, on or off.
     Methods {
         /// Whether the methods are reported.
@@ -76,13 +95,23 @@ pub enum Ask {
 #[derive(Debug, Clone, Copy)]
 pub struct Blocks(Option<u16>);
 
+/// A known frequency, or none.
+#[derive(Debug, Clone, Copy)]
+pub struct Frequency(Option<f32>);
+
 /// On or off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Switch {
-    /// They are reported.
+    /// It is.
     On,
-    /// They are not.
+    /// It is not.
     Off,
+}
+
+impl Switch {
+    fn is_on(self) -> bool {
+        self == Self::On
+    }
 }
 
 fn blocks(text: &str) -> Result<Blocks, String> {
@@ -93,6 +122,14 @@ fn blocks(text: &str) -> Result<Blocks, String> {
         Ok(blocks @ 1..) => Ok(Blocks(Some(blocks))),
         _ => Err("it must be 1 to 65535 blocks, or none".to_owned()),
     }
+}
+
+fn frequency(text: &str) -> Result<Frequency, String> {
+    if text == "search" {
+        return Ok(Frequency(None));
+    }
+    let hertz = ranges::positive(text).map_err(|error| format!("{error}, or search"))?;
+    Ok(Frequency(Some(hertz)))
 }
 
 /// Sends a command and prints the answer.
@@ -120,9 +157,12 @@ pub fn run(options: &Options) -> Result<(), Failure> {
                 pick_off_angle: pick_off_angle.unwrap_or(present.pick_off_angle),
             })
         }
-        Ask::Methods { switch } => Command::SetMethods {
-            on: switch == Switch::On,
-        },
+        Ask::Frequency {
+            hertz: Frequency(hertz),
+        } => Command::SetFrequency { hertz },
+        Ask::Hum { switch } => Command::SetHum { on: switch.is_on() },
+        Ask::Coloured { switch } => Command::SetColoured { on: switch.is_on() },
+        Ask::Methods { switch } => Command::SetMethods { on: switch.is_on() },
         Ask::Restart => Command::Restart,
     };
     line.ask(command, false)?;
@@ -132,6 +172,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
 
 /// A command as the user would name it.
 fn words(command: &Command) -> String {
+    let switched = |name: &str, on: bool| format!("{name} {}", if on { "on" } else { "off" });
     match command {
         Command::Get => "get".to_owned(),
         Command::SetWindow { periods } => format!("window of {periods} periods"),
@@ -145,8 +186,11 @@ fn words(command: &Command) -> String {
             describe::nanoseconds(c.skew),
             c.pick_off_angle
         ),
-        Command::SetMethods { on: true } => "methods on".to_owned(),
-        Command::SetMethods { on: false } => "methods off".to_owned(),
+        Command::SetFrequency { hertz: None } => "search for the frequency".to_owned(),
+        Command::SetFrequency { hertz: Some(hertz) } => format!("frequency {hertz} Hz"),
+        Command::SetHum { on } => switched("hum", *on),
+        Command::SetColoured { on } => switched("coloured noise", *on),
+        Command::SetMethods { on } => switched("methods", *on),
         Command::Restart => "restart".to_owned(),
     }
 }

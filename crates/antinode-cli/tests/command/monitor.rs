@@ -118,7 +118,7 @@ fn rows_are_those_of_identify_but_for_damaged_and_missing_ones() {
         let told: Vec<_> = run.err.lines().collect();
         let expected = [
             "damaged: incomplete, or not a frame",
-            "device: firmware 0.1.0, protocol 7, dual ADC, 100000 Hz, window 10 periods, no hop, methods off, \
+            "device: firmware 0.1.0, protocol 8, dual ADC, 100000 Hz, window 10 periods, no hop, methods off, \
              gain ratio 1, skew 0 ns, pick-off angle 0 rad, start angle 0.7853982 rad, frequency 5320 Hz",
             "state: started: brown-out",
             "state: searching for a wave",

@@ -19,6 +19,9 @@ fn commands_are_done_and_acknowledged() {
         ("window 20", "window of 20 periods: done\n"),
         ("hop 1", "hop of 1 block: done\n"),
         ("hop 5", "hop of 5 blocks: done\n"),
+        ("frequency 5332.5", "frequency 5332.5 Hz: done\n"),
+        ("hum on", "hum on: done\n"),
+        ("coloured on", "coloured noise on: done\n"),
         ("methods on", "methods on: done\n"),
         ("methods off", "methods off: done\n"),
         (
@@ -53,17 +56,25 @@ fn commands_are_done_and_acknowledged() {
         "methods off",
         "gain ratio 1.25",
         "skew 15 ns",
+        "frequency 5332.5 Hz",
+        ", hum, coloured noise",
     ] {
         assert!(get.contains(part), "{part}: {get}");
     }
     assert_eq!(command("hop none").out, "no hop: done\n");
     assert_eq!(command("methods off").out, "methods off: done\n");
+    assert_eq!(
+        command("frequency search").out,
+        "search for the frequency: done\n"
+    );
+    assert_eq!(command("hum off").out, "hum off: done\n");
     let get = command("get").out;
     assert!(get.contains("no hop, methods off"), "{get}");
+    assert!(!get.contains("frequency") && !get.contains("hum"), "{get}");
     let asked: Vec<_> = device.asked.try_iter().collect();
     assert_eq!(asked[0], Asked::SetWindow { periods: 20 });
     // Each `calibration` first asks for the present values.
-    assert_eq!(asked.len(), cases.len() + 3 + 4);
+    assert_eq!(asked.len(), cases.len() + 3 + 6);
 }
 
 #[test]
@@ -82,6 +93,11 @@ fn a_refusal_of_the_device_is_printed_with_the_remedy() {
         "calibration --pick-off-angle 1",
         "window",
         "window 1",
+        "frequency 0",
+        "frequency fast",
+        "frequency nan",
+        "hum",
+        "coloured maybe",
         "methods",
         "",
         "get --timeout 0",
@@ -89,9 +105,13 @@ fn a_refusal_of_the_device_is_printed_with_the_remedy() {
         assert_eq!(device.command(arguments).code, 2, "{arguments}");
     }
     // The error does not suggest a spelling that would pass it as a value.
-    for arguments in ["window -3", "hop -3"] {
+    for (arguments, told) in [
+        ("window -3", "65535"),
+        ("hop -3", "65535"),
+        ("frequency -3", "it must be a number above 0, or search"),
+    ] {
         let run = device.command(arguments);
-        assert!(run.code == 2 && run.err.contains("65535"), "{}", run.err);
+        assert!(run.code == 2 && run.err.contains(told), "{}", run.err);
     }
     // Commands that make no sense are not sent.
     assert_eq!(device.asked.try_iter().count(), 1);

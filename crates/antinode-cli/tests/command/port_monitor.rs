@@ -73,7 +73,7 @@ fn a_monitor_on_a_port_shows_what_comes_until_it_is_interrupted() {
     assert_eq!(child.wait().unwrap().code(), Some(0));
     let told = told(&mut child);
     assert!(
-        told.starts_with("device: firmware 1.2.3, protocol 7"),
+        told.starts_with("device: firmware 1.2.3, protocol 8"),
         "{told}"
     );
     // The greeting is no command of the user's.

@@ -229,6 +229,9 @@ pub fn command_frame() -> impl Strategy<Value = CommandFrame> {
         any::<u16>().prop_map(|periods| Command::SetWindow { periods }),
         any::<Option<u16>>().prop_map(|blocks| Command::SetHop { blocks }),
         calibration().prop_map(Command::SetCalibration),
+        any::<Option<f32>>().prop_map(|hertz| Command::SetFrequency { hertz }),
+        any::<bool>().prop_map(|on| Command::SetHum { on }),
+        any::<bool>().prop_map(|on| Command::SetColoured { on }),
         any::<bool>().prop_map(|on| Command::SetMethods { on }),
         Just(Command::Restart),
     ];

@@ -109,7 +109,12 @@ class Gyro:
         _check(_library.antinode_float_init(ctypes.c_void_p(self._state.ctypes.data), ctypes.byref(wanted)))
 
     def push(self, samples):
-        """Returns the windows that these sample pairs complete, an array of WINDOW; samples have shape (N, 2) and any unit."""
+        """Returns the windows that these sample pairs complete, an array of WINDOW; samples have shape (N, 2) and any unit.
+
+        A sample that is masked counts as one that is not finite.
+        """
+        if isinstance(samples, numpy.ma.MaskedArray):
+            samples = samples.astype("f4").filled(numpy.nan)
         pairs = numpy.ascontiguousarray(samples, "f4")
         if pairs.ndim != 2 or pairs.shape[1] != 2:
             raise ValueError(f"samples are to be of shape (N, 2), not {pairs.shape}")

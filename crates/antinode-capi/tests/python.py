@@ -59,6 +59,14 @@ for name in names:
 for ours, row in zip(windows["flags"], rows):
     assert "+".join(name for bit, name in enumerate(antinode.FLAGS) if ours >> bit & 1) == row["flags"]
 
+# What lies under a mask is not seen, whatever its type.
+codes = (samples / step).astype("i2")
+codes[20_000] = 0
+masked = numpy.ma.masked_array(codes, numpy.zeros(codes.shape, bool))
+masked[20_000, 1] = numpy.ma.masked
+flags = antinode.Gyro(rate).push(masked)["flags"]
+assert numpy.any(flags & 1 << antinode.FLAGS.index("not_finite")), flags
+
 for wrong, told in [
     (lambda: antinode.Gyro(0), "sample_rate_hz"),
     (lambda: antinode.Gyro(rate, period=3), "period"),

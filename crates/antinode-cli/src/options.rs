@@ -99,6 +99,8 @@ pub enum Command {
     /// configuration. Ctrl-C ends the command, a second one at once.
     Monitor(monitor::Monitor),
     /// Sends a command to a device over its serial port, and waits for its acknowledgement.
+    ///
+    /// What is changed lasts until the device is reset; `firmware/src/settings.rs` has what it starts with.
     #[command(name = "command")]
     Send(command::Options),
     /// Prints a script that lets a shell complete the command line.

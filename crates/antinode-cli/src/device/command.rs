@@ -69,13 +69,13 @@ pub enum Ask {
         #[arg(value_name = "HZ|search", value_parser = frequency)]
         hertz: Frequency,
     },
-    /// Allows for mains hum or a wandering offset.
+    /// Turns the allowance for mains hum or a wandering offset on or off.
     Hum {
         /// Whether it is allowed for.
         #[arg(value_enum)]
         switch: Switch,
     },
-    /// Allows for noise that is not white, as behind a tuned front end.
+    /// Turns the allowance for noise that is not white, as behind a tuned front end, on or off.
     Coloured {
         /// Whether it is allowed for.
         #[arg(value_enum)]

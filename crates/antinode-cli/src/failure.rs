@@ -33,9 +33,9 @@ pub enum Failure {
     /// The reader of the output has gone, as `head` does: nothing is wrong, and the exit code is 0.
     #[error("")]
     Closed,
-    /// The system failed while writing rows.
-    #[error("rows cannot be written: {0}; check the disk or the pipe")]
-    Rows(io::Error),
+    /// The system failed while writing rows, or anything else to standard output.
+    #[error("the output cannot be written: {0}; check the disk or the pipe")]
+    Unwritten(io::Error),
 }
 
 impl Failure {
@@ -109,7 +109,7 @@ impl From<io::Error> for Failure {
         if error.kind() == io::ErrorKind::BrokenPipe || is_disconnected {
             Self::Closed
         } else {
-            Self::Rows(error)
+            Self::Unwritten(error)
         }
     }
 }

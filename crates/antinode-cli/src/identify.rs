@@ -24,6 +24,7 @@ use crate::progress;
 use crate::ranges::in_order;
 use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
 use crate::rows::Rows;
+use crate::tell::tell;
 pub use options::Identify;
 use options::{MAX_PERIODS, Shown};
 use out::{Out, check_is_no_input};
@@ -67,9 +68,9 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
             Err(Failure::Closed) => return Err(Failure::Closed),
             Err(error) => error,
         };
-        let is_last = matches!(error, Failure::Stopped | Failure::Rows(_));
+        let is_last = matches!(error, Failure::Stopped | Failure::Unwritten(_));
         if let Some(before) = failure.replace(error) {
-            eprintln!("error: {before}");
+            tell(format_args!("error: {before}"));
         }
         if is_last {
             break;
@@ -78,7 +79,7 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     // Rows found before a fault are good.
     let total = rows.total();
     drop(rows);
-    if matches!(failure, Some(Failure::Rows(_))) {
+    if matches!(failure, Some(Failure::Unwritten(_))) {
         drop(out.cut_short());
     }
     let finished = out.finish(total);
@@ -90,7 +91,7 @@ fn warn_of_duplicates(files: &[PathBuf]) {
     let mut seen = HashSet::new();
     for file in files {
         if fs::canonicalize(file).is_ok_and(|one| !seen.insert(one)) {
-            eprintln!("warning: {} is given twice", file.display());
+            tell(format_args!("warning: {} is given twice", file.display()));
         }
     }
 }
@@ -114,7 +115,7 @@ fn identify(
     let several = options.files.len() > 1;
     let is_watched = io::stderr().is_terminal() && !(several && format == Format::Table);
     if is_watched {
-        eprintln!("{title}");
+        tell(&title);
     }
     rows.begin(several.then_some(title));
 
@@ -143,14 +144,14 @@ fn identify(
         match goes_on {
             Ok(true) => {}
             Ok(false) => break None,
-            Err(error @ Failure::Rows(_)) => break Some(error),
+            Err(error @ Failure::Unwritten(_)) => break Some(error),
             Err(error) => return Err(error),
         }
         bar.set_position(recording.bytes_read());
     };
     bar.finish_and_clear();
     if is_watched && pairs.is_none() {
-        eprintln!("{name}: {} sample pairs", windows.pairs());
+        tell(format_args!("{name}: {} sample pairs", windows.pairs()));
     }
     windows.conclude(&recording, fault, rows)
 }
@@ -175,10 +176,10 @@ fn open(path: &Path, options: &Identify) -> Result<(Recording, f64), Failure> {
     let rate = sample_rate(name, options.rate, recording.sample_rate())?;
     let rails = options.full_scale;
     if let Some(warning) = rails.and_then(|rails| recording.rails_warning(rails)) {
-        eprintln!("warning: {name}: {warning}");
+        tell(format_args!("warning: {name}: {warning}"));
     }
     for warning in recording.warnings() {
-        eprintln!("warning: {warning}");
+        tell(format_args!("warning: {warning}"));
     }
     Ok((recording, rate))
 }

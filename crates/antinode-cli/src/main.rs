@@ -1,5 +1,8 @@
 //! The `antinode` command.
 
+// They panic if their stream is closed or full.
+#![deny(clippy::print_stdout, clippy::print_stderr)]
+
 mod arguments;
 mod calibrate;
 mod canvas;
@@ -28,12 +31,14 @@ mod runs;
 mod serialized;
 mod simulate;
 mod study;
+mod tell;
 
 use std::env;
 use std::process::ExitCode;
 
 use clap::Parser;
 use options::{Command, Options};
+use tell::tell;
 
 fn main() -> ExitCode {
     let arguments = env::args_os().flat_map(|argument| {
@@ -62,7 +67,7 @@ fn main() -> ExitCode {
         Err(failure) => {
             let message = failure.to_string();
             if !message.is_empty() {
-                eprintln!("error: {message}");
+                tell(format_args!("error: {message}"));
             }
             ExitCode::from(failure.code())
         }

@@ -12,6 +12,7 @@ use csv::{ErrorKind, Reader, ReaderBuilder, StringRecord};
 use crate::failure::Failure;
 use crate::recording::{STANDARD_INPUT, in_utf8, open_file};
 use crate::rows::MAIN_AMPLITUDE;
+use crate::tell::tell;
 use lines::{Lines, is_skipped};
 
 /// Longest header of rows, bytes.
@@ -45,7 +46,7 @@ impl RowFile {
     pub fn open(path: &Path) -> Result<Self, Failure> {
         let (name, source): (_, Box<dyn Read>) = if path == Path::new("-") {
             if io::stdin().is_terminal() {
-                eprintln!("reading rows from standard input; Ctrl-D ends them");
+                tell("reading rows from standard input; Ctrl-D ends them");
             }
             (STANDARD_INPUT.to_owned(), Box::new(io::stdin()))
         } else {
@@ -127,11 +128,11 @@ impl RowFile {
             let more = match more {
                 Ok(more) => more,
                 Err(error) if self.lines().is_cut && is_unfinished(&error) => {
-                    eprintln!(
+                    tell(format_args!(
                         "warning: {}, line {}: it is incomplete, as after an interrupted write, and is left out",
                         self.name,
                         self.lines().number
-                    );
+                    ));
                     false
                 }
                 Err(error) => return Err(self.unreadable(&error)),

@@ -14,6 +14,7 @@ use serde::Serialize;
 use crate::failure::Failure;
 use crate::interrupt::on_interrupt;
 use crate::recording::{RecordingWriter, WholeFile};
+use crate::tell::tell;
 pub use options::Simulate;
 
 /// The truth about the recording, as JSON.
@@ -55,10 +56,10 @@ pub fn run(options: &Simulate) -> Result<(), Failure> {
     };
     let beyond = write(options, gyro, &truth, &beside)?;
     if options.sample.is_integer() && beyond > 0 {
-        eprintln!(
+        tell(format_args!(
             "warning: {beyond} of {pairs} sample pairs exceeded the file's full scale of 1 and were clipped; \
              lower the amplitudes, or give --sample f32"
-        );
+        ));
     }
     writeln!(
         io::stdout(),

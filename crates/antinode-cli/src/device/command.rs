@@ -1,5 +1,6 @@
 //! `antinode command`: one command to a device, and its answer.
 
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -138,8 +139,8 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     let mut line = Line::open(&options.port, options.baud, patience)?;
     let command = match options.ask {
         Ask::Get => {
-            println!("{}", describe::hello(&line.hello()?));
-            return Ok(());
+            let hello = describe::hello(&line.hello()?);
+            return Ok(writeln!(io::stdout(), "{hello}")?);
         }
         Ask::Window { periods } => Command::SetWindow { periods },
         Ask::Hop {
@@ -166,8 +167,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         Ask::Restart => Command::Restart,
     };
     line.ask(command, false)?;
-    println!("{}: done", words(&command));
-    Ok(())
+    Ok(writeln!(io::stdout(), "{}: done", words(&command))?)
 }
 
 /// A command as the user would name it.

@@ -14,6 +14,7 @@ use crate::failure::Failure;
 use crate::options::Format;
 use crate::recording::InputError;
 use crate::rows::Rows;
+use crate::tell::tell;
 
 /// `antinode monitor`.
 #[derive(Debug, Args)]
@@ -120,10 +121,10 @@ fn first(source: &Source) -> Option<Input> {
     match source.input.recv_timeout(SILENCE) {
         Ok(input) => Some(input),
         Err(_) => {
-            eprintln!(
+            tell(format_args!(
                 "silent: nothing was received from {} yet; check that the device runs, its wiring, and that this is its port",
                 source.name
-            );
+            ));
             None
         }
     }
@@ -195,17 +196,19 @@ impl<W: Write> Screen<W> {
                 self.rows.under(&describe::methods(&methods))?;
                 self.rows.flush()?;
             }
-            Report::Hello(hello) => eprintln!("device: {}", describe::hello(&hello)),
-            Report::State(state) => eprintln!("state: {state}"),
-            Report::Counters(counters) => eprintln!("counters: {}", describe::counters(&counters)),
+            Report::Hello(hello) => tell(format_args!("device: {}", describe::hello(&hello))),
+            Report::State(state) => tell(format_args!("state: {state}")),
+            Report::Counters(counters) => {
+                tell(format_args!("counters: {}", describe::counters(&counters)))
+            }
             Report::Acknowledgement(answer) if answer.id == GREETING => {}
             Report::Acknowledgement(answer) => match answer.result {
-                Ok(()) => eprintln!("command {}: done", answer.id),
-                Err(error) => eprintln!("command {}: refused: {error}", answer.id),
+                Ok(()) => tell(format_args!("command {}: done", answer.id)),
+                Err(error) => tell(format_args!("command {}: refused: {error}", answer.id)),
             },
-            _ => eprintln!(
+            _ => tell(format_args!(
                 "report: of an unknown kind; use firmware and command of the same release"
-            ),
+            )),
         }
         Ok(())
     }
@@ -218,8 +221,10 @@ impl<W: Write> Screen<W> {
     fn tell_damage(&mut self) {
         match self.damage.take() {
             None => return,
-            Some((1, damage)) => eprintln!("damaged: {damage}"),
-            Some((count, damage)) => eprintln!("damaged: {count} times, the last: {damage}"),
+            Some((1, damage)) => tell(format_args!("damaged: {damage}")),
+            Some((count, damage)) => {
+                tell(format_args!("damaged: {count} times, the last: {damage}"))
+            }
         }
         self.told = Instant::now();
     }
@@ -227,7 +232,7 @@ impl<W: Write> Screen<W> {
     fn tell_lost(&mut self) {
         let lost = mem::take(&mut self.lost);
         if lost > 0 {
-            eprintln!("lost: {lost} before the next report");
+            tell(format_args!("lost: {lost} before the next report"));
             self.lost_told = Some(Instant::now());
         }
     }
@@ -242,11 +247,11 @@ impl<W: Write> Screen<W> {
     /// Reports what is not yet reported, and the totals.
     fn end(&mut self, time: Duration) {
         if self.lost > 0 {
-            eprintln!("lost: {} more", self.lost);
+            tell(format_args!("lost: {} more", self.lost));
         }
         self.tell_damage();
         let reports = self.receiver.reports();
-        eprintln!(
+        tell(format_args!(
             "{}: {} estimates and {} other reports; {} lost, {} damaged; {} bytes in {:.1} s",
             self.name,
             self.estimates,
@@ -254,7 +259,7 @@ impl<W: Write> Screen<W> {
             self.receiver.lost(),
             self.receiver.damaged() - self.excused,
             self.bytes,
-            time.as_secs_f64(),
-        );
+            time.as_secs_f64()
+        ));
     }
 }

@@ -9,6 +9,7 @@ use super::options::Identify;
 use crate::digits::counted;
 use crate::failure::Failure;
 use crate::recording::{OutputError, WholeFile};
+use crate::tell::tell;
 
 /// The unfinished file of the rows, if they go to a regular file.
 #[derive(Clone)]
@@ -48,11 +49,11 @@ impl Out {
         };
         let name = whole.name().to_owned();
         if rows == 0 {
-            eprintln!("{name}: not written, as there are no rows");
+            tell(format_args!("{name}: not written, as there are no rows"));
             return Ok(());
         }
         whole.finish()?;
-        eprintln!("{name}: {}", counted(rows, "row"));
+        tell(format_args!("{name}: {}", counted(rows, "row")));
         Ok(())
     }
 
@@ -63,9 +64,11 @@ impl Out {
             let name = whole.name().to_owned();
             let any = whole.cut();
             match any.and_then(|any| any.then(|| whole.finish()).transpose()) {
-                Ok(Some(())) => eprintln!("{name}: the rows up to this point are written"),
-                Ok(None) => eprintln!("{name}: not written, as there are no rows"),
-                Err(fault) => eprintln!("error: {fault}"),
+                Ok(Some(())) => tell(format_args!(
+                    "{name}: the rows up to this point are written"
+                )),
+                Ok(None) => tell(format_args!("{name}: not written, as there are no rows")),
+                Err(fault) => tell(format_args!("error: {fault}")),
             }
         }
         whole

@@ -12,6 +12,7 @@ use super::out::Out;
 use super::remarks::flag_counts::FlagCounts;
 use crate::failure::Failure;
 use crate::interrupt::on_interrupt;
+use crate::tell::tell;
 
 /// Time for the command to end by itself: it may be waiting for samples that a pipe never sends.
 const GRACE: Duration = Duration::from_millis(300);
@@ -36,7 +37,7 @@ impl Stop {
             asked.report(false);
             let _closed = out.cut_short();
             let failure = Failure::Stopped;
-            eprintln!("error: {failure}");
+            tell(format_args!("error: {failure}"));
             process::exit(failure.code().into());
         })?;
         Ok(stop)
@@ -64,7 +65,7 @@ impl Stop {
             return;
         };
         if let Some(warning) = flagged.warning(is_cause_known) {
-            eprintln!("warning: {name}: {warning}");
+            tell(format_args!("warning: {name}: {warning}"));
         }
     }
 

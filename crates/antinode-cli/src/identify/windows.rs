@@ -16,6 +16,7 @@ use crate::failure::Failure;
 use crate::methods::History;
 use crate::recording::Recording;
 use crate::rows::Rows;
+use crate::tell::tell;
 
 /// Samples in the longest period that is searched.
 const LONGEST_SEARCHED: usize = 200;
@@ -139,7 +140,7 @@ impl<'a> Windows<'a> {
             let step = recording.resolution_so_far();
             for warning in self.remarks.early_warnings(step) {
                 rows.flush()?;
-                eprintln!("warning: {}: so far {warning}", self.name);
+                tell(format_args!("warning: {}: so far {warning}", self.name));
             }
         }
         Ok(true)
@@ -157,7 +158,7 @@ impl<'a> Windows<'a> {
         if let Some(frequency) = self.options.frequency
             && let Some(warning) = other_frequency(pairs, self.rate, frequency)
         {
-            eprintln!("warning: {name}: {warning}");
+            tell(format_args!("warning: {name}: {warning}"));
         }
         Ok(())
     }
@@ -192,7 +193,7 @@ impl<'a> Windows<'a> {
         let mistaken = first.and_then(|first| self.begin(&first).err());
         let name = self.name;
         if let Some(warning) = recording.late_warning() {
-            eprintln!("warning: {warning}");
+            tell(format_args!("warning: {warning}"));
         }
         let seconds = self.core.index() as f64 / self.rate;
         let span = self.span.warning().filter(|_| fault.is_none());
@@ -200,7 +201,7 @@ impl<'a> Windows<'a> {
         let remarks = self.remarks.warnings(step, &self.span, seconds);
         let scale = self.search.scale_warning().filter(|_| rows.count() > 0);
         for warning in span.into_iter().chain(remarks).chain(scale) {
-            eprintln!("warning: {name}: {warning}");
+            tell(format_args!("warning: {name}: {warning}"));
         }
         let failure = match fault {
             Some(error) => Some(error),
@@ -221,7 +222,7 @@ impl<'a> Windows<'a> {
             return Ok(());
         };
         for next in failures {
-            eprintln!("error: {last}");
+            tell(format_args!("error: {last}"));
             last = next;
         }
         Err(last)

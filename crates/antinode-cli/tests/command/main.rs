@@ -9,6 +9,7 @@ mod coloured;
 mod common;
 mod faults;
 mod flagged;
+mod full_disk;
 mod identify;
 mod live;
 mod memory;

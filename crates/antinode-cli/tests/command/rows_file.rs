@@ -123,43 +123,11 @@ mod windows {
 #[cfg(unix)]
 mod unix {
     use std::os::unix::fs::PermissionsExt;
-    use std::process::{Command, Output, Stdio};
+    use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
 
     use super::*;
-    use crate::common::send;
-
-    /// Runs a line of shell in a directory, where `$antinode` is the command.
-    fn shell(here: &Path, line: &str) -> Output {
-        Command::new("sh")
-            .args(["-c", line])
-            .env("antinode", env!("CARGO_BIN_EXE_antinode"))
-            .current_dir(here)
-            .output()
-            .unwrap()
-    }
-
-    #[test]
-    fn a_full_disk_leaves_the_rows_that_it_holds() {
-        let directory = tempfile::tempdir().unwrap();
-        let here = directory.path();
-        recordings(here);
-        let all = run(here, "identify a.wav --output csv").out;
-        // No file may grow beyond 8 blocks of 512 bytes.
-        let full = shell(
-            here,
-            "trap '' XFSZ; ulimit -f 8; \"$antinode\" identify a.wav a.wav -o rows.csv",
-        );
-        assert_eq!(full.status.code(), Some(1));
-        let rows = read(here, "rows.csv");
-        assert!(rows.len() > 2000 && rows.ends_with('\n') && all.starts_with(&rows));
-        let err = String::from_utf8(full.stderr).unwrap();
-        assert!(
-            err.contains("rows.csv: the rows up to this point are written\nerror: rows cannot be written: rows.csv: "),
-            "{err}"
-        );
-        assert_eq!(fs::read_dir(here).unwrap().count(), 3, "{err}");
-    }
+    use crate::common::{send, shell};
 
     #[test]
     fn an_interruption_leaves_the_rows_of_what_was_read() {

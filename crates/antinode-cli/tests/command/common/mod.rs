@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 #[cfg(unix)]
-use std::process::{self, Child};
+use std::process::{self, Child, Output};
 
 use assert_cmd::Command;
 
@@ -29,6 +29,15 @@ pub struct Run {
 /// Runs the command in a directory.
 pub fn run(directory: &Path, arguments: &str) -> Run {
     run_with(directory, arguments, Vec::new())
+}
+
+/// Runs a line of shell in a directory, where `$antinode` is the command.
+#[cfg(unix)]
+pub fn shell(directory: &Path, line: &str) -> Output {
+    let mut shell = process::Command::new("sh");
+    shell.args(["-c", line]).current_dir(directory);
+    let shell = shell.env("antinode", env!("CARGO_BIN_EXE_antinode"));
+    shell.output().unwrap()
 }
 
 /// Sends a signal, such as `-INT`, which is Ctrl-C, to a command that runs.

@@ -125,12 +125,18 @@ impl Interleaved {
         if !std::mem::take(&mut self.is_wav) || is_to_come {
             return None;
         }
+        // Chunks begin at even places: behind an odd number of bytes there is one more.
+        let read = self.pairs * self.frame_bytes() as u64 + self.begun as u64;
+        let mut padding = [0; 1];
+        self.stream
+            .read_exact(&mut padding[..(read % 2) as usize])
+            .ok()?;
         let mut header = [0; CHUNK_HEADER];
         self.stream.read_exact(&mut header).ok()?;
         match &header[..4] {
             _ if header == [0; CHUNK_HEADER] => None,
             // As `cat` joins files.
-            b"RIFF" | b"RF64" => Some(Fault::AnotherWav { found: self.pairs }),
+            b"RIFF" | b"RF64" | b"BW64" => Some(Fault::AnotherWav { found: self.pairs }),
             name if name
                 .iter()
                 .all(|byte| byte.is_ascii_graphic() || *byte == b' ') =>

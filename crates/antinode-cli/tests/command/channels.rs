@@ -139,6 +139,22 @@ fn samples_behind_the_end_by_the_header_are_not_lost_silently() {
         fs::write(here.join(name), [&whole, tail].concat()).unwrap();
         assert!(rows(here, name).len() > 90);
     }
+    // Three channels of 24 bits, whose data are an odd number of bytes: one more stands before the next chunk.
+    let three = codes[1..].iter().flat_map(|&[c, d]| [c, d, 0]);
+    let three = three.flat_map(|code: i16| [[0].as_slice(), &code.to_le_bytes()].concat());
+    let three: Vec<u8> = three.collect();
+    let mut header = whole[..44].to_vec();
+    for (at, word) in [(22, 3), (32, 9), (34, 24)] {
+        header[at..at + 2].copy_from_slice(&u16::to_le_bytes(word));
+    }
+    header[40..].copy_from_slice(&(three.len() as u32).to_le_bytes());
+    let tail = b"\0LIST\x04\0\0\0INFO";
+    fs::write(
+        here.join("three.wav"),
+        [&header, &three, &tail[..]].concat(),
+    )
+    .unwrap();
+    assert!(rows(here, "three.wav --columns 1,2").len() > 90);
 }
 
 #[test]

@@ -148,7 +148,7 @@ fn not_finite_and_padding_are_named() {
 
 #[test]
 fn another_wav_behind_the_samples_is_reported() {
-    for magic in [b"RIFF", b"RF64"] {
+    for magic in [b"RIFF", b"RF64", b"BW64"] {
         let one = wav(format(1, 2, 16), &[PAIR_16; 3].concat());
         let mut both = one.clone();
         both.after = Wav { magic, ..one }.bytes();

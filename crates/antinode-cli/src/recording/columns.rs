@@ -111,26 +111,34 @@ impl FirstLine<'_> {
 
     fn find(&self, wanted: &str, is_number: bool) -> Result<usize, LineFault> {
         let names = self.names.filter(|_| !is_number).unwrap_or_default();
-        let by_name = names.iter().position(|name| name == wanted);
-        // Of several names that differ only in units or capitals, none is surely meant.
-        let only = |is_wanted: &dyn Fn(&str) -> bool| {
+        let lower = wanted.to_lowercase();
+        let tests: [&dyn Fn(&str) -> bool; 3] = [
+            &|name| name == wanted,
+            &|name| without_unit(name) == wanted,
+            &|name| without_unit(name).to_lowercase() == lower,
+        ];
+        for is_wanted in tests {
             let mut places = (0..names.len()).filter(|&place| is_wanted(&names[place]));
-            places.next().filter(|_| places.next().is_none())
-        };
-        by_name
-            .or_else(|| only(&|name| without_unit(name) == wanted))
-            .or_else(|| only(&|name| without_unit(name).to_lowercase() == wanted.to_lowercase()))
-            .or_else(|| self.number(wanted))
-            .ok_or_else(|| {
-                let numbers = format!("the numbers 1 to {}", self.width);
-                let known = self
-                    .names
-                    .map_or(numbers, |names| format!("`{}`", names.join("`, `")));
-                LineFault::ColumnUnknown {
-                    wanted: wanted.to_owned(),
-                    known,
+            match (places.next(), places.next()) {
+                (None, _) => {}
+                (Some(place), None) => return Ok(place),
+                (Some(one), Some(other)) => {
+                    let wanted = wanted.to_owned();
+                    let numbers = [one + 1, other + 1];
+                    return Err(LineFault::ColumnUnsure { wanted, numbers });
                 }
-            })
+            }
+        }
+        self.number(wanted).ok_or_else(|| {
+            let numbers = format!("the numbers 1 to {}", self.width);
+            let known = self
+                .names
+                .map_or(numbers, |names| format!("`{}`", names.join("`, `")));
+            LineFault::ColumnUnknown {
+                wanted: wanted.to_owned(),
+                known,
+            }
+        })
     }
 
     fn suggested(&self) -> Result<Places, LineFault> {

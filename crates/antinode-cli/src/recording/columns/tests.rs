@@ -96,7 +96,10 @@ fn a_name_may_be_chosen_without_its_unit() {
         Ok([Some(0), Some(2), Some(1)])
     );
     let unsure = places("c (V),c (mV),d", Some("c,d")).unwrap_err();
-    assert!(unsure.starts_with("there is no column `c`; choose among `c (V)`"));
+    assert_eq!(
+        unsure,
+        "`c` may be column 1 or 2; choose it by its number with --columns"
+    );
 }
 
 #[test]
@@ -108,7 +111,19 @@ fn a_name_may_be_chosen_in_other_letters() {
         Ok([Some(1), Some(2), Some(3)])
     );
     let unsure = places("Ua,UA,d", Some("ua,d")).unwrap_err();
-    assert!(unsure.starts_with("there is no column `ua`; choose among `Ua`, `UA`"));
+    assert!(unsure.starts_with("`ua` may be column 1 or 2; "));
+}
+
+#[test]
+fn of_columns_of_one_name_none_is_taken_silently() {
+    for chosen in ["t,V,W", "V,W", "W,V", "V,V"] {
+        let unsure = places("t,V,W,V", Some(chosen)).unwrap_err();
+        assert!(unsure.starts_with("`V` may be column 2 or 4; "), "{unsure}");
+    }
+    assert_eq!(
+        places("t,V,W,V", Some("t,4,W")),
+        Ok([Some(0), Some(3), Some(2)])
+    );
 }
 
 #[test]

@@ -67,6 +67,9 @@ pub enum LineFault {
     /// A chosen column that does not exist.
     #[error("there is no column `{wanted}`; choose among {known} with --columns")]
     ColumnUnknown { wanted: String, known: String },
+    /// A chosen name that is that of several columns, alike or but for units and capitals.
+    #[error("`{wanted}` may be column {} or {}; choose it by its number with --columns", numbers[0], numbers[1])]
+    ColumnUnsure { wanted: String, numbers: [usize; 2] },
     /// One column chosen for two of the time, S_C and S_D.
     #[error(
         "column {number} is chosen twice; choose different columns for the time, S_C and S_D with --columns"

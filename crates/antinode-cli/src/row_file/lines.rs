@@ -2,6 +2,9 @@
 
 use std::io::{self, BufRead, Read};
 
+/// Longest line, bytes: a file without ends of line must not fill the memory.
+const MAX_LINE: usize = 1 << 24;
+
 /// The beginning of a line that tells spreadsheets the separator of fields.
 const MARK: &[u8] = b"sep=";
 
@@ -39,10 +42,15 @@ impl<R: BufRead> Lines<R> {
         self.read = 0;
         loop {
             self.line.clear();
-            if self.source.read_until(b'\n', &mut self.line)? == 0 {
+            let mut line = self.source.by_ref().take(MAX_LINE as u64);
+            let read = line.read_until(b'\n', &mut self.line)?;
+            if read == 0 {
                 return Ok(&[]);
             }
             self.number += 1;
+            if read == MAX_LINE {
+                return Err(io::Error::other("more than 16 MiB without an end of line"));
+            }
             if !is_skipped(&self.line) {
                 break;
             }

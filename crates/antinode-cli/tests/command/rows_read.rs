@@ -56,6 +56,26 @@ fn rows_of_other_programs_are_the_same_rows() {
 }
 
 #[test]
+fn a_file_without_ends_of_line_is_not_read_whole() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let text = ring_down(here);
+    let header = &text[..=text.find('\n').unwrap()];
+    for begin in ["", header] {
+        let endless = [begin.as_bytes(), &[b'7'; 17 << 20]].concat();
+        let found = run_with(here, "resonator -", endless);
+        assert_eq!(
+            (found.code, found.err.as_str()),
+            (
+                1,
+                "error: standard input: more than 16 MiB without an end of line; give the rows that `antinode identify --output csv \
+                 RECORDING` prints\n"
+            )
+        );
+    }
+}
+
+#[test]
 fn a_field_that_cannot_be_used_is_named() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

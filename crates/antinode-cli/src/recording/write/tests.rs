@@ -236,6 +236,14 @@ fn a_link_keeps_leading_to_its_file() {
     fs::File::create(&plain).unwrap();
     let mode = |path| fs::metadata(path).unwrap().permissions().mode();
     assert_eq!(mode(&path), mode(&plain));
+    // Also if that file is not there yet.
+    for to in [Path::new("c.csv"), &directory.path().join("d.csv")] {
+        fs::remove_file(&link).unwrap();
+        symlink(to, &link).unwrap();
+        write(&link, 1.0, SampleFormat::F64, &[[1.0, 2.0]]).unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert!(directory.path().join(to).is_file());
+    }
 }
 
 #[test]

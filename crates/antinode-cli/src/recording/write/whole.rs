@@ -31,9 +31,12 @@ impl WholeFile {
                 return Err(error(OutputFault::ReadOnly));
             }
             Some(_) if is_held(path) => return Err(error(OutputFault::Held)),
-            // A link is kept: the file that it leads to is replaced.
+            // A link is kept: the file that it leads to is replaced, or made.
             Some(_) => fs::canonicalize(path).map_err(|fault| error(OutputFault::Io(fault)))?,
-            None => path.to_owned(),
+            None => match fs::read_link(path) {
+                Ok(missing) => path.with_file_name(missing),
+                Err(_) => path.to_owned(),
+            },
         };
         let parent = target.parent().filter(|name| !name.as_os_str().is_empty());
         let directory = parent.unwrap_or(Path::new("."));

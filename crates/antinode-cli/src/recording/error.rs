@@ -66,8 +66,9 @@ fn with_name(message: String, file: &str) -> String {
     if file == STANDARD_INPUT {
         return message;
     }
-    // A shell needs quotes around a name with blanks; within quotes it stands as it is.
-    let quote = if file.contains(' ') { "\"" } else { "" };
+    // A shell needs quotes around blanks, and around brackets, as in `a(1).wav`; within quotes a name stands as it is.
+    let is_plain = |letter: char| letter.is_alphanumeric() || "._-/\\:".contains(letter);
+    let quote = if file.chars().all(is_plain) { "" } else { "\"" };
     message
         .replace("'FILE'", &format!("'{file}'"))
         .replace(" FILE ", &format!(" {quote}{file}{quote} "))

@@ -79,10 +79,11 @@ fn whatever_else_is_known_of_it() {
 
 #[test]
 fn a_remedy_names_the_file_as_a_shell_wants_it() {
-    let (_, fault) = read("a b.gz", b"\x1f\x8b\x08\x00");
-    assert!(
-        fault.is_some_and(|fault| fault.ends_with("`gzip -dc \"a b.gz\" | antinode identify -`"))
-    );
+    for name in ["a b.gz", "a(1).gz"] {
+        let (_, fault) = read(name, b"\x1f\x8b\x08\x00");
+        let command = format!("`gzip -dc \"{name}\" | antinode identify -`");
+        assert!(fault.is_some_and(|fault| fault.ends_with(&command)));
+    }
     let (_, fault) = read("a b.mat", b"MATLAB 5.0 MAT-file");
     assert!(fault.is_some_and(|fault| fault.contains("`load('a b.mat'); ")));
     let stream = Box::new(Cursor::new(b"\x1f\x8b\x08\x00".to_vec()));

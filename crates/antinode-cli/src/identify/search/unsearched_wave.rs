@@ -4,9 +4,7 @@ use antinode::period::DifferenceDetector;
 
 use super::super::{LONGEST_PERIOD, SHORTEST_PERIOD};
 
-/// Pairs averaged into one to detect a slow wave: periods of 128 to 6400 samples.
-const AVERAGED: u32 = 32;
-/// Share of the samples' power that the averages of a slow wave keep, at least.
+/// Share of the samples' power that the means of a slow wave keep, at least.
 const MIN_KEPT_POWER: f64 = 0.6;
 /// Power of the differences of neighbours over that of the samples, at least, for a fast wave; at four samples a period it is 2.
 const MIN_DIFFERENCE_POWER: f64 = 1.6;
@@ -67,16 +65,43 @@ impl Power {
     }
 }
 
+/// The search for a slow wave in the means of this many pairs each: its periods are 4 to 200 times as long.
+#[derive(Debug, Default)]
+struct InMeans<const PAIRS: u32> {
+    pairs: u32,
+    sum: [f32; 2],
+    power: Power,
+    search: PeriodSearch,
+}
+
+impl<const PAIRS: u32> InMeans<PAIRS> {
+    fn take(&mut self, pair: [f32; 2]) {
+        self.sum = [self.sum[0] + pair[0], self.sum[1] + pair[1]];
+        self.pairs += 1;
+        if self.pairs == PAIRS {
+            let mean = self.sum.map(|sum| sum / PAIRS as f32);
+            self.power.add(mean);
+            self.search.push(mean);
+            (self.pairs, self.sum) = (0, [0.0; 2]);
+        }
+    }
+
+    /// The wave's period, in samples, if the means keep most of the samples' power.
+    fn found(&self, power: f64) -> Option<f64> {
+        let period = f64::from(PAIRS) * self.search.found()?;
+        (self.power.value() > MIN_KEPT_POWER * power).then_some(period)
+    }
+}
+
 /// The search for waves of periods that the core does not search.
 #[derive(Debug, Default)]
 pub(super) struct UnsearchedWave {
     pairs: u32,
     last: [f32; 2],
-    sum: [f32; 2],
-    slow: PeriodSearch,
+    slow: InMeans<32>,
+    slower: InMeans<1024>,
     fast: PeriodSearch,
     samples: Power,
-    means: Power,
     differences: Power,
 }
 
@@ -92,7 +117,8 @@ impl UnsearchedWave {
 
     fn take(&mut self, pair: [f32; 2]) {
         self.samples.add(pair);
-        self.sum = [self.sum[0] + pair[0], self.sum[1] + pair[1]];
+        self.slow.take(pair);
+        self.slower.take(pair);
         // Differences remove the offset; inverting every other one maps a frequency to half the sample rate less that.
         if self.pairs > 0 {
             let difference = [pair[0] - self.last[0], pair[1] - self.last[1]];
@@ -106,24 +132,13 @@ impl UnsearchedWave {
         }
         self.last = pair;
         self.pairs += 1;
-        if self.pairs.is_multiple_of(AVERAGED) {
-            let mean = self.sum.map(|sum| sum / AVERAGED as f32);
-            self.means.add(mean);
-            self.slow.push(mean);
-            self.sum = [0.0; 2];
-        }
     }
 
     /// A warning that names the wave seen in samples of this rate, Hz.
     pub fn warning(&self, rate: f64) -> Option<String> {
         let power = self.samples.value();
-        let is_slow = self.means.value() > MIN_KEPT_POWER * power;
         let is_fast = self.differences.value() > MIN_DIFFERENCE_POWER * power;
-        let slow = self
-            .slow
-            .found()
-            .map(|period| f64::from(AVERAGED) * period)
-            .filter(|_| is_slow);
+        let slow = self.slow.found(power).or(self.slower.found(power));
         let fast = self
             .fast
             .found()
@@ -218,6 +233,10 @@ mod tests {
             (
                 3300.0,
                 "about 30.3 Hz has 3300 samples a period, more than the maximum of 1024",
+            ),
+            (
+                9000.0,
+                "about 11.1 Hz has 9000 samples a period, more than the maximum of 1024",
             ),
         ] {
             for noise in [1e-4, 0.01] {

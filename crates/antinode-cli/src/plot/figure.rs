@@ -6,7 +6,7 @@ use super::axis::{Axis, Scale};
 use super::extent::Extent;
 use super::panel::{Panel, panel};
 use super::reduce::column;
-use super::rows::{COLUMNS, Row, Trace, Trust};
+use super::rows::{QUANTITIES, Row, Trace, Trust};
 
 /// Length of the time axis of a single row, s.
 const SINGLE_ROW: f64 = 1.0;
@@ -42,7 +42,7 @@ pub fn figure(traces: &[Trace], columns: usize, is_log: bool) -> Option<Figure> 
         rows().map(|row| row.time).fold(f64::INFINITY, f64::min),
     );
     let time = scale.axis(title, &span);
-    let panels: Vec<_> = (0..COLUMNS.len())
+    let panels: Vec<_> = (0..QUANTITIES.len())
         .map(|quantity| panel(traces, quantity, is_log, (&span, scale, columns)))
         .collect();
     let mut pieces = panels.iter().flat_map(|panel| &panel.curves);

@@ -7,11 +7,11 @@ use super::axis::{Axis, Scale};
 use super::extent::{Extent, Measured};
 use super::numbers::{decimals, drawable, factor, frequency_unit};
 use super::reduce::{Piece, Sample, column, reduce};
-use super::rows::{COLUMNS, Row, Trace, Trust};
+use super::rows::{QUANTITIES, Row, Trace, Trust};
 use crate::median::median;
 
-/// Titles of the panels, in the order of [`COLUMNS`].
-const TITLES: [&str; COLUMNS.len()] = [
+/// Titles of the panels, in the order of [`QUANTITIES`].
+const TITLES: [&str; QUANTITIES.len()] = [
     "main amplitude",
     "quadrature amplitude",
     "pattern angle, °",

@@ -14,7 +14,7 @@ use crate::median::median;
 use crate::row_file::{self, RowFile, Unusable, number};
 
 /// Quantities that are drawn: their columns, and those of their deviations.
-pub const COLUMNS: [(&str, Option<&str>); 5] = [
+pub const QUANTITIES: [(&str, Option<&str>); 5] = [
     ("main_amplitude", Some("main_amplitude_std")),
     ("quadrature_amplitude", Some("quadrature_amplitude_std")),
     ("angle_rad", Some("angle_std_rad")),
@@ -40,10 +40,10 @@ pub enum Trust {
 pub struct Row {
     /// Time, s.
     pub time: f64,
-    /// In the order of [`COLUMNS`].
-    pub values: [f64; COLUMNS.len()],
+    /// In the order of [`QUANTITIES`].
+    pub values: [f64; QUANTITIES.len()],
     /// One standard deviation each; NaN if there is none.
-    pub deviations: [f32; COLUMNS.len()],
+    pub deviations: [f32; QUANTITIES.len()],
     /// Sample pairs of the window; 1 if the rows do not say.
     samples: u32,
     pub trust: Trust,
@@ -88,8 +88,8 @@ pub fn open(paths: &[PathBuf]) -> Result<(Vec<Trace>, String), Failure> {
 pub fn read(mut rows: RowFile) -> Result<Vec<Trace>, Failure> {
     let time = rows.needed("time_s")?;
     let flags = rows.needed("flags")?;
-    let mut places = [(0, None); COLUMNS.len()];
-    for (to, (value, deviation)) in places.iter_mut().zip(COLUMNS) {
+    let mut places = [(0, None); QUANTITIES.len()];
+    for (to, (value, deviation)) in places.iter_mut().zip(QUANTITIES) {
         let deviation = deviation.and_then(|column| rows.place(column));
         *to = (rows.needed(value)?, deviation);
     }
@@ -124,15 +124,15 @@ fn parse(
     record: &StringRecord,
     time: usize,
     flags: usize,
-    places: [(usize, Option<usize>); COLUMNS.len()],
+    places: [(usize, Option<usize>); QUANTITIES.len()],
     samples: Option<usize>,
 ) -> Result<Row, Unusable> {
     let number = |place| {
         let needed = "a number";
         number(record, place).ok_or(Unusable { place, needed })
     };
-    let mut values = [0.0; COLUMNS.len()];
-    let mut deviations = [f32::NAN; COLUMNS.len()];
+    let mut values = [0.0; QUANTITIES.len()];
+    let mut deviations = [f32::NAN; QUANTITIES.len()];
     for (index, (value, deviation)) in places.into_iter().enumerate() {
         values[index] = number(value)?;
         if let Some(deviation) = deviation {

@@ -66,6 +66,8 @@ pub(super) struct FirstLine<'a> {
     pub width: usize,
     /// False if a start and a step give the times, so that no column need be one.
     pub may_be_timed: bool,
+    /// True if the first column numbers the samples, which stands for the time.
+    pub has_numbers: bool,
     /// What was found in the lines above and below.
     pub start: &'a Start,
     /// True for what `antinode identify` prints, as CSV, as JSON lines or as a table.
@@ -183,7 +185,10 @@ impl FirstLine<'_> {
 
     /// The places that the names or the number of these columns suggest.
     fn among(&self, columns: &[usize]) -> Result<Places, LineFault> {
-        let role = |place: usize| self.names.and_then(|names| role(&names[place]));
+        let role = |place: usize| match place {
+            0 if self.has_numbers => Some(Role::Time),
+            _ => self.names.and_then(|names| role(&names[place])),
+        };
         let places = || columns.iter().copied();
         let place = |wanted: Role| places().find(|&place| role(place) == Some(wanted));
         let [time, c, d] = Role::ALL.map(place);

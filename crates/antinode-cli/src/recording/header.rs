@@ -47,13 +47,10 @@ impl Header {
     ) -> Result<Self, Fault> {
         let separator = lines.separator;
         let Beginning { first, next, start } = beginning;
-        let mut names: Vec<String> = fields(first, separator).map(lossy).collect();
+        let names: Vec<String> = fields(first, separator).map(lossy).collect();
         let width = names.len();
         let counted = counted(&names);
         let has_numbers = counted.is_some_and(|counted| counted.has_numbers);
-        if has_numbers && chosen.is_none() {
-            names[0] = "time".to_owned();
-        }
         let columns = counted.map_or(width, |counted| counted.columns);
         let names = is_header(first, next, separator).then_some(&names[..columns]);
         lines.advance()?;
@@ -62,6 +59,7 @@ impl Header {
             units: &units_below(next, separator),
             width: columns,
             may_be_timed: start.sequence.is_none() && (counted.is_none() || has_numbers),
+            has_numbers,
             start,
             is_of_rows: is_of_rows(first, next),
         };

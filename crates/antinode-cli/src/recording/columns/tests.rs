@@ -12,6 +12,7 @@ fn places(header: &str, chosen: Option<&str>) -> Result<Places, String> {
         units: &[],
         width: names.len(),
         may_be_timed: true,
+        has_numbers: false,
         start: &Start::default(),
         is_of_rows: false,
     };

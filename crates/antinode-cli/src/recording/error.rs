@@ -116,7 +116,7 @@ pub enum Fault {
     /// Standard input of no known format, without a sample format.
     #[error(
         "this is neither WAV, NPY nor CSV; for raw samples give their format with --raw u8, i8, u16, i16, i24, i32, f32 or f64 \
-         (little-endian, S_C and S_D interleaved)"
+         (little-endian, S_C and S_D interleaved), or for text the columns with --columns"
     )]
     RawFormatNeeded,
 

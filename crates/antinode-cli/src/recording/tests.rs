@@ -293,10 +293,12 @@ fn a_stream_needs_a_format_unless_it_is_a_file() {
     };
     assert!(open(b"abcd", Some(Kind::F32)).is_ok());
     let fault = |bytes, raw| message(open(bytes, raw).err());
+    let unknown = fault(b"abcd", None);
+    let told = "standard input: this is neither WAV, NPY nor CSV; for raw samples give their format with --raw ";
+    assert!(unknown.starts_with(told), "{unknown}");
     assert!(
-        fault(b"abcd", None).starts_with(
-            "standard input: this is neither WAV, NPY nor CSV; for raw samples give their format with --raw "
-        )
+        unknown.ends_with(", or for text the columns with --columns"),
+        "{unknown}"
     );
     assert!(fault(b"", Some(Kind::I16)).starts_with("standard input: there is nothing in it;"));
     assert!(fault(b"RIFF1234WAVE", Some(Kind::I16)).starts_with("standard input: WAV header: "));

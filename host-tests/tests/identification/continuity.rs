@@ -40,6 +40,8 @@ fn the_angle_is_continued_over_many_turns() {
             let error =
                 (f64::from(estimate.phase) - truth.phase - shift).rem_euclid(std::f64::consts::TAU);
             assert!(error.min(std::f64::consts::TAU - error) < 0.02, "{error}");
+            let half = std::f32::consts::PI;
+            assert!(-half < estimate.phase && estimate.phase <= half);
         }
         assert!((estimates.last().unwrap().angle - estimates[0].angle).abs() > 14.0);
     }

@@ -238,6 +238,34 @@ fn presence_of_a_wave_is_known_though_nothing_is_searched() {
 }
 
 #[test]
+fn presence_of_a_wave_is_that_of_the_last_row() {
+    let (mut there, mut lost) = (0, 0);
+    for seed in 0..20 {
+        let (wave, flaws) = gyro(seed);
+        let mut pairs = host_tests::stream(wave, flaws, 6000, seed);
+        let mut noise = 1u32;
+        // Silent for one window or a little more: no search begins.
+        for pair in &mut pairs[2000 + 10 * seed as usize..2280] {
+            *pair = [(); 2].map(|()| {
+                noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                1e-3 * ((noise >> 8) as f32 / 8_388_608.0 - 1.0)
+            });
+        }
+        let mut core = Core::new(told(5, wave.frequency, 0.0)).unwrap();
+        for pair in pairs {
+            if let Some(row) = core.push(pair) {
+                let is_lost = row.flags.contains(Flags::LOST);
+                if is_lost || row.flags.is_empty() {
+                    assert_eq!(core.has_wave(), !is_lost, "seed {seed}: {row:?}");
+                    *(if is_lost { &mut lost } else { &mut there }) += 1;
+                }
+            }
+        }
+    }
+    assert!(lost > 20 && there > 1000, "{lost} {there}");
+}
+
+#[test]
 fn a_wave_at_another_frequency_gives_no_row() {
     for off in [-0.2, -0.15, -0.1, 0.1, 0.15, 0.2, 0.3, 0.5] {
         for seed in 0..40 {

@@ -1,6 +1,6 @@
 //! Settings at the ends of their ranges work, and those just beyond are refused; no row has meaningless numbers without a flag.
 
-use antinode::{Flags, Identifier, Settings, Tracker};
+use antinode::{Estimate, Flags, Identifier, Settings, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::{StatedRatio, errors};
 use host_tests::{Core, RATE, calibrated, gyro, identify, stream, windows};
@@ -160,6 +160,57 @@ fn rows_are_the_same_to_the_bit_however_far_from_the_start() {
     // Where indices, or twice these, exceed 32 bits, the integers exact in f32 and f64, and all but two bits.
     for bits in [23, 24, 30, 31, 32, 52, 53, 60, 61] {
         assert!(rows((1 << bits) - 19_000) == first, "2^{bits}");
+    }
+}
+
+#[test]
+fn any_sample_rate_scales_times_and_frequencies_to_their_last_digits() {
+    let (wave, flaws) = gyro(7);
+    let pairs = stream(wave, flaws, 8000, 7);
+    let rows = |rate: f64| {
+        let mut rows = Vec::new();
+        let settings = Settings {
+            sample_rate: rate,
+            ..windows(10)
+        };
+        let mut core = Core::new(settings).unwrap();
+        core.extend(&pairs, |e| rows.push(e));
+        rows
+    };
+    let first = rows(RATE);
+    assert!(first.len() > 30);
+    let mut seed = 1u64;
+    for _ in 0..50 {
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        // 10⁻³ to 10¹² Hz, none of them a number in f32.
+        let rate = 10f64.powf((seed >> 32) as f64 / 4_294_967_296.0 * 15.0 - 3.0);
+        let factor = rate / RATE;
+        for (row, first) in rows(rate).iter().zip(&first) {
+            assert_eq!(row.flags, first.flags);
+            let exact = [
+                first.time / factor / row.time,
+                first.frequency * factor / row.frequency,
+            ];
+            assert!(
+                exact.iter().all(|ratio| (ratio - 1.0).abs() < 1e-15),
+                "{rate}: {exact:?}"
+            );
+            let rates = |e: &Estimate| {
+                [
+                    e.angle_rate,
+                    e.decay_rate,
+                    e.frequency_std,
+                    e.angle_rate_std,
+                    e.decay_rate_std,
+                ]
+                .map(f64::from)
+            };
+            for (rate, first) in rates(row).into_iter().zip(rates(first)) {
+                assert!((first * factor / rate - 1.0).abs() < 1e-6, "{row:?}");
+            }
+        }
     }
 }
 

@@ -37,5 +37,6 @@ mod small_waves;
 mod stated;
 mod step_sizes;
 mod steps;
+mod symmetries;
 mod tones;
 mod turning;

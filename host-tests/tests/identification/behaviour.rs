@@ -47,6 +47,33 @@ proptest! {
 }
 
 #[test]
+fn a_lost_wave_is_searched_again_at_once_however_the_stream_is_cut() {
+    for seed in 0..8 {
+        let flaws = Flaws {
+            noise: 0.01,
+            ..Flaws::default()
+        };
+        // Another wave follows, at a frequency that the windows of the first do not reach.
+        let mut pairs = stream(random_wave(seed, 5332.0, 0.5), flaws.clone(), 3000, seed);
+        pairs.extend(stream(random_wave(seed, 3100.0, 0.5), flaws, 6000, seed));
+        let mut single = Core::new(windows(5)).unwrap();
+        let one_by_one: Vec<Estimate> =
+            pairs.iter().filter_map(|&pair| single.push(pair)).collect();
+        let mut sliced = Core::new(windows(5)).unwrap();
+        let mut by_slices = Vec::new();
+        let mut rest = pairs.as_slice();
+        while !rest.is_empty() {
+            let (taken, estimate) = sliced.push_slice(rest);
+            rest = &rest[taken..];
+            by_slices.extend(estimate);
+        }
+        let last = one_by_one.last().unwrap();
+        assert!((last.frequency - 3100.0).abs() < 20.0, "{last:?}");
+        assert_eq!(one_by_one, by_slices);
+    }
+}
+
+#[test]
 fn a_tracker_without_settings_finds_nothing_and_with_them_it_is_as_new() {
     let wave = random_wave(3, 5332.0, 0.5);
     let pairs = stream(wave, Flaws::default(), 6000, 3);

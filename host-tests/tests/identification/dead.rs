@@ -1,7 +1,7 @@
 //! A pick-off that dies is flagged, however small its part of the wave was; a pattern that turns to the other one's axis is not.
 
 use antinode::{Flags, Settings};
-use antinode_sim::{Flaws, Wave};
+use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::{Core, RATE, stream, windows};
 
 /// Share of a_A that a pick-off's wave must exceed for its loss to be flagged.
@@ -82,6 +82,32 @@ fn a_pick_off_that_dies_within_a_window_is_flagged_from_the_stated_sizes_on() {
         // In little noise the floor alone is well seen.
         let most = if noise < 0.01 { 1.01 } else { 0.85 };
         assert!((0.25..most).contains(&half), "noise {noise}: {half}");
+    }
+}
+
+#[test]
+fn either_pick_off_that_is_constant_from_the_start_is_flagged_in_every_row() {
+    for seed in 0..40 {
+        let wave = random_wave(seed, 5332.0, 0.2);
+        let flaws = Flaws {
+            noise: 1e-3 * wave.main_amplitude,
+            ..Flaws::default()
+        };
+        let mut pairs = stream(wave, flaws, 2000, seed);
+        let (of, level) = (seed as usize % 2, 0.1 * (seed as f32 - 20.0));
+        for pair in &mut pairs {
+            pair[of] = level;
+        }
+        let mut core = Core::new(settings()).unwrap();
+        let mut rows = 0;
+        core.extend(&pairs, |estimate| {
+            assert!(
+                estimate.flags.contains(Flags::DEAD_CHANNEL),
+                "{of}: {estimate:?}"
+            );
+            rows += 1;
+        });
+        assert!(rows > 5, "seed {seed}: {rows}");
     }
 }
 

@@ -1,9 +1,7 @@
-//! Every arithmetic of the core on converter codes: error over the bound with the quantisation noise counted in, overflow, faults.
+//! Every arithmetic of the core on converter codes: error over the bound with the quantisation noise counted in, search, faults.
 
-use antinode::block::Demodulator;
 use antinode::period::DifferenceDetector;
-use antinode::phase::PhaseStep;
-use antinode::{Estimate, Flags, Packed, Sample, SamplePair, Settings};
+use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, random_wave};
 use host_tests::codes::{codes, converted, identify, settings};
 use host_tests::score::{Score, errors};
@@ -103,91 +101,6 @@ fn codes_of_30_bits_without_noise_are_exact() {
         "{worst:?}"
     );
     assert!(worst[3] < 2e-7, "{worst:?}");
-}
-
-/// The sums of one block of codes at full scale, with the signs that make them largest.
-fn sums_at_full_scale<S: Sample>(length: u16, least: S, most: S) -> [[f64; 3]; 2]
-where
-    [S; 2]: SamplePair<S>,
-{
-    let step = PhaseStep::from_period(f32::from(length.max(4)));
-    let mut demodulator = Demodulator::<S, 256>::new(step, length, 0, true);
-    let middle = f64::from(length - 1) / 2.0;
-    let mut block = None;
-    for k in 0..length {
-        let phase = std::f64::consts::TAU * (f64::from(k) - middle) / f64::from(length.max(4));
-        let pick = |weight: f64| if weight < 0.0 { least } else { most };
-        block = demodulator
-            .push([pick(phase.cos()), pick(phase.sin())])
-            .copied();
-    }
-    let block = block.expect("the block is whole");
-    block.sums.map(|sums| {
-        [sums.cosine, sums.sine, sums.sum]
-            .map(|sum| f64::from(S::sum_to_f32(sum)) / f64::from(block.layout.scale.max(1)))
-    })
-}
-
-#[test]
-fn nothing_overflows_at_full_scale() {
-    for length in 1..=256u16 {
-        // f32 never overflows with the same signs: the integers must agree with it.
-        let float = sums_at_full_scale(length, -1f32, 1.0);
-        let short = sums_at_full_scale(length, i16::MIN, i16::MAX);
-        let long = sums_at_full_scale(length, i32::MIN, i32::MAX);
-        for (codes, full_scale) in [(short, 32_768.0), (long, 2_147_483_648.0)] {
-            for channel in 0..2 {
-                for i in 0..2 {
-                    let error = (codes[channel][i] / full_scale - float[channel][i]).abs();
-                    let room =
-                        1e-4 * f64::from(length) + 2.0 * f64::from(length).powi(2) / 65_535.0;
-                    assert!(
-                        error < room,
-                        "length {length}, channel {channel}, sum {i}: {error}"
-                    );
-                }
-            }
-        }
-        // With all samples at the rail the plain sum is at its limit.
-        let step = PhaseStep::from_period(20.0);
-        let mut demodulator = Demodulator::<i16, 256>::new(step, length, 0, false);
-        let rail = vec![Packed(0x8000_8000); usize::from(length)];
-        let (_, block) = demodulator.push_slice(&rail);
-        let sums = block.expect("the block is whole").sums;
-        assert_eq!(sums[0].sum, i32::from(i16::MIN) * i32::from(length));
-    }
-}
-
-#[test]
-fn packed_codes_and_single_words_give_the_same_blocks() {
-    let step = PhaseStep::from_period(18.75);
-    let pairs: Vec<[i16; 2]> = (0..2_000)
-        .map(|k: i32| [(k * 7_919) as i16, (k * 104_729) as i16])
-        .collect();
-    let packed: Vec<Packed> = pairs.iter().map(|&pair| pair.into()).collect();
-    let mut single = Demodulator::<i16, 64>::new(step, 19, 0, true);
-    let expected: Vec<_> = pairs
-        .iter()
-        .filter_map(|&pair| single.push(pair).copied())
-        .collect();
-    // Cut at every length, so that slices begin at even and at odd samples, and mixed with single pushes.
-    for cut in 1..40 {
-        let mut mixed = Demodulator::<i16, 64>::new(step, 19, 0, true);
-        let mut found = Vec::new();
-        for (i, part) in packed.chunks(cut).enumerate() {
-            if i % 3 == 2 {
-                found.extend(part.iter().filter_map(|word| mixed.push(word.0).copied()));
-                continue;
-            }
-            let mut part = part;
-            while !part.is_empty() {
-                let (taken, block) = mixed.push_slice(part);
-                found.extend(block.copied());
-                part = &part[taken..];
-            }
-        }
-        assert_eq!(found, expected, "slices of {cut}");
-    }
 }
 
 #[test]

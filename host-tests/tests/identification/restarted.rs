@@ -1,0 +1,99 @@
+//! What begins anew keeps nothing of the samples before.
+
+use antinode::period::{DifferenceDetector, MeanReturnDetector};
+use antinode::{Detection, Front, Settings};
+use antinode_sim::Flaws;
+use host_tests::{stream, windows};
+
+use crate::detector::wave;
+
+/// Samples that leave a search in any state: part of a wave, of two tones or of noise.
+fn before(seed: u64) -> Vec<[f32; 2]> {
+    let length = (seed as usize * 389) % 2500 + 1;
+    let flaws = |noise| Flaws {
+        noise,
+        ..Flaws::default()
+    };
+    let (one, _) = wave(seed);
+    let (other, _) = wave(seed + 7);
+    match seed % 3 {
+        0 => stream(one, flaws(0.02), length, seed),
+        1 => {
+            let tones = [one, other].map(|wave| stream(wave, flaws(0.0), length, seed));
+            let [one, other] = &tones;
+            let pairs = one.iter().zip(other);
+            pairs.map(|(a, b)| [a[0] + b[0], a[1] + b[1]]).collect()
+        }
+        _ => stream(one, flaws(20.0), length, seed),
+    }
+}
+
+/// The wave that follows, of 4 to 200 samples a period, in some noise.
+fn after(seed: u64) -> Vec<[f32; 2]> {
+    let (wave, period) = wave(seed + 1000);
+    let flaws = Flaws {
+        noise: 0.05,
+        ..Flaws::default()
+    };
+    stream(wave, flaws, (12.0 * period) as usize, seed)
+}
+
+/// Asserts that what `restart` leaves finds the waves that follow as early as a new one, and gives the same periods.
+fn are_as_new<D: Default>(restart: fn(&mut D), push: fn(&mut D, [f32; 2]) -> Option<f32>) {
+    let mut found = 0;
+    for seed in 0..600 {
+        let mut used = D::default();
+        for pair in before(seed) {
+            let _ = push(&mut used, pair);
+        }
+        restart(&mut used);
+        let mut new = D::default();
+        for (k, pair) in after(seed).into_iter().enumerate() {
+            let wanted = push(&mut new, pair);
+            assert_eq!(push(&mut used, pair), wanted, "{seed}, pair {k}");
+            found += usize::from(wanted.is_some());
+        }
+    }
+    assert!(found > 500, "{found}");
+}
+
+#[test]
+fn a_detector_that_is_restarted_is_as_new() {
+    are_as_new(DifferenceDetector::<f32>::restart, DifferenceDetector::push);
+    are_as_new(MeanReturnDetector::restart, MeanReturnDetector::push);
+}
+
+#[test]
+fn a_front_with_another_detector_is_as_new() {
+    let detections = [Detection::Difference, Detection::MeanReturn];
+    let with = |detection| Settings {
+        detection,
+        ..windows(10)
+    };
+    // How many pairs each takes until it has found the wave, for all seeds.
+    let mut taken = [[0; 2]; 2];
+    for seed in 0..100 {
+        for (i, detection) in detections.into_iter().enumerate() {
+            let mut new = Front::<f32, 200>::new(with(detection)).unwrap();
+            let mut used = Front::<f32, 200>::new(with(detections[1 - i])).unwrap();
+            let _ = used.push_slice(&before(seed));
+            used.configure(with(detection)).unwrap();
+            for (pairs, front) in taken[i].iter_mut().zip([&mut new, &mut used]) {
+                let pairs_after = after(seed);
+                *pairs += pairs_after
+                    .iter()
+                    .take_while(|&&pair| {
+                        let _ = front.push(pair);
+                        front.is_searching()
+                    })
+                    .count();
+            }
+        }
+    }
+    let [difference, mean_return] = taken;
+    assert_eq!(
+        [difference[0], mean_return[0]],
+        [difference[1], mean_return[1]]
+    );
+    assert_ne!(difference[0], mean_return[0]);
+}

@@ -335,7 +335,8 @@ fn a_frequency_with_a_period_longer_than_a_block_is_refused() {
     // A refused change changes nothing, and a tracker alone has no limit of the period.
     let (wave, flaws) = gyro(1);
     let mut core = Core::new(windows(10)).unwrap();
-    assert!(core.configure(told(20, lowest.into(), -0.1)).is_err());
+    let too_low = told(20, lowest.into(), -0.1);
+    assert!(core.configure(too_low).is_err() && core.change(too_low).is_err());
     let pairs = host_tests::stream(wave, flaws, 10_000, 1);
     let mut found = Vec::new();
     core.extend(&pairs, |estimate| found.push(estimate.samples));

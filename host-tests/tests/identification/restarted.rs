@@ -3,7 +3,7 @@
 use antinode::period::{DifferenceDetector, MeanReturnDetector};
 use antinode::{Detection, Front, Settings};
 use antinode_sim::Flaws;
-use host_tests::{stream, windows};
+use host_tests::{Core, gyro, stream, windows};
 
 use crate::detector::wave;
 
@@ -96,4 +96,28 @@ fn a_front_with_another_detector_is_as_new() {
         [difference[1], mean_return[1]]
     );
     assert_ne!(difference[0], mean_return[0]);
+}
+
+#[test]
+fn behind_missing_samples_a_window_begins_at_once_though_a_hop_would_leave_a_gap() {
+    let settings = Settings {
+        hop: Some(100),
+        ..windows(10)
+    };
+    let (wave, flaws) = gyro(3);
+    // Anywhere in a window or in the gap behind it: a hundred blocks have 1875 pairs.
+    for lost_at in (4000..5900).step_by(130) {
+        let mut core = Core::new(settings).unwrap();
+        let mut found = Vec::new();
+        for (k, pair) in (0u64..).zip(stream(wave, flaws.clone(), 7000, 3)) {
+            match k {
+                k if k < lost_at || k >= lost_at + 40 => found.extend(core.push(pair)),
+                k if k == lost_at => core.skip(40),
+                _ => {}
+            }
+        }
+        let next = found.iter().find(|estimate| estimate.start >= lost_at);
+        let late = next.expect("a window").start - (lost_at + 40);
+        assert!(late < 19, "lost at {lost_at}: {late} pairs late");
+    }
 }

@@ -5,7 +5,7 @@ use core::fmt;
 use antinode::{Calibration, SettingsError};
 use serde::{Deserialize, Serialize};
 
-/// Command from the PC to the device. Settings that none of these changes, such as the frequency and the rails, are those of the build.
+/// Command from the PC to the device. Settings that none of these changes, such as the sample rate and the rails, are those of the build.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Command {
     /// Send a [`Hello`](crate::Hello).

@@ -92,7 +92,7 @@ pub enum Cause {
     ResetPin,
     /// A debug probe reset the chip, or software that left no note.
     Software,
-    /// A command or a new configuration asked for it.
+    /// A command asked for it.
     Command,
     /// The watchdog was not fed in time.
     Watchdog,

@@ -3,12 +3,16 @@
 use core::f32::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
 
 use crate::double::units;
-use crate::scalar::nearest;
+use crate::scalar::{lesser, nearest};
 
 /// Takes whole turns off an angle in radians: (−π, π].
 pub(crate) fn wrap(angle: f32) -> f32 {
     let rest = angle - nearest(angle * (1.0 / TAU)) as f32 * TAU;
-    if rest <= -PI { rest + TAU } else { rest }
+    if rest <= -PI {
+        return rest + TAU;
+    }
+    // Rounding may take half a turn for a little less.
+    lesser(PI, rest)
 }
 
 /// A pattern angle continued over the ambiguity of π/2: its whole quarter turns are kept apart from the rest, so that it never loses
@@ -80,6 +84,19 @@ mod tests {
     #[test]
     fn half_a_turn_is_positive() {
         assert_eq!([wrap(PI), wrap(-PI)], [PI; 2]);
+    }
+
+    #[test]
+    fn near_half_a_turn_no_rounding_leaves_the_range() {
+        for half_turns in [1.0f32, 3.0, 5.0, 7.0] {
+            let bits = (half_turns * PI).to_bits();
+            for bits in bits - 100..bits + 100 {
+                for angle in [f32::from_bits(bits), -f32::from_bits(bits)] {
+                    let wrapped = wrap(angle);
+                    assert!(wrapped > -PI && wrapped <= PI, "{angle}: {wrapped}");
+                }
+            }
+        }
     }
 
     #[test]

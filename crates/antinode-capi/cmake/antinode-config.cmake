@@ -4,7 +4,9 @@
 # A cross build names the Rust target in ANTINODE_TARGET (README.md lists them: thumbv7em-none-eabihf, ...). If it does not, the
 # target follows from the last -mcpu and -mfloat-abi in CMAKE_C_FLAGS, CMAKE_CXX_FLAGS or add_compile_options(), and, without
 # -mfloat-abi, the float ABI follows from clang's triple (--target=...eabihf).
-get_filename_component(_antinode_prefix "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
+# Links first: where /lib leads to /usr/lib, a package in /usr may be found as /lib/cmake/antinode.
+get_filename_component(_antinode_prefix "${CMAKE_CURRENT_LIST_DIR}" REALPATH)
+get_filename_component(_antinode_prefix "${_antinode_prefix}/../../.." ABSOLUTE)
 set(_antinode_lib "${_antinode_prefix}/lib")
 if(CMAKE_CROSSCOMPILING)
     set(_antinode_target "${ANTINODE_TARGET}")

@@ -27,7 +27,8 @@ impl Wave {
         use core::f64::consts::{FRAC_PI_2, PI, TAU};
         let quarters = libm::round((angle - self.shape.angle) / FRAC_PI_2);
         let phase = self.phase + quarters * PI;
-        let phase = phase - libm::round(phase / TAU) * TAU;
+        // Half a turn is positive.
+        let phase = phase - libm::ceil(phase / TAU - 0.5) * TAU;
         Self {
             shape: Shape {
                 angle: self.shape.angle + quarters * FRAC_PI_2,
@@ -75,6 +76,26 @@ mod tests {
                 assert!((before.0[i] - after.0[i]).abs() < 1e-12);
                 assert!((before.1[i] - after.1[i]).abs() < 1e-12);
             }
+        }
+    }
+
+    #[test]
+    fn half_a_turn_of_phase_is_positive() {
+        use core::f64::consts::{FRAC_PI_2, PI};
+        for (phase, quarters, near) in [
+            (PI, 0.0, PI),
+            (0.0, 1.0, PI),
+            (0.0, -1.0, PI),
+            (PI, 1.0, 0.0),
+            (-0.5 * PI, 2.0, -0.5 * PI),
+        ] {
+            let shape = Shape {
+                main_amplitude: 1.0,
+                quadrature_amplitude: 0.1,
+                angle: 0.0,
+            };
+            let wave = Wave { shape, phase }.near(quarters * FRAC_PI_2);
+            assert_eq!(wave.phase, near, "{phase}, {quarters}");
         }
     }
 }

@@ -4,6 +4,8 @@ use antinode::period::DifferenceDetector;
 
 use super::super::{LONGEST_PERIOD, SHORTEST_PERIOD};
 
+/// Pairs averaged into one to detect a slow wave: periods of 128 to 6400 samples, and of 32 times as many in the means of means.
+const AVERAGED: u32 = 32;
 /// Share of the samples' power that the means of a slow wave keep, at least.
 const MIN_KEPT_POWER: f64 = 0.6;
 /// Power of the differences of neighbours over that of the samples, at least, for a fast wave; at four samples a period it is 2.
@@ -65,30 +67,33 @@ impl Power {
     }
 }
 
-/// The search for a slow wave in the means of this many pairs each: its periods are 4 to 200 times as long.
+/// The search for a slow wave in means.
 #[derive(Debug, Default)]
-struct InMeans<const PAIRS: u32> {
+struct InMeans {
     pairs: u32,
     sum: [f32; 2],
     power: Power,
     search: PeriodSearch,
 }
 
-impl<const PAIRS: u32> InMeans<PAIRS> {
-    fn take(&mut self, pair: [f32; 2]) {
+impl InMeans {
+    /// Takes a pair, and gives the mean that it completes.
+    fn take(&mut self, pair: [f32; 2]) -> Option<[f32; 2]> {
         self.sum = [self.sum[0] + pair[0], self.sum[1] + pair[1]];
         self.pairs += 1;
-        if self.pairs == PAIRS {
-            let mean = self.sum.map(|sum| sum / PAIRS as f32);
-            self.power.add(mean);
-            self.search.push(mean);
-            (self.pairs, self.sum) = (0, [0.0; 2]);
+        if self.pairs < AVERAGED {
+            return None;
         }
+        let mean = self.sum.map(|sum| sum / AVERAGED as f32);
+        self.power.add(mean);
+        self.search.push(mean);
+        (self.pairs, self.sum) = (0, [0.0; 2]);
+        Some(mean)
     }
 
-    /// The wave's period, in samples, if the means keep most of the samples' power.
+    /// The wave's period, in the pairs taken, if the means keep most of the samples' power.
     fn found(&self, power: f64) -> Option<f64> {
-        let period = f64::from(PAIRS) * self.search.found()?;
+        let period = f64::from(AVERAGED) * self.search.found()?;
         (self.power.value() > MIN_KEPT_POWER * power).then_some(period)
     }
 }
@@ -98,8 +103,9 @@ impl<const PAIRS: u32> InMeans<PAIRS> {
 pub(super) struct UnsearchedWave {
     pairs: u32,
     last: [f32; 2],
-    slow: InMeans<32>,
-    slower: InMeans<1024>,
+    slow: InMeans,
+    /// In the means of `slow`.
+    slower: InMeans,
     fast: PeriodSearch,
     samples: Power,
     differences: Power,
@@ -117,8 +123,9 @@ impl UnsearchedWave {
 
     fn take(&mut self, pair: [f32; 2]) {
         self.samples.add(pair);
-        self.slow.take(pair);
-        self.slower.take(pair);
+        if let Some(mean) = self.slow.take(pair) {
+            self.slower.take(mean);
+        }
         // Differences remove the offset; inverting every other one maps a frequency to half the sample rate less that.
         if self.pairs > 0 {
             let difference = [pair[0] - self.last[0], pair[1] - self.last[1]];
@@ -138,7 +145,8 @@ impl UnsearchedWave {
     pub fn warning(&self, rate: f64) -> Option<String> {
         let power = self.samples.value();
         let is_fast = self.differences.value() > MIN_DIFFERENCE_POWER * power;
-        let slow = self.slow.found(power).or(self.slower.found(power));
+        let slower = || Some(f64::from(AVERAGED) * self.slower.found(power)?);
+        let slow = self.slow.found(power).or_else(slower);
         let fast = self
             .fast
             .found()

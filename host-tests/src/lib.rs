@@ -4,6 +4,7 @@ pub mod codes;
 pub mod methods;
 pub mod oracle;
 pub mod printed;
+pub mod random;
 pub mod score;
 pub mod table;
 

@@ -3,6 +3,7 @@
 use antinode::{Estimate, Flags, Front, Settings, SettingsError};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::codes::{codes, converted, identify_up_to};
+use host_tests::random::Random;
 use host_tests::score::{NAMES, Score, StatedRatio};
 use host_tests::{Core, RATE, gyro, identify, identify_changed, windows};
 
@@ -215,15 +216,10 @@ fn a_wave_that_comes_back_is_tracked_without_a_search() {
 fn presence_of_a_wave_is_known_though_nothing_is_searched() {
     let (wave, flaws) = gyro(3);
     let pairs = host_tests::stream(wave, flaws.clone(), 10_000, 3);
-    let mut seed = 1u32;
+    let mut random = Random::new(1);
     let silence: Vec<_> = pairs
         .iter()
-        .map(|_| {
-            [(); 2].map(|()| {
-                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                1e-3 * ((seed >> 8) as f32 / 8_388_608.0 - 1.0)
-            })
-        })
+        .map(|_| [(); 2].map(|()| 1e-3 * random.draw()))
         .collect();
     for off in [0.0, 0.3] {
         let mut core = Core::new(told(10, wave.frequency, off)).unwrap();
@@ -243,13 +239,10 @@ fn presence_of_a_wave_is_that_of_the_last_row() {
     for seed in 0..20 {
         let (wave, flaws) = gyro(seed);
         let mut pairs = host_tests::stream(wave, flaws, 6000, seed);
-        let mut noise = 1u32;
+        let mut random = Random::new(1);
         // Silent for one window or a little more: no search begins.
         for pair in &mut pairs[2000 + 10 * seed as usize..2280] {
-            *pair = [(); 2].map(|()| {
-                noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                1e-3 * ((noise >> 8) as f32 / 8_388_608.0 - 1.0)
-            });
+            *pair = [(); 2].map(|()| 1e-3 * random.draw());
         }
         let mut core = Core::new(told(5, wave.frequency, 0.0)).unwrap();
         for pair in pairs {

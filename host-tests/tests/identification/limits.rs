@@ -2,6 +2,7 @@
 
 use antinode::{Estimate, Flags, Identifier, Settings, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::random::Random;
 use host_tests::score::{StatedRatio, errors};
 use host_tests::{Core, RATE, calibrated, gyro, identify, stream, windows};
 
@@ -179,13 +180,10 @@ fn any_sample_rate_scales_times_and_frequencies_to_their_last_digits() {
     };
     let first = rows(RATE);
     assert!(first.len() > 30);
-    let mut seed = 1u64;
+    let mut random = Random::new(1);
     for _ in 0..50 {
-        seed = seed
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
         // 10⁻³ to 10¹² Hz, none of them a number in f32.
-        let rate = 10f64.powf((seed >> 32) as f64 / 4_294_967_296.0 * 15.0 - 3.0);
+        let rate = 10f64.powf(4.5 + 7.5 * f64::from(random.draw()));
         let factor = rate / RATE;
         for (row, first) in rows(rate).iter().zip(&first) {
             assert_eq!(row.flags, first.flags);
@@ -216,16 +214,12 @@ fn any_sample_rate_scales_times_and_frequencies_to_their_last_digits() {
 
 #[test]
 fn a_row_that_is_not_lost_states_a_frequency_and_deviations() {
-    let mut seed = 1u32;
-    let mut random = || {
-        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (seed >> 8) as f32 / 8_388_608.0 - 1.0
-    };
+    let mut random = Random::new(1);
     let mut rows = 0;
     // Noise, and both pick-offs' wires at a voltage with noise on it.
     for (level, noise) in [(0.0, 1.0), (1.0, 1e-3), (1.0, 0.1)] {
         let pairs: Vec<[f32; 2]> = (0..40_000)
-            .map(|_| [level, -0.03 * level].map(|level| level + noise * random()))
+            .map(|_| [level, -0.03 * level].map(|level| level + noise * random.draw()))
             .collect();
         for (period, periods) in [(2.5, 2), (2.6, 3), (3.5, 2), (18.75, 2)] {
             for watch in [true, false] {

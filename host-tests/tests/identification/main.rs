@@ -22,6 +22,7 @@ mod gaps;
 mod given_up;
 mod halves;
 mod hum;
+mod in_place;
 mod known;
 mod limiters;
 mod limits;

@@ -5,17 +5,8 @@ use std::f32::consts::{FRAC_PI_4, PI};
 
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
+use host_tests::random::Random;
 use host_tests::{Core, stream, windows};
-
-/// Numbers in −1…1.
-struct Random(u32);
-
-impl Random {
-    fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (self.0 >> 8) as f32 / 8_388_608.0 - 1.0
-    }
-}
 
 const FAULTS: u64 = 12;
 
@@ -35,26 +26,26 @@ fn faulty(seed: u64) -> Vec<[f32; 2]> {
         ..Flaws::default()
     };
     let mut pairs = stream(wave, flaws, 16_000, seed);
-    let mut random = Random(seed as u32);
+    let mut random = Random::new(seed as u32);
     for start in (2000..14_000).step_by(2000) {
-        let at = start + (900.0 * random.next()) as usize % 900;
-        let of = usize::from(random.next() > 0.0);
-        let sign = random.next().signum();
-        let level = a * random.next();
+        let at = start + (900.0 * random.draw()) as usize % 900;
+        let of = usize::from(random.draw() > 0.0);
+        let sign = random.draw().signum();
+        let level = a * random.draw();
         for (i, pair) in pairs[at..].iter_mut().enumerate() {
             let sample = pair[of];
             match fault {
                 1 if i == 0 => pair[of] = sign * 6.0 * a,
                 2 if i < 300 => pair[of] = level,
-                3 if i < 400 => pair[of] = 0.5 * level + 0.003 * a * random.next(),
+                3 if i < 400 => pair[of] = 0.5 * level + 0.003 * a * random.draw(),
                 4 if i < 500 && sign * sample > 0.5 * a => pair[of] = sign * 0.5 * a,
                 5 if i < 500 => pair[of] = sample.clamp(-0.6 * a, 0.6 * a),
                 6 if i < 700 => *pair = pair.map(|s| 0.8 * s),
                 7 if i < 700 => pair[of] += 0.3 * sign * a,
                 8 if i < 500 => pair[of] += 0.3 * a * (0.47 * i as f32).cos(),
-                9 if i < 500 => pair[of] += 0.3 * a * random.next(),
+                9 if i < 500 => pair[of] += 0.3 * a * random.draw(),
                 10 if i < 500 && i % 2 == 0 => pair[of] = sign * f32::INFINITY,
-                11 if i < 600 => *pair = pair.map(|_| level + 0.003 * a * random.next()),
+                11 if i < 600 => *pair = pair.map(|_| level + 0.003 * a * random.draw()),
                 _ => {}
             }
         }

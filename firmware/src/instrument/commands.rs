@@ -38,31 +38,28 @@ impl<S: Sample> Instrument<'_, S> {
                 self.configuration = configuration;
                 self.hello();
             }
-            Command::SetWindow { .. }
-            | Command::SetHop { .. }
-            | Command::SetCalibration(_)
-            | Command::SetFrequency { .. }
-            | Command::SetHum { .. }
-            | Command::SetColoured { .. } => {
-                let configuration = self.configuration.after(command, RING)?;
-                Front::<S, LONGEST_PERIOD>::check(&configuration.settings)?;
-                // Only these change blocks: those that wait need not be discarded otherwise.
-                let changes_blocks = matches!(
-                    command,
-                    Command::SetWindow { .. }
-                        | Command::SetHop { .. }
-                        | Command::SetFrequency { .. }
-                );
-                if changes_blocks {
-                    self.ask(Request::Configure(configuration.settings))?;
-                    // Discards the blocks that wait: they were gathered with the old settings.
-                    self.tracker.search();
-                }
-                self.tracker.change(configuration.settings)?;
-                self.configuration = configuration;
-                self.hello();
+            Command::SetWindow { .. } | Command::SetHop { .. } | Command::SetFrequency { .. } => {
+                self.change(command, true)?;
+            }
+            Command::SetCalibration(_) | Command::SetHum { .. } | Command::SetColoured { .. } => {
+                self.change(command, false)?;
             }
         }
+        Ok(())
+    }
+
+    /// Changes settings; blocks that wait need not be discarded unless the command changes blocks.
+    fn change(&mut self, command: &Command, changes_blocks: bool) -> Result<(), CommandError> {
+        let configuration = self.configuration.after(command, RING)?;
+        Front::<S, LONGEST_PERIOD>::check(&configuration.settings)?;
+        if changes_blocks {
+            self.ask(Request::Configure(configuration.settings))?;
+            // Discards the blocks that wait: they were gathered with the old settings.
+            self.tracker.search();
+        }
+        self.tracker.change(configuration.settings)?;
+        self.configuration = configuration;
+        self.hello();
         Ok(())
     }
 }

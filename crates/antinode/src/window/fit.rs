@@ -33,6 +33,9 @@ const SETTLED: f32 = 2.5e-7;
 const NEGLIGIBLE: f32 = 0.5;
 /// A step that explains less than this share of the noise variance moves nothing by more than a hundredth of its standard deviation.
 const FUTILE: f32 = 1e-4;
+/// From fit to fit the span grows by at least a share of one over this: of 78 000 windows in noise of half the wave or more, all but one
+/// were judged as if it had grown by one block.
+const SLOWEST_GROWTH: u32 = 16;
 /// Gauss–Newton steps at most.
 const MAX_STEPS: usize = 6;
 
@@ -68,7 +71,9 @@ impl Model {
         let noise = fit.remains.variance();
         let variance = 2.0 * noise * self.covariance.even[1][1] / fit.waves.power();
         let uncertainty = 4.0 * square_root(variance) * self.per_half;
-        reach(self, count, carrier, uncertainty).max(span + 1)
+        // One block more at a time, fits of zeros or noise would take as their count squared.
+        let least = u32::from(span) + u32::from(span) / SLOWEST_GROWTH + 1;
+        reach(self, count, carrier, uncertainty).max(least.min(count.into()) as u16)
     }
 
     /// Fits `blocks`, which are as many as the model was built for, into `fit`.
@@ -212,6 +217,23 @@ mod tests {
         let model = Model::new(layout, carrier, 11, Calibration::IDEAL, 1e5, false);
         for (step, blocks) in [(0, 11), (1, 11), (1 << 18, 11), (carrier.0, 7)] {
             assert_eq!(reach(&model, 11, PhaseStep(step), 0.3), blocks, "{step}");
+        }
+    }
+
+    #[test]
+    fn a_window_without_a_wave_is_fitted_in_few_spans() {
+        let carrier = PhaseStep::from_period(18.75);
+        let layout = Layout::unrounded(carrier, 37);
+        let model = Model::new(layout, carrier, 3, Calibration::IDEAL, 1e5, false);
+        // Of zeros the uncertainty is NaN.
+        for (count, most) in [(50u16, 35), (500, 70), (u16::MAX, 160)] {
+            let (mut span, mut spans) = (3, 1);
+            while span < count {
+                let next = model.next_span(&Fit::default(), carrier, span, count);
+                assert!(next > span && next <= count, "{span}, {next}");
+                (span, spans) = (next, spans + 1);
+            }
+            assert!(spans < most, "{count} blocks: {spans}");
         }
     }
 

@@ -95,13 +95,34 @@ pub fn pipeline<S: Sample>(name: &'static str, watch: bool) -> !
 where
     Packed: SamplePair<S>,
 {
-    let codes = Codes::new();
-    // Configured in place, as in an image: a returned identifier would be copied, at a cost in stack and code.
-    let mut identifier = Identifier::<S, 200, 16>::UNSET;
     let settings = Settings {
         watch,
         ..Settings::new(100_000.0)
     };
+    whole::<S>(name, &Codes::new(), settings)
+}
+
+/// The whole core where there is no wave, but noise: with a known frequency every window is solved as a wave's first one.
+pub fn waveless<S: Sample>(name: &'static str) -> !
+where
+    Packed: SamplePair<S>,
+{
+    let mut codes = Codes::new();
+    codes.make(75, Flaw::Noise);
+    let settings = Settings {
+        frequency: Some(5_332.0),
+        ..Settings::new(100_000.0)
+    };
+    whole::<S>(name, &codes, settings)
+}
+
+#[inline(always)]
+fn whole<S: Sample>(name: &'static str, codes: &Codes, settings: Settings) -> !
+where
+    Packed: SamplePair<S>,
+{
+    // Configured in place, as in an image: a returned identifier would be copied, at a cost in stack and code.
+    let mut identifier = Identifier::<S, 200, 16>::UNSET;
     if identifier.configure(settings).is_err() {
         leave()
     }

@@ -16,6 +16,7 @@
 //! | `bench_longest_*` | the longest call that takes one pair, while searching or tracking |
 //! | `bench_solution_*` | the solution of one window |
 //! | `bench_pipeline_*`, `bench_unwatched_*` | the whole core, with and without the watch |
+//! | `bench_waveless_*` | the whole core on noise alone, at a known frequency |
 //! | `bench_methods_*` | block sums together with the sums of the paper's four methods |
 //! | `bench_interrupt`, `bench_application` | the instrument's interrupt alone, and the whole instrument |
 //! | `bench_idsp_sums` | for comparison: the same sums with the crate idsp |

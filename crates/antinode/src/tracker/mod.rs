@@ -282,7 +282,6 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Drops the model: the next block begins a first window.
     fn forget(&mut self) {
         self.model = None;
-        self.failures = Failures::NONE;
         self.found = false;
     }
 
@@ -333,7 +332,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let rate = self.units.sample_rate;
         self.model
             .insert(Model::empty(layout, settings.calibration, rate))
-            .begin(layout.step, self.count, settings.hum || settings.coloured);
+            .begin(settings.hum || settings.coloured);
         self.noise = Noise::NONE;
         self.trend.forget();
         self.before = None;

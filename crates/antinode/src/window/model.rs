@@ -47,7 +47,8 @@ impl Model {
         own_offsets: bool,
     ) -> Self {
         let mut model = Self::empty(layout, calibration, sample_rate);
-        model.begin(carrier, blocks, own_offsets);
+        model.begin(own_offsets);
+        model.retune(carrier, blocks);
         model
     }
 
@@ -73,13 +74,13 @@ impl Model {
         }
     }
 
-    /// Builds all that [`Model::empty`] left out.
-    pub(crate) fn begin(&mut self, carrier: PhaseStep, blocks: u16, own_offsets: bool) {
-        self.basis = Basis::new(self.layout);
+    /// Builds what depends on the layout alone, which is all that it takes to see blocks; the rest is built by [`Model::retune`].
+    pub(crate) fn begin(&mut self, own_offsets: bool) {
+        let layout = self.layout;
+        self.basis = Basis::new(layout);
         // An offset of its own costs a block of a period or more next to nothing, but a shorter one what it knows of the wave.
-        let is_long = f32::from(self.layout.length) > MIN_PERIODS_WITH_OFFSET * carrier.period();
+        let is_long = f32::from(layout.length) > MIN_PERIODS_WITH_OFFSET * layout.step.period();
         self.shared = if own_offsets && is_long { 0.0 } else { 1.0 };
-        self.retune(carrier, blocks);
     }
 
     /// Moves the carrier, or changes the number of blocks.

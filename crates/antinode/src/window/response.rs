@@ -64,24 +64,21 @@ impl Basis {
     #[inline(never)]
     pub(crate) fn new(layout: Layout) -> Self {
         let n = f32::from(layout.length);
-        let mut mean = Sum::default();
-        let mut sine = Sum::default();
-        let mut slope = Sum::default();
-        for k in 0..layout.length {
+        let [mut mean, mut square, mut sine, mut slope, mut bend] = [Sum::default(); 5];
+        for (weight, k) in second_half(layout) {
             let reference = layout.reference(k);
-            mean.add(reference.cosine);
-            sine.add(reference.sine * reference.sine);
-            slope.add(layout.twice_from_middle(k) as i32 as f32 * reference.sine);
+            let twice = layout.twice_from_middle(k) as i32 as f32;
+            let (cosine, weighted) = (weight * reference.cosine, weight * reference.sine);
+            mean.add(cosine);
+            square.add(cosine * reference.cosine);
+            sine.add(weighted * reference.sine);
+            slope.add(twice * weighted);
+            bend.add(twice * twice * cosine);
         }
         let cosine_mean = mean.get() / n;
-        let mut even = Sum::default();
-        let mut bend = Sum::default();
-        for k in 0..layout.length {
-            let rest = layout.reference(k).cosine - cosine_mean;
-            even.add(rest * rest);
-            let twice = layout.twice_from_middle(k) as i32 as f32;
-            bend.add(twice * twice * rest);
-        }
+        // Of the cosine less its mean.
+        let even = square.get() - cosine_mean * mean.get();
+        let bend = bend.get() - cosine_mean * n * (n * n - 1.0) * (1.0 / 3.0);
         // A vector shorter than this is only rounding: a block of one or two samples has no room for it.
         let least = 1e-4 * n * layout.one() * layout.one();
         let inverse = |square: f32| {
@@ -91,7 +88,7 @@ impl Basis {
                 0.0
             }
         };
-        let (cosine, sine) = (inverse(even.get()), inverse(sine.get()));
+        let (cosine, sine) = (inverse(even), inverse(sine.get()));
         let one = 1.0 / square_root(n);
         Self {
             one,
@@ -99,7 +96,7 @@ impl Basis {
             cosine_mean,
             sine,
             ramp: 0.25 * slope.get() * sine * one / n,
-            bow: 0.125 * bend.get() * cosine * one / (n * n),
+            bow: 0.125 * bend * cosine * one / (n * n),
             unit: 1.0 / layout.one(),
             rank: 1 + u8::from(cosine > 0.0) + u8::from(sine > 0.0),
         }
@@ -151,11 +148,11 @@ impl Response {
     pub(crate) fn new(layout: Layout, basis: &Basis, carrier: PhaseStep, per_half: f32) -> Self {
         let mut sums = [[Sum::default(); 3]; 5];
         let mut third_offset = Sum::default();
-        for k in 0..layout.length {
+        for (weight, k) in second_half(layout) {
             let reference = layout.reference(k);
             let twice = layout.twice_from_middle(k);
             let t = 0.5 * per_half * twice as i32 as f32;
-            let wave = carrier.after_half_samples(twice).unit();
+            let wave = carrier.after_half_samples(twice).unit() * weight;
             // An odd sum sees a wave as an even one sees it turned by a quarter.
             let turned = Complex32::new(-wave.im, wave.re);
             let weighted = [
@@ -168,7 +165,7 @@ impl Response {
             for (sums, wave) in sums.iter_mut().zip(weighted) {
                 add(sums, wave, t);
             }
-            third_offset.add(reference.third_cosine);
+            third_offset.add(weight * reference.third_cosine);
         }
         let answer = |s: &[Sum; 3]| Answer {
             level: s[0].get(),
@@ -185,6 +182,15 @@ impl Response {
             third_offset: third_offset.get(),
         }
     }
+}
+
+/// The samples of the second half of a block and the weights, 2 or 1, by which sums over them are those over the block: all that is summed is
+/// even about its middle.
+fn second_half(layout: Layout) -> impl Iterator<Item = (f32, u16)> {
+    (layout.length / 2..layout.length).map(move |k| {
+        let is_middle = 2 * u32::from(k) + 1 == u32::from(layout.length);
+        (if is_middle { 1.0 } else { 2.0 }, k)
+    })
 }
 
 /// Adds the terms of a wave's level, slope and curve from its sample at time `t`.
